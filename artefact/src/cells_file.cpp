@@ -1,0 +1,89 @@
+#include "vicon/artefact/cells_file.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkFloatArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkUnsignedShortArray.h>
+
+#include <algorithm>
+
+#include "poly_data_file.h"
+#include "vicon/core/error.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::artefact {
+namespace {
+
+vtkNew<vtkFloatArray> triples(const std::vector<float>& values, const char* name)
+{
+    vtkNew<vtkFloatArray> array;
+    array->SetName(name);
+    array->SetNumberOfComponents(3);
+    array->SetNumberOfTuples(vtkIdType(values.size() / 3));
+    std::copy(values.begin(), values.end(), array->GetPointer(0));
+    return array;
+}
+
+}  // namespace
+
+void writeCells(const fs::path& file, const CellSurface& surface)
+{
+    vtkNew<vtkPoints> points;
+    points->SetData(triples(surface.points_mm, "Points"));
+    const auto count = vtkIdType(surface.triangleCount());
+    vtkNew<vtkTypeInt32Array> corners, offsets;
+    corners->SetNumberOfValues(count * 3);
+    std::copy(surface.triangles.begin(), surface.triangles.end(), corners->GetPointer(0));
+    offsets->SetNumberOfValues(count + 1);
+    for (vtkIdType n = 0; n <= count; ++n)
+        offsets->SetValue(n, int(3 * n));
+    vtkNew<vtkCellArray> polys;
+    polys->SetData(offsets, corners);
+    vtkNew<vtkUnsignedShortArray> segment;
+    segment->SetName("segment");
+    segment->SetNumberOfValues(count);
+    std::copy(surface.segment.begin(), surface.segment.end(), segment->GetPointer(0));
+
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    data->SetPolys(polys);
+    data->GetPointData()->SetNormals(triples(surface.normals, "Normals"));
+    data->GetCellData()->AddArray(segment);
+    writePolyData(file, data);
+}
+
+CellSurface readCells(const fs::path& file)
+{
+    const auto data = readPolyData(file);
+    auto* normals = data->GetPointData()->GetNormals();
+    auto* segment = data->GetCellData()->GetArray("segment");
+    if (!normals || !segment || !data->GetPolys() || data->GetPolys()->GetMaxCellSize() > 3)
+        throw Error(ErrorCode::bad_input, "is not a surface of cells", file.string(),
+                    "run 'vicon work' to make it anew");
+    CellSurface surface;
+    const auto copyTriples = [](vtkDataArray* from, std::vector<float>& to) {
+        to.resize(std::size_t(from->GetNumberOfTuples()) * 3);
+        for (vtkIdType n = 0; n < from->GetNumberOfTuples(); ++n)
+            for (int c = 0; c < 3; ++c)
+                to[std::size_t(3 * n + c)] = float(from->GetComponent(n, c));
+    };
+    copyTriples(data->GetPoints()->GetData(), surface.points_mm);
+    copyTriples(normals, surface.normals);
+    auto* corners = data->GetPolys()->GetConnectivityArray();
+    surface.triangles.resize(std::size_t(corners->GetNumberOfTuples()));
+    for (vtkIdType n = 0; n < corners->GetNumberOfTuples(); ++n)
+        surface.triangles[std::size_t(n)] = std::uint32_t(corners->GetComponent(n, 0));
+    surface.segment.resize(std::size_t(segment->GetNumberOfTuples()));
+    for (vtkIdType n = 0; n < segment->GetNumberOfTuples(); ++n)
+        surface.segment[std::size_t(n)] = std::uint16_t(segment->GetComponent(n, 0));
+    return surface;
+}
+
+}  // namespace vicon::artefact

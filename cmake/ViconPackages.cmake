@@ -1,0 +1,58 @@
+# Libraries from Debian's packages, each as a target that carries only the modules used.
+
+find_package(Threads REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(TBB REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(ICU REQUIRED COMPONENTS uc i18n data)
+find_package(LibArchive REQUIRED)
+find_package(PNG REQUIRED)
+find_package(DCMTK REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(FRIBIDI REQUIRED IMPORTED_TARGET fribidi)
+pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
+
+# Debian's SOCI and libharu come without CMake or pkg-config files.
+find_path(SOCI_INCLUDE_DIR soci/soci.h REQUIRED)
+add_library(vicon_soci INTERFACE)
+target_include_directories(vicon_soci SYSTEM INTERFACE ${SOCI_INCLUDE_DIR} ${SOCI_INCLUDE_DIR}/soci)
+target_link_libraries(vicon_soci INTERFACE soci_core soci_sqlite3 soci_postgresql)
+
+find_path(HPDF_INCLUDE_DIR hpdf.h REQUIRED)
+add_library(vicon_hpdf INTERFACE)
+target_include_directories(vicon_hpdf SYSTEM INTERFACE ${HPDF_INCLUDE_DIR})
+target_link_libraries(vicon_hpdf INTERFACE hpdf)
+
+add_library(vicon_dcmtk INTERFACE)
+target_include_directories(vicon_dcmtk SYSTEM INTERFACE ${DCMTK_INCLUDE_DIRS})
+target_link_libraries(vicon_dcmtk INTERFACE dcmnet dcmsr dcmjpeg dcmjpls dcmimage dcmimgle dcmdata dcmtls oflog ofstd)
+
+# ITK: find_package() sets global variables for the modules asked for, so each set of modules is asked for in a scope of
+# its own and kept as a target.
+function(vicon_itk NAME)
+  find_package(ITK 5 REQUIRED COMPONENTS ${ARGN} QUIET)
+  add_library(${NAME} INTERFACE)
+  target_include_directories(${NAME} SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
+  target_link_libraries(${NAME} INTERFACE ${ITK_LIBRARIES})
+endfunction()
+vicon_itk(vicon_itk_io ITKCommon ITKIOMeta ITKIOImageBase)
+vicon_itk(vicon_itk_dicom ITKCommon ITKIOImageBase ITKIOGDCM)
+vicon_itk(vicon_itk_filters ITKCommon ITKImageFunction ITKImageGrid ITKImageFilterBase ITKSmoothing ITKThresholding
+          ITKConnectedComponents ITKDistanceMap ITKFastMarching ITKMathematicalMorphology ITKBinaryMathematicalMorphology)
+
+find_package(VTK 9 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMath CommonTransforms CommonExecutionModel
+             FiltersCore FiltersGeneral FiltersSources FiltersModeling IOXML IOImage IOCore ImagingCore RenderingCore
+             RenderingOpenGL2 RenderingFreeType RenderingAnnotation RenderingVolume RenderingVolumeOpenGL2
+             InteractionStyle GUISupportQt IOOggTheora)
+if(VICON_BUILD_VIEWER)
+  find_package(Qt5 REQUIRED COMPONENTS Core Gui Widgets Test)
+endif()
+if(VICON_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+endif()
+if(VICON_BUILD_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+endif()

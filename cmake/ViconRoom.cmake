@@ -1,0 +1,42 @@
+# A room is a folder with one library. Its public headers lie in ROOM/include/vicon/..., its private ones in ROOM/src, and
+# no target has the project's root on its include path: what is not linked cannot be included.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+# Warnings that the project's own code is held to; libraries' headers are system headers.
+add_library(vicon_warnings INTERFACE)
+# -Wno-restrict: GCC 12 warns falsely in std::string operator+ (GCC bug 105651).
+target_compile_options(vicon_warnings INTERFACE -Wall -Wextra $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+
+# vicon_room(NAME SOURCES src/a.cpp ... PUBLIC targets ... PRIVATE targets ...)
+# makes the library vicon_NAME from the current folder.
+function(vicon_room NAME)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(vicon_${NAME} STATIC ${ROOM_SOURCES})
+  target_include_directories(vicon_${NAME} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include
+                                           PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  target_link_libraries(vicon_${NAME} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE} vicon_warnings)
+endfunction()
+
+# vicon_test(NAME SOURCES a_test.cpp ... LINK targets ... [LABELS long])
+# makes one GoogleTest program; every TEST becomes one CTest test.
+function(vicon_test NAME)
+  cmake_parse_arguments(TEST "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  add_executable(${NAME} ${TEST_SOURCES})
+  target_link_libraries(${NAME} PRIVATE ${TEST_LINK} vicon_test_support GTest::gmock_main vicon_warnings)
+  if(NOT TEST_TIMEOUT)
+    set(TEST_TIMEOUT 300)
+  endif()
+  gtest_discover_tests(${NAME} TEST_PREFIX ${NAME}. DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT ${TEST_TIMEOUT} LABELS "${TEST_LABELS}")
+endfunction()

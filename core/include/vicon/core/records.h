@@ -1,0 +1,121 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "vicon/core/geometry.h"
+
+namespace vicon {
+
+/// Who the case is about. Texts are UTF-8, in the form DICOM gives them ("Family^Given", "YYYYMMDD").
+struct Patient {
+    std::string id;
+    std::string name;
+    std::string birth_date;
+    std::string sex;
+};
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Patient, id, name, birth_date, sex)
+
+struct Study {
+    std::string uid;
+    std::string id;
+    std::string date;  ///< YYYYMMDD
+    std::string time;
+    std::string description;
+    std::string accession_number;
+    std::string referring_physician;
+    std::string institution;
+};
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Study, uid, id, date, time, description, accession_number,
+                                                referring_physician, institution)
+
+struct Series {
+    std::string uid;
+    int number = 0;
+    std::string description;
+    std::string modality;
+    std::string patient_position;  ///< DICOM's code: HFS, HFP, FFS, FFP, HFDL, HFDR, FFDL, FFDR; empty: not said
+    std::string frame_of_reference_uid;
+    std::string manufacturer;
+    std::string kernel;
+    double kvp = 0;
+    double slice_thickness_mm = 0;
+    bool lossy = false;  ///< pixels went through a lossy compression somewhere
+};
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Series, uid, number, description, modality, patient_position,
+                                                frame_of_reference_uid, manufacturer, kernel, kvp, slice_thickness_mm,
+                                                lossy)
+
+/// "supine", "prone", "left decubitus", "right decubitus", or "unknown", from DICOM's Patient Position.
+std::string positionName(const std::string& patient_position);
+
+/// The direction in which a fluid falls (unit vector, LPS), from DICOM's Patient Position; posterior when not said.
+Vector3 gravityFor(const std::string& patient_position);
+
+/// A row of the worklist.
+struct CaseRecord {
+    std::string id;
+    Patient patient;
+    Study study;
+    std::vector<std::string> flags;  ///< what a person must decide, one line each
+    std::string created;
+};
+
+/// A scan and what ingest found out about it.
+struct ScanRecord {
+    std::string id;
+    std::string case_id;
+    Series series;
+    /// "scan": goes through the pipeline; "kept": stored and selectable, not queued (another reconstruction, too few
+    /// slices).
+    std::string role = "scan";
+    /// What ingest wrote: {"geometry": .., "repairs": [..], "refused": [..]}; goes into scan.json as it is.
+    nlohmann::json ingest = nlohmann::json::object();
+    std::string created;
+};
+
+/// A stored object.
+struct InstanceRecord {
+    std::string sop_uid;
+    std::string case_id;
+    std::string scan_id;
+    std::string sha256;
+    std::string file;  ///< name in the scan's dicom/ folder
+};
+
+/// A finished step of the pipeline.
+struct StepRecord {
+    std::string step;
+    int version = 0;            ///< of the step's code
+    std::string digest;         ///< of parameters, version and everything it was computed from
+    nlohmann::json parameters;  ///< as they were used
+    nlohmann::json result;      ///< measures, for scan.json
+    double seconds = 0;
+    std::string finished;
+};
+
+enum class MarkerColor { red, yellow, green };
+std::string nameOf(MarkerColor color);
+/// Throws Error{wrong_use} for any other name.
+MarkerColor markerColorFrom(const std::string& name);
+
+/// A point of interest.
+struct Marker {
+    std::string id;  ///< "m1", "m2", ... within the case
+    std::string scan_id;
+    Point3 position_mm;
+    MarkerColor color = MarkerColor::red;
+    std::string note;  ///< UTF-8
+    double station_mm = 0;
+    double from_caecum_mm = 0;
+    double fraction = 0;  ///< station / length of the skeleton
+    std::string created;
+    std::string changed;
+    nlohmann::json extra = nlohmann::json::object();  ///< further keys: measurements, saved view, name of the part
+};
+nlohmann::json toJson(const Marker& marker);
+/// Throws Error{bad_input} when a key is missing or of the wrong type.
+Marker markerFromJson(const nlohmann::json& json);
+
+}  // namespace vicon

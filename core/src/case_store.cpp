@@ -1,0 +1,380 @@
+#include "vicon/core/case_store.h"
+
+#include <soci/soci.h>
+
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace vicon {
+namespace {
+
+constexpr std::size_t kIdDigits =
+    10;  // 40 bits: among 10,000 cases two ids collide with probability 5e-5, and then import refuses
+
+CaseRecord caseFrom(const soci::row& row)
+{
+    CaseRecord c;
+    c.id = row.get<std::string>("id");
+    c.patient = {row.get<std::string>("patient_id"), row.get<std::string>("patient_name"),
+                 row.get<std::string>("birth_date"), row.get<std::string>("sex")};
+    c.study = json::parse(row.get<std::string>("study")).get<Study>();
+    c.flags = json::parse(row.get<std::string>("flags")).get<std::vector<std::string>>();
+    c.created = row.get<std::string>("created");
+    return c;
+}
+
+ScanRecord scanFrom(const soci::row& row)
+{
+    ScanRecord s;
+    s.id = row.get<std::string>("id");
+    s.case_id = row.get<std::string>("case_id");
+    s.series = json::parse(row.get<std::string>("series")).get<Series>();
+    s.role = row.get<std::string>("role");
+    s.ingest = json::parse(row.get<std::string>("ingest"));
+    s.created = row.get<std::string>("created");
+    return s;
+}
+
+InstanceRecord instanceFrom(const soci::row& row)
+{
+    return {row.get<std::string>("sop_uid"), row.get<std::string>("case_id"), row.get<std::string>("scan_id"),
+            row.get<std::string>("sha256"), row.get<std::string>("file")};
+}
+
+StepRecord stepFrom(const soci::row& row)
+{
+    return {row.get<std::string>("step"),
+            row.get<int>("version"),
+            row.get<std::string>("digest"),
+            json::parse(row.get<std::string>("parameters")),
+            json::parse(row.get<std::string>("result")),
+            row.get<double>("seconds"),
+            row.get<std::string>("finished")};
+}
+
+/// Reads all rows of a query into records.
+template <class Record, class Statement>
+std::vector<Record> collect(Statement&& rows, Record (*from)(const soci::row&))
+{
+    std::vector<Record> records;
+    for (const soci::row& row : rows)
+        records.push_back(from(row));
+    return records;
+}
+
+void putCase(soci::session& sql, const CaseRecord& c)
+{
+    const std::string study = json(c.study).dump(), flags = json(c.flags).dump();
+    sql << "INSERT INTO cases (id, study_uid, patient_id, patient_name, birth_date, sex, study, flags, created)"
+           " VALUES (:id, :uid, :pid, :name, :birth, :sex, :study, :flags, :created)"
+           " ON CONFLICT (id) DO UPDATE SET flags = excluded.flags",
+        soci::use(c.id), soci::use(c.study.uid), soci::use(c.patient.id), soci::use(c.patient.name),
+        soci::use(c.patient.birth_date), soci::use(c.patient.sex), soci::use(study), soci::use(flags),
+        soci::use(c.created);
+}
+
+void putScan(soci::session& sql, const ScanRecord& s)
+{
+    const std::string series = json(s.series).dump(), ingest = s.ingest.dump();
+    sql << "INSERT INTO scans (id, case_id, series_uid, series, role, ingest, created)"
+           " VALUES (:id, :case, :uid, :series, :role, :ingest, :created)"
+           " ON CONFLICT (case_id, id) DO UPDATE SET series = excluded.series, role = excluded.role,"
+           " ingest = excluded.ingest",
+        soci::use(s.id), soci::use(s.case_id), soci::use(s.series.uid), soci::use(series), soci::use(s.role),
+        soci::use(ingest), soci::use(s.created);
+}
+
+void putInstances(soci::session& sql, const std::vector<InstanceRecord>& instances)
+{
+    InstanceRecord row;
+    soci::statement insert =
+        (sql.prepare << "INSERT INTO instances (sop_uid, case_id, scan_id, sha256, file)"
+                        " VALUES (:sop, :case, :scan, :sha, :file) ON CONFLICT (sop_uid) DO NOTHING",
+         soci::use(row.sop_uid), soci::use(row.case_id), soci::use(row.scan_id), soci::use(row.sha256),
+         soci::use(row.file));
+    for (const InstanceRecord& instance : instances) {
+        row = instance;
+        insert.execute(true);
+    }
+}
+
+void putAudit(soci::session& sql, const std::string& event, const std::string& case_id, const std::string& scan_id,
+              const std::string& detail)
+{
+    const std::string now = nowUtc();
+    sql << "INSERT INTO audit (at, event, case_id, scan_id, detail) VALUES (:at, :event, :case, :scan, :detail)",
+        soci::use(now), soci::use(event), soci::use(case_id), soci::use(scan_id), soci::use(detail);
+}
+
+int takeNumber(soci::session& sql, const std::string& name)
+{
+    int value = 0;
+    sql << "INSERT INTO counters (name, value) VALUES (:name, 1)"
+           " ON CONFLICT (name) DO UPDATE SET value = value + 1 RETURNING value",
+        soci::use(name), soci::into(value);
+    return value;
+}
+
+}  // namespace
+
+void enqueueJob(soci::session& sql, const std::string& case_id, const std::string& scan_id)
+{
+    const std::string now = nowUtc();
+    sql << "INSERT INTO jobs (case_id, scan_id, state, attempts, not_before, fence, owner, lease_until, step, progress,"
+           " reason, changed) VALUES (:case, :scan, 'queued', 0, 0, 0, '', 0, '', 0, '', :now)"
+           " ON CONFLICT (case_id, scan_id) DO UPDATE SET state = 'queued', attempts = 0, not_before = 0,"
+           " fence = fence + 1, owner = '', lease_until = 0, reason = '', changed = excluded.changed",
+        soci::use(case_id), soci::use(scan_id), soci::use(now);
+}
+
+CaseStore::CaseStore(fs::path folder)
+    : folder_(fs::absolute(folder).lexically_normal()),
+      database_((makePrivateFolder(folder_ / "cases"), folder_ / "vicon.db"))
+{
+}
+
+fs::path CaseStore::caseFolder(const std::string& case_id) const
+{
+    return folder_ / "cases" / case_id;
+}
+
+fs::path CaseStore::scanFolder(const std::string& case_id, const std::string& scan_id) const
+{
+    return caseFolder(case_id) / scan_id;
+}
+
+std::string CaseStore::caseIdFor(const std::string& study_uid)
+{
+    return "c" + sha256(study_uid).substr(0, kIdDigits);
+}
+
+std::string CaseStore::scanIdFor(const std::string& scan_key)
+{
+    return "s" + sha256(scan_key).substr(0, kIdDigits);
+}
+
+std::vector<CaseRecord> CaseStore::cases()
+{
+    const soci::rowset<soci::row> rows = (database_.session().prepare << "SELECT * FROM cases ORDER BY created, id");
+    return collect(rows, caseFrom);
+}
+
+std::optional<CaseRecord> CaseStore::findCase(const std::string& case_id)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM cases WHERE id = :id", soci::use(case_id));
+    const auto found = collect(rows, caseFrom);
+    return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+std::optional<CaseRecord> CaseStore::findCaseByStudy(const std::string& study_uid)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM cases WHERE study_uid = :uid", soci::use(study_uid));
+    const auto found = collect(rows, caseFrom);
+    return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+std::vector<CaseRecord> CaseStore::findCasesByPatient(const std::string& patient_id)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM cases WHERE patient_id = :id ORDER BY id",
+         soci::use(patient_id));
+    return collect(rows, caseFrom);
+}
+
+CaseRecord CaseStore::requireCase(const std::string& case_id)
+{
+    if (auto found = findCase(case_id))
+        return *found;
+    std::vector<CaseRecord> matching;
+    for (CaseRecord& c : cases())
+        if (!case_id.empty() && c.id.starts_with(case_id))
+            matching.push_back(std::move(c));
+    if (matching.size() == 1)
+        return matching.front();
+    throw Error(ErrorCode::not_found, matching.empty() ? "no such case" : "several cases begin so", "'" + case_id + "'",
+                "'vicon cases' lists them");
+}
+
+std::vector<ScanRecord> CaseStore::scans(const std::string& case_id)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM scans WHERE case_id = :id"
+                                        " ORDER BY role DESC, CAST(json_extract(series, '$.number') AS INTEGER), id",
+         soci::use(case_id));
+    return collect(rows, scanFrom);
+}
+
+ScanRecord CaseStore::requireScan(const std::string& case_id, const std::string& scan_id)
+{
+    std::vector<ScanRecord> candidates;
+    for (ScanRecord& scan : scans(case_id))
+        if (scan_id.empty() ? scan.role == "scan" : scan.id.starts_with(scan_id))
+            candidates.push_back(std::move(scan));
+    if (candidates.size() == 1)
+        return candidates.front();
+    if (candidates.empty())
+        throw Error(ErrorCode::not_found, scan_id.empty() ? "the case has no scan" : "no such scan '" + scan_id + "'",
+                    case_id, "'vicon show " + case_id + "' lists its scans");
+    throw Error(ErrorCode::wrong_use, "the case has several scans", case_id,
+                "name one with --scan; 'vicon show " + case_id + "' lists them");
+}
+
+std::optional<InstanceRecord> CaseStore::findInstance(const std::string& sop_uid)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM instances WHERE sop_uid = :uid", soci::use(sop_uid));
+    const auto found = collect(rows, instanceFrom);
+    return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+std::vector<InstanceRecord> CaseStore::instances(const std::string& case_id, const std::string& scan_id)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM instances WHERE case_id = :c AND scan_id = :s ORDER BY file",
+         soci::use(case_id), soci::use(scan_id));
+    return collect(rows, instanceFrom);
+}
+
+void CaseStore::addScan(const CaseRecord& a_case, const ScanRecord& scan, const std::vector<InstanceRecord>& instances,
+                        bool queue)
+{
+    database_.write([&](soci::session& sql) {
+        putCase(sql, a_case);
+        putScan(sql, scan);
+        putInstances(sql, instances);
+        if (queue)
+            enqueueJob(sql, scan.case_id, scan.id);
+        putAudit(sql, "imported", scan.case_id, scan.id, std::to_string(instances.size()) + " objects");
+    });
+    writeScanFile(scan.case_id, scan.id);
+}
+
+void CaseStore::flag(const std::string& case_id, const std::string& line)
+{
+    auto flags = requireCase(case_id).flags;
+    if (std::find(flags.begin(), flags.end(), line) != flags.end())
+        return;
+    flags.push_back(line);
+    const std::string text = json(flags).dump();
+    database_.write([&](soci::session& sql) {
+        sql << "UPDATE cases SET flags = :flags WHERE id = :id", soci::use(text), soci::use(case_id);
+        putAudit(sql, "flagged", case_id, "", line);
+    });
+}
+
+std::vector<StepRecord> CaseStore::steps(const std::string& case_id, const std::string& scan_id)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM steps WHERE case_id = :c AND scan_id = :s ORDER BY rowid",
+         soci::use(case_id), soci::use(scan_id));
+    return collect(rows, stepFrom);
+}
+
+json CaseStore::describeScan(const std::string& case_id, const std::string& scan_id)
+{
+    const CaseRecord c = requireCase(case_id);
+    const ScanRecord scan = requireScan(case_id, scan_id);
+    json out = {{"case", c.id},      {"scan", scan.id},        {"patient", c.patient},
+                {"study", c.study},  {"series", scan.series},  {"position", positionName(scan.series.patient_position)},
+                {"role", scan.role}, {"created", scan.created}};
+    out.update(scan.ingest);
+    json& done = out["steps"] = json::object();
+    for (const StepRecord& step : steps(case_id, scan_id)) {
+        done[step.step] = {{"version", step.version}, {"digest", step.digest},   {"parameters", step.parameters},
+                           {"result", step.result},   {"seconds", step.seconds}, {"finished", step.finished}};
+        // What readers of a scan ask for first stands at the top level, under the contract's names.
+        for (const char* key : {"bridges", "quality", "verdict", "confidence"})
+            if (step.result.contains(key))
+                out[key] = step.result[key];
+    }
+    return out;
+}
+
+void CaseStore::writeScanFile(const std::string& case_id, const std::string& scan_id)
+{
+    replaceFile(scanFolder(case_id, scan_id) / "scan.json", describeScan(case_id, scan_id).dump(2) + "\n");
+}
+
+std::vector<Marker> CaseStore::markers(const std::string& case_id)
+{
+    std::vector<Marker> out;
+    const soci::rowset<std::string> rows =
+        (database_.session().prepare << "SELECT content FROM markers WHERE case_id = :c ORDER BY rowid",
+         soci::use(case_id));
+    for (const std::string& content : rows)
+        out.push_back(markerFromJson(json::parse(content)));
+    return out;
+}
+
+Marker CaseStore::requireMarker(const std::string& case_id, const std::string& marker_id)
+{
+    for (Marker& marker : markers(case_id))
+        if (marker.id == marker_id)
+            return std::move(marker);
+    throw Error(ErrorCode::not_found, "no marker '" + marker_id + "'", case_id,
+                "'vicon markers " + case_id + "' lists them");
+}
+
+Marker CaseStore::saveMarker(const std::string& case_id, Marker marker)
+{
+    database_.write([&](soci::session& sql) {
+        marker.changed = nowUtc();
+        if (marker.created.empty())
+            marker.created = marker.changed;
+        if (marker.id.empty())
+            marker.id = "m" + std::to_string(takeNumber(sql, "marker " + case_id));
+        const std::string content = toJson(marker).dump();
+        sql << "INSERT INTO markers (case_id, id, scan_id, content) VALUES (:case, :id, :scan, :content)"
+               " ON CONFLICT (case_id, id) DO UPDATE SET scan_id = excluded.scan_id, content = excluded.content",
+            soci::use(case_id), soci::use(marker.id), soci::use(marker.scan_id), soci::use(content);
+        putAudit(sql, "marker saved", case_id, marker.scan_id, marker.id);
+    });
+    writeMarkerFiles(case_id);
+    return marker;
+}
+
+void CaseStore::removeMarker(const std::string& case_id, const std::string& marker_id)
+{
+    const Marker marker = requireMarker(case_id, marker_id);
+    database_.write([&](soci::session& sql) {
+        sql << "DELETE FROM markers WHERE case_id = :c AND id = :id", soci::use(case_id), soci::use(marker_id);
+        putAudit(sql, "marker removed", case_id, marker.scan_id, marker_id);
+    });
+    writeMarkerFiles(case_id);
+}
+
+void CaseStore::writeMarkerFiles(const std::string& case_id)
+{
+    const std::vector<Marker> all = markers(case_id);
+    const auto write = [&](const fs::path& folder, const std::string& scan_id) {
+        json list = json::array();
+        for (const Marker& marker : all)
+            if (scan_id.empty() || marker.scan_id == scan_id)
+                list.push_back(toJson(marker));
+        replaceFile(folder / "markers.json", json{{"markers", list}}.dump(2) + "\n");
+    };
+    write(caseFolder(case_id), "");
+    for (const ScanRecord& scan : scans(case_id))
+        if (fs::is_directory(scanFolder(case_id, scan.id)))
+            write(scanFolder(case_id, scan.id), scan.id);
+}
+
+int CaseStore::nextNumber(const std::string& name)
+{
+    int value = 0;
+    database_.write([&](soci::session& sql) { value = takeNumber(sql, name); });
+    return value;
+}
+
+void CaseStore::audit(const std::string& event, const std::string& case_id, const std::string& scan_id,
+                      const std::string& detail)
+{
+    database_.write([&](soci::session& sql) { putAudit(sql, event, case_id, scan_id, detail); });
+}
+
+}  // namespace vicon

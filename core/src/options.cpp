@@ -1,0 +1,167 @@
+#include "vicon/core/options.h"
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <sstream>
+
+#include "vicon/core/error.h"
+
+namespace vicon {
+namespace {
+
+std::size_t editDistance(const std::string& a, const std::string& b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j)
+        row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i);
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+        }
+    }
+    return row.back();
+}
+
+std::string typeName(const nlohmann::json& value)
+{
+    if (value.is_boolean())
+        return "true or false";
+    if (value.is_number_integer())
+        return "a whole number";
+    return value.is_number() ? "a number" : "a text in quotes";
+}
+
+nlohmann::json fromToml(const toml::node& node)
+{
+    if (const auto* v = node.as_boolean())
+        return v->get();
+    if (const auto* v = node.as_integer())
+        return v->get();
+    if (const auto* v = node.as_floating_point())
+        return v->get();
+    if (const auto* v = node.as_string())
+        return v->get();
+    return nullptr;
+}
+
+nlohmann::json fromText(const std::string& text, const nlohmann::json& like)
+{
+    if (like.is_string())
+        return text;
+    const auto parsed = nlohmann::json::parse(text, nullptr, false);
+    return parsed.is_discarded() ? nlohmann::json(text) : parsed;
+}
+
+bool sameKind(const nlohmann::json& value, const nlohmann::json& like)
+{
+    if (like.is_boolean())
+        return value.is_boolean();
+    if (like.is_number_integer())
+        return value.is_number_integer();
+    if (like.is_number())
+        return value.is_number();
+    return value.is_string();
+}
+
+}  // namespace
+
+void Config::declare(const std::vector<OptionSpec>& specs)
+{
+    for (const OptionSpec& spec : specs) {
+        specs_.push_back(spec);
+        values_[spec.key] = {spec.default_value, "default"};
+    }
+}
+
+const Config::Value& Config::at(const std::string& key) const
+{
+    const auto found = values_.find(key);
+    if (found == values_.end())
+        throw Error(ErrorCode::internal, "option is not declared", key);
+    return found->second;
+}
+
+const OptionSpec& Config::specFor(const std::string& key, const std::string& source) const
+{
+    const OptionSpec* nearest = nullptr;
+    std::size_t least = 5;
+    for (const OptionSpec& spec : specs_) {
+        if (spec.key == key)
+            return spec;
+        if (const auto d = editDistance(spec.key, key); d < least) {
+            least = d;
+            nearest = &spec;
+        }
+    }
+    throw Error(ErrorCode::wrong_use, "unknown option '" + key + "'", source,
+                nearest ? "did you mean '" + nearest->key + "'?" : "'vicon config' lists all options");
+}
+
+void Config::assign(const std::string& key, nlohmann::json value, const std::string& source)
+{
+    const OptionSpec& spec = specFor(key, source);
+    if (!sameKind(value, spec.default_value))
+        throw Error(ErrorCode::wrong_use, "option '" + key + "' must be " + typeName(spec.default_value), source);
+    if (value.is_number() && (value.get<double>() < spec.lowest || value.get<double>() > spec.highest)) {
+        std::ostringstream range;
+        range << "option '" << key << "' must lie between " << spec.lowest << " and " << spec.highest;
+        throw Error(ErrorCode::wrong_use, range.str(), source);
+    }
+    if (value.is_string() && !spec.choices.empty() &&
+        std::find(spec.choices.begin(), spec.choices.end(), value.get<std::string>()) == spec.choices.end()) {
+        std::string allowed;
+        for (const auto& choice : spec.choices)
+            allowed += (allowed.empty() ? "" : ", ") + choice;
+        throw Error(ErrorCode::wrong_use, "option '" + key + "' must be one of " + allowed, source);
+    }
+    if (spec.default_value.is_number_float())
+        value = value.get<double>();
+    values_[key] = {std::move(value), source};
+}
+
+void Config::readFile(const std::filesystem::path& file)
+{
+    toml::table root;
+    try {
+        root = toml::parse_file(file.string());
+    } catch (const toml::parse_error& e) {
+        std::ostringstream where;
+        where << file.string() << ":" << e.source().begin.line;
+        throw Error(ErrorCode::wrong_use, std::string(e.description()), where.str());
+    }
+    for (const auto& [table_name, node] : root) {
+        const std::string room(table_name.str());
+        const toml::table* table = node.as_table();
+        std::ostringstream where;
+        where << file.string() << ":" << node.source().begin.line;
+        if (!table)
+            throw Error(ErrorCode::wrong_use, "'" + room + "' must be a table, as in [" + room + "]", where.str());
+        for (const auto& [name, value] : *table) {
+            std::ostringstream line;
+            line << file.string() << ":" << value.source().begin.line;
+            if (room == "peers") {
+                const toml::table* peer = value.as_table();
+                if (!peer || !(*peer)["host"].is_string() || !(*peer)["port"].is_integer())
+                    throw Error(ErrorCode::wrong_use, "a peer needs host and port", line.str());
+                for (const auto& [field, v] : *peer)
+                    peers_[std::string(name.str())][std::string(field.str())] = fromToml(v);
+            } else {
+                assign(room + "." + std::string(name.str()), fromToml(value), line.str());
+            }
+        }
+    }
+}
+
+void Config::set(const std::string& assignment)
+{
+    const auto equals = assignment.find('=');
+    if (equals == std::string::npos)
+        throw Error(ErrorCode::wrong_use, "'" + assignment + "' is not key=value", "--set");
+    const std::string key = assignment.substr(0, equals);
+    assign(key, fromText(assignment.substr(equals + 1), specFor(key, "--set").default_value), "command line");
+}
+
+}  // namespace vicon

@@ -1,0 +1,1 @@
+namespace vicon { int pipeline_placeholder() { return 0; } }

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace vicon::support {
+
+/// A folder that is gone when the object is.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path operator/(const std::filesystem::path& name) const { return path_ / name; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// A place in the outside test data; see VICON_NEEDS_DATA.
+std::filesystem::path sharedData(const std::filesystem::path& name);
+
+/// What a command printed (stdout and stderr together) and how it ended.
+struct CommandResult {
+    int exit_code = -1;
+    std::string output;
+};
+CommandResult runCommand(const std::string& shell_line);
+/// Runs the built `vicon` with these arguments.
+CommandResult runVicon(const std::string& arguments);
+
+}  // namespace vicon::support
+
+/// Skips the test, saying so, where the outside data is absent.
+#define VICON_NEEDS_DATA(name)                                      \
+    if (!std::filesystem::exists(vicon::support::sharedData(name))) \
+    GTEST_SKIP() << "needs ../shared/data/" << (name)

@@ -1,0 +1,52 @@
+#include "vicon/support/support.h"
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace fs = std::filesystem;
+
+namespace vicon::support {
+
+TemporaryFolder::TemporaryFolder()
+{
+    std::string name = (fs::temp_directory_path() / "vicon-test-XXXXXX").string();
+    if (!::mkdtemp(name.data()))
+        throw std::runtime_error("no temporary folder");
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder()
+{
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+fs::path sharedData(const fs::path& name)
+{
+    return fs::path(VICON_SHARED_DATA) / name;
+}
+
+CommandResult runCommand(const std::string& shell_line)
+{
+    CommandResult result;
+    FILE* pipe = ::popen((shell_line + " 2>&1").c_str(), "r");
+    if (!pipe)
+        return result;
+    std::array<char, 4096> block;
+    while (const auto count = std::fread(block.data(), 1, block.size(), pipe))
+        result.output.append(block.data(), count);
+    const int status = ::pclose(pipe);
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return result;
+}
+
+CommandResult runVicon(const std::string& arguments)
+{
+    return runCommand(std::string(VICON_BINARY) + " " + arguments);
+}
+
+}  // namespace vicon::support

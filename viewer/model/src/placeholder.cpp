@@ -1,0 +1,1 @@
+namespace vicon { int viewer_model_placeholder() { return 0; } }

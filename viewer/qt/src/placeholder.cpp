@@ -1,0 +1,1 @@
+namespace vicon { int viewer_qt_placeholder() { return 0; } }
