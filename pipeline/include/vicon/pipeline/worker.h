@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "vicon/core/case_store.h"
+#include "vicon/core/progress.h"
+#include "vicon/pipeline/queue.h"
+
+namespace vicon::pipeline {
+
+/// What the work on one job may use: progress that also renews the lease, and the way to record a finished step.
+class JobContext : public Progress {
+public:
+    virtual const Job& job() const = 0;
+    /// Names the step that report() speaks of, and the part of the job it is: [from, to] of 0 to 1.
+    virtual void enterStep(const std::string& step, double from, double to) = 0;
+    virtual void commitStep(const StepRecord& step) = 0;
+};
+
+/// The work itself. Throws Error{cancelled} when told to stop, anything else to fail.
+using JobWork = std::function<void(JobContext&)>;
+
+/// Watches a worker: told of every report, and of every job's end.
+struct WorkerEvents {
+    std::function<void(const Job&, double fraction, const std::string& what)> progress = [](auto&&...) {};
+    std::function<void(const Job&, JobState, const std::string& reason)> ended = [](auto&&...) {};
+};
+
+struct WorkOptions {
+    bool until_idle = false;
+    double longest_wait_s = 30;
+
+    template <class Visitor>
+    void visit(Visitor&& v)
+    {
+        v("work.longest_wait_s", longest_wait_s, "s",
+          "How long 'work --until-idle' waits in total for jobs that are held back after a failure.", {0, 86400});
+    }
+};
+
+struct WorkSummary {
+    int done = 0;
+    int failed = 0;   ///< ended failed in this run
+    int waiting = 0;  ///< still held back when the wait was over
+};
+
+/// Claims jobs and does them, one at a time, until the queue is idle or `stop` is set. A second connection to the
+/// database renews the lease while the work runs.
+WorkSummary runWorker(CaseStore& store, const QueueOptions& queue_options, const WorkOptions& options,
+                      const JobWork& work, const WorkerEvents& events, const std::atomic<bool>& stop);
+
+}  // namespace vicon::pipeline

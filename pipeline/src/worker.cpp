@@ -1,0 +1,234 @@
+#include "vicon/pipeline/worker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <new>
+#include <thread>
+
+#include "vicon/core/error.h"
+
+namespace vicon::pipeline {
+namespace {
+
+constexpr double kIdlePoll_s = 0.5;
+
+/// Renews a job's lease from a thread and a connection of its own until it is destroyed or the lease is lost.
+class Heartbeat {
+public:
+    Heartbeat(const std::filesystem::path& database, const QueueOptions& options, const Job& job)
+        : thread_([this, database, options, job] { run(database, options, job); })
+    {
+    }
+    ~Heartbeat()
+    {
+        {
+            const std::lock_guard lock(mutex_);
+            over_ = true;
+        }
+        changed_.notify_all();
+        thread_.join();
+    }
+    Heartbeat(const Heartbeat&) = delete;
+    Heartbeat& operator=(const Heartbeat&) = delete;
+
+    void show(const std::string& step, double progress)
+    {
+        const std::lock_guard lock(mutex_);
+        step_ = step;
+        progress_ = progress;
+    }
+    bool leaseLost() const { return lost_; }
+
+private:
+    void run(const std::filesystem::path& file, const QueueOptions& options, const Job& job)
+    {
+        const auto interval = std::chrono::duration<double>(std::min(options.lease_s / 3, 2.0));
+        try {
+            Database database(file);
+            JobQueue queue(database, options);
+            std::unique_lock lock(mutex_);
+            while (!changed_.wait_for(lock, interval, [this] { return over_; })) {
+                const std::string step = step_;
+                const double progress = progress_;
+                lock.unlock();
+                renew(queue, job, step, progress);
+                lock.lock();
+            }
+        } catch (const std::exception&) {  // without a database there is no lease either
+            lost_ = true;
+        }
+    }
+    void renew(JobQueue& queue, const Job& job, const std::string& step, double progress)
+    {
+        try {
+            queue.renew(job, step, progress);
+        } catch (const Error& e) {
+            if (e.code() == ErrorCode::lease_lost)
+                lost_ = true;
+            // Anything else may pass (a busy disk); if it does not, the lease lapses and the fence keeps order.
+        }
+    }
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool over_ = false;
+    std::string step_;
+    double progress_ = 0;
+    std::atomic<bool> lost_ = false;
+    std::thread thread_;  // last: it uses everything above
+};
+
+class Context : public JobContext {
+public:
+    Context(const Job& job, JobQueue& queue, Heartbeat& heartbeat, const WorkerEvents& events,
+            const std::atomic<bool>& stop)
+        : job_(job), queue_(queue), heartbeat_(heartbeat), events_(events), stop_(stop)
+    {
+    }
+    const Job& job() const override { return job_; }
+    void enterStep(const std::string& step, double from, double to) override
+    {
+        step_ = step;
+        from_ = from;
+        to_ = to;
+        queue_.renew(job_, step, from);  // a step that kills its worker is known by name
+        report(0, "");
+    }
+    void report(double fraction, std::string_view what) override
+    {
+        const double whole = from_ + (to_ - from_) * std::clamp(fraction, 0.0, 1.0);
+        heartbeat_.show(step_, whole);
+        events_.progress(job_, whole, what.empty() ? step_ : step_ + ": " + std::string(what));
+    }
+    bool cancelled() const override { return stop_ || heartbeat_.leaseLost(); }
+    void commitStep(const StepRecord& step) override { queue_.commitStep(job_, step); }
+
+private:
+    const Job& job_;
+    JobQueue& queue_;
+    Heartbeat& heartbeat_;
+    const WorkerEvents& events_;
+    const std::atomic<bool>& stop_;
+    std::string step_;
+    double from_ = 0, to_ = 1;
+};
+
+/// Whether trying again could end otherwise.
+bool isPermanent(ErrorCode code)
+{
+    switch (code) {
+        case ErrorCode::store:
+        case ErrorCode::database:
+        case ErrorCode::no_memory:
+        case ErrorCode::internal:
+            return false;
+        default:
+            return true;
+    }
+}
+
+struct Outcome {
+    enum class Kind { done, failed, stopped, lost } kind = Kind::done;
+    std::string reason;
+    bool permanent = false;
+};
+
+Outcome doWork(const JobWork& work, Context& context)
+{
+    try {
+        work(context);
+        return {};
+    } catch (const Error& e) {
+        if (e.code() == ErrorCode::lease_lost)
+            return {Outcome::Kind::lost, e.what()};
+        if (e.code() == ErrorCode::cancelled)
+            return {Outcome::Kind::stopped, e.what()};
+        return {Outcome::Kind::failed, e.what(), isPermanent(e.code())};
+    } catch (const std::bad_alloc&) {
+        return {Outcome::Kind::failed, "not enough memory; close other programs, then 'vicon work --retry'"};
+    } catch (const std::exception& e) {
+        return {Outcome::Kind::failed, e.what()};
+    }
+}
+
+/// Does one job to its end and says how it ended; nothing when it is another worker's now.
+std::optional<JobState> doJob(const Job& job, JobQueue& queue, const std::filesystem::path& database,
+                              const JobWork& work, const WorkerEvents& events, const std::atomic<bool>& stop)
+{
+    Outcome outcome;
+    {
+        Heartbeat heartbeat(database, queue.options(), job);
+        Context context(job, queue, heartbeat, events, stop);
+        outcome = doWork(work, context);
+        if (outcome.kind == Outcome::Kind::stopped && heartbeat.leaseLost())
+            outcome.kind = Outcome::Kind::lost;
+    }
+    try {
+        switch (outcome.kind) {
+            case Outcome::Kind::done:
+                queue.complete(job);
+                break;
+            case Outcome::Kind::failed:
+                queue.fail(job, outcome.reason, outcome.permanent);
+                break;
+            case Outcome::Kind::stopped:
+                queue.release(job);
+                break;
+            case Outcome::Kind::lost:
+                return std::nullopt;
+        }
+    } catch (const Error& e) {
+        if (e.code() == ErrorCode::lease_lost)
+            return std::nullopt;
+        throw;
+    }
+    const JobState now = queue.find(job.case_id, job.scan_id)->state;
+    events.ended(job, now, outcome.reason);
+    return now;
+}
+
+bool othersWork(JobQueue& queue)
+{
+    const auto jobs = queue.jobs();
+    return std::any_of(jobs.begin(), jobs.end(), [](const Job& job) { return job.state == JobState::running; });
+}
+
+void sleepFor(double seconds, const std::atomic<bool>& stop)
+{
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (!stop && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+}
+
+}  // namespace
+
+WorkSummary runWorker(CaseStore& store, const QueueOptions& queue_options, const WorkOptions& options,
+                      const JobWork& work, const WorkerEvents& events, const std::atomic<bool>& stop)
+{
+    JobQueue queue(store.database(), queue_options);
+    const std::string owner = thisOwner();
+    WorkSummary summary;
+    double waited_s = 0;
+    while (!stop) {
+        if (const auto job = queue.claim(owner)) {
+            const auto end = doJob(*job, queue, store.folder() / "vicon.db", work, events, stop);
+            summary.done += end == JobState::done;
+            summary.failed += end == JobState::failed;
+            continue;
+        }
+        const auto due = queue.nextDue();
+        if (options.until_idle && (!due || waited_s >= options.longest_wait_s))
+            break;
+        const double pause = std::clamp(due ? *due - systemClock() : kIdlePoll_s, 0.02, kIdlePoll_s);
+        sleepFor(pause, stop);
+        if (!othersWork(queue))
+            waited_s += pause;
+    }
+    for (const Job& job : queue.jobs())
+        summary.waiting += job.state == JobState::queued;
+    return summary;
+}
+
+}  // namespace vicon::pipeline

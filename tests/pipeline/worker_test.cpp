@@ -1,0 +1,143 @@
+#include "vicon/pipeline/worker.h"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "fake_jobs.h"
+#include "vicon/core/error.h"
+
+namespace vicon::pipeline {
+namespace {
+
+const QueueOptions kQuick{.lease_s = 1, .most_attempts = 3, .first_backoff_s = 0.01};
+const WorkOptions kUntilIdle{.until_idle = true};
+
+WorkSummary work(FakeStore& fake, const JobWork& job_work, const WorkerEvents& events = {},
+                 const WorkOptions& options = kUntilIdle)
+{
+    const std::atomic<bool> stop = false;
+    return runWorker(fake.store, kQuick, options, job_work, events, stop);
+}
+
+TEST(Worker, DoesEveryJobAndStopsWhenTheQueueIsEmpty)
+{
+    FakeStore fake;
+    fake.addJobs(3);
+    std::vector<std::string> done;
+    const auto summary = work(fake, [&](JobContext& context) { done.push_back(context.job().scan_id); });
+    EXPECT_THAT(done, testing::ElementsAre("s0", "s1", "s2"));
+    EXPECT_EQ(summary.done, 3);
+    EXPECT_EQ(summary.failed, 0);
+}
+
+TEST(Worker, TriesAgainAndSucceeds)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    int calls = 0;
+    const auto summary = work(fake, [&](JobContext&) {
+        if (++calls < 3)
+            throw Error(ErrorCode::store, "disk busy");
+    });
+    EXPECT_EQ(calls, 3);
+    EXPECT_EQ(summary.done, 1);
+}
+
+TEST(Worker, CountsAnUnknownExceptionAsAFailureWithItsReason)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    std::string reason;
+    WorkerEvents events;
+    events.ended = [&](const Job&, JobState, const std::string& why) { reason = why; };
+    const auto summary = work(
+        fake, [](JobContext&) { throw std::runtime_error("boom"); }, events);
+    EXPECT_EQ(summary.failed, 1);
+    EXPECT_EQ(reason, "boom");
+}
+
+TEST(Worker, DoesNotRepeatWhatBadInputMadeFail)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    int calls = 0;
+    const auto summary = work(fake, [&](JobContext&) {
+        ++calls;
+        throw Error(ErrorCode::bad_input, "not a CT");
+    });
+    EXPECT_EQ(calls, 1);
+    EXPECT_EQ(summary.failed, 1);
+}
+
+TEST(Worker, RenewsItsLeaseWhileItWorks)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    const auto summary = work(fake, [&](JobContext&) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2200));
+        Database database(fake.store.folder() / "vicon.db");
+        EXPECT_FALSE(JobQueue(database, kQuick).claim("somebody/else/1/1"));
+    });
+    EXPECT_EQ(summary.done, 1);
+}
+
+TEST(Worker, StopsWhenItsJobWasTakenAndLeavesTheSuccessorAlone)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    const auto summary =
+        work(fake,
+             [&](JobContext& context) {
+                 Database database(fake.store.folder() / "vicon.db");
+                 JobQueue later(database, kQuick, [] { return systemClock() + 100; });
+                 ASSERT_TRUE(later.claim("somebody/else/1/1"));
+                 EXPECT_THROW(context.commitStep({.step = "segment", .version = 1, .digest = "d"}), Error);
+                 for (int n = 0; n < 100 && !context.cancelled(); ++n)
+                     std::this_thread::sleep_for(std::chrono::milliseconds(50));
+                 context.check();
+             },
+             {}, {.until_idle = true, .longest_wait_s = 0});
+    EXPECT_EQ(summary.done + summary.failed, 0);
+    EXPECT_TRUE(fake.store.steps("c", "s0").empty());
+}
+
+TEST(Worker, ShowsStepAndProgressInTheTable)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    double fraction = 0;
+    WorkerEvents events;
+    events.progress = [&](const Job&, double f, const std::string&) { fraction = f; };
+    work(
+        fake,
+        [&](JobContext& context) {
+            context.enterStep("segment", 0.2, 0.6);
+            context.report(0.5, "labels");
+            EXPECT_DOUBLE_EQ(fraction, 0.4);
+            EXPECT_EQ(JobQueue(fake.store.database(), kQuick).find("c", "s0")->step, "segment");
+        },
+        events);
+}
+
+TEST(Worker, GivesTheJobBackWhenToldToStop)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    std::atomic<bool> stop = false;
+    runWorker(
+        fake.store, kQuick, kUntilIdle,
+        [&](JobContext& context) {
+            stop = true;
+            context.check();
+        },
+        {}, stop);
+    const auto job = JobQueue(fake.store.database(), kQuick).find("c", "s0");
+    EXPECT_EQ(job->state, JobState::queued);
+    EXPECT_EQ(job->attempts, 0);
+}
+
+}  // namespace
+}  // namespace vicon::pipeline
