@@ -1,1 +1,0 @@
-namespace vicon { int pipeline_steps_placeholder() { return 0; } }
