@@ -1,1 +1,82 @@
-int main() { return 0; }
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <new>
+
+#include "command.h"
+#include "vicon/core/error.h"
+
+namespace vicon::app {
+namespace {
+
+constexpr int kFailed = 1, kWrongUse = 2;
+
+std::vector<Subcommand> subcommands()
+{
+    return {importCommand(),  receiveCommand(), workCommand(),   casesCommand(), showCommand(),
+            markCommand(),    markersCommand(), flyCommand(),    snapshotCommand(), reportCommand(),
+            sendCommand(),    phantomCommand(), configCommand(), doctorCommand()};
+}
+
+void addCommonOptions(CLI::App& command, Context& context)
+{
+    command.add_option("--store", context.store_folder, "Folder of the store (default: $VICON_STORE, else ~/.local/share/vicon)")
+        ->type_name("DIR");
+    command.add_option("--config", context.config_file, "Configuration file (default: ~/.config/vicon/config.toml, if there)")
+        ->type_name("FILE");
+    command.add_option("--set", context.assignments, "Set one option of the configuration; 'vicon config' lists them")
+        ->type_name("KEY=VALUE");
+    command.add_flag("--json", context.json, "Print JSON instead of text");
+}
+
+int fail(const std::string& line, int exit_code)
+{
+    std::fprintf(stderr, "vicon: %s\n", line.c_str());
+    return exit_code;
+}
+
+int run(int argc, char** argv)
+{
+    Context context;
+    CLI::App command("VICON: virtual colonoscopy, from a CT series to a report.", "vicon");
+    command.set_version_flag("--version", "vicon " VICON_VERSION);
+    command.require_subcommand(1);
+    command.fallthrough();
+    addCommonOptions(command, context);
+    command.footer("'vicon SUBCOMMAND --help' tells more. Research software; no medical device.");
+    std::function<int(Context&)> chosen;
+    for (const Subcommand& row : subcommands()) {
+        CLI::App* sub = command.add_subcommand(row.name, row.help);
+        sub->fallthrough();
+        sub->final_callback([&chosen, action = row.declare(*sub)] { chosen = action; });
+    }
+    try {
+        command.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        if (e.get_exit_code() == 0)
+            return command.exit(e);
+        return fail(std::string(e.what()) + "; see 'vicon --help'", kWrongUse);
+    }
+    return chosen(context);
+}
+
+}  // namespace
+}  // namespace vicon::app
+
+int main(int argc, char** argv)
+{
+    using namespace vicon;
+    spdlog::set_default_logger(spdlog::stderr_logger_mt("vicon"));
+    spdlog::set_pattern("%Y-%m-%dT%H:%M:%S %^%l%$ %v");
+    app::catchStopSignals();
+    try {
+        return app::run(argc, argv);
+    } catch (const Error& e) {
+        return app::fail(e.what(), e.code() == ErrorCode::wrong_use ? app::kWrongUse : app::kFailed);
+    } catch (const std::bad_alloc&) {
+        return app::fail("not enough memory; close other programs and try again", app::kFailed);
+    } catch (const std::exception& e) {
+        return app::fail(e.what(), app::kFailed);
+    }
+}

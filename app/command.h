@@ -1,0 +1,67 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "vicon/core/case_store.h"
+#include "vicon/core/options.h"
+
+namespace vicon::app {
+
+/// What every subcommand gets: the common options and what follows from them.
+class Context {
+public:
+    std::string store_folder;  ///< --store
+    std::string config_file;   ///< --config
+    std::vector<std::string> assignments;  ///< --set
+    bool json = false;         ///< --json
+
+    /// The effective configuration. Throws Error{wrong_use}.
+    const Config& config();
+    std::filesystem::path storeFolder() const;
+    /// The store, which is made when there is none.
+    CaseStore& store();
+    /// The store; throws Error{not_found} when there is none.
+    CaseStore& existingStore();
+
+private:
+    std::unique_ptr<Config> config_;
+    std::unique_ptr<CaseStore> store_;
+};
+
+/// A row of the command's table: its name, one sentence, and a function that declares its own options and returns what to do.
+struct Subcommand {
+    const char* name;
+    const char* help;
+    std::function<std::function<int(Context&)>(CLI::App&)> declare;
+};
+
+/// Every option of every room, and the configuration file's place.
+Config declaredConfig();
+
+/// Set by SIGINT and SIGTERM; long work asks it.
+const std::atomic<bool>& stopRequested();
+void catchStopSignals();
+
+// The subcommands, one file each.
+Subcommand importCommand();
+Subcommand receiveCommand();
+Subcommand sendCommand();
+Subcommand workCommand();
+Subcommand casesCommand();
+Subcommand showCommand();
+Subcommand markCommand();
+Subcommand markersCommand();
+Subcommand flyCommand();
+Subcommand snapshotCommand();
+Subcommand reportCommand();
+Subcommand phantomCommand();
+Subcommand configCommand();
+Subcommand doctorCommand();
+
+}  // namespace vicon::app

@@ -1,0 +1,56 @@
+#include <cstdio>
+
+#include "../command.h"
+#include "../text_table.h"
+#include "vicon/ingest/import.h"
+#include "vicon/ingest/receiver.h"
+#include "vicon/pipeline/scan_work.h"
+#include "vicon/pipeline/worker.h"
+#include "../marking.h"
+
+namespace vicon::app {
+namespace {
+
+int printConfig(Context& context)
+{
+    const Config& config = context.config();
+    if (context.json) {
+        nlohmann::json out = nlohmann::json::object();
+        for (const OptionSpec& spec : config.specs())
+            out[spec.key] = {{"value", config.at(spec.key).value}, {"source", config.at(spec.key).source},
+                             {"default", spec.default_value},      {"unit", spec.unit},
+                             {"help", spec.help}};
+        out["peers"] = config.peers();
+        std::printf("%s\n", out.dump(2).c_str());
+        return 0;
+    }
+    std::vector<std::vector<std::string>> rows;
+    for (const OptionSpec& spec : config.specs())
+        rows.push_back({spec.key, config.at(spec.key).value.dump(), spec.unit, config.at(spec.key).source, spec.help});
+    std::printf("%s", formatTable({"OPTION", "VALUE", "UNIT", "FROM", "MEANING"}, rows).c_str());
+    for (const auto& [name, peer] : config.peers().items())
+        std::printf("peer %s: %s\n", name.c_str(), peer.dump().c_str());
+    return 0;
+}
+
+}  // namespace
+
+Config declaredConfig()
+{
+    Config config;
+    config.declare(specsOf<ingest::ImportOptions>());
+    config.declare(specsOf<ingest::ReceiverOptions>());
+    config.declare(pipeline::stepOptionSpecs());
+    config.declare(specsOf<pipeline::QueueOptions>());
+    config.declare(specsOf<pipeline::WorkOptions>());
+    config.declare(specsOf<MarkOptions>());
+    return config;
+}
+
+Subcommand configCommand()
+{
+    return {"config", "Print the effective configuration, and where each value comes from",
+            [](CLI::App&) { return [](Context& context) { return printConfig(context); }; }};
+}
+
+}  // namespace vicon::app

@@ -1,0 +1,169 @@
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "../command.h"
+#include "../marking.h"
+#include "../text_table.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace vicon::app {
+namespace {
+
+struct MarkArguments {
+    std::string case_id, scan_id, at, color = "red", note;
+};
+
+Point3 pointFrom(const std::string& text)
+{
+    Point3 p;
+    char comma1 = 0, comma2 = 0;
+    std::istringstream in(text);
+    if (!(in >> p.x >> comma1 >> p.y >> comma2 >> p.z) || comma1 != ',' || comma2 != ',' || !(in >> std::ws).eof() ||
+        !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        throw Error(ErrorCode::wrong_use, "'" + text + "' is not a point", "--at", "write X,Y,Z in LPS mm, as in --at 12.5,-30,410");
+    return p;
+}
+
+void printMarkers(const std::vector<Marker>& markers)
+{
+    std::vector<std::vector<std::string>> rows;
+    for (const Marker& m : markers)
+        rows.push_back({m.id, m.scan_id, nameOf(m.color),
+                        formatNumber(m.position_mm.x, 1) + ", " + formatNumber(m.position_mm.y, 1) + ", " +
+                            formatNumber(m.position_mm.z, 1),
+                        formatNumber(m.station_mm, 0), formatNumber(m.from_caecum_mm, 0),
+                        formatNumber(m.fraction * 100, 0) + " %", m.note});
+    std::printf("%s", formatTable({"ID", "SCAN", "COLOR", "LPS MM", "FROM RECTUM MM", "FROM CAECUM MM", "FRACTION",
+                                   "NOTE"},
+                                  rows)
+                          .c_str());
+}
+
+nlohmann::json listOf(const std::vector<Marker>& markers)
+{
+    nlohmann::json list = nlohmann::json::array();
+    for (const Marker& m : markers)
+        list.push_back(toJson(m));
+    return {{"markers", list}};
+}
+
+int mark(Context& context, const MarkArguments& arguments)
+{
+    CaseStore& store = context.existingStore();
+    const std::string case_id = store.requireCase(arguments.case_id).id;
+    Marker marker;
+    marker.scan_id = arguments.scan_id;
+    marker.position_mm = pointFrom(arguments.at);
+    marker.color = markerColorFrom(arguments.color);
+    marker.note = arguments.note;
+    marker = store.saveMarker(case_id, placeMarker(store, context.config().get<MarkOptions>(), case_id, marker));
+    if (context.json)
+        std::printf("%s\n", toJson(marker).dump(2).c_str());
+    else
+        printMarkers({marker});
+    return 0;
+}
+
+struct MarkersArguments {
+    std::string case_id, remove, change, color, note, at, import_file, export_file;
+    bool change_note = false;
+};
+
+std::vector<Marker> markersIn(const std::string& file)
+{
+    const auto json = nlohmann::json::parse(readFile(file), nullptr, false);
+    if (json.is_discarded() || !json.is_object() || !json.contains("markers") || !json["markers"].is_array())
+        throw Error(ErrorCode::bad_input, "is not a file of markers", file, "it must be {\"markers\": [...]}");
+    std::vector<Marker> markers;
+    for (const auto& entry : json["markers"])
+        markers.push_back(markerFromJson(entry));
+    return markers;
+}
+
+/// All or nothing: every marker is placed before the first is saved. An id that the case has is replaced.
+void importMarkers(CaseStore& store, const MarkOptions& options, const std::string& case_id, const std::string& file)
+{
+    std::vector<Marker> placed;
+    for (Marker& marker : markersIn(file))
+        placed.push_back(placeMarker(store, options, case_id, std::move(marker)));
+    for (Marker& marker : placed)
+        store.saveMarker(case_id, std::move(marker));
+}
+
+void changeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id,
+                  const MarkersArguments& arguments)
+{
+    Marker marker = store.requireMarker(case_id, arguments.change);
+    if (!arguments.color.empty())
+        marker.color = markerColorFrom(arguments.color);
+    if (arguments.change_note)
+        marker.note = arguments.note;
+    if (!arguments.at.empty()) {
+        marker.position_mm = pointFrom(arguments.at);
+        marker = placeMarker(store, options, case_id, std::move(marker));
+    }
+    store.saveMarker(case_id, std::move(marker));
+}
+
+int markers(Context& context, const MarkersArguments& arguments)
+{
+    CaseStore& store = context.existingStore();
+    const std::string case_id = store.requireCase(arguments.case_id).id;
+    const auto options = context.config().get<MarkOptions>();
+    if (!arguments.import_file.empty())
+        importMarkers(store, options, case_id, arguments.import_file);
+    if (!arguments.change.empty())
+        changeMarker(store, options, case_id, arguments);
+    if (!arguments.remove.empty())
+        store.removeMarker(case_id, arguments.remove);
+    const auto list = store.markers(case_id);
+    if (!arguments.export_file.empty())
+        replaceFile(arguments.export_file, listOf(list).dump(2) + "\n");
+    if (context.json)
+        std::printf("%s\n", listOf(list).dump(2).c_str());
+    else if (list.empty())
+        std::printf("no markers; 'vicon mark %s --at X,Y,Z' adds one\n", case_id.c_str());
+    else
+        printMarkers(list);
+    return 0;
+}
+
+}  // namespace
+
+Subcommand markCommand()
+{
+    return {"mark", "Add a marker at a point of the colon", [](CLI::App& command) {
+                auto arguments = std::make_shared<MarkArguments>();
+                command.add_option("CASE", arguments->case_id, "The case's id")->required();
+                command.add_option("--scan", arguments->scan_id, "The scan; needed where the point lies in the colon of several")
+                    ->type_name("SCAN");
+                command.add_option("--at", arguments->at, "Position in LPS mm")->required()->type_name("X,Y,Z");
+                command.add_option("--color", arguments->color, "red, yellow or green")->capture_default_str();
+                command.add_option("--note", arguments->note, "What is seen there")->type_name("TEXT");
+                return [arguments](Context& context) { return mark(context, *arguments); };
+            }};
+}
+
+Subcommand markersCommand()
+{
+    return {"markers", "List, change, remove, import or export the markers of a case", [](CLI::App& command) {
+                auto arguments = std::make_shared<MarkersArguments>();
+                command.add_option("CASE", arguments->case_id, "The case's id")->required();
+                command.add_option("--remove", arguments->remove, "Remove this marker")->type_name("ID");
+                auto* change = command.add_option("--change", arguments->change, "Change this marker")->type_name("ID");
+                command.add_option("--color", arguments->color, "Its new color")->needs(change);
+                auto* note = command.add_option("--note", arguments->note, "Its new note")->needs(change)->type_name("TEXT");
+                command.add_option("--at", arguments->at, "Its new position in LPS mm")->needs(change)->type_name("X,Y,Z");
+                command.add_option("--import", arguments->import_file, "Add the markers of a JSON file")->type_name("FILE");
+                command.add_option("--export", arguments->export_file, "Write all markers to a JSON file")->type_name("FILE");
+                return [arguments, note](Context& context) {
+                    arguments->change_note = note->count() > 0;
+                    return markers(context, *arguments);
+                };
+            }};
+}
+
+}  // namespace vicon::app

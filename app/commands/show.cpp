@@ -1,0 +1,103 @@
+#include <cstdio>
+
+#include "../command.h"
+#include "../text_table.h"
+#include "../worklist.h"
+#include "vicon/artefact/subdivision_file.h"
+
+namespace vicon::app {
+namespace {
+
+struct ShowArguments {
+    std::string case_id;
+    std::string scan_id;
+    bool subdivision_table = false;
+};
+
+void printScan(CaseStore& store, const WorklistScan& scan)
+{
+    const ScanRecord& r = scan.record;
+    std::printf("\nscan %s: %s, series %d '%s', %s%s\n", r.id.c_str(), positionName(r.series.patient_position).c_str(),
+                r.series.number, r.series.description.c_str(), scan.state.c_str(),
+                scan.reason.empty() ? "" : (" (" + scan.reason + ")").c_str());
+    std::printf("  %s\n", scan.folder.c_str());
+    std::vector<std::vector<std::string>> rows;
+    for (const StepRecord& step : store.steps(r.case_id, r.id)) {
+        std::string measures;
+        for (const auto& [key, value] : step.result.items())
+            if (value.is_number() || value.is_string())
+                measures += (measures.empty() ? "" : ", ") + key + " " +
+                            (value.is_number_float() ? formatNumber(value.get<double>(), 2)
+                             : value.is_string()     ? value.get<std::string>()
+                                                     : value.dump());
+        rows.push_back({"  " + step.step, formatNumber(step.seconds, 1) + " s", measures});
+    }
+    if (!rows.empty())
+        std::printf("%s", formatTable({"  STEP", "TIME", "MEASURES"}, rows).c_str());
+    for (const char* list : {"repairs", "refused", "set_aside"})
+        for (const auto& line : r.ingest.value(list, nlohmann::json::array()))
+            std::printf("  %s: %s\n", list, (line.is_string() ? line.get<std::string>() : line.dump()).c_str());
+}
+
+/// The thesis' Table 2 for every scan that has been divided.
+int printSubdivisionTable(CaseStore& store, const WorklistCase& c, const std::string& scan_id)
+{
+    std::vector<std::vector<std::string>> rows;
+    for (const WorklistScan& scan : c.scans) {
+        const auto file = store.scanFolder(c.record.id, scan.record.id) / "subdivision.json";
+        if (!scan.record.id.starts_with(scan_id) || !std::filesystem::exists(file))
+            continue;
+        const auto subdivision = artefact::readSubdivision(file);
+        const auto& s = subdivision.statistics;
+        const auto number = [&](const char* key, int decimals) { return formatNumber(s.value(key, 0.0), decimals); };
+        rows.push_back({scan.record.id, subdivision.method, number("specified_segments", 0),
+                        number("segments", 0), number("average_triangles", 0), number("largest_triangles", 0),
+                        number("smallest_triangles", 0), number("standard_deviation_triangles", 2)});
+    }
+    std::printf("%s", formatTable({"SCAN", "METHOD", "SPECIFIED", "SEGMENTS", "AVERAGE TRIANGLES", "LARGEST",
+                                   "SMALLEST", "STANDARD DEVIATION"},
+                                  rows)
+                          .c_str());
+    return 0;
+}
+
+int show(Context& context, const ShowArguments& arguments)
+{
+    CaseStore& store = context.existingStore();
+    const CaseRecord record = store.requireCase(arguments.case_id);
+    const WorklistCase c = makeWorklistCase(store, context.config(), record);
+    if (arguments.subdivision_table)
+        return printSubdivisionTable(store, c, arguments.scan_id);
+    if (context.json) {
+        nlohmann::json out = toJson({c})["cases"][0];
+        for (nlohmann::json& scan : out["scans"])
+            scan.update(store.describeScan(record.id, scan["id"]));
+        std::printf("%s\n", out.dump(2).c_str());
+        return 0;
+    }
+    std::printf("case %s: %s\npatient %s, ID %s, born %s, sex %s\nstudy %s %s\n", record.id.c_str(), c.state.c_str(),
+                record.patient.name.c_str(), record.patient.id.c_str(), record.patient.birth_date.c_str(),
+                record.patient.sex.c_str(), record.study.date.c_str(), record.study.description.c_str());
+    for (const std::string& flag : record.flags)
+        std::printf("! %s\n", flag.c_str());
+    for (const WorklistScan& scan : c.scans)
+        if (scan.record.id.starts_with(arguments.scan_id))
+            printScan(store, scan);
+    return 0;
+}
+
+}  // namespace
+
+Subcommand showCommand()
+{
+    return {"show", "Show one case: its scans, steps, measures and faults", [](CLI::App& command) {
+                auto arguments = std::make_shared<ShowArguments>();
+                command.add_option("CASE", arguments->case_id, "The case's id")->required();
+                command.add_option("--scan", arguments->scan_id, "Only this scan")->type_name("SCAN");
+                command.add_flag("--subdivision-table", arguments->subdivision_table,
+                                 "Segments and triangles a cell, as in the thesis' Table 2");
+                return [arguments](Context& context) { return show(context, *arguments); };
+            }};
+}
+
+}  // namespace vicon::app

@@ -1,0 +1,123 @@
+#include "marking.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vicon/artefact/skeleton_file.h"
+#include "vicon/artefact/subdivision_file.h"
+#include "vicon/artefact/volume_file.h"
+#include "vicon/core/error.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::app {
+namespace {
+
+struct NearestVoxel {
+    int segment = 0;
+    double distance_mm = 1e300;
+};
+
+/// The inside voxel nearest to `p` within a ball, by its centre; a point within half a voxel of it counts as inside.
+NearestVoxel nearestInside(const SegmentVolume& segments, Point3 p, double within_mm)
+{
+    const Grid& grid = segments.grid;
+    const Index3 centre = grid.indexAt(p);
+    NearestVoxel nearest;
+    std::array<int, 3> reach{};
+    for (std::size_t a = 0; a < 3; ++a)
+        reach[a] = int(std::ceil(within_mm / grid.spacing_mm[a])) + 1;
+    for (int k = std::max(0, centre.k - reach[2]); k <= std::min(grid.size[2] - 1, centre.k + reach[2]); ++k)
+        for (int j = std::max(0, centre.j - reach[1]); j <= std::min(grid.size[1] - 1, centre.j + reach[1]); ++j)
+            for (int i = std::max(0, centre.i - reach[0]); i <= std::min(grid.size[0] - 1, centre.i + reach[0]); ++i)
+                if (const int segment = segments.at({i, j, k})) {
+                    const double d = distance(grid.pointAt(Index3{i, j, k}), p);
+                    if (d < nearest.distance_mm)
+                        nearest = {segment, d};
+                }
+    if (segments.valueOr(centre, 0))
+        nearest.distance_mm = 0;
+    return nearest;
+}
+
+bool isPrepared(const fs::path& folder)
+{
+    return fs::exists(folder / "skeleton.vtp") && fs::exists(folder / "segments.mha") &&
+           fs::exists(folder / "subdivision.json");
+}
+
+std::string formatPoint(Point3 p)
+{
+    char text[96];
+    std::snprintf(text, sizeof text, "%.1f,%.1f,%.1f", p.x, p.y, p.z);
+    return text;
+}
+
+}  // namespace
+
+std::optional<SnappedPoint> snapToSkeleton(const fs::path& folder, Point3 point, double within_mm)
+{
+    if (!isPrepared(folder))
+        throw Error(ErrorCode::not_ready, "the scan has not been through the pipeline", folder.filename().string(),
+                    "run 'vicon work --until-idle'");
+    const auto segments = artefact::readVolume<std::uint16_t>(folder / "segments.mha");
+    const NearestVoxel voxel = nearestInside(segments, point, within_mm);
+    if (voxel.segment == 0 || voxel.distance_mm > within_mm)
+        return std::nullopt;
+    const Skeleton skeleton = artefact::readSkeleton(folder / "skeleton.vtp");
+    const auto subdivision = artefact::readSubdivision(folder / "subdivision.json");
+    const auto& info = subdivision.segments.at(std::size_t(voxel.segment) - 1);
+    const SkeletonFoot foot = skeleton.nearest(point, info.from_station_mm, info.to_station_mm);
+    return SnappedPoint{voxel.distance_mm, foot.station_mm, skeleton.length_mm()};
+}
+
+Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id, Marker marker)
+{
+    std::vector<std::pair<std::string, SnappedPoint>> places;
+    for (const ScanRecord& scan : store.scans(case_id)) {
+        const fs::path folder = store.scanFolder(case_id, scan.id);
+        const bool named = !marker.scan_id.empty() && scan.id.starts_with(marker.scan_id);
+        if (marker.scan_id.empty() ? !isPrepared(folder) : !named)
+            continue;
+        if (const auto place = snapToSkeleton(folder, marker.position_mm, options.most_distance_mm))
+            places.emplace_back(scan.id, *place);
+    }
+    if (places.empty() && !marker.scan_id.empty())
+        store.requireScan(case_id, marker.scan_id);
+    if (places.empty())
+        throw Error(ErrorCode::bad_input,
+                    "the point " + formatPoint(marker.position_mm) + " lies more than " +
+                        formatPoint({options.most_distance_mm, 0, 0}).substr(0, 4) + " mm outside the colon of every prepared scan",
+                    case_id, "give LPS millimetres inside the lumen; 'vicon show " + case_id + "' shows the scans");
+    // A point in the lumen of one scan and merely near that of another belongs to the first.
+    const auto inside = [](const auto& place) { return place.second.outside_mm == 0; };
+    if (places.size() > 1 && std::count_if(places.begin(), places.end(), inside) == 1)
+        places = {*std::find_if(places.begin(), places.end(), inside)};
+    if (places.size() > 1)
+        throw Error(ErrorCode::wrong_use, "the point lies in the colon of several scans", case_id,
+                    "name one with --scan; 'vicon show " + case_id + "' lists them");
+    const auto& [scan_id, place] = places.front();
+    marker.scan_id = scan_id;
+    marker.station_mm = place.station_mm;
+    marker.from_caecum_mm = place.length_mm - place.station_mm;
+    marker.fraction = place.length_mm > 0 ? place.station_mm / place.length_mm : 0;
+    return marker;
+}
+
+ScanRecord requirePreparedScan(CaseStore& store, const std::string& case_id, const std::string& scan_id)
+{
+    if (!scan_id.empty()) {
+        ScanRecord scan = store.requireScan(case_id, scan_id);
+        if (!isPrepared(store.scanFolder(case_id, scan.id)))
+            throw Error(ErrorCode::not_ready, "the scan has not been through the pipeline, or holds no colon",
+                        case_id + "/" + scan.id, "see 'vicon show " + case_id + "'; 'vicon work --until-idle' runs it");
+        return scan;
+    }
+    for (ScanRecord& scan : store.scans(case_id))
+        if (isPrepared(store.scanFolder(case_id, scan.id)))
+            return std::move(scan);
+    throw Error(ErrorCode::not_ready, "no scan of the case has been through the pipeline, or none holds a colon", case_id,
+                "see 'vicon show " + case_id + "'; 'vicon work --until-idle' runs it");
+}
+
+}  // namespace vicon::app

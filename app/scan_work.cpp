@@ -1,0 +1,27 @@
+#include "scan_work.h"
+
+#include "vicon/ingest/load_scan.h"
+
+namespace vicon::app {
+
+pipeline::JobWork scanWork(CaseStore& store, const Config& config)
+{
+    const auto options = config.get<ingest::ImportOptions>();
+    return pipeline::makeScanWork(
+        store, config,
+        [options](const std::filesystem::path& folder, Progress& progress) {
+            return ingest::loadScan(folder, options, progress);
+        },
+        toJson(options));
+}
+
+void requeueOutdated(CaseStore& store, const Config& config)
+{
+    pipeline::JobQueue queue(store.database(), config.get<pipeline::QueueOptions>());
+    for (const pipeline::Job& job : queue.jobs())
+        if (job.state == pipeline::JobState::done &&
+            pipeline::isOutdated(store, config, toJson(config.get<ingest::ImportOptions>()), job.case_id, job.scan_id))
+            queue.retry(job.case_id, job.scan_id);
+}
+
+}  // namespace vicon::app

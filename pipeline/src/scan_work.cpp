@@ -1,0 +1,172 @@
+#include "vicon/pipeline/scan_work.h"
+
+#include <chrono>
+
+#include "scan_artefacts.h"
+#include "step_table.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace vicon::pipeline {
+namespace {
+
+json sizesOf(const fs::path& folder, const std::vector<std::string>& files)
+{
+    json sizes = json::object();
+    for (const std::string& file : files)
+        sizes[file] = fs::file_size(folder / file);
+    return sizes;
+}
+
+bool filesAreThere(const fs::path& folder, const json& sizes)
+{
+    for (const auto& [file, size] : sizes.items()) {
+        std::error_code missing;
+        if (fs::file_size(folder / file, missing) != size.get<std::uintmax_t>() || missing)
+            return false;
+    }
+    return true;
+}
+
+/// What a step's result depends on: its code, its parameters, and the digests of what it reads.
+std::string digestOf(const Step& step, const json& parameters, const StepRecords& records,
+                     const std::vector<InstanceRecord>& instances)
+{
+    std::string all = step.name + "\n" + std::to_string(step.version) + "\n" + parameters.dump() + "\n";
+    for (const std::string& input : step.inputs)
+        all += records.at(input).digest + "\n";
+    if (step.inputs.empty())
+        for (const InstanceRecord& instance : instances)
+            all += instance.sha256 + "\n";
+    return sha256(all);
+}
+
+json parametersOf(const Step& step, const Config& config, const json& loader_parameters)
+{
+    json parameters = step.parameters(config);
+    if (step.inputs.empty())
+        parameters.update(loader_parameters);
+    return parameters;
+}
+
+bool isCurrent(const StepRecord& record, const std::string& digest, const fs::path& folder)
+{
+    return record.digest == digest && filesAreThere(folder, record.result.value("files", json::object()));
+}
+
+bool endsHere(const StepRecord& record) { return record.result.value("verdict", "") == "no colon"; }
+
+StepRecords recordsOf(CaseStore& store, const ScanRecord& scan)
+{
+    StepRecords records;
+    for (StepRecord& record : store.steps(scan.case_id, scan.id))
+        records[record.step] = std::move(record);
+    return records;
+}
+
+/// The work on one scan, step by step.
+class ScanRun {
+public:
+    ScanRun(CaseStore& store, const Config& config, const AcquiredVolumeLoader& loader, const json& loader_parameters,
+            JobContext& context)
+        : store_(store),
+          context_(context),
+          scan_(store.requireScan(context.job().case_id, context.job().scan_id)),
+          folder_(store.scanFolder(scan_.case_id, scan_.id)),
+          inputs_{config, loader, gravityFor(scan_.series.patient_position), folder_ / "dicom"},
+          artefacts_(folder_),
+          loader_parameters_(loader_parameters),
+          instances_(store.instances(scan_.case_id, scan_.id)),
+          records_(recordsOf(store, scan_))
+    {
+    }
+
+    void run()
+    {
+        removeTemporaries(folder_);
+        makePrivateFolder(folder_ / "projections");
+        removeTemporaries(folder_ / "projections");
+        for (const Step& step : stepTable()) {
+            context_.check();
+            doStep(step);
+            if (endsHere(records_[step.name])) {
+                removeFilesAfter(step);
+                break;
+            }
+        }
+        store_.writeScanFile(scan_.case_id, scan_.id);
+    }
+
+private:
+    void doStep(const Step& step)
+    {
+        const json parameters = parametersOf(step, inputs_.config, loader_parameters_);
+        const std::string digest = digestOf(step, parameters, records_, instances_);
+        StepRecord& record = records_[step.name];
+        if (isCurrent(record, digest, folder_))
+            return;
+
+        context_.enterStep(step.name, step.from, step.to);
+        const auto start = std::chrono::steady_clock::now();
+        json result = step.run(inputs_, artefacts_, records_, context_);
+        result["files"] = sizesOf(folder_, step.outputs(result));
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        record = {step.name, step.version, digest, parameters, std::move(result), seconds, nowUtc()};
+        context_.commitStep(record);
+        store_.writeScanFile(scan_.case_id, scan_.id);
+    }
+
+    /// What an earlier run, with other parameters, had made of a scan that has no colon now.
+    void removeFilesAfter(const Step& last)
+    {
+        bool after = false;
+        for (const Step& step : stepTable()) {
+            if (after)
+                for (const std::string& file : step.outputs(json::object()))
+                    fs::remove(folder_ / file);
+            after = after || step.name == last.name;
+        }
+    }
+
+    CaseStore& store_;
+    JobContext& context_;
+    ScanRecord scan_;
+    fs::path folder_;
+    StepInputs inputs_;
+    ScanArtefacts artefacts_;
+    const json& loader_parameters_;
+    std::vector<InstanceRecord> instances_;
+    StepRecords records_;
+};
+
+}  // namespace
+
+bool isOutdated(CaseStore& store, const Config& config, const json& loader_parameters, const std::string& case_id,
+                const std::string& scan_id)
+{
+    const ScanRecord scan = store.requireScan(case_id, scan_id);
+    const auto instances = store.instances(case_id, scan_id);
+    StepRecords records = recordsOf(store, scan);
+    for (const Step& step : stepTable()) {
+        const auto record = records.find(step.name);
+        if (record == records.end() ||
+            !isCurrent(record->second,
+                       digestOf(step, parametersOf(step, config, loader_parameters), records, instances),
+                       store.scanFolder(case_id, scan_id)))
+            return true;
+        if (endsHere(record->second))
+            return false;
+    }
+    return false;
+}
+
+JobWork makeScanWork(CaseStore& store, const Config& config, AcquiredVolumeLoader loader, json loader_parameters)
+{
+    return [&store, config, loader = std::move(loader), parameters = std::move(loader_parameters)](
+               JobContext& context) { ScanRun(store, config, loader, parameters, context).run(); };
+}
+
+}  // namespace vicon::pipeline

@@ -1,0 +1,168 @@
+#include "step_table.h"
+
+#include "vicon/artefact/cells_file.h"
+#include "vicon/steps/cells.h"
+#include "vicon/steps/exit_distance.h"
+#include "vicon/steps/projections.h"
+#include "vicon/steps/resample.h"
+#include "vicon/steps/segment.h"
+#include "vicon/steps/skeleton.h"
+#include "vicon/steps/subdivide.h"
+#include "vicon/steps/wall_distance.h"
+
+using nlohmann::json;
+
+namespace vicon::pipeline {
+namespace {
+
+/// Parameters of a step from the options structs it uses.
+template <class... Options>
+json parametersFrom(const Config& config)
+{
+    json all = json::object();
+    (all.update(toJson(config.get<Options>())), ...);
+    return all;
+}
+
+std::function<std::vector<std::string>(const json&)> always(std::vector<std::string> files)
+{
+    return [files = std::move(files)](const json&) { return files; };
+}
+
+/// Tells a part of a step's progress as a part of the whole.
+class PartOfProgress : public Progress {
+public:
+    PartOfProgress(Progress& whole, double from, double to) : whole_(whole), from_(from), to_(to) {}
+    void report(double fraction, std::string_view what) override
+    {
+        whole_.report(from_ + (to_ - from_) * fraction, what);
+    }
+    bool cancelled() const override { return whole_.cancelled(); }
+
+private:
+    Progress& whole_;
+    double from_, to_;
+};
+
+json runResample(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
+{
+    PartOfProgress decode(progress, 0, 0.5), rest(progress, 0.5, 1);
+    HuVolume acquired = inputs.loader(inputs.dicom_folder, decode);
+    json result = {{"acquired_size", acquired.grid.size}, {"acquired_spacing_mm", acquired.grid.spacing_mm}};
+    artefacts.put(steps::resample(std::move(acquired), inputs.config.get<steps::ResampleOptions>(), rest));
+    result["size"] = artefacts.volume().grid.size;
+    result["spacing_mm"] = artefacts.volume().grid.spacing_mm[0];
+    return result;
+}
+
+json runSegment(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
+{
+    steps::Segmentation found = steps::segmentColon(artefacts.volume(), inputs.gravity,
+                                                    inputs.config.get<steps::SegmentOptions>(), progress);
+    json result = found.measures;
+    result["verdict"] = found.verdict;
+    result["confidence"] = found.confidence;
+    result["reason"] = found.reason;
+    result["plan"] = toJson(found.plan);
+    json& bridges = result["bridges"] = json::array();
+    for (const steps::Bridge& bridge : found.plan.bridges)
+        bridges.push_back({{"from_mm", {bridge.from_mm.x, bridge.from_mm.y, bridge.from_mm.z}},
+                           {"to_mm", {bridge.to_mm.x, bridge.to_mm.y, bridge.to_mm.z}},
+                           {"length_mm", bridge.length_mm},
+                           {"confidence", bridge.confidence},
+                           {"certain", bridge.certain},
+                           {"reason", bridge.reason}});
+    if (found.verdict != "no colon")
+        artefacts.put(std::move(found.inside));
+    return result;
+}
+
+std::vector<std::string> segmentFiles(const json& result)
+{
+    if (result.value("verdict", "") == "no colon")
+        return {};
+    return {"inside.mha"};
+}
+
+json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords& records, Progress& progress)
+{
+    const steps::LumenPlan plan = steps::lumenPlanFromJson(records.at("segment").result.at("plan"));
+    steps::SkeletonResult found = steps::findSkeleton(artefacts.inside(), plan,
+                                                      inputs.config.get<steps::SkeletonOptions>(), progress);
+    json result = found.measures;
+    result["length_mm"] = found.curve.length_mm();
+    artefact::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
+    artefacts.put(std::move(found.curve));
+    return result;
+}
+
+json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
+{
+    PartOfProgress divide(progress, 0, 0.4), contour(progress, 0.4, 0.9), project(progress, 0.9, 1);
+    steps::Subdivided divided = steps::subdivide(artefacts.inside(), artefacts.skeleton(),
+                                                 artefact::readSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp"),
+                                                 inputs.config.get<steps::SubdivideOptions>(), divide);
+    artefacts.put(std::move(divided.segments));
+    const artefact::CellSurface surface =
+        steps::extractCells(artefacts.volume(), artefacts.inside(), artefacts.segments(),
+                            inputs.config.get<steps::CellOptions>(), contour);
+    artefacts.dropVolume();
+    steps::countTriangles(divided.description, surface);
+    artefact::writeCells(artefacts.folder() / "cells.vtp", surface);
+    steps::writeProjections(artefacts.folder() / "projections", surface);
+    project.report(1, "projections");
+    artefact::writeSubdivision(artefacts.folder() / "subdivision.json", divided.description);
+    json result = divided.description.statistics;
+    result["method"] = divided.description.method;
+    result["triangles"] = surface.triangleCount();
+    return result;
+}
+
+json runPotential(const StepInputs&, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
+{
+    PartOfProgress exit(progress, 0, 0.6), wall(progress, 0.6, 1);
+    json result;
+    {
+        const FieldVolume field = steps::exitDistance(artefacts.inside(), artefacts.skeleton(), exit);
+        result["largest_exit_distance_mm"] = *std::max_element(field.voxels.begin(), field.voxels.end());
+        artefact::writeVolume(artefacts.folder() / "exit_distance.mha", field, artefact::Packing::raw);
+    }
+    const FieldVolume field = steps::wallDistance(artefacts.inside(), wall);
+    result["largest_wall_distance_mm"] = *std::max_element(field.voxels.begin(), field.voxels.end());
+    artefact::writeVolume(artefacts.folder() / "wall_distance.mha", field, artefact::Packing::raw);
+    return result;
+}
+
+}  // namespace
+
+const std::vector<Step>& stepTable()
+{
+    using namespace steps;
+    static const std::vector<Step> kTable = {
+        {"resample", 1, 0, 0.3, {}, always({"volume.mha"}), parametersFrom<ResampleOptions>, runResample},
+        {"segment", 1, 0.3, 0.55, {"resample"}, segmentFiles, parametersFrom<SegmentOptions>, runSegment},
+        {"skeleton", 1, 0.55, 0.65, {"segment"}, always({"skeleton.vtp", "skeleton_voxels.vtp"}),
+         parametersFrom<SkeletonOptions>, runSkeleton},
+        {"subdivide", 1, 0.65, 0.85, {"resample", "segment", "skeleton"},
+         always({"segments.mha", "subdivision.json", "cells.vtp", "projections/coronal.png",
+                 "projections/transverse.png", "projections/sagittal.png"}),
+         parametersFrom<SubdivideOptions, CellOptions>, runSubdivide},
+        {"potential", 1, 0.85, 1, {"segment", "skeleton"}, always({"exit_distance.mha", "wall_distance.mha"}),
+         [](const Config&) { return json::object(); }, runPotential},
+    };
+    return kTable;
+}
+
+std::vector<OptionSpec> stepOptionSpecs()
+{
+    std::vector<OptionSpec> all;
+    const auto add = [&](std::vector<OptionSpec> specs) { all.insert(all.end(), specs.begin(), specs.end()); };
+    add(specsOf<steps::ResampleOptions>());
+    add(specsOf<steps::SegmentOptions>());
+    add(specsOf<steps::SkeletonOptions>());
+    add(specsOf<steps::SubdivideOptions>());
+    add(specsOf<steps::CellOptions>());
+    return all;
+}
+
+}  // namespace vicon::pipeline
