@@ -23,14 +23,17 @@ Triple tripleFrom(const json& j)
 
 json toJson(const Portal& p)
 {
-    json gate = json::array();
+    json gate = json::array(), box = json::array();
     for (const Point3& corner : p.gate_mm)
         gate.push_back(triple(corner));
+    for (const Point3& corner : p.box_mm)
+        box.push_back(triple(corner));
     return {{"between", {p.segment_a, p.segment_b}},
             {"centre_mm", triple(p.centre_mm)},
             {"normal", triple(p.normal)},
             {"area_mm2", p.area_mm2},
             {"gate_mm", gate},
+            {"box_mm", box},
             {"along_skeleton", p.along_skeleton}};
 }
 
@@ -44,6 +47,8 @@ Portal portalFrom(const json& j)
     p.area_mm2 = j.at("area_mm2");
     for (std::size_t n = 0; n < 4; ++n)
         p.gate_mm[n] = tripleFrom<Point3>(j.at("gate_mm").at(n));
+    for (std::size_t n = 0; n < 8; ++n)
+        p.box_mm[n] = tripleFrom<Point3>(j.at("box_mm").at(n));
     p.along_skeleton = j.at("along_skeleton");
     return p;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -19,6 +20,10 @@ struct Portal {
     Vector3 normal;  ///< unit vector from a to b
     double area_mm2 = 0;
     std::array<Point3, 4> gate_mm;
+    /// The gate moved along the normal to both sides until everything that the two segments share lies between, also
+    /// where a flooded portal is not flat: corners 0-3 on the side of a, 4-7 on the side of b, in the gate's order. The
+    /// screen rectangle of these eight points contains whatever is seen through the portal, from any eye.
+    std::array<Point3, 8> box_mm;
     bool along_skeleton = true;  ///< false: two segments touch without being neighbours along the skeleton
 };
 

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "vicon/artefact/cells_file.h"
+#include "vicon/artefact/subdivision_file.h"
+#include "vicon/core/options.h"
+#include "vicon/core/progress.h"
+#include "vicon/core/volume.h"
+
+namespace vicon::steps {
+
+struct CellOptions {
+    double gas_wall_hu = -480;
+    double tissue_hu = 40;
+
+    template <class Visitor>
+    void visit(Visitor&& v)
+    {
+        v("cells.gas_wall_hu", gas_wall_hu, "HU", "The wall beside gas lies at this density.", OptionLimits{-950, 0});
+        v("cells.tissue_hu", tissue_hu, "HU",
+          "Density of the wall; under fluid the surface lies half-way between it and the fluid.",
+          OptionLimits{-200, 200});
+    }
+};
+
+/// The surface of the lumen, contoured once for all segments: closed, every edge in exactly two triangles, triangles in
+/// order of their segment, front sides and unit normals towards the lumen.
+///
+/// The mask decides which voxel is inside, the densities where between two voxels the wall lies: beside gas at
+/// `gas_wall_hu`, under fluid half-way between tissue and the local fluid. Between gas and fluid there is no surface.
+/// Normals are the gradient of the densities. `hu` must lie on the lattice of `inside` and may be larger; `segments`
+/// has the grid of `inside`, and each triangle takes the segment of the inside voxel that it is nearest to.
+/// The result does not depend on the number of threads. Throws Error{bad_input} when the grids do not fit together.
+artefact::CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const SegmentVolume& segments,
+                                   const CellOptions& options, Progress& progress);
+
+/// Fills in the triangle counts of the description and the statistics of the thesis' Table 2: "triangles",
+/// "triangles_average", "triangles_largest", "triangles_smallest", "triangles_standard_deviation".
+void countTriangles(const artefact::CellSurface& surface, artefact::Subdivision& description);
+
+}  // namespace vicon::steps

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string>
+
+#include "vicon/artefact/skeleton_file.h"
+#include "vicon/artefact/subdivision_file.h"
+#include "vicon/core/options.h"
+#include "vicon/core/progress.h"
+#include "vicon/core/skeleton.h"
+#include "vicon/core/volume.h"
+
+namespace vicon::steps {
+
+struct SubdivideOptions {
+    std::string method = "flood";
+    int segments = 0;
+    double length_mm = 30;
+    std::string size = "surface";
+    std::string effectiveness = "gate_ratio";
+    std::string approach = "local";
+    std::string planes = "axis";
+    double gate_ratio_low = 0.7;
+    double gate_ratio_high = 1.5;
+
+    template <class Visitor>
+    void visit(Visitor&& v)
+    {
+        v("subdivide.method", method, "", "flood: pieces of the skeleton flooded together; thesis: planes across it.",
+          OptionLimits{.choices = {"flood", "thesis"}});
+        v("subdivide.segments", segments, "", "Specified number of segments; 0 takes it from the length of a segment.",
+          OptionLimits{0, 10000});
+        v("subdivide.length_mm", length_mm, "mm", "Length of skeleton in a segment.", OptionLimits{5, 500});
+        v("subdivide.size", size, "", "thesis: what measures a segment's size.",
+          OptionLimits{.choices = {"surface", "inside", "triangles"}});
+        v("subdivide.effectiveness", effectiveness, "", "thesis: what tells a good portal.",
+          OptionLimits{.choices = {"tangent", "portal_size", "gate_ratio"}});
+        v("subdivide.approach", approach, "", "thesis: the local walk of Algorithm 3.1, or the global optimum.",
+          OptionLimits{.choices = {"local", "global"}});
+        v("subdivide.planes", planes, "", "thesis: planes along the axes, or across the regional tangent.",
+          OptionLimits{.choices = {"axis", "oblique"}});
+        v("subdivide.gate_ratio_low", gate_ratio_low, "", "thesis: least ratio of a good gate's sides.",
+          OptionLimits{0, 1});
+        v("subdivide.gate_ratio_high", gate_ratio_high, "", "thesis: largest ratio of a good gate's sides.",
+          OptionLimits{1, 100});
+    }
+};
+
+struct Subdivided {
+    SegmentVolume segments;  ///< grid of `inside`; 0 outside, 1..N from the rectum
+    artefact::Subdivision description;
+};
+
+/// Divides the inside voxels into segments. Every inside voxel lies in exactly one segment, each segment is one
+/// 26-connected set, none spans a bridge, numbers follow the station, and pieces of a cut that are not connected have
+/// numbers of their own. Two segments that touch share exactly one portal; its gate and box enclose everything that
+/// the two share, dilated by a voxel diagonal.
+///
+/// method "flood": the voxel path is cut into pieces of about `length_mm`, all pieces are flooded at once inside the
+/// lumen, and each voxel takes the piece whose front reaches it first.
+/// method "thesis": Algorithm 3.1 of the thesis with its criteria, and its variants.
+///
+/// The triangle counts of the description are 0 until countTriangles() (cells.h) fills them in.
+/// Throws Error{bad_input} when nothing is inside or the skeleton is empty, or when more segments than 65535 result.
+Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const artefact::SkeletonVoxels& voxels,
+                     const SubdivideOptions& options, Progress& progress);
+
+}  // namespace vicon::steps
