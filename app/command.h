@@ -16,10 +16,10 @@ namespace vicon::app {
 /// What every subcommand gets: the common options and what follows from them.
 class Context {
 public:
-    std::string store_folder;  ///< --store
-    std::string config_file;   ///< --config
+    std::string store_folder;              ///< --store
+    std::string config_file;               ///< --config
     std::vector<std::string> assignments;  ///< --set
-    bool json = false;         ///< --json
+    bool json = false;                     ///< --json
 
     /// The effective configuration. Throws Error{wrong_use}.
     const Config& config();
@@ -34,7 +34,8 @@ private:
     std::unique_ptr<CaseStore> store_;
 };
 
-/// A row of the command's table: its name, one sentence, and a function that declares its own options and returns what to do.
+/// A row of the command's table: its name, one sentence, and a function that declares its own options and returns what
+/// to do.
 struct Subcommand {
     const char* name;
     const char* help;
@@ -51,7 +52,6 @@ void catchStopSignals();
 // The subcommands, one file each.
 Subcommand importCommand();
 Subcommand receiveCommand();
-Subcommand sendCommand();
 Subcommand workCommand();
 Subcommand casesCommand();
 Subcommand showCommand();

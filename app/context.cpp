@@ -22,7 +22,10 @@ fs::path homeFolder(const char* variable, const char* below_home)
 
 }  // namespace
 
-const std::atomic<bool>& stopRequested() { return stop_requested; }
+const std::atomic<bool>& stopRequested()
+{
+    return stop_requested;
+}
 
 void catchStopSignals()
 {

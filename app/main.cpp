@@ -14,16 +14,20 @@ constexpr int kFailed = 1, kWrongUse = 2;
 
 std::vector<Subcommand> subcommands()
 {
-    return {importCommand(),  receiveCommand(), workCommand(),   casesCommand(), showCommand(),
-            markCommand(),    markersCommand(), flyCommand(),    snapshotCommand(), reportCommand(),
-            sendCommand(),    phantomCommand(), configCommand(), doctorCommand()};
+    return {importCommand(),  receiveCommand(), workCommand(),  casesCommand(),    showCommand(),
+            markCommand(),    markersCommand(), flyCommand(),   snapshotCommand(), reportCommand(),
+            phantomCommand(), configCommand(),  doctorCommand()};
 }
 
 void addCommonOptions(CLI::App& command, Context& context)
 {
-    command.add_option("--store", context.store_folder, "Folder of the store (default: $VICON_STORE, else ~/.local/share/vicon)")
+    command
+        .add_option("--store", context.store_folder,
+                    "Folder of the store (default: $VICON_STORE, else ~/.local/share/vicon)")
         ->type_name("DIR");
-    command.add_option("--config", context.config_file, "Configuration file (default: ~/.config/vicon/config.toml, if there)")
+    command
+        .add_option("--config", context.config_file,
+                    "Configuration file (default: ~/.config/vicon/config.toml, if there)")
         ->type_name("FILE");
     command.add_option("--set", context.assignments, "Set one option of the configuration; 'vicon config' lists them")
         ->type_name("KEY=VALUE");

@@ -87,7 +87,8 @@ Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::stri
     if (places.empty())
         throw Error(ErrorCode::bad_input,
                     "the point " + formatPoint(marker.position_mm) + " lies more than " +
-                        formatPoint({options.most_distance_mm, 0, 0}).substr(0, 4) + " mm outside the colon of every prepared scan",
+                        formatPoint({options.most_distance_mm, 0, 0}).substr(0, 4) +
+                        " mm outside the colon of every prepared scan",
                     case_id, "give LPS millimetres inside the lumen; 'vicon show " + case_id + "' shows the scans");
     // A point in the lumen of one scan and merely near that of another belongs to the first.
     const auto inside = [](const auto& place) { return place.second.outside_mm == 0; };
@@ -116,8 +117,8 @@ ScanRecord requirePreparedScan(CaseStore& store, const std::string& case_id, con
     for (ScanRecord& scan : store.scans(case_id))
         if (isPrepared(store.scanFolder(case_id, scan.id)))
             return std::move(scan);
-    throw Error(ErrorCode::not_ready, "no scan of the case has been through the pipeline, or none holds a colon", case_id,
-                "see 'vicon show " + case_id + "'; 'vicon work --until-idle' runs it");
+    throw Error(ErrorCode::not_ready, "no scan of the case has been through the pipeline, or none holds a colon",
+                case_id, "see 'vicon show " + case_id + "'; 'vicon work --until-idle' runs it");
 }
 
 }  // namespace vicon::app

@@ -14,8 +14,8 @@ struct MarkOptions {
     template <class Visitor>
     void visit(Visitor&& v)
     {
-        v("mark.most_distance_mm", most_distance_mm, "mm",
-          "A marker farther than this outside the lumen is refused.", {0, 100});
+        v("mark.most_distance_mm", most_distance_mm, "mm", "A marker farther than this outside the lumen is refused.",
+          {0, 100});
     }
 };
 
@@ -23,16 +23,16 @@ struct MarkOptions {
 struct SnappedPoint {
     double outside_mm = 0;  ///< distance to the nearest inside voxel; 0 within the lumen
     double station_mm = 0;
-    double length_mm = 0;   ///< of the skeleton
+    double length_mm = 0;  ///< of the skeleton
 };
 
-/// Finds a point's place along the skeleton, without jumping to a neighbouring loop: the nearest inside voxel's segment says
-/// which part of the curve is meant. Nothing when the point is farther than `within_mm` from the lumen.
-/// Throws Error{not_ready} when the scan has not been through the pipeline.
+/// Finds a point's place along the skeleton, without jumping to a neighbouring loop: the nearest inside voxel's segment
+/// says which part of the curve is meant. Nothing when the point is farther than `within_mm` from the lumen. Throws
+/// Error{not_ready} when the scan has not been through the pipeline.
 std::optional<SnappedPoint> snapToSkeleton(const std::filesystem::path& scan_folder, Point3 point, double within_mm);
 
-/// Fills in scan, stations and fraction of a marker. An empty scan id is found: the only scan whose lumen is near the point.
-/// Throws Error{bad_input} when the point is outside, Error{wrong_use} when it could be in several scans.
+/// Fills in scan, stations and fraction of a marker. An empty scan id is found: the only scan whose lumen is near the
+/// point. Throws Error{bad_input} when the point is outside, Error{wrong_use} when it could be in several scans.
 Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id, Marker marker);
 
 /// The first scan of the case that has been through the pipeline; the named one when `scan_id` is not empty.

@@ -18,7 +18,10 @@ constexpr std::chrono::seconds kLineInterval{5};
 
 ProgressLine::ProgressLine(std::string title) : title_(std::move(title)), terminal_(::isatty(STDERR_FILENO) != 0) {}
 
-ProgressLine::~ProgressLine() { clear(); }
+ProgressLine::~ProgressLine()
+{
+    clear();
+}
 
 void ProgressLine::clear()
 {
@@ -46,6 +49,9 @@ void ProgressLine::report(double fraction, std::string_view what)
     drawn_ = true;
 }
 
-bool ProgressLine::cancelled() const { return stopRequested(); }
+bool ProgressLine::cancelled() const
+{
+    return stopRequested();
+}
 
 }  // namespace vicon::app

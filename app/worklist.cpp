@@ -10,7 +10,8 @@ namespace {
 
 WorklistScan makeScan(CaseStore& store, pipeline::JobQueue& queue, const ScanRecord& record)
 {
-    WorklistScan scan{.record = record, .state = "kept", .folder = store.scanFolder(record.case_id, record.id).string()};
+    WorklistScan scan{
+        .record = record, .state = "kept", .folder = store.scanFolder(record.case_id, record.id).string()};
     if (const auto job = queue.find(record.case_id, record.id)) {
         scan.state = pipeline::nameOf(job->state);
         scan.step = job->step;

@@ -31,7 +31,8 @@ struct WorklistCase {
 std::vector<WorklistCase> makeWorklist(CaseStore& store, const Config& config);
 WorklistCase makeWorklistCase(CaseStore& store, const Config& config, const CaseRecord& record);
 
-/// {"cases":[{"id","patient","study_uid","state","scans":[{"id","series_uid","position","state","folder"}]}]} and more keys.
+/// {"cases":[{"id","patient","study_uid","state","scans":[{"id","series_uid","position","state","folder"}]}]} and more
+/// keys.
 nlohmann::json toJson(const std::vector<WorklistCase>& worklist);
 
 }  // namespace vicon::app

@@ -23,8 +23,7 @@ int cases(Context& context)
     for (const WorklistCase& c : worklist)
         rows.push_back({c.record.id, c.record.patient.name, c.record.patient.id, c.record.study.date,
                         std::to_string(c.scans.size()), std::to_string(c.markers), c.state, c.reason});
-    std::printf("%s",
-                formatTable({"CASE", "PATIENT", "ID", "DATE", "SCANS", "MARKERS", "STATE", ""}, rows).c_str());
+    std::printf("%s", formatTable({"CASE", "PATIENT", "ID", "DATE", "SCANS", "MARKERS", "STATE", ""}, rows).c_str());
     return 0;
 }
 

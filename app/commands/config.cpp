@@ -1,12 +1,12 @@
 #include <cstdio>
 
 #include "../command.h"
+#include "../marking.h"
 #include "../text_table.h"
 #include "vicon/ingest/import.h"
 #include "vicon/ingest/receiver.h"
 #include "vicon/pipeline/scan_work.h"
 #include "vicon/pipeline/worker.h"
-#include "../marking.h"
 
 namespace vicon::app {
 namespace {
@@ -17,8 +17,10 @@ int printConfig(Context& context)
     if (context.json) {
         nlohmann::json out = nlohmann::json::object();
         for (const OptionSpec& spec : config.specs())
-            out[spec.key] = {{"value", config.at(spec.key).value}, {"source", config.at(spec.key).source},
-                             {"default", spec.default_value},      {"unit", spec.unit},
+            out[spec.key] = {{"value", config.at(spec.key).value},
+                             {"source", config.at(spec.key).source},
+                             {"default", spec.default_value},
+                             {"unit", spec.unit},
                              {"help", spec.help}};
         out["peers"] = config.peers();
         std::printf("%s\n", out.dump(2).c_str());

@@ -23,7 +23,8 @@ Point3 pointFrom(const std::string& text)
     std::istringstream in(text);
     if (!(in >> p.x >> comma1 >> p.y >> comma2 >> p.z) || comma1 != ',' || comma2 != ',' || !(in >> std::ws).eof() ||
         !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-        throw Error(ErrorCode::wrong_use, "'" + text + "' is not a point", "--at", "write X,Y,Z in LPS mm, as in --at 12.5,-30,410");
+        throw Error(ErrorCode::wrong_use, "'" + text + "' is not a point", "--at",
+                    "write X,Y,Z in LPS mm, as in --at 12.5,-30,410");
     return p;
 }
 
@@ -36,10 +37,10 @@ void printMarkers(const std::vector<Marker>& markers)
                             formatNumber(m.position_mm.z, 1),
                         formatNumber(m.station_mm, 0), formatNumber(m.from_caecum_mm, 0),
                         formatNumber(m.fraction * 100, 0) + " %", m.note});
-    std::printf("%s", formatTable({"ID", "SCAN", "COLOR", "LPS MM", "FROM RECTUM MM", "FROM CAECUM MM", "FRACTION",
-                                   "NOTE"},
-                                  rows)
-                          .c_str());
+    std::printf(
+        "%s",
+        formatTable({"ID", "SCAN", "COLOR", "LPS MM", "FROM RECTUM MM", "FROM CAECUM MM", "FRACTION", "NOTE"}, rows)
+            .c_str());
 }
 
 nlohmann::json listOf(const std::vector<Marker>& markers)
@@ -138,7 +139,9 @@ Subcommand markCommand()
     return {"mark", "Add a marker at a point of the colon", [](CLI::App& command) {
                 auto arguments = std::make_shared<MarkArguments>();
                 command.add_option("CASE", arguments->case_id, "The case's id")->required();
-                command.add_option("--scan", arguments->scan_id, "The scan; needed where the point lies in the colon of several")
+                command
+                    .add_option("--scan", arguments->scan_id,
+                                "The scan; needed where the point lies in the colon of several")
                     ->type_name("SCAN");
                 command.add_option("--at", arguments->at, "Position in LPS mm")->required()->type_name("X,Y,Z");
                 command.add_option("--color", arguments->color, "red, yellow or green")->capture_default_str();
@@ -149,21 +152,24 @@ Subcommand markCommand()
 
 Subcommand markersCommand()
 {
-    return {"markers", "List, change, remove, import or export the markers of a case", [](CLI::App& command) {
-                auto arguments = std::make_shared<MarkersArguments>();
-                command.add_option("CASE", arguments->case_id, "The case's id")->required();
-                command.add_option("--remove", arguments->remove, "Remove this marker")->type_name("ID");
-                auto* change = command.add_option("--change", arguments->change, "Change this marker")->type_name("ID");
-                command.add_option("--color", arguments->color, "Its new color")->needs(change);
-                auto* note = command.add_option("--note", arguments->note, "Its new note")->needs(change)->type_name("TEXT");
-                command.add_option("--at", arguments->at, "Its new position in LPS mm")->needs(change)->type_name("X,Y,Z");
-                command.add_option("--import", arguments->import_file, "Add the markers of a JSON file")->type_name("FILE");
-                command.add_option("--export", arguments->export_file, "Write all markers to a JSON file")->type_name("FILE");
-                return [arguments, note](Context& context) {
-                    arguments->change_note = note->count() > 0;
-                    return markers(context, *arguments);
-                };
-            }};
+    return {
+        "markers", "List, change, remove, import or export the markers of a case", [](CLI::App& command) {
+            auto arguments = std::make_shared<MarkersArguments>();
+            command.add_option("CASE", arguments->case_id, "The case's id")->required();
+            command.add_option("--remove", arguments->remove, "Remove this marker")->type_name("ID");
+            auto* change = command.add_option("--change", arguments->change, "Change this marker")->type_name("ID");
+            command.add_option("--color", arguments->color, "Its new color")->needs(change);
+            auto* note =
+                command.add_option("--note", arguments->note, "Its new note")->needs(change)->type_name("TEXT");
+            command.add_option("--at", arguments->at, "Its new position in LPS mm")->needs(change)->type_name("X,Y,Z");
+            command.add_option("--import", arguments->import_file, "Add the markers of a JSON file")->type_name("FILE");
+            command.add_option("--export", arguments->export_file, "Write all markers to a JSON file")
+                ->type_name("FILE");
+            return [arguments, note](Context& context) {
+                arguments->change_note = note->count() > 0;
+                return markers(context, *arguments);
+            };
+        }};
 }
 
 }  // namespace vicon::app

@@ -50,9 +50,9 @@ int printSubdivisionTable(CaseStore& store, const WorklistCase& c, const std::st
         const auto subdivision = artefact::readSubdivision(file);
         const auto& s = subdivision.statistics;
         const auto number = [&](const char* key, int decimals) { return formatNumber(s.value(key, 0.0), decimals); };
-        rows.push_back({scan.record.id, subdivision.method, number("specified_segments", 0),
-                        number("segments", 0), number("average_triangles", 0), number("largest_triangles", 0),
-                        number("smallest_triangles", 0), number("standard_deviation_triangles", 2)});
+        rows.push_back({scan.record.id, subdivision.method, number("specified_segments", 0), number("segments", 0),
+                        number("triangles_average", 0), number("triangles_largest", 0), number("smallest_triangles", 0),
+                        number("standard_deviation_triangles", 2)});
     }
     std::printf("%s", formatTable({"SCAN", "METHOD", "SPECIFIED", "SEGMENTS", "AVERAGE TRIANGLES", "LARGEST",
                                    "SMALLEST", "STANDARD DEVIATION"},

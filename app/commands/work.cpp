@@ -44,8 +44,8 @@ int work(Context& context, const WorkArguments& arguments)
                     reason.empty() ? "" : (", " + reason).c_str());
         std::fflush(stdout);
     };
-    const auto summary = pipeline::runWorker(store, queue_options, options, scanWork(store, context.config()), events,
-                                             stopRequested());
+    const auto summary =
+        pipeline::runWorker(store, queue_options, options, scanWork(store, context.config()), events, stopRequested());
     progress.clear();
     if (context.json)
         std::printf("{\"done\": %d, \"failed\": %d, \"waiting\": %d}\n", summary.done, summary.failed, summary.waiting);

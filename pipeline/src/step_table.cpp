@@ -1,5 +1,7 @@
 #include "step_table.h"
 
+#include <algorithm>
+
 #include "vicon/artefact/cells_file.h"
 #include "vicon/steps/cells.h"
 #include "vicon/steps/exit_distance.h"
@@ -109,8 +111,8 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
     artefacts.dropVolume();
     steps::countTriangles(divided.description, surface);
     artefact::writeCells(artefacts.folder() / "cells.vtp", surface);
-    steps::writeProjections(artefacts.folder() / "projections", surface);
-    project.report(1, "projections");
+    steps::writeProjections(artefacts.folder() / "projections", surface,
+                            inputs.config.get<steps::ProjectionOptions>(), project);
     artefact::writeSubdivision(artefacts.folder() / "subdivision.json", divided.description);
     json result = divided.description.statistics;
     result["method"] = divided.description.method;
@@ -145,8 +147,8 @@ const std::vector<Step>& stepTable()
          parametersFrom<SkeletonOptions>, runSkeleton},
         {"subdivide", 1, 0.65, 0.85, {"resample", "segment", "skeleton"},
          always({"segments.mha", "subdivision.json", "cells.vtp", "projections/coronal.png",
-                 "projections/transverse.png", "projections/sagittal.png"}),
-         parametersFrom<SubdivideOptions, CellOptions>, runSubdivide},
+                 "projections/transverse.png", "projections/sagittal.png", "projections/projections.json"}),
+         parametersFrom<SubdivideOptions, CellOptions, ProjectionOptions>, runSubdivide},
         {"potential", 1, 0.85, 1, {"segment", "skeleton"}, always({"exit_distance.mha", "wall_distance.mha"}),
          [](const Config&) { return json::object(); }, runPotential},
     };
@@ -162,6 +164,7 @@ std::vector<OptionSpec> stepOptionSpecs()
     add(specsOf<steps::SkeletonOptions>());
     add(specsOf<steps::SubdivideOptions>());
     add(specsOf<steps::CellOptions>());
+    add(specsOf<steps::ProjectionOptions>());
     return all;
 }
 

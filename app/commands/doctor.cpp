@@ -1,0 +1,108 @@
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "../command.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+#include "vicon/viewer/scene/display.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::app {
+namespace {
+
+constexpr double kLeastFreeGb = 5;    // a case of two scans takes about 2.5 GB
+constexpr double kLeastMemoryGb = 4;  // the pipeline's peak on 512 x 512 x 591 voxels is below 2 GB
+
+struct Check {
+    std::string name;
+    bool good;
+    std::string detail;
+};
+
+/// Runs a check; an Error is a finding, not the end.
+Check checked(const std::string& name, const std::function<std::string()>& check)
+{
+    try {
+        return {name, true, check()};
+    } catch (const std::exception& e) {
+        return {name, false, e.what()};
+    }
+}
+
+std::string formatGb(double gb)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f GB", gb);
+    return text;
+}
+
+std::string checkStore(Context& context)
+{
+    CaseStore& store = context.store();
+    const fs::path probe = store.folder() / ".doctor";
+    replaceFile(probe, "probe");
+    fs::remove(probe);
+    return store.folder().string() + ", schema version " + std::to_string(Database::kSchemaVersion);
+}
+
+std::string checkSpace(Context& context)
+{
+    struct statvfs info {};
+    if (::statvfs(context.storeFolder().c_str(), &info) != 0)
+        throw Error(ErrorCode::store, "free space cannot be found out", context.storeFolder().string());
+    const double gb = double(info.f_bavail) * double(info.f_frsize) / 1e9;
+    if (gb < kLeastFreeGb)
+        throw Error(ErrorCode::store, "only " + formatGb(gb) + " free", context.storeFolder().string(),
+                    "a case takes about 2.5 GB; make room");
+    return formatGb(gb) + " free";
+}
+
+std::string checkMemory()
+{
+    const double gb = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE)) / 1e9;
+    if (gb < kLeastMemoryGb)
+        throw Error(ErrorCode::no_memory, "only " + formatGb(gb) + " of memory", {}, "the pipeline wants 4 GB");
+    return formatGb(gb);
+}
+
+std::string checkDisplay()
+{
+    const viewer::Display display;
+    return display.isPrivate() ? "private Xvfb " + display.name() : display.name();
+}
+
+int doctor(Context& context)
+{
+    const std::vector<Check> checks = {
+        checked("configuration", [&] { return std::to_string(context.config().specs().size()) + " options"; }),
+        checked("store", [&] { return checkStore(context); }),
+        checked("disk space", [&] { return checkSpace(context); }),
+        checked("memory", [] { return checkMemory(); }),
+        checked("display", [] { return checkDisplay(); }),
+    };
+    bool all_good = true;
+    nlohmann::json list = nlohmann::json::array();
+    for (const Check& check : checks) {
+        all_good = all_good && check.good;
+        list.push_back({{"check", check.name}, {"good", check.good}, {"detail", check.detail}});
+        if (!context.json)
+            std::printf("%-4s %-14s %s\n", check.good ? "ok" : "BAD", check.name.c_str(), check.detail.c_str());
+    }
+    if (context.json)
+        std::printf("%s\n", nlohmann::json{{"checks", list}}.dump(2).c_str());
+    return all_good ? 0 : 1;
+}
+
+}  // namespace
+
+Subcommand doctorCommand()
+{
+    return {"doctor", "Check that everything that VICON needs works here",
+            [](CLI::App&) { return [](Context& context) { return doctor(context); }; }};
+}
+
+}  // namespace vicon::app

@@ -1,0 +1,90 @@
+#include "vicon/viewer/scene/flight.h"
+
+#include <cstdio>
+
+#include "../command.h"
+#include "../marking.h"
+#include "../progress_line.h"
+#include "vicon/core/error.h"
+
+namespace vicon::app {
+namespace {
+
+struct FlyArguments {
+    std::string case_id, scan_id, direction = "caecum", out;
+    viewer::FlightRequest request;
+};
+
+viewer::FlightRequest::Direction directionFrom(const std::string& name)
+{
+    using Direction = viewer::FlightRequest::Direction;
+    if (name == "caecum")
+        return Direction::to_caecum;
+    if (name == "rectum")
+        return Direction::to_rectum;
+    if (name == "both")
+        return Direction::both;
+    throw Error(ErrorCode::wrong_use, "must be caecum, rectum or both", "--to");
+}
+
+int fly(Context& context, const FlyArguments& arguments)
+{
+    CaseStore& store = context.existingStore();
+    const CaseRecord record = store.requireCase(arguments.case_id);
+    const ScanRecord scan = requirePreparedScan(store, record.id, arguments.scan_id);
+    viewer::FlightRequest request = arguments.request;
+    request.direction = directionFrom(arguments.direction);
+    request.out = arguments.out;
+    request.write_frames = !arguments.out.empty();
+    request.caption = viewer::captionFor(record, scan);
+    for (Marker& marker : store.markers(record.id))
+        if (marker.scan_id == scan.id)
+            request.markers.push_back(std::move(marker));
+    const auto prepared = viewer::PreparedScan::open(store.scanFolder(record.id, scan.id));
+    ProgressLine progress("fly");
+    const viewer::FlightReport report = viewer::fly(prepared, request, progress);
+    progress.clear();
+    if (context.json) {
+        std::printf("%s\n", toJson(report).dump(2).c_str());
+        return 0;
+    }
+    std::printf("%zu frames over %.0f mm; %.1f %% of the surface seen\n", report.frames.size(), report.length_mm,
+                report.coverage * 100);
+    std::printf("cells drawn %.1f of %zu, triangles drawn %.0f of %zu on average; frame %.1f ms median\n",
+                report.average_cells, report.cells, report.average_triangles, report.triangles,
+                report.median_seconds * 1e3);
+    if (!arguments.out.empty())
+        std::printf("%s\n", arguments.out.c_str());
+    return 0;
+}
+
+}  // namespace
+
+Subcommand flyCommand()
+{
+    return {
+        "fly", "Fly through a scan along its skeleton: frames, poses, coverage and figures", [](CLI::App& command) {
+            auto arguments = std::make_shared<FlyArguments>();
+            viewer::FlightRequest& request = arguments->request;
+            command.add_option("CASE", arguments->case_id, "The case's id")->required();
+            command.add_option("--scan", arguments->scan_id, "The scan (default: the first prepared one)")
+                ->type_name("SCAN");
+            command.add_option("--to", arguments->direction, "Where to: caecum, rectum or both")->capture_default_str();
+            command.add_option("--step", request.step_mm, "Distance between frames, mm")
+                ->check(CLI::Range(0.1, 1000.0))
+                ->capture_default_str();
+            command.add_option("--frames", request.frames, "Number of frames in each direction, instead of --step")
+                ->check(CLI::Range(2, 100000));
+            command.add_option("--width", request.width, "Pixels of a frame")->check(CLI::Range(64, 4096));
+            command.add_option("--height", request.height, "Pixels of a frame")->check(CLI::Range(64, 4096));
+            command.add_option("--angle", request.view_angle_deg, "Viewing angle, degrees")
+                ->check(CLI::Range(20, 150))
+                ->capture_default_str();
+            command.add_flag("!--no-coverage", request.measure_coverage, "Do not measure what is seen (faster)");
+            command.add_flag("!--no-culling", request.cull, "Draw every cell in every frame");
+            command.add_option("--out", arguments->out, "Folder for the frames and flight.json")->type_name("DIR");
+            return [arguments](Context& context) { return fly(context, *arguments); };
+        }};
+}
+
+}  // namespace vicon::app

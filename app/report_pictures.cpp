@@ -1,0 +1,142 @@
+#include "report_pictures.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "vicon/core/error.h"
+#include "vicon/viewer/scene/display.h"
+#include "vicon/viewer/scene/snapshot.h"
+
+namespace fs = std::filesystem;
+using vicon::viewer::SnapshotRequest;
+
+namespace vicon::app {
+namespace {
+
+constexpr int kEndoscopicSide = 900;
+constexpr int kSlicesWidth = 1200, kSlicesHeight = 900;
+constexpr int kOverviewWidth = 900, kOverviewHeight = 1100;
+
+std::vector<Marker> markersOf(CaseStore& store, const ScanRecord& scan)
+{
+    std::vector<Marker> markers = store.markers(scan.case_id);
+    std::erase_if(markers, [&](const Marker& m) { return m.scan_id != scan.id; });
+    std::stable_sort(markers.begin(), markers.end(),
+                     [](const Marker& a, const Marker& b) { return a.station_mm < b.station_mm; });
+    return markers;
+}
+
+bool hasColon(const fs::path& folder)
+{
+    return fs::exists(folder / "cells.vtp") && fs::exists(folder / "skeleton.vtp");
+}
+
+std::string labelOf(const ScanRecord& scan)
+{
+    return positionName(scan.series.patient_position) + " (series " + std::to_string(scan.series.number) + ")";
+}
+
+SnapshotRequest requestFor(SnapshotRequest::View view, const CaseRecord& record, const ScanRecord& scan, int width,
+                           int height)
+{
+    SnapshotRequest request;
+    request.view = view;
+    request.caption = viewer::captionFor(record, scan);
+    request.width = width;
+    request.height = height;
+    return request;
+}
+
+report::ScanEntry describeScan(CaseStore& store, const ScanRecord& scan)
+{
+    report::ScanEntry entry{.scan = scan};
+    const nlohmann::json about = store.describeScan(scan.case_id, scan.id);
+    entry.verdict = about.value("verdict", "");
+    entry.confidence = about.value("confidence", 0.0);
+    entry.quality = about.value("quality", nlohmann::json::object());
+    entry.bridges = about.value("bridges", nlohmann::json::array());
+    for (const StepRecord& step : store.steps(scan.case_id, scan.id)) {
+        if (step.step == "segment")
+            entry.reason = step.result.value("reason", "");
+        if (step.step == "skeleton")
+            entry.skeleton_length_mm = step.result.value("length_mm", 0.0);
+    }
+    return entry;
+}
+
+}  // namespace
+
+PictureFolder::PictureFolder()
+{
+    std::string name = (fs::temp_directory_path() / "vicon-report-XXXXXX").string();
+    if (!::mkdtemp(name.data()))
+        throw Error(ErrorCode::store, "a temporary folder cannot be made", name);
+    path_ = name;
+}
+
+PictureFolder::~PictureFolder()
+{
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+std::vector<report::ScanEntry> drawScans(CaseStore& store, const CaseRecord& record, const PictureFolder& pictures,
+                                         Progress& progress)
+{
+    const viewer::Display display;
+    std::vector<report::ScanEntry> entries;
+    for (const ScanRecord& scan : store.scans(record.id)) {
+        if (scan.role != "scan")
+            continue;
+        progress.check();
+        progress.report(0, "overview of " + scan.id);
+        report::ScanEntry entry = describeScan(store, scan);
+        const fs::path folder = store.scanFolder(record.id, scan.id);
+        if (hasColon(folder)) {
+            auto request = requestFor(SnapshotRequest::View::overview, record, scan, kOverviewWidth, kOverviewHeight);
+            request.markers = markersOf(store, scan);
+            entry.overview_picture = pictures / (scan.id + "-overview.png");
+            viewer::renderSnapshot(viewer::PreparedScan::open(folder), request, entry.overview_picture);
+        }
+        entries.push_back(std::move(entry));
+    }
+    return entries;
+}
+
+std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const CaseRecord& record,
+                                             const std::vector<report::ScanEntry>& scans, const PictureFolder& pictures,
+                                             Progress& progress)
+{
+    const viewer::Display display;
+    std::vector<report::MarkerEntry> entries;
+    const double all = double(store.markers(record.id).size());
+    for (const report::ScanEntry& scan_entry : scans) {
+        const ScanRecord& scan = scan_entry.scan;
+        const std::vector<Marker> markers = markersOf(store, scan);
+        if (markers.empty())
+            continue;
+        const auto prepared = viewer::PreparedScan::open(store.scanFolder(record.id, scan.id));
+        for (const Marker& marker : markers) {
+            progress.check();
+            progress.report(double(entries.size()) / all, "pictures of marker " + marker.id);
+            report::MarkerEntry entry{.marker = marker, .scan_label = labelOf(scan)};
+            entry.part_name = marker.extra.value("part", "");
+            const auto draw = [&](SnapshotRequest::View view, int width, int height, const std::string& name) {
+                auto request = requestFor(view, record, scan, width, height);
+                request.look_at_mm = marker.position_mm;
+                request.station_mm = marker.station_mm;
+                request.markers = {marker};
+                viewer::renderSnapshot(prepared, request, pictures / name);
+                return pictures / name;
+            };
+            entry.endoscopic_picture =
+                draw(SnapshotRequest::View::endo, kEndoscopicSide, kEndoscopicSide, marker.id + "-endo.png");
+            entry.slices_picture =
+                draw(SnapshotRequest::View::slices, kSlicesWidth, kSlicesHeight, marker.id + "-slices.png");
+            entries.push_back(std::move(entry));
+        }
+    }
+    return entries;
+}
+
+}  // namespace vicon::app
