@@ -2,6 +2,8 @@
 
 #include <itkMetaImageIO.h>
 
+#include <cstring>
+#include <fstream>
 #include <new>
 
 #include "vicon/core/error.h"
@@ -54,6 +56,27 @@ Grid gridOf(itk::MetaImageIO& io)
     return grid;
 }
 
+/// The reader fills what a cut-off file lacks with zeros and says nothing, so the file's length is checked before.
+void requireWholeFile(const fs::path& file, std::size_t voxel_bytes)
+{
+    std::string head(4096, '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(head.data(), std::streamsize(head.size()));
+    head.resize(std::size_t(in.gcount()));
+    const auto value = [&](const std::string& key) -> std::string {
+        const auto at = head.find(key + " = ");
+        return at == std::string::npos ? ""
+                                       : head.substr(at + key.size() + 3, head.find('\n', at) - at - key.size() - 3);
+    };
+    const auto local = head.find("ElementDataFile = LOCAL\n");
+    if (local == std::string::npos)
+        return;  // voxels in another file: not written by us, and the reader's business
+    const std::string packed = value("CompressedDataSize");
+    const std::size_t data = packed.empty() ? voxel_bytes : std::stoull(packed);
+    if (fs::file_size(file) < local + std::strlen("ElementDataFile = LOCAL\n") + data)
+        throw Error(ErrorCode::bad_input, "is cut off", file.string(), "run 'vicon work' to make it anew");
+}
+
 }  // namespace
 
 template <class T>
@@ -99,6 +122,7 @@ Volume<T> readVolume(const fs::path& file)
         throw Error(ErrorCode::bad_input, "has another voxel type than expected", file.string());
     Volume<T> volume;
     volume.grid = gridOf(*io);
+    requireWholeFile(file, volume.grid.voxelCount() * sizeof(T));
     itk::ImageIORegion region(3);
     for (unsigned a = 0; a < 3; ++a)
         region.SetSize(a, std::size_t(volume.grid.size[a]));

@@ -21,9 +21,16 @@ protected:
     void addScan(const std::string& scan_id)
     {
         fs::create_directories(store_.scanFolder("c1", scan_id));
-        store_.addScan({.id = "c1", .patient = {"P1", "Doe^Jane", "19500101", "F"}, .study = {.uid = "1.2"}},
-                       {.id = scan_id, .case_id = "c1", .series = {.uid = "1.2." + scan_id, .patient_position = "HFP"}},
-                       {{"1.2.9." + scan_id, "c1", scan_id, "hash", "a.dcm"}}, true);
+        CaseRecord a_case;
+        a_case.id = "c1";
+        a_case.patient = {"P1", "Doe^Jane", "19500101", "F"};
+        a_case.study.uid = "1.2";
+        ScanRecord scan;
+        scan.id = scan_id;
+        scan.case_id = "c1";
+        scan.series.uid = "1.2." + scan_id;
+        scan.series.patient_position = "HFP";
+        store_.addScan(a_case, scan, {{"1.2.9." + scan_id, "c1", scan_id, "hash", "a.dcm"}}, true);
     }
 };
 
