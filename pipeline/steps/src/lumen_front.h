@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "vicon/core/volume.h"
+
+namespace vicon::steps {
+
+/// Fronts that run through the inside voxels at unit speed: the first-order upwind solution of |grad T| = 1 between
+/// 6-neighbours. Voxels wait in buckets half a voxel wide instead of a heap and are corrected when a better value
+/// turns up later, so the fixed point is that of fast marching. Every voxel also carries a label.
+class LumenFront {
+public:
+    static constexpr float kOutsideTime = -1;
+    static constexpr float kUnreached = std::numeric_limits<float>::max();
+    static constexpr std::uint16_t kNoLabel = 0;
+
+    enum class Labels {
+        adopt,  ///< a voxel takes the label of the neighbour that its front comes from
+        fixed,  ///< labels stay, and a front passes only between labels that differ by at most kSpan
+    };
+    static constexpr int kSpan = 2;
+
+    /// Throws Error{no_memory}. `inside` must outlive the front.
+    explicit LumenFront(const InsideVolume& inside);
+
+    /// Makes all inside voxels unreached again; labels stay.
+    void restart();
+    /// Lets a front start from an inside voxel, unless one that is earlier has passed it.
+    void seed(std::size_t voxel, float time_mm);
+    void seed(std::size_t voxel, float time_mm, std::uint16_t label);
+    /// Runs until nothing moves. Labels::adopt overwrites labels of the voxels it reaches.
+    void run(Labels labels);
+    /// Goes on over edges and corners of voxels, which the 6-neighbour front does not pass, as far as that leads.
+    void runOverCorners(Labels labels);
+
+    /// Inside voxels that no front has reached, in order.
+    std::vector<std::uint32_t> unreached() const;
+    /// The unreached voxels 26-connected to an unreached one, in the order they were found.
+    std::vector<std::uint32_t> componentOf(std::uint32_t voxel);
+
+    const Grid& grid() const { return inside_.grid; }
+    FieldVolume time;                  ///< mm; kOutsideTime, kUnreached
+    std::vector<std::uint16_t> label;  ///< of every voxel, kNoLabel where none was given
+
+private:
+    template <Labels labels>
+    void drain();
+    template <Labels labels>
+    void relax(std::uint32_t voxel, int i, int j, int k, std::size_t bucket);
+    void push(std::uint32_t voxel, float time_mm, std::size_t not_before);
+    std::size_t bucketOf(float time_mm) const { return std::size_t(time_mm * per_bucket_); }
+
+    const InsideVolume& inside_;
+    std::array<float, 3> square_;  ///< of the spacings, mm^2
+    float tolerance_mm_;
+    float per_bucket_;
+    std::vector<std::vector<std::uint32_t>> buckets_;
+    std::vector<bool> seen_;  ///< of componentOf(), all false between calls
+};
+
+/// The inside voxel whose centre is nearest to a point. Throws Error{bad_input} when there is none.
+std::size_t nearestInside(const InsideVolume& inside, Point3 point);
+
+}  // namespace vicon::steps
