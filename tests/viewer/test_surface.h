@@ -1,0 +1,15 @@
+#pragma once
+
+#include <functional>
+
+#include "vicon/artefact/cells_file.h"
+#include "vicon/core/geometry.h"
+
+namespace vicon::viewer::test {
+
+/// The zero surface of a field sampled on a grid, normals from the field's gradient towards where it falls, triangles
+/// sorted by segment, front side towards where the field is below 0.
+artefact::CellSurface surfaceOf(const Grid& grid, const std::function<double(Point3)>& field,
+                                const std::function<int(Point3)>& segment);
+
+}  // namespace vicon::viewer::test

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vicon/core/records.h"
+#include "vicon/core/skeleton.h"
+#include "vicon/viewer/model/overlay.h"
+
+namespace vicon::viewer {
+
+inline constexpr Rgb kLetterColor{255, 214, 102};
+inline constexpr Rgb kTextColor{235, 235, 235};
+inline constexpr Rgb kWarningColor{255, 120, 40};
+inline constexpr Rgb kCrosshairColor{90, 200, 250};
+inline constexpr Rgb kPathColor{120, 235, 255};
+inline constexpr Rgb kBridgeColor{255, 90, 220};
+inline constexpr Rgb kHereColor{255, 255, 255};
+Rgb colorOf(MarkerColor color);
+
+/// Height of text that reads well in a picture of this size, in pixels.
+double textHeightFor(int width, int height);
+
+/// The letters of the four sides of a picture whose axes are these, in the middle of each edge of `area`.
+void addLetters(Overlay& overlay, const Area& area, Vector3 right, Vector3 down, double text_px);
+
+/// A bar of a round number of centimetres or millimetres, with its length, ending at the lower right corner of `area`.
+void addScaleBar(Overlay& overlay, const Area& area, double mm_per_pixel, double text_px);
+
+/// Six letters around a point, as they lie seen from the eye; those that point away from it are dim.
+void addTriad(Overlay& overlay, Pixel centre, double radius_px, const Pose& pose, double text_px);
+
+/// Lines of text from the upper left corner of `area`, none wider than it.
+void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>& lines, double text_px);
+
+/// A ring around a marker with its id beside it; the middle stays free.
+void addMarkerRing(Overlay& overlay, Pixel at, double radius_px, const Marker& marker, double text_px);
+
+/// Cross lines through a point over `area`, with a gap that leaves the point free.
+void addCrosshair(Overlay& overlay, const Area& area, Pixel at, double gap_px);
+
+/// The skeleton's pieces solid, its bridges dashed in another colour.
+void addSkeleton(Overlay& overlay, const Skeleton& skeleton, const PlaneView& view, double width_px);
+
+/// An arrow head at a place, pointing where the eye looks; a ring where it looks along the direction of view.
+void addHere(Overlay& overlay, const PlaneView& view, const Pose& pose, double size_px);
+
+/// "412 mm from the rectum, 1180 mm from the caecum (26 %)".
+std::string stationText(double station_mm, double length_mm);
+
+/// A DICOM name ("Family^Given=…=…") as people write it: the component groups beside each other.
+std::string personName(const std::string& dicom_name);
+
+/// "20261121" as "2026-11-21"; anything else unchanged.
+std::string dateText(const std::string& dicom_date);
+
+}  // namespace vicon::viewer

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "vicon/core/skeleton.h"
+#include "vicon/viewer/model/camera.h"
+
+namespace vicon::viewer {
+
+/// A place on the path with a frame that turns no more about the path than the path's bends ask for.
+struct PathFrame {
+    Point3 position_mm;
+    Vector3 forward;  ///< unit vector towards the caecum
+    Vector3 up;       ///< orthogonal to it
+    double radius_mm = 0;
+    bool on_bridge = false;
+};
+
+/// Rotation-minimising frames along a skeleton, by double reflection (Wang, Jüttler, Zheng, Liu: Computation of
+/// Rotation Minimizing Frames, ACM Transactions on Graphics 27(1), 2008). At the rectum up is anterior as far as the
+/// path allows.
+class PathFrames {
+public:
+    /// @param step_mm distance of the frames that are kept
+    /// @param window_mm length of curve that a direction is taken over: long enough that the picture does not shake
+    explicit PathFrames(const Skeleton& skeleton, double step_mm = 1, double window_mm = 12);
+
+    double length_mm() const { return length_mm_; }
+    /// The frame at a station, interpolated; stations outside are clamped to the ends.
+    PathFrame at(double station_mm) const;
+
+private:
+    std::vector<PathFrame> frames_;
+    double step_mm_ = 1;
+    double length_mm_ = 0;
+};
+
+}  // namespace vicon::viewer

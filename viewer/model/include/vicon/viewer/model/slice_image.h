@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "vicon/core/volume.h"
+#include "vicon/viewer/model/camera.h"
+#include "vicon/viewer/model/orientation.h"
+
+namespace vicon::viewer {
+
+/// Densities in the plane of a picture, row by row from the top, trilinear between voxels; kPaddingHu outside the
+/// scan. The plane may lie in any direction, and so may the scan's axes.
+std::vector<float> sliceDensities(const HuVolume& volume, const PlaneView& view);
+
+/// The orthogonal slice through `point` that shows the whole scan, or, with `field_mm` above 0, that much of it around
+/// the point.
+PlaneView sliceThrough(const Grid& grid, SlicePlane plane, Point3 point, int width, int height, double field_mm = 0);
+
+/// The smallest box around a grid, in patient coordinates.
+struct Bounds {
+    Point3 lower_mm, upper_mm;
+    Point3 centre_mm() const { return interpolate(lower_mm, upper_mm, 0.5); }
+};
+Bounds boundsOf(const Grid& grid);
+
+}  // namespace vicon::viewer

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "vicon/viewer/model/lumen.h"
+#include "vicon/viewer/model/path_frames.h"
+
+namespace vicon::viewer {
+
+/// What a good view of a point asks for. Chosen on bent tubes with folds (radius 8 to 25 mm) and a real prone scan.
+struct ViewPoseOptions {
+    double camera_radius_mm = 2;    ///< the eye keeps this from the wall wherever the lumen is wide enough
+    double least_distance_mm = 15;  ///< from eye to point, where there is room
+    double most_distance_mm = 45;
+    double distance_per_radius = 1.7;  ///< wanted distance over the lumen's radius: folds in front, point not grazed
+};
+
+/// An eye in the lumen and what is known of it.
+struct ViewPose {
+    Pose pose;
+    double station_mm = 0;    ///< of the place on the path from which it looks
+    double clearance_mm = 0;  ///< distance of the eye from the wall
+    bool sees_target = true;  ///< false: no place was found from which the point is in plain view
+};
+
+/// Which way along the path.
+enum class Heading { caecum, rectum };
+
+/// Looking along the path from a station. On a bridge or where the lumen is narrower than the
+/// camera, from the nearest station that is not.
+/// Throws Error{unusable_scan} when no station of the path lies in the lumen.
+ViewPose poseAtStation(const PathFrames& path, const Lumen& lumen, double station_mm, Heading heading = Heading::caecum,
+                       const ViewPoseOptions& options = {});
+
+/// Looking at a point on or near the wall, from the path before it (towards the rectum) where that sees it, else from
+/// behind it, else from beside the path, else from straight above the wall. The point projects to the middle.
+/// Throws Error{unusable_scan} when no station of the path lies in the lumen.
+ViewPose poseForPoint(const Skeleton& skeleton, const PathFrames& path, const Lumen& lumen, Point3 point_mm,
+                      const ViewPoseOptions& options = {});
+
+}  // namespace vicon::viewer

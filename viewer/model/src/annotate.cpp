@@ -1,0 +1,234 @@
+#include "vicon/viewer/model/annotate.h"
+
+#include <algorithm>
+#include <array>
+
+#include "vicon/viewer/model/orientation.h"
+
+namespace vicon::viewer {
+namespace {
+
+OverlayText text(Pixel at, std::string words, double height_px, Rgb color, Across across, Along along)
+{
+    return {at, std::move(words), height_px, color, across, along};
+}
+
+Rgb dimmed(Rgb c, double share)
+{
+    return {std::uint8_t(c.red * share), std::uint8_t(c.green * share), std::uint8_t(c.blue * share)};
+}
+
+// The largest of 1, 2, 5 times a power of ten that is not above `most`.
+double roundLength(double most)
+{
+    const double ten = std::pow(10.0, std::floor(std::log10(most)));
+    for (const double factor : {5.0, 2.0})
+        if (factor * ten <= most)
+            return factor * ten;
+    return ten;
+}
+
+std::string lengthText(double mm)
+{
+    const auto plain = [](double v) {
+        std::string s = std::to_string(v);
+        s.erase(s.find_last_not_of('0') + 1);
+        if (s.ends_with('.'))
+            s.pop_back();
+        return s;
+    };
+    return mm >= 10 ? plain(mm / 10) + " cm" : plain(mm) + " mm";
+}
+
+std::string trimmed(const std::string& s)
+{
+    const auto first = s.find_first_not_of(' ');
+    return first == std::string::npos ? "" : s.substr(first, s.find_last_not_of(' ') - first + 1);
+}
+
+std::vector<std::string> split(const std::string& s, char at)
+{
+    std::vector<std::string> parts{""};
+    for (const char c : s)
+        if (c == at)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    return parts;
+}
+
+// Family, given, middle, prefix, suffix.
+std::string groupText(const std::string& group)
+{
+    const auto parts = split(group, '^');
+    const auto part = [&](std::size_t n) { return n < parts.size() ? trimmed(parts[n]) : std::string(); };
+    std::string others;
+    for (const std::size_t n : {3, 1, 2, 4})
+        if (!part(n).empty())
+            others += (others.empty() ? "" : " ") + part(n);
+    if (part(0).empty() || others.empty())
+        return part(0) + others;
+    return part(0) + ", " + others;
+}
+
+}  // namespace
+
+Rgb colorOf(MarkerColor color)
+{
+    switch (color) {
+        case MarkerColor::red:
+            return {255, 48, 48};
+        case MarkerColor::yellow:
+            return {255, 230, 0};
+        default:
+            return {40, 220, 70};
+    }
+}
+
+double textHeightFor(int width, int height)
+{
+    return std::clamp(std::min(width, height) / 38.0, 10.0, 40.0);
+}
+
+void addLetters(Overlay& overlay, const Area& area, Vector3 right, Vector3 down, double text_px)
+{
+    const double margin = text_px * 0.35;
+    const Pixel c = area.centre();
+    const double big = text_px * 1.25;
+    auto& texts = overlay.texts;
+    texts.push_back(text({area.x + margin, c.y}, lettersFor(-right), big, kLetterColor, Across::left, Along::middle));
+    texts.push_back(
+        text({area.right() - margin, c.y}, lettersFor(right), big, kLetterColor, Across::right, Along::middle));
+    texts.push_back(text({c.x, area.y + margin}, lettersFor(-down), big, kLetterColor, Across::centre, Along::top));
+    texts.push_back(
+        text({c.x, area.bottom() - margin}, lettersFor(down), big, kLetterColor, Across::centre, Along::bottom));
+}
+
+void addScaleBar(Overlay& overlay, const Area& area, double mm_per_pixel, double text_px)
+{
+    const double bar_mm = roundLength(area.width * mm_per_pixel * 0.3);
+    const double bar_px = bar_mm / mm_per_pixel;
+    const Pixel end{area.right() - text_px, area.bottom() - text_px * 0.8};
+    const Pixel begin{end.x - bar_px, end.y};
+    const double tick = text_px * 0.3;
+    overlay.lines.push_back({{{begin.x, begin.y - tick}, begin, end, {end.x, end.y - tick}}, kTextColor, 1.5, 0});
+    overlay.texts.push_back(text({(begin.x + end.x) / 2, end.y - tick - 1}, lengthText(bar_mm), text_px, kTextColor,
+                                 Across::centre, Along::bottom));
+}
+
+void addTriad(Overlay& overlay, Pixel centre, double radius_px, const Pose& pose, double text_px)
+{
+    struct Axis {
+        Vector3 direction;
+        double away;
+    };
+    std::array<Axis, 6> axes;
+    for (int n = 0; n < 6; ++n) {
+        const double sign = n % 2 ? -1 : 1;
+        const Vector3 d{n / 2 == 0 ? sign : 0, n / 2 == 1 ? sign : 0, n / 2 == 2 ? sign : 0};
+        axes[std::size_t(n)] = {d, dot(d, pose.forward)};
+    }
+    std::stable_sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.away > b.away; });
+    overlay.discs.push_back({centre, radius_px * 1.35, dimmed(kTextColor, 0.5), 1});
+    for (const Axis& axis : axes) {
+        const double x = dot(axis.direction, pose.right()), y = -dot(axis.direction, pose.up);
+        const Rgb color = dimmed(kLetterColor, axis.away > 0.3 ? 0.55 : 1.0);
+        overlay.lines.push_back({{centre, {centre.x + x * radius_px * 0.72, centre.y + y * radius_px * 0.72}},
+                                 color,
+                                 axis.away > 0.3 ? 1.0 : 1.8,
+                                 0});
+        overlay.texts.push_back(text({centre.x + x * radius_px, centre.y + y * radius_px},
+                                     std::string{letterFor(axis.direction)}, text_px, color, Across::centre,
+                                     Along::middle));
+    }
+}
+
+void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>& lines, double text_px)
+{
+    const double margin = text_px * 0.4;
+    double y = area.y + margin;
+    for (OverlayText line : lines) {
+        line.at = {area.x + margin, y};
+        line.height_px = text_px;
+        line.across = Across::left;
+        line.along = Along::top;
+        line.most_width_px = area.width - 2 * margin;
+        overlay.texts.push_back(line);
+        y += text_px * 1.35;
+    }
+}
+
+void addMarkerRing(Overlay& overlay, Pixel at, double radius_px, const Marker& marker, double text_px)
+{
+    const Rgb color = colorOf(marker.color);
+    overlay.discs.push_back({at, radius_px, color, 2});
+    overlay.texts.push_back(text({at.x + radius_px * 0.75 + 2, at.y - radius_px * 0.75 - 1}, marker.id, text_px, color,
+                                 Across::left, Along::bottom));
+}
+
+void addCrosshair(Overlay& overlay, const Area& area, Pixel at, double gap_px)
+{
+    const auto line = [&](Pixel a, Pixel b) { overlay.lines.push_back({{a, b}, kCrosshairColor, 1, 0}); };
+    if (at.y >= area.y && at.y <= area.bottom()) {
+        line({area.x, at.y}, {std::max(area.x, at.x - gap_px), at.y});
+        line({std::min(area.right(), at.x + gap_px), at.y}, {area.right(), at.y});
+    }
+    if (at.x >= area.x && at.x <= area.right()) {
+        line({at.x, area.y}, {at.x, std::max(area.y, at.y - gap_px)});
+        line({at.x, std::min(area.bottom(), at.y + gap_px)}, {at.x, area.bottom()});
+    }
+}
+
+void addSkeleton(Overlay& overlay, const Skeleton& skeleton, const PlaneView& view, double width_px)
+{
+    for (const SkeletonPiece& piece : skeleton.pieces) {
+        OverlayLine line{{}, piece.bridge ? kBridgeColor : kPathColor, width_px, piece.bridge ? 4 * width_px : 0};
+        for (const SkeletonPoint& p : piece.points)
+            line.points.push_back(view.toPixel(p.position_mm));
+        overlay.lines.push_back(std::move(line));
+    }
+}
+
+void addHere(Overlay& overlay, const PlaneView& view, const Pose& pose, double size_px)
+{
+    const Pixel at = view.toPixel(pose.eye_mm);
+    const double x = dot(pose.forward, view.right), y = dot(pose.forward, view.down);
+    const double share = std::hypot(x, y);
+    overlay.discs.push_back({at, size_px * 0.45, kHereColor, 2});
+    if (share < 0.2)
+        return;
+    const double ux = x / share, uy = y / share, reach = size_px * (0.8 + 1.6 * share), half = size_px * 0.5;
+    const Pixel tip{at.x + ux * reach, at.y + uy * reach};
+    const Pixel neck{tip.x - ux * size_px * 0.8, tip.y - uy * size_px * 0.8};
+    overlay.lines.push_back({{{at.x + ux * size_px * 0.45, at.y + uy * size_px * 0.45}, tip}, kHereColor, 2, 0});
+    overlay.lines.push_back(
+        {{{neck.x - uy * half, neck.y + ux * half}, tip, {neck.x + uy * half, neck.y - ux * half}}, kHereColor, 2, 0});
+}
+
+std::string stationText(double station_mm, double length_mm)
+{
+    const auto whole = [](double mm) { return std::to_string(std::lround(mm)); };
+    const double share = length_mm > 0 ? 100 * station_mm / length_mm : 0;
+    return whole(station_mm) + " mm from the rectum, " + whole(length_mm - station_mm) + " mm from the caecum (" +
+           whole(share) + " %)";
+}
+
+std::string personName(const std::string& dicom_name)
+{
+    std::string name;
+    for (const std::string& group : split(dicom_name, '=')) {
+        const std::string words = groupText(group);
+        if (!words.empty())
+            name += (name.empty() ? "" : " / ") + words;
+    }
+    return name;
+}
+
+std::string dateText(const std::string& d)
+{
+    if (d.size() != 8 || d.find_first_not_of("0123456789") != std::string::npos)
+        return d;
+    return d.substr(0, 4) + "-" + d.substr(4, 2) + "-" + d.substr(6);
+}
+
+}  // namespace vicon::viewer

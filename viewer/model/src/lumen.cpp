@@ -1,0 +1,92 @@
+#include "vicon/viewer/model/lumen.h"
+
+#include <algorithm>
+
+#include "vicon/core/error.h"
+
+namespace vicon::viewer {
+
+Lumen::Lumen(const InsideVolume& inside, const FieldVolume& wall_distance) : inside_(&inside), wall_(&wall_distance)
+{
+    if (inside.grid != wall_distance.grid)
+        throw Error(ErrorCode::bad_input, "the inside voxels and the wall distance lie on different grids", {},
+                    "run 'vicon work' to make them anew");
+    const auto& s = inside.grid.spacing_mm;
+    half_diagonal_mm_ = std::hypot(s[0], s[1], s[2]) / 2;
+    step_mm_ = std::min({s[0], s[1], s[2]}) / 2;
+}
+
+bool Lumen::inside(Point3 p) const
+{
+    return inside_->valueOr(inside_->grid.indexAt(p), std::uint8_t(kOutside)) != kOutside;
+}
+
+double Lumen::clearance_mm(Point3 p) const
+{
+    const ContinuousIndex3 c = wall_->grid.continuousIndexAt(p);
+    const Index3 v{int(std::floor(c.i)), int(std::floor(c.j)), int(std::floor(c.k))};
+    const double a = c.i - v.i, b = c.j - v.j, d = c.k - v.k;
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
+        const double weight = (i ? a : 1 - a) * (j ? b : 1 - b) * (k ? d : 1 - d);
+        if (weight > 0)
+            sum += weight * wallAt({v.i + i, v.j + j, v.k + k});
+    }
+    return sum;
+}
+
+Vector3 Lumen::clearanceGradient(Point3 p) const
+{
+    Vector3 gradient;
+    for (int a = 0; a < 3; ++a) {
+        const Vector3 axis = wall_->grid.axis[a];
+        const double h = wall_->grid.spacing_mm[a];
+        gradient += axis * ((clearance_mm(p + axis * h) - clearance_mm(p - axis * h)) / (2 * h));
+    }
+    return gradient;
+}
+
+bool Lumen::sees(Point3 from, Point3 to, double allowance_mm) const
+{
+    const double whole = distance(from, to);
+    const double end = whole - allowance_mm;
+    if (!inside(from))
+        return false;
+    const Vector3 direction = whole > 0 ? (to - from) / whole : Vector3{};
+    double at = 0;
+    while (at < end) {
+        const Point3 p = from + direction * at;
+        if (!inside(p))
+            return false;
+        // The field belongs to the voxel's middle, at most half a diagonal away; beyond that the ball is free of wall.
+        const double free = wallAt(wall_->grid.indexAt(p)) - 2 * half_diagonal_mm_;
+        at += std::max(step_mm_, free);
+    }
+    return end <= 0 || inside(from + direction * end);
+}
+
+Lumen::Nearest Lumen::nearestInside(Point3 p, double within_mm) const
+{
+    if (inside(p))
+        return {true, p, 0};
+    Nearest best;
+    best.distance_mm = within_mm;
+    const Grid& g = inside_->grid;
+    const Index3 middle = g.indexAt(p);
+    const std::array<int, 3> reach{int(within_mm / g.spacing_mm[0]) + 1, int(within_mm / g.spacing_mm[1]) + 1,
+                                   int(within_mm / g.spacing_mm[2]) + 1};
+    for (int k = middle.k - reach[2]; k <= middle.k + reach[2]; ++k)
+        for (int j = middle.j - reach[1]; j <= middle.j + reach[1]; ++j)
+            for (int i = middle.i - reach[0]; i <= middle.i + reach[0]; ++i) {
+                if (inside_->valueOr({i, j, k}, std::uint8_t(kOutside)) == kOutside)
+                    continue;
+                const Point3 q = g.pointAt(Index3{i, j, k});
+                const double d = distance(p, q);
+                if (d <= best.distance_mm)
+                    best = {true, q, d};
+            }
+    return best;
+}
+
+}  // namespace vicon::viewer

@@ -1,1 +1,0 @@
-namespace vicon { int viewer_model_placeholder() { return 0; } }

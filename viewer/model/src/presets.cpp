@@ -1,0 +1,102 @@
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+#include "presets_data.h"
+#include "vicon/core/error.h"
+#include "vicon/viewer/model/transfer_function.h"
+#include "vicon/viewer/model/window_level.h"
+
+namespace vicon::viewer {
+namespace {
+
+// The files are part of the program: what is wrong in them is found by the tests, at the first use.
+double number(const toml::node_view<const toml::node>& node)
+{
+    return node.value<double>().value();
+}
+
+template <class Preset, class Read>
+std::vector<Preset> presetsOf(std::string_view text, const char* table, Read read)
+{
+    const toml::table file = toml::parse(text);
+    std::vector<Preset> presets;
+    for (const toml::node& entry : *file[table].as_array())
+        presets.push_back(read(*entry.as_table()));
+    return presets;
+}
+
+template <class Preset>
+const Preset& named(const std::vector<Preset>& presets, const std::string& name, const std::string& kind)
+{
+    std::string names;
+    for (const Preset& preset : presets) {
+        if (preset.name == name)
+            return preset;
+        names += (names.empty() ? "" : ", ") + preset.name;
+    }
+    throw Error(ErrorCode::wrong_use, "there is no " + kind + " of this name", "'" + name + "'", "use one of " + names);
+}
+
+WindowLevel windowFrom(const toml::table& entry)
+{
+    return {entry["name"].value<std::string>().value(), number(entry["width_hu"]), number(entry["level_hu"])};
+}
+
+TransferFunction transferFunctionFrom(const toml::table& entry)
+{
+    TransferFunction function{
+        entry["name"].value<std::string>().value(), entry["title"].value<std::string>().value(), {}};
+    for (const toml::node& point : *entry["points"].as_array()) {
+        const toml::node_view<const toml::node> p(point);
+        function.points.push_back({number(p[0]), number(p[1]), number(p[2]), number(p[3]), number(p[4])});
+    }
+    return function;
+}
+
+}  // namespace
+
+std::uint8_t WindowLevel::greyOf(double density_hu) const
+{
+    const double share = (density_hu - level_hu) / width_hu + 0.5;
+    return std::uint8_t(std::clamp(share, 0.0, 1.0) * 255 + 0.5);
+}
+
+const std::vector<WindowLevel>& windowPresets()
+{
+    static const auto presets = presetsOf<WindowLevel>(kWindowsToml, "window", windowFrom);
+    return presets;
+}
+
+WindowLevel windowPreset(const std::string& name)
+{
+    return named(windowPresets(), name, "window preset");
+}
+
+TransferPoint TransferFunction::at(double density_hu) const
+{
+    const auto after = std::upper_bound(points.begin(), points.end(), density_hu,
+                                        [](double d, const TransferPoint& p) { return d < p.density_hu; });
+    if (after == points.begin())
+        return points.front();
+    if (after == points.end())
+        return points.back();
+    const TransferPoint &a = *(after - 1), &b = *after;
+    const double t = (density_hu - a.density_hu) / (b.density_hu - a.density_hu);
+    return {density_hu, std::lerp(a.red, b.red, t), std::lerp(a.green, b.green, t), std::lerp(a.blue, b.blue, t),
+            std::lerp(a.opacity_per_mm, b.opacity_per_mm, t)};
+}
+
+const std::vector<TransferFunction>& transferFunctions()
+{
+    static const auto presets =
+        presetsOf<TransferFunction>(kTransferFunctionsToml, "transfer_function", transferFunctionFrom);
+    return presets;
+}
+
+const TransferFunction& transferFunction(const std::string& name)
+{
+    return named(transferFunctions(), name, "transfer function");
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "vicon/viewer/model/overlay.h"
+
+namespace vicon::viewer {
+
+/// A picture of eight bits a colour, row by row from the top: red, green, blue.
+struct Picture {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgb;
+
+    Picture() = default;
+    Picture(int w, int h, Rgb ground = {0, 0, 0});
+    Rgb at(int x, int y) const;
+    void set(int x, int y, Rgb color);
+};
+
+/// Paints lines, discs and texts over a picture, smoothed. Texts may be in any script for which a font is installed;
+/// right-to-left ones are ordered and joined. A character that no font has is painted as U+FFFD or "?".
+void paint(Picture& picture, const Overlay& overlay);
+
+/// Width and height of a line of text as paint() would draw it, in pixels.
+struct TextSize {
+    double width_px = 0, height_px = 0;
+};
+TextSize textSize(const OverlayText& text);
+
+/// Puts a picture into another one; what does not fit is cut off.
+void copyInto(Picture& target, const Picture& source, int x, int y);
+
+/// Writes a PNG by replaceFile(). Throws Error{store}.
+void writePng(const std::filesystem::path& file, const Picture& picture);
+
+}  // namespace vicon::viewer

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "vicon/artefact/cells_file.h"
+#include "vicon/artefact/subdivision_file.h"
+#include "vicon/core/skeleton.h"
+#include "vicon/core/volume.h"
+#include "vicon/viewer/model/lumen.h"
+#include "vicon/viewer/model/path_frames.h"
+
+namespace vicon::viewer {
+
+/// A scan whose pipeline steps are done, as its folder holds it. Files are read when they are first asked for, and
+/// kept; copies share them. Reading from several threads at once is safe.
+class PreparedScan {
+public:
+    /// Throws Error{not_found} when there is no such folder, Error{not_ready} naming the first file that a picture
+    /// needs and that the pipeline has not made yet.
+    static PreparedScan open(const std::filesystem::path& scan_folder);
+
+    const std::filesystem::path& folder() const;
+
+    // Each throws Error{not_ready} where its file is missing, Error{bad_input} where it is damaged.
+    const HuVolume& volume() const;                    ///< volume.mha
+    const InsideVolume& inside() const;                ///< inside.mha
+    const FieldVolume& wallDistance() const;           ///< wall_distance.mha
+    const FieldVolume& exitDistance() const;           ///< exit_distance.mha
+    const SegmentVolume& segments() const;             ///< segments.mha
+    const Skeleton& skeleton() const;                  ///< skeleton.vtp
+    const artefact::CellSurface& cells() const;        ///< cells.vtp
+    const artefact::Subdivision& subdivision() const;  ///< subdivision.json
+    const PathFrames& frames() const;                  ///< of the skeleton
+    Lumen lumen() const;                               ///< of inside and wallDistance; valid while this object lives
+
+private:
+    struct Files;
+    explicit PreparedScan(std::shared_ptr<Files> files);
+    std::shared_ptr<Files> files_;
+};
+
+}  // namespace vicon::viewer

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vicon/core/case_store.h"
+#include "vicon/viewer/model/view_pose.h"
+#include "vicon/viewer/scene/prepared_scan.h"
+
+namespace vicon::viewer {
+
+/// What every picture says about whom and what it shows.
+struct Caption {
+    std::string patient_name;  ///< UTF-8, in DICOM's form or as people write it
+    std::string patient_id;
+    std::string birth_date;  ///< YYYYMMDD or as it shall be printed
+    std::string position;    ///< "supine", "prone", ...
+    std::string study_date;  ///< YYYYMMDD or as it shall be printed
+    bool lossy = false;      ///< the pixels went through a lossy compression: printed as a warning
+};
+
+/// The caption of a scan's pictures.
+Caption captionFor(const CaseRecord& a_case, const ScanRecord& scan);
+
+/// A picture of a scan.
+struct SnapshotRequest {
+    enum class View { endo, slices, overview };
+    View view = View::endo;
+    std::optional<Point3> look_at_mm;  ///< what to look at (a marker's position); empty: the place at `station_mm`
+    double station_mm = 0;             ///< used without `look_at_mm`; beyond the ends: the end
+    std::vector<Marker> markers;       ///< drawn where they are in view
+    Caption caption;
+    int width = 0;                 ///< pixels, kLeastSide to kMostSide; 0: 1024
+    int height = 0;                ///< 0: 768, or 1024 for the overview
+    double view_angle_deg = 90;    ///< endo: over the picture's height, 20 to 150
+    std::string window = "colon";  ///< slices: a preset of config/windows.toml
+    double slice_field_mm = 0;     ///< slices: how much to show around the point; 0: the whole scan
+    ViewPoseOptions pose;          ///< endo: where to put the eye
+
+    static constexpr int kLeastSide = 200;
+    static constexpr int kMostSide = 4096;
+};
+
+/// "endo", "slices" or "overview". Throws Error{wrong_use} for any other name.
+SnapshotRequest::View snapshotViewFrom(const std::string& name);
+
+/// What a picture turned out to show.
+struct SnapshotResult {
+    Pose pose;                ///< endo: the eye; others: the eye that the endo picture would have
+    double station_mm = 0;    ///< of the place shown, or of the marker's foot on the skeleton
+    double clearance_mm = 0;  ///< of the eye from the wall
+    bool sees_target = true;  ///< endo: false where nothing inside the lumen has the marker in plain view
+};
+
+/// Renders a picture and writes it as PNG by replaceFile(). Starts a private display for the time of the call where
+/// there is none; for many pictures hold a Display. The same scan and request give the same bytes on the same machine.
+/// Throws Error{wrong_use} for a size or an angle out of range, Error{not_ready}, Error{no_display}, Error{store}.
+SnapshotResult renderSnapshot(const PreparedScan& scan, const SnapshotRequest& request,
+                              const std::filesystem::path& png);
+
+}  // namespace vicon::viewer

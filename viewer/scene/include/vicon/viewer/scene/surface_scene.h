@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vtkSmartPointer.h>
+
+#include <memory>
+#include <vector>
+
+#include "vicon/artefact/cells_file.h"
+#include "vicon/viewer/model/camera.h"
+#include "vicon/viewer/model/overlay.h"
+#include "vicon/viewer/scene/canvas.h"
+
+class vtkRenderer;
+
+namespace vicon::viewer {
+
+/// The colon's surface in a VTK renderer, one actor a cell, lit by a lamp at the eye. Works in any render window: the
+/// reading room puts renderer() into its widget, pictures without a window come from OffscreenSurface.
+class SurfaceScene {
+public:
+    explicit SurfaceScene(const artefact::CellSurface& surface);
+    ~SurfaceScene();
+    SurfaceScene(SurfaceScene&&) noexcept;
+    SurfaceScene& operator=(SurfaceScene&&) noexcept;
+
+    vtkRenderer* renderer() const;
+
+    /// The endoscopic view: perspective, light that fades with the distance.
+    void lookFrom(const Pose& pose, double view_angle_deg);
+    /// From outside in parallel projection: the wall's outer side, lit from the eye.
+    void lookOnto(const PlaneView& view);
+
+    /// Draws only these segments' cells; empty: all.
+    void showOnly(const std::vector<int>& segments);
+    /// Paints each cell in a colour of its own.
+    void colorCells(bool on);
+    /// How far the lamp reaches: the distance at which it has lost half of its strength.
+    void setLampReach(double half_mm);
+
+    std::size_t cellCount() const;
+    std::size_t triangleCount() const;
+    std::size_t cellsShown() const;
+    std::size_t trianglesShown() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace vicon::viewer

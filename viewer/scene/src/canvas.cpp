@@ -1,0 +1,133 @@
+#include "vicon/viewer/scene/canvas.h"
+
+#include <png.h>
+
+#include <algorithm>
+
+#include "mask.h"
+#include "text.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr double kRim_px = 1.0;
+constexpr double kRimStrength = 0.6;
+constexpr Rgb kRimColor{0, 0, 0};
+
+// Cuts a line into dashes as long as the gaps between them.
+std::vector<std::vector<Pixel>> dashesOf(const OverlayLine& line)
+{
+    if (line.dash_px <= 0)
+        return {line.points};
+    std::vector<std::vector<Pixel>> dashes;
+    double done = 0;
+    for (std::size_t n = 0; n + 1 < line.points.size(); ++n) {
+        const Pixel a = line.points[n], b = line.points[n + 1];
+        const double whole = std::hypot(b.x - a.x, b.y - a.y);
+        for (double at = 0; at < whole;) {
+            const double in_period = std::fmod(done + at, 2 * line.dash_px);
+            const bool drawn = in_period < line.dash_px;
+            const double rest = (drawn ? line.dash_px : 2 * line.dash_px) - in_period;
+            const double to = std::min(whole, at + std::max(rest, 1e-3));
+            const auto point = [&](double t) {
+                return Pixel{a.x + (b.x - a.x) * t / whole, a.y + (b.y - a.y) * t / whole};
+            };
+            if (drawn)
+                dashes.push_back({point(at), point(to)});
+            at = to;
+        }
+        done += whole;
+    }
+    return dashes;
+}
+
+void paintLine(Picture& picture, Mask& mask, const OverlayLine& line)
+{
+    for (const bool rim : {true, false}) {
+        mask.clear();
+        for (const auto& dash : dashesOf(line))
+            for (std::size_t n = 0; n + 1 < dash.size(); ++n)
+                mask.addSegment(dash[n], dash[n + 1], line.width_px + (rim ? 2 * kRim_px : 0));
+        mask.blendInto(picture, rim ? kRimColor : line.color, rim ? kRimStrength : 1);
+    }
+}
+
+void paintDisc(Picture& picture, Mask& mask, const OverlayDisc& disc)
+{
+    for (const bool rim : {true, false}) {
+        const double more = rim ? kRim_px : 0;
+        const bool ring = disc.ring_px > 0;
+        const double inner = ring ? disc.radius_px - disc.ring_px / 2 - more : -1;
+        const double outer = disc.radius_px + (ring ? disc.ring_px / 2 : 0) + more;
+        mask.clear();
+        mask.addRing(disc.centre, inner, outer);
+        mask.blendInto(picture, rim ? kRimColor : disc.color, rim ? kRimStrength : 1);
+    }
+}
+
+}  // namespace
+
+Picture::Picture(int w, int h, Rgb ground) : width(w), height(h), rgb(std::size_t(w) * std::size_t(h) * 3)
+{
+    for (std::size_t n = 0; n < rgb.size(); n += 3) {
+        rgb[n] = ground.red;
+        rgb[n + 1] = ground.green;
+        rgb[n + 2] = ground.blue;
+    }
+}
+
+Rgb Picture::at(int x, int y) const
+{
+    const std::size_t n = (std::size_t(y) * std::size_t(width) + std::size_t(x)) * 3;
+    return {rgb[n], rgb[n + 1], rgb[n + 2]};
+}
+
+void Picture::set(int x, int y, Rgb color)
+{
+    const std::size_t n = (std::size_t(y) * std::size_t(width) + std::size_t(x)) * 3;
+    rgb[n] = color.red;
+    rgb[n + 1] = color.green;
+    rgb[n + 2] = color.blue;
+}
+
+void paint(Picture& picture, const Overlay& overlay)
+{
+    Mask mask(picture.width, picture.height);
+    for (const OverlayLine& line : overlay.lines)
+        paintLine(picture, mask, line);
+    for (const OverlayDisc& disc : overlay.discs)
+        paintDisc(picture, mask, disc);
+    for (const OverlayText& text : overlay.texts)
+        paintText(picture, text);
+}
+
+TextSize textSize(const OverlayText& text)
+{
+    return measureText(text);
+}
+
+void copyInto(Picture& target, const Picture& source, int x, int y)
+{
+    for (int row = 0; row < source.height; ++row)
+        for (int column = 0; column < source.width; ++column)
+            if (x + column >= 0 && x + column < target.width && y + row >= 0 && y + row < target.height)
+                target.set(x + column, y + row, source.at(column, row));
+}
+
+void writePng(const std::filesystem::path& file, const Picture& picture)
+{
+    replaceFile(file, [&](const std::filesystem::path& temporary) {
+        png_image image{};
+        image.version = PNG_IMAGE_VERSION;
+        image.width = png_uint_32(picture.width);
+        image.height = png_uint_32(picture.height);
+        image.format = PNG_FORMAT_RGB;
+        if (!png_image_write_to_file(&image, temporary.c_str(), 0, picture.rgb.data(), 0, nullptr))
+            throw Error(ErrorCode::store, std::string("the picture cannot be written (") + image.message + ")",
+                        file.string(), "check the folder and the disk's free space");
+    });
+}
+
+}  // namespace vicon::viewer

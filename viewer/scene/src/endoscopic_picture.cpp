@@ -1,0 +1,78 @@
+#include <algorithm>
+
+#include "pictures.h"
+#include "vicon/viewer/model/annotate.h"
+#include "vicon/viewer/model/orientation.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr int kSmooth = 2;
+constexpr double kRing_mm = 8;           // a ring that leaves a polyp of 10 mm free
+constexpr double kMarkerReach_mm = 150;  // further off a marker is too small to mean anything
+constexpr double kSightSlack_mm = 2.5;
+
+// The marker that is looked at is drawn wherever it lies in the picture; others only when in plain view.
+void addMarkers(Overlay& overlay, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
+                const Lens& lens, double text_px)
+{
+    const Lumen lumen = scan.lumen();
+    for (const Marker& marker : request.markers) {
+        const Projected p = project(pose, lens, marker.position_mm);
+        const bool in_picture =
+            p.depth_mm > 0 && p.at.x >= 0 && p.at.y >= 0 && p.at.x < lens.width && p.at.y < lens.height;
+        if (!in_picture || p.depth_mm > kMarkerReach_mm)
+            continue;
+        const bool target = request.look_at_mm && *request.look_at_mm == marker.position_mm;
+        const double allowance = 1.5 * lumen.nearestInside(marker.position_mm, kRing_mm).distance_mm + kSightSlack_mm;
+        if (!target && !lumen.sees(pose.eye_mm, marker.position_mm, allowance))
+            continue;
+        const double most = std::min(lens.width, lens.height) * 0.3;
+        const double radius = std::clamp(kRing_mm * lens.focal_px() / p.depth_mm, 1.2 * text_px, most);
+        addMarkerRing(overlay, p.at, radius, marker, text_px);
+    }
+}
+
+std::string directionText(const Pose& pose)
+{
+    return "looking " + sideName(pose.forward) + " (" + lettersFor(pose.forward) + ")";
+}
+
+}  // namespace
+
+Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
+{
+    Overlay overlay;
+    const Lens lens{request.view_angle_deg, request.width, request.height};
+    const Area area{0, 0, double(request.width), double(request.height)};
+    const double text_px = textHeightFor(request.width, request.height);
+    addMarkers(overlay, scan, request, place.pose, lens, text_px);
+    addLetters(overlay, area, place.pose.right(), -place.pose.up, text_px);
+    addTriad(overlay, {4.2 * text_px, area.height - 4.2 * text_px}, 2.4 * text_px, place.pose, 0.9 * text_px);
+    auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm());
+    OverlayText note;
+    note.text = directionText(place.pose);
+    if (request.look_at_mm)
+        note.text += ", " + std::to_string(std::lround(distance(place.pose.eye_mm, *request.look_at_mm))) + " mm away";
+    note.color = kTextColor;
+    lines.push_back(note);
+    if (!place.sees_target) {
+        note.text = "the marker lies behind the wall seen here";
+        note.color = kWarningColor;
+        lines.push_back(note);
+    }
+    addLines(overlay, {0, 0, area.width * 0.47, area.height}, lines, text_px);
+    return overlay;
+}
+
+Picture endoscopicPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
+{
+    SurfaceScene scene(scan.cells());
+    scene.lookFrom(place.pose, request.view_angle_deg);
+    Offscreen offscreen(scene.renderer());
+    Picture picture = offscreen.render(request.width, request.height, kSmooth);
+    paint(picture, endoscopicOverlay(scan, request, place));
+    return picture;
+}
+
+}  // namespace vicon::viewer

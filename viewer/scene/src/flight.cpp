@@ -1,0 +1,200 @@
+#include "vicon/viewer/scene/flight.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+#include "pictures.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+#include "vicon/viewer/model/coverage.h"
+#include "vicon/viewer/model/flight_plan.h"
+#include "vicon/viewer/scene/cell_visibility.h"
+#include "vicon/viewer/scene/id_scene.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr int kSide_px = 512;
+
+struct Leg {
+    Heading heading;
+    std::vector<ViewPose> poses;
+};
+
+std::vector<Leg> legsOf(const PreparedScan& scan, const FlightRequest& request)
+{
+    const double step = request.frames > 1    ? scan.frames().length_mm() / (request.frames - 1)
+                        : request.frames == 1 ? scan.frames().length_mm() * 2
+                                              : request.step_mm;
+    const Lumen lumen = scan.lumen();
+    std::vector<Leg> legs;
+    for (const Heading heading : {Heading::caecum, Heading::rectum}) {
+        const bool wanted = request.direction == FlightRequest::Direction::both ||
+                            (request.direction == FlightRequest::Direction::to_caecum) == (heading == Heading::caecum);
+        if (wanted)
+            legs.push_back({heading, planFlight(scan.frames(), lumen, step, heading)});
+    }
+    return legs;
+}
+
+// What draws the frames of a flight; the id buffer only where coverage is measured.
+struct Studio {
+    const PreparedScan& scan;
+    FlightRequest request;
+    SurfaceScene scene;
+    Offscreen offscreen;
+    std::optional<IdScene> ids;
+    std::optional<Offscreen> ids_offscreen;
+    std::optional<CellVisibility> visibility;
+    Coverage coverage;
+
+    Studio(const PreparedScan& s, const FlightRequest& r)
+        : scan(s),
+          request(r),
+          scene(s.cells()),
+          offscreen(scene.renderer()),
+          coverage(triangleAreas_mm2(s.cells().points_mm, s.cells().triangles))
+    {
+        if (request.measure_coverage) {
+            ids.emplace(s.cells());
+            ids_offscreen.emplace(ids->renderer());
+        }
+        if (request.cull)
+            visibility.emplace(s);
+    }
+
+    FlightFrame shoot(const ViewPose& view, Heading heading, const std::filesystem::path& png);
+};
+
+FlightFrame Studio::shoot(const ViewPose& view, Heading heading, const std::filesystem::path& png)
+{
+    FlightFrame frame{view.pose, view.station_mm, view.clearance_mm, heading == Heading::caecum, 0, 0, 0, 0};
+    const Lens lens{request.view_angle_deg, request.width, request.height};
+    const std::vector<int> shown = visibility ? visibility->segmentsSeen(view.pose, lens) : std::vector<int>{};
+    scene.showOnly(shown);
+    scene.lookFrom(view.pose, request.view_angle_deg);
+    frame.cells_drawn = scene.cellsShown();
+    frame.triangles_drawn = scene.trianglesShown();
+    if (!png.empty()) {
+        Picture picture = offscreen.render(request.width, request.height);
+        frame.seconds = offscreen.seconds();
+        SnapshotRequest still;
+        still.markers = request.markers;
+        still.caption = request.caption;
+        still.width = request.width;
+        still.height = request.height;
+        still.view_angle_deg = request.view_angle_deg;
+        paint(picture, endoscopicOverlay(scan, still, {view.pose, view.station_mm, view.clearance_mm, true}));
+        writePng(png, picture);
+    }
+    if (ids) {
+        ids->showOnly(shown);
+        ids->lookFrom(view.pose, request.view_angle_deg);
+        const auto seen = IdScene::trianglesIn(ids_offscreen->render(request.width, request.height));
+        if (png.empty())
+            frame.seconds = ids_offscreen->seconds();
+        frame.triangles_seen = seen.size();
+        coverage.see(seen);
+    }
+    return frame;
+}
+
+void summarise(FlightReport& report)
+{
+    const double count = std::max<double>(1, double(report.frames.size()));
+    std::vector<double> seconds;
+    for (const FlightFrame& frame : report.frames) {
+        report.average_cells += double(frame.cells_drawn) / count;
+        report.average_triangles += double(frame.triangles_drawn) / count;
+        report.average_seen += double(frame.triangles_seen) / count;
+        seconds.push_back(frame.seconds);
+    }
+    std::sort(seconds.begin(), seconds.end());
+    report.median_seconds = seconds.empty() ? 0 : seconds[seconds.size() / 2];
+    report.slow_seconds = seconds.empty() ? 0 : seconds[std::size_t(double(seconds.size() - 1) * 0.95)];
+}
+
+FlightRequest completed(FlightRequest request)
+{
+    request.width = request.width > 0 ? request.width : kSide_px;
+    request.height = request.height > 0 ? request.height : kSide_px;
+    for (const int side : {request.width, request.height})
+        if (side < SnapshotRequest::kLeastSide || side > SnapshotRequest::kMostSide)
+            throw Error(ErrorCode::wrong_use, "a frame's sides must be 200 to 4096 pixels", std::to_string(side));
+    if (request.frames < 0 || (request.frames == 0 && !(request.step_mm > 0)))
+        throw Error(ErrorCode::wrong_use, "a flight's step must be above 0 mm and its frames not below 0");
+    if (!request.out.empty())
+        makePrivateFolder(request.out);
+    return request;
+}
+
+std::string frameName(std::size_t number)
+{
+    char name[32];
+    std::snprintf(name, sizeof name, "frame-%05zu.png", number);
+    return name;
+}
+
+nlohmann::json triple(double x, double y, double z)
+{
+    return {x, y, z};
+}
+
+}  // namespace
+
+nlohmann::json toJson(const FlightReport& report)
+{
+    nlohmann::json frames = nlohmann::json::array();
+    for (const FlightFrame& f : report.frames) {
+        const Pose& p = f.pose;
+        frames.push_back({{"eye_mm", triple(p.eye_mm.x, p.eye_mm.y, p.eye_mm.z)},
+                          {"forward", triple(p.forward.x, p.forward.y, p.forward.z)},
+                          {"up", triple(p.up.x, p.up.y, p.up.z)},
+                          {"station_mm", f.station_mm},
+                          {"clearance_mm", f.clearance_mm},
+                          {"towards", f.towards_caecum ? "caecum" : "rectum"},
+                          {"cells_drawn", f.cells_drawn},
+                          {"triangles_drawn", f.triangles_drawn},
+                          {"triangles_seen", f.triangles_seen},
+                          {"seconds", f.seconds}});
+    }
+    return {{"length_mm", report.length_mm},
+            {"cells", report.cells},
+            {"triangles", report.triangles},
+            {"coverage", report.coverage},
+            {"average_cells", report.average_cells},
+            {"average_triangles", report.average_triangles},
+            {"average_triangles_seen", report.average_seen},
+            {"median_seconds", report.median_seconds},
+            {"slow_seconds", report.slow_seconds},
+            {"frames", frames}};
+}
+
+FlightReport fly(const PreparedScan& scan, const FlightRequest& request, Progress& progress)
+{
+    Studio studio(scan, completed(request));
+    const std::vector<Leg> legs = legsOf(scan, request);
+    FlightReport report;
+    report.length_mm = scan.frames().length_mm();
+    report.cells = studio.scene.cellCount();
+    report.triangles = studio.scene.triangleCount();
+    std::size_t all = 0;
+    for (const Leg& leg : legs)
+        all += leg.poses.size();
+    const bool write = request.write_frames && !request.out.empty();
+    for (const Leg& leg : legs)
+        for (const ViewPose& view : leg.poses) {
+            progress.check();
+            const auto png = write ? request.out / frameName(report.frames.size() + 1) : std::filesystem::path{};
+            report.frames.push_back(studio.shoot(view, leg.heading, png));
+            progress.report(double(report.frames.size()) / double(all), "flying");
+        }
+    report.coverage = studio.request.measure_coverage ? studio.coverage.fraction() : 0;
+    summarise(report);
+    if (!request.out.empty())
+        replaceFile(request.out / "flight.json", toJson(report).dump(1) + "\n");
+    return report;
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+
+#include "vicon/viewer/scene/canvas.h"
+#include "vicon/viewer/scene/offscreen.h"
+#include "vicon/viewer/scene/snapshot.h"
+#include "vicon/viewer/scene/surface_scene.h"
+
+namespace vicon::viewer {
+
+/// The place a request asks for and the eye for it.
+SnapshotResult placeOf(const PreparedScan& scan, const SnapshotRequest& request);
+
+/// The lines that every caption has: name, id and birth date, position and date, station, warnings.
+std::vector<OverlayText> captionLines(const Caption& caption, double station_mm, double length_mm);
+
+/// What is written over an endoscopic picture; used by snapshots and flights alike.
+Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
+
+Picture endoscopicPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
+Picture slicesPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
+Picture overviewPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
+
+}  // namespace vicon::viewer

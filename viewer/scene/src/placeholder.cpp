@@ -1,1 +1,0 @@
-namespace vicon { int viewer_scene_placeholder() { return 0; } }

@@ -1,0 +1,131 @@
+#include "vicon/viewer/scene/prepared_scan.h"
+
+#include <mutex>
+#include <optional>
+
+#include "vicon/artefact/skeleton_file.h"
+#include "vicon/artefact/volume_file.h"
+#include "vicon/core/error.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::viewer {
+namespace {
+
+constexpr const char* kNeededByPictures[] = {"volume.mha", "inside.mha", "skeleton.vtp", "wall_distance.mha",
+                                             "cells.vtp"};
+
+void mustExist(const fs::path& file)
+{
+    if (!fs::exists(file))
+        throw Error(ErrorCode::not_ready, "the pipeline has not made this file yet", file.string(),
+                    "run 'vicon work' and see 'vicon show' for what stopped it");
+}
+
+// Read once, when first asked for; a failed reading is tried again at the next call.
+template <class T>
+class Lazy {
+public:
+    template <class Make>
+    const T& get(Make make)
+    {
+        const std::lock_guard lock(mutex_);
+        if (!value_)
+            value_.emplace(make());
+        return *value_;
+    }
+
+private:
+    std::mutex mutex_;
+    std::optional<T> value_;
+};
+
+}  // namespace
+
+struct PreparedScan::Files {
+    fs::path folder;
+    Lazy<HuVolume> volume;
+    Lazy<InsideVolume> inside;
+    Lazy<FieldVolume> wall_distance, exit_distance;
+    Lazy<SegmentVolume> segments;
+    Lazy<Skeleton> skeleton;
+    Lazy<artefact::CellSurface> cells;
+    Lazy<artefact::Subdivision> subdivision;
+    Lazy<PathFrames> frames;
+
+    fs::path at(const char* name) const
+    {
+        mustExist(folder / name);
+        return folder / name;
+    }
+};
+
+PreparedScan::PreparedScan(std::shared_ptr<Files> files) : files_(std::move(files)) {}
+
+PreparedScan PreparedScan::open(const fs::path& scan_folder)
+{
+    if (!fs::is_directory(scan_folder))
+        throw Error(ErrorCode::not_found, "no such scan folder", scan_folder.string(), "see 'vicon cases'");
+    for (const char* name : kNeededByPictures)
+        mustExist(scan_folder / name);
+    auto files = std::make_shared<Files>();
+    files->folder = scan_folder;
+    return PreparedScan(std::move(files));
+}
+
+const fs::path& PreparedScan::folder() const
+{
+    return files_->folder;
+}
+
+const HuVolume& PreparedScan::volume() const
+{
+    return files_->volume.get([&] { return artefact::readVolume<std::int16_t>(files_->at("volume.mha")); });
+}
+
+const InsideVolume& PreparedScan::inside() const
+{
+    return files_->inside.get([&] { return artefact::readVolume<std::uint8_t>(files_->at("inside.mha")); });
+}
+
+const FieldVolume& PreparedScan::wallDistance() const
+{
+    return files_->wall_distance.get([&] { return artefact::readVolume<float>(files_->at("wall_distance.mha")); });
+}
+
+const FieldVolume& PreparedScan::exitDistance() const
+{
+    return files_->exit_distance.get([&] { return artefact::readVolume<float>(files_->at("exit_distance.mha")); });
+}
+
+const SegmentVolume& PreparedScan::segments() const
+{
+    return files_->segments.get([&] { return artefact::readVolume<std::uint16_t>(files_->at("segments.mha")); });
+}
+
+const Skeleton& PreparedScan::skeleton() const
+{
+    return files_->skeleton.get([&] { return artefact::readSkeleton(files_->at("skeleton.vtp")); });
+}
+
+const artefact::CellSurface& PreparedScan::cells() const
+{
+    return files_->cells.get([&] { return artefact::readCells(files_->at("cells.vtp")); });
+}
+
+const artefact::Subdivision& PreparedScan::subdivision() const
+{
+    return files_->subdivision.get([&] { return artefact::readSubdivision(files_->at("subdivision.json")); });
+}
+
+const PathFrames& PreparedScan::frames() const
+{
+    return files_->frames.get([&] { return PathFrames(skeleton()); });
+}
+
+Lumen PreparedScan::lumen() const
+{
+    return {inside(), wallDistance()};
+}
+
+}  // namespace vicon::viewer

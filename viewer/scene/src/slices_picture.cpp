@@ -1,0 +1,96 @@
+#include <algorithm>
+
+#include "pictures.h"
+#include "vicon/viewer/model/annotate.h"
+#include "vicon/viewer/model/slice_image.h"
+#include "vicon/viewer/model/window_level.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr double kMarkerNear_mm = 5;  // a marker is drawn in slices that pass this near to it
+constexpr double kRing_mm = 8;
+
+Picture greyPicture(const HuVolume& volume, const PlaneView& view, const WindowLevel& window)
+{
+    Picture picture(view.width, view.height);
+    const auto densities = sliceDensities(volume, view);
+    for (std::size_t n = 0; n < densities.size(); ++n)
+        std::fill_n(picture.rgb.begin() + std::ptrdiff_t(3 * n), 3, window.greyOf(densities[n]));
+    return picture;
+}
+
+std::string titleOf(SlicePlane plane, Point3 point)
+{
+    const double mm = plane == SlicePlane::transverse ? point.z : plane == SlicePlane::coronal ? point.y : point.x;
+    const char* axis = plane == SlicePlane::transverse ? "z" : plane == SlicePlane::coronal ? "y" : "x";
+    return nameOf(plane) + ", " + axis + " = " + std::to_string(std::lround(mm)) + " mm";
+}
+
+Picture panel(const PreparedScan& scan, const SnapshotRequest& request, SlicePlane plane, Point3 point, int width,
+              int height)
+{
+    const HuVolume& volume = scan.volume();
+    const PlaneView view = sliceThrough(volume.grid, plane, point, width, height, request.slice_field_mm);
+    Picture picture = greyPicture(volume, view, windowPreset(request.window));
+    Overlay overlay;
+    const Area area{0, 0, double(width), double(height)};
+    const double text_px = textHeightFor(width, height) * 1.15;
+    const double ring = std::max(kRing_mm / view.mm_per_pixel, 0.9 * text_px);
+    addCrosshair(overlay, area, view.toPixel(point), ring * 1.5);
+    for (const Marker& marker : request.markers)
+        if (std::abs(view.depth_mm(marker.position_mm) - view.depth_mm(point)) <= kMarkerNear_mm)
+            addMarkerRing(overlay, view.toPixel(marker.position_mm), ring, marker, text_px);
+    addLetters(overlay, area, view.right, view.down, text_px);
+    addScaleBar(overlay, area, view.mm_per_pixel, text_px);
+    OverlayText title;
+    title.text = titleOf(plane, point);
+    title.color = kTextColor;
+    addLines(overlay, {0, 0, area.width * 0.47, area.height}, {title}, text_px);
+    paint(picture, overlay);
+    return picture;
+}
+
+// The place where the caption is written: the fourth quarter of the picture.
+Picture captionPanel(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place, int width,
+                     int height)
+{
+    Picture picture(width, height, {10, 12, 16});
+    Overlay overlay;
+    auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm());
+    const WindowLevel window = windowPreset(request.window);
+    OverlayText line;
+    line.color = kTextColor;
+    line.text = "window " + window.name + ": " + std::to_string(std::lround(window.width_hu)) + " / " +
+                std::to_string(std::lround(window.level_hu)) + " HU";
+    lines.push_back(line);
+    for (const Marker& marker : request.markers)
+        if (request.look_at_mm && marker.position_mm == *request.look_at_mm) {
+            line.text = marker.note.empty() ? marker.id : marker.id + ": " + marker.note;
+            line.color = colorOf(marker.color);
+            lines.push_back(line);
+        }
+    const double text_px = textHeightFor(width, height) * 1.3;
+    addLines(overlay, {text_px, text_px, width - 2 * text_px, height - 2 * text_px}, lines, text_px);
+    paint(picture, overlay);
+    return picture;
+}
+
+}  // namespace
+
+Picture slicesPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
+{
+    constexpr int kGap_px = 2;
+    const Point3 point = request.look_at_mm ? *request.look_at_mm : scan.frames().at(place.station_mm).position_mm;
+    const int w = (request.width - kGap_px) / 2, h = (request.height - kGap_px) / 2;
+    const int right = w + kGap_px, below = h + kGap_px;
+    Picture picture(request.width, request.height, {60, 60, 60});
+    const auto slice = [&](SlicePlane plane) { return panel(scan, request, plane, point, w, h); };
+    copyInto(picture, slice(SlicePlane::transverse), 0, 0);
+    copyInto(picture, slice(SlicePlane::coronal), right, 0);
+    copyInto(picture, slice(SlicePlane::sagittal), 0, below);
+    copyInto(picture, captionPanel(scan, request, place, w, h), right, below);
+    return picture;
+}
+
+}  // namespace vicon::viewer

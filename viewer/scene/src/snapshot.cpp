@@ -1,0 +1,110 @@
+#include "vicon/viewer/scene/snapshot.h"
+
+#include "pictures.h"
+#include "vicon/core/error.h"
+#include "vicon/viewer/model/annotate.h"
+#include "vicon/viewer/model/window_level.h"
+
+namespace vicon::viewer {
+namespace {
+
+SnapshotRequest completed(SnapshotRequest request)
+{
+    constexpr double kNarrowest_deg = 20, kWidest_deg = 150;
+    const bool overview = request.view == SnapshotRequest::View::overview;
+    if (request.width == 0)
+        request.width = 1024;
+    if (request.height == 0)
+        request.height = overview ? 1024 : 768;
+    for (const int side : {request.width, request.height})
+        if (side < SnapshotRequest::kLeastSide || side > SnapshotRequest::kMostSide)
+            throw Error(ErrorCode::wrong_use, "a picture's sides must be 200 to 4096 pixels", std::to_string(side));
+    if (request.view_angle_deg < kNarrowest_deg || request.view_angle_deg > kWidest_deg)
+        throw Error(ErrorCode::wrong_use, "the angle of view must be 20 to 150 degrees",
+                    std::to_string(request.view_angle_deg));
+    windowPreset(request.window);
+    return request;
+}
+
+Picture pictureOf(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
+{
+    switch (request.view) {
+        case SnapshotRequest::View::slices:
+            return slicesPicture(scan, request, place);
+        case SnapshotRequest::View::overview:
+            return overviewPicture(scan, request, place);
+        default:
+            return endoscopicPicture(scan, request, place);
+    }
+}
+
+}  // namespace
+
+Caption captionFor(const CaseRecord& a_case, const ScanRecord& scan)
+{
+    return {a_case.patient.name,       a_case.patient.id,
+            a_case.patient.birth_date, positionName(scan.series.patient_position),
+            a_case.study.date,         scan.series.lossy};
+}
+
+SnapshotRequest::View snapshotViewFrom(const std::string& name)
+{
+    if (name == "endo")
+        return SnapshotRequest::View::endo;
+    if (name == "slices")
+        return SnapshotRequest::View::slices;
+    if (name == "overview")
+        return SnapshotRequest::View::overview;
+    throw Error(ErrorCode::wrong_use, "a view must be endo, slices or overview", "'" + name + "'");
+}
+
+SnapshotResult placeOf(const PreparedScan& scan, const SnapshotRequest& request)
+{
+    const Lumen lumen = scan.lumen();
+    ViewPose view;
+    double station = request.station_mm;
+    if (request.look_at_mm) {
+        view = poseForPoint(scan.skeleton(), scan.frames(), lumen, *request.look_at_mm, request.pose);
+        station = scan.skeleton().nearest(*request.look_at_mm).station_mm;
+    } else {
+        view = poseAtStation(scan.frames(), lumen, request.station_mm, Heading::caecum, request.pose);
+        station = view.station_mm;
+    }
+    return {view.pose, station, view.clearance_mm, view.sees_target};
+}
+
+std::vector<OverlayText> captionLines(const Caption& caption, double station_mm, double length_mm)
+{
+    std::vector<OverlayText> lines;
+    const auto add = [&](const std::string& words, Rgb color) {
+        if (words.empty())
+            return;
+        OverlayText line;
+        line.text = words;
+        line.color = color;
+        lines.push_back(line);
+    };
+    const auto joined = [](const std::string& a, const std::string& b) {
+        return a.empty() || b.empty() ? a + b : a + "   " + b;
+    };
+    const std::string born = caption.birth_date.empty() ? "" : "born " + dateText(caption.birth_date);
+    const std::string id = caption.patient_id.empty() ? "" : "ID " + caption.patient_id;
+    add(personName(caption.patient_name), kTextColor);
+    add(joined(id, born), kTextColor);
+    add(joined(caption.position, dateText(caption.study_date)), kTextColor);
+    add(stationText(station_mm, length_mm), kTextColor);
+    if (caption.lossy)
+        add("LOSSY COMPRESSION", kWarningColor);
+    return lines;
+}
+
+SnapshotResult renderSnapshot(const PreparedScan& scan, const SnapshotRequest& request,
+                              const std::filesystem::path& png)
+{
+    const SnapshotRequest whole = completed(request);
+    const SnapshotResult place = placeOf(scan, whole);
+    writePng(png, pictureOf(scan, whole, place));
+    return place;
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,152 @@
+#include "vicon/viewer/scene/surface_scene.h"
+
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+
+#include <array>
+#include <cmath>
+
+#include "cell_actors.h"
+
+namespace vicon::viewer {
+namespace {
+
+// Chosen by eye on tubes of 8 to 25 mm radius and a real scan: the near wall is not burnt out, and the lumen two bends
+// ahead is dark but not black.
+constexpr double kLampReach_mm = 45;
+constexpr std::array kMucosa{0.93, 0.66, 0.56};
+constexpr std::array kOutside{0.78, 0.72, 0.66};
+
+std::array<double, 3> cellColor(int segment)
+{
+    constexpr double kGoldenAngle = 2.399963;  // neighbours get hues far apart
+    const double hue = segment * kGoldenAngle;
+    const auto part = [&](double turn) { return 0.62 + 0.3 * std::cos(hue - turn); };
+    return {part(0), part(2 * std::numbers::pi / 3), part(4 * std::numbers::pi / 3)};
+}
+
+}  // namespace
+
+struct SurfaceScene::Parts {
+    std::vector<CellActor> cells;
+    vtkNew<vtkRenderer> renderer;
+    vtkNew<vtkLight> lamp;
+    double lamp_reach_mm = kLampReach_mm;
+    bool color_cells = false;
+    bool endoscopic = true;
+
+    void setMaterial() const
+    {
+        for (const CellActor& cell : cells) {
+            vtkProperty* p = cell.actor->GetProperty();
+            const auto color = color_cells ? cellColor(cell.segment) : endoscopic ? kMucosa : kOutside;
+            p->SetColor(color[0], color[1], color[2]);
+            p->SetAmbient(endoscopic ? 0.04 : 0.25);
+            p->SetDiffuse(endoscopic ? 1.0 : 0.75);
+            p->SetSpecular(endoscopic ? 0.12 : 0.0);
+            p->SetSpecularPower(24);
+            p->SetBackfaceCulling(endoscopic);
+        }
+    }
+
+    void setLamp() const
+    {
+        lamp->SetLightTypeToHeadlight();
+        lamp->SetPositional(endoscopic);
+        lamp->SetConeAngle(180);
+        lamp->SetIntensity(endoscopic ? 1.15 : 1.0);
+        lamp->SetAttenuationValues(1, 0, endoscopic ? 1 / (lamp_reach_mm * lamp_reach_mm) : 0);
+    }
+};
+
+SurfaceScene::SurfaceScene(const artefact::CellSurface& surface) : parts_(std::make_unique<Parts>())
+{
+    parts_->cells = cellActors(surface);
+    for (const CellActor& cell : parts_->cells)
+        parts_->renderer->AddActor(cell.actor);
+    parts_->renderer->SetBackground(0, 0, 0);
+    parts_->renderer->AutomaticLightCreationOff();
+    parts_->renderer->RemoveAllLights();
+    parts_->renderer->AddLight(parts_->lamp);
+    parts_->setMaterial();
+    parts_->setLamp();
+}
+
+SurfaceScene::~SurfaceScene() = default;
+SurfaceScene::SurfaceScene(SurfaceScene&&) noexcept = default;
+SurfaceScene& SurfaceScene::operator=(SurfaceScene&&) noexcept = default;
+
+vtkRenderer* SurfaceScene::renderer() const
+{
+    return parts_->renderer;
+}
+
+void SurfaceScene::lookFrom(const Pose& pose, double view_angle_deg)
+{
+    if (!parts_->endoscopic) {
+        parts_->endoscopic = true;
+        parts_->setMaterial();
+        parts_->setLamp();
+    }
+    parts_->renderer->SetBackground(0, 0, 0);
+    placeCamera(parts_->renderer->GetActiveCamera(), pose, view_angle_deg);
+}
+
+void SurfaceScene::lookOnto(const PlaneView& view)
+{
+    parts_->endoscopic = false;
+    parts_->setMaterial();
+    parts_->setLamp();
+    parts_->renderer->SetBackground(0.04, 0.05, 0.07);
+    placeCamera(parts_->renderer->GetActiveCamera(), view);
+}
+
+void SurfaceScene::showOnly(const std::vector<int>& segments)
+{
+    viewer::showOnly(parts_->cells, segments);
+}
+
+void SurfaceScene::colorCells(bool on)
+{
+    parts_->color_cells = on;
+    parts_->setMaterial();
+}
+
+void SurfaceScene::setLampReach(double half_mm)
+{
+    parts_->lamp_reach_mm = half_mm;
+    parts_->setLamp();
+}
+
+std::size_t SurfaceScene::cellCount() const
+{
+    return parts_->cells.size();
+}
+
+std::size_t SurfaceScene::triangleCount() const
+{
+    std::size_t sum = 0;
+    for (const CellActor& cell : parts_->cells)
+        sum += cell.triangles;
+    return sum;
+}
+
+std::size_t SurfaceScene::cellsShown() const
+{
+    std::size_t sum = 0;
+    for (const CellActor& cell : parts_->cells)
+        sum += cell.actor->GetVisibility() ? 1 : 0;
+    return sum;
+}
+
+std::size_t SurfaceScene::trianglesShown() const
+{
+    std::size_t sum = 0;
+    for (const CellActor& cell : parts_->cells)
+        sum += cell.actor->GetVisibility() ? cell.triangles : 0;
+    return sum;
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,178 @@
+#include "text.h"
+
+#include <fribidi.h>
+#include <ft2build.h>
+#include FT_OUTLINE_H
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "fonts.h"
+#include "mask.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr double kRimShare = 0.11;  // of the text's height
+constexpr double kRimStrength = 0.75;
+constexpr double kLeastSize_px = 6;
+constexpr std::uint32_t kReplacement = 0xFFFD;
+constexpr double kAscent = 0.95, kDescent = 0.25;  // of the size: room for accents and tails in every script
+
+struct Library {
+    std::mutex mutex;
+    Fonts fonts;
+};
+
+Library& library()
+{
+    static Library one;
+    return one;
+}
+
+bool isInvisible(std::uint32_t c)
+{
+    return c < 0x20 || c == 0x7f || c == FRIBIDI_CHAR_FILL || (c >= 0x200B && c <= 0x200F) ||
+           (c >= 0x202A && c <= 0x202E) || (c >= 0x2060 && c <= 0x2069);
+}
+
+// Characters from left to right as they are drawn, Arabic letters in their joined forms.
+std::vector<std::uint32_t> visualOrder(const std::string& utf8)
+{
+    std::vector<FriBidiChar> text(utf8.size() + 1);
+    const auto count =
+        fribidi_charset_to_unicode(FRIBIDI_CHAR_SET_UTF8, utf8.data(), FriBidiStrIndex(utf8.size()), text.data());
+    if (count == 0)
+        return {};
+    text.resize(std::size_t(count));
+    std::vector<FriBidiCharType> types(text.size());
+    std::vector<FriBidiBracketType> brackets(text.size());
+    std::vector<FriBidiLevel> levels(text.size());
+    std::vector<FriBidiJoiningType> joining(text.size());
+    fribidi_get_bidi_types(text.data(), count, types.data());
+    fribidi_get_bracket_types(text.data(), count, types.data(), brackets.data());
+    FriBidiParType base = FRIBIDI_PAR_WLTR;
+    if (fribidi_get_par_embedding_levels_ex(types.data(), brackets.data(), count, &base, levels.data()) == 0)
+        return {text.begin(), text.end()};
+    fribidi_get_joining_types(text.data(), count, joining.data());
+    fribidi_join_arabic(types.data(), count, levels.data(), joining.data());
+    fribidi_shape(FRIBIDI_FLAGS_DEFAULT | FRIBIDI_FLAGS_ARABIC, levels.data(), count, joining.data(), text.data());
+    if (fribidi_reorder_line(FRIBIDI_FLAGS_DEFAULT, types.data(), count, 0, base, levels.data(), text.data(),
+                             nullptr) == 0)
+        return {text.begin(), text.end()};
+    std::vector<std::uint32_t> visible;
+    for (const FriBidiChar c : text)
+        if (!isInvisible(c))
+            visible.push_back(c);
+    return visible;
+}
+
+Fonts::Found glyphFor(Fonts& fonts, std::uint32_t character)
+{
+    for (const std::uint32_t c : {character, kReplacement, std::uint32_t('?')})
+        if (const auto found = fonts.find(c); found.face)
+            return found;
+    return {};
+}
+
+struct Placed {
+    Fonts::Found glyph;
+    double x = 0;
+};
+
+struct Line {
+    std::vector<Placed> glyphs;
+    double width = 0;
+    double size = 0;
+};
+
+void setSize(FT_Face face, double size_px)
+{
+    constexpr double kFixed = 64;  // FreeType counts in 64ths
+    FT_Set_Char_Size(face, 0, FT_F26Dot6(std::lround(size_px * kFixed)), 72, 72);
+}
+
+Line layOut(Fonts& fonts, const std::vector<std::uint32_t>& characters, double size_px)
+{
+    Line line;
+    line.size = size_px;
+    for (const std::uint32_t c : characters) {
+        const auto glyph = glyphFor(fonts, c);
+        if (!glyph.face)
+            continue;
+        setSize(glyph.face, size_px);
+        if (FT_Load_Glyph(glyph.face, glyph.glyph, FT_LOAD_NO_HINTING) != 0)
+            continue;
+        line.glyphs.push_back({glyph, line.width});
+        line.width += double(glyph.face->glyph->linearHoriAdvance) / 65536.0;
+    }
+    return line;
+}
+
+Line fitted(Fonts& fonts, const OverlayText& text)
+{
+    const auto characters = visualOrder(text.text);
+    const Line line = layOut(fonts, characters, text.height_px);
+    if (line.width <= text.most_width_px)
+        return line;
+    const double smaller = text.height_px * text.most_width_px / line.width;
+    return layOut(fonts, characters, std::max(kLeastSize_px, smaller));
+}
+
+Pixel beginOf(const OverlayText& text, const Line& line)
+{
+    Pixel p = text.at;
+    if (text.across == Across::centre)
+        p.x -= line.width / 2;
+    if (text.across == Across::right)
+        p.x -= line.width;
+    if (text.along == Along::top)
+        p.y += kAscent * line.size;
+    if (text.along == Along::middle)
+        p.y += (kAscent - kDescent) / 2 * line.size;
+    if (text.along == Along::bottom)
+        p.y -= kDescent * line.size;
+    return {std::round(p.x), std::round(p.y)};
+}
+
+void draw(Mask& mask, const Placed& placed, Pixel begin, double size_px)
+{
+    FT_Face face = placed.glyph.face;
+    setSize(face, size_px);
+    if (FT_Load_Glyph(face, placed.glyph.glyph, FT_LOAD_NO_HINTING) != 0)
+        return;
+    const double x = begin.x + placed.x, whole = std::floor(x);
+    FT_Outline_Translate(&face->glyph->outline, FT_Pos((x - whole) * 64), 0);
+    if (FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL) != 0)
+        return;
+    const FT_Bitmap& bitmap = face->glyph->bitmap;
+    for (unsigned row = 0; row < bitmap.rows; ++row)
+        for (unsigned column = 0; column < bitmap.width; ++column)
+            mask.add(int(whole) + face->glyph->bitmap_left + int(column),
+                     int(begin.y) - face->glyph->bitmap_top + int(row),
+                     bitmap.buffer[std::ptrdiff_t(row) * bitmap.pitch + column]);
+}
+
+}  // namespace
+
+void paintText(Picture& picture, const OverlayText& text)
+{
+    const std::lock_guard lock(library().mutex);
+    const Line line = fitted(library().fonts, text);
+    const Pixel begin = beginOf(text, line);
+    Mask mask(picture.width, picture.height);
+    for (const Placed& placed : line.glyphs)
+        draw(mask, placed, begin, line.size);
+    mask.grown(std::max(1.0, kRimShare * line.size)).blendInto(picture, {0, 0, 0}, kRimStrength);
+    mask.blendInto(picture, text.color, 1);
+}
+
+TextSize measureText(const OverlayText& text)
+{
+    const std::lock_guard lock(library().mutex);
+    const Line line = fitted(library().fonts, text);
+    return {line.width, (kAscent + kDescent) * line.size};
+}
+
+}  // namespace vicon::viewer
