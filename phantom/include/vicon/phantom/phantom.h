@@ -1,0 +1,132 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "vicon/core/options.h"
+#include "vicon/core/progress.h"
+#include "vicon/core/skeleton.h"
+#include "vicon/core/volume.h"
+
+namespace vicon::phantom {
+
+/// What to synthesise. The same options give the same study, bit for bit, on any number of threads.
+struct PhantomOptions {
+    std::uint64_t seed = 1;
+    std::array<int, 3> size{512, 512, 430};     ///< columns, rows, slices
+    std::array<double, 3> spacing_mm{0, 0, 0};  ///< 0: as it takes to cover 379 x 379 x 430 mm, where the patient fits
+    bool supine = true;
+    bool prone = true;
+    std::string decubitus = "none";  ///< "none", "left", "right": one scan more, lying on that side
+    bool feet_first = false;
+    double oblique_deg = 0;     ///< the slices are turned by this about the patient's left-right axis
+    bool fluid = true;          ///< tagged pools, 300 to 900 HU
+    int gaps = 1;               ///< collapsed parts per scan, 10 to 40 mm long
+    int polyps = 5;             ///< sessile, 5 to 10 mm
+    bool folds = true;          ///< haustra and semilunar folds
+    bool catheter = true;       ///< rectal tube
+    bool thin_walls = false;    ///< three places where loops lie 1 mm of wall apart
+    bool self_contact = false;  ///< two loops that run into one another once: the lumen's Euler number is 0
+    double noise_hu = -1;       ///< standard deviation in soft tissue; below 0: drawn from 15 to 40
+    bool low_dose = false;      ///< noise drawn from 50 to 80 HU when noise_hu is below 0
+    double blur_mm = 0;         ///< sigma of the point spread; 0: drawn from 0.5 to 0.8
+    bool extras = true;         ///< a localizer and a dose sheet beside the scans (writeStudy)
+
+    template <class Visitor>
+    void visit(Visitor&& v)
+    {
+        v("phantom.seed", seed, "", "Number that the whole study is drawn from.", {0, 4e9});
+        v("phantom.columns", size[0], "", "Voxels from side to side.", {16, 2048});
+        v("phantom.rows", size[1], "", "Voxels from front to back.", {16, 2048});
+        v("phantom.slices", size[2], "", "Axial slices.", {8, 4096});
+        v("phantom.column_spacing_mm", spacing_mm[0], "mm", "Pixel spacing along a row; 0: the patient fits.", {0, 20});
+        v("phantom.row_spacing_mm", spacing_mm[1], "mm", "Pixel spacing along a column; 0: the patient fits.", {0, 20});
+        v("phantom.slice_spacing_mm", spacing_mm[2], "mm", "Slice spacing; 0: the patient fits.", {0, 20});
+        v("phantom.supine", supine, "", "Make a supine scan.");
+        v("phantom.prone", prone, "", "Make a prone scan.");
+        v("phantom.decubitus", decubitus, "", "Make a scan lying on this side.",
+          {.choices = {"none", "left", "right"}});
+        v("phantom.feet_first", feet_first, "", "The patient enters the scanner feet first.");
+        v("phantom.oblique_deg", oblique_deg, "degrees", "Turn the slices about the left-right axis.", {-30, 30});
+        v("phantom.fluid", fluid, "", "Pools of tagged fluid.");
+        v("phantom.gaps", gaps, "", "Collapsed parts in each scan.", {0, 4});
+        v("phantom.polyps", polyps, "", "Sessile polyps of 5 to 10 mm.", {0, 12});
+        v("phantom.folds", folds, "", "Haustra and semilunar folds.");
+        v("phantom.catheter", catheter, "", "A rectal tube.");
+        v("phantom.thin_walls", thin_walls, "", "Loops with 1 mm of wall between them, in three places.");
+        v("phantom.self_contact", self_contact, "", "Two loops run into one another once.");
+        v("phantom.noise_hu", noise_hu, "HU", "Noise; below 0: drawn from 15 to 40 HU.", {-1, 500});
+        v("phantom.low_dose", low_dose, "", "Noise drawn from 50 to 80 HU.");
+        v("phantom.blur_mm", blur_mm, "mm", "Sigma of the point spread; 0: drawn from 0.5 to 0.8 mm.", {0, 3});
+        v("phantom.extras", extras, "", "Write a localizer and a dose sheet too.");
+    }
+};
+
+/// A sessile polyp: a ball of soft tissue that grows out of the wall.
+struct Polyp {
+    Point3 position_mm;  ///< centre of the ball
+    double station_mm = 0;
+    double diameter_mm = 0;
+    double clock_deg = 0;  ///< angle about the curve: 0 anterior, clockwise as seen from the anal side
+};
+
+/// A collapsed part of the colon: no lumen between these stations.
+struct CollapsedGap {
+    double from_mm = 0;
+    double to_mm = 0;
+};
+
+/// A pool of tagged fluid.
+struct FluidPool {
+    double from_mm = 0;  ///< stations
+    double to_mm = 0;
+    double level_mm = 0;  ///< height of its surface: -gravity . position
+    double density_hu = 0;
+};
+
+/// What a scan shows, exactly.
+struct PhantomTruth {
+    std::vector<SkeletonPoint>
+        curve;                       ///< axis of the lumen, every 1 mm from the rectum to the caecum, also through gaps
+    std::vector<Polyp> polyps;       ///< in order of station
+    std::vector<CollapsedGap> gaps;  ///< in order of station
+    std::vector<FluidPool> pools;    ///< in order of station
+    Vector3 gravity;                 ///< unit vector
+    double length_mm = 0;            ///< of the curve
+    double volume_ml = 0;            ///< of the lumen, gas and fluid
+    double fluid_ml = 0;
+    double noise_hu = 0;
+    double blur_mm = 0;
+    int euler_number = 1;  ///< of the lumen: its pieces less its loops (self_contact)
+    InsideVolume inside;   ///< on the grid of the scan
+};
+
+struct PhantomScan {
+    HuVolume hu;  ///< axes as a scanner writes them for the position; kPaddingHu outside the reconstruction circle
+    PhantomTruth truth;
+    std::string patient_position;  ///< DICOM's code: HFS, HFP, FFS, FFP, HFDL, HFDR, FFDL, FFDR
+};
+
+/// One scan of the patient that the seed stands for; positions share colon, folds and polyps, and differ in course,
+/// distension, pools and gaps. Throws Error{wrong_use} on an unknown position or options out of range,
+/// Error{cancelled}.
+PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_position, Progress& progress);
+
+/// The scans that the options ask for, as makeScan's positions.
+std::vector<std::string> positionsOf(const PhantomOptions& options);
+
+/// "supine", "prone", "decubitus-left" or "decubitus-right".
+std::string nameOfPosition(const std::string& patient_position);
+
+/// The truth as JSON, keys with units; see docs/phantom.md.
+nlohmann::json describeTruth(const PhantomTruth& truth);
+
+/// Writes a study into the folder `out`, which is made and must be empty: one folder of DICOM files per series, and
+/// beside them per scan truth-POSITION.json and truth-POSITION-inside.mha. Throws also Error{store}.
+void writeStudy(const std::filesystem::path& out, const PhantomOptions& options, Progress& progress);
+
+}  // namespace vicon::phantom

@@ -1,0 +1,186 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "grid.h"
+#include "imaging.h"
+#include "lumen_field.h"
+#include "paint.h"
+#include "pools.h"
+#include "scene.h"
+#include "topology.h"
+#include "vicon/core/error.h"
+#include "wall.h"
+
+namespace vicon::phantom {
+namespace {
+
+constexpr double kSeparation_mm = 5;  // between the lumens of two loops; more where voxels are coarse
+
+Vector3 turned(Vector3 v, double angle)
+{
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {v.x, c * v.y - s * v.z, s * v.y + c * v.z};
+}
+
+void checkOptions(const PhantomOptions& options)
+{
+    for (const OptionSpec& spec : specsOf<PhantomOptions>()) {
+        const nlohmann::json value = toJson(options).at(spec.key);
+        if (value.is_number() && (value.get<double>() < spec.lowest || value.get<double>() > spec.highest))
+            throw Error(ErrorCode::wrong_use, spec.key + " is out of range", value.dump());
+        if (!spec.choices.empty() && std::find(spec.choices.begin(), spec.choices.end(), value) == spec.choices.end())
+            throw Error(ErrorCode::wrong_use, spec.key + " is none of its choices", value.dump());
+    }
+}
+
+double drawn(const PhantomOptions& options, const char* what, double low, double high)
+{
+    return Random(options.seed, what).uniform(low, high);
+}
+
+double noiseOf(const PhantomOptions& options)
+{
+    if (options.noise_hu >= 0)
+        return options.noise_hu;
+    return options.low_dose ? drawn(options, "dose", 50, 80) : drawn(options, "dose", 15, 40);
+}
+
+/// The angle about the curve as a clock's: 0 at the front, growing clockwise as seen from the anal side.
+double clockAngle(const CourseSample& at, Point3 p)
+{
+    const Vector3 front{0, -1, 0}, above{0, 0, 1};
+    const bool along_front = std::abs(dot(at.tangent, front)) > 0.9;
+    const Vector3 reference = along_front ? above : front;  // where the colon itself runs to the front: the head
+    const Vector3 twelve = normalized(reference - at.tangent * dot(reference, at.tangent));
+    const Vector3 d = p - at.position_mm;
+    // Looking along the tangent, clockwise is from twelve towards tangent x twelve.
+    const double angle = std::atan2(dot(d, cross(at.tangent, twelve)), dot(d, twelve)) * 180 / std::numbers::pi;
+    return angle < 0 ? angle + 360 : angle;
+}
+
+/// Distance from the axis to the wall: the least over the angle.
+double innerRadius_mm(const Wall& wall, double station_mm)
+{
+    double least = 1e9;
+    for (int n = 0; n < 48; ++n)
+        least = std::min(least, wall.at(station_mm, 2 * std::numbers::pi * n / 48).lumen_mm);
+    return std::max(least, 0.0);
+}
+
+PhantomTruth describe(const DrawnCourse& drawn, const Wall& wall)
+{
+    PhantomTruth truth;
+    truth.length_mm = drawn.course.length_mm();
+    for (std::size_t n = 0; n < drawn.course.samples.size(); ++n) {
+        const double station_mm = drawn.course.stationOf(n);
+        truth.curve.push_back({drawn.course.samples[n].position_mm, station_mm, innerRadius_mm(wall, station_mm)});
+    }
+    truth.polyps = wall.polyps;
+    for (Polyp& polyp : truth.polyps)
+        polyp.clock_deg = clockAngle(drawn.course.samples[drawn.course.sampleAt(polyp.station_mm)], polyp.position_mm);
+    truth.gaps = wall.gaps;
+    return truth;
+}
+
+void measure(PhantomTruth& truth)
+{
+    std::size_t gas = 0, fluid = 0;
+    for (const std::uint8_t label : truth.inside.voxels) {
+        gas += label == kGas;
+        fluid += label == kFluid;
+    }
+    const double voxel_ml = truth.inside.grid.voxelVolume_mm3() / 1000;
+    truth.volume_ml = double(gas + fluid) * voxel_ml;
+    truth.fluid_ml = double(fluid) * voxel_ml;
+}
+
+}  // namespace
+
+Grid scanGrid(const PhantomOptions& options, Placement placement)
+{
+    constexpr std::array<double, 3> kExtent_mm{kFieldMm, kFieldMm, kHeightMm};
+    Grid grid;
+    grid.size = options.size;
+    for (std::size_t a = 0; a < 3; ++a)
+        grid.spacing_mm[a] = options.spacing_mm[a] > 0 ? options.spacing_mm[a] : kExtent_mm[a] / options.size[a];
+    const Vector3 down = gravityOf(placement.position), ahead{0, 0, placement.feet_first ? -1.0 : 1.0};
+    const double oblique = options.oblique_deg * std::numbers::pi / 180;
+    grid.axis = {turned(cross(down, ahead), oblique), turned(down, oblique), turned(ahead, oblique)};
+    grid.origin_mm = Point3{0, 0, kHeightMm / 2};
+    for (std::size_t a = 0; a < 3; ++a)
+        grid.origin_mm += grid.axis[a] * -(grid.spacing_mm[a] * (grid.size[a] - 1) / 2);
+    return grid;
+}
+
+PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_position, Progress& progress)
+{
+    checkOptions(options);
+    const Placement placement = placementFrom(patient_position);
+    const Grid grid = scanGrid(options, placement);
+    const double coarsest_mm = *std::max_element(grid.spacing_mm.begin(), grid.spacing_mm.end());
+
+    progress.report(0, "course of the colon");
+    const DrawnCourse course = drawCourse({.seed = options.seed,
+                                           .position = placement.position,
+                                           .separation_mm = std::max(kSeparation_mm, 2.5 * coarsest_mm),
+                                           .thin_walls = options.thin_walls ? 3 : 0,
+                                           .self_contact = options.self_contact,
+                                           .thinnest_fold_mm = 2 * coarsest_mm,
+                                           .polyps = options.polyps});
+    const Wall wall = Wall::draw(options, course, placement.position);
+    PhantomScan scan;
+    scan.patient_position = patient_position;
+    scan.truth = describe(course, wall);
+    scan.truth.gravity = gravityOf(placement.position);
+    if (options.fluid)
+        scan.truth.pools = drawPools(options.seed, course.course, wall, placement.position);
+
+    progress.report(0.1, "lumen");
+    const Scene scene = drawScene(options.seed, course, placement.position, options.catheter);
+    const LumenField field = rasterise(grid, course.course, wall, scan.truth.pools, progress);
+    scan.truth.inside = labelLumen(grid, scene, field, scan.truth.pools);
+    measure(scan.truth);
+    scan.truth.euler_number = eulerNumber26(scan.truth.inside);
+
+    progress.report(0.5, "body");
+    scan.truth.blur_mm = options.blur_mm > 0 ? options.blur_mm : drawn(options, "blur", 0.5, 0.8);
+    scan.truth.noise_hu = noiseOf(options);
+    scan.hu = paintScene(grid, scene, field, scan.truth.pools, progress);
+    progress.report(0.7, "blur and noise");
+    scan.hu = imageScene(
+        scan.hu, {options.seed * 8 + std::uint64_t(placement.position), scan.truth.blur_mm, scan.truth.noise_hu},
+        progress);
+    progress.report(1, "scan");
+    return scan;
+}
+
+std::vector<std::string> positionsOf(const PhantomOptions& options)
+{
+    const std::string head = options.feet_first ? "FF" : "HF";
+    std::vector<std::string> positions;
+    if (options.supine)
+        positions.push_back(head + "S");
+    if (options.prone)
+        positions.push_back(head + "P");
+    if (options.decubitus != "none")
+        positions.push_back(head + (options.decubitus == "left" ? "DL" : "DR"));
+    return positions;
+}
+
+std::string nameOfPosition(const std::string& patient_position)
+{
+    switch (placementFrom(patient_position).position) {
+        case Position::supine:
+            return "supine";
+        case Position::prone:
+            return "prone";
+        case Position::left:
+            return "decubitus-left";
+        case Position::right:
+            return "decubitus-right";
+    }
+    throw Error(ErrorCode::internal, "no such position");
+}
+
+}  // namespace vicon::phantom
