@@ -1,0 +1,287 @@
+#include "vicon/steps/cells.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <vtkCellArray.h>
+#include <vtkFlyingEdges3D.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkShortArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "allocate.h"
+#include "wall_field.h"
+
+namespace vicon::steps {
+namespace {
+
+/// The field is contoured as whole numbers: half the memory of floats, and the wall's place to 1e-4 of a voxel.
+constexpr float kScale = 10000;
+/// Where the densities' gradient is further than this from the surface's own normal (cosine), it belongs to something
+/// else, a fluid level or a neighbouring loop, and the surface's normal is taken.
+constexpr double kAgree = 0.5;
+
+/// The contour in units of voxels of the labels' grid.
+struct Contour {
+    std::vector<float> points;             ///< x, y, z
+    std::vector<std::uint32_t> triangles;  ///< front side towards lower values of the field: the lumen
+    std::size_t pointCount() const { return points.size() / 3; }
+    std::size_t triangleCount() const { return triangles.size() / 3; }
+};
+
+/// Whether a row of voxels or one beside it holds an inside voxel.
+std::vector<std::uint8_t> rowsNearLumen(const InsideVolume& inside)
+{
+    const auto [nx, ny, nz] = inside.grid.size;
+    std::vector<std::uint8_t> near(std::size_t(ny + 2) * std::size_t(nz + 2), 0);
+    for (int k = 0; k < nz; ++k)
+        for (int j = 0; j < ny; ++j) {
+            const std::uint8_t* row = &inside.voxels[inside.grid.offset({0, j, k})];
+            if (std::none_of(row, row + nx, [](std::uint8_t v) { return v != kOutside; }))
+                continue;
+            for (int dk = 0; dk <= 2; ++dk)
+                for (int dj = 0; dj <= 2; ++dj)
+                    near[std::size_t(j + dj) + std::size_t(ny + 2) * std::size_t(k + dk)] = 1;
+        }
+    return near;
+}
+
+/// The field with one more voxel on every side, so that the surface closes where the scan ends.
+Volume<std::int16_t> paddedField(const WallField& field, const InsideVolume& inside)
+{
+    const auto [nx, ny, nz] = inside.grid.size;
+    auto padded = makeVolume<std::int16_t>(Grid{.size = {nx + 2, ny + 2, nz + 2}}, std::int16_t(kScale));
+    const auto near = rowsNearLumen(inside);
+    const auto besideOther = [&](Index3 v, bool is_inside) {
+        const auto other = [&](int i, int j, int k) {
+            return (inside.valueOr({i, j, k}, kOutside) != kOutside) != is_inside;
+        };
+        return other(v.i - 1, v.j, v.k) || other(v.i + 1, v.j, v.k) || other(v.i, v.j - 1, v.k) ||
+               other(v.i, v.j + 1, v.k) || other(v.i, v.j, v.k - 1) || other(v.i, v.j, v.k + 1);
+    };
+    tbb::parallel_for(tbb::blocked_range<int>(-1, nz + 1), [&, nx = nx, ny = ny](const tbb::blocked_range<int>& range) {
+        for (int k = range.begin(); k < range.end(); ++k)
+            for (int j = -1; j <= ny; ++j) {
+                if (!near[std::size_t(j + 1) + std::size_t(ny + 2) * std::size_t(k + 1)])
+                    continue;
+                for (int i = -1; i <= nx; ++i) {
+                    const Index3 v{i, j, k};
+                    const bool is_inside = inside.valueOr(v, kOutside) != kOutside;
+                    float value = is_inside ? -1.0F : 1.0F;
+                    if (besideOther(v, is_inside))
+                        value = is_inside ? field.ofInside(v) : field.ofOutside(v);
+                    padded.at({i + 1, j + 1, k + 1}) = std::int16_t(std::lround(value * kScale));
+                }
+            }
+    });
+    return padded;
+}
+
+Contour contour(Volume<std::int16_t> field)
+{
+    vtkNew<vtkShortArray> values;
+    values->SetArray(field.voxels.data(), vtkIdType(field.voxels.size()), 1);
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(field.grid.size.data());
+    image->SetOrigin(-1, -1, -1);
+    image->GetPointData()->SetScalars(values);
+    vtkNew<vtkFlyingEdges3D> edges;
+    edges->SetInputData(image);
+    edges->SetValue(0, 0);
+    edges->ComputeNormalsOff();
+    edges->ComputeScalarsOff();
+    edges->Update();
+    vtkPolyData* found = edges->GetOutput();
+    Contour out;
+    out.points.resize(std::size_t(found->GetNumberOfPoints()) * 3);
+    for (vtkIdType n = 0; n < found->GetNumberOfPoints(); ++n) {
+        double p[3];
+        found->GetPoint(n, p);
+        std::copy(p, p + 3, &out.points[std::size_t(3 * n)]);
+    }
+    out.triangles.reserve(std::size_t(found->GetNumberOfPolys()) * 3);
+    vtkIdType count = 0;
+    const vtkIdType* corners = nullptr;
+    auto* polys = found->GetPolys();
+    for (polys->InitTraversal(); polys->GetNextCell(count, corners);)
+        for (vtkIdType n = 0; n < 3; ++n)
+            out.triangles.push_back(std::uint32_t(corners[n]));
+    return out;
+}
+
+/// The edge between an inside and an outside voxel that a point of the contour lies on.
+struct Edge {
+    Index3 inside, outside;
+    double to_outside = 0;  ///< 0 at the inside voxel, 1 at the outside one
+};
+
+Edge edgeAt(const float* p, const InsideVolume& inside)
+{
+    Index3 low{int(std::floor(p[0])), int(std::floor(p[1])), int(std::floor(p[2]))}, high = low;
+    const double part[3] = {double(p[0]) - low.i, double(p[1]) - low.j, double(p[2]) - low.k};
+    // Exactly one coordinate lies between voxels; the others are whole numbers, which floats hold exactly.
+    const int along = part[0] > 0 ? 0 : part[1] > 0 ? 1 : 2;
+    (along == 0 ? high.i : along == 1 ? high.j : high.k) += 1;
+    if (inside.valueOr(low, kOutside) != kOutside)
+        return {low, high, part[along]};
+    return {high, low, 1 - part[along]};
+}
+
+/// The segment of each triangle: that of the inside voxel, among those its corners belong to, nearest to its middle.
+std::vector<std::uint16_t> tagTriangles(const Contour& contour, const InsideVolume& inside,
+                                        const SegmentVolume& segments)
+{
+    std::vector<std::uint16_t> tags(contour.triangleCount());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tags.size(), 4096), [&](const auto& range) {
+        for (std::size_t t = range.begin(); t < range.end(); ++t) {
+            const float* corner[3];
+            double middle[3] = {};
+            for (std::size_t n = 0; n < 3; ++n) {
+                corner[n] = &contour.points[3 * std::size_t(contour.triangles[3 * t + n])];
+                for (int d = 0; d < 3; ++d)
+                    middle[d] += double(corner[n][d]) / 3;
+            }
+            double nearest = std::numeric_limits<double>::max();
+            for (const float* p : corner) {
+                const Index3 v = edgeAt(p, inside).inside;
+                const double away = std::hypot(v.i - middle[0], v.j - middle[1], v.k - middle[2]);
+                if (away < nearest) {
+                    nearest = away;
+                    tags[t] = segments.at(v);
+                }
+            }
+        }
+    });
+    return tags;
+}
+
+Vector3 toPatient(const Grid& grid, Vector3 per_voxel)
+{
+    return grid.axis[0] * (per_voxel.x / grid.spacing_mm[0]) + grid.axis[1] * (per_voxel.y / grid.spacing_mm[1]) +
+           grid.axis[2] * (per_voxel.z / grid.spacing_mm[2]);
+}
+
+/// Puts triangles in order of their segment and points in order of their first use, in patient coordinates.
+artefact::CellSurface arrange(const Contour& contour, const std::vector<std::uint16_t>& tags, const Grid& grid,
+                              std::vector<std::uint32_t>& point_source)
+{
+    std::vector<std::uint32_t> order(tags.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return tags[a] < tags[b]; });
+    constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> renumbered(contour.pointCount(), kUnused);
+    artefact::CellSurface surface;
+    surface.triangles.reserve(contour.triangles.size());
+    surface.segment.reserve(tags.size());
+    const bool right_handed = dot(cross(grid.axis[0], grid.axis[1]), grid.axis[2]) > 0;
+    for (const std::uint32_t t : order) {
+        surface.segment.push_back(tags[t]);
+        for (std::size_t n = 0; n < 3; ++n) {
+            const std::uint32_t p = contour.triangles[3 * std::size_t(t) + (right_handed ? n : 2 - n)];
+            if (renumbered[p] == kUnused) {
+                renumbered[p] = std::uint32_t(point_source.size());
+                point_source.push_back(p);
+            }
+            surface.triangles.push_back(renumbered[p]);
+        }
+    }
+    surface.points_mm.reserve(3 * point_source.size());
+    for (const std::uint32_t p : point_source) {
+        const float* c = &contour.points[3 * std::size_t(p)];
+        const Point3 at = grid.pointAt(ContinuousIndex3{c[0], c[1], c[2]});
+        for (const double x : {at.x, at.y, at.z})
+            surface.points_mm.push_back(float(x));
+    }
+    return surface;
+}
+
+/// Area-weighted normals of the triangles around each point; they point to the front side.
+std::vector<Vector3> surfaceNormals(const artefact::CellSurface& surface)
+{
+    std::vector<Vector3> normals(surface.pointCount());
+    for (std::size_t t = 0; t < surface.triangleCount(); ++t) {
+        const std::uint32_t* c = &surface.triangles[3 * t];
+        const Point3 p = surface.point(c[0]);
+        const Vector3 area = cross(surface.point(c[1]) - p, surface.point(c[2]) - p);
+        for (int n = 0; n < 3; ++n)
+            normals[c[n]] += area;
+    }
+    return normals;
+}
+
+void setNormals(artefact::CellSurface& surface, const Contour& contour, const std::vector<std::uint32_t>& point_source,
+                const WallField& field, const InsideVolume& inside)
+{
+    const auto geometric = surfaceNormals(surface);
+    surface.normals.resize(surface.points_mm.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, point_source.size(), 4096), [&](const auto& range) {
+        for (std::size_t n = range.begin(); n < range.end(); ++n) {
+            const Edge edge = edgeAt(&contour.points[3 * std::size_t(point_source[n])], inside);
+            const Vector3 per_voxel =
+                field.gradient(edge.inside) * (1 - edge.to_outside) + field.gradient(edge.outside) * edge.to_outside;
+            const double towards = inside.at(edge.inside) == kGas ? -1 : 1;
+            Vector3 normal = normalized(toPatient(inside.grid, per_voxel) * towards);
+            const Vector3 own = normalized(geometric[n]);
+            if (dot(normal, own) < kAgree)
+                normal = own;
+            surface.normals[3 * n] = float(normal.x);
+            surface.normals[3 * n + 1] = float(normal.y);
+            surface.normals[3 * n + 2] = float(normal.z);
+        }
+    });
+}
+
+}  // namespace
+
+artefact::CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const SegmentVolume& segments,
+                                   const CellOptions& options, Progress& progress)
+{
+    if (segments.grid != inside.grid)
+        throw Error(ErrorCode::bad_input, "the segments do not lie on the grid of the labels", {},
+                    "run 'vicon work' to make them anew");
+    progress.report(0, "surface");
+    const WallField field(hu, inside, {options.gas_wall_hu, options.tissue_hu});
+    const Contour found = contour(paddedField(field, inside));
+    progress.check();
+    progress.report(0.5, "surface");
+    const auto tags = tagTriangles(found, inside, segments);
+    std::vector<std::uint32_t> point_source;
+    artefact::CellSurface surface = arrange(found, tags, inside.grid, point_source);
+    progress.check();
+    progress.report(0.8, "surface");
+    setNormals(surface, found, point_source, field, inside);
+    progress.report(1, "surface");
+    return surface;
+}
+
+void countTriangles(const artefact::CellSurface& surface, artefact::Subdivision& description)
+{
+    for (auto& segment : description.segments)
+        segment.triangles = 0;
+    for (const std::uint16_t number : surface.segment)
+        if (number >= 1 && number <= description.segments.size())
+            ++description.segments[number - 1U].triangles;
+    std::size_t largest = 0, smallest = surface.triangleCount();
+    double square = 0;
+    const double average =
+        double(surface.triangleCount()) / double(std::max<std::size_t>(1, description.segments.size()));
+    for (const auto& segment : description.segments) {
+        largest = std::max(largest, segment.triangles);
+        smallest = std::min(smallest, segment.triangles);
+        square += std::pow(double(segment.triangles) - average, 2);
+    }
+    const auto cells = double(std::max<std::size_t>(1, description.segments.size()));
+    description.statistics["triangles"] = surface.triangleCount();
+    description.statistics["triangles_average"] = average;
+    description.statistics["triangles_largest"] = largest;
+    description.statistics["triangles_smallest"] = smallest;
+    description.statistics["triangles_standard_deviation"] = std::sqrt(square / cells);
+}
+
+}  // namespace vicon::steps

@@ -1,0 +1,118 @@
+#include "wall_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lattice.h"
+
+namespace vicon::steps {
+namespace {
+
+/// Where densities cannot tell (the layer between gas and fluid looks like tissue), the wall lies half-way.
+constexpr float kUnknown = -0.5F;
+/// A pool's density must differ from tissue by this much to place a wall; less is taken as this.
+constexpr double kLeastContrast_hu = 50;
+
+constexpr int kFaces[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
+
+std::vector<std::uint16_t> fluidOnly(const InsideVolume& inside)
+{
+    std::vector<std::uint16_t> fluid(inside.voxels.size());
+    std::transform(inside.voxels.begin(), inside.voxels.end(), fluid.begin(),
+                   [](std::uint8_t label) { return std::uint16_t(label == kFluid); });
+    return fluid;
+}
+
+}  // namespace
+
+WallField::WallField(const HuVolume& hu, const InsideVolume& inside, Levels levels)
+    : hu_(hu),
+      inside_(inside),
+      levels_(levels),
+      offset_(latticeOffset(inside.grid, hu.grid)),
+      pools_(inside.grid, fluidOnly(inside))
+{
+    measurePools();
+}
+
+/// A pool's density is the median over its voxels that have only fluid around them, or over all where there are none.
+void WallField::measurePools()
+{
+    std::vector<std::vector<std::int16_t>> deep(pools_.count()), all(pools_.count());
+    for (const Run& run : pools_.runs())
+        for (int i = run.begin; i < run.end; ++i) {
+            const Index3 v{i, run.j, run.k};
+            const auto density = std::int16_t(hu(v, levels_.tissue_hu));
+            all[run.component].push_back(density);
+            const bool surrounded = std::all_of(std::begin(kFaces), std::end(kFaces), [&](const int* f) {
+                return inside_.valueOr({v.i + f[0], v.j + f[1], v.k + f[2]}, kOutside) == kFluid;
+            });
+            if (surrounded)
+                deep[run.component].push_back(density);
+        }
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        auto& values = deep[n].empty() ? all[n] : deep[n];
+        const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        pool_hu_.push_back(*middle);
+    }
+}
+
+double WallField::hu(Index3 v, double otherwise) const
+{
+    const std::int16_t value = hu_.valueOr({v.i + offset_.i, v.j + offset_.j, v.k + offset_.k}, kPaddingHu);
+    return value == kPaddingHu ? otherwise : double(value);
+}
+
+Vector3 WallField::gradient(Index3 v) const
+{
+    const double here = hu(v, levels_.tissue_hu);
+    const auto along = [&](int di, int dj, int dk) {
+        return 0.5 * (hu({v.i + di, v.j + dj, v.k + dk}, here) - hu({v.i - di, v.j - dj, v.k - dk}, here));
+    };
+    return {along(1, 0, 0), along(0, 1, 0), along(0, 0, 1)};
+}
+
+double WallField::valueBeside(Index3 labelled, std::uint8_t label, double density) const
+{
+    if (label == kGas)
+        return (density - levels_.gas_wall_hu) / (levels_.tissue_hu - levels_.gas_wall_hu);
+    const double contrast = std::max(pool_hu_[pools_.at(labelled)] - levels_.tissue_hu, kLeastContrast_hu);
+    return (levels_.tissue_hu + contrast / 2 - density) / (contrast / 2);
+}
+
+bool WallField::betweenGasAndFluid(Index3 v) const
+{
+    int labels = 0;
+    for (int k = v.k - 1; k <= v.k + 1; ++k)
+        for (int j = v.j - 1; j <= v.j + 1; ++j)
+            for (int i = v.i - 1; i <= v.i + 1; ++i)
+                labels |= inside_.valueOr({i, j, k}, kOutside);
+    return labels == (kGas | kFluid);
+}
+
+float WallField::ofInside(Index3 v) const
+{
+    const std::uint8_t label = inside_.at(v);
+    const auto value = float(valueBeside(v, label, hu(v, label == kGas ? -1000 : pool_hu_[pools_.at(v)])));
+    if (value > 0 && betweenGasAndFluid(v))
+        return kUnknown;
+    return std::clamp(value, -1.0F, -kLeast);
+}
+
+float WallField::ofOutside(Index3 v) const
+{
+    double sum = 0;
+    int count = 0;
+    const double density = hu(v, levels_.tissue_hu);
+    for (const auto& f : kFaces) {
+        const Index3 n{v.i + f[0], v.j + f[1], v.k + f[2]};
+        if (const std::uint8_t label = inside_.valueOr(n, kOutside)) {
+            sum += valueBeside(n, label, density);
+            ++count;
+        }
+    }
+    return count == 0 ? 1.0F : std::clamp(float(sum / count), kLeast, 1.0F);
+}
+
+}  // namespace vicon::steps

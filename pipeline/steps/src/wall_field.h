@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "components.h"
+#include "vicon/core/volume.h"
+
+namespace vicon::steps {
+
+/// Where the wall lies between an inside and an outside voxel, from the densities: a signed value of each voxel beside
+/// the wall, below 0 inside, above 0 outside, about -1 and +1 away from the wall, linear in the density. Beside gas it
+/// is 0 at the wall's density, under fluid half-way between tissue and the pool's own density, so one level serves
+/// both. The mask decides the sign.
+class WallField {
+public:
+    struct Levels {
+        double gas_wall_hu;
+        double tissue_hu;
+    };
+
+    /// References must outlive the field. Throws Error{bad_input} when the grids do not fit together.
+    WallField(const HuVolume& hu, const InsideVolume& inside, Levels levels);
+
+    /// The value of an inside voxel, in [-1, -kLeast].
+    float ofInside(Index3 v) const;
+    /// The value of an outside voxel (also beyond the grid), in [kLeast, 1]; 1 where no neighbour is inside.
+    float ofOutside(Index3 v) const;
+
+    /// The density, or `otherwise` where none was measured.
+    double hu(Index3 v, double otherwise) const;
+    /// The gradient of the densities by central differences, in HU per voxel along the grid's axes.
+    Vector3 gradient(Index3 v) const;
+
+    /// The wall keeps this part of an edge away from both its voxels.
+    static constexpr float kLeast = 0.02F;
+
+private:
+    double valueBeside(Index3 labelled, std::uint8_t label, double density) const;
+    bool betweenGasAndFluid(Index3 v) const;
+    void measurePools();
+
+    const HuVolume& hu_;
+    const InsideVolume& inside_;
+    Levels levels_;
+    Index3 offset_;
+    Components pools_;
+    std::vector<double> pool_hu_;
+};
+
+}  // namespace vicon::steps
