@@ -6,6 +6,7 @@
 #include "../scan_work.h"
 #include "spdlog/spdlog.h"
 #include "vicon/core/error.h"
+#include "vicon/ingest/import.h"
 #include "vicon/ingest/receiver.h"
 #include "vicon/pipeline/worker.h"
 

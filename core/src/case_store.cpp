@@ -92,7 +92,8 @@ void putInstances(soci::session& sql, const std::vector<InstanceRecord>& instanc
     InstanceRecord row;
     soci::statement insert =
         (sql.prepare << "INSERT INTO instances (sop_uid, case_id, scan_id, sha256, file)"
-                        " VALUES (:sop, :case, :scan, :sha, :file) ON CONFLICT (sop_uid) DO NOTHING",
+                        " VALUES (:sop, :case, :scan, :sha, :file) ON CONFLICT (sop_uid) DO UPDATE SET"
+                        " scan_id = excluded.scan_id, file = excluded.file",
          soci::use(row.sop_uid), soci::use(row.case_id), soci::use(row.scan_id), soci::use(row.sha256),
          soci::use(row.file));
     for (const InstanceRecord& instance : instances) {
@@ -130,7 +131,7 @@ void enqueueJob(soci::session& sql, const std::string& case_id, const std::strin
         soci::use(case_id), soci::use(scan_id), soci::use(now);
 }
 
-CaseStore::CaseStore(fs::path folder)
+CaseStore::CaseStore(const fs::path& folder)
     : folder_(fs::absolute(folder).lexically_normal()),
       database_((makePrivateFolder(folder_ / "cases"), folder_ / "vicon.db"))
 {
@@ -249,9 +250,31 @@ void CaseStore::addScan(const CaseRecord& a_case, const ScanRecord& scan, const 
         putInstances(sql, instances);
         if (queue)
             enqueueJob(sql, scan.case_id, scan.id);
+        else if (scan.role != "scan")
+            sql << "DELETE FROM jobs WHERE case_id = :c AND scan_id = :s AND state <> 'done'", soci::use(scan.case_id),
+                soci::use(scan.id);
         putAudit(sql, "imported", scan.case_id, scan.id, std::to_string(instances.size()) + " objects");
     });
     writeScanFile(scan.case_id, scan.id);
+}
+
+void CaseStore::removeScan(const std::string& case_id, const std::string& scan_id)
+{
+    int markers = 0;
+    database_.write([&](soci::session& sql) {
+        sql << "SELECT COUNT(*) FROM markers WHERE case_id = :c AND scan_id = :s", soci::use(case_id),
+            soci::use(scan_id), soci::into(markers);
+        if (markers > 0)
+            return;
+        for (const char* table : {"jobs", "steps", "instances"})
+            sql << std::string("DELETE FROM ") + table + " WHERE case_id = :c AND scan_id = :s", soci::use(case_id),
+                soci::use(scan_id);
+        sql << "DELETE FROM scans WHERE case_id = :c AND id = :s", soci::use(case_id), soci::use(scan_id);
+        putAudit(sql, "scan removed", case_id, scan_id, "");
+    });
+    std::error_code ignored;  // what stays belongs to no scan any more
+    if (markers == 0)
+        fs::remove_all(scanFolder(case_id, scan_id), ignored);
 }
 
 void CaseStore::flag(const std::string& case_id, const std::string& line)

@@ -11,8 +11,8 @@
 
 namespace vicon::pipeline {
 
-/// The artefacts of a scan as the steps hand them on: kept in memory when they were just made, read when they were made by an
-/// earlier run.
+/// The artefacts of a scan as the steps hand them on: kept in memory when they were just made, read when they were made
+/// by an earlier run.
 class ScanArtefacts {
 public:
     explicit ScanArtefacts(std::filesystem::path folder) : folder_(std::move(folder)) {}

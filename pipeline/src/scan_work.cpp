@@ -57,7 +57,10 @@ bool isCurrent(const StepRecord& record, const std::string& digest, const fs::pa
     return record.digest == digest && filesAreThere(folder, record.result.value("files", json::object()));
 }
 
-bool endsHere(const StepRecord& record) { return record.result.value("verdict", "") == "no colon"; }
+bool endsHere(const StepRecord& record)
+{
+    return record.result.value("verdict", "") == "no colon";
+}
 
 StepRecords recordsOf(CaseStore& store, const ScanRecord& scan)
 {

@@ -59,8 +59,8 @@ json runResample(const StepInputs& inputs, ScanArtefacts& artefacts, const StepR
 
 json runSegment(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
 {
-    steps::Segmentation found = steps::segmentColon(artefacts.volume(), inputs.gravity,
-                                                    inputs.config.get<steps::SegmentOptions>(), progress);
+    steps::Segmentation found =
+        steps::segmentColon(artefacts.volume(), inputs.gravity, inputs.config.get<steps::SegmentOptions>(), progress);
     json result = found.measures;
     result["verdict"] = found.verdict;
     result["confidence"] = found.confidence;
@@ -89,8 +89,8 @@ std::vector<std::string> segmentFiles(const json& result)
 json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords& records, Progress& progress)
 {
     const steps::LumenPlan plan = steps::lumenPlanFromJson(records.at("segment").result.at("plan"));
-    steps::SkeletonResult found = steps::findSkeleton(artefacts.inside(), plan,
-                                                      inputs.config.get<steps::SkeletonOptions>(), progress);
+    steps::SkeletonResult found =
+        steps::findSkeleton(artefacts.inside(), plan, inputs.config.get<steps::SkeletonOptions>(), progress);
     json result = found.measures;
     result["length_mm"] = found.curve.length_mm();
     artefact::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
@@ -101,18 +101,18 @@ json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepR
 json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
 {
     PartOfProgress divide(progress, 0, 0.4), contour(progress, 0.4, 0.9), project(progress, 0.9, 1);
-    steps::Subdivided divided = steps::subdivide(artefacts.inside(), artefacts.skeleton(),
-                                                 artefact::readSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp"),
-                                                 inputs.config.get<steps::SubdivideOptions>(), divide);
+    steps::Subdivided divided =
+        steps::subdivide(artefacts.inside(), artefacts.skeleton(),
+                         artefact::readSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp"),
+                         inputs.config.get<steps::SubdivideOptions>(), divide);
     artefacts.put(std::move(divided.segments));
-    const artefact::CellSurface surface =
-        steps::extractCells(artefacts.volume(), artefacts.inside(), artefacts.segments(),
-                            inputs.config.get<steps::CellOptions>(), contour);
+    const artefact::CellSurface surface = steps::extractCells(
+        artefacts.volume(), artefacts.inside(), artefacts.segments(), inputs.config.get<steps::CellOptions>(), contour);
     artefacts.dropVolume();
     steps::countTriangles(divided.description, surface);
     artefact::writeCells(artefacts.folder() / "cells.vtp", surface);
-    steps::writeProjections(artefacts.folder() / "projections", surface,
-                            inputs.config.get<steps::ProjectionOptions>(), project);
+    steps::writeProjections(artefacts.folder() / "projections", surface, inputs.config.get<steps::ProjectionOptions>(),
+                            project);
     artefact::writeSubdivision(artefacts.folder() / "subdivision.json", divided.description);
     json result = divided.description.statistics;
     result["method"] = divided.description.method;
@@ -143,14 +143,31 @@ const std::vector<Step>& stepTable()
     static const std::vector<Step> kTable = {
         {"resample", 1, 0, 0.3, {}, always({"volume.mha"}), parametersFrom<ResampleOptions>, runResample},
         {"segment", 1, 0.3, 0.55, {"resample"}, segmentFiles, parametersFrom<SegmentOptions>, runSegment},
-        {"skeleton", 1, 0.55, 0.65, {"segment"}, always({"skeleton.vtp", "skeleton_voxels.vtp"}),
-         parametersFrom<SkeletonOptions>, runSkeleton},
-        {"subdivide", 1, 0.65, 0.85, {"resample", "segment", "skeleton"},
+        {"skeleton",
+         1,
+         0.55,
+         0.65,
+         {"segment"},
+         always({"skeleton.vtp", "skeleton_voxels.vtp"}),
+         parametersFrom<SkeletonOptions>,
+         runSkeleton},
+        {"subdivide",
+         1,
+         0.65,
+         0.85,
+         {"resample", "segment", "skeleton"},
          always({"segments.mha", "subdivision.json", "cells.vtp", "projections/coronal.png",
                  "projections/transverse.png", "projections/sagittal.png", "projections/projections.json"}),
-         parametersFrom<SubdivideOptions, CellOptions, ProjectionOptions>, runSubdivide},
-        {"potential", 1, 0.85, 1, {"segment", "skeleton"}, always({"exit_distance.mha", "wall_distance.mha"}),
-         [](const Config&) { return json::object(); }, runPotential},
+         parametersFrom<SubdivideOptions, CellOptions, ProjectionOptions>,
+         runSubdivide},
+        {"potential",
+         1,
+         0.85,
+         1,
+         {"segment", "skeleton"},
+         always({"exit_distance.mha", "wall_distance.mha"}),
+         [](const Config&) { return json::object(); },
+         runPotential},
     };
     return kTable;
 }

@@ -44,9 +44,14 @@ CommandResult runCommand(const std::string& shell_line)
     return result;
 }
 
+std::string viconBinary()
+{
+    return VICON_BINARY;
+}
+
 CommandResult runVicon(const std::string& arguments)
 {
-    return runCommand(std::string(VICON_BINARY) + " " + arguments);
+    return runCommand(viconBinary() + " " + arguments);
 }
 
 }  // namespace vicon::support

@@ -14,7 +14,7 @@ namespace vicon {
 class CaseStore {
 public:
     /// Opens a store, and makes it when `folder` does not exist or is empty. Throws Error{store} or Error{database}.
-    explicit CaseStore(std::filesystem::path folder);
+    explicit CaseStore(const std::filesystem::path& folder);
 
     const std::filesystem::path& folder() const { return folder_; }
     std::filesystem::path caseFolder(const std::string& case_id) const;
@@ -40,9 +40,12 @@ public:
     std::vector<InstanceRecord> instances(const std::string& case_id, const std::string& scan_id);
 
     /// Adds or replaces a case, its scan and the scan's instances in one transaction, after their files were written;
-    /// then rewrites scan.json. `queue` puts a job for the scan into the queue.
+    /// then rewrites scan.json. `queue` puts a job for the scan into the queue; a scan whose role is no longer "scan"
+    /// leaves it unless its job is done.
     void addScan(const CaseRecord& a_case, const ScanRecord& scan, const std::vector<InstanceRecord>& instances,
                  bool queue);
+    /// Forgets a scan and removes its folder, unless a marker lies in it: then it stays as it is.
+    void removeScan(const std::string& case_id, const std::string& scan_id);
     /// Adds a line for a person to the case; the same line is kept once.
     void flag(const std::string& case_id, const std::string& line);
 

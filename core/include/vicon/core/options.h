@@ -40,9 +40,10 @@ template <class Options>
 std::vector<OptionSpec> specsOf()
 {
     std::vector<OptionSpec> specs;
-    Options{}.visit([&](const char* key, auto& value, const char* unit, const char* help, OptionLimits limits = {}) {
-        specs.push_back({key, value, unit, help, limits.lowest, limits.highest, limits.choices});
-    });
+    Options{}.visit(
+        [&](const char* key, auto& value, const char* unit, const char* help, const OptionLimits& limits = {}) {
+            specs.push_back({key, value, unit, help, limits.lowest, limits.highest, limits.choices});
+        });
     return specs;
 }
 
@@ -50,7 +51,8 @@ template <class Options>
 nlohmann::json toJson(Options options)
 {
     nlohmann::json out = nlohmann::json::object();
-    options.visit([&](const char* key, auto& value, const char*, const char*, OptionLimits = {}) { out[key] = value; });
+    options.visit(
+        [&](const char* key, auto& value, const char*, const char*, const OptionLimits& = {}) { out[key] = value; });
     return out;
 }
 
@@ -79,7 +81,7 @@ public:
     Options get() const
     {
         Options options;
-        options.visit([&](const char* key, auto& value, const char*, const char*, OptionLimits = {}) {
+        options.visit([&](const char* key, auto& value, const char*, const char*, const OptionLimits& = {}) {
             if (const auto found = values_.find(key); found != values_.end())
                 found->second.value.get_to(value);
         });

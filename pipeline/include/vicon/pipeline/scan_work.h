@@ -16,15 +16,15 @@ using AcquiredVolumeLoader = std::function<HuVolume(const std::filesystem::path&
 /// All options of the steps, for Config::declare().
 std::vector<OptionSpec> stepOptionSpecs();
 
-/// The work on one scan: resample, segment, skeleton, subdivide, potential. Each step is a checkpoint: it is done again only
-/// when its parameters, its code's version, its inputs or its files changed. A scan without a colon ends after `segment`,
-/// with the verdict in scan.json.
+/// The work on one scan: resample, segment, skeleton, subdivide, potential. Each step is a checkpoint: it is done again
+/// only when its parameters, its code's version, its inputs or its files changed. A scan without a colon ends after
+/// `segment`, with the verdict in scan.json.
 /// @param loader_parameters what of the configuration `loader` depends on, for the record of the first step
 JobWork makeScanWork(CaseStore& store, const Config& config, AcquiredVolumeLoader loader,
                      nlohmann::json loader_parameters);
 
-/// Whether the work on a scan, done now, would redo anything: parameters, code, instances or files are not what its steps
-/// were made with.
+/// Whether the work on a scan, done now, would redo anything: parameters, code, instances or files are not what its
+/// steps were made with.
 bool isOutdated(CaseStore& store, const Config& config, const nlohmann::json& loader_parameters,
                 const std::string& case_id, const std::string& scan_id);
 

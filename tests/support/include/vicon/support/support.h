@@ -30,6 +30,8 @@ struct CommandResult {
     std::string output;
 };
 CommandResult runCommand(const std::string& shell_line);
+/// The built `vicon`.
+std::string viconBinary();
 /// Runs the built `vicon` with these arguments.
 CommandResult runVicon(const std::string& arguments);
 

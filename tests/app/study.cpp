@@ -1,0 +1,86 @@
+#include "study.h"
+
+#include <fstream>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace vicon::support {
+namespace {
+
+std::string contentOf(const fs::path& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream out;
+    out << in.rdbuf();
+    return out.str();
+}
+
+/// Takes out of scan.json what says when, and how long something took.
+void removeTimes(nlohmann::json& json)
+{
+    if (json.is_object())
+        for (const char* key : {"created", "finished", "seconds"})
+            json.erase(key);
+    if (json.is_structured())
+        for (auto& child : json)
+            removeTimes(child);
+}
+
+}  // namespace
+
+std::string viconOn(const fs::path& store, const std::string& arguments)
+{
+    const CommandResult result = runVicon(arguments + " --store " + store.string());
+    EXPECT_EQ(result.exit_code, 0) << "vicon " << arguments << "\n" << result.output;
+    return result.output;
+}
+
+nlohmann::json viconJson(const fs::path& store, const std::string& arguments)
+{
+    const auto json = nlohmann::json::parse(viconOn(store, arguments + " --json"), nullptr, false);
+    EXPECT_FALSE(json.is_discarded()) << arguments;
+    return json;
+}
+
+const fs::path& smallStudy()
+{
+    static const TemporaryFolder folder;
+    static const fs::path study = [] {
+        const auto made = runVicon("phantom " + (folder / "study").string() +
+                                   " --supine --size 160x160x134 --no-folds --gap 0 --seed 3");
+        EXPECT_EQ(made.exit_code, 0) << made.output;
+        return folder / "study";
+    }();
+    return study;
+}
+
+std::vector<ListedScan> listedScans(const fs::path& store)
+{
+    std::vector<ListedScan> scans;
+    for (const auto& c : viconJson(store, "cases")["cases"])
+        for (const auto& s : c["scans"])
+            if (s["state"] != "kept")
+                scans.push_back({c["id"], s["id"], s["position"], s["state"], s["folder"].get<std::string>()});
+    return scans;
+}
+
+std::map<std::string, std::string> artefactsOf(const fs::path& store)
+{
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(store / "cases")) {
+        if (!entry.is_regular_file())
+            continue;
+        std::string content = contentOf(entry.path());
+        if (entry.path().filename() == "scan.json") {
+            auto json = nlohmann::json::parse(content, nullptr, false);
+            EXPECT_FALSE(json.is_discarded()) << entry.path() << " is half-written";
+            removeTimes(json);
+            content = json.dump();
+        }
+        all[fs::relative(entry.path(), store / "cases").string()] = std::move(content);
+    }
+    return all;
+}
+
+}  // namespace vicon::support

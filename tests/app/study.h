@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "vicon/support/support.h"
+
+namespace vicon::support {
+
+/// Runs vicon on a store and expects exit code 0; returns what it printed.
+std::string viconOn(const std::filesystem::path& store, const std::string& arguments);
+nlohmann::json viconJson(const std::filesystem::path& store, const std::string& arguments);
+
+/// A small synthetic study, made once per test program: 160 x 160 x 134 voxels, a colon of full length, without the
+/// folds, which such voxels do not resolve.
+const std::filesystem::path& smallStudy();
+
+/// A scan of the worklist.
+struct ListedScan {
+    std::string case_id, scan_id, position, state;
+    std::filesystem::path folder;
+};
+std::vector<ListedScan> listedScans(const std::filesystem::path& store);
+
+/// Every artefact of a store: path below STORE/cases to content, recorded times removed; dicom/ included.
+std::map<std::string, std::string> artefactsOf(const std::filesystem::path& store);
+
+}  // namespace vicon::support

@@ -1,0 +1,174 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "study.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::support {
+namespace {
+
+using testing::HasSubstr;
+
+/// The whole path on a small study, once for all tests of this file.
+class Study : public testing::Test {
+protected:
+    static void SetUpTestSuite()
+    {
+        folder_ = new TemporaryFolder;
+        viconOn(store(), "import " + smallStudy().string());
+        work_output_ = viconOn(store(), "work --until-idle");
+        const auto scans = listedScans(store());
+        ASSERT_EQ(scans.size(), 1u);
+        scan_ = scans.front();
+        truth_ = nlohmann::json::parse(std::ifstream(smallStudy() / "truth-supine.json"));
+    }
+    static void TearDownTestSuite()
+    {
+        delete folder_;
+        folder_ = nullptr;
+    }
+    static fs::path store() { return folder_->path() / "store"; }
+    static std::string at(const nlohmann::json& p)
+    {
+        return " --at=" + std::to_string(p[0].get<double>()) + "," + std::to_string(p[1].get<double>()) + "," +
+               std::to_string(p[2].get<double>());
+    }
+
+    static TemporaryFolder* folder_;
+    static std::string work_output_;
+    static ListedScan scan_;
+    static nlohmann::json truth_;
+};
+TemporaryFolder* Study::folder_ = nullptr;
+std::string Study::work_output_;
+ListedScan Study::scan_;
+nlohmann::json Study::truth_;
+
+TEST_F(Study, HasEveryArtefactOfTheContract)
+{
+    for (const char* file : {"scan.json", "volume.mha", "inside.mha", "skeleton.vtp", "skeleton_voxels.vtp",
+                             "segments.mha", "subdivision.json", "cells.vtp", "exit_distance.mha", "wall_distance.mha",
+                             "projections/coronal.png", "projections/transverse.png", "projections/sagittal.png"})
+        EXPECT_TRUE(fs::exists(scan_.folder / file)) << file;
+    EXPECT_EQ(scan_.state, "done");
+    EXPECT_EQ(scan_.position, "supine");
+    for (const auto& entry : fs::recursive_directory_iterator(store())) {
+        const auto mode = entry.status().permissions() & fs::perms::all;
+        EXPECT_EQ(mode & (fs::perms::group_all | fs::perms::others_all), fs::perms::none) << entry.path();
+        EXPECT_THAT(entry.path().string(), testing::Not(HasSubstr("Phantom"))) << "no patient's name in a path";
+    }
+}
+
+TEST_F(Study, FindsTheColonsLength)
+{
+    const auto show = viconJson(store(), "show " + scan_.case_id);
+    const double length = show["scans"][0]["steps"]["skeleton"]["result"]["length_mm"];
+    EXPECT_NEAR(length / truth_["length_mm"].get<double>(), 1, 0.05) << "voxels of 2.4 mm";
+}
+
+TEST_F(Study, WorkingAgainChangesNothingAndOtherParametersRedoWhatDependsOnThem)
+{
+    const auto before = artefactsOf(store());
+    viconOn(store(), "work --until-idle");
+    EXPECT_TRUE(artefactsOf(store()) == before);
+
+    const auto timesOf = [&] {
+        std::map<std::string, std::string> times;
+        const auto show = viconJson(store(), "show " + scan_.case_id);
+        for (const auto& [step, about] : show["scans"][0]["steps"].items())
+            times[step] = about["finished"].get<std::string>() + about["digest"].get<std::string>();
+        return times;
+    };
+    const auto first = timesOf();
+    viconOn(store(), "work --until-idle --set subdivide.length_mm=50");
+    const auto second = timesOf();
+    for (const char* kept : {"resample", "segment", "skeleton", "potential"})
+        EXPECT_EQ(second.at(kept), first.at(kept)) << kept;
+    EXPECT_NE(second.at("subdivide"), first.at("subdivide"));
+    viconOn(store(), "work --until-idle");
+    EXPECT_TRUE(artefactsOf(store()) == before) << "and back";
+}
+
+TEST_F(Study, RedoesAnArtefactThatIsMissing)
+{
+    const auto before = artefactsOf(store());
+    fs::remove(scan_.folder / "skeleton.vtp");
+    viconOn(store(), "work --until-idle");
+    EXPECT_TRUE(artefactsOf(store()) == before);
+}
+
+TEST_F(Study, ImportingAgainChangesNothing)
+{
+    const auto before = artefactsOf(store());
+    viconOn(store(), "import " + smallStudy().string());
+    EXPECT_TRUE(artefactsOf(store()) == before);
+    EXPECT_EQ(listedScans(store()).front().state, "done") << "not queued again";
+}
+
+TEST_F(Study, PutsMarkersAtTheStationOfTheTruthAndRefusesPointsOutside)
+{
+    const auto& polyp = truth_["polyps"][0];
+    const auto marker =
+        viconJson(store(), "mark " + scan_.case_id + at(polyp["position_mm"]) + " --color yellow --note 'a polyp'");
+    EXPECT_NEAR(marker["station_mm"].get<double>(), polyp["station_mm"].get<double>(), 15);
+    EXPECT_EQ(marker["scan"], scan_.scan_id);
+    EXPECT_NEAR(marker["fraction"].get<double>(),
+                marker["station_mm"].get<double>() /
+                    (marker["station_mm"].get<double>() + marker["from_caecum_mm"].get<double>()),
+                1e-9);
+    const auto refused = runVicon("mark " + scan_.case_id + " --at 5000,0,0 --store " + store().string());
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.output, HasSubstr("outside the colon"));
+    EXPECT_EQ(runVicon("mark " + scan_.case_id + " --at 1,2 --store " + store().string()).exit_code, 2);
+
+    viconOn(store(), "markers " + scan_.case_id + " --change m1 --color green --note changed");
+    viconOn(store(), "markers " + scan_.case_id + " --export " + (folder_->path() / "m.json").string());
+    viconOn(store(), "markers " + scan_.case_id + " --remove m1");
+    EXPECT_EQ(viconJson(store(), "markers " + scan_.case_id)["markers"].size(), 0u);
+    viconOn(store(), "markers " + scan_.case_id + " --import " + (folder_->path() / "m.json").string());
+    const auto back = viconJson(store(), "markers " + scan_.case_id)["markers"];
+    ASSERT_EQ(back.size(), 1u);
+    EXPECT_EQ(back[0]["note"], "changed");
+    EXPECT_EQ(back[0]["color"], "green");
+    EXPECT_TRUE(nlohmann::json::parse(std::ifstream(scan_.folder / "markers.json"))["markers"] == back);
+}
+
+TEST_F(Study, MakesPicturesAndAReportAndPrintsTheirPaths)
+{
+    viconOn(store(), "mark " + scan_.case_id + at(truth_["polyps"][1]["position_mm"]) + " --note 'for the report'");
+    for (const std::string view : {"endo", "slices", "overview"}) {
+        const fs::path out = folder_->path() / (view + ".png");
+        const std::string printed =
+            viconOn(store(), "snapshot " + scan_.case_id + " --view " + view + " --station 300 --out " + out.string());
+        EXPECT_THAT(printed, testing::EndsWith(out.string() + "\n"));
+        EXPECT_GT(fs::file_size(out), 5000u) << view;
+    }
+    const fs::path pdf = folder_->path() / "report.pdf";
+    EXPECT_THAT(viconOn(store(), "report " + scan_.case_id + " --out " + pdf.string()),
+                testing::EndsWith(pdf.string() + "\n"));
+    const std::string text = runCommand("pdftotext -layout " + pdf.string() + " -").output;
+    EXPECT_THAT(text, HasSubstr("for the report"));
+    EXPECT_THAT(text, HasSubstr("Phantom"));
+    EXPECT_EQ(runCommand("qpdf --check " + pdf.string()).exit_code, 0);
+    const std::string stored = viconOn(store(), "report " + scan_.case_id);
+    EXPECT_THAT(stored, HasSubstr((store() / "cases" / scan_.case_id / "report").string()));
+}
+
+TEST_F(Study, FliesTheWholeColon)
+{
+    const auto report = viconJson(store(), "fly " + scan_.case_id + " --frames 20 --width 160 --height 160 --out " +
+                                               (folder_->path() / "flight").string());
+    EXPECT_EQ(report["frames"].size(), 20u);
+    EXPECT_TRUE(fs::exists(folder_->path() / "flight" / "frame-00020.png"));
+    EXPECT_GT(report["coverage"].get<double>(), 0.3);
+}
+
+TEST_F(Study, NamesNoPatientInWhatWorkPrints)
+{
+    EXPECT_THAT(work_output_, testing::Not(HasSubstr("Phantom")));
+}
+
+}  // namespace
+}  // namespace vicon::support

@@ -1,0 +1,83 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "study.h"
+
+namespace vicon::support {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(WrongUse, EndsWithTheRightCodeAndOneLineThatSaysWhatToDo)
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "empty.txt") << "no DICOM";
+    std::ofstream(folder / "bad.toml") << "[segment]\ngas_below = 3\n";
+    const std::string store = " --store " + (folder / "store").string();
+    ASSERT_EQ(runVicon("import " + (folder / "empty.txt").string() + store).exit_code, 1);
+    struct Case {
+        std::string arguments;
+        int exit_code;
+        const char* words;
+    };
+    const std::vector<Case> cases = {
+        {"", 2, "subcommand"},
+        {"frobnicate", 2, "--help"},
+        {"import /nonexistent" + store, 2, "/nonexistent"},
+        {"cases --store " + (folder / "none").string(), 1, "there is no store here"},
+        {"show nosuchcase" + store, 1, "no such case"},
+        {"mark nosuchcase --at 1,2,3" + store, 1, "no such case"},
+        {"work --until-idle --config " + (folder / "bad.toml").string() + store, 2, "gas_below_hu"},
+        {"work --until-idle --config /nonexistent.toml" + store, 2, "no such configuration file"},
+        {"work --until-idle --set segment.gas_below_hu=5000" + store, 2, "between"},
+        {"snapshot nosuchcase --view sideways --out x.png" + store, 1, "no such case"},
+        {"report nosuchcase" + store, 1, "no such case"},
+        {"phantom " + (folder / "p").string() + " --size 3x3", 2, "COLUMNSxROWSxSLICES"},
+        {"phantom /proc/nowhere --size 64x64x32", 1, "/proc/nowhere"},
+        {"fly nosuchcase --to moon" + store, 1, "no such case"},
+    };
+    for (const Case& c : cases) {
+        const CommandResult result = runVicon(c.arguments);
+        EXPECT_EQ(result.exit_code, c.exit_code) << c.arguments << "\n" << result.output;
+        EXPECT_THAT(result.output, HasSubstr(c.words)) << c.arguments;
+        EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << c.arguments << "\n"
+                                                                                   << result.output;
+    }
+}
+
+TEST(Help, AnswersForEverySubcommand)
+{
+    const CommandResult all = runVicon("--help");
+    EXPECT_EQ(all.exit_code, 0);
+    for (const char* name : {"import", "receive", "work", "cases", "show", "mark", "markers", "fly", "snapshot",
+                             "report", "phantom", "config", "doctor"}) {
+        EXPECT_THAT(all.output, HasSubstr(name));
+        const CommandResult one = runVicon(std::string(name) + " --help");
+        EXPECT_EQ(one.exit_code, 0) << name;
+        EXPECT_THAT(one.output, HasSubstr("--store")) << name;
+    }
+}
+
+TEST(Config, SaysWhereEachValueComesFrom)
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "c.toml") << "[queue]\nlease_s = 33\n";
+    const auto json = nlohmann::json::parse(
+        runVicon("config --json --set queue.most_attempts=2 --config " + (folder / "c.toml").string()).output);
+    EXPECT_EQ(json["queue.lease_s"]["value"], 33.0);
+    EXPECT_THAT(json["queue.lease_s"]["source"].get<std::string>(), HasSubstr("c.toml:2"));
+    EXPECT_EQ(json["queue.most_attempts"]["source"], "command line");
+    EXPECT_EQ(json["queue.most_drops"]["source"], "default");
+}
+
+TEST(Doctor, FindsNothingWrongHere)
+{
+    const TemporaryFolder folder;
+    const CommandResult result = runVicon("doctor --store " + folder.path().string());
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("display"));
+}
+
+}  // namespace
+}  // namespace vicon::support
