@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vicon/core/progress.h"
+
+namespace vicon::ingest {
+
+/// A DICOM application on the network.
+struct Peer {
+    std::string name;  ///< as the configuration calls it
+    std::string host;
+    std::string ae_title;
+    int port = 104;
+};
+
+/// What a peer made of the objects sent to it.
+struct SendResult {
+    struct Failure {
+        std::filesystem::path file;
+        std::string reason;
+    };
+    int sent = 0;
+    std::vector<Failure> failures;
+    bool complete() const { return failures.empty(); }
+};
+
+/// Sends objects by C-STORE, each in the transfer syntax it is stored in; uncompressed ones in any uncompressed one.
+/// @throws Error{peer} when no association can be made or it breaks, Error{cancelled}
+SendResult storeFiles(const Peer& peer, const std::vector<std::filesystem::path>& files,
+                      const std::string& our_ae_title, Progress& progress);
+
+/// Verifies that a peer answers C-ECHO. Throws Error{peer}.
+void echo(const Peer& peer, const std::string& our_ae_title);
+
+}  // namespace vicon::ingest

@@ -1,0 +1,128 @@
+#include <archive.h>
+#include <archive_entry.h>
+
+#include <fstream>
+
+#include "input_files.h"
+#include "vicon/core/error.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::ingest {
+namespace {
+
+constexpr double kBytesPerGb = 1e9;
+constexpr std::size_t kBlockBytes = 1 << 16;
+
+struct ReadArchive {
+    archive* handle = archive_read_new();
+    ReadArchive() { archive_read_support_format_zip(handle); }
+    ~ReadArchive() { archive_read_free(handle); }
+    ReadArchive(const ReadArchive&) = delete;
+    ReadArchive& operator=(const ReadArchive&) = delete;
+    std::string trouble() const
+    {
+        const char* text = archive_error_string(handle);
+        return text ? text : "unknown trouble";
+    }
+};
+
+bool leadsOut(const std::string& name)
+{
+    if (name.starts_with('/') || name.starts_with('\\') || (name.size() > 1 && name[1] == ':'))
+        return true;
+    std::size_t from = 0;
+    while (from <= name.size()) {
+        const std::size_t to = std::min(name.find_first_of("/\\", from), name.size());
+        if (name.substr(from, to - from) == "..")
+            return true;
+        from = to + 1;
+    }
+    return false;
+}
+
+/// Why an entry is not taken; empty when it is.
+std::string whyNot(archive_entry* entry, const std::string& name)
+{
+    if (leadsOut(name))
+        return "its name leads out of the archive's folder";
+    if (archive_entry_filetype(entry) != AE_IFREG || archive_entry_hardlink(entry) || archive_entry_symlink(entry))
+        return "no plain file (a link or a device)";
+    if (archive_entry_is_encrypted(entry))
+        return "encrypted: unpack the archive with its password and import the folder";
+    return {};
+}
+
+enum class Written { complete, damaged, too_large };
+
+Written writeEntry(archive* from, const fs::path& file, double& bytes_left)
+{
+    std::ofstream out(file, std::ios::binary);
+    std::vector<char> block(kBlockBytes);
+    for (;;) {
+        const la_ssize_t count = archive_read_data(from, block.data(), block.size());
+        if (count < 0)
+            return Written::damaged;
+        if (count == 0)
+            break;
+        bytes_left -= double(count);
+        if (bytes_left < 0)
+            return Written::too_large;
+        out.write(block.data(), count);
+    }
+    out.close();
+    if (!out)
+        throw Error(ErrorCode::store, "an archive cannot be unpacked", file.string(), "free some space on this disk");
+    return Written::complete;
+}
+
+}  // namespace
+
+std::vector<InputFile> unpackZip(const InputFile& zip, UnpackFolder& folder, const ImportOptions& options,
+                                 Progress& progress, std::vector<ImportLine>& lines)
+{
+    std::vector<InputFile> files;
+    const auto refuse = [&](const std::string& subject, const std::string& why) {
+        lines.push_back({ImportLine::Kind::refused, subject, why, {}, {}});
+    };
+    ReadArchive in;
+    if (archive_read_open_filename(in.handle, zip.path.c_str(), kBlockBytes) != ARCHIVE_OK) {
+        refuse(zip.shown, "the zip file cannot be opened (" + in.trouble() + ")");
+        return files;
+    }
+    double bytes_left = options.archive_max_gb * kBytesPerGb;
+    archive_entry* entry = nullptr;
+    int status = ARCHIVE_OK;
+    for (int count = 0;
+         (status = archive_read_next_header(in.handle, &entry)) == ARCHIVE_OK || status == ARCHIVE_WARN;) {
+        progress.check();
+        const char* stored_name = archive_entry_pathname(entry);
+        const std::string name = stored_name ? stored_name : "";
+        const std::string shown = zip.shown + ": " + name;
+        if (archive_entry_filetype(entry) == AE_IFDIR)
+            continue;
+        if (++count > options.archive_max_files) {
+            refuse(zip.shown, "holds more files than import.archive_max_files allows; the rest is left out");
+            return files;
+        }
+        if (const std::string why = whyNot(entry, name); !why.empty()) {
+            refuse(shown, why);
+            continue;
+        }
+        const fs::path file = folder.nextFile();
+        const Written written = writeEntry(in.handle, file, bytes_left);
+        if (written == Written::too_large) {
+            refuse(zip.shown, "unpacks to more than import.archive_max_gb allows; the rest is left out");
+            return files;
+        }
+        if (written == Written::damaged)
+            refuse(shown, "damaged in the archive (" + in.trouble() + ")");
+        else
+            files.push_back({file, shown, true});
+    }
+    if (status == ARCHIVE_FATAL)
+        refuse(zip.shown, "the zip file is damaged (" + in.trouble() + "); what stands before is taken");
+    return files;
+}
+
+}  // namespace vicon::ingest

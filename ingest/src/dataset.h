@@ -1,0 +1,42 @@
+#pragma once
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "text.h"
+#include "vicon/core/geometry.h"
+
+namespace vicon::ingest {
+
+/// Reads elements of a data set or item: absent and malformed ones are empty.
+class Dataset {
+public:
+    /// @param outer_character_sets those of the surrounding data set, which an item inherits
+    explicit Dataset(DcmItem& item, std::vector<std::string> outer_character_sets = {});
+
+    /// A value without padding, as it stands, all values joined by backslashes.
+    std::string raw(const DcmTagKey& tag) const;
+    /// The values of a code string or UID.
+    std::vector<std::string> values(const DcmTagKey& tag) const;
+    std::string text(const DcmTagKey& tag) const;
+    std::string personName(const DcmTagKey& tag) const;
+    std::optional<double> number(const DcmTagKey& tag, unsigned long index = 0) const;
+    std::optional<int> integer(const DcmTagKey& tag) const;
+    bool has(const DcmTagKey& tag) const;
+
+    /// An item of a sequence, or nothing.
+    std::optional<Dataset> item(const DcmTagKey& sequence, long index = 0) const;
+    unsigned long itemCount(const DcmTagKey& sequence) const;
+    DcmItem& dcmItem() const { return *item_; }
+
+private:
+    DcmItem* item_;
+    std::vector<std::string> character_sets_;
+};
+
+}  // namespace vicon::ingest

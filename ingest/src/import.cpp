@@ -1,0 +1,199 @@
+#include "vicon/ingest/import.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+#include "input_files.h"
+#include "inspect.h"
+#include "stored_files.h"
+#include "study_import.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::ingest {
+namespace {
+
+/// Of the work of an import, what reading and hashing the files is.
+constexpr double kReadingPart = 0.6;
+
+struct Found {
+    InputFile file;
+    Inspection inspection;
+};
+
+/// Inspects and hashes all files, in parallel.
+std::vector<Found> inspectAll(const std::vector<InputFile>& files, const ImportOptions& options, Progress& progress)
+{
+    std::vector<Found> found(files.size());
+    std::atomic<std::size_t> done = 0;
+    std::mutex telling;
+    tbb::parallel_for(std::size_t(0), files.size(), [&](std::size_t n) {
+        found[n] = {files[n], inspectFile(files[n].path, options)};
+        if (found[n].inspection.verdict == Inspection::Verdict::image)
+            found[n].inspection.object.sha256 = sha256OfFile(files[n].path);
+        const std::lock_guard lock(telling);
+        progress.check();
+        progress.report(kReadingPart * double(++done) / double(files.size()), "reading DICOM files");
+    });
+    return found;
+}
+
+/// The zip files among what was found are replaced by what they hold.
+void openArchives(std::vector<Found>& found, UnpackFolder& folder, const ImportOptions& options, Progress& progress,
+                  std::vector<ImportLine>& lines)
+{
+    std::vector<Found> all;
+    for (Found& one : found) {
+        if (one.inspection.verdict != Inspection::Verdict::archive) {
+            all.push_back(std::move(one));
+            continue;
+        }
+        for (Found& inside : inspectAll(unpackZip(one.file, folder, options, progress, lines), options, progress)) {
+            if (inside.inspection.verdict == Inspection::Verdict::archive)
+                inside.inspection = {Inspection::Verdict::refused, "a zip file inside a zip file", {}};
+            all.push_back(std::move(inside));
+        }
+    }
+    found = std::move(all);
+}
+
+class Import {
+public:
+    Import(CaseStore& store, const ImportOptions& options, Progress& progress)
+        : store_(store), options_(options), progress_(progress)
+    {
+    }
+
+    ImportReport run(const std::vector<fs::path>& paths)
+    {
+        const StoreLock lock(store_.folder(), progress_);
+        const fs::path incoming = store_.folder() / "incoming";
+        UnpackFolder::removeLeftovers(incoming);
+        std::vector<ImportLine> lines;
+        const std::vector<InputFile> files = listFiles(paths, lines);
+        UnpackFolder unpacked(incoming);
+        std::vector<Found> found = inspectAll(files, options_, progress_);
+        openArchives(found, unpacked, options_, progress_, lines);
+        for (ImportLine& line : lines) {
+            ++report_.refused;
+            reporter_.line(std::move(line));
+        }
+        for (Found& one : found)
+            sort(std::move(one));
+        importStudies();
+        reporter_.finish();
+        return std::move(report_);
+    }
+
+private:
+    void sort(Found found)
+    {
+        using Verdict = Inspection::Verdict;
+        using Kind = ImportLine::Kind;
+        Inspection& inspection = found.inspection;
+        ImageObject& object = inspection.object;
+        if (inspection.verdict == Verdict::image) {
+            auto& study = studies_[object.study.uid];
+            if (study.empty())
+                order_.push_back(object.study.uid);
+            study.push_back({std::move(object), found.file.shown});
+            return;
+        }
+        if (inspection.verdict == Verdict::directory)
+            return;  // says nothing that the files do not say
+        const bool aside = inspection.verdict == Verdict::set_aside;
+        reporter_.object(aside ? Kind::set_aside : Kind::refused, found.file.shown, object.series.uid,
+                         inspection.reason);
+        if (object.series.uid.empty())
+            return;
+        const std::string name = object.sop_uid.empty() ? found.file.path.filename().string() : object.sop_uid;
+        SeriesNotes& notes = notes_[object.series.uid];
+        auto& list = aside ? notes.set_aside : notes.refused;
+        nlohmann::json entry = {{"object", name}, {"why", inspection.reason}};
+        if (std::find(list.begin(), list.end(), entry) == list.end())
+            list.push_back(std::move(entry));
+    }
+
+    void importStudies()
+    {
+        for (std::size_t n = 0; n < order_.size(); ++n) {
+            progress_.check();
+            progress_.report(kReadingPart + (1 - kReadingPart) * double(n) / double(order_.size()), "storing studies");
+            StudyImport(store_, options_, report_, reporter_, progress_).run(std::move(studies_[order_[n]]), notes_);
+        }
+        progress_.report(1, "imported");
+    }
+
+    CaseStore& store_;
+    const ImportOptions& options_;
+    Progress& progress_;
+    ImportReport report_;
+    Reporter reporter_{report_};
+    std::vector<std::string> order_;  ///< study UIDs as they were found first
+    std::map<std::string, std::vector<Arrival>> studies_;
+    std::map<std::string, SeriesNotes> notes_;
+};
+
+}  // namespace
+
+std::string nameOf(ImportLine::Kind kind)
+{
+    switch (kind) {
+        case ImportLine::Kind::stored:
+            return "stored";
+        case ImportLine::Kind::unchanged:
+            return "unchanged";
+        case ImportLine::Kind::kept:
+            return "kept";
+        case ImportLine::Kind::set_aside:
+            return "set aside";
+        case ImportLine::Kind::refused:
+            return "refused";
+        case ImportLine::Kind::quarantined:
+            return "quarantined";
+        case ImportLine::Kind::repaired:
+            return "repaired";
+        case ImportLine::Kind::flagged:
+            return "flagged";
+    }
+    return "unknown";
+}
+
+void Reporter::object(ImportLine::Kind kind, const std::string& shown, const std::string& series_uid,
+                      const std::string& why, const std::string& case_id)
+{
+    ++(kind == ImportLine::Kind::set_aside ? report_.set_aside : report_.refused);
+    const auto same = std::find_if(lines_.begin(), lines_.end(), [&](const Counted& counted) {
+        return !series_uid.empty() && counted.series_uid == series_uid && counted.line.kind == kind &&
+               counted.line.text == why;
+    });
+    if (same != lines_.end())
+        ++same->count;
+    else
+        lines_.push_back({{kind, shown, why, case_id, {}}, 1, series_uid});
+}
+
+void Reporter::finish()
+{
+    for (Counted& counted : lines_) {
+        if (counted.count > 1) {
+            counted.line.subject = counted.series_uid;
+            counted.line.text += " (" + std::to_string(counted.count) + " files)";
+        }
+        report_.lines.push_back(std::move(counted.line));
+    }
+    lines_.clear();
+}
+
+ImportReport importPaths(CaseStore& store, const std::vector<fs::path>& paths, const ImportOptions& options,
+                         Progress& progress)
+{
+    return Import(store, options, progress).run(paths);
+}
+
+}  // namespace vicon::ingest

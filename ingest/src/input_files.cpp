@@ -1,0 +1,148 @@
+#include "input_files.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "dataset.h"
+#include "dicom_setup.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::ingest {
+namespace {
+
+std::string inCase(std::string text, int (*change)(int))
+{
+    std::transform(text.begin(), text.end(), text.begin(), [&](unsigned char c) { return char(change(c)); });
+    return text;
+}
+
+bool isDicomdirName(const fs::path& file)
+{
+    return inCase(file.filename().string(), std::tolower) == "dicomdir";
+}
+
+void refuse(std::vector<ImportLine>& lines, std::string subject, std::string why)
+{
+    lines.push_back({ImportLine::Kind::refused, std::move(subject), std::move(why), {}, {}});
+}
+
+/// The file that a DICOMDIR means; file systems of discs change the case of names. Empty when there is none.
+fs::path referencedFile(const fs::path& folder, const std::vector<std::string>& components)
+{
+    for (const std::string& component : components)
+        if (component.empty() || component == "." || component == ".." || component.find('/') != std::string::npos)
+            return {};
+    for (int (*change)(int) :
+         {+[](int c) { return c; }, +[](int c) { return std::tolower(c); }, +[](int c) { return std::toupper(c); }}) {
+        fs::path file = folder;
+        for (const std::string& component : components)
+            file /= inCase(component, change);
+        if (fs::is_regular_file(file))
+            return file;
+    }
+    return {};
+}
+
+void listDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::vector<ImportLine>& lines)
+{
+    setUpDicom();
+    DcmFileFormat format;
+    if (format.loadFile(dicomdir.c_str()).bad())
+        return refuse(lines, dicomdir.string(), "the DICOMDIR is damaged; import its folder instead");
+    const Dataset dataset(*format.getDataset());
+    const unsigned long count = dataset.itemCount(DCM_DirectoryRecordSequence);
+    for (unsigned long n = 0; n < count; ++n) {
+        const auto record = dataset.item(DCM_DirectoryRecordSequence, long(n));
+        const auto components = record ? record->values(DCM_ReferencedFileID) : std::vector<std::string>{};
+        if (components.empty())
+            continue;
+        const fs::path file = referencedFile(dicomdir.parent_path(), components);
+        std::string named;
+        for (const std::string& component : components)
+            named += (named.empty() ? "" : "/") + component;
+        if (file.empty())
+            refuse(lines, dicomdir.string(), "names a file that is not there: " + named);
+        else
+            files.push_back({file, file.string(), false});
+    }
+}
+
+void listFolder(const fs::path& folder, std::vector<InputFile>& files, std::vector<ImportLine>& lines)
+{
+    std::error_code failure;
+    std::vector<fs::path> entries;
+    for (auto it = fs::directory_iterator(folder, failure); !failure && it != fs::directory_iterator();
+         it.increment(failure))
+        entries.push_back(it->path());
+    if (failure)
+        refuse(lines, folder.string(), "the folder cannot be read (" + failure.message() + ")");
+    std::sort(entries.begin(), entries.end());
+    for (const fs::path& entry : entries) {
+        const fs::file_status status = fs::status(entry, failure);
+        if (fs::is_directory(status)) {
+            if (!fs::is_symlink(fs::symlink_status(entry, failure)))  // a link may lead in circles
+                listFolder(entry, files, lines);
+        } else if (fs::is_regular_file(status) && !isDicomdirName(entry)) {
+            files.push_back({entry, entry.string(), false});
+        }
+    }
+}
+
+constexpr const char* kUnpackName = "unpack-";
+
+}  // namespace
+
+UnpackFolder::UnpackFolder(const fs::path& incoming)
+{
+    static std::atomic<int> counter{0};
+    folder_ = incoming / (std::string(kTemporaryPrefix) + kUnpackName + std::to_string(::getpid()) + "-" +
+                          std::to_string(counter++));
+    makePrivateFolder(folder_);
+}
+
+UnpackFolder::~UnpackFolder()
+{
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+}
+
+fs::path UnpackFolder::nextFile()
+{
+    return folder_ / (std::to_string(count_++) + ".dcm");
+}
+
+void UnpackFolder::removeLeftovers(const fs::path& incoming)
+{
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(incoming, ignored))
+        if (entry.path().filename().string().starts_with(std::string(kTemporaryPrefix) + kUnpackName))
+            fs::remove_all(entry.path(), ignored);
+}
+
+std::vector<InputFile> listFiles(const std::vector<fs::path>& paths, std::vector<ImportLine>& lines)
+{
+    std::vector<InputFile> files;
+    for (const fs::path& path : paths) {
+        std::error_code failure;
+        const fs::file_status status = fs::status(path, failure);
+        if (!fs::exists(status))
+            throw Error(ErrorCode::not_found, "no such file or folder", path.string(),
+                        "check the spelling of the path");
+        if (fs::is_directory(status))
+            listFolder(path, files, lines);
+        else if (!fs::is_regular_file(status))
+            refuse(lines, path.string(), "neither a file nor a folder");
+        else if (isDicomdirName(path))
+            listDicomdir(path, files, lines);
+        else
+            files.push_back({path, path.string(), false});
+    }
+    return files;
+}
+
+}  // namespace vicon::ingest

@@ -1,0 +1,191 @@
+#include "inspect.h"
+
+#include <fstream>
+
+#include "dicom_setup.h"
+#include "pixel_format.h"
+#include "plane_reader.h"
+#include "stand_in_uid.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::ingest {
+namespace {
+
+/// Elements larger than this (pixels) stay in the file when a header is read.
+constexpr Uint32 kLargestElementInMemory = 16384;
+
+Inspection refused(std::string reason)
+{
+    return {Inspection::Verdict::refused, std::move(reason), {}};
+}
+
+std::string firstOf(const std::vector<std::string>& values)
+{
+    return values.empty() ? std::string() : values.front();
+}
+
+/// What the first bytes of a file say, before DCMTK sees it; nothing when they say nothing.
+std::optional<Inspection> inspectBeginning(const fs::path& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    std::string head(132, '\0');
+    in.read(head.data(), std::streamsize(head.size()));
+    head.resize(std::size_t(in.gcount()));
+    if (head.empty())
+        return refused(in.bad() ? "cannot be read" : "the file is empty");
+    if (head.starts_with("PK\x03\x04") || head.starts_with("PK\x05\x06"))
+        return Inspection{Inspection::Verdict::archive, {}, {}};
+    if (head.starts_with("\x1f\x8b"))
+        return refused("a gzip file, not DICOM: unpack it and import what is inside");
+    return {};
+}
+
+bool hasPreamble(const fs::path& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    std::string magic(4, '\0');
+    return in.seekg(128) && in.read(magic.data(), 4) && magic == "DICM";
+}
+
+void readIdentity(const Dataset& dataset, const Dataset& meta, ImageObject& object)
+{
+    object.sop_uid = firstOf(dataset.values(DCM_SOPInstanceUID));
+    object.sop_class = firstOf(dataset.values(DCM_SOPClassUID));
+    if (object.sop_uid.empty() && !(object.sop_uid = firstOf(meta.values(DCM_MediaStorageSOPInstanceUID))).empty())
+        object.repairs.emplace_back("SOP Instance UID missing: taken from the file's meta header");
+    if (object.sop_class.empty() && !(object.sop_class = firstOf(meta.values(DCM_MediaStorageSOPClassUID))).empty())
+        object.repairs.emplace_back("SOP Class UID missing: taken from the file's meta header");
+    object.study.uid = firstOf(dataset.values(DCM_StudyInstanceUID));
+    object.series.uid = firstOf(dataset.values(DCM_SeriesInstanceUID));
+    object.series.modality = firstOf(dataset.values(DCM_Modality));
+}
+
+void readPatientAndStudy(const Dataset& dataset, ImageObject& object)
+{
+    object.patient = {dataset.text(DCM_PatientID), dataset.personName(DCM_PatientName),
+                      dataset.text(DCM_PatientBirthDate), dataset.text(DCM_PatientSex)};
+    Study& study = object.study;
+    study.id = dataset.text(DCM_StudyID);
+    study.date = dataset.text(DCM_StudyDate);
+    study.time = dataset.text(DCM_StudyTime);
+    study.description = dataset.text(DCM_StudyDescription);
+    study.accession_number = dataset.text(DCM_AccessionNumber);
+    study.referring_physician = dataset.personName(DCM_ReferringPhysicianName);
+    study.institution = dataset.text(DCM_InstitutionName);
+}
+
+/// The tube voltage: in the object itself, or in the functional groups of a multi-frame one.
+double readKvp(const Dataset& dataset)
+{
+    if (const auto kvp = dataset.number(DCM_KVP))
+        return *kvp;
+    for (const auto& holder :
+         {dataset.item(DCM_SharedFunctionalGroupsSequence), dataset.item(DCM_PerFrameFunctionalGroupsSequence)})
+        if (holder)
+            if (const auto details = holder->item(DCM_CTXRayDetailsSequence))
+                return details->number(DCM_KVP).value_or(0);
+    return 0;
+}
+
+void readSeries(const Dataset& dataset, ImageObject& object)
+{
+    Series& series = object.series;
+    series.number = dataset.integer(DCM_SeriesNumber).value_or(0);
+    series.description = dataset.text(DCM_SeriesDescription);
+    series.patient_position = firstOf(dataset.values(DCM_PatientPosition));
+    series.frame_of_reference_uid = firstOf(dataset.values(DCM_FrameOfReferenceUID));
+    series.manufacturer = dataset.text(DCM_Manufacturer);
+    series.kernel = object.slices.front().kernel;
+    series.kvp = readKvp(dataset);
+    series.slice_thickness_mm = object.slices.front().thickness_mm;
+    series.lossy = isLossy(dataset, object.transfer_syntax);
+    object.acquisition_uid = firstOf(dataset.values(DCM_AcquisitionUID));
+    object.acquisition_time = dataset.text(DCM_AcquisitionDateTime);
+    if (object.acquisition_time.empty() && dataset.has(DCM_AcquisitionTime))
+        object.acquisition_time = dataset.text(DCM_AcquisitionDate) + dataset.text(DCM_AcquisitionTime);
+}
+
+bool isCtClass(const std::string& sop_class)
+{
+    return sop_class == UID_CTImageStorage || sop_class == UID_EnhancedCTImageStorage ||
+           sop_class == UID_LegacyConvertedEnhancedCTImageStorage;
+}
+
+/// Why an object is no CT slice, though it is a proper object; empty when it may be one.
+std::string whySetAside(const Dataset& dataset, const ImageObject& object)
+{
+    const std::string& modality = object.series.modality;
+    const auto said_modality = modality.empty() ? std::string() : " (" + modality + ")";
+    if (!object.sop_class.empty() && !isCtClass(object.sop_class))
+        return std::string(dcmFindNameOfUID(object.sop_class.c_str(), "object of an unknown class")) + said_modality +
+               ", no CT slice";
+    if (!modality.empty() && modality != "CT")
+        return "modality " + modality + ", no CT slice";
+    for (const std::string& value : dataset.values(DCM_ImageType)) {
+        if (value == "LOCALIZER" || value == "SCOUT")
+            return "localizer";
+        if (value == "SCREEN SAVE" || value.starts_with("DOSE"))
+            return "screen save or dose sheet";
+    }
+    if (dataset.integer(DCM_SamplesPerPixel).value_or(1) == 3)
+        return "colour picture";
+    return {};
+}
+
+bool looksLikeScreenSave(const Dataset& dataset)
+{
+    const auto type = dataset.values(DCM_ImageType);
+    return dataset.has(DCM_ConversionType) || (type.size() > 1 && type[1] == "SECONDARY");
+}
+
+Inspection judge(const Dataset& dataset, const ImportOptions& options, ImageObject object)
+{
+    using Verdict = Inspection::Verdict;
+    if (object.sop_class.empty() && object.series.modality.empty())
+        return {Verdict::refused, "a DICOM object that does not say what it is (no SOP Class, no Modality)", object};
+    if (std::string why = whySetAside(dataset, object); !why.empty())
+        return {Verdict::set_aside, std::move(why), object};
+    if (std::string why = readPixelFormat(dataset, options, object); !why.empty())
+        return {Verdict::refused, std::move(why), object};
+    Planes planes = readPlanes(dataset, object.pixels.frames);
+    if (planes.slices.empty() && planes.without_geometry && looksLikeScreenSave(dataset))
+        return {Verdict::set_aside, "screen save or dose sheet", object};
+    if (planes.slices.empty())
+        return {Verdict::refused, std::move(planes.why), object};
+    object.slices = std::move(planes.slices);
+    readPatientAndStudy(dataset, object);
+    readSeries(dataset, object);
+    fillStandInUids(object);
+    return {Verdict::image, {}, std::move(object)};
+}
+
+}  // namespace
+
+Inspection inspectFile(const fs::path& file, const ImportOptions& options)
+{
+    setUpDicom();
+    if (auto known = inspectBeginning(file))
+        return std::move(*known);
+    DcmFileFormat format;
+    const OFCondition loaded = format.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, kLargestElementInMemory);
+    ImageObject object;
+    object.file = file;
+    const Dataset dataset(*format.getDataset()), meta(*format.getMetaInfo());
+    readIdentity(dataset, meta, object);
+    if (firstOf(meta.values(DCM_MediaStorageSOPClassUID)) == UID_MediaStorageDirectoryStorage)
+        return {Inspection::Verdict::directory, {}, {}};
+    if (loaded.bad() && (hasPreamble(file) || !object.sop_class.empty()))
+        return {Inspection::Verdict::refused, "truncated or damaged (" + std::string(loaded.text()) + ")", object};
+    if (loaded.bad() || (!hasPreamble(file) && object.sop_class.empty() && object.series.modality.empty()))
+        return refused("no DICOM file, or damaged beyond reading");
+    object.transfer_syntax = DcmXfer(format.getDataset()->getOriginalXfer()).getXferID();
+    try {
+        return judge(dataset, options, std::move(object));
+    } catch (const std::exception& e) {  // DCMTK itself does not throw; memory may be short for a header's claims
+        return refused(std::string("its header cannot be read (") + e.what() + ")");
+    }
+}
+
+}  // namespace vicon::ingest

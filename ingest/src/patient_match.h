@@ -1,0 +1,14 @@
+#pragma once
+
+#include "vicon/core/records.h"
+
+namespace vicon::ingest {
+
+/// Whether name and birth date of two patients do not contradict each other. What one of them does not say is no
+/// contradiction; neither is upper and lower case, or how the parts of a name are delimited.
+bool sameNameAndBirth(const Patient& a, const Patient& b);
+
+/// Whether two patients of one study are the same: same ID, and no contradiction otherwise.
+bool samePatient(const Patient& a, const Patient& b);
+
+}  // namespace vicon::ingest

@@ -1,1 +1,0 @@
-namespace vicon { int ingest_placeholder() { return 0; } }

@@ -1,0 +1,147 @@
+#include "plane_reader.h"
+
+#include <cmath>
+
+namespace vicon::ingest {
+namespace {
+
+/// Direction cosines are written with five or more decimals; beyond this a header is wrong, not rounded.
+constexpr double kDirectionTolerance = 0.01;
+
+/// Where a frame's attributes stand: in the functional groups of a multi-frame object, or in the data set itself.
+class Groups {
+public:
+    Groups(const Dataset& dataset, int frame, bool multi_frame) : dataset_(dataset)
+    {
+        if (!multi_frame)
+            return;
+        shared_ = dataset.item(DCM_SharedFunctionalGroupsSequence);
+        own_ = dataset.item(DCM_PerFrameFunctionalGroupsSequence, frame);
+    }
+
+    /// The item of a functional group: the frame's own, else the shared one, else (plain image) the data set.
+    Dataset group(const DcmTagKey& sequence) const
+    {
+        for (const auto& holder : {own_, shared_})
+            if (holder)
+                if (auto item = holder->item(sequence))
+                    return *item;
+        return dataset_;
+    }
+
+private:
+    Dataset dataset_;
+    std::optional<Dataset> shared_, own_;
+};
+
+std::optional<Vector3> vectorAt(const Dataset& dataset, const DcmTagKey& tag, unsigned long from)
+{
+    const auto x = dataset.number(tag, from), y = dataset.number(tag, from + 1), z = dataset.number(tag, from + 2);
+    if (!x || !y || !z)
+        return {};
+    return Vector3{*x, *y, *z};
+}
+
+std::string joined(const std::vector<std::string>& values, std::size_t most)
+{
+    std::string out;
+    for (std::size_t n = 0; n < values.size() && n < most; ++n)
+        out += (n ? "\\" : "") + values[n];
+    return out;
+}
+
+/// Fills position and directions; returns what is wrong with them.
+std::string readGeometry(const Groups& groups, Slice& slice, bool& absent)
+{
+    const auto position = vectorAt(groups.group(DCM_PlanePositionSequence), DCM_ImagePositionPatient, 0);
+    const Dataset orientation = groups.group(DCM_PlaneOrientationSequence);
+    const auto row = vectorAt(orientation, DCM_ImageOrientationPatient, 0);
+    const auto column = vectorAt(orientation, DCM_ImageOrientationPatient, 3);
+    absent = !position && !row;
+    if (!position || !row || !column)
+        return "it does not say where in the patient it lies (Image Position and Orientation Patient)";
+    if (std::abs(length(*row) - 1) > kDirectionTolerance || std::abs(length(*column) - 1) > kDirectionTolerance ||
+        std::abs(dot(*row, *column)) > kDirectionTolerance)
+        return "its rows and columns are not orthogonal (Image Orientation Patient)";
+    slice.position_mm = Point3{} + *position;
+    slice.row = normalized(*row);
+    slice.column = normalized(*column - slice.row * dot(slice.row, *column));
+    const Dataset measures = groups.group(DCM_PixelMeasuresSequence);
+    const auto row_mm = measures.number(DCM_PixelSpacing, 0), pixel_mm = measures.number(DCM_PixelSpacing, 1);
+    if (!row_mm || !pixel_mm || *row_mm <= 0 || *pixel_mm <= 0)
+        return "the size of its pixels is not said (Pixel Spacing)";
+    slice.row_mm = *row_mm;
+    slice.pixel_mm = *pixel_mm;
+    slice.thickness_mm = measures.number(DCM_SliceThickness).value_or(0);
+    return {};
+}
+
+/// Fills slope and intercept; returns what is wrong with them.
+std::string readDensities(const Groups& groups, Slice& slice)
+{
+    const Dataset transformation = groups.group(DCM_PixelValueTransformationSequence);
+    const auto slope = transformation.number(DCM_RescaleSlope);
+    const auto intercept = transformation.number(DCM_RescaleIntercept);
+    if (!slope || !intercept)
+        return "its densities are unknown (no Rescale Slope and Intercept)";
+    if (*slope == 0)
+        return "its densities are unknown (Rescale Slope is 0)";
+    const std::string type = joined(transformation.values(DCM_RescaleType), 1);
+    if (!type.empty() && type != "HU" && type != "US")
+        return "its values are no CT densities (Rescale Type " + type + ")";
+    slice.slope = *slope;
+    slice.intercept = *intercept;
+    return {};
+}
+
+void readKind(const Dataset& dataset, const Groups& groups, bool multi_frame, Slice& slice)
+{
+    constexpr std::size_t kImageTypeValues = 4;
+    const Dataset type = groups.group(DCM_CTImageFrameTypeSequence);
+    slice.image_type = joined(type.values(type.has(DCM_FrameType) ? DCM_FrameType : DCM_ImageType), kImageTypeValues);
+    slice.kernel = joined(groups.group(DCM_CTReconstructionSequence).values(DCM_ConvolutionKernel), 2);
+    if (!multi_frame) {
+        slice.acquisition = joined(dataset.values(DCM_AcquisitionNumber), 1);
+        return;
+    }
+    const Dataset content = groups.group(DCM_FrameContentSequence);
+    if (const auto number = content.integer(DCM_FrameAcquisitionNumber))
+        slice.acquisition = std::to_string(*number);
+    slice.phase = content.text(DCM_StackID);
+    if (const auto index = content.integer(DCM_TemporalPositionIndex))
+        slice.phase += "/" + std::to_string(*index);
+}
+
+}  // namespace
+
+Planes readPlanes(const Dataset& dataset, int frames)
+{
+    Planes planes;
+    const bool multi_frame =
+        dataset.has(DCM_SharedFunctionalGroupsSequence) || dataset.has(DCM_PerFrameFunctionalGroupsSequence);
+    if (multi_frame && dataset.itemCount(DCM_PerFrameFunctionalGroupsSequence) != unsigned(frames)) {
+        planes.why = "it has another number of frames than of frame descriptions";
+        return planes;
+    }
+    if (!multi_frame && frames != 1) {
+        planes.why = "it has several frames, but does not say where each lies";
+        return planes;
+    }
+    for (int frame = 0; frame < frames; ++frame) {
+        const Groups groups(dataset, frame, multi_frame);
+        Slice slice;
+        slice.frame = frame;
+        planes.why = readGeometry(groups, slice, planes.without_geometry);
+        if (planes.why.empty())
+            planes.why = readDensities(groups, slice);
+        if (!planes.why.empty()) {
+            planes.slices.clear();
+            return planes;
+        }
+        readKind(dataset, groups, multi_frame, slice);
+        planes.slices.push_back(std::move(slice));
+    }
+    return planes;
+}
+
+}  // namespace vicon::ingest

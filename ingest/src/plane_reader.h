@@ -1,0 +1,18 @@
+#pragma once
+
+#include "dataset.h"
+#include "image_object.h"
+
+namespace vicon::ingest {
+
+/// The planes of an object: of a plain CT image its one, of a multi-frame object all its frames.
+/// `why` says what is missing or wrong when there are none.
+struct Planes {
+    std::vector<Slice> slices;
+    std::string why;
+    /// There is no position or orientation at all: what screen saves and dose sheets look like.
+    bool without_geometry = false;
+};
+Planes readPlanes(const Dataset& dataset, int frames);
+
+}  // namespace vicon::ingest

@@ -1,0 +1,98 @@
+#include "scan_reader.h"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <mutex>
+
+#include "pixels.h"
+#include "vicon/core/error.h"
+#include "volume_writer.h"
+
+namespace vicon::ingest {
+namespace {
+
+/// Planes that one thread decodes with one opened multi-frame object.
+constexpr std::size_t kPlanesAtATime = 8;
+
+/// Opens the object of a slice, and keeps it open while the slices come from the same one.
+class SliceDecoder {
+public:
+    explicit SliceDecoder(const Stack& stack) : stack_(stack) {}
+
+    std::vector<std::int16_t> densities(std::size_t slice)
+    {
+        try {
+            return decode(slice);
+        } catch (const Error& e) {
+            throw Error(e.code(), e.what(), stack_.slices[slice].object->file.filename().string(),
+                        "send or copy this image again, and import it");
+        }
+    }
+
+private:
+    std::vector<std::int16_t> decode(std::size_t slice)
+    {
+        const SliceRef& ref = stack_.slices[slice];
+        if (object_ != ref.object) {
+            object_ = nullptr;  // stays so when the next line throws
+            decoder_ = std::make_unique<FrameDecoder>(*ref.object);
+            object_ = ref.object;
+        }
+        return decoder_->densities(*ref.slice);
+    }
+
+    const Stack& stack_;
+    const ImageObject* object_ = nullptr;
+    std::unique_ptr<FrameDecoder> decoder_;
+};
+
+std::vector<std::int16_t> planeOf(const StackPlan& plan, const Stack& stack, const PlaneSource& source,
+                                  const VolumeWriter& writer, SliceDecoder& decoder)
+{
+    const auto placed = [&](std::size_t slice) {
+        const PixelFormat& format = stack.slices[slice].object->pixels;
+        return writer.inPlane(decoder.densities(slice), format.columns, format.rows, plan.shift_pixels[slice]);
+    };
+    std::vector<std::int16_t> plane = placed(source.below);
+    if (!source.interpolated())
+        return plane;
+    const std::vector<std::int16_t> above = placed(source.above);
+    for (std::size_t n = 0; n < plane.size(); ++n)
+        plane[n] = VolumeWriter::blend(plane[n], above[n], source.part_above);
+    return plane;
+}
+
+}  // namespace
+
+HuVolume readVolume(const Stack& stack, const StackPlan& plan, Progress& progress)
+{
+    VolumeWriter writer(plan);
+    std::atomic<std::size_t> done = 0;
+    std::mutex telling;
+    const std::size_t count = plan.planes.size();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kPlanesAtATime), [&](const auto& range) {
+        SliceDecoder decoder(stack);
+        for (std::size_t k = range.begin(); k < range.end(); ++k) {
+            writer.put(int(k), planeOf(plan, stack, plan.planes[k], writer, decoder));
+            const std::lock_guard lock(telling);
+            progress.check();
+            progress.report(double(++done) / double(count), "decoding slices");
+        }
+    });
+    return writer.take();
+}
+
+bool haveSamePixels(const SliceRef& a, const SliceRef& b)
+{
+    const Slice &s = *a.slice, &t = *b.slice;
+    if (!(a.object->pixels == b.object->pixels) || s.slope != t.slope || s.intercept != t.intercept)
+        return false;
+    try {
+        return FrameDecoder(*a.object).storedPixels(s.frame) == FrameDecoder(*b.object).storedPixels(t.frame);
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+}  // namespace vicon::ingest

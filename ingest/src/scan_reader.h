@@ -1,0 +1,16 @@
+#pragma once
+
+#include "stack_plan.h"
+#include "vicon/core/progress.h"
+#include "vicon/core/volume.h"
+
+namespace vicon::ingest {
+
+/// Decodes the slices of a stack, in parallel, into the volume that `plan` describes.
+/// Throws Error{bad_input} naming the file that cannot be decoded, Error{no_memory}, Error{cancelled}.
+HuVolume readVolume(const Stack& stack, const StackPlan& plan, Progress& progress);
+
+/// Whether two images hold the same stored pixels; false when one cannot be decoded.
+bool haveSamePixels(const SliceRef& a, const SliceRef& b);
+
+}  // namespace vicon::ingest

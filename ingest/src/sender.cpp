@@ -1,0 +1,211 @@
+#include "vicon/ingest/sender.h"
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmnet/diutil.h>
+#include <dcmtk/dcmnet/scu.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "dataset.h"
+#include "dicom_setup.h"
+#include "vicon/core/error.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::ingest {
+namespace {
+
+constexpr Uint32 kPduBytes = 131072;
+constexpr std::size_t kMostContexts = 120;  // an association has room for 128
+constexpr Uint32 kTimeoutSeconds = 30;
+constexpr Uint32 kLargestElementInMemory = 16384;
+
+struct Kind {
+    std::string sop_class, transfer_syntax;
+    friend auto operator<=>(const Kind&, const Kind&) = default;
+};
+
+struct Item {
+    fs::path file;
+    Kind kind;
+};
+
+std::string nameOf(const Peer& peer)
+{
+    return (peer.name.empty() ? "" : peer.name + " ") + "(" + peer.ae_title + " at " + peer.host + ":" +
+           std::to_string(peer.port) + ")";
+}
+
+[[noreturn]] void peerFailed(const std::string& what, const Peer& peer, const OFCondition& condition)
+{
+    std::string reason = condition.text();
+    std::replace(reason.begin(), reason.end(), '\n', ' ');
+    throw Error(ErrorCode::peer, what + " (" + reason + ")", nameOf(peer),
+                "check its address, port and titles, and that it knows this application");
+}
+
+bool isUncompressed(const std::string& syntax)
+{
+    const DcmXfer xfer(syntax.c_str());
+    return !xfer.isEncapsulated() && xfer.getStreamCompression() == ESC_none;
+}
+
+void configure(DcmSCU& scu, const Peer& peer, const std::string& our_ae_title)
+{
+    scu.setAETitle(our_ae_title.c_str());
+    scu.setPeerHostName(peer.host.c_str());
+    scu.setPeerPort(Uint16(peer.port));
+    scu.setPeerAETitle(peer.ae_title.c_str());
+    scu.setMaxReceivePDULength(kPduBytes);
+    scu.setDIMSEBlockingMode(DIMSE_NONBLOCKING);
+    scu.setDIMSETimeout(kTimeoutSeconds);
+    scu.setACSETimeout(kTimeoutSeconds);
+    scu.setConnectionTimeout(int(kTimeoutSeconds));
+}
+
+void connect(DcmSCU& scu, const Peer& peer)
+{
+    if (const OFCondition opened = scu.initNetwork(); opened.bad())
+        peerFailed("the network cannot be used", peer, opened);
+    if (const OFCondition agreed = scu.negotiateAssociation(); agreed.bad())
+        peerFailed("no association with the peer", peer, agreed);
+}
+
+/// The transfer syntaxes that may carry an object: its own, or any uncompressed one for an uncompressed object.
+OFList<OFString> syntaxesFor(const Kind& kind)
+{
+    OFList<OFString> list;
+    list.push_back(kind.transfer_syntax.c_str());
+    if (isUncompressed(kind.transfer_syntax))
+        for (const char* other : {UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax})
+            if (kind.transfer_syntax != other)
+                list.push_back(other);
+    return list;
+}
+
+/// Reads what each file is; what cannot be read is a failure of that file.
+std::vector<Item> readKinds(const std::vector<fs::path>& files, SendResult& result)
+{
+    std::vector<Item> items;
+    for (const fs::path& file : files) {
+        DcmFileFormat format;
+        const OFCondition loaded = format.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, kLargestElementInMemory);
+        const auto sop_class = Dataset(*format.getDataset()).values(DCM_SOPClassUID);
+        if (loaded.bad() || sop_class.empty()) {
+            result.failures.push_back({file, loaded.bad() ? loaded.text() : "it does not say its SOP Class"});
+            continue;
+        }
+        items.push_back({file, {sop_class.front(), DcmXfer(format.getDataset()->getOriginalXfer()).getXferID()}});
+    }
+    return items;
+}
+
+std::string reasonFor(const OFCondition& sent, Uint16 status)
+{
+    if (sent.bad())
+        return sent.text();
+    char code[8];
+    std::snprintf(code, sizeof code, "%04x", status);
+    return std::string("the peer refused it (") + DU_cstoreStatusString(status) + ", status " + code + ")";
+}
+
+/// Sends the items of one association.
+class Sending {
+public:
+    Sending(const Peer& peer, const std::string& title, SendResult& result, Progress& progress, std::size_t total)
+        : peer_(peer), title_(title), result_(result), progress_(progress), total_(total)
+    {
+    }
+
+    void send(const std::vector<Item>& items)
+    {
+        DcmSCU scu;
+        configure(scu, peer_, title_);
+        std::set<Kind> kinds;
+        for (const Item& item : items)
+            if (kinds.insert(item.kind).second)
+                scu.addPresentationContext(item.kind.sop_class.c_str(), syntaxesFor(item.kind));
+        connect(scu, peer_);
+        for (const Item& item : items) {
+            progress_.check();
+            sendOne(scu, item);
+            progress_.report(double(++done_) / double(total_), "sending");
+        }
+        scu.releaseAssociation();
+    }
+
+private:
+    void sendOne(DcmSCU& scu, const Item& item)
+    {
+        T_ASC_PresentationContextID context = 0;
+        for (const OFString& syntax : syntaxesFor(item.kind))
+            if (context == 0)
+                context = scu.findPresentationContextID(item.kind.sop_class.c_str(), syntax);
+        if (context == 0) {
+            result_.failures.push_back({item.file, "the peer takes neither this kind of object nor its encoding (" +
+                                                       std::string(dcmFindNameOfUID(item.kind.sop_class.c_str(), "?")) +
+                                                       ", " + DcmXfer(item.kind.transfer_syntax.c_str()).getXferName() +
+                                                       ")"});
+            return;
+        }
+        Uint16 status = 0;
+        const OFCondition sent = scu.sendSTORERequest(context, item.file.c_str(), nullptr, status);
+        const bool taken = sent.good() && (status == STATUS_Success || DICOM_WARNING_STATUS(status));
+        if (taken)
+            ++result_.sent;
+        else
+            result_.failures.push_back({item.file, reasonFor(sent, status)});
+        if (sent.bad() && !scu.isConnected())
+            peerFailed("the association broke after " + std::to_string(result_.sent) + " objects", peer_, sent);
+    }
+
+    const Peer& peer_;
+    const std::string& title_;
+    SendResult& result_;
+    Progress& progress_;
+    std::size_t total_;
+    std::size_t done_ = 0;
+};
+
+}  // namespace
+
+SendResult storeFiles(const Peer& peer, const std::vector<fs::path>& files, const std::string& our_ae_title,
+                      Progress& progress)
+{
+    setUpDicom();
+    SendResult result;
+    const std::vector<Item> items = readKinds(files, result);
+    Sending sending(peer, our_ae_title, result, progress, std::max<std::size_t>(items.size(), 1));
+    // As many items as their kinds fit into one association.
+    for (std::size_t from = 0; from < items.size();) {
+        std::set<Kind> kinds;
+        std::size_t to = from;
+        for (; to < items.size(); ++to) {
+            kinds.insert(items[to].kind);
+            if (kinds.size() > kMostContexts)
+                break;
+        }
+        sending.send({items.begin() + std::ptrdiff_t(from), items.begin() + std::ptrdiff_t(to)});
+        from = to;
+    }
+    return result;
+}
+
+void echo(const Peer& peer, const std::string& our_ae_title)
+{
+    setUpDicom();
+    DcmSCU scu;
+    configure(scu, peer, our_ae_title);
+    OFList<OFString> syntaxes;
+    syntaxes.push_back(UID_LittleEndianImplicitTransferSyntax);
+    scu.addPresentationContext(UID_VerificationSOPClass, syntaxes);
+    connect(scu, peer);
+    if (const OFCondition answered = scu.sendECHORequest(0); answered.bad())
+        peerFailed("the peer does not answer C-ECHO", peer, answered);
+    scu.releaseAssociation();
+}
+
+}  // namespace vicon::ingest

@@ -1,0 +1,110 @@
+#include "stored_files.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <tbb/parallel_for.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <mutex>
+#include <thread>
+
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::ingest {
+namespace {
+
+[[noreturn]] void failed(const std::string& what, const fs::path& where, int number)
+{
+    const bool full = number == ENOSPC || number == EDQUOT;
+    throw Error(ErrorCode::store, what + " (" + std::strerror(number) + ")", where.string(),
+                full ? "free some space on this disk and import again" : "check that the store is yours");
+}
+
+void flush(const fs::path& path, int flags)
+{
+    const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
+    const bool flushed = descriptor >= 0 && ::fsync(descriptor) == 0;
+    const int number = errno;
+    if (descriptor >= 0)
+        ::close(descriptor);
+    if (!flushed)
+        failed("cannot be flushed to disk", path, number);
+}
+
+void copyPrivately(const fs::path& from, const fs::path& to)
+{
+    std::error_code failure;
+    if (!fs::copy_file(from, to, fs::copy_options::overwrite_existing, failure))
+        failed("a file cannot be copied into the store", from, failure.value());
+    if (::chmod(to.c_str(), 0600) != 0)
+        failed("cannot be made private", to, errno);
+    flush(to, O_RDONLY);
+}
+
+fs::path temporaryFor(const fs::path& folder, const std::string& name)
+{
+    return folder / (std::string(kTemporaryPrefix) + name);
+}
+
+}  // namespace
+
+std::string fileNameFor(const std::string& sop_uid)
+{
+    constexpr std::size_t kDigits = 32;
+    return sha256(sop_uid).substr(0, kDigits) + ".dcm";
+}
+
+void copyDurably(const fs::path& folder, const std::vector<FileCopy>& copies, Progress& progress)
+{
+    makePrivateFolder(folder);
+    removeTemporaries(folder);
+    std::mutex telling;
+    try {
+        tbb::parallel_for(std::size_t(0), copies.size(), [&](std::size_t n) {
+            {
+                const std::lock_guard lock(telling);
+                progress.check();
+            }
+            copyPrivately(copies[n].from, temporaryFor(folder, copies[n].name));
+        });
+        for (const FileCopy& copy : copies)
+            if (::rename(temporaryFor(folder, copy.name).c_str(), (folder / copy.name).c_str()) != 0)
+                failed("cannot be renamed", folder / copy.name, errno);
+    } catch (...) {
+        removeTemporaries(folder);
+        throw;
+    }
+    flush(folder, O_RDONLY | O_DIRECTORY);
+}
+
+StoreLock::StoreLock(const fs::path& store, Progress& progress)
+    : descriptor_(::open((store / "import.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600))
+{
+    constexpr auto kPause = std::chrono::milliseconds(100);
+    if (descriptor_ < 0)
+        failed("the store cannot be locked", store, errno);
+    while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+        try {
+            progress.report(0, "waiting for another import into this store");
+            progress.check();
+        } catch (...) {
+            ::close(descriptor_);
+            throw;
+        }
+        std::this_thread::sleep_for(kPause);
+    }
+}
+
+StoreLock::~StoreLock()
+{
+    ::close(descriptor_);
+}
+
+}  // namespace vicon::ingest

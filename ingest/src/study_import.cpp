@@ -1,0 +1,352 @@
+#include "study_import.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <set>
+
+#include "inspect.h"
+#include "patient_match.h"
+#include "pixels.h"
+#include "scan_description.h"
+#include "scan_reader.h"
+#include "stored_files.h"
+#include "text.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace vicon::ingest {
+namespace {
+
+constexpr const char* kDicomFolder = "dicom";
+
+void addOnce(json& list, json entry)
+{
+    if (std::find(list.begin(), list.end(), entry) == list.end())
+        list.push_back(std::move(entry));
+}
+
+}  // namespace
+
+void StudyImport::run(std::vector<Arrival> arrivals, std::map<std::string, SeriesNotes>& notes)
+{
+    openCase(arrivals.front().object.patient, arrivals.front().object.study);
+    loadStored();
+    admit(std::move(arrivals), notes);
+    dropUndecodable(notes);
+    if (objects_.empty())
+        return;
+    assemble();
+    chooseRoles();
+    for (Assembled& scan : scans_)
+        describe(scan, notes);
+    for (Assembled& scan : scans_)
+        store(scan);
+    for (const auto& [id, scan] : old_scans_)
+        if (std::none_of(scans_.begin(), scans_.end(), [&](const Assembled& s) { return s.record.id == id; }))
+            store_.removeScan(case_.id, id);  // all its objects belong to other scans now
+    flagSharedIds();
+}
+
+void StudyImport::openCase(const Patient& patient, const Study& study)
+{
+    if (auto known = store_.findCaseByStudy(study.uid)) {
+        case_ = std::move(*known);
+        return;
+    }
+    case_ = {CaseStore::caseIdFor(study.uid), patient, study, {}, nowUtc()};
+    if (store_.findCase(case_.id))
+        throw Error(ErrorCode::internal, "two studies have the same case id", case_.id, "report this");
+}
+
+void StudyImport::loadStored()
+{
+    std::vector<std::pair<InstanceRecord, fs::path>> stored;
+    for (ScanRecord& scan : store_.scans(case_.id)) {
+        for (InstanceRecord& instance : store_.instances(case_.id, scan.id)) {
+            fs::path file = store_.scanFolder(case_.id, scan.id) / kDicomFolder / instance.file;
+            stored.emplace_back(std::move(instance), std::move(file));
+        }
+        old_scans_[scan.id] = std::move(scan);
+    }
+    std::vector<Inspection> inspected(stored.size());
+    tbb::parallel_for(std::size_t(0), stored.size(),
+                      [&](std::size_t n) { inspected[n] = inspectFile(stored[n].second, options_); });
+    for (std::size_t n = 0; n < stored.size(); ++n) {
+        const InstanceRecord& instance = stored[n].first;
+        if (inspected[n].verdict != Inspection::Verdict::image)
+            continue;  // lost or damaged in the store: an arrival with the same bytes mends it
+        inspected[n].object.sha256 = instance.sha256;
+        inspected[n].object.sop_uid = instance.sop_uid;
+        stored_at_[instance.sop_uid] = {instance.scan_id, instance.file};
+        objects_[instance.sop_uid] = std::move(inspected[n].object);
+    }
+}
+
+void StudyImport::admit(std::vector<Arrival> arrivals, std::map<std::string, SeriesNotes>& notes)
+{
+    std::vector<Arrival> strangers;
+    for (Arrival& arrival : arrivals) {
+        const ImageObject& object = arrival.object;
+        if (!samePatient(case_.patient, object.patient)) {
+            strangers.push_back(std::move(arrival));
+            continue;
+        }
+        const auto recorded = store_.findInstance(object.sop_uid);
+        const auto here = objects_.find(object.sop_uid);
+        const std::string first = recorded ? recorded->sha256 : here != objects_.end() ? here->second.sha256 : "";
+        if (!first.empty() && first != object.sha256) {
+            const std::string why = "the same SOP Instance UID with other content is stored; the first is kept";
+            reporter_.object(ImportLine::Kind::refused, arrival.shown, object.series.uid, why, case_.id);
+            addOnce(notes[object.series.uid].refused, {{"object", object.sop_uid}, {"why", why}});
+            continue;
+        }
+        if (here != objects_.end())
+            continue;
+        shown_[object.sop_uid] = arrival.shown;
+        const std::string uid = object.sop_uid;
+        objects_[uid] = std::move(arrival.object);
+    }
+    quarantine(strangers);
+}
+
+void StudyImport::quarantine(const std::vector<Arrival>& strangers)
+{
+    std::map<std::string, std::vector<FileCopy>> folders;
+    for (const Arrival& arrival : strangers) {
+        const Patient& p = arrival.object.patient;
+        const std::string who = sha256(p.id + '\n' + foldedForComparison(p.name) + '\n' + p.birth_date).substr(0, 10);
+        const std::string name = sha256(arrival.object.sop_uid + arrival.object.sha256).substr(0, 32) + ".dcm";
+        folders[case_.id + "/" + who].push_back({arrival.object.file, name});
+    }
+    for (auto& [folder, copies] : folders) {
+        const fs::path target = store_.folder() / "quarantine" / folder;
+        reporter_.line({ImportLine::Kind::quarantined,
+                        case_.study.uid,
+                        std::to_string(copies.size()) +
+                            " objects of this study name another patient than its case; they lie in quarantine/" +
+                            folder,
+                        case_.id,
+                        {}});
+        report_.refused += int(copies.size());
+        std::set<std::string> names;
+        std::erase_if(copies, [&](const FileCopy& copy) {
+            return fs::exists(target / copy.name) || !names.insert(copy.name).second;
+        });
+        if (copies.empty())
+            continue;
+        copyDurably(target, copies, progress_);
+        store_.audit("quarantined", case_.id, "", folder);
+    }
+}
+
+void StudyImport::dropUndecodable(std::map<std::string, SeriesNotes>& notes)
+{
+    std::map<std::string, std::size_t> slices;
+    for (const auto& [uid, object] : objects_)
+        slices[object.series.uid] += object.slices.size();
+    // A scan is decoded when it is processed; what will not be processed, or looks damaged, has to be proven here.
+    std::vector<const ImageObject*> small;
+    for (const auto& [uid, object] : objects_)
+        if (shown_.contains(uid) && (object.doubtful || slices[object.series.uid] < std::size_t(options_.min_slices)))
+            small.push_back(&object);
+    std::vector<std::string> why(small.size());
+    tbb::parallel_for(std::size_t(0), small.size(), [&](std::size_t n) {
+        try {
+            FrameDecoder decoder(*small[n]);
+            for (const Slice& slice : small[n]->slices)
+                decoder.densities(slice);
+        } catch (const Error& e) {
+            why[n] = e.what();
+        }
+    });
+    for (std::size_t n = 0; n < small.size(); ++n) {
+        if (why[n].empty())
+            continue;
+        const std::string uid = small[n]->sop_uid, series = small[n]->series.uid;
+        reporter_.object(ImportLine::Kind::refused, shown_[uid], series, why[n], case_.id);
+        addOnce(notes[series].refused, {{"object", uid}, {"why", why[n]}});
+        objects_.erase(uid);
+    }
+}
+
+void StudyImport::assemble()
+{
+    std::map<std::string, std::vector<const ImageObject*>> series;
+    for (const auto& [uid, object] : objects_)
+        series[object.series.uid].push_back(&object);
+    for (const auto& [series_uid, members] : series) {
+        std::set<const ImageObject*> taken;
+        for (Stack& stack : splitSeries(members, haveSamePixels)) {
+            progress_.check();
+            std::set<const ImageObject*> of_stack;
+            for (const auto* refs : {&stack.slices, &stack.copies})
+                for (const SliceRef& ref : *refs)
+                    of_stack.insert(ref.object);
+            const bool shared = std::any_of(of_stack.begin(), of_stack.end(),
+                                            [&](const ImageObject* object) { return taken.contains(object); });
+            if (shared) {  // several stacks in one multi-frame object: the largest is used
+                scans_.back().plan.repairs.push_back(std::to_string(stack.slices.size()) +
+                                                     " frames that belong to another stack are not used");
+                continue;
+            }
+            taken.insert(of_stack.begin(), of_stack.end());
+            Assembled scan;
+            scan.plan = planStack(stack, options_);
+            scan.objects.assign(of_stack.begin(), of_stack.end());
+            std::sort(scan.objects.begin(), scan.objects.end(),
+                      [](const auto* a, const auto* b) { return a->sop_uid < b->sop_uid; });
+            scan.record.case_id = case_.id;
+            scan.record.id = CaseStore::scanIdFor(series_uid + stack.key);
+            scan.stack = std::move(stack);
+            scans_.push_back(std::move(scan));
+        }
+    }
+}
+
+void StudyImport::chooseRoles()
+{
+    std::vector<Reconstruction> usable;
+    std::vector<Assembled*> owners;
+    for (Assembled& scan : scans_) {
+        const std::size_t slices = scan.stack.slices.size();
+        scan.record.role = scan.plan.refused.empty() ? "kept" : "refused";
+        if (scan.plan.refused.empty() && slices < std::size_t(options_.min_slices))
+            scan.record.ingest["kept_because"] = std::to_string(slices) + (slices == 1 ? " slice" : " slices") +
+                                                 ", fewer than the " + std::to_string(options_.min_slices) +
+                                                 " of a scan";
+        else if (scan.plan.refused.empty()) {
+            usable.push_back({&scan.stack, &scan.plan});
+            owners.push_back(&scan);
+        }
+    }
+    const std::vector<std::size_t> chosen = chooseScans(usable);
+    for (std::size_t n = 0; n < chosen.size(); ++n) {
+        if (chosen[n] == n) {
+            owners[n]->record.role = "scan";
+            continue;
+        }
+        const Series& other = owners[chosen[n]]->stack.slices.front().object->series;
+        owners[n]->record.ingest["kept_because"] =
+            "another reconstruction of the acquisition of series " + std::to_string(other.number);
+        owners[n]->record.ingest["reconstruction_of"] = owners[chosen[n]]->record.id;
+    }
+}
+
+void StudyImport::describe(Assembled& scan, const std::map<std::string, SeriesNotes>& notes)
+{
+    scan.record.series = seriesOf(scan.stack);
+    json& ingest = scan.record.ingest;
+    ingest["geometry"] = describeGeometry(scan.stack, scan.plan);
+    ingest["repairs"] = describeRepairs(scan.objects, scan.plan);
+    ingest["lossy"] = scan.record.series.lossy;
+    ingest["refused"] = json::array();
+    ingest["set_aside"] = json::array();
+    if (!scan.plan.refused.empty())
+        ingest["refused"].push_back({{"why", scan.plan.refused}});
+    // What was said about single objects stays said, in whichever import they came.
+    const auto old = old_scans_.find(scan.record.id);
+    const auto now = notes.find(scan.record.series.uid);
+    for (const char* list : {"refused", "set_aside"}) {
+        json said = json::array();
+        if (old != old_scans_.end() && old->second.ingest.contains(list))
+            for (const json& entry : old->second.ingest[list])
+                if (entry.contains("object"))
+                    addOnce(said, entry);
+        if (now != notes.end())
+            for (const json& entry : list == std::string("refused") ? now->second.refused : now->second.set_aside)
+                addOnce(said, entry);
+        std::sort(said.begin(), said.end());
+        ingest[list].insert(ingest[list].end(), said.begin(), said.end());
+    }
+    scan.record.created = old == old_scans_.end() ? nowUtc() : old->second.created;
+}
+
+void StudyImport::store(Assembled& scan)
+{
+    const fs::path folder = store_.scanFolder(case_.id, scan.record.id) / kDicomFolder;
+    std::vector<FileCopy> copies;
+    std::vector<fs::path> moved;
+    std::vector<InstanceRecord> instances;
+    for (const ImageObject* object : scan.objects) {
+        const auto home = stored_at_.find(object->sop_uid);
+        const bool in_place = home != stored_at_.end() && home->second.scan_id == scan.record.id;
+        const std::string name = in_place ? home->second.file : fileNameFor(object->sop_uid);
+        instances.push_back({object->sop_uid, case_.id, scan.record.id, object->sha256, name});
+        if (in_place)
+            continue;
+        copies.push_back({object->file, name});
+        if (home != stored_at_.end())
+            moved.push_back(object->file);
+    }
+    const auto old = old_scans_.find(scan.record.id);
+    const auto stored_here = std::count_if(stored_at_.begin(), stored_at_.end(),
+                                           [&](const auto& entry) { return entry.second.scan_id == scan.record.id; });
+    const bool grew = !copies.empty() || std::size_t(stored_here) != scan.objects.size();
+    const bool new_role = old == old_scans_.end() || old->second.role != scan.record.role;
+    const bool new_words =
+        new_role || old->second.ingest != scan.record.ingest || json(old->second.series) != json(scan.record.series);
+    if (!copies.empty())
+        copyDurably(folder, copies, progress_);
+    if (grew || new_words)
+        store_.addScan(case_, scan.record, instances, scan.record.role == "scan" && (grew || new_role));
+    else if (const fs::path file = folder.parent_path() / "scan.json";
+             !fs::exists(file) || readFile(file) != store_.describeScan(case_.id, scan.record.id).dump(2) + "\n")
+        store_.writeScanFile(case_.id, scan.record.id);  // killed between the commit and the copy
+    for (const fs::path& file : moved) {
+        std::error_code ignored;
+        fs::remove(file, ignored);
+    }
+    tell(scan, grew || new_role);
+}
+
+void StudyImport::tell(const Assembled& scan, bool changed)
+{
+    using Kind = ImportLine::Kind;
+    const ScanRecord& record = scan.record;
+    const bool refused = record.role == "refused";
+    Kind kind = record.role == "scan" ? Kind::stored : refused ? Kind::refused : Kind::kept;
+    if (refused)
+        report_.refused += int(scan.objects.size());
+    else if (!changed)
+        kind = Kind::unchanged;
+    if (kind == Kind::stored)
+        ++report_.scans_stored;
+    else if (kind == Kind::kept)
+        ++report_.images_kept;
+    else if (kind == Kind::unchanged)
+        ++report_.scans_unchanged;
+    const std::string text = refused ? scan.plan.refused : describeInWords(record, scan.plan);
+    reporter_.line({kind, record.series.uid, text, case_.id, record.id});
+    if (!refused && changed)
+        for (const json& repair : record.ingest["repairs"])
+            reporter_.line({Kind::repaired, record.series.uid, repair.get<std::string>(), case_.id, record.id});
+}
+
+void StudyImport::flagSharedIds()
+{
+    if (case_.patient.id.empty())
+        return;
+    const auto once = [&](const std::string& case_id, const std::string& other) {
+        const std::string line = "the patient ID is also that of case " + other + ", with another name or birth date";
+        int said = 0;  // a flag that a person took away does not come back
+        store_.database().session() << "SELECT COUNT(*) FROM audit WHERE event = 'flagged' AND case_id = :c AND"
+                                       " detail = :line",
+            soci::use(case_id), soci::use(line), soci::into(said);
+        if (said > 0)
+            return;
+        store_.flag(case_id, line);
+        reporter_.line({ImportLine::Kind::flagged, case_id, line + "; a person must decide", case_id, {}});
+    };
+    for (const CaseRecord& other : store_.findCasesByPatient(case_.patient.id)) {
+        if (other.id == case_.id || sameNameAndBirth(other.patient, case_.patient))
+            continue;
+        once(case_.id, other.id);
+        once(other.id, case_.id);
+    }
+}
+
+}  // namespace vicon::ingest

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "acquisition.h"
+#include "image_object.h"
+#include "vicon/core/case_store.h"
+#include "vicon/ingest/import.h"
+
+namespace vicon::ingest {
+
+/// An object that came in, and how the user knows its file.
+struct Arrival {
+    ImageObject object;
+    std::string shown;
+};
+
+/// What was said about other objects of a series while its files were inspected; goes into its scan.json.
+struct SeriesNotes {
+    nlohmann::json set_aside = nlohmann::json::array();
+    nlohmann::json refused = nlohmann::json::array();
+};
+
+/// Collects lines; several objects of one series with the same fate and reason become one.
+class Reporter {
+public:
+    explicit Reporter(ImportReport& report) : report_(report) {}
+    void object(ImportLine::Kind kind, const std::string& shown, const std::string& series_uid, const std::string& why,
+                const std::string& case_id = {});
+    void line(ImportLine line) { lines_.push_back({std::move(line), 1, {}}); }
+    /// Writes the lines into the report.
+    void finish();
+
+private:
+    struct Counted {
+        ImportLine line;
+        int count = 1;
+        std::string series_uid;
+    };
+    ImportReport& report_;
+    std::vector<Counted> lines_;
+};
+
+/// Takes the objects of one study into its case.
+class StudyImport {
+public:
+    StudyImport(CaseStore& store, const ImportOptions& options, ImportReport& report, Reporter& reporter,
+                Progress& progress)
+        : store_(store), options_(options), report_(report), reporter_(reporter), progress_(progress)
+    {
+    }
+    /// @param arrivals of one study, in the order in which they were found
+    /// @param notes by Series Instance UID
+    void run(std::vector<Arrival> arrivals, std::map<std::string, SeriesNotes>& notes);
+
+private:
+    struct Assembled {
+        Stack stack;
+        StackPlan plan;
+        ScanRecord record;
+        std::vector<const ImageObject*> objects;
+    };
+    struct Home {
+        std::string scan_id;
+        std::string file;
+    };
+
+    void openCase(const Patient& patient, const Study& study);
+    void loadStored();
+    void admit(std::vector<Arrival> arrivals, std::map<std::string, SeriesNotes>& notes);
+    void quarantine(const std::vector<Arrival>& strangers);
+    void dropUndecodable(std::map<std::string, SeriesNotes>& notes);
+    void assemble();
+    void chooseRoles();
+    void describe(Assembled& scan, const std::map<std::string, SeriesNotes>& notes);
+    void store(Assembled& scan);
+    void tell(const Assembled& scan, bool changed);
+    void flagSharedIds();
+
+    CaseStore& store_;
+    const ImportOptions& options_;
+    ImportReport& report_;
+    Reporter& reporter_;
+    Progress& progress_;
+    CaseRecord case_;
+    bool new_case_ = false;
+    std::map<std::string, ImageObject> objects_;   ///< by SOP Instance UID: stored ones and arrivals
+    std::map<std::string, std::string> shown_;     ///< of arrivals, by SOP Instance UID
+    std::map<std::string, Home> stored_at_;        ///< by SOP Instance UID
+    std::map<std::string, ScanRecord> old_scans_;  ///< by id
+    std::vector<Assembled> scans_;
+};
+
+}  // namespace vicon::ingest
