@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "vicon/core/records.h"
+
+namespace vicon::report {
+
+/// A scan of the case and what the pipeline found out about it.
+struct ScanEntry {
+    ScanRecord scan;
+    double skeleton_length_mm = 0;                      ///< rectal end to caecal end, bridges included; 0: not prepared
+    nlohmann::json quality = nlohmann::json::object();  ///< as scan.json has it; may be empty
+    std::string verdict;                                ///< of the segmentation: "colon", ...; empty: not prepared
+    std::string reason;                                 ///< why this verdict and confidence; may be empty
+    double confidence = 0;                              ///< 0 to 1
+    nlohmann::json bridges = nlohmann::json::array();   ///< [{"length_mm", "confidence", "certain", "reason", ..}]
+    std::filesystem::path overview_picture;             ///< PNG; empty: none was made
+};
+
+/// A marker, with the names and pictures that its entry shows.
+struct MarkerEntry {
+    Marker marker;
+    std::string scan_label;  ///< as a reader calls the scan: "supine (series 3)"
+    std::string part_name;   ///< of the colon: "sigmoid", ...; empty: not known
+    std::filesystem::path endoscopic_picture;
+    std::filesystem::path slices_picture;
+};
+
+/// All that a report says. Patient, study, series and markers are the case's own records, never typed in anew; what an
+/// encapsulated PDF or a structured report needs (UIDs, frames of reference, positions in LPS mm) is in them.
+struct ReportContent {
+    CaseRecord a_case;
+    std::vector<ScanEntry> scans;
+    std::vector<MarkerEntry> markers;
+    std::string created;  ///< UTC, "2026-11-21T08:15:30Z"
+    int number = 1;       ///< of the report within its case
+    bool draft = true;    ///< nobody has signed it
+    std::string software_version;
+};
+
+}  // namespace vicon::report

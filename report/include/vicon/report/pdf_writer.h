@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vicon/report/content.h"
+#include "vicon/report/options.h"
+
+namespace vicon::report {
+
+struct PdfResult {
+    std::vector<std::string> warnings;  ///< what could not be printed as it is, a line each, without patient data
+    int pages = 0;
+};
+
+/// Writes the report as PDF, by replaceFile(): `pdf` holds the old report or the whole new one. The same content gives
+/// the same bytes. A character that no font has is printed as its code point in brackets, a picture that cannot be
+/// read as a line that says so, and both are in the warnings.
+/// Throws Error{store} when the file cannot be written and Error{not_found} when the basic font is not installed.
+PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pdf, const ReportOptions& options);
+
+}  // namespace vicon::report

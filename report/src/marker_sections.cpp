@@ -1,0 +1,175 @@
+// The part of Sections that is about markers.
+#include <algorithm>
+#include <array>
+
+#include "sections.h"
+#include "vicon/report/wording.h"
+
+namespace vicon::report {
+namespace {
+
+constexpr double kPicturesHeight = 178;  ///< points; two entries fit a page
+constexpr double kPictureGap = 12;
+constexpr double kDiscRadius = 4;
+
+Color inkOf(MarkerColor color)
+{
+    switch (color) {
+        case MarkerColor::red:
+            return {0.85F, 0.11F, 0.11F};
+        case MarkerColor::yellow:
+            return {0.98F, 0.80F, 0.06F};
+        case MarkerColor::green:
+            return {0.13F, 0.62F, 0.25F};
+    }
+    return look::kInk;
+}
+
+/// Left edges of the table's columns as fractions of its width.
+struct TableColumn {
+    const char* title;
+    double at;
+};
+constexpr std::array<TableColumn, 7> kColumns = {{{"Marker", 0.028},
+                                                  {"Scan", 0.19},
+                                                  {"Part of colon", 0.42},
+                                                  {"From rectum", 0.58},
+                                                  {"From caecum", 0.71},
+                                                  {"Fraction", 0.84},
+                                                  {"Page", 0.94}}};
+
+/// The text cut to a width, with an ellipsis.
+TextLine cutTo(Typesetter& type, const std::string& text, TextStyle style, double width)
+{
+    const std::vector<TextLine> lines = type.lines(text, style, width);
+    if (lines.size() == 1)
+        return lines.front();
+    const TextLine dots = type.line("\u2026", style);
+    TextLine cut = type.lines(text, style, width - dots.width).front();
+    for (TextRun run : dots.runs) {
+        run.x = cut.width;
+        cut.runs.push_back(run);
+    }
+    cut.width += dots.width;
+    return cut;
+}
+
+}  // namespace
+
+void Sections::drawMarkers()
+{
+    if (content_.markers.empty()) {
+        drawSection(flow_, "Markers", leadingOf(look::kBody));
+        flow_.paragraph(flow_.left(), flow_.width(),
+                        {flow_.type.line("No markers were set in this case.", look::kBody)}, look::kBody, look::kInk);
+        return;
+    }
+    const auto explained = flow_.type.lines(distancesExplained(), look::kSmall, flow_.width());
+    drawSection(flow_, "Markers", 8 * leadingOf(look::kBody));
+    flow_.paragraph(flow_.left(), flow_.width(), explained, look::kSmall, look::kMuted);
+    flow_.skip(look::kGap / 2);
+    if (content_.markers.size() > 1)
+        drawMarkerTable();
+    for (std::size_t n = 0; n < content_.markers.size(); ++n) {
+        drawMarker(content_.markers[n]);
+        // A long entry ends pages after it began; its first page is in the bookmark and, set by drawMarker, in page().
+    }
+}
+
+void Sections::drawMarkerTable()
+{
+    const double row = leadingOf(look::kBody) + 2.5;
+    const auto x = [&](std::size_t column) { return flow_.left() + kColumns[column].at * flow_.width(); };
+    const auto drawHead = [&] {
+        for (std::size_t n = 0; n < kColumns.size(); ++n)
+            flow_.put(x(n), flow_.y(), flow_.type.line(kColumns[n].title, look::kSmall), look::kMuted);
+        flow_.skip(leadingOf(look::kSmall) + 2);
+        flow_.pdf.line(flow_.page(), flow_.left(), flow_.y(), flow_.left() + flow_.width(), flow_.y(), look::kThinLine,
+                       look::kRule);
+        flow_.skip(3);
+    };
+    drawHead();
+    for (const MarkerEntry& entry : content_.markers) {
+        if (row > flow_.room()) {
+            flow_.newPage();
+            drawHead();
+        }
+        const Marker& m = entry.marker;
+        const std::array<std::string, 6> cells = {
+            m.id + " " + nameOf(m.color),  entry.scan_label,   entry.part_name, millimetres(m.station_mm),
+            millimetres(m.from_caecum_mm), percent(m.fraction)};
+        flow_.pdf.disc(flow_.page(), flow_.left() + kDiscRadius, flow_.y() - 0.7 * look::kBody.size, kDiscRadius - 0.8,
+                       inkOf(m.color));
+        for (std::size_t n = 0; n < cells.size(); ++n)
+            flow_.put(x(n), flow_.y(), cutTo(flow_.type, cells[n], look::kBody, x(n + 1) - x(n) - 4), look::kInk);
+        table_.push_back({flow_.page(), flow_.y()});
+        flow_.skip(row);
+    }
+    flow_.skip(look::kGap);
+}
+
+void Sections::drawMarkerHead(const MarkerEntry& entry)
+{
+    const double x = flow_.left(), height = leadingOf(look::kEntry) + 6;
+    flow_.pdf.fill(flow_.page(), {x, flow_.y() - height, flow_.width(), height}, look::kPale);
+    flow_.pdf.disc(flow_.page(), x + 6 + kDiscRadius, flow_.y() - height / 2, kDiscRadius, inkOf(entry.marker.color));
+    const TextLine title =
+        flow_.type.line("Marker " + entry.marker.id + ", " + nameOf(entry.marker.color), look::kEntry);
+    flow_.put(x + 20, flow_.y() - 3, title, look::kInk);
+    if (!entry.part_name.empty())
+        flow_.putRight(x + flow_.width() - 6, flow_.y() - 4, flow_.type.line(entry.part_name, look::kBody),
+                       look::kMuted);
+    flow_.skip(height + 4);
+}
+
+void Sections::drawMarker(const MarkerEntry& entry)
+{
+    const Marker& marker = entry.marker;
+    const std::string mark = isLossy(content_, marker.scan_id) ? " \u00b7 LOSSY COMPRESSION" : "";
+    const FramedPicture endoscopic = framed(entry.endoscopic_picture, flow_.width() / 2, "Endoscopic view" + mark,
+                                            "endoscopic", "marker " + marker.id);
+    const FramedPicture slices =
+        framed(entry.slices_picture, flow_.width(), "Slices through the marker" + mark, "slice", "marker " + marker.id);
+    const StatementTable table(flow_.type, markerStatements(entry), flow_.width());
+    const double note_width = flow_.width() - look::kLabelWidth;
+    const std::vector<TextLine> note =
+        marker.note.empty() ? std::vector<TextLine>{} : flow_.type.lines(marker.note, look::kBody, note_width);
+    const double leading = leadingOf(look::kBody), head = leadingOf(look::kEntry) + 10;
+    const double pictures = kPicturesHeight + 2 * leadingOf(look::kSmall);
+    const double whole = head + table.height() + double(note.size()) * leading + pictures;
+    flow_.need(whole <= flow_.wholePage() ? whole : head + table.height() + 3 * leading);
+
+    const std::size_t index = std::size_t(&entry - content_.markers.data());
+    if (index < table_.size()) {
+        const TextLine number = flow_.type.line(std::to_string(flow_.page() + 1), look::kBody);
+        const double x = flow_.left() + kColumns.back().at * flow_.width();
+        flow_.pdf.text(table_[index].page, x, table_[index].y - look::kBody.size * look::kAscent, number, look::kInk);
+    }
+    flow_.pdf.bookmark(flow_.page(), flow_.y() + 4, "Marker " + marker.id + " (" + nameOf(marker.color) + ")");
+    drawMarkerHead(entry);
+    table.draw(flow_, flow_.left());
+    if (!note.empty()) {
+        flow_.need(leading);
+        flow_.put(flow_.left(), flow_.y(), flow_.type.line("Note", look::kBody), look::kMuted);
+        flow_.paragraph(flow_.left() + look::kLabelWidth, note_width, note, look::kBody, look::kInk);
+    }
+    flow_.skip(5);
+    drawMarkerPictures(endoscopic, slices);
+}
+
+void Sections::drawMarkerPictures(const FramedPicture& endoscopic, const FramedPicture& slices)
+{
+    flow_.need(kPicturesHeight + 2 * leadingOf(look::kSmall));
+    const double left_width = endoscopic.picture.number >= 0
+                                  ? endoscopic.fitted(flow_.width() * 0.45, kPicturesHeight).width
+                                  : kPicturesHeight;
+    const double x = flow_.left() + left_width + kPictureGap;
+    const double right_width = flow_.left() + flow_.width() - x;
+    const double slices_width =
+        slices.picture.number >= 0 ? right_width : std::min(right_width, kPicturesHeight * 4 / 3);
+    const double used = std::max(endoscopic.draw(flow_, flow_.left(), flow_.y(), left_width, kPicturesHeight),
+                                 slices.draw(flow_, x, flow_.y(), slices_width, kPicturesHeight));
+    flow_.skip(used + look::kGap);
+}
+
+}  // namespace vicon::report

@@ -1,0 +1,123 @@
+#include "pdf_objects.h"
+
+#include <hpdf_objects.h>
+#include <hpdf_streams.h>
+#include <unicode/normalizer2.h>
+#include <unicode/unistr.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "vicon/core/error.h"
+
+namespace vicon::report {
+namespace {
+
+/// PNG's filter type "Paeth" and PDF's predictor for rows with a filter type each (PDF 32000-1, 7.4.4.4).
+constexpr std::uint8_t kPaethRow = 4;
+constexpr int kPngPredictor = 15;
+
+std::uint8_t paeth(int left, int above, int above_left)
+{
+    const int estimate = left + above - above_left;
+    const int to_left = std::abs(estimate - left), to_above = std::abs(estimate - above),
+              to_above_left = std::abs(estimate - above_left);
+    return std::uint8_t(to_left <= to_above && to_left <= to_above_left ? left
+                        : to_above <= to_above_left                     ? above
+                                                                        : above_left);
+}
+
+/// Each row preceded by its filter type.
+std::vector<std::uint8_t> predicted(const Picture& picture)
+{
+    const auto step = std::size_t(picture.channels), row = step * std::size_t(picture.width);
+    std::vector<std::uint8_t> out;
+    out.reserve((row + 1) * std::size_t(picture.height));
+    for (std::size_t y = 0; y < std::size_t(picture.height); ++y) {
+        out.push_back(kPaethRow);
+        const std::uint8_t* now = picture.pixels.data() + y * row;
+        const std::uint8_t* above = y ? now - row : nullptr;
+        for (std::size_t n = 0; n < row; ++n)
+            out.push_back(std::uint8_t(now[n] - paeth(n < step ? 0 : now[n - step], above ? above[n] : 0,
+                                                      above && n >= step ? above[n - step] : 0)));
+    }
+    return out;
+}
+
+std::string hex(const std::u16string& text)
+{
+    std::string out;
+    for (const char16_t unit : text) {
+        std::array<char, 8> digits{};
+        std::snprintf(digits.data(), digits.size(), "%04X", unsigned(unit));
+        out += digits.data();
+    }
+    return out;
+}
+
+/// What a glyph stands for: itself, or the letters of a presentation form, as the text had them.
+std::u16string meaningOf(char16_t code)
+{
+    const bool presentation_form = (code >= 0xfb1d && code <= 0xfdff) || (code >= 0xfe70 && code <= 0xfefc);
+    UErrorCode status = U_ZERO_ERROR;
+    const icu::Normalizer2* nfkc = presentation_form ? icu::Normalizer2::getNFKCInstance(status) : nullptr;
+    if (!nfkc)
+        return {code};
+    const icu::UnicodeString letters = nfkc->normalize(icu::UnicodeString(code), status);
+    return U_SUCCESS(status) ? std::u16string(letters.getBuffer(), std::size_t(letters.length()))
+                             : std::u16string{code};
+}
+
+}  // namespace
+
+HPDF_Image embedPicture(HPDF_Doc document, const Picture& picture)
+{
+    // libharu knows no predictors. Loaded as a grey picture as wide as a predicted row is long, and then described as
+    // what it is.
+    const std::vector<std::uint8_t> rows = predicted(picture);
+    const int row = picture.channels * picture.width + 1;
+    HPDF_Image image = HPDF_LoadRawImageFromMem(document, rows.data(), HPDF_UINT(row), HPDF_UINT(picture.height),
+                                                HPDF_CS_DEVICE_GRAY, 8);
+    if (!image)
+        return nullptr;
+    HPDF_Dict_AddNumber(image, "Width", picture.width);
+    HPDF_Dict_AddName(image, "ColorSpace", picture.channels == 1 ? "DeviceGray" : "DeviceRGB");
+    HPDF_Array parameters = HPDF_Array_New(image->mmgr);
+    HPDF_Dict predictor = HPDF_Dict_New(image->mmgr);
+    HPDF_Dict_AddNumber(predictor, "Predictor", kPngPredictor);
+    HPDF_Dict_AddNumber(predictor, "Colors", picture.channels);
+    HPDF_Dict_AddNumber(predictor, "BitsPerComponent", 8);
+    HPDF_Dict_AddNumber(predictor, "Columns", picture.width);
+    HPDF_Array_Add(parameters, predictor);
+    HPDF_Dict_Add(image, "DecodeParms", parameters);
+    return image;
+}
+
+void setToUnicode(HPDF_Font font, const std::set<char16_t>& codes)
+{
+    auto* map = static_cast<HPDF_Dict>(HPDF_Dict_GetItem(font, "ToUnicode", HPDF_OCLASS_DICT));
+    if (!map || !map->stream)
+        throw Error(ErrorCode::internal, "libharu gave a font without a map to Unicode");
+    std::string text =
+        "/CIDInit /ProcSet findresource begin\n12 dict begin\nbegincmap\n"
+        "/CIDSystemInfo << /Registry (Adobe) /Ordering (UCS) /Supplement 0 >> def\n"
+        "/CMapName /Adobe-Identity-UCS def\n/CMapType 2 def\n"
+        "1 begincodespacerange\n<0000> <FFFF>\nendcodespacerange\n";
+    constexpr std::size_t kMostInBlock = 100;  // a limit of the format
+    std::vector<char16_t> list(codes.begin(), codes.end());
+    for (std::size_t from = 0; from < list.size(); from += kMostInBlock) {
+        const std::size_t to = std::min(from + kMostInBlock, list.size());
+        text += std::to_string(to - from) + " beginbfchar\n";
+        for (std::size_t n = from; n < to; ++n)
+            text += "<" + hex({list[n]}) + "> <" + hex(meaningOf(list[n])) + ">\n";
+        text += "endbfchar\n";
+    }
+    text += "endcmap\nCMapName currentdict /CMap defineresource pop\nend\nend\n";
+    HPDF_MemStream_FreeData(map->stream);
+    HPDF_Stream_Write(map->stream, reinterpret_cast<const HPDF_BYTE*>(text.data()), HPDF_UINT(text.size()));
+}
+
+}  // namespace vicon::report

@@ -1,0 +1,56 @@
+#include "vicon/report/pdf_writer.h"
+
+#include <array>
+#include <cstdio>
+
+#include "page_furniture.h"
+#include "sections.h"
+#include "vicon/core/file.h"
+
+namespace vicon::report {
+namespace {
+
+/// Width and height in points.
+PageFlow::Paper paperOf(const std::string& name)
+{
+    constexpr double kA4Width = 595.28, kA4Height = 841.89, kLetterWidth = 612, kLetterHeight = 792;
+    if (name == "letter")
+        return {.width = kLetterWidth, .height = kLetterHeight};
+    return {.width = kA4Width, .height = kA4Height};
+}
+
+std::string missingWords(char32_t c)
+{
+    if (c == Typesetter::kInvalidUtf8)
+        return "a text holds bytes that are no UTF-8; they are printed as [U+FFFD]";
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "no font can show U+%04X; it is printed as [U+%04X]", unsigned(c),
+                  unsigned(c));
+    return text.data();
+}
+
+}  // namespace
+
+PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pdf, const ReportOptions& options)
+{
+    const FontSet fonts(options.font_folder);
+    Typesetter typesetter(fonts);
+    PdfDocument document(fonts, {"CT colonography report", "VICON " + content.software_version, content.created});
+    PageFlow::Paper paper = paperOf(options.paper);
+    const PageFurniture furniture(content, typesetter, paper.width);
+    paper.top = furniture.topHeight();
+    paper.bottom = furniture.bottomHeight();
+    PageFlow flow(document, typesetter, paper);
+    Sections sections(content, flow);
+    sections.draw();
+    for (int page = 0; page < document.pages(); ++page)
+        furniture.draw(document, typesetter, page, paper.height);
+
+    PdfResult result{.warnings = sections.warnings(), .pages = document.pages()};
+    for (const char32_t c : typesetter.missing())
+        result.warnings.push_back(missingWords(c));
+    replaceFile(pdf, document.finish());
+    return result;
+}
+
+}  // namespace vicon::report

@@ -1,1 +1,0 @@
-namespace vicon { int report_placeholder() { return 0; } }

@@ -1,0 +1,170 @@
+#include "vicon/report/statements.h"
+
+#include <array>
+#include <cstdio>
+
+#include "describe_json.h"
+#include "vicon/report/wording.h"
+
+using nlohmann::json;
+
+namespace vicon::report {
+namespace {
+
+constexpr const char* kNotGiven = "not given";
+
+void addGiven(std::vector<Statement>& out, const char* label, const std::string& text)
+{
+    if (!text.empty())
+        out.push_back({label, text});
+}
+
+std::string orNotGiven(const std::string& text)
+{
+    return text.empty() ? kNotGiven : text;
+}
+
+std::string seriesWords(const Series& series)
+{
+    std::string out = std::to_string(series.number);
+    if (!series.description.empty())
+        out += ", " + series.description;
+    if (!series.kernel.empty())
+        out += ", kernel " + series.kernel;
+    if (!series.manufacturer.empty())
+        out += ", " + series.manufacturer;
+    return out;
+}
+
+std::string number(double value, const char* pattern)
+{
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), pattern, value);
+    return text.data();
+}
+
+std::string geometryWords(const json& geometry)
+{
+    if (!geometry.is_object())
+        return {};
+    std::string out;
+    if (const auto slices = geometry.find("slices"); slices != geometry.end() && slices->is_number())
+        out = std::to_string(slices->get<int>()) + " slices";
+    if (geometry.contains("columns") && geometry.contains("rows"))
+        out += " of " + geometry["columns"].dump() + " \u00d7 " + geometry["rows"].dump();
+    if (const auto spacing = geometry.find("spacing_mm");
+        spacing != geometry.end() && spacing->is_array() && spacing->size() == 3) {
+        out += out.empty() ? "voxels of " : ", voxels of ";
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            out += (axis ? " \u00d7 " : "") + number((*spacing)[axis].get<double>(), "%.2f");
+        out += " mm";
+    }
+    if (const double tilt_deg = numberAt(geometry, "tilt_deg"); tilt_deg != 0)
+        out += ", gantry tilt of " + number(tilt_deg, "%.1f") + "\u00b0 removed";
+    return out;
+}
+
+std::string resultWords(const ScanEntry& entry)
+{
+    if (entry.verdict.empty())
+        return "not prepared";
+    std::string out = entry.verdict + ", confidence " + percent(entry.confidence, 0);
+    if (!entry.reason.empty())
+        out += ": " + entry.reason;
+    return out;
+}
+
+std::string bridgeWords(const json& bridges)
+{
+    if (!bridges.is_array() || bridges.empty())
+        return "none: the lumen is open from end to end";
+    std::string out;
+    for (const json& bridge : bridges) {
+        out += (out.empty() ? "" : "\n") + millimetres(numberAt(bridge, "length_mm"));
+        const bool certain = bridge.is_object() && bridge.value("certain", true);
+        out += certain ? ", certain" : ", uncertain";
+        if (bridge.is_object() && bridge.contains("confidence"))
+            out += ", confidence " + percent(numberAt(bridge, "confidence"), 0);
+        if (const std::string reason = textAt(bridge, "reason"); !reason.empty())
+            out += ": " + reason;
+    }
+    return std::to_string(bridges.size()) + (bridges.size() == 1 ? " collapsed part: " : " collapsed parts:\n") + out;
+}
+
+}  // namespace
+
+std::vector<Statement> patientStatements(const CaseRecord& a_case)
+{
+    const Patient& patient = a_case.patient;
+    return {{"Name", orNotGiven(personName(patient.name))},
+            {"Patient ID", orNotGiven(patient.id)},
+            {"Birth date", orNotGiven(dateWords(patient.birth_date))},
+            {"Sex", orNotGiven(sexWords(patient.sex))}};
+}
+
+std::vector<Statement> studyStatements(const CaseRecord& a_case)
+{
+    const Study& study = a_case.study;
+    std::vector<Statement> out{{"Study date", orNotGiven(dateTimeWords(study.date, study.time))}};
+    addGiven(out, "Description", study.description);
+    addGiven(out, "Accession", study.accession_number);
+    addGiven(out, "Study ID", study.id);
+    addGiven(out, "Referred by", personName(study.referring_physician));
+    addGiven(out, "Institution", study.institution);
+    return out;
+}
+
+std::string scanTitle(const ScanEntry& entry)
+{
+    std::string words = patientPositionWords(entry.scan.series.patient_position);
+    if (!words.empty() && words[0] >= 'a' && words[0] <= 'z')
+        words[0] = char(words[0] - 'a' + 'A');
+    return words + " \u00b7 series " + std::to_string(entry.scan.series.number);
+}
+
+std::vector<Statement> scanStatements(const ScanEntry& entry)
+{
+    std::vector<Statement> out{{"Series", seriesWords(entry.scan.series)}};
+    const json& ingest = entry.scan.ingest;
+    if (ingest.is_object() && ingest.contains("geometry"))
+        addGiven(out, "Geometry", geometryWords(ingest["geometry"]));
+    if (entry.scan.series.lossy)
+        out.push_back({"Compression", "LOSSY: the images lost detail before VICON received them"});
+    out.push_back({"Colon found", resultWords(entry)});
+    if (entry.skeleton_length_mm > 0) {
+        out.push_back({"Colon length", millimetres(entry.skeleton_length_mm) + " along the skeleton"});
+        out.push_back({"Bridges", bridgeWords(entry.bridges)});
+    }
+    addGiven(out, "Quality", joinedLines(describeMeasures(entry.quality)));
+    if (ingest.is_object()) {
+        addGiven(out, "Repaired", joinedLines(describeNotes(ingest.value("repairs", json::array()))));
+        addGiven(out, "Refused", joinedLines(describeNotes(ingest.value("refused", json::array()))));
+    }
+    return out;
+}
+
+std::vector<Statement> markerStatements(const MarkerEntry& entry)
+{
+    const Marker& marker = entry.marker;
+    const double length_mm = marker.station_mm + marker.from_caecum_mm;
+    std::vector<Statement> out;
+    addGiven(out, "Scan", entry.scan_label);
+    out.push_back({"Position", positionLetters(marker.position_mm) + " (" + positionWords(marker.position_mm) + ")"});
+    addGiven(out, "Part of colon", entry.part_name);
+    out.push_back({"From rectal end", millimetres(marker.station_mm) + " along the skeleton"});
+    out.push_back({"From caecal end", millimetres(marker.from_caecum_mm) + " along the skeleton"});
+    out.push_back(
+        {"Fraction", percent(marker.fraction) + " of the whole, " + millimetres(length_mm) + ", from the rectal end"});
+    out.push_back({"By endoscope", "estimated: " + endoscopeEstimate(marker.station_mm, entry.part_name)});
+    return out;
+}
+
+bool isLossy(const ReportContent& content, const std::string& scan_id)
+{
+    for (const ScanEntry& entry : content.scans)
+        if (entry.scan.id == scan_id)
+            return entry.scan.series.lossy;
+    return false;
+}
+
+}  // namespace vicon::report
