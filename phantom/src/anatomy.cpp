@@ -90,7 +90,7 @@ double Trunk::diaphragm(double x, double y) const
     // Two domes, the right one higher; each falls off towards the ribs, most at the back.
     const double right = 398 - std::pow((x + 72) / 11, 2) - std::pow((y + 5) / 15, 2);
     const double left = 392 - std::pow((x - 78) / 11, 2) - std::pow((y + 5) / 15, 2);
-    return std::max({right, left, 345.0});
+    return std::max({right, left, 345 + 22 * std::clamp(-y / 80, 0.0, 1.0)});
 }
 
 std::vector<Ellipsoid> obstacles()

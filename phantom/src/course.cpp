@@ -122,8 +122,10 @@ void addFrames(Course& course)
     const std::size_t last = s.size() - 1;
     for (std::size_t n = 0; n <= last; ++n)
         s[n].tangent = normalized(s[std::min(n + 1, last)].position_mm - s[n == 0 ? 0 : n - 1].position_mm);
-    for (std::size_t n = 0; n <= last; ++n)
-        s[n].curvature = n == 0 || n == last ? 0 : length(s[n + 1].tangent - s[n - 1].tangent) / (2 * course.step_mm);
+    for (std::size_t n = 1; n < last; ++n) {
+        s[n].bend = (s[n + 1].tangent - s[n - 1].tangent) / (2 * course.step_mm);
+        s[n].curvature = length(s[n].bend);
+    }
     const Vector3 front{0, -1, 0};
     Vector3 normal = normalized(front - s[0].tangent * dot(front, s[0].tangent));
     for (CourseSample& sample : s) {

@@ -15,6 +15,7 @@ struct CourseSample {
     Vector3 tangent;       ///< towards the caecum
     Vector3 normal;        ///< of a frame that does not turn about the tangent
     Vector3 binormal;      ///< tangent x normal
+    Vector3 bend;          ///< towards the inside of the bend, as long as the curvature per mm
     double curvature = 0;  ///< per mm
     double radius_mm = 0;  ///< of the lumen without folds, the largest over the angle
     double mobility = 0;

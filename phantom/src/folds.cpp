@@ -10,14 +10,15 @@ namespace vicon::phantom {
 namespace {
 
 using std::numbers::pi;
-constexpr double kEndClear_mm = 24;       // no ring nearer to an end of the curve
-constexpr double kDeepest = 0.5;          // of the radius
-constexpr double kGroove = 0.08;          // of the radius, at a taenia
-constexpr double kConstriction = 0.08;    // of the radius, at a ring
-constexpr double kConstrictionReach = 6;  // mm
-constexpr double kRectum = 0.075;         // share of the length
-constexpr double kClearOfFold_mm = 2.5;   // between polyp and fold
-constexpr double kHalfHeight = 0.953;     // where the plate's profile is half as high
+constexpr double kEndClear_mm = 24;                      // no ring nearer to an end of the curve
+constexpr double kDeepest = 0.5;                         // of the radius
+constexpr double kGroove = 0.08;                         // of the radius, at a taenia
+constexpr double kConstriction = 0.08;                   // of the radius, at a ring
+constexpr double kConstrictionReach = 6;                 // mm
+constexpr double kRectum = 0.075;                        // share of the length
+constexpr double kClearOfFold_mm = 2.5;                  // between polyp and fold
+constexpr double kHalfHeight = 0.953;                    // where the plate's profile is half as high
+constexpr double kMostCrowded = 0.35, kUncrowded = 0.6;  // mm of wall per mm of station: folds fade between the two
 constexpr double kPolypSpacing_mm = 60;
 
 /// Depth of the folds along the colon: shallow on the left, deep on the right.
@@ -99,22 +100,24 @@ Relief stretched(Relief relief, double length_mm)
     return relief;
 }
 
-double foldDepth_mm(const Relief& relief, const std::vector<Fold>& near, double station_mm, double angle,
-                    double radius_mm)
+double foldDepth_mm(const Relief& relief, const std::vector<Fold>& near, const WallPlace& place)
 {
     double depth = 0;
     for (const Fold& fold : near) {
-        const double middle = relief.taeniaAngle(station_mm) + kHalfSector * (1 + 2 * fold.sector);
-        const double off = wrapped(angle - middle);
+        const double middle = relief.taeniaAngle(place.station_mm) + kHalfSector * (1 + 2 * fold.sector);
+        const double off = wrapped(place.angle - middle);
         if (std::abs(off) >= kHalfSector)
             continue;
-        const double u = kHalfHeight * 2 / fold.thickness_mm *
-                         (station_mm - fold.station_mm - fold.slant_mm * std::pow(off / kHalfSector, 2));
-        if (std::abs(u) >= 1)
-            continue;
         const double crescent = std::pow(std::cos(1.5 * off), 0.7);
-        const double plate = std::sqrt(1 - std::pow(u, 6));  // a blunt crest: a sharp one breaks up into voxels
-        depth = std::max(depth, std::min(fold.depth_mm, kDeepest * radius_mm) * crescent * plate);
+        double height = std::min(fold.depth_mm, kDeepest * place.radius_mm) * crescent;
+        // Millimetres of wall per millimetre of station, where the fold is thinnest: at its foot or at its crest.
+        const double at_foot = 1 - place.bend_per_mm * place.radius_mm;
+        height *= std::clamp((at_foot - kMostCrowded) / (kUncrowded - kMostCrowded), 0.0, 1.0);
+        const double spread = std::min(at_foot, 1 - place.bend_per_mm * (place.radius_mm - height));
+        const double away_mm = place.station_mm - fold.station_mm - fold.slant_mm * std::pow(off / kHalfSector, 2);
+        const double u = kHalfHeight * 2 / fold.thickness_mm * away_mm * std::max(spread, kMostCrowded);
+        if (std::abs(u) < 1)
+            depth = std::max(depth, height * std::sqrt(1 - std::pow(u, 6)));  // blunt: a sharp crest breaks into voxels
     }
     return depth;
 }

@@ -41,9 +41,17 @@ Relief drawRelief(std::uint64_t seed, double length_mm, double thinnest_mm, int 
 /// The same relief on a colon of another length.
 Relief stretched(Relief relief, double length_mm);
 
-/// Depth that folds take from the radius at a station and angle.
-double foldDepth_mm(const Relief& relief, const std::vector<Fold>& near, double station_mm, double angle,
-                    double radius_mm);
+/// A place on the wall, and how the curve bends there.
+struct WallPlace {
+    double station_mm = 0;
+    double angle = 0;
+    double radius_mm = 0;    ///< of the tube, without folds
+    double bend_per_mm = 0;  ///< curvature of the axis towards this angle; below 0 on the outer side of a bend
+};
+
+/// Depth that folds take from the radius. On the inner side of a bend stations crowd together: folds are drawn wider
+/// there along the axis so that they keep their thickness in space, and fade where they would run into one another.
+double foldDepth_mm(const Relief& relief, const std::vector<Fold>& near, const WallPlace& place);
 
 /// What is left of the radius beside the taeniae's grooves and between the haustra, at most 1.
 double haustration(const Relief& relief, const std::vector<double>& rings_near, double station_mm, double angle);

@@ -39,4 +39,9 @@ struct LumenField {
 LumenField rasterise(const Grid& grid, const Course& course, const Wall& wall, const std::vector<FluidPool>& pools,
                      Progress& progress);
 
+/// Rounds what is finer than the voxels can show, so that the lumen's voxels have the topology of the lumen: the
+/// distances are filtered with 1-2-1 along each axis, which leaves flat walls where they are. Polyps are left as they
+/// are.
+void roundOff(LumenField& field, const Grid& grid, const std::vector<Polyp>& polyps);
+
 }  // namespace vicon::phantom

@@ -95,6 +95,24 @@ void measure(PhantomTruth& truth)
     truth.fluid_ml = double(fluid) * voxel_ml;
 }
 
+/// The lumen's voxels, rounded off until they have the lumen's own topology.
+InsideVolume soundLumen(const Grid& grid, const Scene& scene, LumenField& field, const PhantomTruth& truth,
+                        Progress& progress)
+{
+    constexpr int kRounds = 6;
+    for (int round = 0; round < kRounds; ++round) {
+        progress.check();
+        // A polyp keeps its shape unless its foot is what the voxels cannot show.
+        roundOff(field, grid, round < kRounds / 2 ? truth.polyps : std::vector<Polyp>());
+        InsideVolume inside = labelLumen(grid, scene, field, truth.pools);
+        if (eulerNumber26(inside, field.low, field.size) == truth.euler_number &&
+            eulerNumber6(inside, field.low, field.size) == truth.euler_number)
+            return inside;
+    }
+    throw Error(ErrorCode::internal, "the lumen cannot be shown on so coarse a grid", {},
+                "use another seed or smaller voxels");
+}
+
 }  // namespace
 
 Grid scanGrid(const PhantomOptions& options, Placement placement)
@@ -138,10 +156,10 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
 
     progress.report(0.1, "lumen");
     const Scene scene = drawScene(options.seed, course, placement.position, options.catheter);
-    const LumenField field = rasterise(grid, course.course, wall, scan.truth.pools, progress);
-    scan.truth.inside = labelLumen(grid, scene, field, scan.truth.pools);
+    LumenField field = rasterise(grid, course.course, wall, scan.truth.pools, progress);
+    scan.truth.euler_number = int(wall.gaps.size()) + 1 - (options.self_contact ? 1 : 0);
+    scan.truth.inside = soundLumen(grid, scene, field, scan.truth, progress);
     measure(scan.truth);
-    scan.truth.euler_number = eulerNumber26(scan.truth.inside);
 
     progress.report(0.5, "body");
     scan.truth.blur_mm = options.blur_mm > 0 ? options.blur_mm : drawn(options, "blur", 0.5, 0.8);

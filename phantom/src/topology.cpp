@@ -49,19 +49,19 @@ std::array<int, 256> contributionsOfFaces()
 }
 
 /// Adds up what the blocks of 2 x 2 x 2 voxels contribute, those over the rim included.
-int sumOverBlocks(const InsideVolume& volume, const std::array<int, 256>& table)
+int sumOverBlocks(const InsideVolume& volume, Index3 low, std::array<int, 3> size, const std::array<int, 256>& table)
 {
-    const auto [nx, ny, nz] = volume.grid.size;
-    const auto inside = [&, nx = nx, ny = ny, nz = nz](int i, int j, int k) {
-        return i >= 0 && j >= 0 && k >= 0 && i < nx && j < ny && k < nz && volume.at({i, j, k}) != kOutside;
+    const auto inside = [&](int i, int j, int k) {
+        return i >= 0 && j >= 0 && k >= 0 && i < size[0] && j < size[1] && k < size[2] &&
+               volume.at({low.i + i, low.j + j, low.k + k}) != kOutside;
     };
     const long sum = tbb::parallel_reduce(
-        tbb::blocked_range<int>(0, nz + 1), 0L,
-        [&, nx = nx, ny = ny](const tbb::blocked_range<int>& range, long part) {
+        tbb::blocked_range<int>(0, size[2] + 1), 0L,
+        [&](const tbb::blocked_range<int>& range, long part) {
             for (int k = range.begin(); k < range.end(); ++k)
-                for (int j = 0; j <= ny; ++j) {
+                for (int j = 0; j <= size[1]; ++j) {
                     int block = 0;
-                    for (int i = 0; i <= nx; ++i) {
+                    for (int i = 0; i <= size[0]; ++i) {
                         block = (block >> 1) & 0x55;
                         for (int d = 0; d < 4; ++d)
                             block |= inside(i, j - 1 + (d & 1), k - 1 + (d >> 1)) << (2 * d + 1);
@@ -76,14 +76,14 @@ int sumOverBlocks(const InsideVolume& volume, const std::array<int, 256>& table)
 
 }  // namespace
 
-int eulerNumber26(const InsideVolume& volume)
+int eulerNumber26(const InsideVolume& volume, Index3 low, std::array<int, 3> size)
 {
-    return sumOverBlocks(volume, contributions());
+    return sumOverBlocks(volume, low, size, contributions());
 }
 
-int eulerNumber6(const InsideVolume& volume)
+int eulerNumber6(const InsideVolume& volume, Index3 low, std::array<int, 3> size)
 {
-    return sumOverBlocks(volume, contributionsOfFaces());
+    return sumOverBlocks(volume, low, size, contributionsOfFaces());
 }
 
 }  // namespace vicon::phantom

@@ -87,7 +87,7 @@ void TrunkPainter::lungs(const Grid& grid, int k, std::int16_t* out) const
             const double room_mm = (1 - g) * room.half_y_mm / room.exponent;
             if (room_mm < 0)
                 continue;
-            const double middle = std::hypot((p.x - 4) / 34, (p.y - 20) / 90) - 1;
+            const double middle = std::hypot((p.x - 4) / 34, (p.y - 10) / 125) - 1;
             const double s =
                 share(room_mm - 1) * share(middle * 34) * share((p.z - scene_.trunk.diaphragm(p.x, p.y)) * 0.6);
             const double hu = kLung_hu + 0.35 * dot(p - Point3{}, scene_.down);  // denser below

@@ -48,6 +48,16 @@ double radiusAt(const Course& course, double station_mm)
     return std::lerp(course.samples[low].radius_mm, course.samples[low + 1].radius_mm, n - double(low));
 }
 
+/// Curvature of the axis towards an angle.
+double bendTowards(const Course& course, double station_mm, double angle)
+{
+    const double n = std::clamp(station_mm / course.step_mm, 0.0, double(course.samples.size() - 1));
+    const auto low = std::min(std::size_t(n), course.samples.size() - 2);
+    const CourseSample &a = course.samples[low], &b = course.samples[low + 1];
+    const Vector3 out = a.normal * std::cos(angle) + a.binormal * std::sin(angle);
+    return dot(out, a.bend + (b.bend - a.bend) * (n - double(low)));
+}
+
 /// What gaps leave of the lumen: 1 far from them, 0 within.
 double openness(const std::vector<CollapsedGap>& gaps, double station_mm)
 {
@@ -160,7 +170,9 @@ Wall Wall::draw(const PhantomOptions& options, const DrawnCourse& drawn, Positio
         for (int a = 0; a < kAngles; ++a) {
             const double angle = 2 * pi * a / kAngles;
             const double tube = shape.withoutFolds(rings, station_mm, angle);
-            const double depth = strength * foldDepth_mm(shape.relief, folds, station_mm, angle, tube);
+            const double depth =
+                strength * foldDepth_mm(shape.relief, folds,
+                                        {station_mm, angle, tube, bendTowards(drawn.course, station_mm, angle)});
             const double outside = std::max(tube + kWall_mm, open < 1 ? kCollapsed_mm : 0);
             wall.lumen(row, a) = float(open > 0 ? tube - depth : kNoLumen_mm);
             wall.outside_[row * kAngles + std::size_t(a)] = float(outside);
