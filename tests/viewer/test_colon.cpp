@@ -14,12 +14,12 @@ namespace {
 
 constexpr double kSegment_mm = 30;
 constexpr double kPolypRadius_mm = 4;
-constexpr double kPolypShare = 0.45;  // of the curve's length: on the way across, left of the middle
+constexpr double kPolypShare = 0.27;  // of the curve's length: on the way up, on the patient's left
 
 // LPS: left +x, back +y, head +z.
-const std::vector<Point3> kCourse{{0, 30, -75},   {5, 28, -55},  {35, 22, -45},  {55, 15, -20},
-                                  {55, 5, 30},    {45, -15, 62}, {15, -22, 55},  {-15, -22, 55},
-                                  {-45, -15, 62}, {-55, 5, 30},  {-55, 12, -20}, {-52, 10, -50}};
+const std::vector<Point3> kCourse{{0, 30, -78},  {8, 28, -62}, {30, 24, -52},  {50, 16, -36}, {56, 10, -10},
+                                  {55, 4, 22},   {46, -8, 50}, {25, -20, 60},  {0, -24, 56},  {-25, -20, 60},
+                                  {-46, -8, 50}, {-55, 4, 22}, {-56, 10, -10}, {-53, 12, -45}};
 
 Point3 spline(const std::vector<Point3>& p, double t)
 {
@@ -37,7 +37,7 @@ Point3 spline(const std::vector<Point3>& p, double t)
 Skeleton curve()
 {
     SkeletonPiece piece;
-    constexpr int kFine = 40;
+    constexpr int kFine = 14;
     for (int n = 0; n <= (int(kCourse.size()) - 1) * kFine; ++n) {
         const Point3 p = spline(kCourse, double(n) / kFine);
         const double station =
@@ -57,9 +57,9 @@ struct Body {
         const double wave = std::cos(2 * std::numbers::pi * station / 22);
         return 12 - 3.5 * std::pow(std::max(0.0, wave), 8);
     }
-    double field(Point3 p) const
+    double field(Point3 p) const { return field(p, skeleton.nearest(p)); }
+    double field(Point3 p, const SkeletonFoot& foot) const
     {
-        const SkeletonFoot foot = skeleton.nearest(p);
         const double tube = foot.distance_mm - radius(foot.station_mm);
         return std::max(tube, kPolypRadius_mm - distance(p, polyp));
     }
@@ -115,7 +115,7 @@ std::vector<Storage> storages()
 }
 
 TestColon::TestColon(const Storage& storage, double voxel_mm)
-    : volume(gridFor(storage, voxel_mm), 40), inside(volume.grid), segments(volume.grid)
+    : volume(gridFor(storage, voxel_mm), 40), inside(volume.grid), exit_distance(volume.grid, -1), segments(volume.grid)
 {
     const Body body = bodyOf();
     skeleton = body.skeleton;
@@ -124,21 +124,26 @@ TestColon::TestColon(const Storage& storage, double voxel_mm)
     polyp_station_mm = kPolypShare * skeleton.length_mm();
     const Grid& grid = volume.grid;
     constexpr double kWallHu = 40, kAirHu = -1000, kBlur_mm = 1.5, kFat_mm = 8, kFatHu = -90;
+    std::vector<float> values(volume.voxels.size());
     for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
         const Point3 p = grid.pointAt(grid.indexOf(n));
-        const double f = body.field(p);
+        const SkeletonFoot foot = skeleton.nearest(p);
+        const double f = body.field(p, foot);
+        values[n] = float(f);
         const double air = std::clamp(0.5 - f / (2 * kBlur_mm), 0.0, 1.0);
         const double tissue = f > kFat_mm ? kFatHu : kWallHu;
         volume.voxels[n] = std::int16_t(std::lround(air * kAirHu + (1 - air) * tissue));
         inside.voxels[n] = f < 0 ? kGas : kOutside;
-        if (f < 0)
-            segments.voxels[n] = std::uint16_t(1 + int(skeleton.nearest(p).station_mm / kSegment_mm));
+        if (f < 0) {
+            segments.voxels[n] = std::uint16_t(1 + int(foot.station_mm / kSegment_mm));
+            exit_distance.voxels[n] = float(foot.station_mm);
+        }
     }
     wall_distance = wallDistanceOf(inside);
     for (SkeletonPoint& p : skeleton.pieces.front().points)
         p.radius_mm = body.radius(p.station_mm);
     cells = surfaceOf(
-        grid, [&](Point3 p) { return body.field(p); },
+        grid, values, [&](Point3 p) { return body.field(p); },
         [&](Point3 p) { return 1 + int(skeleton.nearest(p).station_mm / kSegment_mm); });
     subdivision.method = "test";
     subdivision.portals = portalsOf(segments);
@@ -151,6 +156,7 @@ void TestColon::write(const std::filesystem::path& folder) const
     artefact::writeVolume(folder / "volume.mha", volume, Packing::raw);
     artefact::writeVolume(folder / "inside.mha", inside, Packing::raw);
     artefact::writeVolume(folder / "wall_distance.mha", wall_distance, Packing::raw);
+    artefact::writeVolume(folder / "exit_distance.mha", exit_distance, Packing::raw);
     artefact::writeVolume(folder / "segments.mha", segments, Packing::raw);
     artefact::writeSkeleton(folder / "skeleton.vtp", skeleton);
     artefact::writeCells(folder / "cells.vtp", cells);

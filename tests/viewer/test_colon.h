@@ -25,7 +25,7 @@ std::vector<Storage> storages();
 struct TestColon {
     HuVolume volume;
     InsideVolume inside;
-    FieldVolume wall_distance;
+    FieldVolume wall_distance, exit_distance;
     SegmentVolume segments;
     Skeleton skeleton;
     artefact::CellSurface cells;
@@ -34,7 +34,7 @@ struct TestColon {
     double polyp_radius_mm = 0;
     double polyp_station_mm = 0;
 
-    explicit TestColon(const Storage& storage = storages().front(), double voxel_mm = 1.5);
+    explicit TestColon(const Storage& storage = storages().front(), double voxel_mm = 2);
     /// Writes it as a scan's folder.
     void write(const std::filesystem::path& folder) const;
 };

@@ -14,14 +14,12 @@
 namespace vicon::viewer::test {
 namespace {
 
-vtkNew<vtkFlyingEdges3D> contoured(const Grid& grid, const std::function<double(Point3)>& field)
+vtkNew<vtkFlyingEdges3D> contoured(const Grid& grid, const std::vector<float>& values)
 {
     vtkNew<vtkImageData> image;  // in voxels: this VTK's images know no directions that the filter heeds
     image->SetDimensions(grid.size.data());
     image->AllocateScalars(VTK_FLOAT, 1);
-    auto* values = static_cast<float*>(image->GetScalarPointer());
-    for (std::size_t n = 0; n < grid.voxelCount(); ++n)
-        values[n] = float(field(grid.pointAt(grid.indexOf(n))));
+    std::copy(values.begin(), values.end(), static_cast<float*>(image->GetScalarPointer()));
     vtkNew<vtkFlyingEdges3D> contour;
     contour->SetInputData(image);
     contour->SetValue(0, 0);
@@ -44,10 +42,10 @@ Point3 pointOf(const artefact::CellSurface& s, std::size_t corner)
 
 }  // namespace
 
-artefact::CellSurface surfaceOf(const Grid& grid, const std::function<double(Point3)>& field,
-                                const std::function<int(Point3)>& segment)
+artefact::CellSurface surfaceOf(const Grid& grid, const std::vector<float>& values,
+                                const std::function<double(Point3)>& field, const std::function<int(Point3)>& segment)
 {
-    const auto contour = contoured(grid, field);
+    const auto contour = contoured(grid, values);
     vtkPolyData* data = contour->GetOutput();
     artefact::CellSurface raw;
     for (vtkIdType n = 0; n < data->GetNumberOfPoints(); ++n) {

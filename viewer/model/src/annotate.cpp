@@ -57,8 +57,13 @@ std::vector<std::string> split(const std::string& s, char at)
     return parts;
 }
 
+std::size_t characters(const std::string& utf8)
+{
+    return std::size_t(std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
 // Family, given, middle, prefix, suffix.
-std::string groupText(const std::string& group)
+std::string groupText(const std::string& group, const char* between)
 {
     const auto parts = split(group, '^');
     const auto part = [&](std::size_t n) { return n < parts.size() ? trimmed(parts[n]) : std::string(); };
@@ -68,7 +73,7 @@ std::string groupText(const std::string& group)
             others += (others.empty() ? "" : " ") + part(n);
     if (part(0).empty() || others.empty())
         return part(0) + others;
-    return part(0) + ", " + others;
+    return part(0) + between + others;
 }
 
 }  // namespace
@@ -205,19 +210,38 @@ void addHere(Overlay& overlay, const PlaneView& view, const Pose& pose, double s
         {{{neck.x - uy * half, neck.y + ux * half}, tip, {neck.x + uy * half, neck.y - ux * half}}, kHereColor, 2, 0});
 }
 
-std::string stationText(double station_mm, double length_mm)
+std::array<std::string, 2> stationTexts(double station_mm, double length_mm)
 {
     const auto whole = [](double mm) { return std::to_string(std::lround(mm)); };
     const double share = length_mm > 0 ? 100 * station_mm / length_mm : 0;
-    return whole(station_mm) + " mm from the rectum, " + whole(length_mm - station_mm) + " mm from the caecum (" +
-           whole(share) + " %)";
+    return {whole(station_mm) + " mm from the rectum (" + whole(share) + " %)",
+            whole(length_mm - station_mm) + " mm from the caecum"};
+}
+
+std::vector<std::string> wrapped(const std::string& text, std::size_t most, std::size_t lines)
+{
+    std::vector<std::string> out{""};
+    for (const std::string& word : split(text, ' ')) {
+        if (word.empty())
+            continue;
+        if (!out.back().empty() && characters(out.back()) + 1 + characters(word) > most) {
+            if (out.size() == lines) {
+                out.back() += "…";
+                return out;
+            }
+            out.emplace_back();
+        }
+        out.back() += (out.back().empty() ? "" : " ") + word;
+    }
+    return out;
 }
 
 std::string personName(const std::string& dicom_name)
 {
     std::string name;
-    for (const std::string& group : split(dicom_name, '=')) {
-        const std::string words = groupText(group);
+    const auto groups = split(dicom_name, '=');
+    for (std::size_t n = 0; n < groups.size(); ++n) {
+        const std::string words = groupText(groups[n], n == 0 ? ", " : " ");  // ideographic names take no comma
         if (!words.empty())
             name += (name.empty() ? "" : " / ") + words;
     }

@@ -41,17 +41,17 @@ std::string sideName(Vector3 direction)
 {
     switch (letterFor(direction)) {
         case 'L':
-            return "left";
+            return "the left";
         case 'R':
-            return "right";
+            return "the right";
         case 'A':
-            return "anterior";
+            return "the front";
         case 'P':
-            return "posterior";
+            return "the back";
         case 'H':
-            return "head";
+            return "the head";
         default:
-            return "feet";
+            return "the feet";
     }
 }
 

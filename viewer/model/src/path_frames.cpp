@@ -59,4 +59,23 @@ PathFrame PathFrames::at(double station_mm) const
     return frame;
 }
 
+double PathFrames::nearestStation(Point3 p, double around_mm, double reach_mm) const
+{
+    const auto indexOf = [&](double station) { return std::size_t(std::clamp(station, 0.0, length_mm_) / step_mm_); };
+    const std::size_t last = frames_.size() - 2;
+    double best = std::clamp(around_mm, 0.0, length_mm_), best_distance = 1e300;
+    for (std::size_t n = std::min(indexOf(around_mm - reach_mm), last);
+         n <= std::min(indexOf(around_mm + reach_mm), last); ++n) {
+        const Point3 a = frames_[n].position_mm, b = frames_[n + 1].position_mm;
+        const Vector3 ab = b - a;
+        const double ab2 = dot(ab, ab);
+        const double t = ab2 > 0 ? std::clamp(dot(p - a, ab) / ab2, 0.0, 1.0) : 0;
+        if (const double d = distance(p, interpolate(a, b, t)); d < best_distance) {
+            best_distance = d;
+            best = (double(n) + t) * step_mm_;
+        }
+    }
+    return best;
+}
+
 }  // namespace vicon::viewer

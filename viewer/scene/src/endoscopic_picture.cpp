@@ -35,7 +35,7 @@ void addMarkers(Overlay& overlay, const PreparedScan& scan, const SnapshotReques
 
 std::string directionText(const Pose& pose)
 {
-    return "looking " + sideName(pose.forward) + " (" + lettersFor(pose.forward) + ")";
+    return "looking towards " + sideName(pose.forward) + " (" + lettersFor(pose.forward) + ")";
 }
 
 }  // namespace

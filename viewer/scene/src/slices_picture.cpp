@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kMarkerNear_mm = 5;  // a marker is drawn in slices that pass this near to it
 constexpr double kRing_mm = 8;
+constexpr std::size_t kNoteLine = 44;  // characters
+constexpr std::size_t kMostNoteLines = 3;
+constexpr double kCloseUp_mm = 50;  // what the close-up shows: a polyp of 6 mm fills an eighth of it
 
 Picture greyPicture(const HuVolume& volume, const PlaneView& view, const WindowLevel& window)
 {
@@ -27,24 +30,33 @@ std::string titleOf(SlicePlane plane, Point3 point)
     return nameOf(plane) + ", " + axis + " = " + std::to_string(std::lround(mm)) + " mm";
 }
 
-Picture panel(const PreparedScan& scan, const SnapshotRequest& request, SlicePlane plane, Point3 point, int width,
-              int height)
+struct Panel {
+    SlicePlane plane;
+    Point3 point;
+    int width, height;
+    double field_mm;
+    bool cross;
+};
+
+Picture slice(const PreparedScan& scan, const SnapshotRequest& request, const Panel& panel)
 {
+    const auto& [plane, point, width, height, field_mm, cross] = panel;
     const HuVolume& volume = scan.volume();
-    const PlaneView view = sliceThrough(volume.grid, plane, point, width, height, request.slice_field_mm);
+    const PlaneView view = sliceThrough(volume.grid, plane, point, width, height, field_mm);
     Picture picture = greyPicture(volume, view, windowPreset(request.window));
     Overlay overlay;
     const Area area{0, 0, double(width), double(height)};
     const double text_px = textHeightFor(width, height) * 1.15;
     const double ring = std::max(kRing_mm / view.mm_per_pixel, 0.9 * text_px);
-    addCrosshair(overlay, area, view.toPixel(point), ring * 1.5);
+    if (cross)
+        addCrosshair(overlay, area, view.toPixel(point), ring * 1.5);
     for (const Marker& marker : request.markers)
         if (std::abs(view.depth_mm(marker.position_mm) - view.depth_mm(point)) <= kMarkerNear_mm)
             addMarkerRing(overlay, view.toPixel(marker.position_mm), ring, marker, text_px);
     addLetters(overlay, area, view.right, view.down, text_px);
     addScaleBar(overlay, area, view.mm_per_pixel, text_px);
     OverlayText title;
-    title.text = titleOf(plane, point);
+    title.text = cross ? titleOf(plane, point) : "close-up";
     title.color = kTextColor;
     addLines(overlay, {0, 0, area.width * 0.47, area.height}, {title}, text_px);
     paint(picture, overlay);
@@ -52,8 +64,8 @@ Picture panel(const PreparedScan& scan, const SnapshotRequest& request, SlicePla
 }
 
 // The place where the caption is written: the fourth quarter of the picture.
-Picture captionPanel(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place, int width,
-                     int height)
+Picture captionPanel(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place,
+                     Point3 point, int width, int height)
 {
     Picture picture(width, height, {10, 12, 16});
     Overlay overlay;
@@ -66,12 +78,17 @@ Picture captionPanel(const PreparedScan& scan, const SnapshotRequest& request, c
     lines.push_back(line);
     for (const Marker& marker : request.markers)
         if (request.look_at_mm && marker.position_mm == *request.look_at_mm) {
-            line.text = marker.note.empty() ? marker.id : marker.id + ": " + marker.note;
             line.color = colorOf(marker.color);
-            lines.push_back(line);
+            for (const std::string& words : wrapped(marker.id + "  " + marker.note, kNoteLine, kMostNoteLines)) {
+                line.text = words;
+                lines.push_back(line);
+            }
         }
     const double text_px = textHeightFor(width, height) * 1.3;
+    const int close = height * 6 / 10, margin = int(text_px);
     addLines(overlay, {text_px, text_px, width - 2 * text_px, height - 2 * text_px}, lines, text_px);
+    const Panel panel{SlicePlane::transverse, point, close, close, kCloseUp_mm, false};
+    copyInto(picture, slice(scan, request, panel), width - close - margin, height - close - margin);
     paint(picture, overlay);
     return picture;
 }
@@ -85,11 +102,13 @@ Picture slicesPicture(const PreparedScan& scan, const SnapshotRequest& request, 
     const int w = (request.width - kGap_px) / 2, h = (request.height - kGap_px) / 2;
     const int right = w + kGap_px, below = h + kGap_px;
     Picture picture(request.width, request.height, {60, 60, 60});
-    const auto slice = [&](SlicePlane plane) { return panel(scan, request, plane, point, w, h); };
-    copyInto(picture, slice(SlicePlane::transverse), 0, 0);
-    copyInto(picture, slice(SlicePlane::coronal), right, 0);
-    copyInto(picture, slice(SlicePlane::sagittal), 0, below);
-    copyInto(picture, captionPanel(scan, request, place, w, h), right, below);
+    const auto put = [&](SlicePlane plane, int x, int y) {
+        copyInto(picture, slice(scan, request, {plane, point, w, h, request.slice_field_mm, true}), x, y);
+    };
+    put(SlicePlane::transverse, 0, 0);
+    put(SlicePlane::coronal, right, 0);
+    put(SlicePlane::sagittal, 0, below);
+    copyInto(picture, captionPanel(scan, request, place, point, w, h), right, below);
     return picture;
 }
 

@@ -92,7 +92,8 @@ std::vector<OverlayText> captionLines(const Caption& caption, double station_mm,
     add(personName(caption.patient_name), kTextColor);
     add(joined(id, born), kTextColor);
     add(joined(caption.position, dateText(caption.study_date)), kTextColor);
-    add(stationText(station_mm, length_mm), kTextColor);
+    for (const std::string& words : stationTexts(station_mm, length_mm))
+        add(words, kTextColor);
     if (caption.lossy)
         add("LOSSY COMPRESSION", kWarningColor);
     return lines;

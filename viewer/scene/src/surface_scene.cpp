@@ -4,6 +4,8 @@
 #include <vtkNew.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkShaderProperty.h>
+#include <vtkUniforms.h>
 
 #include <array>
 #include <cmath>
@@ -18,6 +20,19 @@ namespace {
 constexpr double kLampReach_mm = 45;
 constexpr std::array kMucosa{0.93, 0.66, 0.56};
 constexpr std::array kOutside{0.78, 0.72, 0.66};
+
+// A lamp at the eye. Light fades with the distance, so that depth is seen; a wall seen flat keeps some light, as from
+// the walls around it, so that the far side of a fold's edge is not a black rim. Written in place of VTK's light loop,
+// whose variables it uses: vertexVC and normalVCVSOutput are in the eye's frame.
+constexpr const char* kLampShader = R"(
+  float lampDistance = length(vertexVC.xyz);
+  vec3 toLamp = -vertexVC.xyz / lampDistance;
+  float facing = clamp(dot(normalVCVSOutput, toLamp), 0.0, 1.0);
+  float fade = 1.0 / (1.0 + lampDistance * lampDistance / (lampReach * lampReach));
+  float shine = 0.10 * pow(facing, 40.0);
+  vec3 lit = diffuseColor * (0.16 + 0.84 * facing) * fade * 1.12 + vec3(shine * fade);
+  gl_FragData[0] = vec4(lit, opacity);
+)";
 
 std::array<double, 3> cellColor(int segment)
 {
@@ -43,10 +58,8 @@ struct SurfaceScene::Parts {
             vtkProperty* p = cell.actor->GetProperty();
             const auto color = color_cells ? cellColor(cell.segment) : endoscopic ? kMucosa : kOutside;
             p->SetColor(color[0], color[1], color[2]);
-            p->SetAmbient(endoscopic ? 0.04 : 0.25);
-            p->SetDiffuse(endoscopic ? 1.0 : 0.75);
-            p->SetSpecular(endoscopic ? 0.12 : 0.0);
-            p->SetSpecularPower(24);
+            p->SetAmbient(endoscopic ? 0 : 0.25);
+            p->SetDiffuse(endoscopic ? 1 : 0.75);
             p->SetBackfaceCulling(endoscopic);
         }
     }
@@ -54,10 +67,14 @@ struct SurfaceScene::Parts {
     void setLamp() const
     {
         lamp->SetLightTypeToHeadlight();
-        lamp->SetPositional(endoscopic);
-        lamp->SetConeAngle(180);
-        lamp->SetIntensity(endoscopic ? 1.15 : 1.0);
-        lamp->SetAttenuationValues(1, 0, endoscopic ? 1 / (lamp_reach_mm * lamp_reach_mm) : 0);
+        for (const CellActor& cell : cells) {
+            vtkShaderProperty* shader = cell.actor->GetShaderProperty();
+            shader->ClearAllFragmentShaderReplacements();
+            if (!endoscopic)
+                continue;
+            shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, kLampShader, false);
+            shader->GetFragmentCustomUniforms()->SetUniformf("lampReach", float(lamp_reach_mm));
+        }
     }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,11 @@ void addSkeleton(Overlay& overlay, const Skeleton& skeleton, const PlaneView& vi
 /// An arrow head at a place, pointing where the eye looks; a ring where it looks along the direction of view.
 void addHere(Overlay& overlay, const PlaneView& view, const Pose& pose, double size_px);
 
-/// "412 mm from the rectum, 1180 mm from the caecum (26 %)".
-std::string stationText(double station_mm, double length_mm);
+/// "412 mm from the rectum (26 %)" and "1180 mm from the caecum".
+std::array<std::string, 2> stationTexts(double station_mm, double length_mm);
+
+/// Cuts UTF-8 text between words into lines of at most `most` characters; what does not fit into `lines` ends in "…".
+std::vector<std::string> wrapped(const std::string& text, std::size_t most, std::size_t lines);
 
 /// A DICOM name ("Family^Given=…=…") as people write it: the component groups beside each other.
 std::string personName(const std::string& dicom_name);

@@ -12,7 +12,7 @@ char letterFor(Vector3 direction);
 /// One or two letters, the stronger first: the second is given where its part is at least half of the first's.
 std::string lettersFor(Vector3 direction);
 
-/// The side a direction points to in words: "head", "feet", "left", "right", "anterior", "posterior".
+/// The side a direction points to in words: "the head", "the feet", "the left", "the right", "the front", "the back".
 std::string sideName(Vector3 direction);
 
 /// The orthogonal planes, as radiologists look at them.

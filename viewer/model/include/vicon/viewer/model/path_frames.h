@@ -28,6 +28,8 @@ public:
     double length_mm() const { return length_mm_; }
     /// The frame at a station, interpolated; stations outside are clamped to the ends.
     PathFrame at(double station_mm) const;
+    /// The station nearest to a point among those at most `reach_mm` from `around_mm`.
+    double nearestStation(Point3 p, double around_mm, double reach_mm) const;
 
 private:
     std::vector<PathFrame> frames_;

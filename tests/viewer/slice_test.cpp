@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include "test_colon.h"
+#include "vicon/viewer/model/slice_image.h"
+
+namespace vicon::viewer {
+namespace {
+
+// A density that is linear in patient coordinates is reproduced exactly by trilinear sampling on whatever grid.
+double densityAt(Point3 p)
+{
+    return 3 * p.x - 5 * p.y + 7 * p.z;
+}
+
+HuVolume linearVolume(const test::Storage& storage)
+{
+    Grid grid;
+    grid.size = {40, 36, 44};
+    grid.spacing_mm = {2, 2, 2};
+    grid.axis = storage.axis;
+    const auto half = grid.axis[0] * 39. + grid.axis[1] * 35. + grid.axis[2] * 43.;
+    grid.origin_mm = Point3{} - half;
+    HuVolume volume(grid);
+    for (std::size_t n = 0; n < volume.voxels.size(); ++n)
+        volume.voxels[n] = std::int16_t(std::lround(densityAt(grid.pointAt(grid.indexOf(n)))));
+    return volume;
+}
+
+TEST(Slices, ShowTheDensityOfEachPixelsPointHoweverTheScanIsStored)
+{
+    const Point3 point{7, -4, 11};
+    for (const test::Storage& storage : test::storages()) {
+        const HuVolume volume = linearVolume(storage);
+        for (const SlicePlane plane : {SlicePlane::transverse, SlicePlane::coronal, SlicePlane::sagittal}) {
+            const PlaneView view = sliceThrough(volume.grid, plane, point, 60, 50, 40);
+            const auto densities = sliceDensities(volume, view);
+            for (int y = 0; y < view.height; y += 7)
+                for (int x = 0; x < view.width; x += 7) {
+                    const Point3 p = view.pointAt({x + 0.5, y + 0.5});
+                    EXPECT_NEAR(densities[std::size_t(y * view.width + x)], densityAt(p), 1)
+                        << storage.name << ", " << nameOf(plane);
+                }
+        }
+    }
+}
+
+TEST(Slices, PassThroughTheirPointAndShowTheWholeScan)
+{
+    const Point3 point{7, -4, 11};
+    for (const test::Storage& storage : test::storages()) {
+        const HuVolume volume = linearVolume(storage);
+        const Bounds bounds = boundsOf(volume.grid);
+        for (const SlicePlane plane : {SlicePlane::transverse, SlicePlane::coronal, SlicePlane::sagittal}) {
+            const PlaneView view = sliceThrough(volume.grid, plane, point, 64, 48);
+            EXPECT_NEAR(view.depth_mm(point), 0, 1e-9);
+            for (const Point3 corner : {bounds.lower_mm, bounds.upper_mm}) {
+                const Pixel at = view.toPixel(corner);
+                EXPECT_GE(at.x, -1e-6) << storage.name;
+                EXPECT_LE(at.x, 64 + 1e-6) << storage.name;
+                EXPECT_GE(at.y, -1e-6) << storage.name;
+                EXPECT_LE(at.y, 48 + 1e-6) << storage.name;
+            }
+        }
+    }
+}
+
+TEST(Slices, AreBlankOutsideTheScan)
+{
+    const HuVolume volume = linearVolume(test::storages().front());
+    const PlaneView view = sliceThrough(volume.grid, SlicePlane::transverse, {300, 0, 0}, 20, 20, 40);
+    for (const float density : sliceDensities(volume, view))
+        EXPECT_EQ(density, kPaddingHu);
+}
+
+}  // namespace
+}  // namespace vicon::viewer

@@ -1,0 +1,125 @@
+#pragma once
+
+#include "vicon/core/options.h"
+#include "vicon/viewer/model/view_pose.h"
+
+namespace vicon::viewer {
+
+/// How the guided camera moves. Defaults chosen on bent tubes of 8 to 25 mm radius with folds, and on a real prone
+/// scan.
+struct SubmarineOptions {
+    double camera_radius_mm = 2;
+    double wall_share = 0.6;
+    double wall_strength_mm2_s2 = 100;
+    double cruise_mm_s = 30;
+    double thrust_mm_s = 30;
+    double friction_per_s = 4;
+    double homing_per_s = 6;
+    double turning_deg_s = 90;
+    double righting_per_s = 4;
+    double look_ahead_mm = 10;
+
+    template <class Visitor>
+    void visit(Visitor&& v)
+    {
+        v("submarine.camera_radius_mm", camera_radius_mm, "mm", "The eye never comes nearer to the wall.",
+          OptionLimits{0.5, 10});
+        v("submarine.wall_share", wall_share, "", "The wall pushes below this part of the lumen's radius.",
+          OptionLimits{0, 1});
+        v("submarine.wall_strength_mm2_s2", wall_strength_mm2_s2, "mm2/s2", "How hard the wall pushes.",
+          OptionLimits{0, 10000});
+        v("submarine.cruise_mm_s", cruise_mm_s, "mm/s", "Speed at full pull.", OptionLimits{1, 200});
+        v("submarine.thrust_mm_s", thrust_mm_s, "mm/s", "Speed at full thrust by the user.", OptionLimits{1, 200});
+        v("submarine.friction_per_s", friction_per_s, "1/s", "How fast speed fades.", OptionLimits{0.5, 20});
+        v("submarine.homing_per_s", homing_per_s, "1/s", "How fast a camera that was let go is back on its path.",
+          OptionLimits{1, 20});
+        v("submarine.turning_deg_s", turning_deg_s, "degrees/s", "Speed of turning at full steering.",
+          OptionLimits{5, 360});
+        v("submarine.righting_per_s", righting_per_s, "1/s", "How fast the view turns back along the path.",
+          OptionLimits{0.5, 20});
+        v("submarine.look_ahead_mm", look_ahead_mm, "mm", "Looks this far ahead along the path.", OptionLimits{0, 50});
+    }
+};
+
+/// What the user does with mouse and keys; each from -1 to 1. All zero: let go.
+struct Steering {
+    double pull = 0;        ///< along the exit potential, 1: the way the camera heads, -1: back
+    double turn_right = 0;  ///< turns the view
+    double turn_up = 0;
+    double thrust_forward = 0;  ///< moves the camera in its own axes
+    double thrust_right = 0;
+    double thrust_up = 0;
+
+    bool turns() const { return turn_right != 0 || turn_up != 0; }
+    bool thrusts() const { return thrust_forward != 0 || thrust_right != 0 || thrust_up != 0; }
+};
+
+struct SubmarineState {
+    Pose pose;
+    Vector3 velocity_mm_s;
+    double station_mm = 0;    ///< of its foot on the path
+    double off_path_mm = 0;   ///< distance from the foot
+    double clearance_mm = 0;  ///< from the wall
+    bool carried = false;     ///< being carried over a collapsed or too narrow part
+    bool at_end = false;      ///< at the end of the path that it heads for
+    Heading heading = Heading::caecum;
+};
+
+/// The guided camera (thesis, section 3.3; Hong et al., Virtual Voyage, 1997): pulled along the distance from the exit,
+/// pushed off the wall, steered by the user, back on its path when let go. It moves in fixed steps of 1/240 s whatever
+/// the frame rate; where it is between two steps is interpolated. Bridges and parts narrower than the camera are
+/// crossed along the path, and the state says so.
+class Submarine {
+public:
+    static constexpr double kTick_s = 1.0 / 240;
+
+    /// Path, lumen and field must outlive it. Starts at the rectal end, heading for the caecum.
+    /// Throws Error{unusable_scan} when no station of the path is wide enough.
+    Submarine(const PathFrames& path, const Lumen& lumen, const FieldVolume& exit_distance,
+              const SubmarineOptions& options = {});
+
+    /// Puts it on the path, at rest, at the wide enough station nearest to this one.
+    void placeAt(double station_mm, Heading heading);
+    void setHeading(Heading heading) { now_.heading = heading; }
+    /// Stays in force until the next call.
+    void steer(const Steering& steering) { steering_ = steering; }
+    /// Lets time pass.
+    void advance(double seconds);
+    SubmarineState state() const;
+
+private:
+    struct Moment {
+        Point3 position_mm;
+        Vector3 velocity_mm_s, spin_rad_s, forward, up;
+        double station_mm = 0;
+        bool carried = false;
+        Heading heading = Heading::caecum;
+    };
+
+    void tick();
+    void carry(double direction);
+    bool startCarry();
+    void move();
+    void turn();
+    Vector3 pull() const;
+    Vector3 pushOffWall() const;
+    void home();
+    void lookForPath(Point3 foot);
+    void step();
+    bool wideAt(double station_mm) const;
+    bool fits(Point3 p) const;
+    double sign() const { return now_.heading == Heading::caecum ? 1 : -1; }
+
+    const PathFrames* path_;
+    Lumen lumen_;
+    const FieldVolume* exit_;
+    SubmarineOptions options_;
+    Steering steering_;
+    Moment now_, before_;
+    bool foot_in_sight_ = true;   // as last looked for
+    double home_station_mm_ = 0;  // where to make for while it is not
+    double owed_s_ = 0;           // time that has passed since `now_`
+    long ticks_ = 0;
+};
+
+}  // namespace vicon::viewer
