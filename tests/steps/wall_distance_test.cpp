@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <itkImage.h>
+#include <itkSignedMaurerDistanceMapImageFilter.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -42,6 +47,48 @@ TEST(WallDistance, EqualsTheSearchOfAllOutsideVoxelsOnAnyGrid)
     }
 }
 
+TEST(WallDistance, AgreesWithItksMaurerFilter)
+{
+    const Grid grid{.size = {40, 36, 32}, .spacing_mm = {0.8, 0.8, 0.8}};
+    InsideVolume inside(grid);
+    for (std::size_t n = 0; n < grid.voxelCount(); ++n) {
+        const Point3 p = grid.pointAt(grid.indexOf(n));
+        inside.voxels[n] = std::hypot(std::hypot(p.x - 16, p.y - 14) - 8, p.z - 12.4) < 4.5 ? kGas : kOutside;
+    }
+    using Image = itk::Image<std::uint8_t, 3>;
+    auto outside = Image::New();
+    outside->SetRegions(Image::SizeType{40, 36, 32});
+    outside->SetSpacing(grid.spacing_mm.data());
+    outside->Allocate();
+    for (std::size_t n = 0; n < grid.voxelCount(); ++n)
+        outside->GetBufferPointer()[n] = inside.voxels[n] ? 0 : 1;
+    auto maurer = itk::SignedMaurerDistanceMapImageFilter<Image, itk::Image<float, 3>>::New();
+    maurer->SetInput(outside);
+    maurer->SquaredDistanceOff();
+    maurer->UseImageSpacingOn();
+    maurer->Update();
+    const FieldVolume field = wallDistance(inside, quiet);
+    for (std::size_t n = 0; n < grid.voxelCount(); ++n)
+        if (inside.voxels[n]) {
+            ASSERT_NEAR(field.voxels[n], maurer->GetOutput()->GetBufferPointer()[n] - 0.4, 1e-4);
+        }
+}
+
+TEST(WallDistance, DoesNotDependOnTheNumberOfThreads)
+{
+    std::mt19937 random(3);
+    InsideVolume inside(Grid{.size = {50, 40, 30}});
+    HuVolume hu(inside.grid);
+    for (std::size_t n = 0; n < inside.voxels.size(); ++n) {
+        inside.voxels[n] = random() % 30 == 0 ? kOutside : kGas;
+        hu.voxels[n] = std::int16_t(int(random() % 1200) - 1000);
+    }
+    const auto plain = wallDistance(inside, quiet).voxels, fine = wallDistance(inside, hu, quiet).voxels;
+    tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(wallDistance(inside, quiet).voxels, plain);
+    EXPECT_EQ(wallDistance(inside, hu, quiet).voxels, fine);
+}
+
 TEST(WallDistance, OfASphereIsItsRadiusMinusTheDistanceFromTheCentre)
 {
     const double radius_mm = 17.3;
@@ -56,6 +103,54 @@ TEST(WallDistance, OfASphereIsItsRadiusMinusTheDistanceFromTheCentre)
             const double expected = radius_mm - distance(grid.pointAt(grid.indexOf(n)), centre);
             ASSERT_NEAR(field.voxels[n], expected, 0.5 * 0.7 * std::sqrt(3.0));
         }
+}
+
+/// A blurred ball of gas or fluid in tissue, with the mask at the half level.
+struct Ball {
+    HuVolume hu;
+    InsideVolume inside;
+    Point3 centre;
+};
+
+Ball blurredBall(double radius_mm, std::uint8_t content)
+{
+    const Grid grid{.size = {52, 52, 52}, .origin_mm = {5, -3, 2}, .spacing_mm = {0.7, 0.7, 0.7}};
+    Ball ball{HuVolume(grid), InsideVolume(grid), grid.pointAt(ContinuousIndex3{25.3, 25.6, 25.1})};
+    const double within = content == kGas ? -1000 : 700, tissue = 40;
+    for (std::size_t n = 0; n < grid.voxelCount(); ++n) {
+        const double beyond_mm = distance(grid.pointAt(grid.indexOf(n)), ball.centre) - radius_mm;
+        const double wall = 0.5 * std::erfc(-beyond_mm / (std::sqrt(2.0) * 0.6));
+        ball.hu.voxels[n] = std::int16_t(std::lround(within + (tissue - within) * wall));
+        ball.inside.voxels[n] = wall < 0.5 ? content : std::uint8_t(kOutside);
+    }
+    return ball;
+}
+
+TEST(WallDistance, WithDensitiesLiesWithinAFractionOfAVoxelOfTheBlurredWall)
+{
+    const double radius_mm = 15.2, voxel_mm = 0.7;
+    for (const std::uint8_t content : {kGas, kFluid}) {
+        const Ball ball = blurredBall(radius_mm, content);
+        const FieldVolume field = wallDistance(ball.inside, ball.hu, quiet);
+        const FieldVolume from_mask = wallDistance(ball.inside, quiet);
+        double worst = 0, sum = 0, sum_mask = 0;
+        int count = 0;
+        for (std::size_t n = 0; n < field.voxels.size(); ++n) {
+            if (!ball.inside.voxels[n]) {
+                ASSERT_EQ(field.voxels[n], 0);
+                continue;
+            }
+            const double expected = radius_mm - distance(field.grid.pointAt(field.grid.indexOf(n)), ball.centre);
+            const double error = std::abs(field.voxels[n] - expected);
+            worst = std::max(worst, error);
+            sum += error;
+            sum_mask += std::abs(from_mask.voxels[n] - expected);
+            ++count;
+        }
+        EXPECT_LT(worst, 0.35 * voxel_mm);
+        EXPECT_LT(sum / count, 0.06 * voxel_mm);
+        EXPECT_LT(sum / count, 0.5 * sum_mask / count);
+    }
 }
 
 TEST(WallDistance, OfAnEmptyMaskIsZeroEverywhere)

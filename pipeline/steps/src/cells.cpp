@@ -35,46 +35,22 @@ struct Contour {
     std::size_t triangleCount() const { return triangles.size() / 3; }
 };
 
-/// Whether a row of voxels or one beside it holds an inside voxel.
-std::vector<std::uint8_t> rowsNearLumen(const InsideVolume& inside)
-{
-    const auto [nx, ny, nz] = inside.grid.size;
-    std::vector<std::uint8_t> near(std::size_t(ny + 2) * std::size_t(nz + 2), 0);
-    for (int k = 0; k < nz; ++k)
-        for (int j = 0; j < ny; ++j) {
-            const std::uint8_t* row = &inside.voxels[inside.grid.offset({0, j, k})];
-            if (std::none_of(row, row + nx, [](std::uint8_t v) { return v != kOutside; }))
-                continue;
-            for (int dk = 0; dk <= 2; ++dk)
-                for (int dj = 0; dj <= 2; ++dj)
-                    near[std::size_t(j + dj) + std::size_t(ny + 2) * std::size_t(k + dk)] = 1;
-        }
-    return near;
-}
-
 /// The field with one more voxel on every side, so that the surface closes where the scan ends.
 Volume<std::int16_t> paddedField(const WallField& field, const InsideVolume& inside)
 {
     const auto [nx, ny, nz] = inside.grid.size;
     auto padded = makeVolume<std::int16_t>(Grid{.size = {nx + 2, ny + 2, nz + 2}}, std::int16_t(kScale));
-    const auto near = rowsNearLumen(inside);
-    const auto besideOther = [&](Index3 v, bool is_inside) {
-        const auto other = [&](int i, int j, int k) {
-            return (inside.valueOr({i, j, k}, kOutside) != kOutside) != is_inside;
-        };
-        return other(v.i - 1, v.j, v.k) || other(v.i + 1, v.j, v.k) || other(v.i, v.j - 1, v.k) ||
-               other(v.i, v.j + 1, v.k) || other(v.i, v.j, v.k - 1) || other(v.i, v.j, v.k + 1);
-    };
+    const RowsNearLumen rows(inside);
     tbb::parallel_for(tbb::blocked_range<int>(-1, nz + 1), [&, nx = nx, ny = ny](const tbb::blocked_range<int>& range) {
         for (int k = range.begin(); k < range.end(); ++k)
             for (int j = -1; j <= ny; ++j) {
-                if (!near[std::size_t(j + 1) + std::size_t(ny + 2) * std::size_t(k + 1)])
+                if (!rows.near(j, k))
                     continue;
                 for (int i = -1; i <= nx; ++i) {
                     const Index3 v{i, j, k};
                     const bool is_inside = inside.valueOr(v, kOutside) != kOutside;
                     float value = is_inside ? -1.0F : 1.0F;
-                    if (besideOther(v, is_inside))
+                    if (besideOther(inside, v))
                         value = is_inside ? field.ofInside(v) : field.ofOutside(v);
                     padded.at({i + 1, j + 1, k + 1}) = std::int16_t(std::lround(value * kScale));
                 }

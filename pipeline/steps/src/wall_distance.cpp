@@ -6,137 +6,149 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
+
+#include "allocate.h"
+#include "distance_sweep.h"
+#include "wall_field.h"
 
 namespace vicon::steps {
 namespace {
 
-/// Columns that are swept together: one cache line of floats, and whole vector registers.
-constexpr int kLanes = 16;
+/// The least distance of an inside voxel from the wall, in voxels.
+constexpr double kLeastDistance = 0.05;
 
-using Lanes = std::array<float, kLanes>;
-
-/// The squared distances of kLanes neighbouring columns, with a row of zeros (outside) before and behind.
-class ColumnBlock {
-public:
-    explicit ColumnBlock(int rows) : rows_(rows), before_(std::size_t(rows) + 2), after_(std::size_t(rows)) {}
-
-    /// Copies `lanes` columns in; false when none of them holds an inside voxel.
-    bool load(const float* first, std::size_t row_stride, int lanes)
-    {
-        float any = 0;
-        for (int r = 0; r < rows_; ++r) {
-            Lanes& row = before_[std::size_t(r) + 1];
-            row.fill(0);
-            std::copy_n(first + std::size_t(r) * row_stride, lanes, row.begin());
-            for (const float value : row)
-                any = std::max(any, value);
-        }
-        return any > 0;
-    }
-
-    /// after[r] = min over q of before[q] + weight * (r - q)^2. The search of a row ends at the distance found so far,
-    /// which is short in a lumen, and all columns search at once; it beats a lower envelope column by column there.
-    void sweep(float weight)
-    {
-        for (int r = 0; r < rows_; ++r) {
-            Lanes best = before_[std::size_t(r) + 1];
-            float farthest = *std::max_element(best.begin(), best.end());
-            for (int n = 1; farthest > weight * float(n) * float(n); ++n) {
-                const float step = weight * float(n) * float(n);
-                const Lanes& low = before_[std::size_t(std::max(r + 1 - n, 0))];
-                const Lanes& high = before_[std::size_t(std::min(r + 1 + n, rows_ + 1))];
-                for (int l = 0; l < kLanes; ++l)
-                    best[std::size_t(l)] =
-                        std::min(best[std::size_t(l)], std::min(low[std::size_t(l)], high[std::size_t(l)]) + step);
-                if (n % 4 == 0)
-                    farthest = *std::max_element(best.begin(), best.end());
-            }
-            after_[std::size_t(r)] = best;
-        }
-    }
-
-    template <class Convert>
-    void store(float* first, std::size_t row_stride, int lanes, Convert convert) const
-    {
-        for (int r = 0; r < rows_; ++r)
-            for (int l = 0; l < lanes; ++l)
-                first[std::size_t(r) * row_stride + std::size_t(l)] = convert(after_[std::size_t(r)][std::size_t(l)]);
-    }
-
-private:
-    int rows_;
-    std::vector<Lanes> before_, after_;
-};
-
-/// Squared distance, in voxels, to the nearest outside voxel of the same row; beyond the row is outside.
-void sweepRow(const std::uint8_t* inside, float* squared, int count, float weight)
+template <bool kPlaces>
+void sweepAll(const InsideVolume& inside, const Swept& swept, const std::array<float, 3>& weight)
 {
-    for (int i = 0; i < count;) {
-        if (!inside[i]) {
-            ++i;
-            continue;
+    const auto [nx, ny, nz] = swept.grid.size;
+    const std::size_t row = std::size_t(nx), slice = row * std::size_t(ny);
+    const auto sweepColumns = [nx = nx, &swept](ColumnBlock<kPlaces>& block, std::size_t start, std::size_t stride,
+                                                float w) {
+        for (int i = 0; i < nx; i += kLanes) {
+            const int lanes = std::min(kLanes, nx - i);
+            if (!block.load(swept, start + std::size_t(i), stride, lanes))
+                continue;
+            block.sweep(w);
+            block.store(swept, start + std::size_t(i), stride, lanes);
         }
-        int end = i;
-        while (end < count && inside[end])
-            ++end;
-        for (int v = i; v < end; ++v) {
-            const auto d = float(std::min(v - i + 1, end - v));
-            squared[v] = weight * d * d;
+    };
+    tbb::parallel_for(tbb::blocked_range<int>(0, nz), [&, nx = nx, ny = ny](const tbb::blocked_range<int>& range) {
+        ColumnBlock<kPlaces> block(ny);
+        for (int k = range.begin(); k < range.end(); ++k) {
+            const std::size_t start = std::size_t(k) * slice;
+            for (std::size_t n = start; n < start + slice; n += row)
+                sweepRow(&inside.voxels[n], swept.squared + n, kPlaces ? swept.place + n : nullptr, nx, weight[0]);
+            sweepColumns(block, start, row, weight[1]);
         }
-        i = end;
+    });
+    tbb::parallel_for(tbb::blocked_range<int>(0, ny), [&, nz = nz](const tbb::blocked_range<int>& range) {
+        ColumnBlock<kPlaces> block(nz);
+        for (int j = range.begin(); j < range.end(); ++j)
+            sweepColumns(block, std::size_t(j) * row, slice, weight[2]);
+    });
+}
+
+double unitOf(const Grid& grid)
+{
+    return *std::min_element(grid.spacing_mm.begin(), grid.spacing_mm.end());
+}
+
+/// Squares of the spacings in units of the smallest, so that on an isotropic grid all squares are whole and exact.
+std::array<float, 3> weightsOf(const Grid& grid)
+{
+    std::array<float, 3> weight;
+    for (std::size_t d = 0; d < 3; ++d)
+        weight[d] = float(std::pow(grid.spacing_mm[d] / unitOf(grid), 2));
+    return weight;
+}
+
+template <class Convert>
+void convertInside(FieldVolume& field, const InsideVolume& inside, Convert convert)
+{
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, field.voxels.size(), 1 << 16), [&](const auto& range) {
+        for (std::size_t n = range.begin(); n < range.end(); ++n)
+            if (inside.voxels[n])
+                field.voxels[n] = convert(n);
+    });
+}
+
+/// Distance in voxels between a voxel beside the wall and the wall: the wall field there over its slope towards the
+/// other side, steepest along each axis.
+double distanceToWall(const WallField& wall, const InsideVolume& inside, Index3 v)
+{
+    const Grid& grid = inside.grid;
+    const double unit = unitOf(grid);
+    const auto valueAt = [&](Index3 n) {
+        return double(inside.valueOr(n, kOutside) ? wall.ofInside(n) : wall.ofOutside(n));
+    };
+    const double here = valueAt(v), towards = here < 0 ? 1 : -1;
+    double slope2 = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+        double steepest = 0;
+        for (const int step : {-1, 1}) {
+            Index3 n = v;
+            (d == 0 ? n.i : d == 1 ? n.j : n.k) += step;
+            steepest = std::max(steepest, (valueAt(n) - here) * towards * unit / grid.spacing_mm[d]);
+        }
+        slope2 += steepest * steepest;
     }
+    return slope2 > 0 ? std::abs(here) / std::sqrt(slope2) : 0;
+}
+
+/// Where the wall lies before each outside voxel beside an inside one.
+std::vector<std::uint8_t> placesOf(const WallField& wall, const InsideVolume& inside)
+{
+    const Grid& grid = inside.grid;
+    std::vector<std::uint8_t> places(inside.voxels.size(), kHalfVoxel);
+    const RowsNearLumen rows(inside);
+    tbb::parallel_for(tbb::blocked_range<int>(0, grid.size[2]), [&](const tbb::blocked_range<int>& range) {
+        for (int k = range.begin(); k < range.end(); ++k)
+            for (int j = 0; j < grid.size[1]; ++j)
+                for (int i = 0; i < grid.size[0] && rows.near(j, k); ++i)
+                    if (const Index3 v{i, j, k}; !inside.at(v) && besideOther(inside, v)) {
+                        const double voxels = distanceToWall(wall, inside, v);
+                        places[grid.offset(v)] =
+                            std::uint8_t(std::lround(std::min(float(voxels), kLargestPlace) / kPlaceUnit));
+                    }
+    });
+    return places;
 }
 
 }  // namespace
 
 FieldVolume wallDistance(const InsideVolume& inside, Progress& progress)
 {
-    const Grid& grid = inside.grid;
-    const auto [nx, ny, nz] = grid.size;
-    const double unit_mm = *std::min_element(grid.spacing_mm.begin(), grid.spacing_mm.end());
-    // In units of the smallest spacing, so that on an isotropic grid all squares are whole numbers and exact.
-    std::array<float, 3> weight;
-    for (std::size_t d = 0; d < 3; ++d)
-        weight[d] = float(std::pow(grid.spacing_mm[d] / unit_mm, 2));
-
     progress.report(0, "wall distance");
-    FieldVolume field(grid);
-    const std::size_t row = std::size_t(nx), slice = row * std::size_t(ny);
-    tbb::parallel_for(tbb::blocked_range<int>(0, nz), [&, nx = nx, ny = ny](const tbb::blocked_range<int>& range) {
-        ColumnBlock block(ny);
-        for (int k = range.begin(); k < range.end(); ++k) {
-            const std::size_t start = std::size_t(k) * slice;
-            for (int j = 0; j < ny; ++j)
-                sweepRow(&inside.voxels[start + std::size_t(j) * row], &field.voxels[start + std::size_t(j) * row], nx,
-                         weight[0]);
-            for (int i = 0; i < nx; i += kLanes) {
-                const int lanes = std::min(kLanes, nx - i);
-                float* first = &field.voxels[start + std::size_t(i)];
-                if (!block.load(first, row, lanes))
-                    continue;
-                block.sweep(weight[1]);
-                block.store(first, row, lanes, [](float v) { return v; });
-            }
-        }
-    });
+    auto field = makeVolume<float>(inside.grid);
+    sweepAll<false>(inside, {inside.grid, field.voxels.data(), nullptr}, weightsOf(inside.grid));
     progress.check();
-    progress.report(0.6, "wall distance");
-    const auto toMm = [unit_mm](float v) { return v > 0 ? float(unit_mm * (std::sqrt(double(v)) - 0.5)) : 0.0F; };
-    tbb::parallel_for(tbb::blocked_range<int>(0, ny), [&, nx = nx, nz = nz](const tbb::blocked_range<int>& range) {
-        ColumnBlock block(nz);
-        for (int j = range.begin(); j < range.end(); ++j)
-            for (int i = 0; i < nx; i += kLanes) {
-                const int lanes = std::min(kLanes, nx - i);
-                float* first = &field.voxels[std::size_t(j) * row + std::size_t(i)];
-                if (!block.load(first, slice, lanes))
-                    continue;
-                block.sweep(weight[2]);
-                block.store(first, slice, lanes, toMm);
-            }
+    convertInside(field, inside, [&, unit_mm = unitOf(inside.grid)](std::size_t n) {
+        return float(unit_mm * (std::sqrt(double(field.voxels[n])) - 0.5));
     });
+    progress.report(1, "wall distance");
+    return field;
+}
+
+FieldVolume wallDistance(const InsideVolume& inside, const HuVolume& hu, Progress& progress)
+{
+    progress.report(0, "wall distance");
+    const WallField wall(hu, inside, {});
+    auto places = placesOf(wall, inside);
     progress.check();
+    progress.report(0.3, "wall distance");
+    auto field = makeVolume<float>(inside.grid);
+    sweepAll<true>(inside, {inside.grid, field.voxels.data(), places.data()}, weightsOf(inside.grid));
+    progress.check();
+    const double unit_mm = unitOf(inside.grid);
+    convertInside(field, inside, [&](std::size_t n) {
+        double voxels = std::sqrt(double(field.voxels[n])) - double(places[n]) * double(kPlaceUnit);
+        // Beside the wall the field itself tells the distance, better than the way to a voxel's centre.
+        if (const Index3 v = inside.grid.indexOf(n); field.voxels[n] < 1.5F)
+            if (const double slope = distanceToWall(wall, inside, v); slope > 0)
+                voxels = slope;
+        return float(unit_mm * std::max(voxels, kLeastDistance));
+    });
     progress.report(1, "wall distance");
     return field;
 }

@@ -25,6 +25,29 @@ std::vector<std::uint16_t> fluidOnly(const InsideVolume& inside)
 
 }  // namespace
 
+RowsNearLumen::RowsNearLumen(const InsideVolume& inside)
+    : rows_(inside.grid.size[1] + 2), near_(std::size_t(rows_) * std::size_t(inside.grid.size[2] + 2), 0)
+{
+    const auto [nx, ny, nz] = inside.grid.size;
+    for (int k = 0; k < nz; ++k)
+        for (int j = 0; j < ny; ++j) {
+            const std::uint8_t* row = &inside.voxels[inside.grid.offset({0, j, k})];
+            if (std::none_of(row, row + nx, [](std::uint8_t v) { return v != kOutside; }))
+                continue;
+            for (int dk = -1; dk <= 1; ++dk)
+                for (int dj = -1; dj <= 1; ++dj)
+                    near_[index(j + dj, k + dk)] = 1;
+        }
+}
+
+bool besideOther(const InsideVolume& inside, Index3 v)
+{
+    const bool here = inside.valueOr(v, kOutside) != kOutside;
+    return std::any_of(std::begin(kFaces), std::end(kFaces), [&](const int* f) {
+        return (inside.valueOr({v.i + f[0], v.j + f[1], v.k + f[2]}, kOutside) != kOutside) != here;
+    });
+}
+
 WallField::WallField(const HuVolume& hu, const InsideVolume& inside, Levels levels)
     : hu_(hu),
       inside_(inside),

@@ -8,6 +8,21 @@
 
 namespace vicon::steps {
 
+/// Rows of voxels that hold an inside voxel or lie beside one that does; rows beyond the grid are known one deep.
+class RowsNearLumen {
+public:
+    explicit RowsNearLumen(const InsideVolume& inside);
+    bool near(int j, int k) const { return near_[index(j, k)] != 0; }
+
+private:
+    std::size_t index(int j, int k) const { return std::size_t(j + 1) + std::size_t(rows_) * std::size_t(k + 1); }
+    int rows_;
+    std::vector<std::uint8_t> near_;
+};
+
+/// Whether one of the six neighbours of a voxel lies on the other side of the mask; beyond the grid is outside.
+bool besideOther(const InsideVolume& inside, Index3 v);
+
 /// Where the wall lies between an inside and an outside voxel, from the densities: a signed value of each voxel beside
 /// the wall, below 0 inside, above 0 outside, about -1 and +1 away from the wall, linear in the density. Beside gas it
 /// is 0 at the wall's density, under fluid half-way between tissue and the pool's own density, so one level serves
@@ -15,8 +30,8 @@ namespace vicon::steps {
 class WallField {
 public:
     struct Levels {
-        double gas_wall_hu;
-        double tissue_hu;
+        double gas_wall_hu = -480;
+        double tissue_hu = 40;
     };
 
     /// References must outlive the field. Throws Error{bad_input} when the grids do not fit together.
