@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components.h"
+#include "lumen_runs.h"
 
 namespace vicon::steps {
 namespace {
@@ -83,7 +83,7 @@ Mask box(const Mask& in, bool erode)
 
 Mask largestComponent(const Mask& mask)
 {
-    const auto scan = [&](int j, int k, std::vector<Run>& runs) {
+    const auto scan = [&](int j, int k, std::vector<VoxelRun>& runs) {
         const std::uint8_t* row = &mask.voxels[mask.grid.offset({0, j, k})];
         for (int i = 0; i < mask.grid.size[0];) {
             const int begin = i;
@@ -99,10 +99,11 @@ Mask largestComponent(const Mask& mask)
     Mask out(mask.grid);
     if (labels.components.empty())
         return out;
-    const auto largest = std::max_element(labels.components.begin(), labels.components.end(),
-                                          [](const Component& a, const Component& b) { return a.voxels < b.voxels; });
+    const auto largest =
+        std::max_element(labels.components.begin(), labels.components.end(),
+                         [](const RunComponent& a, const RunComponent& b) { return a.voxels < b.voxels; });
     const auto wanted = std::uint32_t(largest - labels.components.begin());
-    labels.forEachRun([&](const Run& run, int j, int k) {
+    labels.forEachRun([&](const VoxelRun& run, int j, int k) {
         if (run.label == wanted)
             std::fill_n(&out.at({run.begin, j, k}), run.end - run.begin, std::uint8_t(1));
     });

@@ -11,12 +11,13 @@
 namespace vicon::steps {
 namespace {
 
-constexpr int kFarthestStep = 5;       // partial-volume layer: at most five voxels at a point spread up to 1 mm
-constexpr double kDeepest_mm = 4;      // how far under the level the fluid's own density is read
-constexpr double kThickestStep_mm = 1.6;  // half-way to half-way of a blurred step is 1.1 mm at sigma 0.8; a wall is thicker
+constexpr int kFarthestStep = 5;   // partial-volume layer: at most five voxels at a point spread up to 1 mm
+constexpr double kDeepest_mm = 4;  // how far under the level the fluid's own density is read
+constexpr double kThickestStep_mm =
+    1.6;  // half-way to half-way of a blurred step is 1.1 mm at sigma 0.8; a wall is thicker
 constexpr double kFlatWithin_voxels = 1;
 constexpr double kFlatShare = 0.7;
-constexpr double kSmallestLevel_mm2 = 6;
+constexpr double kSmallestLevel_mm2 = 20;
 
 int& along(Index3& v, int axis)
 {

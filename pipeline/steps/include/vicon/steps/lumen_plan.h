@@ -15,7 +15,7 @@ struct LumenPiece {
     Point3 caecal_end_mm;  ///< inside the lumen, near the tip on the caecal side
     double volume_ml = 0;  ///< gas and fluid
     double fluid_ml = 0;
-    double length_mm = 0;      ///< from tip to tip along the middle of the lumen, as a chain of voxels: a few per cent long
+    double length_mm = 0;  ///< from tip to tip along the middle of the lumen, as a chain of voxels: a few per cent long
     double max_radius_mm = 0;  ///< of the largest inscribed sphere
 };
 

@@ -27,20 +27,28 @@ struct SegmentOptions {
     template <class Visitor>
     void visit(Visitor&& v)
     {
-        v("segment.method", method, "", "auto: gas and tagged fluid of the whole colon; binary: what lies below iso_hu around the seed point.",
+        v("segment.method", method, "",
+          "auto: gas and tagged fluid of the whole colon; binary: what lies below iso_hu around the seed point.",
           {.choices = {"auto", "binary"}});
         v("segment.gas_below_hu", gas_below_hu, "HU", "Voxels below this density are the core of gas.", {-1000, -500});
-        v("segment.wall_hu", wall_hu, "HU", "Half-way density between gas and the wall, where the lumen ends.", {-900, -100});
-        v("segment.tissue_hu", tissue_hu, "HU", "Density of the wall, for the half-way density between it and fluid.", {-100, 150});
+        v("segment.wall_hu", wall_hu, "HU", "Half-way density between gas and the wall, where the lumen ends.",
+          {-900, -100});
+        v("segment.tissue_hu", tissue_hu, "HU", "Density of the wall, for the half-way density between it and fluid.",
+          {-100, 150});
         v("segment.fluid_above_hu", fluid_above_hu, "HU", "Tagged fluid has at least this density.", {100, 1000});
-        v("segment.smallest_piece_ml", smallest_piece_ml, "ml", "Smaller pieces of gas are not taken as pieces of the colon.", {0.1, 50});
-        v("segment.catheter_radius_mm", catheter_radius_mm, "mm", "What is narrower than this below the rectum is catheter, not lumen.", {0, 8});
-        v("segment.longest_sure_bridge_mm", longest_sure_bridge_mm, "mm", "A longer bridge over a collapsed part is reported as uncertain.", {0, 500});
+        v("segment.smallest_piece_ml", smallest_piece_ml, "ml",
+          "Smaller pieces of gas are not taken as pieces of the colon.", {0.1, 50});
+        v("segment.catheter_radius_mm", catheter_radius_mm, "mm",
+          "What is narrower than this below the rectum is catheter, not lumen.", {0, 8});
+        v("segment.longest_sure_bridge_mm", longest_sure_bridge_mm, "mm",
+          "A longer bridge over a collapsed part is reported as uncertain.", {0, 500});
         v("segment.add", add, "", "Points 'x,y,z;x,y,z' in LPS mm whose gas or fluid belongs to the colon.");
-        v("segment.cut", cut, "", "Points 'x,y,z;x,y,z' in LPS mm where the lumen is cut; the smaller part is dropped.");
+        v("segment.cut", cut, "",
+          "Points 'x,y,z;x,y,z' in LPS mm where the lumen is cut; the smaller part is dropped.");
         v("segment.drop", drop, "", "Points 'x,y,z;x,y,z' in LPS mm whose piece does not belong to the colon.");
         v("segment.iso_hu", iso_hu, "HU", "Iso value of the binary method.", {-1000, 3000});
-        v("segment.seed", seed, "", "Seed point 'x,y,z' in LPS mm of the binary method; empty: the largest piece inside the body.");
+        v("segment.seed", seed, "",
+          "Seed point 'x,y,z' in LPS mm of the binary method; empty: the largest piece inside the body.");
     }
 };
 

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "body.h"
+#include "lumen_runs.h"
+#include "skeleton_tree.h"
+#include "vicon/core/progress.h"
+#include "vicon/core/volume.h"
+
+namespace vicon::steps {
+
+/// A connected part of gas and fluid that may be a piece of the colon.
+struct Candidate {
+    std::uint32_t label = 0;  ///< its component
+    double volume_ml = 0;
+    double fluid_ml = 0;
+    double max_radius_mm = 0;
+    double length_mm = 0;  ///< between its tips, along the middle
+    Point3 tip_mm[2];      ///< its two ends; of the piece with the rectum the first is the rectal one
+    Point3 lower_mm;       ///< bounding box
+    Point3 upper_mm;
+    double colon_likeness = 1;  ///< 0 to 1, from shape and place
+    std::string kind = "colon";
+};
+
+/// A component, with the rim of fluid that belongs to it, at half resolution, with its wall distances and its graph.
+struct HalfPiece {
+    FieldVolume wall_mm;
+    LumenGraph graph;
+};
+HalfPiece halfPiece(const InsideVolume& labels, const RunLabels& lumen, std::uint32_t label, Progress& progress);
+
+/// Measures the components that are large enough to matter, largest first, at most `most` of them.
+std::vector<Candidate> findCandidates(const InsideVolume& labels, const RunLabels& lumen, const Body& body,
+                                      double smallest_ml, int most, Progress& progress);
+
+/// The candidate that holds the rectum: low, near the midline, and wide; -1 when there is none. Its first tip becomes
+/// the rectal end, above what is narrower than a rectal catheter; the second tip the farthest point from there.
+int findRectum(std::vector<Candidate>& candidates, const InsideVolume& labels, const RunLabels& lumen, const Body& body,
+               double catheter_radius_mm, Progress& progress);
+
+}  // namespace vicon::steps

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "body.h"
+#include "vicon/steps/segment.h"
+
+namespace vicon::steps {
+
+/// Sets verdict, confidence and reason from the plan and from where it lies in the body.
+void judgeSegmentation(Segmentation& result, const Body& body);
+
+/// A result without a colon.
+Segmentation noColon(const std::string& reason);
+
+}  // namespace vicon::steps

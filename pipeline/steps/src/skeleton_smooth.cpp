@@ -1,0 +1,244 @@
+#include "skeleton_smooth.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vicon::steps {
+namespace {
+
+constexpr double kTipWindow_mm = 10;  // how far ahead the lumen is looked at to tell a tip from the lumen
+constexpr double kPercentile = 0.6;   // of the radii per angle: passes over folds, which are short
+constexpr double kPercentileWindow_mm = 25;
+constexpr double kTangent_mm = 3;
+
+/// Two unit vectors across the curve at each point, turning with it as little as possible.
+struct Frame {
+    Vector3 u, v;
+};
+
+Vector3 tangentAt(const Polyline& line, std::size_t n, std::size_t reach)
+{
+    const std::size_t from = n > reach ? n - reach : 0, to = std::min(line.size() - 1, n + reach);
+    return normalized(line[to] - line[from]);
+}
+
+std::vector<Frame> framesAlong(const Polyline& line, std::size_t reach)
+{
+    std::vector<Frame> frames(line.size());
+    Vector3 t = tangentAt(line, 0, reach);
+    Vector3 u = std::abs(t.x) < 0.9 ? normalized(cross(t, {1, 0, 0})) : normalized(cross(t, {0, 1, 0}));
+    for (std::size_t n = 0; n < line.size(); ++n) {
+        t = tangentAt(line, n, reach);
+        const Vector3 across = u - t * dot(u, t);
+        if (length(across) > 1e-6)
+            u = normalized(across);
+        frames[n] = {u, cross(t, u)};
+    }
+    return frames;
+}
+
+/// How far the lumen reaches from a point along a unit vector: steps of the wall distance never pass the wall.
+double reach(const DistanceProbe& wall, Point3 from, Vector3 along, double limit_mm)
+{
+    const double voxel = wall.smallestSpacing_mm();
+    double s = 0;
+    while (s < limit_mm) {
+        const double d = wall.at(from + along * s);
+        if (d < 0.15 * voxel)
+            break;
+        s += std::max(0.9 * d, 0.15 * voxel);
+    }
+    return std::min(s, limit_mm);
+}
+
+using Radii = std::vector<std::vector<float>>;  // [angle][point]
+
+Radii sampleRadii(const Polyline& line, const std::vector<Frame>& frames, const DistanceProbe& wall, int rays)
+{
+    Radii radii(std::size_t(rays), std::vector<float>(line.size()));
+    tbb::parallel_for(std::size_t(0), line.size(), [&](std::size_t n) {
+        const double limit_mm = 3 * wall.at(line[n]) + 5;
+        for (int r = 0; r < rays; ++r) {
+            const double angle = 2 * std::numbers::pi * r / rays;
+            const Vector3 along = frames[n].u * std::cos(angle) + frames[n].v * std::sin(angle);
+            radii[std::size_t(r)][n] = float(reach(wall, line[n], along, limit_mm));
+        }
+    });
+    return radii;
+}
+
+std::vector<float> percentileAlong(const std::vector<float>& values, std::size_t half_window)
+{
+    std::vector<float> out(values.size()), window;
+    for (std::size_t n = 0; n < values.size(); ++n) {
+        const std::size_t half = std::min({half_window, n, values.size() - 1 - n});
+        window.assign(values.begin() + std::ptrdiff_t(n - half), values.begin() + std::ptrdiff_t(n + half + 1));
+        const auto at = window.begin() + std::ptrdiff_t(kPercentile * double(window.size() - 1) + 0.5);
+        std::nth_element(window.begin(), at, window.end());
+        out[n] = *at;
+    }
+    return out;
+}
+
+/// The point itself, or as near to it as the lumen allows on the way from a point inside.
+Point3 keptInside(Point3 wanted, Point3 inside, const DistanceProbe& wall)
+{
+    for (const double t : {1.0, 0.75, 0.5, 0.25})
+        if (const Point3 p = interpolate(inside, wanted, t); wall.inside(p))
+            return p;
+    return inside;
+}
+
+/// Every point moved to the centroid of its cross-section.
+Polyline recentred(const Polyline& line, const DistanceProbe& wall, const SkeletonOptions& options)
+{
+    const auto frames = framesAlong(line, std::size_t(std::max(1.0, kTangent_mm / options.step_mm)));
+    Radii radii = sampleRadii(line, frames, wall, options.rays);
+    const auto half = std::size_t(kPercentileWindow_mm / 2 / options.step_mm);
+    tbb::parallel_for(std::size_t(0), radii.size(), [&](std::size_t r) { radii[r] = percentileAlong(radii[r], half); });
+    Polyline out(line.size());
+    for (std::size_t n = 0; n < line.size(); ++n) {
+        double area = 0, x = 0, y = 0;
+        for (std::size_t r = 0; r < radii.size(); ++r) {
+            const double angle = 2 * std::numbers::pi * double(r) / double(radii.size()), d = radii[r][n];
+            area += d * d / 2;
+            x += d * d * d / 3 * std::cos(angle);
+            y += d * d * d / 3 * std::sin(angle);
+        }
+        const Vector3 shift = area > 0 ? (frames[n].u * x + frames[n].v * y) / area : Vector3{};
+        out[n] = keptInside(line[n] + shift, line[n], wall);
+    }
+    return out;
+}
+
+/// The smoothed line, held inside the lumen: points that smoothing moved out of it go back towards the line.
+Polyline smoothedInside(const Polyline& line, double sigma_mm, const DistanceProbe& wall,
+                        const SkeletonOptions& options)
+{
+    Polyline out = smoothed(line, sigma_mm, options.step_mm);
+    for (std::size_t n = 0; n < out.size(); ++n)
+        out[n] = keptInside(out[n], line[n], wall);
+    return out;
+}
+
+/// Resampling may cut a corner: such points go to the nearest of the line, which is inside.
+Polyline resampledInside(const Polyline& line, const DistanceProbe& wall, double step_mm)
+{
+    Polyline out = resampled(line, step_mm);
+    for (Point3& p : out)
+        if (!wall.inside(p))
+            p = *std::min_element(line.begin(), line.end(),
+                                  [&](Point3 a, Point3 b) { return distance(a, p) < distance(b, p); });
+    return out;
+}
+
+Polyline withoutFirstTip(const Polyline& path, const DistanceProbe& wall)
+{
+    const Point3 tip = path.front();
+    const double tip_mm = wall.at(tip);
+    for (std::size_t n = 0; n < path.size(); ++n) {
+        double widest = 0;
+        for (std::size_t m = n; m < path.size() && distance(path[m], path[n]) <= kTipWindow_mm; ++m)
+            widest = std::max(widest, wall.at(path[m]));
+        if (distance(path[n], tip) + tip_mm >= widest)
+            return {path.begin() + std::ptrdiff_t(std::min(n, path.size() - 2)), path.end()};
+    }
+    return path;
+}
+
+}  // namespace
+
+double DistanceProbe::at(Point3 p) const
+{
+    const ContinuousIndex3 c = field_.grid.continuousIndexAt(p);
+    const int i = int(std::floor(c.i)), j = int(std::floor(c.j)), k = int(std::floor(c.k));
+    const double x = c.i - i, y = c.j - j, z = c.k - k;
+    const auto value = [&](int a, int b, int d) { return double(field_.valueOr({i + a, j + b, k + d}, 0)); };
+    const auto row = [&](int b, int d) { return value(0, b, d) * (1 - x) + value(1, b, d) * x; };
+    const auto plane = [&](int d) { return row(0, d) * (1 - y) + row(1, d) * y; };
+    return plane(0) * (1 - z) + plane(1) * z;
+}
+
+double DistanceProbe::smallestSpacing_mm() const
+{
+    const auto& spacing = field_.grid.spacing_mm;
+    return std::min({spacing[0], spacing[1], spacing[2]});
+}
+
+Polyline resampled(const Polyline& line, double step_mm)
+{
+    double total = 0;
+    for (std::size_t n = 1; n < line.size(); ++n)
+        total += distance(line[n - 1], line[n]);
+    const int count = std::max(1, int(std::lround(total / step_mm)));
+    Polyline out{line.front()};
+    double walked = 0;
+    std::size_t n = 1;
+    for (int m = 1; m < count; ++m) {
+        const double wanted = total * m / count;
+        while (n + 1 < line.size() && walked + distance(line[n - 1], line[n]) < wanted) {
+            walked += distance(line[n - 1], line[n]);
+            ++n;
+        }
+        const double piece = distance(line[n - 1], line[n]);
+        out.push_back(interpolate(line[n - 1], line[n], piece > 0 ? (wanted - walked) / piece : 0));
+    }
+    out.push_back(line.back());
+    return out;
+}
+
+Polyline smoothed(const Polyline& line, double sigma_mm, double step_mm)
+{
+    const int half = int(std::ceil(3 * sigma_mm / step_mm));
+    const int last = int(line.size()) - 1;
+    if (half < 1 || last < 2)
+        return line;
+    std::vector<double> weights;
+    for (int m = -half; m <= half; ++m)
+        weights.push_back(std::exp(-0.5 * std::pow(m * step_mm / sigma_mm, 2)));
+    // Beyond an end the line goes on as its own point reflection, so that smoothing neither shortens nor bends it.
+    const auto at = [&](int n) -> Vector3 {
+        const auto point = [&](int m) { return line[std::size_t(std::clamp(m, 0, last))] - Point3{}; };
+        if (n < 0)
+            return point(0) * 2 - point(-n);
+        if (n > last)
+            return point(last) * 2 - point(2 * last - n);
+        return point(n);
+    };
+    Polyline out(line.size());
+    for (int n = 0; n <= last; ++n) {
+        Vector3 sum;
+        double weight = 0;
+        for (int m = -half; m <= half; ++m) {
+            sum += at(n + m) * weights[std::size_t(m + half)];
+            weight += weights[std::size_t(m + half)];
+        }
+        out[std::size_t(n)] = Point3{} + sum / weight;
+    }
+    return out;
+}
+
+Polyline withoutTips(const Polyline& path, const DistanceProbe& wall)
+{
+    Polyline line = withoutFirstTip(path, wall);
+    std::reverse(line.begin(), line.end());
+    line = withoutFirstTip(line, wall);
+    std::reverse(line.begin(), line.end());
+    return line;
+}
+
+Polyline centredCurve(const Polyline& path, const DistanceProbe& wall, const SkeletonOptions& options)
+{
+    Polyline line = resampledInside(withoutTips(path, wall), wall, options.step_mm);
+    line = resampledInside(smoothedInside(line, options.path_smoothing_mm, wall, options), wall, options.step_mm);
+    for (int n = 0; n < options.recentrings; ++n) {
+        line = smoothedInside(recentred(line, wall, options), options.smoothing_mm, wall, options);
+        line = resampledInside(line, wall, options.step_mm);
+    }
+    return line;
+}
+
+}  // namespace vicon::steps

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "vicon/core/geometry.h"
+#include "vicon/core/volume.h"
+#include "vicon/steps/skeleton.h"
+
+namespace vicon::steps {
+
+/// The wall distance anywhere, interpolated; 0 outside the grid.
+class DistanceProbe {
+public:
+    explicit DistanceProbe(const FieldVolume& wall_mm) : field_(wall_mm) {}
+    double at(Point3 p) const;
+    bool inside(Point3 p) const { return field_.valueOr(field_.grid.indexAt(p), 0) > 0; }
+    double smallestSpacing_mm() const;
+
+private:
+    const FieldVolume& field_;
+};
+
+using Polyline = std::vector<Point3>;
+
+/// Points at equal distances of about `step_mm`, ends kept.
+Polyline resampled(const Polyline& line, double step_mm);
+
+/// Gaussian of the points along the line, which must be sampled every `step_mm`; the ends stay where they are.
+Polyline smoothed(const Polyline& line, double sigma_mm, double step_mm);
+
+/// Cuts both ends of a path off about one local radius before its tips.
+Polyline withoutTips(const Polyline& path, const DistanceProbe& wall);
+
+/// The smooth curve in the middle of the lumen that follows the path.
+Polyline centredCurve(const Polyline& path, const DistanceProbe& wall, const SkeletonOptions& options);
+
+}  // namespace vicon::steps

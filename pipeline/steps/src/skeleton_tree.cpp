@@ -1,0 +1,247 @@
+#include "skeleton_tree.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+namespace vicon::steps {
+namespace {
+
+constexpr double kReference_mm = 5;  // only scales the cost
+constexpr double kWhole = 0.97;      // of the blocks: the rest are specks in corners of the wall
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+/// Cheapest first; of equal costs the smaller node, so that the order is always the same.
+using Queue =
+    std::priority_queue<std::pair<float, std::int32_t>, std::vector<std::pair<float, std::int32_t>>, std::greater<>>;
+
+/// Calls use(neighbour, length_mm) for every node joined to `n` whose value in `known` is above `limit`.
+template <class Use>
+void forEachNeighbour(const LumenGraph& graph, std::int32_t n, const std::vector<float>& known, float limit, Use use)
+{
+    const LumenGraph::Node& own = graph.node(n);
+    const std::int32_t* here = &graph.node_of[own.cell];
+    const auto sx = float(graph.grid.spacing_mm[0]), sy = float(graph.grid.spacing_mm[1]),
+               sz = float(graph.grid.spacing_mm[2]);
+    for (const std::ptrdiff_t step : graph.neighbour) {
+        const std::int32_t m = here[step];
+        if (m < 0 || known[std::size_t(m)] <= limit)
+            continue;
+        const LumenGraph::Node& other = graph.node(m);
+        const float x = float(other.voxel.i - own.voxel.i) * sx, y = float(other.voxel.j - own.voxel.j) * sy,
+                    z = float(other.voxel.k - own.voxel.k) * sz;
+        const float apart = std::sqrt(x * x + y * y + z * z);
+        if (graph.block == 1 || apart < own.wall_mm + other.wall_mm)
+            use(m, apart);
+    }
+}
+
+float weight(float wall_mm)
+{
+    const float ratio = float(kReference_mm) / std::max(0.1F, wall_mm);
+    return ratio * ratio * ratio * ratio;
+}
+
+/// Offset in `wall_mm` of each block's voxel farthest from the wall, kNone where the block is left out.
+constexpr auto kNone = ~std::uint32_t(0);
+std::vector<std::uint32_t> farthestOfBlocks(const FieldVolume& wall_mm, int block, double least_mm,
+                                            const std::array<int, 3>& blocks)
+{
+    const auto& size = wall_mm.grid.size;
+    const auto sx = std::size_t(blocks[0]), sy = std::size_t(blocks[1]);
+    std::vector<std::uint32_t> best(sx * sy * std::size_t(blocks[2]), kNone);
+    tbb::parallel_for(0, blocks[2], [&](int bk) {
+        for (int k = bk * block; k < std::min(size[2], (bk + 1) * block); ++k)
+            for (int j = 0; j < size[1]; ++j) {
+                const std::size_t row = wall_mm.grid.offset({0, j, k});
+                std::uint32_t* out = &best[sx * (std::size_t(j / block) + sy * std::size_t(bk))];
+                for (int i = 0; i < size[0]; ++i) {
+                    const float d = wall_mm.voxels[row + std::size_t(i)];
+                    if (d <= 0 || d < least_mm)
+                        continue;
+                    std::uint32_t& own = out[i / block];
+                    if (own == kNone || wall_mm.voxels[own] < d)
+                        own = std::uint32_t(row) + std::uint32_t(i);
+                }
+            }
+    });
+    return best;
+}
+
+}  // namespace
+
+std::int32_t LumenGraph::nearest(Point3 p) const
+{
+    std::int32_t best = -1;
+    double least = 1e300;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        const double d = distance(point(std::int32_t(n)), p);
+        if (d < least) {
+            least = d;
+            best = std::int32_t(n);
+        }
+    }
+    return best;
+}
+
+LumenGraph makeGraph(const FieldVolume& wall_mm, int block, double least_mm)
+{
+    LumenGraph graph;
+    graph.grid = wall_mm.grid;
+    graph.block = block;
+    std::array<int, 3> blocks{};
+    for (std::size_t a = 0; a < 3; ++a)
+        blocks[a] = (wall_mm.grid.size[a] + block - 1) / block;
+    const std::vector<std::uint32_t> best = farthestOfBlocks(wall_mm, block, least_mm, blocks);
+    const auto nx = std::ptrdiff_t(blocks[0]) + 2, ny = std::ptrdiff_t(blocks[1]) + 2,
+               nz = std::ptrdiff_t(blocks[2]) + 2;
+    graph.node_of.assign(std::size_t(nx * ny * nz), -1);
+    std::size_t b = 0;
+    for (int k = 0; k < blocks[2]; ++k)
+        for (int j = 0; j < blocks[1]; ++j)
+            for (int i = 0; i < blocks[0]; ++i, ++b) {
+                if (best[b] == kNone)
+                    continue;
+                const auto cell = std::uint32_t(i + 1 + nx * (j + 1 + ny * (k + 1)));
+                graph.node_of[cell] = std::int32_t(graph.nodes.size());
+                graph.nodes.push_back({graph.grid.indexOf(best[b]), cell, wall_mm.voxels[best[b]]});
+            }
+    std::size_t n = 0;
+    for (int k = -1; k <= 1; ++k)
+        for (int j = -1; j <= 1; ++j)
+            for (int i = -1; i <= 1; ++i)
+                if (i || j || k)
+                    graph.neighbour[n++] = i + nx * (j + ny * k);
+    return graph;
+}
+
+std::int32_t widestNode(const LumenGraph& graph)
+{
+    const auto widest = std::max_element(graph.nodes.begin(), graph.nodes.end(),
+                                         [](const auto& a, const auto& b) { return a.wall_mm < b.wall_mm; });
+    return widest == graph.nodes.end() ? -1 : std::int32_t(widest - graph.nodes.begin());
+}
+
+LumenGraph makeWholeGraph(const FieldVolume& wall_mm, int coarsest, Progress& progress)
+{
+    LumenGraph graph;
+    for (int block = coarsest; block >= 1; block /= 2) {
+        graph = makeGraph(wall_mm, block, 0);
+        progress.check();
+        if (block == 1 || graph.count() == 0)
+            break;
+        const auto sets = connectedSets(graph, std::vector<std::uint8_t>(graph.count(), 1));
+        const std::int32_t widest = widestNode(graph);
+        const bool whole = std::any_of(sets.begin(), sets.end(), [&](const std::vector<std::int32_t>& set) {
+            return double(set.size()) > kWhole * double(graph.count()) &&
+                   std::find(set.begin(), set.end(), widest) != set.end();
+        });
+        if (whole)
+            break;
+    }
+    return graph;
+}
+
+std::vector<std::int32_t> LumenTree::pathTo(std::int32_t node) const
+{
+    std::vector<std::int32_t> path;
+    for (; node >= 0; node = parent[std::size_t(node)])
+        path.push_back(node);
+    std::reverse(path.begin(), path.end());
+    return path;
+}
+
+LumenTree centralTree(const LumenGraph& graph, std::int32_t root, const std::vector<std::uint8_t>& blocked,
+                      Progress& progress)
+{
+    LumenTree tree{root, std::vector<std::int32_t>(graph.count(), -1), std::vector<float>(graph.count(), kInfinite),
+                   std::vector<float>(graph.count(), 0)};
+    std::vector<float> weights(graph.count());
+    for (std::size_t n = 0; n < weights.size(); ++n)
+        weights[n] = weight(graph.nodes[n].wall_mm);
+    Queue queue;
+    tree.cost[std::size_t(root)] = 0;
+    queue.push({0, root});
+    for (std::size_t count = 0; !queue.empty(); ++count) {
+        if (count % 65536 == 0)
+            progress.check();
+        const auto [cost, node] = queue.top();
+        queue.pop();
+        if (cost > tree.cost[std::size_t(node)])
+            continue;
+        const float own_weight = weights[std::size_t(node)], so_far = cost;
+        forEachNeighbour(graph, node, tree.cost, cost, [&, n = node](std::int32_t other, float apart) {
+            const auto m = std::size_t(other);
+            const float to = so_far + apart * 0.5F * (own_weight + weights[m]);
+            if (to < tree.cost[m] && (blocked.empty() || !blocked[m])) {
+                tree.cost[m] = to;
+                tree.parent[m] = n;
+                tree.length_mm[m] = tree.length_mm[std::size_t(n)] + apart;
+                queue.push({to, other});
+            }
+        });
+    }
+    return tree;
+}
+
+LumenFeet feetOn(const LumenGraph& graph, const std::vector<std::int32_t>& sources)
+{
+    LumenFeet feet{std::vector<float>(graph.count(), kInfinite), std::vector<std::int32_t>(graph.count(), -1)};
+    Queue queue;
+    for (std::size_t s = 0; s < sources.size(); ++s) {
+        feet.distance_mm[std::size_t(sources[s])] = 0;
+        feet.foot[std::size_t(sources[s])] = std::int32_t(s);
+        queue.push({0, sources[s]});
+    }
+    while (!queue.empty()) {
+        const auto [so_far, node] = queue.top();
+        queue.pop();
+        if (so_far > feet.distance_mm[std::size_t(node)])
+            continue;
+        const float here = so_far;
+        forEachNeighbour(graph, node, feet.distance_mm, so_far, [&, n = node](std::int32_t other, float apart) {
+            const auto m = std::size_t(other);
+            if (here + apart < feet.distance_mm[m]) {
+                feet.distance_mm[m] = here + apart;
+                feet.foot[m] = feet.foot[std::size_t(n)];
+                queue.push({here + apart, other});
+            }
+        });
+    }
+    return feet;
+}
+
+std::vector<std::vector<std::int32_t>> connectedSets(const LumenGraph& graph, std::vector<std::uint8_t> chosen)
+{
+    std::vector<std::vector<std::int32_t>> sets;
+    const std::vector<float> all(graph.count(), kInfinite);
+    for (std::size_t first = 0; first < chosen.size(); ++first) {
+        if (!chosen[first])
+            continue;
+        chosen[first] = 0;
+        std::vector<std::int32_t> set{std::int32_t(first)};
+        for (std::size_t n = 0; n < set.size(); ++n)
+            forEachNeighbour(graph, set[n], all, 0, [&](std::int32_t other, float) {
+                if (chosen[std::size_t(other)]) {
+                    chosen[std::size_t(other)] = 0;
+                    set.push_back(other);
+                }
+            });
+        sets.push_back(std::move(set));
+    }
+    return sets;
+}
+
+std::int32_t farthestNode(const LumenTree& tree)
+{
+    std::int32_t best = tree.root;
+    for (std::size_t n = 0; n < tree.parent.size(); ++n)
+        if (tree.parent[n] >= 0 && tree.length_mm[n] > tree.length_mm[std::size_t(best)])
+            best = std::int32_t(n);
+    return best;
+}
+
+}  // namespace vicon::steps
