@@ -221,14 +221,15 @@ void limitSlope(Course& course)
 }
 
 /// Narrows loops that lie too close together.
-void narrowBetweenLoops(Course& course, double separation_mm, const std::vector<Contact>& contacts)
+void narrowBetweenLoops(Course& course, double separation_mm, double least_wall_mm,
+                        const std::vector<Contact>& contacts)
 {
     auto& s = course.samples;
     const double last = double(s.size() - 1), length_mm = course.length_mm();
     std::vector<double> limit(s.size(), 1e9);
     eachLoopPair(course, 2, [&](std::size_t a, std::size_t b, double apart) {
         const bool touching = inContact(contacts, double(a) / last, double(b) / last, length_mm);
-        const double excess = s[a].radius_mm + s[b].radius_mm + (touching ? 1.0 : separation_mm) - apart;
+        const double excess = s[a].radius_mm + s[b].radius_mm + (touching ? least_wall_mm : separation_mm) - apart;
         if (excess <= 0)
             return;
         limit[a] = std::min(limit[a], s[a].radius_mm - excess / 2);
@@ -354,7 +355,7 @@ std::optional<DrawnCourse> finish(std::vector<Bead> beads, const Trunk& trunk, c
         if (options.self_contact)
             contacts = closestLoops(course, relief, 1, -2.5);
         else
-            contacts = closestLoops(course, relief, options.thin_walls, 1.0);
+            contacts = closestLoops(course, relief, options.thin_walls, options.thin_wall_mm);
         std::vector<BeadPair> pulled;
         for (const Contact& c : contacts) {
             const auto bead = [&](double f) {
@@ -369,7 +370,7 @@ std::optional<DrawnCourse> finish(std::vector<Bead> beads, const Trunk& trunk, c
     drawn.relief = stretched(relief, drawn.course.length_mm());
     shapeRadii(drawn.course, options.position, random);
     limitSlope(drawn.course);
-    narrowBetweenLoops(drawn.course, options.separation_mm, contacts);
+    narrowBetweenLoops(drawn.course, options.separation_mm, options.thin_wall_mm, contacts);
     smoothRadii(drawn.course);
     const bool as_wanted = int(contacts.size()) == (options.self_contact ? 1 : options.thin_walls);
     if (!as_wanted || narrowed(drawn.course, beads) || !closeContacts(drawn.course, contacts) ||

@@ -40,7 +40,8 @@ struct CourseOptions {
     std::uint64_t seed = 1;
     Position position = Position::supine;
     double separation_mm = 5;  ///< least distance between the lumens of two loops
-    int thin_walls = 0;        ///< places with 1 mm of wall between two loops
+    int thin_walls = 0;        ///< places with little wall between two loops
+    double thin_wall_mm = 1.3;
     bool self_contact = false;
     double thinnest_fold_mm = 2;
     int polyps = 5;

@@ -10,15 +10,15 @@ namespace vicon::phantom {
 namespace {
 
 using std::numbers::pi;
-constexpr double kEndClear_mm = 24;                      // no ring nearer to an end of the curve
-constexpr double kDeepest = 0.5;                         // of the radius
-constexpr double kGroove = 0.08;                         // of the radius, at a taenia
-constexpr double kConstriction = 0.08;                   // of the radius, at a ring
-constexpr double kConstrictionReach = 6;                 // mm
-constexpr double kRectum = 0.075;                        // share of the length
-constexpr double kClearOfFold_mm = 2.5;                  // between polyp and fold
-constexpr double kHalfHeight = 0.953;                    // where the plate's profile is half as high
-constexpr double kMostCrowded = 0.35, kUncrowded = 0.6;  // mm of wall per mm of station: folds fade between the two
+constexpr double kEndClear_mm = 24;                       // no ring nearer to an end of the curve
+constexpr double kDeepest = 0.5;                          // of the radius
+constexpr double kGroove = 0.08;                          // of the radius, at a taenia
+constexpr double kConstriction = 0.08;                    // of the radius, at a ring
+constexpr double kConstrictionReach = 6;                  // mm
+constexpr double kRectum = 0.075;                         // share of the length
+constexpr double kClearOfFold_mm = 2.5;                   // between polyp and fold
+constexpr double kHalfHeight = 0.953;                     // where the plate's profile is half as high
+constexpr double kMostCrowded = 0.45, kUncrowded = 0.75;  // mm of wall per mm of station: folds fade between the two
 constexpr double kPolypSpacing_mm = 60;
 
 /// Depth of the folds along the colon: shallow on the left, deep on the right.

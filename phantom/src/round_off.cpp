@@ -60,13 +60,13 @@ void roundOff(LumenField& field, const Grid& grid, const std::vector<Polyp>& pol
             std::size_t at = here.size() * std::size_t(k), n = 0;
             for (int j = 0; j < field.size[1]; ++j)
                 for (int i = 0; i < field.size[0]; ++i, ++n, ++at) {
-                    if (std::abs(source.lumen[at]) > kNear)
+                    const int sum = before[n] + 2 * here[n] + after[n];  // 128 times the distance, 1 off centre
+                    const int rounded = int(std::floor(sum / 128.0));
+                    if (std::abs(rounded) >= kNear - 1)
                         continue;
                     const Point3 p = grid.pointAt(Index3{field.low.i + i, field.low.j + j, field.low.k + k});
-                    if (atPolyp(polyps, p))
-                        continue;
-                    const int sum = before[n] + 2 * here[n] + after[n];  // 128 times the distance, 1 off centre
-                    field.lumen[at] = std::int8_t(std::floor(sum / 128.0));
+                    if (!atPolyp(polyps, p))
+                        field.lumen[at] = std::int8_t(rounded);
                 }
             before = std::move(here);
             here = std::move(after);

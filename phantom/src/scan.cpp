@@ -15,6 +15,7 @@
 namespace vicon::phantom {
 namespace {
 
+constexpr double kThinWall_mm = 1, kThinWallVoxels = 1.3;  // of tissue where loops almost touch
 constexpr double kSeparation_mm = 5;  // between the lumens of two loops; more where voxels are coarse
 
 Vector3 turned(Vector3 v, double angle)
@@ -143,6 +144,7 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
                                            .position = placement.position,
                                            .separation_mm = std::max(kSeparation_mm, 2.5 * coarsest_mm),
                                            .thin_walls = options.thin_walls ? 3 : 0,
+                                           .thin_wall_mm = std::max(kThinWall_mm, kThinWallVoxels * coarsest_mm),
                                            .self_contact = options.self_contact,
                                            .thinnest_fold_mm = 2 * coarsest_mm,
                                            .polyps = options.polyps});

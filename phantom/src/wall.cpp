@@ -48,14 +48,15 @@ double radiusAt(const Course& course, double station_mm)
     return std::lerp(course.samples[low].radius_mm, course.samples[low + 1].radius_mm, n - double(low));
 }
 
-/// Curvature of the axis towards an angle.
+/// Curvature of the axis towards an angle, the largest within a fold's thickness.
 double bendTowards(const Course& course, double station_mm, double angle)
 {
-    const double n = std::clamp(station_mm / course.step_mm, 0.0, double(course.samples.size() - 1));
-    const auto low = std::min(std::size_t(n), course.samples.size() - 2);
-    const CourseSample &a = course.samples[low], &b = course.samples[low + 1];
-    const Vector3 out = a.normal * std::cos(angle) + a.binormal * std::sin(angle);
-    return dot(out, a.bend + (b.bend - a.bend) * (n - double(low)));
+    double largest = -1e9;
+    for (const double off_mm : {-3.0, 0.0, 3.0}) {
+        const CourseSample& at = course.samples[course.sampleAt(station_mm + off_mm)];
+        largest = std::max(largest, dot(at.bend, at.normal * std::cos(angle) + at.binormal * std::sin(angle)));
+    }
+    return largest;
 }
 
 /// What gaps leave of the lumen: 1 far from them, 0 within.
