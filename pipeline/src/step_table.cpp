@@ -109,7 +109,7 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
     const artefact::CellSurface surface = steps::extractCells(
         artefacts.volume(), artefacts.inside(), artefacts.segments(), inputs.config.get<steps::CellOptions>(), contour);
     artefacts.dropVolume();
-    steps::countTriangles(divided.description, surface);
+    steps::countTriangles(surface, divided.description);
     artefact::writeCells(artefacts.folder() / "cells.vtp", surface);
     steps::writeProjections(artefacts.folder() / "projections", surface, inputs.config.get<steps::ProjectionOptions>(),
                             project);

@@ -17,6 +17,10 @@ constexpr double kPieceLength_mm = 20;
 /// How many voxels of a separate part are asked for their distance to the skeleton.
 constexpr std::size_t kProbes = 2000;
 
+/// A front through a contact arrives from both sides, so the distance falls somewhere along the skeleton, by nearly as
+/// much as the short cut saves. A fall of this much is more than a curve's own wiggling makes.
+constexpr double kFall_mm = 10;
+
 using Labels = LumenFront::Labels;
 
 /// Labels every inside voxel with the piece of skeleton whose front reaches it first, 1 for the rectal end.
@@ -60,7 +64,10 @@ void reachSeparateParts(LumenFront& front, const InsideVolume& inside, const Ske
         const std::size_t anchor = nearestInside(inside, foot.position_mm);
         const float at_anchor = front.time.voxels[anchor];
         const double start_mm = at_anchor < LumenFront::kUnreached ? double(at_anchor) : foot.station_mm;
-        front.seed(nearest, float(start_mm + foot.distance_mm), front.label[anchor]);
+        if (labels == Labels::ignore)
+            front.seed(nearest, float(start_mm + foot.distance_mm));
+        else
+            front.seed(nearest, float(start_mm + foot.distance_mm), front.label[anchor]);
         front.run(labels);
         front.runOverCorners(labels);
         std::erase_if(left, [&](std::uint32_t v) { return front.time.voxels[v] < LumenFront::kUnreached; });
@@ -87,7 +94,7 @@ void seedExit(LumenFront& front, const InsideVolume& inside, const SkeletonPoint
 }
 
 /// Carries the distance over the bridges, in both directions, until no bridge shortens anything.
-void crossBridges(LumenFront& front, const InsideVolume& inside, const Skeleton& skeleton)
+void crossBridges(LumenFront& front, const InsideVolume& inside, const Skeleton& skeleton, Labels labels)
 {
     struct Bridge {
         std::size_t from, to;
@@ -107,10 +114,35 @@ void crossBridges(LumenFront& front, const InsideVolume& inside, const Skeleton&
                 if (at == LumenFront::kUnreached || at + bridge.length_mm >= front.time.voxels[b])
                     continue;
                 front.seed(b, at + bridge.length_mm);
-                front.run(Labels::fixed);
+                front.run(labels);
                 changed = true;
             }
     }
+}
+
+void march(LumenFront& front, const InsideVolume& inside, const Skeleton& skeleton, Labels labels)
+{
+    seedExit(front, inside, skeleton.pieces.front().points.front());
+    front.run(labels);
+    crossBridges(front, inside, skeleton, labels);
+    front.runOverCorners(labels);
+    reachSeparateParts(front, inside, skeleton, labels);
+}
+
+bool tookShortCut(const LumenFront& front, const InsideVolume& inside, const Skeleton& skeleton)
+{
+    double most = 0;
+    for (const SkeletonPiece& piece : skeleton.pieces)
+        for (const SkeletonPoint& point : piece.points) {
+            const Index3 v = inside.grid.indexAt(point.position_mm);
+            if (piece.bridge || inside.valueOr(v, kOutside) == kOutside)
+                continue;
+            const double here = front.time.at(v);
+            most = std::max(most, here);
+            if (here < most - kFall_mm)
+                return true;
+        }
+    return false;
 }
 
 }  // namespace
@@ -121,18 +153,19 @@ FieldVolume exitDistance(const InsideVolume& inside, const Skeleton& skeleton, P
         throw Error(ErrorCode::bad_input, "the skeleton is empty");
     progress.report(0, "exit distance");
     LumenFront front(inside);
-    labelByPieces(front, inside, skeleton);
-    reachSeparateParts(front, inside, skeleton, Labels::adopt);
+    march(front, inside, skeleton, Labels::ignore);
     progress.check();
-    progress.report(0.5, "exit distance");
-
-    front.restart();
-    seedExit(front, inside, skeleton.pieces.front().points.front());
-    front.run(Labels::fixed);
-    crossBridges(front, inside, skeleton);
-    front.runOverCorners(Labels::fixed);
-    reachSeparateParts(front, inside, skeleton, Labels::fixed);
-    progress.check();
+    if (tookShortCut(front, inside, skeleton)) {
+        progress.report(0.4, "exit distance");
+        front.restart();
+        labelByPieces(front, inside, skeleton);
+        reachSeparateParts(front, inside, skeleton, Labels::adopt);
+        progress.check();
+        progress.report(0.7, "exit distance");
+        front.restart();
+        march(front, inside, skeleton, Labels::fixed);
+        progress.check();
+    }
     progress.report(1, "exit distance");
     return std::move(front.time);
 }

@@ -1,12 +1,13 @@
 #include "lumen_front.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 
 #include "allocate.h"
 
@@ -52,8 +53,7 @@ float solveEikonal(std::array<Upwind, 3> up)
 
 }  // namespace
 
-LumenFront::LumenFront(const InsideVolume& inside)
-    : time(makeVolume<float>(inside.grid)), label(inside.voxels.size(), kNoLabel), inside_(inside)
+LumenFront::LumenFront(const InsideVolume& inside) : time(makeVolume<float>(inside.grid)), inside_(inside)
 {
     if (inside.voxels.size() >= std::numeric_limits<std::uint32_t>::max())
         throw Error(ErrorCode::no_memory, "the colon's box has more than 4294967295 voxels");
@@ -67,10 +67,18 @@ LumenFront::LumenFront(const InsideVolume& inside)
 
 void LumenFront::restart()
 {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, time.voxels.size(), 1 << 18), [&](const auto& range) {
-        for (std::size_t n = range.begin(); n < range.end(); ++n)
-            time.voxels[n] = inside_.voxels[n] ? kUnreached : kOutsideTime;
-    });
+    using Range = tbb::blocked_range<std::size_t>;
+    inside_count_ = tbb::parallel_reduce(
+        Range(0, time.voxels.size(), 1 << 18), std::size_t(0),
+        [&](const Range& range, std::size_t count) {
+            for (std::size_t n = range.begin(); n < range.end(); ++n) {
+                time.voxels[n] = inside_.voxels[n] ? kUnreached : kOutsideTime;
+                count += inside_.voxels[n] != kOutside;
+            }
+            return count;
+        },
+        std::plus<>());
+    reached_count_ = 0;
     buckets_.clear();
 }
 
@@ -86,7 +94,7 @@ void LumenFront::seed(std::size_t voxel, float time_mm)
 {
     if (!inside_.voxels[voxel] || time.voxels[voxel] <= time_mm)
         return;
-    time.voxels[voxel] = time_mm;
+    setTime(voxel, time_mm);
     push(std::uint32_t(voxel), time_mm, 0);
 }
 
@@ -94,6 +102,7 @@ void LumenFront::seed(std::size_t voxel, float time_mm, std::uint16_t a_label)
 {
     if (!inside_.voxels[voxel] || time.voxels[voxel] <= time_mm)
         return;
+    label.resize(time.voxels.size(), kNoLabel);
     label[voxel] = a_label;
     seed(voxel, time_mm);
 }
@@ -132,7 +141,7 @@ void LumenFront::relax(std::uint32_t voxel, int i, int j, int k, std::size_t buc
     const float t = solveEikonal(up);
     if (t >= time.voxels[voxel] - tolerance_mm_)
         return;
-    time.voxels[voxel] = t;
+    setTime(voxel, t);
     if (labels == Labels::adopt)
         label[voxel] = label[from];
     push(voxel, t, bucket);
@@ -183,8 +192,10 @@ void LumenFront::run(Labels labels)
 {
     if (labels == Labels::adopt)
         drain<Labels::adopt>();
-    else
+    else if (labels == Labels::fixed)
         drain<Labels::fixed>();
+    else
+        drain<Labels::ignore>();
 }
 
 namespace {
@@ -214,7 +225,7 @@ void LumenFront::runOverCorners(Labels labels)
         };
         std::vector<Step> steps;
         for (const std::uint32_t voxel : left) {
-            Step best{voxel, kUnreached, label[voxel]};
+            Step best{voxel, kUnreached, labels == Labels::ignore ? kNoLabel : label[voxel]};
             forNeighbours(grid(), voxel, [&](std::size_t neighbour, double distance_mm) {
                 const float t = time.voxels[neighbour];
                 if (t < 0 || t == kUnreached || t + float(distance_mm) >= best.time_mm)
@@ -228,8 +239,12 @@ void LumenFront::runOverCorners(Labels labels)
         }
         if (steps.empty())
             return;
-        for (const Step& step : steps)
-            seed(step.voxel, step.time_mm, step.label);
+        for (const Step& step : steps) {
+            if (labels == Labels::ignore)
+                seed(step.voxel, step.time_mm);
+            else
+                seed(step.voxel, step.time_mm, step.label);
+        }
         run(labels);
         std::erase_if(left, [&](std::uint32_t voxel) { return time.voxels[voxel] < kUnreached; });
     }
@@ -238,6 +253,8 @@ void LumenFront::runOverCorners(Labels labels)
 std::vector<std::uint32_t> LumenFront::unreached() const
 {
     std::vector<std::uint32_t> voxels;
+    if (reached_count_ == inside_count_)
+        return voxels;
     for (std::size_t n = 0; n < time.voxels.size(); ++n)
         if (time.voxels[n] == kUnreached)
             voxels.push_back(std::uint32_t(n));

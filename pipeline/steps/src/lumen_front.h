@@ -19,8 +19,9 @@ public:
     static constexpr std::uint16_t kNoLabel = 0;
 
     enum class Labels {
-        adopt,  ///< a voxel takes the label of the neighbour that its front comes from
-        fixed,  ///< labels stay, and a front passes only between labels that differ by at most kSpan
+        ignore,  ///< labels are neither asked nor given
+        adopt,   ///< a voxel takes the label of the neighbour that its front comes from
+        fixed,   ///< labels stay, and a front passes only between labels that differ by at most kSpan
     };
     static constexpr int kSpan = 2;
 
@@ -44,7 +45,7 @@ public:
 
     const Grid& grid() const { return inside_.grid; }
     FieldVolume time;                  ///< mm; kOutsideTime, kUnreached
-    std::vector<std::uint16_t> label;  ///< of every voxel, kNoLabel where none was given
+    std::vector<std::uint16_t> label;  ///< of every voxel, kNoLabel where none was given; empty before the first
 
 private:
     template <Labels labels>
@@ -52,6 +53,11 @@ private:
     template <Labels labels>
     void relax(std::uint32_t voxel, int i, int j, int k, std::size_t bucket);
     void push(std::uint32_t voxel, float time_mm, std::size_t not_before);
+    void setTime(std::size_t voxel, float time_mm)
+    {
+        reached_count_ += time.voxels[voxel] == kUnreached;
+        time.voxels[voxel] = time_mm;
+    }
     std::size_t bucketOf(float time_mm) const { return std::size_t(time_mm * per_bucket_); }
 
     const InsideVolume& inside_;
@@ -59,6 +65,7 @@ private:
     float tolerance_mm_;
     float per_bucket_;
     std::vector<std::vector<std::uint32_t>> buckets_;
+    std::size_t inside_count_ = 0, reached_count_ = 0;
     std::vector<bool> seen_;  ///< of componentOf(), all false between calls
 };
 

@@ -20,7 +20,7 @@ namespace {
 
 // Holes in thin walls between pools are smaller than this radius; passages of the colon itself are wider, and gas keeps
 // narrower ones open. Chosen on the prone scan of the reference data, where 1.5 mm leaves small bowel attached.
-constexpr double kLeak_mm = 2;
+constexpr double kLeak_mm = 3;
 constexpr int kMostCandidates = 10;  // the exact ordering takes 2^n steps
 constexpr int kMargin_voxels = 2;
 
