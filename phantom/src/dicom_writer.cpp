@@ -1,0 +1,254 @@
+#include "dicom_writer.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "uid.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::phantom {
+namespace {
+
+constexpr std::int16_t kIntercept = -1024;
+constexpr std::int16_t kPaddingStored = -2000;
+
+/// A decimal string of at most 16 characters.
+std::string decimal(double value)
+{
+    if (std::abs(value) < 1e-9)
+        return "0";
+    std::array<char, 40> text{};
+    for (int digits = 12; digits > 0; --digits)
+        if (std::snprintf(text.data(), text.size(), "%.*g", digits, value) <= 16)
+            break;
+    return text.data();
+}
+
+std::string decimals(std::initializer_list<double> values)
+{
+    std::string text;
+    for (const double value : values)
+        text += (text.empty() ? "" : "\\") + decimal(value);
+    return text;
+}
+
+/// Fills a data set; the first failure ends it.
+class Dataset {
+public:
+    void set(const DcmTagKey& tag, const std::string& value) { check(set_->putAndInsertString(tag, value.c_str())); }
+    void setShort(const DcmTagKey& tag, std::uint16_t value) { check(set_->putAndInsertUint16(tag, value)); }
+    void setSigned(const DcmTagKey& tag, std::int16_t value)
+    {
+        auto element = std::make_unique<DcmSignedShort>(DcmTag(tag, EVR_SS));
+        check(element->putSint16(value));
+        check(set_->insert(element.release(), OFTrue));
+    }
+    void setWords(const DcmTagKey& tag, const std::vector<std::int16_t>& values)
+    {
+        std::vector<Uint16> words(values.begin(), values.end());
+        check(set_->putAndInsertUint16Array(tag, words.data(), words.size()));
+    }
+    void setBytes(const DcmTagKey& tag, const std::vector<Uint8>& values)
+    {
+        check(set_->putAndInsertUint8Array(tag, values.data(), values.size()));
+    }
+    void save(const fs::path& path)
+    {
+        if (file_.saveFile(path.string().c_str(), EXS_LittleEndianExplicit).bad())
+            throw Error(ErrorCode::store, "cannot write a DICOM file", path.string(), "check space and permissions");
+    }
+
+private:
+    static void check(const OFCondition& condition)
+    {
+        if (condition.bad())
+            throw Error(ErrorCode::internal, std::string("cannot fill a DICOM object: ") + condition.text());
+    }
+    DcmFileFormat file_;
+    DcmDataset* set_ = file_.getDataset();
+};
+
+void setStudy(Dataset& d, const StudyHeader& study, const SeriesHeader& series)
+{
+    d.set(DCM_SpecificCharacterSet, "ISO_IR 100");
+    d.set(DCM_StudyDate, study.date);
+    d.set(DCM_SeriesDate, study.date);
+    d.set(DCM_ContentDate, study.date);
+    d.set(DCM_StudyTime, "090000");
+    d.set(DCM_SeriesTime, "090500");
+    d.set(DCM_ContentTime, "090500");
+    d.set(DCM_AccessionNumber, study.accession_number);
+    d.set(DCM_Manufacturer, "VICON");
+    d.set(DCM_ManufacturerModelName, "Phantom");
+    d.set(DCM_SoftwareVersions, "1");
+    d.set(DCM_ReferringPhysicianName, "");
+    d.set(DCM_StudyDescription, "CT COLONOGRAPHY");
+    d.set(DCM_SeriesDescription, series.description);
+    d.set(DCM_PatientName, study.patient_name);
+    d.set(DCM_PatientID, study.patient_id);
+    d.set(DCM_PatientBirthDate, study.birth_date);
+    d.set(DCM_PatientSex, study.sex);
+    d.set(DCM_BodyPartExamined, "COLON");
+    d.set(DCM_StudyInstanceUID, study.study_uid);
+    d.set(DCM_SeriesInstanceUID, series.uid);
+    d.set(DCM_StudyID, study.study_id);
+    d.set(DCM_SeriesNumber, std::to_string(series.number));
+}
+
+void setInstance(Dataset& d, const char* sop_class, const StudyHeader& study, const SeriesHeader& series, int number)
+{
+    d.set(DCM_SOPClassUID, sop_class);
+    d.set(DCM_SOPInstanceUID, uidFor(study.key, series.uid, std::uint64_t(number)));
+    d.set(DCM_InstanceNumber, std::to_string(number));
+}
+
+void setCt(Dataset& d, const StudyHeader& study, const SeriesHeader& series)
+{
+    d.set(DCM_Modality, "CT");
+    d.set(DCM_PatientPosition, series.patient_position);
+    d.set(DCM_FrameOfReferenceUID, uidFor(study.key, "frame " + series.patient_position));
+    d.set(DCM_PositionReferenceIndicator, "");
+    d.set(DCM_AcquisitionNumber, "1");
+    d.set(DCM_AcquisitionDate, study.date);
+    d.set(DCM_AcquisitionTime, "090500");
+    d.set(DCM_KVP, "120");
+    d.set(DCM_XRayTubeCurrent, "60");
+    d.set(DCM_GantryDetectorTilt, "0");
+    d.set(DCM_ProtocolName, "COLONOGRAPHY");
+    d.set(DCM_RescaleIntercept, std::to_string(kIntercept));
+    d.set(DCM_RescaleSlope, "1");
+}
+
+void setPicture(Dataset& d, int rows, int columns, int bits, bool is_signed)
+{
+    d.setShort(DCM_SamplesPerPixel, 1);
+    d.set(DCM_PhotometricInterpretation, "MONOCHROME2");
+    d.setShort(DCM_Rows, std::uint16_t(rows));
+    d.setShort(DCM_Columns, std::uint16_t(columns));
+    d.setShort(DCM_BitsAllocated, std::uint16_t(bits));
+    d.setShort(DCM_BitsStored, std::uint16_t(bits));
+    d.setShort(DCM_HighBit, std::uint16_t(bits - 1));
+    d.setShort(DCM_PixelRepresentation, is_signed ? 1 : 0);
+}
+
+void setPlane(Dataset& d, Point3 origin, Vector3 row, Vector3 column, double row_spacing_mm, double column_spacing_mm)
+{
+    d.set(DCM_ImagePositionPatient, decimals({origin.x, origin.y, origin.z}));
+    d.set(DCM_ImageOrientationPatient, decimals({row.x, row.y, row.z, column.x, column.y, column.z}));
+    d.set(DCM_PixelSpacing, decimals({row_spacing_mm, column_spacing_mm}));
+}
+
+/// Values as the scanner stores them: offset by the intercept, padding as a value that no tissue has.
+std::vector<std::int16_t> stored(const std::int16_t* hu, std::size_t count)
+{
+    std::vector<std::int16_t> values(count);
+    std::transform(hu, hu + count, values.begin(),
+                   [](std::int16_t v) { return v == kPaddingHu ? kPaddingStored : std::int16_t(v - kIntercept); });
+    return values;
+}
+
+fs::path fileFor(const fs::path& folder, const StudyHeader& study, const SeriesHeader& series, int number)
+{
+    return folder / (shuffledName(study.key, series.uid, std::uint64_t(number)) + ".dcm");
+}
+
+void writeSlice(const fs::path& folder, const StudyHeader& study, const SeriesHeader& series, const HuVolume& hu, int k)
+{
+    const Grid& grid = hu.grid;
+    // Scanners count along the table's way; instances are numbered from the head.
+    const int number = grid.axis[2].z > 0 ? grid.size[2] - k : k + 1;
+    Dataset d;
+    setStudy(d, study, series);
+    setInstance(d, UID_CTImageStorage, study, series, number);
+    setCt(d, study, series);
+    d.set(DCM_ImageType, "ORIGINAL\\PRIMARY\\AXIAL");
+    d.set(DCM_RescaleType, "HU");
+    d.set(DCM_ConvolutionKernel, "SOFT");
+    d.set(DCM_DataCollectionDiameter, "500");
+    d.set(DCM_ReconstructionDiameter, decimal(grid.spacing_mm[0] * grid.size[0]));
+    d.set(DCM_SliceThickness, decimal(grid.spacing_mm[2]));
+    const Point3 origin = grid.pointAt(Index3{0, 0, k});
+    setPlane(d, origin, grid.axis[0], grid.axis[1], grid.spacing_mm[1], grid.spacing_mm[0]);
+    d.set(DCM_SliceLocation, decimal(dot(origin - Point3{}, grid.axis[2])));
+    setPicture(d, grid.size[1], grid.size[0], 16, true);
+    d.setSigned(DCM_PixelPaddingValue, kPaddingStored);
+    d.set(DCM_WindowCenter, "0");
+    d.set(DCM_WindowWidth, "1500");
+    const std::size_t plane = std::size_t(grid.size[0]) * std::size_t(grid.size[1]);
+    d.setWords(DCM_PixelData, stored(&hu.voxels[grid.offset({0, 0, k})], plane));
+    d.save(fileFor(folder, study, series, number));
+}
+
+}  // namespace
+
+void writeCtSeries(const fs::path& folder, const StudyHeader& study, const SeriesHeader& series, const HuVolume& hu,
+                   Progress& progress)
+{
+    makePrivateFolder(folder);
+    writeSlice(folder, study, series, hu, 0);  // loads the dictionary before the threads share it
+    tbb::parallel_for(1, hu.grid.size[2], [&](int k) {
+        progress.check();
+        writeSlice(folder, study, series, hu, k);
+    });
+}
+
+void writeLocalizer(const fs::path& folder, const StudyHeader& study, const SeriesHeader& series, const HuVolume& hu)
+{
+    makePrivateFolder(folder);
+    const Grid& grid = hu.grid;
+    const auto [nx, ny, nz] = grid.size;
+    const bool head_last = grid.axis[2].z > 0;  // the head is at the picture's top
+    std::vector<std::int16_t> picture(std::size_t(nx) * std::size_t(nz));
+    for (int row = 0; row < nz; ++row)
+        for (int i = 0; i < nx; ++i) {
+            long sum = 0;
+            for (int j = 0; j < ny; ++j)
+                sum += hu.at({i, j, head_last ? nz - 1 - row : row});
+            picture[std::size_t(row) * std::size_t(nx) + std::size_t(i)] = std::int16_t(sum / ny - kIntercept);
+        }
+    Dataset d;
+    setStudy(d, study, series);
+    setInstance(d, UID_CTImageStorage, study, series, 1);
+    setCt(d, study, series);
+    d.set(DCM_ImageType, "ORIGINAL\\PRIMARY\\LOCALIZER");
+    d.set(DCM_SliceThickness, decimal(grid.spacing_mm[1] * ny));
+    setPlane(d, grid.pointAt(Index3{0, ny / 2, head_last ? nz - 1 : 0}), grid.axis[0],
+             head_last ? -grid.axis[2] : grid.axis[2], grid.spacing_mm[2], grid.spacing_mm[0]);
+    setPicture(d, nz, nx, 16, true);
+    d.setWords(DCM_PixelData, picture);
+    d.save(fileFor(folder, study, series, 1));
+}
+
+void writeDoseSheet(const fs::path& folder, const StudyHeader& study, const SeriesHeader& series)
+{
+    makePrivateFolder(folder);
+    constexpr int kSize = 512;
+    std::vector<Uint8> page(std::size_t(kSize) * kSize, 0);
+    for (int y = 40; y < kSize - 40; ++y)
+        for (int x = 40; x < kSize - 40; ++x)  // a ruled table
+            if (y % 36 < 2 || (x - 40) % 108 < 2)
+                page[std::size_t(y) * kSize + std::size_t(x)] = 200;
+    Dataset d;
+    setStudy(d, study, series);
+    setInstance(d, UID_SecondaryCaptureImageStorage, study, series, 1);
+    d.set(DCM_Modality, "CT");
+    d.set(DCM_ConversionType, "WSD");
+    d.set(DCM_ImageType, "DERIVED\\SECONDARY");
+    d.set(DCM_PatientOrientation, "");
+    setPicture(d, kSize, kSize, 8, false);
+    d.setBytes(DCM_PixelData, page);
+    d.save(fileFor(folder, study, series, 1));
+}
+
+}  // namespace vicon::phantom
