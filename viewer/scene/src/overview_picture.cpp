@@ -71,7 +71,8 @@ Picture overviewPicture(const PreparedScan& scan, const SnapshotRequest& request
 {
     const double text_px = textHeightFor(request.width, request.height);
     const auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm());
-    const double header_px = (double(lines.size()) * 1.35 + 0.6) * text_px;
+    const double caption_px = 0.8 * text_px;
+    const double header_px = (double(lines.size()) * 1.35 + 0.6) * caption_px;
     const PlaneView view = viewOfAll(scan.cells(), request.width, request.height, header_px, 2.2 * text_px);
 
     SurfaceScene scene(scan.cells());
@@ -87,7 +88,7 @@ Picture overviewPicture(const PreparedScan& scan, const SnapshotRequest& request
     addHere(overlay, view, place.pose, 0.8 * text_px);
     addLetters(overlay, area, view.right, view.down, text_px);
     addScaleBar(overlay, area, view.mm_per_pixel, text_px);
-    addLines(overlay, {0, 0, area.width * 0.47, header_px}, lines, text_px);
+    addLines(overlay, {0, 0, area.width * 0.47, header_px}, lines, caption_px);
     paint(picture, overlay);
     return picture;
 }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vtkSmartPointer.h>
-
 #include <memory>
 #include <vector>
 

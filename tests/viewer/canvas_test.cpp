@@ -1,0 +1,92 @@
+#include "vicon/viewer/scene/canvas.h"
+
+#include <gtest/gtest.h>
+
+namespace vicon::viewer {
+namespace {
+
+Picture written(const std::string& words, double most_width = 1e9)
+{
+    Picture picture(400, 60);
+    OverlayText text;
+    text.at = {5, 5};
+    text.text = words;
+    text.height_px = 24;
+    text.most_width_px = most_width;
+    Overlay overlay;
+    overlay.texts.push_back(text);
+    paint(picture, overlay);
+    return picture;
+}
+
+int inked(const Picture& picture, int from_x, int to_x)
+{
+    int count = 0;
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = from_x; x < to_x; ++x)
+            count += picture.at(x, y).red > 100;
+    return count;
+}
+
+TEST(Text, OfEveryScriptHasGlyphs)
+{
+    const std::string boxes = "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD";
+    const struct {
+        const char *script, *words;
+    } cases[] = {{"Latin", "Jérôme"},       {"Greek", "Διονυσιος"},           {"Cyrillic", "Люкceмбypг"},
+                 {"Arabic", "قباني لنزار"}, {"Hebrew", "שרון דבורה"},         {"Thai", "นายแพทย์"},
+                 {"Chinese", "王 小東"},    {"Japanese", "やまだ 太郎 ﾔﾏﾀﾞ"}, {"Korean", "김희중"}};
+    for (const auto& c : cases) {
+        EXPECT_GT(inked(written(c.words), 0, 400), 60) << c.script;
+        EXPECT_NE(written(c.words).rgb, written(boxes).rgb) << c.script;
+        // No letter falls back to the sign for what no font has: with that sign the line has another look.
+        EXPECT_NE(written(c.words).rgb, written(std::string(c.words) + boxes).rgb) << c.script;
+    }
+}
+
+TEST(Text, FromRightToLeftIsInOrder)
+{
+    // The same letters, their order forced from left to right by U+202D.
+    EXPECT_EQ(written("אבג").rgb, written("\u202Dגבא").rgb);
+    EXPECT_NE(written("אבג").rgb, written("\u202Dאבג").rgb);
+    // Arabic letters join: three of them side by side are wider when kept apart by U+200C.
+    OverlayText joined, apart;
+    joined.text = "ببب";
+    apart.text = "ب\u200Cب\u200Cب";
+    EXPECT_LT(textSize(joined).width_px, textSize(apart).width_px);
+}
+
+TEST(Text, IsMadeSmallerUntilItFits)
+{
+    const std::string name = "Wolfeschlegelsteinhausenbergerdorff, Hubert Blaine";
+    OverlayText text;
+    text.text = name;
+    text.height_px = 24;
+    EXPECT_GT(textSize(text).width_px, 300);
+    text.most_width_px = 300;
+    EXPECT_LE(textSize(text).width_px, 301);
+    EXPECT_EQ(inked(written(name, 300), 308, 400), 0);
+    EXPECT_GT(inked(written(name, 300), 250, 308), 0);
+}
+
+TEST(Paint, LinesAndDiscsLieWhereTheyShould)
+{
+    const Rgb red{255, 0, 0}, blue{0, 0, 255};
+    Picture picture(60, 40, {50, 50, 50});
+    Overlay overlay;
+    overlay.lines.push_back({{{10, 20.5}, {30, 20.5}}, red, 3, 0});
+    overlay.discs.push_back({{45, 20}, 8, blue, 2});
+    paint(picture, overlay);
+    EXPECT_EQ(picture.at(20, 20), red);
+    EXPECT_EQ(picture.at(20, 10), (Rgb{50, 50, 50}));
+    EXPECT_EQ(picture.at(52, 20), blue);
+    EXPECT_EQ(picture.at(45, 20), (Rgb{50, 50, 50}));  // the ring's middle stays free
+    Overlay outside;
+    outside.lines.push_back({{{-50, -50}, {-10, 200}}, red, 3, 4});
+    outside.discs.push_back({{500, 500}, 8, blue, 0});
+    outside.texts.push_back({{-30, 35}, "off the edge", 20, red, Across::left, Along::top, 1e9});
+    paint(picture, outside);  // and is cut off
+}
+
+}  // namespace
+}  // namespace vicon::viewer

@@ -1,0 +1,224 @@
+#include "vicon/viewer/scene/snapshot.h"
+
+#include <gmock/gmock.h>
+#include <png.h>
+
+#include "scan_fixture.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+#include "vicon/viewer/model/annotate.h"
+#include "vicon/viewer/scene/canvas.h"
+
+namespace vicon::viewer {
+namespace {
+
+Picture readPng(const std::filesystem::path& file)
+{
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    EXPECT_NE(png_image_begin_read_from_file(&image, file.c_str()), 0);
+    image.format = PNG_FORMAT_RGB;
+    Picture picture(int(image.width), int(image.height));
+    EXPECT_NE(png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr), 0);
+    return picture;
+}
+
+struct Found {
+    int count = 0;
+    double x = 0, y = 0;  // middle of their pixels
+};
+
+// Pixels of exactly this colour within an area.
+Found findColor(const Picture& picture, Rgb color, const Area& area)
+{
+    Found found;
+    for (int y = int(area.y); y < int(area.bottom()); ++y)
+        for (int x = int(area.x); x < int(area.right()); ++x)
+            if (picture.at(x, y) == color) {
+                ++found.count;
+                found.x += x;
+                found.y += y;
+            }
+    found.x /= std::max(1, found.count);
+    found.y /= std::max(1, found.count);
+    return found;
+}
+
+double differing(const Picture& a, const Picture& b, int tolerance)
+{
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < a.rgb.size(); ++n)
+        count += std::abs(int(a.rgb[n]) - int(b.rgb[n])) > tolerance;
+    return double(count) / double(a.rgb.size());
+}
+
+Marker markerAt(Point3 p, MarkerColor color, const std::string& id)
+{
+    Marker marker;
+    marker.id = id;
+    marker.position_mm = p;
+    marker.color = color;
+    return marker;
+}
+
+struct Snapshots : test::ScanFixture {
+    Picture shoot(const PreparedScan& of, SnapshotRequest request, SnapshotResult* result = nullptr) const
+    {
+        const auto file = folder / "picture.png";
+        const SnapshotResult r = renderSnapshot(of, request, file);
+        if (result)
+            *result = r;
+        return readPng(file);
+    }
+};
+
+struct SnapshotsOf : Snapshots, testing::WithParamInterface<int> {};
+
+// The polyp lies on the patient's left, towards the feet from the middle, however the voxels are stored.
+TEST_P(SnapshotsOf, ShowAMarkerOnThePatientsLeftOnTheRight)
+{
+    const test::TestColon stored(test::storages()[std::size_t(GetParam())]);
+    ASSERT_GT(stored.polyp_mm.x, 30);
+    const PreparedScan turned = scan(stored, "turned");
+    SnapshotRequest request;
+    request.markers = {markerAt(stored.polyp_mm, MarkerColor::red, "")};
+    request.look_at_mm = stored.polyp_mm;
+    request.width = 802;
+    request.height = 602;
+    const Rgb red = colorOf(MarkerColor::red);
+
+    request.view = SnapshotRequest::View::slices;
+    const Picture slices = shoot(turned, request);
+    const Found transverse = findColor(slices, red, {0, 0, 400, 300});
+    const Found coronal = findColor(slices, red, {402, 0, 400, 300});
+    const Found sagittal = findColor(slices, red, {0, 302, 400, 300});
+    for (const Found& found : {transverse, coronal, sagittal})
+        ASSERT_GT(found.count, 20);
+    EXPECT_GT(transverse.x, 200 + 40);
+    EXPECT_GT(coronal.x, 402 + 200 + 30);
+    EXPECT_GT(coronal.y, 150);     // below the middle: towards the feet
+    EXPECT_GT(transverse.y, 150);  // behind the middle
+    EXPECT_GT(sagittal.x, 200);
+    EXPECT_GT(sagittal.y, 302 + 150);
+
+    request.view = SnapshotRequest::View::overview;
+    const Found overview = findColor(shoot(turned, request), red, {0, 0, 802, 602});
+    ASSERT_GT(overview.count, 20);
+    EXPECT_GT(overview.x, 401 + 60);
+}
+
+INSTANTIATE_TEST_SUITE_P(Storages, SnapshotsOf, testing::Range(0, int(test::storages().size())), [](const auto& info) {
+    std::string name = test::storages()[std::size_t(info.param)].name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+});
+
+TEST_F(Snapshots, ShowTheSameBodyTheSameWayHoweverItIsStored)
+{
+    SnapshotRequest request;
+    request.look_at_mm = colon.polyp_mm;
+    request.width = 602;
+    request.height = 602;
+    const test::TestColon other(test::storages()[3]);
+    const PreparedScan straight = scan(), turned = scan(other, "turned");
+    for (const auto view :
+         {SnapshotRequest::View::slices, SnapshotRequest::View::overview, SnapshotRequest::View::endo}) {
+        request.view = view;
+        EXPECT_LT(differing(shoot(straight, request), shoot(turned, request), 50), 0.02) << int(view);
+    }
+}
+
+TEST_F(Snapshots, OfAMarkerLookAtItFromWithinTheLumen)
+{
+    SnapshotRequest request;
+    request.markers = {markerAt(colon.polyp_mm, MarkerColor::green, "")};
+    request.look_at_mm = colon.polyp_mm;
+    request.width = 500;
+    request.height = 400;
+    SnapshotResult result;
+    const Picture picture = shoot(scan(), request, &result);
+    EXPECT_TRUE(result.sees_target);
+    EXPECT_GE(result.clearance_mm, 2);
+    EXPECT_NEAR(result.station_mm, colon.polyp_station_mm, 6);
+    const Found ring = findColor(picture, colorOf(MarkerColor::green), {0, 0, 500, 400});
+    ASSERT_GT(ring.count, 50);
+    EXPECT_NEAR(ring.x, 250, 2);
+    EXPECT_NEAR(ring.y, 200, 2);
+    // The ring leaves the polyp free: its middle is bright wall.
+    const Rgb middle = picture.at(250, 200);
+    EXPECT_GT(middle.red, 120);
+    EXPECT_GT(middle.red, middle.blue);
+}
+
+TEST_F(Snapshots, AreTheSameBytesEachTime)
+{
+    const PreparedScan of = scan();
+    for (const auto view :
+         {SnapshotRequest::View::endo, SnapshotRequest::View::slices, SnapshotRequest::View::overview}) {
+        SnapshotRequest request;
+        request.view = view;
+        request.station_mm = 120;
+        request.width = request.height = 300;
+        renderSnapshot(of, request, folder / "a.png");
+        renderSnapshot(of, request, folder / "b.png");
+        EXPECT_EQ(sha256OfFile(folder / "a.png"), sha256OfFile(folder / "b.png"));
+    }
+}
+
+TEST_F(Snapshots, CarryNameAndWarningOfLossyPixels)
+{
+    const PreparedScan of = scan();
+    SnapshotRequest request;
+    request.view = SnapshotRequest::View::slices;
+    request.width = request.height = 600;
+    request.station_mm = 100;
+    const Area caption{302, 302, 290, 200};
+    const int plain = findColor(shoot(of, request), kTextColor, caption).count;
+    request.caption.patient_name = "Müller^Änne";
+    const int named = findColor(shoot(of, request), kTextColor, caption).count;
+    EXPECT_GT(named, plain + 30);
+    EXPECT_EQ(findColor(shoot(of, request), kWarningColor, caption).count, 0);
+    request.caption.lossy = true;
+    EXPECT_GT(findColor(shoot(of, request), kWarningColor, caption).count, 30);
+}
+
+TEST_F(Snapshots, RefuseWhatCannotBeDrawn)
+{
+    const PreparedScan of = scan();
+    const auto refused = [&](auto change) {
+        SnapshotRequest request;
+        change(request);
+        try {
+            renderSnapshot(of, request, folder / "none.png");
+        } catch (const Error& e) {
+            return e.code() == ErrorCode::wrong_use && !std::filesystem::exists(folder / "none.png");
+        }
+        return false;
+    };
+    EXPECT_TRUE(refused([](SnapshotRequest& r) { r.width = 20; }));
+    EXPECT_TRUE(refused([](SnapshotRequest& r) { r.height = 100000; }));
+    EXPECT_TRUE(refused([](SnapshotRequest& r) { r.view_angle_deg = 180; }));
+    EXPECT_TRUE(refused([](SnapshotRequest& r) { r.window = "none such"; }));
+    EXPECT_THROW(snapshotViewFrom("side"), Error);
+}
+
+TEST_F(Snapshots, AMissingFileIsNamed)
+{
+    colon.write(folder / "scan");
+    for (const char* name : {"volume.mha", "inside.mha", "skeleton.vtp", "wall_distance.mha", "cells.vtp"}) {
+        const auto file = folder / "scan" / name, aside = folder / "aside";
+        std::filesystem::rename(file, aside);
+        try {
+            PreparedScan::open(folder / "scan");
+            ADD_FAILURE() << name;
+        } catch (const Error& e) {
+            EXPECT_EQ(e.code(), ErrorCode::not_ready);
+            EXPECT_THAT(e.subject(), testing::HasSubstr(name));
+        }
+        std::filesystem::rename(aside, file);
+    }
+    EXPECT_THROW(PreparedScan::open(folder / "nowhere"), Error);
+}
+
+}  // namespace
+}  // namespace vicon::viewer
