@@ -13,7 +13,7 @@
 namespace vicon::viewer {
 namespace {
 
-struct Flights : test::ScanFixture {};
+struct Flights : test::ColonFixture {};
 
 TEST_F(Flights, ShowNothingButWallAndEachTriangleWhereTheModelPutsIt)
 {

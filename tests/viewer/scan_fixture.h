@@ -9,17 +9,23 @@
 
 namespace vicon::viewer::test {
 
-/// A display, and the test colon as a scan's folder.
+/// A display, and test colons as scans' folders.
 struct ScanFixture : testing::Test {
     Display display;
     support::TemporaryFolder folder;
-    TestColon colon;
 
     PreparedScan scan(const TestColon& from, const std::string& name = "scan") const
     {
         from.write(folder / name);
         return PreparedScan::open(folder / name);
     }
+};
+
+/// ... stored head first, supine.
+struct ColonFixture : ScanFixture {
+    TestColon colon;
+
+    using ScanFixture::scan;
     PreparedScan scan() const { return scan(colon); }
 };
 

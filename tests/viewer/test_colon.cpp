@@ -14,6 +14,9 @@ namespace {
 
 constexpr double kSegment_mm = 30;
 constexpr double kPolypRadius_mm = 4;
+constexpr double kWallHu = 40, kAirHu = -1000, kFatHu = -90;
+constexpr double kBlur_mm = 1.5, kFat_mm = 8;
+constexpr double kReach_mm = 24;      // beyond it from the curve there is only fat
 constexpr double kPolypShare = 0.27;  // of the curve's length: on the way up, on the patient's left
 
 // LPS: left +x, back +y, head +z.
@@ -75,6 +78,33 @@ Body bodyOf()
     return body;
 }
 
+// Nearest points of the curve, where they are within kReach_mm: piece by piece, each for the voxels around it.
+std::vector<SkeletonFoot> feetOf(const Grid& grid, const Skeleton& skeleton)
+{
+    SkeletonFoot none;
+    none.distance_mm = 1e300;
+    std::vector<SkeletonFoot> feet(grid.voxelCount(), none);
+    const auto& points = skeleton.pieces.front().points;
+    const int reach = int(kReach_mm / grid.spacing_mm[0]) + 2;
+    for (std::size_t s = 0; s + 1 < points.size(); ++s) {
+        const Point3 a = points[s].position_mm;
+        const Vector3 ab = points[s + 1].position_mm - a;
+        const Index3 middle = grid.indexAt(a);
+        for (int k = middle.k - reach; k <= middle.k + reach; ++k)
+            for (int j = middle.j - reach; j <= middle.j + reach; ++j)
+                for (int i = middle.i - reach; i <= middle.i + reach; ++i) {
+                    if (!grid.contains({i, j, k}))
+                        continue;
+                    const Point3 p = grid.pointAt(Index3{i, j, k});
+                    const double t = std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0);
+                    SkeletonFoot& best = feet[grid.offset({i, j, k})];
+                    if (const double d = distance(p, a + ab * t); d < best.distance_mm)
+                        best = {std::lerp(points[s].station_mm, points[s + 1].station_mm, t), d, a + ab * t, false};
+                }
+    }
+    return feet;
+}
+
 Grid gridFor(const Storage& storage, double voxel_mm)
 {
     const Vector3 half{80, 52, 96};  // of the box that the body needs
@@ -115,7 +145,10 @@ std::vector<Storage> storages()
 }
 
 TestColon::TestColon(const Storage& storage, double voxel_mm)
-    : volume(gridFor(storage, voxel_mm), 40), inside(volume.grid), exit_distance(volume.grid, -1), segments(volume.grid)
+    : volume(gridFor(storage, voxel_mm), std::int16_t(kFatHu)),
+      inside(volume.grid),
+      exit_distance(volume.grid, -1),
+      segments(volume.grid)
 {
     const Body body = bodyOf();
     skeleton = body.skeleton;
@@ -123,20 +156,20 @@ TestColon::TestColon(const Storage& storage, double voxel_mm)
     polyp_radius_mm = kPolypRadius_mm;
     polyp_station_mm = kPolypShare * skeleton.length_mm();
     const Grid& grid = volume.grid;
-    constexpr double kWallHu = 40, kAirHu = -1000, kBlur_mm = 1.5, kFat_mm = 8, kFatHu = -90;
-    std::vector<float> values(volume.voxels.size());
+    std::vector<float> values(volume.voxels.size(), float(kReach_mm));
+    const std::vector<SkeletonFoot> feet = feetOf(grid, skeleton);
     for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
-        const Point3 p = grid.pointAt(grid.indexOf(n));
-        const SkeletonFoot foot = skeleton.nearest(p);
-        const double f = body.field(p, foot);
+        if (feet[n].distance_mm >= kReach_mm)
+            continue;
+        const double f = body.field(grid.pointAt(grid.indexOf(n)), feet[n]);
         values[n] = float(f);
         const double air = std::clamp(0.5 - f / (2 * kBlur_mm), 0.0, 1.0);
         const double tissue = f > kFat_mm ? kFatHu : kWallHu;
         volume.voxels[n] = std::int16_t(std::lround(air * kAirHu + (1 - air) * tissue));
-        inside.voxels[n] = f < 0 ? kGas : kOutside;
         if (f < 0) {
-            segments.voxels[n] = std::uint16_t(1 + int(foot.station_mm / kSegment_mm));
-            exit_distance.voxels[n] = float(foot.station_mm);
+            inside.voxels[n] = kGas;
+            segments.voxels[n] = std::uint16_t(1 + int(feet[n].station_mm / kSegment_mm));
+            exit_distance.voxels[n] = float(feet[n].station_mm);
         }
     }
     wall_distance = wallDistanceOf(inside);

@@ -40,6 +40,12 @@ Point3 pointOf(const artefact::CellSurface& s, std::size_t corner)
     return s.point(s.triangles[corner]);
 }
 
+Vector3 normalOf(const artefact::CellSurface& s, std::size_t corner)
+{
+    const std::size_t n = 3 * std::size_t(s.triangles[corner]);
+    return {s.normals[n], s.normals[n + 1], s.normals[n + 2]};
+}
+
 }  // namespace
 
 artefact::CellSurface surfaceOf(const Grid& grid, const std::vector<float>& values,
@@ -58,6 +64,7 @@ artefact::CellSurface surfaceOf(const Grid& grid, const std::vector<float>& valu
         for (const double v : {normal.x, normal.y, normal.z})
             raw.normals.push_back(float(v));
     }
+    double facing = 0;  // the filter turns all triangles the same way; which way depends on the grid's handedness
     vtkNew<vtkIdList> ids;
     for (vtkIdType n = 0; n < data->GetNumberOfPolys(); ++n) {
         data->GetCellPoints(n, ids);
@@ -66,10 +73,11 @@ artefact::CellSurface surfaceOf(const Grid& grid, const std::vector<float>& valu
         const std::size_t first = raw.triangles.size() - 3;
         const Point3 a = pointOf(raw, first), b = pointOf(raw, first + 1), c = pointOf(raw, first + 2);
         const Point3 middle = a + ((b - a) + (c - a)) / 3;
-        if (dot(cross(b - a, c - a), downhill(field, middle)) < 0)
-            std::swap(raw.triangles[first + 1], raw.triangles[first + 2]);
+        facing += dot(cross(b - a, c - a), normalOf(raw, first));
         raw.segment.push_back(std::uint16_t(segment(middle)));
     }
+    for (std::size_t n = 0; facing < 0 && n < raw.triangles.size(); n += 3)
+        std::swap(raw.triangles[n + 1], raw.triangles[n + 2]);
     std::vector<std::size_t> order(raw.segment.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return raw.segment[a] < raw.segment[b]; });

@@ -6,7 +6,7 @@
 namespace vicon::viewer {
 namespace {
 
-struct LongFlights : test::ScanFixture {};
+struct LongFlights : test::ColonFixture {};
 struct LongSubmarines : test::Submarines {};
 
 TEST_F(LongFlights, AThousandCulledPicturesAreIdenticalToPicturesOfEverything)
