@@ -5,6 +5,7 @@
 
 #include "flood.h"
 #include "portals.h"
+#include "thesis_subdivision.h"
 #include "vicon/core/error.h"
 
 namespace vicon::steps {
@@ -53,7 +54,9 @@ Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const
     const int specified = options.segments > 0 ? options.segments : std::max(1, int(std::lround(total_mm / length_mm)));
 
     const std::vector<Path> paths = pathsOf(inside, skeleton, voxels);
-    Labelling labelling = floodPieces(inside, skeleton, paths, length_mm);
+    const Labelling labelling = options.method == "thesis"
+                                    ? thesisPieces(inside, skeleton, paths, options, specified, progress)
+                                    : floodPieces(inside, skeleton, paths, length_mm);
     progress.check();
     progress.report(0.6, "subdividing");
 

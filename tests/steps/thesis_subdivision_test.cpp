@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "subdivision_checks.h"
+#include "vicon/steps/cells.h"
+
+namespace vicon::steps {
+namespace {
+
+SubdivideOptions thesis(int segments)
+{
+    return {.method = "thesis", .segments = segments};
+}
+
+TEST(ThesisSubdivision, MeetsTheMandatoryCriteriaWithEveryOption)
+{
+    struct Case {
+        const char *size, *effectiveness, *approach, *planes;
+    };
+    for (const Case& c :
+         {Case{"surface", "gate_ratio", "local", "axis"}, Case{"inside", "tangent", "local", "axis"},
+          Case{"triangles", "portal_size", "local", "axis"}, Case{"surface", "gate_ratio", "global", "axis"},
+          Case{"inside", "gate_ratio", "local", "oblique"}, Case{"triangles", "gate_ratio", "global", "oblique"}})
+        for (const Lumen& lumen : {bentTube(), bridgedTubes()}) {
+            SubdivideOptions options = thesis(6);
+            options.size = c.size;
+            options.effectiveness = c.effectiveness;
+            options.approach = c.approach;
+            options.planes = c.planes;
+            const Subdivided divided = divide(lumen, options);
+            expectPartition(lumen, divided);
+            expectGatesEnclose(divided);
+            EXPECT_NEAR(double(divided.description.segments.size()), 6, 3) << c.size << c.approach << c.planes;
+        }
+}
+
+TEST(ThesisSubdivision, PutsSquareGatesAcrossAStraightTubeAtEqualSizes)
+{
+    const Grid grid{.size = {28, 28, 150}};
+    const Skeleton skeleton{{pieceThrough({{14, 14, 5}, {14, 14, 145}}, 10)}};
+    const Lumen lumen{
+        maskOf(grid, [](Point3 p) { return std::hypot(p.x - 14, p.y - 14) < 10 && p.z > 4.5 && p.z < 144.5; }),
+        skeleton};
+    for (const char* approach : {"local", "global"}) {
+        SubdivideOptions options = thesis(5);
+        options.approach = approach;
+        const Subdivided divided = divide(lumen, options);
+        ASSERT_EQ(divided.description.portals.size() + 1, divided.description.segments.size());
+        for (const auto& portal : divided.description.portals) {
+            EXPECT_NEAR(portal.normal.z, 1, 1e-9);
+            EXPECT_NEAR(distance(portal.gate_mm[0], portal.gate_mm[1]), distance(portal.gate_mm[1], portal.gate_mm[2]),
+                        1.5);
+            EXPECT_NEAR(distance(portal.box_mm[0], portal.box_mm[4]), 2 * std::sqrt(3.0), 1e-6);
+        }
+        const double average = double(std::count(lumen.inside.voxels.begin(), lumen.inside.voxels.end(), kGas)) / 5;
+        for (std::size_t n = 0; n + 1 < divided.description.segments.size(); ++n)
+            EXPECT_NEAR(double(divided.description.segments[n].inside_voxels), average, 0.35 * average) << approach;
+    }
+}
+
+TEST(ThesisSubdivision, ObliquePlanesLieAcrossAnObliqueTube)
+{
+    const Grid grid{.size = {100, 80, 60}};
+    const Skeleton skeleton{{pieceThrough({{12, 12, 12}, {88, 66, 46}}, 8)}};
+    const Lumen lumen{tubeAlong(grid, skeleton, 8), skeleton};
+    const Vector3 along = normalized(Vector3{76, 54, 34});
+    SubdivideOptions options = thesis(4);
+    options.planes = "oblique";
+    const Subdivided divided = divide(lumen, options);
+    ASSERT_GE(divided.description.portals.size(), 2U);
+    for (const auto& portal : divided.description.portals)
+        EXPECT_GT(dot(portal.normal, along), std::cos(5 * M_PI / 180));
+}
+
+TEST(ThesisSubdivision, GoesOnFromTheEarlierCandidateItWentBackTo)
+{
+    // A tube too oblique for square gates: only corrections to the best earlier candidate cut it.
+    const Grid grid{.size = {100, 30, 100}};
+    const Skeleton skeleton{{pieceThrough({{12, 14, 12}, {88, 14, 85}}, 8)}};
+    SubdivideOptions options = thesis(5);
+    options.gate_ratio_low = 0.99;
+    options.gate_ratio_high = 1.01;
+    const Subdivided divided = divide({tubeAlong(grid, skeleton, 8), skeleton}, options);
+    EXPECT_GE(divided.description.segments.size(), 3U);
+    double station = -1;
+    for (const auto& segment : divided.description.segments) {
+        EXPECT_GT(segment.to_station_mm, segment.from_station_mm);
+        EXPECT_GE(segment.from_station_mm, station);
+        station = segment.to_station_mm - 1e-9;
+    }
+}
+
+TEST(ThesisSubdivision, BalancesTrianglesBetterWhenItCountsThem)
+{
+    // A tube that widens fourfold: equal numbers of inside voxels are far from equal numbers of triangles.
+    const Grid grid{.size = {50, 50, 190}};
+    const auto radius = [](double z) { return 5 + 15 * z / 180; };
+    const Skeleton skeleton{{pieceThrough({{25, 25, 6}, {25, 25, 180}}, 8)}};
+    const Lumen lumen{
+        maskOf(grid, [&](Point3 p) { return p.z > 4 && p.z < 184 && std::hypot(p.x - 25, p.y - 25) < radius(p.z); }),
+        skeleton};
+    HuVolume hu(grid);
+    std::transform(lumen.inside.voxels.begin(), lumen.inside.voxels.end(), hu.voxels.begin(),
+                   [](std::uint8_t v) { return std::int16_t(v ? -1000 : 40); });
+    const auto spread = [&](const char* size) {
+        SubdivideOptions options = thesis(6);
+        options.size = size;
+        options.approach = "global";
+        Subdivided divided = divide(lumen, options);
+        NoProgress quiet;
+        countTriangles(extractCells(hu, lumen.inside, divided.segments, {}, quiet), divided.description);
+        const auto& s = divided.description.statistics;
+        return s["triangles_standard_deviation"].get<double>() / s["triangles_average"].get<double>();
+    };
+    EXPECT_LT(spread("triangles"), 0.7 * spread("inside"));
+}
+
+TEST(ThesisSubdivision, DoesNotDependOnTheNumberOfThreads)
+{
+    SubdivideOptions options = thesis(6);
+    options.approach = "global";
+    const Lumen lumen = bentTube();
+    const Subdivided both = divide(lumen, options);
+    tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(divide(lumen, options).segments.voxels, both.segments.voxels);
+}
+
+}  // namespace
+}  // namespace vicon::steps
