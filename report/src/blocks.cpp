@@ -19,11 +19,13 @@ constexpr double kMostPointsPerPixel = 1.5;
 
 }  // namespace
 
-StatementTable::StatementTable(Typesetter& type, const std::vector<Statement>& statements, double width)
+StatementTable::StatementTable(Typesetter& type, const std::vector<Statement>& statements, double width,
+                               double label_width)
+    : label_width_(label_width)
 {
     for (const Statement& statement : statements)
-        blocks_.push_back({type.line(statement.label, look::kBody),
-                           type.lines(statement.text, look::kBody, width - look::kLabelWidth)});
+        blocks_.push_back(
+            {type.line(statement.label, look::kBody), type.lines(statement.text, look::kBody, width - label_width)});
 }
 
 double StatementTable::height() const
@@ -41,7 +43,7 @@ void StatementTable::draw(PageFlow& flow, double x) const
         flow.put(x, flow.y(), block.label, look::kMuted);
         for (const TextLine& line : block.lines) {
             flow.need(leadingOf(look::kBody));
-            flow.put(x + look::kLabelWidth, flow.y(), line, look::kInk);
+            flow.put(x + label_width_, flow.y(), line, look::kInk);
             flow.skip(leadingOf(look::kBody));
         }
         flow.skip(kRowGap);

@@ -19,12 +19,14 @@ struct StatementBlock {
 /// Statements as a table of two columns, the label on the left.
 class StatementTable {
 public:
-    StatementTable(Typesetter& type, const std::vector<Statement>& statements, double width);
+    StatementTable(Typesetter& type, const std::vector<Statement>& statements, double width,
+                   double label_width = look::kLabelWidth);
     double height() const;
     /// Draws it at the flow's place and moves on, over pages where needed.
     void draw(PageFlow& flow, double x) const;
 
 private:
+    double label_width_;
     std::vector<StatementBlock> blocks_;
 };
 

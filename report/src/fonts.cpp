@@ -41,6 +41,25 @@ bool isPlainScript(char32_t c)
     return U_SUCCESS(status) && std::find(kPlainScripts.begin(), kPlainScripts.end(), script) != kPlainScripts.end();
 }
 
+void addComponents(FT_Face face, unsigned glyph, std::vector<unsigned>& out)
+{
+    if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_RECURSE) != 0 ||
+        face->glyph->format != FT_GLYPH_FORMAT_COMPOSITE)
+        return;
+    std::vector<unsigned> parts;
+    for (FT_UInt n = 0; n < face->glyph->num_subglyphs; ++n) {
+        FT_Int part = 0, argument1 = 0, argument2 = 0;
+        FT_UInt flags = 0;
+        FT_Matrix transform;
+        if (FT_Get_SubGlyph_Info(face->glyph, n, &part, &flags, &argument1, &argument2, &transform) == 0)
+            parts.push_back(unsigned(part));
+    }
+    for (const unsigned part : parts) {  // loading them replaces the glyph that was asked
+        out.push_back(part);
+        addComponents(face, part, out);
+    }
+}
+
 /// The known files in the folder and below, by name.
 std::map<std::string, fs::path> findFiles(const fs::path& folder)
 {
@@ -122,6 +141,14 @@ double FontSet::advance_em(int font, char32_t c) const
     if (FT_Get_Advance(face, FT_Get_Char_Index(face, c), FT_LOAD_NO_SCALE, &advance) != 0)
         return 0;
     return double(advance) / face->units_per_EM;
+}
+
+std::vector<unsigned> FontSet::components(int font, char32_t c) const
+{
+    FT_Face face = faces_[std::size_t(font)].face;
+    std::vector<unsigned> out;
+    addComponents(face, FT_Get_Char_Index(face, c), out);
+    return out;
 }
 
 const fs::path& FontSet::file(int font) const

@@ -31,6 +31,9 @@ public:
     bool has(int font, char32_t c) const;
     /// Width of the glyph for a font size of 1.
     double advance_em(int font, char32_t c) const;
+    /// The glyphs that the character's glyph is composed of, with what those are composed of; empty: it is drawn by
+    /// itself.
+    std::vector<unsigned> components(int font, char32_t c) const;
     const std::filesystem::path& file(int font) const;
 
 private:

@@ -8,7 +8,8 @@
 namespace vicon::report {
 namespace {
 
-constexpr double kPicturesHeight = 178;  ///< points; two entries fit a page
+// Of a marker's pictures, in points: as high as lets two entries fill a page, within these.
+constexpr double kSmallestPictures = 165, kTallestPictures = 200;
 constexpr double kPictureGap = 12;
 constexpr double kDiscRadius = 4;
 
@@ -70,10 +71,8 @@ void Sections::drawMarkers()
     flow_.skip(look::kGap / 2);
     if (content_.markers.size() > 1)
         drawMarkerTable();
-    for (std::size_t n = 0; n < content_.markers.size(); ++n) {
-        drawMarker(content_.markers[n]);
-        // A long entry ends pages after it began; its first page is in the bookmark and, set by drawMarker, in page().
-    }
+    for (const MarkerEntry& entry : content_.markers)
+        drawMarker(entry);
 }
 
 void Sections::drawMarkerTable()
@@ -116,9 +115,9 @@ void Sections::drawMarkerHead(const MarkerEntry& entry)
     const TextLine title =
         flow_.type.line("Marker " + entry.marker.id + ", " + nameOf(entry.marker.color), look::kEntry);
     flow_.put(x + 20, flow_.y() - 3, title, look::kInk);
-    if (!entry.part_name.empty())
-        flow_.putRight(x + flow_.width() - 6, flow_.y() - 4, flow_.type.line(entry.part_name, look::kBody),
-                       look::kMuted);
+    const double scan_width = flow_.width() - 20 - title.width - 20;
+    flow_.putRight(x + flow_.width() - 6, flow_.y() - 4, cutTo(flow_.type, entry.scan_label, look::kBody, scan_width),
+                   look::kMuted);
     flow_.skip(height + 4);
 }
 
@@ -135,8 +134,11 @@ void Sections::drawMarker(const MarkerEntry& entry)
     const std::vector<TextLine> note =
         marker.note.empty() ? std::vector<TextLine>{} : flow_.type.lines(marker.note, look::kBody, note_width);
     const double leading = leadingOf(look::kBody), head = leadingOf(look::kEntry) + 10;
-    const double pictures = kPicturesHeight + 2 * leadingOf(look::kSmall);
-    const double whole = head + table.height() + double(note.size()) * leading + pictures;
+    const double text = head + table.height() + double(note.size()) * leading + 5;
+    const double caption = leadingOf(look::kSmall) + 4;
+    const double pictures_height =
+        std::clamp((flow_.wholePage() - look::kGap) / 2 - text - caption, kSmallestPictures, kTallestPictures);
+    const double whole = text + pictures_height + caption;
     flow_.need(whole <= flow_.wholePage() ? whole : head + table.height() + 3 * leading);
 
     const std::size_t index = std::size_t(&entry - content_.markers.data());
@@ -154,21 +156,19 @@ void Sections::drawMarker(const MarkerEntry& entry)
         flow_.paragraph(flow_.left() + look::kLabelWidth, note_width, note, look::kBody, look::kInk);
     }
     flow_.skip(5);
-    drawMarkerPictures(endoscopic, slices);
+    drawMarkerPictures(endoscopic, slices, pictures_height);
 }
 
-void Sections::drawMarkerPictures(const FramedPicture& endoscopic, const FramedPicture& slices)
+void Sections::drawMarkerPictures(const FramedPicture& endoscopic, const FramedPicture& slices, double height)
 {
-    flow_.need(kPicturesHeight + 2 * leadingOf(look::kSmall));
-    const double left_width = endoscopic.picture.number >= 0
-                                  ? endoscopic.fitted(flow_.width() * 0.45, kPicturesHeight).width
-                                  : kPicturesHeight;
+    flow_.need(height + leadingOf(look::kSmall) + 4);
+    const double left_width =
+        endoscopic.picture.number >= 0 ? endoscopic.fitted(flow_.width() * 0.45, height).width : height;
     const double x = flow_.left() + left_width + kPictureGap;
     const double right_width = flow_.left() + flow_.width() - x;
-    const double slices_width =
-        slices.picture.number >= 0 ? right_width : std::min(right_width, kPicturesHeight * 4 / 3);
-    const double used = std::max(endoscopic.draw(flow_, flow_.left(), flow_.y(), left_width, kPicturesHeight),
-                                 slices.draw(flow_, x, flow_.y(), slices_width, kPicturesHeight));
+    const double slices_width = slices.picture.number >= 0 ? right_width : std::min(right_width, height * 4 / 3);
+    const double used = std::max(endoscopic.draw(flow_, flow_.left(), flow_.y(), left_width, height),
+                                 slices.draw(flow_, x, flow_.y(), slices_width, height));
     flow_.skip(used + look::kGap);
 }
 

@@ -19,7 +19,7 @@ inline constexpr TextStyle kTitle{18, true}, kSection{12.5, true}, kEntry{10.5, 
 inline constexpr double kLeading = 1.36;  ///< of the font size, from baseline to baseline
 inline constexpr double kAscent = 1.05;   ///< of the font size, from a line's top to its baseline
 inline constexpr double kMargin = 46;
-inline constexpr double kLabelWidth = 82;
+inline constexpr double kLabelWidth = 82, kNarrowLabelWidth = 64;
 inline constexpr double kGap = 14;  ///< between blocks
 inline constexpr double kThinLine = 0.6;
 }  // namespace look

@@ -131,7 +131,9 @@ void PdfDocument::text(int page, double x, double y, const TextLine& line, Color
     HPDF_Page_SetRGBFill(target, color.red, color.green, color.blue);
     for (const TextRun& run : line.runs) {
         State::UsedFont& used = state_->load(run.font);
-        used.codes.insert(run.codes.begin(), run.codes.end());
+        for (const char16_t code : run.codes)
+            if (used.codes.insert(code).second)
+                embedGlyphs(used.font, state_->fonts.components(run.font, code));
         HPDF_Page_SetFontAndSize(target, used.font, float(line.size));
         HPDF_Page_BeginText(target);
         HPDF_Page_TextOut(target, float(x + run.x), float(y), toUtf8(run.codes).c_str());
@@ -190,7 +192,7 @@ void PdfDocument::bookmark(int page, double y, const std::string& title)
     HPDF_Outline entry = HPDF_CreateOutline(state_->document, nullptr, title.c_str(), nullptr);
     HPDF_Destination target = HPDF_Page_CreateDestination(state_->page(page));
     state_->check();
-    HPDF_Destination_SetXYZ(target, 0, float(y), 0);
+    HPDF_Destination_SetFitH(target, float(y));
     HPDF_Outline_SetDestination(entry, target);
     state_->check();
 }

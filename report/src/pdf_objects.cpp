@@ -1,5 +1,7 @@
 #include "pdf_objects.h"
 
+#include <hpdf_font.h>
+#include <hpdf_fontdef.h>
 #include <hpdf_objects.h>
 #include <hpdf_streams.h>
 #include <unicode/normalizer2.h>
@@ -47,28 +49,25 @@ std::vector<std::uint8_t> predicted(const Picture& picture)
     return out;
 }
 
-std::string hex(const std::u16string& text)
+std::string hex(char16_t code)
 {
-    std::string out;
-    for (const char16_t unit : text) {
-        std::array<char, 8> digits{};
-        std::snprintf(digits.data(), digits.size(), "%04X", unsigned(unit));
-        out += digits.data();
-    }
-    return out;
+    std::array<char, 8> digits{};
+    std::snprintf(digits.data(), digits.size(), "%04X", unsigned(code));
+    return digits.data();
 }
 
-/// What a glyph stands for: itself, or the letters of a presentation form, as the text had them.
-std::u16string meaningOf(char16_t code)
+/// What a glyph stands for: itself, or the letter of a presentation form, as the text had it. A ligature of several
+/// letters stays its own character (compatible with them by NFKC): readers that reverse right-to-left text would swap
+/// them.
+char16_t meaningOf(char16_t code)
 {
     const bool presentation_form = (code >= 0xfb1d && code <= 0xfdff) || (code >= 0xfe70 && code <= 0xfefc);
     UErrorCode status = U_ZERO_ERROR;
     const icu::Normalizer2* nfkc = presentation_form ? icu::Normalizer2::getNFKCInstance(status) : nullptr;
     if (!nfkc)
-        return {code};
+        return code;
     const icu::UnicodeString letters = nfkc->normalize(icu::UnicodeString(code), status);
-    return U_SUCCESS(status) ? std::u16string(letters.getBuffer(), std::size_t(letters.length()))
-                             : std::u16string{code};
+    return U_SUCCESS(status) && letters.length() == 1 ? letters.charAt(0) : code;
 }
 
 }  // namespace
@@ -96,6 +95,15 @@ HPDF_Image embedPicture(HPDF_Doc document, const Picture& picture)
     return image;
 }
 
+void embedGlyphs(HPDF_Font font, const std::vector<unsigned>& glyphs)
+{
+    const auto* definition = static_cast<HPDF_FontAttr>(font->attr)->fontdef;
+    const auto* attributes = static_cast<HPDF_TTFontDefAttr>(definition->attr);
+    for (const unsigned glyph : glyphs)
+        if (glyph < attributes->num_glyphs)
+            attributes->glyph_tbl.flgs[glyph] = 1;
+}
+
 void setToUnicode(HPDF_Font font, const std::set<char16_t>& codes)
 {
     auto* map = static_cast<HPDF_Dict>(HPDF_Dict_GetItem(font, "ToUnicode", HPDF_OCLASS_DICT));
@@ -112,7 +120,7 @@ void setToUnicode(HPDF_Font font, const std::set<char16_t>& codes)
         const std::size_t to = std::min(from + kMostInBlock, list.size());
         text += std::to_string(to - from) + " beginbfchar\n";
         for (std::size_t n = from; n < to; ++n)
-            text += "<" + hex({list[n]}) + "> <" + hex(meaningOf(list[n])) + ">\n";
+            text += "<" + hex(list[n]) + "> <" + hex(meaningOf(list[n])) + ">\n";
         text += "endbfchar\n";
     }
     text += "endcmap\nCMapName currentdict /CMap defineresource pop\nend\nend\n";

@@ -3,6 +3,7 @@
 #include <hpdf.h>
 
 #include <set>
+#include <vector>
 
 #include "picture.h"
 
@@ -11,6 +12,10 @@ namespace vicon::report {
 /// Embeds a picture losslessly, each row predicted from the one above as in PNG, which compresses rendered pictures far
 /// better than libharu's own way.
 HPDF_Image embedPicture(HPDF_Doc document, const Picture& picture);
+
+/// Has these glyphs embedded with the font. libharu follows a composed glyph to its parts, but not to their parts: an
+/// Arabic letter made of a base of other pieces and a dot would come out as the dot.
+void embedGlyphs(HPDF_Font font, const std::vector<unsigned>& glyphs);
 
 /// Replaces the ToUnicode map that libharu gives a "UTF-8" font, which is no such map (it has begincidrange), by one of
 /// the codes used. Arabic presentation forms map to their letters.

@@ -22,11 +22,14 @@ private:
     void drawCase();
     void drawScans();
     void drawScan(const ScanEntry& entry);
+    /// Two scans side by side; false, and nothing drawn, when what is left of the page does not hold them.
+    bool drawScanPair(const ScanEntry& first, const ScanEntry& second);
+    FramedPicture overviewOf(const ScanEntry& entry);
     void drawMarkers();
     void drawMarkerTable();
     void drawMarker(const MarkerEntry& entry);
     void drawMarkerHead(const MarkerEntry& entry);
-    void drawMarkerPictures(const FramedPicture& endoscopic, const FramedPicture& slices);
+    void drawMarkerPictures(const FramedPicture& endoscopic, const FramedPicture& slices, double height);
     FramedPicture framed(const std::filesystem::path& file, double print_width, const std::string& caption,
                          const std::string& kind, const std::string& of);
 

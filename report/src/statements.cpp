@@ -148,7 +148,6 @@ std::vector<Statement> markerStatements(const MarkerEntry& entry)
     const Marker& marker = entry.marker;
     const double length_mm = marker.station_mm + marker.from_caecum_mm;
     std::vector<Statement> out;
-    addGiven(out, "Scan", entry.scan_label);
     out.push_back({"Position", positionLetters(marker.position_mm) + " (" + positionWords(marker.position_mm) + ")"});
     addGiven(out, "Part of colon", entry.part_name);
     out.push_back({"From rectal end", millimetres(marker.station_mm) + " along the skeleton"});

@@ -4,9 +4,11 @@
 #include <unicode/uscript.h>
 #include <unicode/utf8.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <vector>
 
 #include "vicon/core/records.h"
@@ -44,16 +46,15 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
     return out;
 }
 
-/// Names in these scripts are written family name first, without a comma.
-bool isEastAsian(std::string_view text)
+/// Whether a letter of one of these scripts is in the text.
+bool hasScript(std::string_view text, std::initializer_list<UScriptCode> scripts)
 {
     for (std::int32_t at = 0, size = std::int32_t(text.size()); at < size;) {
         UChar32 c = 0;
         U8_NEXT(text.data(), at, size, c);
         UErrorCode status = U_ZERO_ERROR;
         const UScriptCode script = c < 0 ? USCRIPT_COMMON : uscript_getScript(c, &status);
-        if (script == USCRIPT_HAN || script == USCRIPT_HIRAGANA || script == USCRIPT_KATAKANA ||
-            script == USCRIPT_HANGUL)
+        if (std::find(scripts.begin(), scripts.end(), script) != scripts.end())
             return true;
     }
     return false;
@@ -67,9 +68,9 @@ std::string nameGroup(const std::string& group)
     for (std::string& p : part)
         p = trimmed(p);
     const std::string given = joined({part[3], part[1], part[2]}, " ");
-    if (isEastAsian(group))
-        return joined({part[0], given, part[4]}, " ");
-    return joined({part[0], given, part[4]}, ", ");
+    const bool east_asian = hasScript(group, {USCRIPT_HAN, USCRIPT_HIRAGANA, USCRIPT_KATAKANA, USCRIPT_HANGUL});
+    const char* comma = east_asian ? " " : hasScript(group, {USCRIPT_ARABIC}) ? "\u060c " : ", ";
+    return joined({part[0], given, part[4]}, comma);
 }
 
 bool isNumber(std::string_view text)

@@ -9,7 +9,7 @@ namespace vicon::report {
 
 /// A DICOM person name for people: "Yamada^Tarou=山田^太郎=やまだ^たろう" becomes "Yamada, Tarou (山田 太郎, やまだ
 /// たろう)". Family name first, then prefix, given and middle names, then the suffix; names in Han, kana and Hangul
-/// take no comma. Empty when no component says anything.
+/// take no comma, Arabic ones their own. Empty when no component says anything.
 std::string personName(std::string_view dicom_name);
 
 /// "19610412" becomes "12 Apr 1961"; what is no such date is returned as it is.

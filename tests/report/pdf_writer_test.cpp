@@ -1,0 +1,401 @@
+#include "vicon/report/pdf_writer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+#include <regex>
+
+#include "report_samples.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+#include "vicon/report/statements.h"
+#include "vicon/support/support.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::report {
+namespace {
+
+using support::runCommand;
+using support::TemporaryFolder;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class PdfWriter : public testing::Test {
+protected:
+    TemporaryFolder folder_;
+    fs::path pdf_ = folder_ / "report.pdf";
+    ReportContent content_ = samples::plainCase(folder_.path());
+
+    void addMarkers(int count)
+    {
+        for (int n = 1; n <= count; ++n)
+            content_.markers.push_back(samples::plainMarker(folder_.path(), n));
+    }
+    PdfResult write(const ReportOptions& options = {}) { return writePdf(content_, pdf_, options); }
+};
+
+/// What two other programs say of the file.
+void expectSound(const fs::path& pdf)
+{
+    const auto qpdf = runCommand("qpdf --check " + pdf.string());
+    EXPECT_EQ(qpdf.exit_code, 0) << qpdf.output;
+    EXPECT_THAT(qpdf.output, Not(HasSubstr("WARNING")));
+    const auto poppler = runCommand("pdftoppm -r 20 " + pdf.string() + " " + pdf.string() + ".pages");
+    EXPECT_EQ(poppler.exit_code, 0);
+    EXPECT_THAT(poppler.output, IsEmpty());
+    const auto text = runCommand("pdftotext " + pdf.string() + " /dev/null");
+    EXPECT_THAT(text.output, IsEmpty());
+}
+
+/// Every page says whose report it is, that it is a draft, and which page of how many.
+void expectFurniture(const fs::path& pdf, int pages, const std::string& name)
+{
+    const std::vector<std::string> texts = samples::pageTexts(pdf);
+    ASSERT_EQ(int(texts.size()), pages);
+    for (int page = 1; page <= pages; ++page)
+        for (const std::string& what :
+             {name, std::string("ID PID-4711"), std::string("born 12 Apr 1961"), std::string("Study of 20 Nov 2026"),
+              std::string(kDraftLine), "Page " + std::to_string(page) + " of " + std::to_string(pages),
+              std::string("21 Nov 2026 08:15 UTC with VICON 0.1.0")})
+            EXPECT_THAT(texts[std::size_t(page - 1)], HasSubstr(what)) << "page " << page;
+}
+
+/// No word leaves the page's margins, and no two overlap.
+void expectTidy(const fs::path& pdf, double page_width = 595.28, double page_height = 841.89)
+{
+    constexpr double kMargin = 45, kEdge = 20;
+    for (std::vector<samples::Word>& words : samples::wordsByPage(pdf)) {
+        ASSERT_FALSE(words.empty());
+        for (samples::Word& w : words) {
+            EXPECT_TRUE(w.left > kMargin && w.right < page_width - kMargin && w.top > kEdge &&
+                        w.bottom < page_height - kEdge)
+                << "'" << w.text << "' at " << w.left << ", " << w.top;
+            const double trim = 0.2 * (w.bottom - w.top);  // boxes are as high as the highest accent
+            w.top += trim;
+            w.bottom -= trim;
+        }
+        for (std::size_t a = 0; a < words.size(); ++a)
+            for (std::size_t b = a + 1; b < words.size(); ++b) {
+                const auto &p = words[a], &q = words[b];
+                if (p.left < q.right - 0.5 && q.left < p.right - 0.5 && p.top < q.bottom && q.top < p.bottom)
+                    ADD_FAILURE() << "'" << p.text << "' over '" << q.text << "'";
+            }
+    }
+}
+
+TEST_F(PdfWriter, WritesASoundFileWithEmbeddedFontsAndNoPatientInItsMetadata)
+{
+    addMarkers(2);
+    const PdfResult result = write();
+    EXPECT_THAT(result.warnings, IsEmpty());
+    expectSound(pdf_);
+    expectFurniture(pdf_, result.pages, "Adams, John Robert");
+    const std::string fonts = runCommand("pdffonts " + pdf_.string() + " | tail -n +3").output;
+    std::istringstream lines(fonts);
+    int count = 0;
+    for (std::string line; std::getline(lines, line); ++count)
+        EXPECT_TRUE(std::regex_search(line, std::regex("Identity-H +yes +yes +yes"))) << line;
+    EXPECT_EQ(count, 2) << fonts;
+    const std::string info = runCommand("pdfinfo " + pdf_.string()).output;
+    EXPECT_THAT(info, testing::AllOf(HasSubstr("CT colonography report"), HasSubstr("VICON 0.1.0"), HasSubstr("A4"),
+                                     Not(HasSubstr("Adams")), Not(HasSubstr("PID"))));
+}
+
+TEST_F(PdfWriter, SaysAllOfAMarker)
+{
+    addMarkers(1);
+    content_.markers[0].part_name = "sigmoid";
+    content_.markers[0].marker.station_mm = 412;
+    content_.markers[0].marker.from_caecum_mm = 1188;
+    content_.markers[0].marker.fraction = 0.2575;
+    const PdfResult result = write();
+    const std::string text = samples::textOf(pdf_);
+    for (const char* what : {"Marker m1, red", "prone (series 3)", "L 85.2, P 12.0, H 340.5 mm", "sigmoid",
+                             "412 mm along the skeleton", "1188 mm along the skeleton", "25.8 % of the whole, 1600 mm",
+                             "estimated: about 32 cm", "note of m1", "Endoscopic view", "Slices through the marker"})
+        EXPECT_THAT(text, HasSubstr(what));
+    EXPECT_LT(text.find("1188 mm"), text.find("estimated: about"));
+    expectTidy(pdf_);
+}
+
+TEST_F(PdfWriter, WithoutMarkersItSaysSo)
+{
+    EXPECT_EQ(write().pages, 1);
+    EXPECT_THAT(samples::textOf(pdf_), HasSubstr("No markers were set in this case."));
+    content_.scans.clear();
+    write();
+    EXPECT_THAT(samples::textOf(pdf_), HasSubstr("This case has no scan."));
+}
+
+TEST_F(PdfWriter, TheSameContentGivesTheSameBytes)
+{
+    addMarkers(2);
+    write();
+    const std::string first = readFile(pdf_);
+    write();
+    EXPECT_EQ(readFile(pdf_), first);
+    content_.created = "2026-11-21T08:16:30Z";
+    write();
+    EXPECT_NE(readFile(pdf_), first);
+}
+
+TEST_F(PdfWriter, FiftyMarkersFillPagesWithoutOverlap)
+{
+    addMarkers(50);
+    const PdfResult result = write();
+    expectFurniture(pdf_, result.pages, "Adams, John Robert");
+    EXPECT_LE(result.pages, 29);  // two entries a page
+    const std::string text = samples::textOf(pdf_);
+    for (int n = 1; n <= 50; ++n)
+        EXPECT_THAT(text, HasSubstr("Marker m" + std::to_string(n) + ","));
+    expectTidy(pdf_);
+}
+
+TEST_F(PdfWriter, TheTableOfMarkersNamesTheRightPage)
+{
+    addMarkers(7);
+    write();
+    const std::string table = runCommand("pdftotext -layout " + pdf_.string() + " -").output;
+    const std::vector<std::string> pages = samples::pageTexts(pdf_);
+    for (int n = 1; n <= 7; ++n) {
+        const std::string id = "m" + std::to_string(n);
+        std::smatch found;
+        ASSERT_TRUE(std::regex_search(table, found, std::regex(id + " (red|yellow|green) .*% +([0-9]+)\n"))) << id;
+        EXPECT_THAT(pages.at(std::stoul(found[2]) - 1), HasSubstr("Marker " + id + ","));
+    }
+}
+
+TEST_F(PdfWriter, ANoteOfFiveThousandWordsRunsOverPagesWhole)
+{
+    addMarkers(1);
+    std::string& note = content_.markers[0].marker.note;
+    note.clear();
+    for (int n = 0; n < 5000; ++n)
+        note += "word" + std::to_string(n) + (n % 400 == 399 ? "\n\n" : " ");
+    const PdfResult result = write();
+    EXPECT_GT(result.pages, 8);
+    expectFurniture(pdf_, result.pages, "Adams, John Robert");
+    const std::string text = samples::textOf(pdf_);
+    const std::regex word("word([0-9]+)");
+    int expected = 0;
+    for (auto at = std::sregex_iterator(text.begin(), text.end(), word); at != std::sregex_iterator(); ++at)
+        ASSERT_EQ(std::stoi((*at)[1]), expected++);
+    EXPECT_EQ(expected, 5000);
+    expectTidy(pdf_);
+}
+
+TEST_F(PdfWriter, LongTextsAreBrokenWhereTheyMustAndStayOnThePage)
+{
+    addMarkers(2);
+    content_.a_case.patient.name =
+        "Wolfeschlegelsteinhausenbergerdorff^Hubert Blaine Adolph Charles David Earl^Frederick";
+    content_.a_case.patient.id = std::string(64, '9');
+    content_.a_case.study.description = std::string(64, 'W');
+    content_.a_case.study.institution = "Hospital of the " + std::string(300, 'x');
+    content_.a_case.flags = {"The same patient ID was seen with another name: a person must decide. " +
+                             std::string(150, 'y')};
+    content_.markers[0].marker.note = std::string(3000, 'z');
+    content_.markers[0].scan_label =
+        "a label that is much longer than a label of a scan is ever going to be, and then some";
+    content_.markers[1].part_name = "a part of the colon that has a very long name indeed, longer than its column";
+    content_.scans[0].reason = std::string(500, 'v') + " " + std::string(5000, 'r');
+    const PdfResult result = write();
+    expectSound(pdf_);
+    EXPECT_EQ(int(samples::pageTexts(pdf_).size()), result.pages);
+    for (const std::string& page : samples::pageTexts(pdf_))
+        EXPECT_THAT(page, HasSubstr("Wolfeschlegelsteinhausenbergerdorff, Hubert"));
+    expectTidy(pdf_);
+    const std::string text = samples::textOf(pdf_);
+    EXPECT_EQ(std::count(text.begin(), text.end(), 'z'), 3000);
+}
+
+TEST_F(PdfWriter, AnEndlessNameIsCutInTheHeaderAndWholeOnTheFirstPage)
+{
+    content_.a_case.patient.name.clear();
+    for (int n = 0; n < 60; ++n)
+        content_.a_case.patient.name += "Name" + std::to_string(n) + " ";
+    write();
+    EXPECT_THAT(samples::pageTexts(pdf_).at(0), testing::AllOf(HasSubstr("Name59"), HasSubstr("\u2026")));
+    expectTidy(pdf_);
+}
+
+TEST_F(PdfWriter, OtherNumbersOfScansAreDrawn)
+{
+    for (const int scans : {2, 3}) {
+        while (int(content_.scans.size()) < scans) {
+            content_.scans.push_back(content_.scans[0]);
+            content_.scans.back().scan.series.number = 3 + int(content_.scans.size());
+            content_.scans.back().scan.series.patient_position = "HFS";
+            content_.scans.back().scan.series.lossy = true;
+        }
+        const PdfResult result = write();
+        const std::string text = samples::textOf(pdf_);
+        EXPECT_THAT(text, HasSubstr("Prone, head first · series 3"));
+        EXPECT_THAT(text, HasSubstr("Supine, head first · series 5"));
+        EXPECT_THAT(text, HasSubstr("LOSSY COMPRESSION"));
+        expectTidy(pdf_);
+        EXPECT_EQ(result.pages, scans - 1);
+    }
+}
+
+TEST_F(PdfWriter, LetterPaperAndASignedReport)
+{
+    addMarkers(3);
+    content_.draft = false;
+    const PdfResult result = write({.paper = "letter"});
+    EXPECT_THAT(runCommand("pdfinfo " + pdf_.string()).output, HasSubstr("letter"));
+    EXPECT_THAT(samples::textOf(pdf_), Not(HasSubstr("DRAFT")));
+    EXPECT_THAT(samples::textOf(pdf_), HasSubstr("research software that is no medical device"));
+    expectTidy(pdf_, 612, 792);
+}
+
+TEST_F(PdfWriter, PicturesAreNeitherMirroredNorTurned)
+{
+    samples::writeQuarters(content_.scans[0].overview_picture, 900, 1100,
+                           {{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 0, 255}}});
+    write();
+    const samples::Raster page = samples::render(pdf_, 1, 72);
+    struct Mean {
+        double x = 0, y = 0;
+        int count = 0;
+    };
+    const auto mean = [&](int red, int green, int blue) {
+        Mean m;
+        for (int y = 0; y < page.height; ++y)
+            for (int x = 0; x < page.width; ++x)
+                if (const auto* p = page.at(x, y); p[0] == red && p[1] == green && p[2] == blue)
+                    m = {m.x + x, m.y + y, m.count + 1};
+        return Mean{m.x / m.count, m.y / m.count, m.count};
+    };
+    const Mean upper_left = mean(255, 0, 0), upper_right = mean(0, 255, 0), lower_left = mean(0, 0, 255),
+               lower_right = mean(255, 0, 255);
+    ASSERT_GT(std::min({upper_left.count, upper_right.count, lower_left.count, lower_right.count}), 1000);
+    EXPECT_NEAR(upper_left.y, upper_right.y, 1);
+    EXPECT_NEAR(upper_left.x, lower_left.x, 1);
+    EXPECT_LT(upper_left.x + 50, upper_right.x);
+    EXPECT_LT(upper_left.y + 50, lower_left.y);
+    EXPECT_LT(lower_left.x + 50, lower_right.x);
+}
+
+TEST_F(PdfWriter, TheSamePictureIsEmbeddedOnce)
+{
+    addMarkers(4);
+    for (MarkerEntry& entry : content_.markers) {
+        entry.slices_picture = folder_ / "same.png";
+        entry.endoscopic_picture = folder_ / (entry.marker.id + "-copy.png");
+        samples::writeQuarters(entry.slices_picture, 1200, 900, {{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}}});
+        samples::writeQuarters(entry.endoscopic_picture, 1200, 900, {{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}}});
+    }
+    write();
+    const std::string objects =
+        runCommand("pdfimages -list " + pdf_.string() + " | tail -n +3 | awk '{print $11}' | sort -u | wc -l").output;
+    EXPECT_EQ(std::stoi(objects), 2);  // the overview and the one picture of all markers
+}
+
+TEST_F(PdfWriter, PicturesOfAnySizeAreDrawn)
+{
+    addMarkers(3);
+    const std::array<std::pair<int, int>, 6> sizes = {
+        {{1, 1}, {16, 12}, {2000, 2000}, {2000, 200}, {200, 2000}, {37, 53}}};
+    for (std::size_t n = 0; n < 3; ++n) {
+        const std::array<std::array<std::uint8_t, 3>, 4> colors = {{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}}};
+        samples::writeQuarters(content_.markers[n].endoscopic_picture, sizes[2 * n].first, sizes[2 * n].second, colors);
+        samples::writeQuarters(content_.markers[n].slices_picture, sizes[2 * n + 1].first, sizes[2 * n + 1].second,
+                               colors);
+    }
+    const PdfResult result = write();
+    EXPECT_THAT(result.warnings, IsEmpty());
+    expectSound(pdf_);
+    expectTidy(pdf_);
+}
+
+TEST_F(PdfWriter, MissingAndBrokenPicturesLeaveALineAndAWarning)
+{
+    addMarkers(2);
+    content_.scans[0].overview_picture.clear();
+    fs::remove(content_.markers[0].endoscopic_picture);
+    replaceFile(content_.markers[0].slices_picture, "no picture");
+    const std::string png = readFile(content_.markers[1].slices_picture);
+    replaceFile(content_.markers[1].slices_picture, png.substr(0, png.size() / 2));
+    content_.markers[1].endoscopic_picture.clear();
+    const PdfResult result = write();
+    EXPECT_THAT(result.warnings, testing::ElementsAre("marker m1: the endoscopic picture cannot be read",
+                                                      "marker m1: the slice picture cannot be read",
+                                                      "marker m2: the slice picture cannot be read"));
+    const std::string text = samples::textOf(pdf_);
+    EXPECT_THAT(text, HasSubstr("No overview picture was made."));
+    EXPECT_THAT(text, HasSubstr("No endoscopic picture was made."));
+    EXPECT_THAT(text, HasSubstr("The slice picture cannot be read."));
+    expectSound(pdf_);
+}
+
+class FileSizeLimit {
+public:
+    explicit FileSizeLimit(rlim_t bytes)
+    {
+        handler_ = std::signal(SIGXFSZ, SIG_IGN);
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FileSizeLimit()
+    {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+    FileSizeLimit(const FileSizeLimit&) = delete;
+    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+private:
+    rlimit before_{};
+    void (*handler_)(int) = nullptr;
+};
+
+TEST_F(PdfWriter, AFullDiskIsOneErrorAndLeavesTheOldReport)
+{
+    const fs::path target = folder_ / "reports" / "1.pdf";
+    fs::create_directory(target.parent_path());
+    replaceFile(target, "the old report");
+    try {
+        const FileSizeLimit full(1000);
+        writePdf(content_, target, {});
+        FAIL() << "wrote a report to a full disk";
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ErrorCode::store);
+        EXPECT_THAT(std::string(e.what()) + e.subject() + e.remedy(), Not(HasSubstr("Adams")));
+    }
+    EXPECT_EQ(readFile(target), "the old report");
+    EXPECT_EQ(std::distance(fs::directory_iterator(target.parent_path()), fs::directory_iterator()), 1);
+}
+
+TEST_F(PdfWriter, AnUnwritableTargetIsOneError)
+{
+    replaceFile(folder_ / "file", "no folder");
+    for (const fs::path& target : {folder_ / "nowhere" / "1.pdf", folder_ / "file" / "1.pdf"})
+        try {
+            writePdf(content_, target, {});
+            ADD_FAILURE() << target;
+        } catch (const Error& e) {
+            EXPECT_EQ(e.code(), ErrorCode::store);
+        }
+}
+
+TEST_F(PdfWriter, WithoutFontsItSaysWhatToInstall)
+{
+    try {
+        write({.font_folder = (folder_ / "no fonts").string()});
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ErrorCode::not_found);
+        EXPECT_THAT(e.remedy(), HasSubstr("fonts-noto-core"));
+    }
+    EXPECT_FALSE(fs::exists(pdf_));
+}
+
+}  // namespace
+}  // namespace vicon::report

@@ -1,0 +1,152 @@
+#include "report_samples.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+
+#include "vicon/core/file.h"
+#include "vicon/support/support.h"
+
+namespace vicon::report::samples {
+namespace {
+
+std::string replaceAll(std::string text, const std::string& from, const std::string& to)
+{
+    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+    return text;
+}
+
+std::string output(const std::string& command)
+{
+    const support::CommandResult result = support::runCommand(command);
+    if (result.exit_code != 0)
+        throw std::runtime_error(command + ": " + result.output);
+    return result.output;
+}
+
+std::string quoted(const std::filesystem::path& file)
+{
+    return "'" + file.string() + "'";
+}
+
+}  // namespace
+
+void writeQuarters(const std::filesystem::path& file, int width, int height,
+                   const std::array<std::array<std::uint8_t, 3>, 4>& colors)
+{
+    std::vector<std::uint8_t> rgb;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const auto& color = colors[std::size_t(2 * (2 * y >= height) + (2 * x >= width))];
+            rgb.insert(rgb.end(), color.begin(), color.end());
+        }
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = png_uint_32(width);
+    image.height = png_uint_32(height);
+    image.format = PNG_FORMAT_RGB;
+    if (!png_image_write_to_file(&image, file.c_str(), 0, rgb.data(), 0, nullptr))
+        throw std::runtime_error("cannot write " + file.string());
+}
+
+ReportContent plainCase(const std::filesystem::path& folder)
+{
+    ReportContent content;
+    content.created = "2026-11-21T08:15:30Z";
+    content.software_version = "0.1.0";
+    content.number = 2;
+    content.a_case.id = "c1";
+    content.a_case.patient = {"PID-4711", "Adams^John Robert", "19610412", "M"};
+    content.a_case.study.date = "20261120";
+    ScanEntry entry;
+    entry.scan.id = "s1";
+    entry.scan.series.number = 3;
+    entry.scan.series.patient_position = "HFP";
+    entry.verdict = "colon";
+    entry.confidence = 0.86;
+    entry.skeleton_length_mm = 1600;
+    entry.overview_picture = folder / "overview.png";
+    writeQuarters(entry.overview_picture, 90, 110, {{{30, 30, 30}, {40, 40, 40}, {50, 50, 50}, {60, 60, 60}}});
+    content.scans.push_back(entry);
+    return content;
+}
+
+MarkerEntry plainMarker(const std::filesystem::path& folder, int n)
+{
+    MarkerEntry entry;
+    entry.marker.id = "m" + std::to_string(n);
+    entry.marker.scan_id = "s1";
+    entry.marker.position_mm = {85.2, 12.0, 340.5};
+    entry.marker.color = MarkerColor((n - 1) % 3);
+    entry.marker.note = "note of " + entry.marker.id;
+    entry.marker.station_mm = 20.0 * n;
+    entry.marker.from_caecum_mm = 1600 - entry.marker.station_mm;
+    entry.marker.fraction = entry.marker.station_mm / 1600;
+    entry.scan_label = "prone (series 3)";
+    entry.endoscopic_picture = folder / (entry.marker.id + "-endo.png");
+    entry.slices_picture = folder / (entry.marker.id + "-slices.png");
+    const auto shade = std::uint8_t(n);
+    writeQuarters(entry.endoscopic_picture, 90, 90, {{{200, shade, 0}, {150, 60, 50}, {90, 20, 20}, {40, 10, 10}}});
+    writeQuarters(entry.slices_picture, 120, 90, {{{shade, 90, 0}, {50, 50, 50}, {90, 90, 90}, {120, 120, 120}}});
+    return entry;
+}
+
+std::string textOf(const std::filesystem::path& pdf)
+{
+    std::string text = output("pdftotext " + quoted(pdf) + " -");
+    for (const char* mark : {"\u202a", "\u202b", "\u202c"})
+        text = replaceAll(text, mark, "");
+    return text;
+}
+
+std::vector<std::string> pageTexts(const std::filesystem::path& pdf)
+{
+    std::vector<std::string> pages(1);
+    for (const char c : textOf(pdf))  // a form feed ends each page
+        if (c == '\f')
+            pages.emplace_back();
+        else
+            pages.back() += c;
+    pages.pop_back();
+    return pages;
+}
+
+std::vector<std::vector<Word>> wordsByPage(const std::filesystem::path& pdf)
+{
+    std::vector<std::vector<Word>> pages;
+    std::istringstream lines(output("pdftotext -bbox " + quoted(pdf) + " -"));
+    const std::regex pattern("<word xMin=\"(.*?)\" yMin=\"(.*?)\" xMax=\"(.*?)\" yMax=\"(.*?)\">(.*)</word>");
+    std::smatch found;
+    for (std::string line; std::getline(lines, line);)
+        if (line.find("<page ") != std::string::npos)
+            pages.emplace_back();
+        else if (std::regex_search(line, found, pattern))
+            pages.back().push_back(
+                {std::stod(found[1]), std::stod(found[2]), std::stod(found[3]), std::stod(found[4]), found[5]});
+    return pages;
+}
+
+Raster render(const std::filesystem::path& pdf, int page, int dpi)
+{
+    const support::TemporaryFolder folder;
+    const std::string number = std::to_string(page);
+    const std::string said = output("pdftoppm -singlefile -r " + std::to_string(dpi) + " -f " + number + " -l " +
+                                    number + " " + quoted(pdf) + " " + quoted(folder / "page"));
+    if (!said.empty())
+        throw std::runtime_error("poppler: " + said);
+    const std::string ppm = readFile(folder / "page.ppm");
+    std::istringstream head(ppm);
+    std::string magic;
+    int highest = 0;
+    Raster raster;
+    head >> magic >> raster.width >> raster.height >> highest;
+    const auto from = std::size_t(head.tellg()) + 1;
+    raster.rgb.assign(ppm.begin() + std::ptrdiff_t(from), ppm.end());
+    return raster;
+}
+
+}  // namespace vicon::report::samples

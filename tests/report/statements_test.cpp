@@ -1,0 +1,151 @@
+#include "vicon/report/statements.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vicon::report {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string said(const std::vector<Statement>& statements, const std::string& label)
+{
+    for (const Statement& statement : statements)
+        if (statement.label == label)
+            return statement.text;
+    return "(nothing)";
+}
+
+TEST(Statements, WhatTheCaseDoesNotSayIsNotGiven)
+{
+    EXPECT_THAT(patientStatements({}),
+                ElementsAre(Statement{"Name", "not given"}, Statement{"Patient ID", "not given"},
+                            Statement{"Birth date", "not given"}, Statement{"Sex", "not given"}));
+    EXPECT_THAT(studyStatements({}), ElementsAre(Statement{"Study date", "not given"}));
+}
+
+TEST(Statements, PatientAndStudyComeFromTheCase)
+{
+    CaseRecord c;
+    c.patient = {"PID-1", "Adams^John", "19610412", "M"};
+    c.study = {"1.2.3", "S7", "20261120", "101530", "CT colonography", "A-99", "Dorian^Ruth^^Dr.", "St. Mary's"};
+    EXPECT_THAT(patientStatements(c), ElementsAre(Statement{"Name", "Adams, John"}, Statement{"Patient ID", "PID-1"},
+                                                  Statement{"Birth date", "12 Apr 1961"}, Statement{"Sex", "male"}));
+    EXPECT_THAT(studyStatements(c),
+                ElementsAre(Statement{"Study date", "20 Nov 2026, 10:15"}, Statement{"Description", "CT colonography"},
+                            Statement{"Accession", "A-99"}, Statement{"Study ID", "S7"},
+                            Statement{"Referred by", "Dorian, Dr. Ruth"}, Statement{"Institution", "St. Mary's"}));
+}
+
+ScanEntry preparedScan()
+{
+    ScanEntry entry;
+    entry.scan.series.number = 3;
+    entry.scan.series.description = "Colon 1.0";
+    entry.scan.series.patient_position = "FFP";
+    entry.scan.ingest = nlohmann::json::parse(
+        R"({"geometry": {"slices": 430, "columns": 512, "rows": 400, "spacing_mm": [0.676, 0.676, 1.0], "tilt_deg": 12},
+            "repairs": ["1 slice missing at F 120.0 mm"],
+            "refused": [{"object": "1.2", "why": "truncated"}, {"object": "1.3", "why": "truncated"}]})");
+    entry.skeleton_length_mm = 1594.6;
+    entry.verdict = "colon";
+    entry.confidence = 0.86;
+    entry.reason = "three pieces of gas";
+    entry.bridges = nlohmann::json::parse(R"([{"length_mm": 14.2, "confidence": 0.93, "certain": true},
+        {"length_mm": 31, "confidence": 0.4, "certain": false, "reason": "the gap is long"}])");
+    entry.quality = nlohmann::json::parse(
+        R"({"residual_fluid_ml": 212.4, "noise_hu": 14.25, "parts": {"sigmoid": {"collapsed_mm": 14, "wet_fraction": 0.125}}})");
+    return entry;
+}
+
+TEST(Statements, AScanSaysWhatWasFoundAndWhatWasDoneToIt)
+{
+    const ScanEntry entry = preparedScan();
+    EXPECT_EQ(scanTitle(entry), "Prone, feet first · series 3");
+    const auto s = scanStatements(entry);
+    EXPECT_EQ(said(s, "Series"), "3, Colon 1.0");
+    EXPECT_EQ(said(s, "Geometry"),
+              "430 slices of 512 × 400, voxels of 0.68 × 0.68 × 1.00 mm, gantry tilt of 12.0° removed");
+    EXPECT_EQ(said(s, "Colon found"), "colon, confidence 86 %: three pieces of gas");
+    EXPECT_EQ(said(s, "Colon length"), "1595 mm along the skeleton");
+    EXPECT_EQ(
+        said(s, "Bridges"),
+        "2 collapsed parts:\n14 mm, certain, confidence 93 %\n31 mm, uncertain, confidence 40 %: the gap is long");
+    EXPECT_EQ(said(s, "Quality"), "noise 14.2 HU, residual fluid 212 ml\nsigmoid: collapsed 14 mm, wet 12.5 %");
+    EXPECT_EQ(said(s, "Repaired"), "1 slice missing at F 120.0 mm");
+    EXPECT_EQ(said(s, "Refused"), "truncated (2 times)");
+    EXPECT_EQ(said(s, "Compression"), "(nothing)");
+}
+
+TEST(Statements, LossyCompressionIsFlagged)
+{
+    ScanEntry entry = preparedScan();
+    entry.scan.series.lossy = true;
+    EXPECT_THAT(said(scanStatements(entry), "Compression"), HasSubstr("LOSSY"));
+    ReportContent content;
+    entry.scan.id = "s7";
+    content.scans = {entry};
+    EXPECT_TRUE(isLossy(content, "s7"));
+    EXPECT_FALSE(isLossy(content, "s8"));
+}
+
+TEST(Statements, AScanThatIsNotPreparedSaysSo)
+{
+    EXPECT_EQ(said(scanStatements({}), "Colon found"), "not prepared");
+    EXPECT_EQ(said(scanStatements({}), "Colon length"), "(nothing)");
+    ScanEntry none;
+    none.verdict = "no colon";
+    none.confidence = 0.97;
+    none.reason = "a chest";
+    EXPECT_EQ(said(scanStatements(none), "Colon found"), "no colon, confidence 97 %: a chest");
+}
+
+TEST(Statements, JsonOfAnotherShapeIsPassedOver)
+{
+    ScanEntry entry;
+    entry.skeleton_length_mm = 1;
+    entry.scan.ingest = nlohmann::json::parse(
+        R"({"geometry": {"slices": "many", "spacing_mm": [1, 2]}, "repairs": 3, "refused": [7, null, {"object": "1"}]})");
+    entry.bridges = nlohmann::json::parse(R"([5, {}])");
+    entry.quality = nlohmann::json::parse(R"([1, null])");
+    EXPECT_EQ(said(scanStatements(entry), "Refused"), "(nothing)");
+    EXPECT_THAT(said(scanStatements(entry), "Bridges"), HasSubstr("2 collapsed parts"));
+    entry.scan.ingest = nullptr;
+    entry.bridges = "none";
+    EXPECT_NO_THROW(scanStatements(entry));
+}
+
+TEST(Statements, ManyNotesAreCutShortWithTheirNumber)
+{
+    ScanEntry entry;
+    for (int n = 0; n < 20; ++n)
+        entry.scan.ingest["repairs"].push_back("repair " + std::to_string(n));
+    EXPECT_THAT(said(scanStatements(entry), "Repaired"),
+                AllOf(HasSubstr("repair 5\nand 14 more"), HasSubstr("repair 0")));
+}
+
+TEST(Statements, AMarkerGivesTheMeasuredDistanceFirstAndTheEstimateLast)
+{
+    MarkerEntry entry;
+    entry.marker.position_mm = {85.2, 12, 340.5};
+    entry.marker.station_mm = 412;
+    entry.marker.from_caecum_mm = 1183;
+    entry.marker.fraction = 412.0 / 1595;
+    entry.part_name = "sigmoid";
+    EXPECT_THAT(
+        markerStatements(entry),
+        ElementsAre(
+            Statement{"Position", "L 85.2, P 12.0, H 340.5 mm (left, posterior, headward of the scan's origin)"},
+            Statement{"Part of colon", "sigmoid"}, Statement{"From rectal end", "412 mm along the skeleton"},
+            Statement{"From caecal end", "1183 mm along the skeleton"},
+            Statement{"Fraction", "25.8 % of the whole, 1595 mm, from the rectal end"},
+            Statement{"By endoscope", "estimated: about 32 cm (0.78 × CT distance, left colon)"}));
+    entry.part_name.clear();
+    EXPECT_EQ(said(markerStatements(entry), "Part of colon"), "(nothing)");
+    EXPECT_THAT(said(markerStatements(entry), "By endoscope"), HasSubstr("24 to 32 cm"));
+}
+
+}  // namespace
+}  // namespace vicon::report
