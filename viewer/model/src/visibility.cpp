@@ -127,6 +127,7 @@ std::vector<SeenSegment> Visibility::seenFrom(const Pose& pose, const Lens& lens
                     {gates_[n].segment_a == arrival.segment ? gates_[n].segment_b : gates_[n].segment_a, beyond});
         }
     }
+    seen.reserve(order.size());
     for (const int segment : order)
         seen.push_back({segment, taken[std::size_t(segment)]});
     return seen;

@@ -46,7 +46,7 @@ void Mask::addShape(double x0, double y0, double x1, double y1, Cover cover)
     const int top = inside(y0 - 1, height_), bottom = inside(y1 + 2, height_);
     for (int y = top; y < bottom; ++y)
         for (int x = left; x < right; ++x)
-            add(x, y, int(std::clamp(cover(x + 0.5, y + 0.5), 0.0, 1.0) * 255 + 0.5));
+            add(x, y, int(std::lround(std::clamp(cover(x + 0.5, y + 0.5), 0.0, 1.0) * 255)));
 }
 
 void Mask::addSegment(Pixel a, Pixel b, double width_px)
@@ -78,7 +78,7 @@ void Mask::blendInto(Picture& picture, Rgb color, double strength) const
             const double share = cover_[n] / 255.0 * strength;
             for (std::size_t c = 0; c < 3; ++c) {
                 std::uint8_t& there = picture.rgb[3 * n + c];
-                there = std::uint8_t(there + (ink[c] - there) * share + 0.5);
+                there = std::uint8_t(std::lround(there + (ink[c] - there) * share));
             }
         }
 }

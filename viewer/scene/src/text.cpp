@@ -113,7 +113,7 @@ Line layOut(Fonts& fonts, const std::vector<std::uint32_t>& characters, double s
 Line fitted(Fonts& fonts, const OverlayText& text)
 {
     const auto characters = visualOrder(text.text);
-    const Line line = layOut(fonts, characters, text.height_px);
+    Line line = layOut(fonts, characters, text.height_px);
     if (line.width <= text.most_width_px)
         return line;
     const double smaller = text.height_px * text.most_width_px / line.width;
