@@ -1,12 +1,11 @@
 #include "acquisition.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <regex>
 #include <set>
+#include <string_view>
 #include <tuple>
 
 namespace vicon::ingest {
@@ -31,6 +30,14 @@ std::optional<double> secondsOf(const std::string& date_time)
     const auto part = [&](std::size_t from) { return std::stod(date_time.substr(from, 2)); };
     const double day = std::stod(date_time.substr(0, 8));
     return day * 86400 + part(8) * 3600 + part(10) * 60 + part(12);
+}
+
+std::optional<int> twoDigitsAt(const std::string& text, std::size_t from)
+{
+    const auto digit = [&](std::size_t n) { return n < text.size() && text[n] >= '0' && text[n] <= '9'; };
+    if (!digit(from) || !digit(from + 1))
+        return {};
+    return (text[from] - '0') * 10 + (text[from + 1] - '0');
 }
 
 struct Take {
@@ -103,11 +110,12 @@ Sharpness sharpnessOf(const std::string& kernel)
 {
     std::string name = kernel;
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return char(std::toupper(c)); });
-    std::smatch match;
-    if (std::regex_search(name, match, std::regex("^[BHQUIJT][A-Z]?([0-9]{2})")))
-        return std::stoi(match[1]) < kSiemensSharpFrom ? Sharpness::soft : Sharpness::sharp;
-    if (std::regex_search(name, match, std::regex("^FC([0-9]{2})")))
-        return std::stoi(match[1]) < kCanonSharpFrom ? Sharpness::soft : Sharpness::sharp;
+    if (const auto number = name.starts_with("FC") ? twoDigitsAt(name, 2) : std::nullopt)
+        return *number < kCanonSharpFrom ? Sharpness::soft : Sharpness::sharp;
+    if (std::string_view("BHQUIJT").find(name.substr(0, 1)) != std::string_view::npos && !name.empty())
+        for (const std::size_t letters : {1, 2})  // B30F, BR36
+            if (const auto number = twoDigitsAt(name, letters))
+                return *number < kSiemensSharpFrom ? Sharpness::soft : Sharpness::sharp;
     for (const char* soft : {"SOFT", "STANDARD", "STND", "SMOOTH", "BODY"})
         if (name.starts_with(soft))
             return Sharpness::soft;

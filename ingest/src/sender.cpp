@@ -19,7 +19,7 @@ namespace vicon::ingest {
 namespace {
 
 constexpr Uint32 kPduBytes = 131072;
-constexpr std::size_t kMostContexts = 120;  // an association has room for 128
+constexpr std::size_t kMostKinds = 60;  // an association has room for 128 contexts, a kind takes one or two
 constexpr Uint32 kTimeoutSeconds = 30;
 constexpr Uint32 kLargestElementInMemory = 16384;
 
@@ -74,16 +74,19 @@ void connect(DcmSCU& scu, const Peer& peer)
         peerFailed("no association with the peer", peer, agreed);
 }
 
-/// The transfer syntaxes that may carry an object: its own, or any uncompressed one for an uncompressed object.
-OFList<OFString> syntaxesFor(const Kind& kind)
+/// The transfer syntaxes that may carry an object, by presentation context: its own alone, so that a peer that takes it
+/// gets it unchanged; then any uncompressed one for an uncompressed object.
+std::vector<OFList<OFString>> contextsFor(const Kind& kind)
 {
-    OFList<OFString> list;
-    list.push_back(kind.transfer_syntax.c_str());
-    if (isUncompressed(kind.transfer_syntax))
-        for (const char* other : {UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax})
-            if (kind.transfer_syntax != other)
-                list.push_back(other);
-    return list;
+    std::vector<OFList<OFString>> contexts(1);
+    contexts.front().push_back(kind.transfer_syntax.c_str());
+    if (!isUncompressed(kind.transfer_syntax))
+        return contexts;
+    contexts.emplace_back();
+    for (const char* other : {UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax})
+        if (kind.transfer_syntax != other)
+            contexts.back().push_back(other);
+    return contexts;
 }
 
 /// Reads what each file is; what cannot be read is a failure of that file.
@@ -127,7 +130,8 @@ public:
         std::set<Kind> kinds;
         for (const Item& item : items)
             if (kinds.insert(item.kind).second)
-                scu.addPresentationContext(item.kind.sop_class.c_str(), syntaxesFor(item.kind));
+                for (const auto& syntaxes : contextsFor(item.kind))
+                    scu.addPresentationContext(item.kind.sop_class.c_str(), syntaxes);
         connect(scu, peer_);
         for (const Item& item : items) {
             progress_.check();
@@ -141,9 +145,10 @@ private:
     void sendOne(DcmSCU& scu, const Item& item)
     {
         T_ASC_PresentationContextID context = 0;
-        for (const OFString& syntax : syntaxesFor(item.kind))
-            if (context == 0)
-                context = scu.findPresentationContextID(item.kind.sop_class.c_str(), syntax);
+        for (const auto& syntaxes : contextsFor(item.kind))
+            for (const OFString& syntax : syntaxes)
+                if (context == 0)
+                    context = scu.findPresentationContextID(item.kind.sop_class.c_str(), syntax);
         if (context == 0) {
             result_.failures.push_back({item.file, "the peer takes neither this kind of object nor its encoding (" +
                                                        std::string(dcmFindNameOfUID(item.kind.sop_class.c_str(), "?")) +
@@ -185,7 +190,7 @@ SendResult storeFiles(const Peer& peer, const std::vector<fs::path>& files, cons
         std::size_t to = from;
         for (; to < items.size(); ++to) {
             kinds.insert(items[to].kind);
-            if (kinds.size() > kMostContexts)
+            if (kinds.size() > kMostKinds)
                 break;
         }
         sending.send({items.begin() + std::ptrdiff_t(from), items.begin() + std::ptrdiff_t(to)});

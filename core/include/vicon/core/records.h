@@ -68,7 +68,7 @@ struct ScanRecord {
     std::string case_id;
     Series series;
     /// "scan": goes through the pipeline; "kept": stored and selectable, not queued (another reconstruction, too few
-    /// slices).
+    /// slices); "refused": its objects are stored, but make no volume: `ingest` says why, more objects may mend it.
     std::string role = "scan";
     /// What ingest wrote: {"geometry": .., "repairs": [..], "refused": [..]}; goes into scan.json as it is.
     nlohmann::json ingest = nlohmann::json::object();
