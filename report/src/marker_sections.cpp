@@ -75,6 +75,16 @@ void Sections::drawMarkers()
         drawMarker(entry);
 }
 
+void Sections::fillPageOf(const MarkerEntry& entry)
+{
+    const auto index = std::size_t(&entry - content_.markers.data());
+    if (index >= table_.size())
+        return;
+    const TextLine number = flow_.type.line(std::to_string(flow_.page() + 1), look::kBody);
+    const double x = flow_.left() + kColumns.back().at * flow_.width();
+    flow_.pdf.text(table_[index].page, x, table_[index].y - look::kBody.size * look::kAscent, number, look::kInk);
+}
+
 void Sections::drawMarkerTable()
 {
     const double row = leadingOf(look::kBody) + 2.5;
@@ -125,10 +135,11 @@ void Sections::drawMarker(const MarkerEntry& entry)
 {
     const Marker& marker = entry.marker;
     const std::string mark = isLossy(content_, marker.scan_id) ? " \u00b7 LOSSY COMPRESSION" : "";
-    const FramedPicture endoscopic = framed(entry.endoscopic_picture, flow_.width() / 2, "Endoscopic view" + mark,
-                                            "endoscopic", "marker " + marker.id);
-    const FramedPicture slices =
-        framed(entry.slices_picture, flow_.width(), "Slices through the marker" + mark, "slice", "marker " + marker.id);
+    const FramedPicture endoscopic =
+        framed(entry.endoscopic_picture, flow_.width() / 2, "Endoscopic view at " + marker.id + mark, "endoscopic",
+               "marker " + marker.id);
+    const FramedPicture slices = framed(entry.slices_picture, flow_.width(), "Slices through " + marker.id + mark,
+                                        "slice", "marker " + marker.id);
     const StatementTable table(flow_.type, markerStatements(entry), flow_.width());
     const double note_width = flow_.width() - look::kLabelWidth;
     const std::vector<TextLine> note =
@@ -141,22 +152,28 @@ void Sections::drawMarker(const MarkerEntry& entry)
     const double whole = text + pictures_height + caption;
     flow_.need(whole <= flow_.wholePage() ? whole : head + table.height() + 3 * leading);
 
-    const std::size_t index = std::size_t(&entry - content_.markers.data());
-    if (index < table_.size()) {
-        const TextLine number = flow_.type.line(std::to_string(flow_.page() + 1), look::kBody);
-        const double x = flow_.left() + kColumns.back().at * flow_.width();
-        flow_.pdf.text(table_[index].page, x, table_[index].y - look::kBody.size * look::kAscent, number, look::kInk);
-    }
+    fillPageOf(entry);
     flow_.pdf.bookmark(flow_.page(), flow_.y() + 4, "Marker " + marker.id + " (" + nameOf(marker.color) + ")");
     drawMarkerHead(entry);
     table.draw(flow_, flow_.left());
-    if (!note.empty()) {
-        flow_.need(leading);
-        flow_.put(flow_.left(), flow_.y(), flow_.type.line("Note", look::kBody), look::kMuted);
-        flow_.paragraph(flow_.left() + look::kLabelWidth, note_width, note, look::kBody, look::kInk);
-    }
+    drawNote(marker, note);
     flow_.skip(5);
     drawMarkerPictures(endoscopic, slices, pictures_height);
+}
+
+void Sections::drawNote(const Marker& marker, const std::vector<TextLine>& note)
+{
+    std::string label = "Note";
+    int page = -1;
+    for (const TextLine& line : note) {
+        flow_.need(leadingOf(look::kBody));
+        if (flow_.page() != page)  // a page that begins within a note says whose it is
+            flow_.put(flow_.left(), flow_.y(), flow_.type.line(label, look::kBody), look::kMuted);
+        page = flow_.page();
+        label = "Note of " + marker.id;
+        flow_.paragraph(flow_.left() + look::kLabelWidth, flow_.width() - look::kLabelWidth, {line}, look::kBody,
+                        look::kInk);
+    }
 }
 
 void Sections::drawMarkerPictures(const FramedPicture& endoscopic, const FramedPicture& slices, double height)

@@ -42,6 +42,8 @@ void Sections::drawTitle()
     flow_.put(flow_.left(), flow_.y(), flow_.type.line(made, look::kBody), look::kMuted);
     flow_.skip(leadingOf(look::kBody) + 10);
     drawNotice(flow_, content_.a_case.flags);
+    if (!content_.a_case.flags.empty())
+        flow_.skip(look::kGap / 2);
 }
 
 void Sections::drawCase()

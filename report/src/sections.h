@@ -28,6 +28,8 @@ private:
     void drawMarkers();
     void drawMarkerTable();
     void drawMarker(const MarkerEntry& entry);
+    void fillPageOf(const MarkerEntry& entry);
+    void drawNote(const Marker& marker, const std::vector<TextLine>& note);
     void drawMarkerHead(const MarkerEntry& entry);
     void drawMarkerPictures(const FramedPicture& endoscopic, const FramedPicture& slices, double height);
     FramedPicture framed(const std::filesystem::path& file, double print_width, const std::string& caption,

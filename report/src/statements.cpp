@@ -77,7 +77,7 @@ std::string resultWords(const ScanEntry& entry)
 std::string bridgeWords(const json& bridges)
 {
     if (!bridges.is_array() || bridges.empty())
-        return "none: the lumen is open from end to end";
+        return "none";
     std::string out;
     for (const json& bridge : bridges) {
         out += (out.empty() ? "" : "\n") + millimetres(numberAt(bridge, "length_mm"));
@@ -130,7 +130,7 @@ std::vector<Statement> scanStatements(const ScanEntry& entry)
         addGiven(out, "Geometry", geometryWords(ingest["geometry"]));
     if (entry.scan.series.lossy)
         out.push_back({"Compression", "LOSSY: the images lost detail before VICON received them"});
-    out.push_back({"Colon found", resultWords(entry)});
+    out.push_back({"Verdict", resultWords(entry)});
     if (entry.skeleton_length_mm > 0) {
         out.push_back({"Colon length", millimetres(entry.skeleton_length_mm) + " along the skeleton"});
         out.push_back({"Bridges", bridgeWords(entry.bridges)});

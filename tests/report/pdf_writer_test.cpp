@@ -2,14 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-
-#include <csignal>
-#include <fstream>
 #include <regex>
 
-#include "report_samples.h"
-#include "vicon/core/error.h"
+#include "pdf_fixture.h"
 #include "vicon/core/file.h"
 #include "vicon/report/statements.h"
 #include "vicon/support/support.h"
@@ -24,33 +19,6 @@ using support::TemporaryFolder;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-
-class PdfWriter : public testing::Test {
-protected:
-    TemporaryFolder folder_;
-    fs::path pdf_ = folder_ / "report.pdf";
-    ReportContent content_ = samples::plainCase(folder_.path());
-
-    void addMarkers(int count)
-    {
-        for (int n = 1; n <= count; ++n)
-            content_.markers.push_back(samples::plainMarker(folder_.path(), n));
-    }
-    PdfResult write(const ReportOptions& options = {}) { return writePdf(content_, pdf_, options); }
-};
-
-/// What two other programs say of the file.
-void expectSound(const fs::path& pdf)
-{
-    const auto qpdf = runCommand("qpdf --check " + pdf.string());
-    EXPECT_EQ(qpdf.exit_code, 0) << qpdf.output;
-    EXPECT_THAT(qpdf.output, Not(HasSubstr("WARNING")));
-    const auto poppler = runCommand("pdftoppm -r 20 " + pdf.string() + " " + pdf.string() + ".pages");
-    EXPECT_EQ(poppler.exit_code, 0);
-    EXPECT_THAT(poppler.output, IsEmpty());
-    const auto text = runCommand("pdftotext " + pdf.string() + " /dev/null");
-    EXPECT_THAT(text.output, IsEmpty());
-}
 
 /// Every page says whose report it is, that it is a draft, and which page of how many.
 void expectFurniture(const fs::path& pdf, int pages, const std::string& name)
@@ -117,7 +85,7 @@ TEST_F(PdfWriter, SaysAllOfAMarker)
     const std::string text = samples::textOf(pdf_);
     for (const char* what : {"Marker m1, red", "prone (series 3)", "L 85.2, P 12.0, H 340.5 mm", "sigmoid",
                              "412 mm along the skeleton", "1188 mm along the skeleton", "25.8 % of the whole, 1600 mm",
-                             "estimated: about 32 cm", "note of m1", "Endoscopic view", "Slices through the marker"})
+                             "estimated: about 32 cm", "note of m1", "Endoscopic view at m1", "Slices through m1"})
         EXPECT_THAT(text, HasSubstr(what));
     EXPECT_LT(text.find("1188 mm"), text.find("estimated: about"));
     expectTidy(pdf_);
@@ -186,6 +154,9 @@ TEST_F(PdfWriter, ANoteOfFiveThousandWordsRunsOverPagesWhole)
     for (auto at = std::sregex_iterator(text.begin(), text.end(), word); at != std::sregex_iterator(); ++at)
         ASSERT_EQ(std::stoi((*at)[1]), expected++);
     EXPECT_EQ(expected, 5000);
+    const std::vector<std::string> pages = samples::pageTexts(pdf_);
+    for (std::size_t page = 2; page + 1 < pages.size(); ++page)
+        EXPECT_THAT(pages[page], HasSubstr("Note of m1"));
     expectTidy(pdf_);
 }
 
@@ -332,69 +303,6 @@ TEST_F(PdfWriter, MissingAndBrokenPicturesLeaveALineAndAWarning)
     EXPECT_THAT(text, HasSubstr("No endoscopic picture was made."));
     EXPECT_THAT(text, HasSubstr("The slice picture cannot be read."));
     expectSound(pdf_);
-}
-
-class FileSizeLimit {
-public:
-    explicit FileSizeLimit(rlim_t bytes)
-    {
-        handler_ = std::signal(SIGXFSZ, SIG_IGN);
-        getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit limit{bytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~FileSizeLimit()
-    {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-    FileSizeLimit(const FileSizeLimit&) = delete;
-    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
-private:
-    rlimit before_{};
-    void (*handler_)(int) = nullptr;
-};
-
-TEST_F(PdfWriter, AFullDiskIsOneErrorAndLeavesTheOldReport)
-{
-    const fs::path target = folder_ / "reports" / "1.pdf";
-    fs::create_directory(target.parent_path());
-    replaceFile(target, "the old report");
-    try {
-        const FileSizeLimit full(1000);
-        writePdf(content_, target, {});
-        FAIL() << "wrote a report to a full disk";
-    } catch (const Error& e) {
-        EXPECT_EQ(e.code(), ErrorCode::store);
-        EXPECT_THAT(std::string(e.what()) + e.subject() + e.remedy(), Not(HasSubstr("Adams")));
-    }
-    EXPECT_EQ(readFile(target), "the old report");
-    EXPECT_EQ(std::distance(fs::directory_iterator(target.parent_path()), fs::directory_iterator()), 1);
-}
-
-TEST_F(PdfWriter, AnUnwritableTargetIsOneError)
-{
-    replaceFile(folder_ / "file", "no folder");
-    for (const fs::path& target : {folder_ / "nowhere" / "1.pdf", folder_ / "file" / "1.pdf"})
-        try {
-            writePdf(content_, target, {});
-            ADD_FAILURE() << target;
-        } catch (const Error& e) {
-            EXPECT_EQ(e.code(), ErrorCode::store);
-        }
-}
-
-TEST_F(PdfWriter, WithoutFontsItSaysWhatToInstall)
-{
-    try {
-        write({.font_folder = (folder_ / "no fonts").string()});
-        FAIL();
-    } catch (const Error& e) {
-        EXPECT_EQ(e.code(), ErrorCode::not_found);
-        EXPECT_THAT(e.remedy(), HasSubstr("fonts-noto-core"));
-    }
-    EXPECT_FALSE(fs::exists(pdf_));
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(Statements, AScanSaysWhatWasFoundAndWhatWasDoneToIt)
     EXPECT_EQ(said(s, "Series"), "3, Colon 1.0");
     EXPECT_EQ(said(s, "Geometry"),
               "430 slices of 512 × 400, voxels of 0.68 × 0.68 × 1.00 mm, gantry tilt of 12.0° removed");
-    EXPECT_EQ(said(s, "Colon found"), "colon, confidence 86 %: three pieces of gas");
+    EXPECT_EQ(said(s, "Verdict"), "colon, confidence 86 %: three pieces of gas");
     EXPECT_EQ(said(s, "Colon length"), "1595 mm along the skeleton");
     EXPECT_EQ(
         said(s, "Bridges"),
@@ -93,13 +93,13 @@ TEST(Statements, LossyCompressionIsFlagged)
 
 TEST(Statements, AScanThatIsNotPreparedSaysSo)
 {
-    EXPECT_EQ(said(scanStatements({}), "Colon found"), "not prepared");
+    EXPECT_EQ(said(scanStatements({}), "Verdict"), "not prepared");
     EXPECT_EQ(said(scanStatements({}), "Colon length"), "(nothing)");
     ScanEntry none;
     none.verdict = "no colon";
     none.confidence = 0.97;
     none.reason = "a chest";
-    EXPECT_EQ(said(scanStatements(none), "Colon found"), "no colon, confidence 97 %: a chest");
+    EXPECT_EQ(said(scanStatements(none), "Verdict"), "no colon, confidence 97 %: a chest");
 }
 
 TEST(Statements, JsonOfAnotherShapeIsPassedOver)
