@@ -25,13 +25,21 @@ ProgressLine::~ProgressLine()
 
 void ProgressLine::clear()
 {
+    const std::lock_guard lock(mutex_);
     if (drawn_)
         std::fputs("\r\033[K", stderr);
     drawn_ = false;
 }
 
+void ProgressLine::rename(const std::string& title)
+{
+    const std::lock_guard lock(mutex_);
+    title_ = title;
+}
+
 void ProgressLine::report(double fraction, std::string_view what)
 {
+    const std::lock_guard lock(mutex_);
     const auto now = std::chrono::steady_clock::now();
     if (now - last_ < (terminal_ ? std::chrono::nanoseconds(kBarInterval) : std::chrono::nanoseconds(kLineInterval)))
         return;

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <string>
 
 #include "vicon/core/progress.h"
@@ -18,13 +19,13 @@ public:
     bool cancelled() const override;
     /// Removes the bar, so that something else can be printed.
     void clear();
-    void rename(std::string title) { title_ = std::move(title); }
+    void rename(const std::string& title);
 
 private:
+    std::mutex mutex_;
     std::string title_;
     bool terminal_;
     bool drawn_ = false;
-    std::string last_what_;
     std::chrono::steady_clock::time_point last_{};
 };
 

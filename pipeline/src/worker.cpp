@@ -100,6 +100,7 @@ public:
     {
         const double whole = from_ + (to_ - from_) * std::clamp(fraction, 0.0, 1.0);
         heartbeat_.show(step_, whole);
+        const std::lock_guard lock(events_mutex_);
         events_.progress(job_, whole, what.empty() ? step_ : step_ + ": " + std::string(what));
     }
     bool cancelled() const override { return stop_ || heartbeat_.leaseLost(); }
@@ -111,6 +112,7 @@ private:
     Heartbeat& heartbeat_;
     const WorkerEvents& events_;
     const std::atomic<bool>& stop_;
+    std::mutex events_mutex_;
     std::string step_;
     double from_ = 0, to_ = 1;
 };

@@ -122,6 +122,35 @@ TEST(Worker, ShowsStepAndProgressInTheTable)
         events);
 }
 
+TEST(Worker, TellsItsWatcherOfReportsOneAtATimeWhereverTheyComeFrom)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    std::atomic<int> inside = 0, calls = 0, overlaps = 0;
+    WorkerEvents events;
+    events.progress = [&](const Job&, double, const std::string&) {
+        overlaps += ++inside > 1;
+        ++calls;
+        std::this_thread::yield();
+        --inside;
+    };
+    work(
+        fake,
+        [](JobContext& context) {
+            std::vector<std::thread> threads;
+            for (int n = 0; n < 4; ++n)
+                threads.emplace_back([&] {
+                    for (int k = 0; k < 500; ++k)
+                        context.report(k / 500.0, "parallel");
+                });
+            for (auto& thread : threads)
+                thread.join();
+        },
+        events);
+    EXPECT_EQ(calls, 2000);
+    EXPECT_EQ(overlaps, 0);
+}
+
 TEST(Worker, GivesTheJobBackWhenToldToStop)
 {
     FakeStore fake;

@@ -4,7 +4,8 @@
 
 namespace vicon {
 
-/// How long work tells how far it is, and learns that nobody wants it any more.
+/// How long work tells how far it is, and learns that nobody wants it any more. Every method may be called from several
+/// threads at once: parallel loops report from all of theirs.
 class Progress {
 public:
     virtual ~Progress() = default;

@@ -23,7 +23,7 @@ public:
 /// The work itself. Throws Error{cancelled} when told to stop, anything else to fail.
 using JobWork = std::function<void(JobContext&)>;
 
-/// Watches a worker: told of every report, and of every job's end.
+/// Watches a worker: told of every report, and of every job's end; one call at a time, from any thread.
 struct WorkerEvents {
     std::function<void(const Job&, double fraction, const std::string& what)> progress = [](auto&&...) {};
     std::function<void(const Job&, JobState, const std::string& reason)> ended = [](auto&&...) {};
