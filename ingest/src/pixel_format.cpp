@@ -46,7 +46,8 @@ std::string checkEncapsulated(DcmPixelData& pixels, const PixelFormat& format, c
                               bool& doubtful)
 {
     const DcmXfer xfer(syntax.c_str());
-    const bool known = isJpeg2000(syntax) || DcmCodecList::canChangeCoding(xfer.getXfer(), EXS_LittleEndianExplicit);
+    const bool known =
+        isDecodedByGdcm(syntax) || DcmCodecList::canChangeCoding(xfer.getXfer(), EXS_LittleEndianExplicit);
     if (!known)
         return "its encoding is not supported (" + std::string(xfer.getXferName()) + ")";
     DcmPixelSequence* sequence = nullptr;
@@ -105,6 +106,12 @@ void readPadding(const Dataset& dataset, PixelFormat& format)
 bool isJpeg2000(const std::string& transfer_syntax)
 {
     return transfer_syntax == UID_JPEG2000LosslessOnlyTransferSyntax || transfer_syntax == UID_JPEG2000TransferSyntax;
+}
+
+bool isDecodedByGdcm(const std::string& transfer_syntax)
+{
+    return isJpeg2000(transfer_syntax) || transfer_syntax == UID_JPEGLSLosslessTransferSyntax ||
+           transfer_syntax == UID_JPEGLSLossyTransferSyntax;
 }
 
 bool isLossy(const Dataset& dataset, const std::string& transfer_syntax)

@@ -15,7 +15,7 @@
 
 #include "dataset.h"
 #include "dicom_setup.h"
-#include "jpeg2000.h"
+#include "gdcm_codec.h"
 #include "pixel_format.h"
 #include "vicon/core/error.h"
 #include "vicon/core/volume.h"
@@ -75,7 +75,7 @@ struct FrameDecoder::Opened {
     std::vector<std::int16_t> table;
     double table_slope = 0, table_intercept = 0;
 
-    std::string jpeg2000Stream(const ImageObject& object, int frame)
+    std::string compressedStream(const ImageObject& object, int frame)
     {
         DcmPixelSequence* sequence = nullptr;
         const DcmXfer xfer(object.transfer_syntax.c_str());
@@ -83,7 +83,7 @@ struct FrameDecoder::Opened {
             failed("its compressed pixels cannot be read");
         const auto [first, last] = fragmentsOfFrame(*sequence, frame, object.pixels.frames);
         if (first == last)
-            failed("its frames are split into parts, which is not supported for JPEG 2000");
+            failed("its frames are split into parts, which is not supported for this encoding");
         std::string stream;
         for (unsigned long n = first; n < last; ++n) {
             DcmPixelItem* item = nullptr;
@@ -99,8 +99,8 @@ struct FrameDecoder::Opened {
     std::vector<char> decoded(const ImageObject& object, int frame)
     {
         const PixelFormat& f = object.pixels;
-        if (isJpeg2000(object.transfer_syntax))
-            return decodeJpeg2000(jpeg2000Stream(object, frame), f, object.transfer_syntax);
+        if (isDecodedByGdcm(object.transfer_syntax))
+            return decodeWithGdcm(compressedStream(object, frame), f, object.transfer_syntax);
         const std::size_t needed = std::size_t(f.rows) * std::size_t(f.columns) * std::size_t(f.bits_allocated / 8);
         std::vector<char> bytes(needed + needed % 2);
         Uint32 start_fragment = 0;

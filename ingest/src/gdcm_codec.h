@@ -8,8 +8,9 @@
 
 namespace vicon::ingest {
 
-/// Decodes one JPEG 2000 code stream to little-endian pixels of `format`. Throws Error{bad_input} without a subject.
-std::vector<char> decodeJpeg2000(const std::string& stream, const PixelFormat& format,
+/// Decodes one JPEG 2000 or JPEG-LS code stream to little-endian pixels of `format`. Throws Error{bad_input} without a
+/// subject.
+std::vector<char> decodeWithGdcm(const std::string& stream, const PixelFormat& format,
                                  const std::string& transfer_syntax);
 
 }  // namespace vicon::ingest
