@@ -15,6 +15,39 @@ constexpr float kLumenCost = 0.8F, kTissueCost = 1, kFatCost = 2, kGasCost = 4;
 constexpr double kHorizon = 150;  // beyond, a way is not looked for but guessed as straight
 constexpr double kGuess = 2;      // cost per millimetre of a guessed way
 
+/// What a straight way costs; infinite where it cannot be gone.
+double straightCost(const Volume<float>& costs, Point3 a, Point3 b)
+{
+    const double length_mm = distance(a, b);
+    const int steps = std::max(1, int(std::ceil(length_mm / (costs.grid.spacing_mm[0] / 2))));
+    double sum = 0;
+    for (int n = 0; n <= steps; ++n) {
+        const float here = costs.valueOr(costs.grid.indexAt(interpolate(a, b, double(n) / steps)), 0);
+        if (here <= 0)
+            return std::numeric_limits<double>::infinity();
+        sum += here;
+    }
+    return sum / (steps + 1) * length_mm;
+}
+
+/// A chain of voxels goes in steps of 45 degrees: replaces stretches of it by straight lines that cost no more.
+std::vector<Point3> pulledStraight(const Volume<float>& costs, const std::vector<Point3>& path)
+{
+    std::vector<Point3> out{path.front()};
+    for (std::size_t from = 0; from + 1 < path.size();) {
+        std::size_t to = from + 1;
+        double along = straightCost(costs, path[from], path[to]);
+        for (std::size_t n = from + 2; n < path.size(); ++n) {
+            along += straightCost(costs, path[n - 1], path[n]);
+            if (straightCost(costs, path[from], path[n]) <= along)
+                to = n;
+        }
+        out.push_back(path[to]);
+        from = to;
+    }
+    return out;
+}
+
 }  // namespace
 
 Volume<float> tissueCosts(const Body& body, const InsideVolume& labels)
@@ -100,6 +133,7 @@ std::vector<TissueWay> waysFrom(const Volume<float>& costs, Point3 from, const s
         std::reverse(ways[g].path_mm.begin(), ways[g].path_mm.end());
         ways[g].path_mm.front() = from;
         ways[g].path_mm.back() = to[g];
+        ways[g].path_mm = pulledStraight(costs, ways[g].path_mm);
     }
     return ways;
 }

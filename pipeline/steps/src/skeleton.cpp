@@ -9,8 +9,8 @@
 namespace vicon::steps {
 namespace {
 
-constexpr int kBlock = 2;          // half resolution: as exact after recentring as full, and four times faster
-constexpr double kLeast_mm = 1.2;  // narrower blocks are specks along the wall; see findPath() for narrow lumens
+constexpr int kBlock = 2;        // half resolution: as exact after recentring as full, and four times faster
+constexpr double kLeast_mm = 0;  // narrow lumens are kept; the cost keeps the path away from corners of the wall
 
 /// Appends points with their stations, which go on from the end of what is there.
 void append(Skeleton& skeleton, const Polyline& line, bool bridge, const DistanceProbe& wall)
@@ -25,18 +25,17 @@ void append(Skeleton& skeleton, const Polyline& line, bool bridge, const Distanc
     skeleton.pieces.push_back(std::move(piece));
 }
 
-Polyline bridgeLine(Point3 from, const Bridge& bridge, Point3 to)
+/// From the end of one curve to the start of the next along the bridge's path, without the detours to the tips of the
+/// lumen, which lie a local radius beyond the curves' ends and often in a corner.
+Polyline bridgeLine(Point3 from, const Bridge& bridge, Point3 to, const SkeletonOptions& options)
 {
     Polyline line{from};
-    const auto add = [&](Point3 p) {
-        if (distance(line.back(), p) > 1e-6)
-            line.push_back(p);
-    };
-    for (const Point3& p : bridge.path_mm)
-        add(p);
-    add(to);
-    if (line.size() < 2)
-        line.push_back(to);
+    for (std::size_t n = 1; n + 1 < bridge.path_mm.size(); ++n)
+        line.push_back(bridge.path_mm[n]);
+    line.push_back(to);
+    line = smoothed(resampled(line, options.step_mm), options.smoothing_mm, options.step_mm);
+    line.front() = from;
+    line.back() = to;
     return line;
 }
 
@@ -70,7 +69,8 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
     for (std::size_t n = 0; n < curves.size(); ++n) {
         append(result.curve, curves[n], false, wall);
         if (n + 1 < curves.size())
-            append(result.curve, bridgeLine(curves[n].back(), plan.bridges.at(n), curves[n + 1].front()), true, wall);
+            append(result.curve, bridgeLine(curves[n].back(), plan.bridges.at(n), curves[n + 1].front(), options), true,
+                   wall);
     }
     result.measures["length_mm"] = result.curve.length_mm();
     return result;

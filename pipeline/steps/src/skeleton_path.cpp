@@ -15,7 +15,10 @@ namespace {
 constexpr double kEndTolerance_mm = 8;  // an end may lie in a block that the coarse graph leaves out
 constexpr double kCutMargin_mm = 1.5;   // what is removed at a contact, beyond its own radius
 constexpr int kMostCuts = 8;
-constexpr int kTriesPerPart = 3;
+constexpr int kTriesPerPart = 2;
+// A contact is narrow beside the lumen around it; the prone reference scan's widest pouches lie beside 13 of 25 mm.
+constexpr double kWidestContact_mm = 8;
+constexpr double kContactShare = 0.5;
 constexpr double kEndZone_mm = 15;  // the path is narrow at its tips; that is no contact
 constexpr std::size_t kChunk = 40;  // nodes of the coarse path that are refined at once
 
@@ -61,21 +64,25 @@ Coverage coverageOf(const LumenGraph& graph, const NodePath& path, const Skeleto
     return coverage;
 }
 
-/// The narrowest node of a stretch of the path that lies away from the path's ends and has not been tried; -1 when
-/// there is none.
+/// The narrowest node of a stretch of the path that lies away from the path's ends and has not been tried, if it is
+/// narrow enough for a contact; -1 otherwise.
 std::int32_t narrowest(const LumenGraph& graph, const NodePath& path, const Uncovered& beside,
                        const std::vector<Point3>& tried)
 {
     std::int32_t best = -1;
+    float widest = 0;
     const Point3 first = graph.point(path.front()), last = graph.point(path.back());
     for (std::size_t n = beside.from; n <= beside.to; ++n) {
         const Point3 p = graph.point(path[n]);
         if (distance(p, first) < kEndZone_mm || distance(p, last) < kEndZone_mm)
             continue;
         const bool known = std::any_of(tried.begin(), tried.end(), [&](Point3 q) { return distance(p, q) < 6; });
+        widest = std::max(widest, graph.node(path[n]).wall_mm);
         if (!known && (best < 0 || graph.node(path[n]).wall_mm < graph.node(best).wall_mm))
             best = path[n];
     }
+    if (best >= 0 && graph.node(best).wall_mm > std::min(kWidestContact_mm, kContactShare * widest))
+        return -1;
     return best;
 }
 

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <queue>
@@ -26,16 +27,14 @@ void forEachNeighbour(const LumenGraph& graph, std::int32_t n, const std::vector
     const std::int32_t* here = &graph.node_of[own.cell];
     const auto sx = float(graph.grid.spacing_mm[0]), sy = float(graph.grid.spacing_mm[1]),
                sz = float(graph.grid.spacing_mm[2]);
-    for (const std::ptrdiff_t step : graph.neighbour) {
-        const std::int32_t m = here[step];
-        if (m < 0 || known[std::size_t(m)] <= limit)
+    for (std::uint32_t bits = own.joined; bits; bits &= bits - 1) {
+        const std::int32_t m = here[graph.neighbour[std::size_t(std::countr_zero(bits))]];
+        if (known[std::size_t(m)] <= limit)
             continue;
         const LumenGraph::Node& other = graph.node(m);
         const float x = float(other.voxel.i - own.voxel.i) * sx, y = float(other.voxel.j - own.voxel.j) * sy,
                     z = float(other.voxel.k - own.voxel.k) * sz;
-        const float apart = std::sqrt(x * x + y * y + z * z);
-        if (graph.block == 1 || apart < own.wall_mm + other.wall_mm)
-            use(m, apart);
+        use(m, std::sqrt(x * x + y * y + z * z));
     }
 }
 
@@ -69,6 +68,40 @@ std::vector<std::uint32_t> farthestOfBlocks(const FieldVolume& wall_mm, int bloc
             }
     });
     return best;
+}
+
+/// Whether every voxel of the digital line between two voxels is inside.
+bool lineInside(const FieldVolume& wall_mm, Index3 a, Index3 b)
+{
+    const int steps = std::max({std::abs(b.i - a.i), std::abs(b.j - a.j), std::abs(b.k - a.k)});
+    for (int n = 1; n < steps; ++n) {
+        const auto at = [&](int from, int to) { return from + int(std::floor(double(to - from) * n / steps + 0.5)); };
+        if (wall_mm.at({at(a.i, b.i), at(a.j, b.j), at(a.k, b.k)}) <= 0)
+            return false;
+    }
+    return true;
+}
+
+void joinNodes(LumenGraph& graph, const FieldVolume& wall_mm)
+{
+    const auto chunk = std::size_t(4096);
+    tbb::parallel_for(std::size_t(0), graph.count() / chunk + 1, [&](std::size_t c) {
+        for (std::size_t n = c * chunk; n < std::min(graph.count(), (c + 1) * chunk); ++n) {
+            LumenGraph::Node& own = graph.nodes[n];
+            for (std::size_t d = 0; d < graph.neighbour.size(); ++d) {
+                const std::int32_t m = graph.node_of[std::size_t(std::ptrdiff_t(own.cell) + graph.neighbour[d])];
+                if (m < 0)
+                    continue;
+                const LumenGraph::Node& other = graph.node(m);
+                const double apart = distance(graph.grid.pointAt(own.voxel), graph.grid.pointAt(other.voxel));
+                // The smaller voxel first, so that both ends of an edge see the same line.
+                const bool first = n < std::size_t(m);
+                if (graph.block == 1 || apart < own.wall_mm + other.wall_mm ||
+                    lineInside(wall_mm, first ? own.voxel : other.voxel, first ? other.voxel : own.voxel))
+                    own.joined |= 1U << d;
+            }
+        }
+    });
 }
 
 }  // namespace
@@ -107,7 +140,7 @@ LumenGraph makeGraph(const FieldVolume& wall_mm, int block, double least_mm)
                     continue;
                 const auto cell = std::uint32_t(i + 1 + nx * (j + 1 + ny * (k + 1)));
                 graph.node_of[cell] = std::int32_t(graph.nodes.size());
-                graph.nodes.push_back({graph.grid.indexOf(best[b]), cell, wall_mm.voxels[best[b]]});
+                graph.nodes.push_back({graph.grid.indexOf(best[b]), cell, wall_mm.voxels[best[b]], 0});
             }
     std::size_t n = 0;
     for (int k = -1; k <= 1; ++k)
@@ -115,6 +148,7 @@ LumenGraph makeGraph(const FieldVolume& wall_mm, int block, double least_mm)
             for (int i = -1; i <= 1; ++i)
                 if (i || j || k)
                     graph.neighbour[n++] = i + nx * (j + ny * k);
+    joinNodes(graph, wall_mm);
     return graph;
 }
 

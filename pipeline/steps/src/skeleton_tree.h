@@ -13,8 +13,9 @@ namespace vicon::steps {
 struct LumenGraph {
     struct Node {
         Index3 voxel;
-        std::uint32_t cell = 0;  ///< its place in node_of
-        float wall_mm = 0;       ///< distance to the wall
+        std::uint32_t cell = 0;    ///< its place in node_of
+        float wall_mm = 0;         ///< distance to the wall
+        std::uint32_t joined = 0;  ///< bit n: joined to the node at neighbour[n]
     };
 
     Grid grid;      ///< of the mask and its distances
@@ -31,6 +32,8 @@ struct LumenGraph {
 };
 
 /// @param wall_mm distance to the wall, 0 outside the lumen
+/// Neighbouring nodes are joined where their balls up to the wall overlap or a straight line between them stays inside,
+/// so that no edge crosses a thin wall.
 /// @param least_mm blocks that are nowhere farther from the wall are left out
 LumenGraph makeGraph(const FieldVolume& wall_mm, int block, double least_mm);
 
@@ -52,8 +55,7 @@ struct LumenTree {
 };
 
 /// Dijkstra with an edge cost of length x (5 mm / wall distance)^4: the tree keeps to the middle and avoids contacts
-/// between loops, which are narrow. Two nodes are joined where their balls up to the wall overlap, so that no edge
-/// crosses a thin wall.
+/// between loops, which are narrow.
 /// @param blocked nodes that must not be used; empty: none
 LumenTree centralTree(const LumenGraph& graph, std::int32_t root, const std::vector<std::uint8_t>& blocked,
                       Progress& progress);

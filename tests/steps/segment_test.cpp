@@ -1,0 +1,167 @@
+#include "vicon/steps/segment.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "segment_shapes.h"
+#include "vicon/core/error.h"
+
+namespace vicon::steps {
+namespace {
+
+using test::centredGrid;
+using test::TubeScan;
+
+/// A tube like a colon in small: up on the left, across, down on the right.
+TubeScan smallColon()
+{
+    return {.line = {{0, 15, -70}, {0, 15, -45}, {45, 0, -40}, {45, 0, 45}, {-45, 0, 45}, {-45, 0, -40}}};
+}
+
+const Grid kGrid = centredGrid({110, 80, 120}, 1.5);
+
+double dice(const InsideVolume& found, const Grid& grid, const TubeScan& scan)
+{
+    double both = 0, truth = 0, own = 0;
+    for (std::size_t n = 0; n < grid.voxelCount(); ++n) {
+        const Point3 p = grid.pointAt(grid.indexOf(n));
+        const bool a = scan.signedDistance(p) < 0;
+        const bool b = found.valueOr(found.grid.indexAt(p), kOutside) != kOutside;
+        truth += a;
+        own += b;
+        both += a && b;
+    }
+    return 2 * both / (truth + own);
+}
+
+Segmentation segment(const HuVolume& volume, Vector3 gravity, SegmentOptions options = {})
+{
+    NoProgress progress;
+    return segmentColon(volume, gravity, options, progress);
+}
+
+TEST(Segment, PutsTheWallAtTheHalfWayDensity)
+{
+    const TubeScan scan = smallColon();
+    const Segmentation result = segment(scan.draw(kGrid), scan.gravity);
+    EXPECT_NE(result.verdict, "no colon") << result.reason;
+    EXPECT_GE(dice(result.inside, kGrid, scan), 0.985);
+    ASSERT_EQ(result.plan.pieces.size(), 1U);
+    EXPECT_LT(distance(result.plan.pieces[0].rectal_end_mm, scan.line.front()), 14);
+    EXPECT_LT(distance(result.plan.pieces[0].caecal_end_mm, scan.line.back()), 16);
+}
+
+class FluidLevels : public testing::TestWithParam<Vector3> {};
+
+TEST_P(FluidLevels, AreFoundInEveryPosition)
+{
+    TubeScan scan = smallColon();
+    scan.gravity = GetParam();
+    scan.fluid_hu = 600;
+    scan.level_mm = 4;
+    const Segmentation result = segment(scan.draw(kGrid), scan.gravity);
+    EXPECT_NE(result.verdict, "no colon") << result.reason;
+    EXPECT_GE(dice(result.inside, kGrid, scan), 0.97);
+    EXPECT_GT(result.measures["fluid_ml"].get<double>(), 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Positions, FluidLevels,
+                         testing::Values(Vector3{0, 1, 0}, Vector3{0, -1, 0}, Vector3{1, 0, 0}, Vector3{-1, 0, 0}));
+
+TEST(Segment, OrdersPiecesOverAGap)
+{
+    TubeScan scan = smallColon();
+    scan.line = {{0, 15, -70}, {0, 15, -45}, {45, 0, -40}, {45, 0, 45}, {20, 0, 45}};
+    scan.second_line = {{-25, 0, 45}, {-45, 0, 45}, {-45, 0, -40}};
+    const Segmentation result = segment(scan.draw(kGrid), scan.gravity);
+    ASSERT_EQ(result.plan.pieces.size(), 2U) << result.reason;
+    ASSERT_EQ(result.plan.bridges.size(), 1U);
+    EXPECT_LT(result.plan.pieces[0].rectal_end_mm.z, -50);
+    EXPECT_LT(distance(result.plan.pieces[1].caecal_end_mm, {-45, 0, -45}), 16);
+    EXPECT_TRUE(result.plan.bridges[0].certain);
+    EXPECT_LT(result.plan.bridges[0].length_mm, 60);
+}
+
+TEST(Segment, LeavesAMarginOutside)
+{
+    const TubeScan scan = smallColon();
+    const InsideVolume inside = segment(scan.draw(kGrid), scan.gravity).inside;
+    const auto& size = inside.grid.size;
+    for (std::size_t n = 0; n < inside.voxels.size(); ++n) {
+        const Index3 v = inside.grid.indexOf(n);
+        if (v.i == 0 || v.j == 0 || v.k == 0 || v.i == size[0] - 1 || v.j == size[1] - 1 || v.k == size[2] - 1) {
+            ASSERT_EQ(inside.voxels[n], kOutside);
+        }
+    }
+}
+
+TEST(Segment, DoesNotDependOnTheNumberOfThreads)
+{
+    TubeScan scan = smallColon();
+    scan.fluid_hu = 500;
+    scan.level_mm = 4;
+    const HuVolume volume = scan.draw(kGrid);
+    const Segmentation many = segment(volume, scan.gravity);
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    const Segmentation one = segment(volume, scan.gravity);
+    EXPECT_EQ(one.inside.grid, many.inside.grid);
+    EXPECT_EQ(one.inside.voxels, many.inside.voxels);
+    EXPECT_EQ(toJson(one.plan), toJson(many.plan));
+}
+
+struct NoColonCase {
+    const char* name;
+    std::array<int, 3> size;
+    std::int16_t hu;
+};
+
+class NoColon : public testing::TestWithParam<NoColonCase> {};
+
+TEST_P(NoColon, IsAVerdictAndNoCrash)
+{
+    const HuVolume volume(centredGrid(GetParam().size, 1), GetParam().hu);
+    const Segmentation result = segment(volume, {0, 1, 0});
+    EXPECT_EQ(result.verdict, "no colon") << GetParam().name;
+    EXPECT_FALSE(result.reason.empty());
+    EXPECT_TRUE(result.inside.voxels.empty());
+    EXPECT_TRUE(result.plan.pieces.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scans, NoColon,
+    testing::Values(NoColonCase{"air", {64, 64, 79}, -1000}, NoColonCase{"padding", {64, 64, 79}, kPaddingHu},
+                    NoColonCase{"tissue", {64, 64, 79}, 40}, NoColonCase{"bone", {32, 32, 16}, 900},
+                    NoColonCase{"one voxel", {1, 1, 1}, -1000}, NoColonCase{"one slice", {40, 40, 1}, 40}));
+
+TEST(Segment, BinaryMethodTakesWhatTheSeedPointLiesIn)
+{
+    const TubeScan scan = smallColon();
+    SegmentOptions options;
+    options.method = "binary";
+    options.iso_hu = -480;
+    options.seed = "45,0,0";
+    const Segmentation result = segment(scan.draw(kGrid), scan.gravity, options);
+    EXPECT_GE(dice(result.inside, kGrid, scan), 0.985);
+    options.seed = "0,-20,0";
+    EXPECT_EQ(segment(scan.draw(kGrid), scan.gravity, options).verdict, "no colon");
+}
+
+TEST(Segment, RefusesAMalformedPoint)
+{
+    SegmentOptions options;
+    options.cut = "1,2";
+    EXPECT_THROW(segment(smallColon().draw(kGrid), {0, 1, 0}, options), Error);
+}
+
+TEST(LumenPlan, SurvivesJson)
+{
+    LumenPlan plan;
+    plan.pieces.push_back({{1, 2, 3}, {4, 5, 6}, 7, 8, 9, 10});
+    plan.pieces.push_back({{11, 12, 13}, {14, 15, 16}, 17, 18, 19, 20});
+    plan.bridges.push_back({{4, 5, 6}, {11, 12, 13}, {{4, 5, 6}, {11, 12, 13}}, 12.1, 0.5, "why", true});
+    EXPECT_EQ(toJson(lumenPlanFromJson(toJson(plan))), toJson(plan));
+    EXPECT_THROW(lumenPlanFromJson({{"pieces", 1}}), Error);
+}
+
+}  // namespace
+}  // namespace vicon::steps
