@@ -103,9 +103,11 @@ private:
                 high[a] = std::max(high[a], at[a] + s.reach_mm / grid_.spacing_mm[a]);
             }
         }
+        field.cropped = false;
         int first[3];
         for (std::size_t a = 0; a < 3; ++a) {
             first[a] = std::clamp(int(std::floor(low[a])), 0, grid_.size[a]);
+            field.cropped = field.cropped || low[a] < 0 || high[a] > grid_.size[a] - 1;
             field.size[a] = std::max(0, std::clamp(int(std::ceil(high[a])) + 1, 0, grid_.size[a]) - first[a]);
         }
         field.low = {first[0], first[1], first[2]};
@@ -164,6 +166,10 @@ private:
         const double along = stretch.beyond != 0 ? 0 : wall.lumen_per_station / crowding;
         const double around = wall.lumen_per_radian / std::max(away_mm, 1.0);
         double lumen_mm = (away_mm - wall.lumen_mm) / std::sqrt(1 + along * along + around * around);
+        // Beside a fold the slope says that the wall is near even where the fold's crest is far above or below.
+        const double reach_mm = wall_.reach_mm * crowding;
+        lumen_mm = std::min(lumen_mm, std::max(away_mm - wall.narrowest_mm, -reach_mm));
+        lumen_mm = std::max(lumen_mm, std::min(away_mm - wall.widest_mm, reach_mm));
         for (const Polyp* polyp : stretch.polyps)
             lumen_mm = std::max(lumen_mm, polyp->diameter_mm / 2 - distance(p, polyp->position_mm));
         const std::int8_t lumen = stored(lumen_mm), outside = stored(away_mm - wall.outside_mm);

@@ -15,7 +15,8 @@ struct LumenField {
     static constexpr std::int8_t kFar = 127;      ///< beyond the band
     static constexpr std::uint8_t kNoPool = 0xff;
 
-    Index3 low;  ///< first voxel of the box that holds the colon
+    bool cropped = false;  ///< the colon does not lie within the grid as a whole
+    Index3 low;            ///< first voxel of the box that holds the colon
     std::array<int, 3> size{0, 0, 0};
     std::vector<std::int8_t> lumen;    ///< distance to the lumen's surface, below 0 inside
     std::vector<std::int8_t> outside;  ///< distance to the outside of the wall, below 0 inside

@@ -106,6 +106,8 @@ InsideVolume soundLumen(const Grid& grid, const Scene& scene, LumenField& field,
         // A polyp keeps its shape unless its foot is what the voxels cannot show.
         roundOff(field, grid, round < kRounds / 2 ? truth.polyps : std::vector<Polyp>());
         InsideVolume inside = labelLumen(grid, scene, field, truth.pools);
+        if (field.cropped)
+            return inside;
         if (eulerNumber26(inside, field.low, field.size) == truth.euler_number &&
             eulerNumber6(inside, field.low, field.size) == truth.euler_number)
             return inside;
@@ -148,7 +150,7 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
                                            .self_contact = options.self_contact,
                                            .thinnest_fold_mm = 2 * coarsest_mm,
                                            .polyps = options.polyps});
-    const Wall wall = Wall::draw(options, course, placement.position);
+    const Wall wall = Wall::draw(options, course, placement.position, std::max(1.0, 0.75 * coarsest_mm));
     PhantomScan scan;
     scan.patient_position = patient_position;
     scan.truth = describe(course, wall);
@@ -162,6 +164,8 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
     scan.truth.euler_number = int(wall.gaps.size()) + 1 - (options.self_contact ? 1 : 0);
     scan.truth.inside = soundLumen(grid, scene, field, scan.truth, progress);
     measure(scan.truth);
+    if (field.cropped)
+        scan.truth.euler_number = eulerNumber26(scan.truth.inside, field.low, field.size);
 
     progress.report(0.5, "body");
     scan.truth.blur_mm = options.blur_mm > 0 ? options.blur_mm : drawn(options, "blur", 0.5, 0.8);

@@ -149,10 +149,11 @@ std::vector<CollapsedGap> drawGaps(const PhantomOptions& options, const Course& 
 
 }  // namespace
 
-Wall Wall::draw(const PhantomOptions& options, const DrawnCourse& drawn, Position position)
+Wall Wall::draw(const PhantomOptions& options, const DrawnCourse& drawn, Position position, double reach_mm)
 {
     Shape shape{drawn.course, drawn.relief, contactStations(drawn), {}, options.folds};
     Wall wall;
+    wall.reach_mm = reach_mm;
     wall.polyps = placePolyps(shape);
     std::vector<double> keep_clear = shape.contacts;
     for (const Polyp& polyp : wall.polyps)
@@ -180,7 +181,24 @@ Wall Wall::draw(const PhantomOptions& options, const DrawnCourse& drawn, Positio
             wall.largest_[row] = std::max(wall.largest_[row], float(outside));
         }
     });
+    wall.findExtremes();
     return wall;
+}
+
+void Wall::findExtremes()
+{
+    const long rows = long(largest_.size()), reach = std::max(1L, std::lround(reach_mm / kStep_mm));
+    narrowest_ = widest_ = lumen_;
+    tbb::parallel_for(0L, rows, [&](long row) {
+        for (long other = std::max(0L, row - reach); other <= std::min(rows - 1, row + reach); ++other)
+            for (std::size_t a = 0; a < kAngles; ++a) {
+                const float radius = lumen_[std::size_t(other) * kAngles + a];
+                float &low = narrowest_[std::size_t(row) * kAngles + a],
+                      &high = widest_[std::size_t(row) * kAngles + a];
+                low = std::min(low, radius);
+                high = std::max(high, radius);
+            }
+    });
 }
 
 Wall::Sample Wall::at(double station_mm, double angle) const
@@ -193,9 +211,12 @@ Wall::Sample Wall::at(double station_mm, double angle) const
     const float *low = &lumen_[r * kAngles], *high = low + kAngles;
     const double near = std::lerp(low[c], low[d], v), far = std::lerp(high[c], high[d], v);
     const double here = std::lerp(low[c], high[c], u), next = std::lerp(low[d], high[d], u);
-    const float *out_low = &outside_[r * kAngles], *out_high = out_low + kAngles;
-    return {std::lerp(near, far, u), (far - near) / kStep_mm, (next - here) * kAngles / (2 * pi),
-            std::lerp(std::lerp(out_low[c], out_low[d], v), std::lerp(out_high[c], out_high[d], v), u)};
+    const auto interpolated = [&](const std::vector<float>& table) {
+        const float *from = &table[r * kAngles], *to = from + kAngles;
+        return std::lerp(std::lerp(from[c], from[d], v), std::lerp(to[c], to[d], v), u);
+    };
+    return {interpolated(narrowest_),           interpolated(widest_), std::lerp(near, far, u), (far - near) / kStep_mm,
+            (next - here) * kAngles / (2 * pi), interpolated(outside_)};
 }
 
 double Wall::largestOutside_mm(double station_mm) const

@@ -12,6 +12,8 @@ namespace vicon::phantom {
 class Wall {
 public:
     struct Sample {
+        double narrowest_mm = 0;       ///< smallest radius of the lumen within reach_mm along the curve
+        double widest_mm = 0;          ///< and the largest
         double lumen_mm = 0;           ///< below 0 within a collapsed part
         double lumen_per_station = 0;  ///< slope along the curve
         double lumen_per_radian = 0;   ///< slope around it
@@ -25,15 +27,20 @@ public:
     std::vector<Polyp> polyps;  ///< clock_deg not yet known
 
     /// Shapes the wall along a course: haustra, folds and polyps are the patient's, gaps are drawn for the position.
-    static Wall draw(const PhantomOptions& options, const DrawnCourse& drawn, Position position);
+    static Wall draw(const PhantomOptions& options, const DrawnCourse& drawn, Position position, double reach_mm);
+
+    double reach_mm = 1;
 
 private:
     static constexpr int kAngles = 192;
     static constexpr double kStep_mm = 0.25;
     float& lumen(std::size_t row, int angle) { return lumen_[row * kAngles + std::size_t(angle)]; }
 
-    std::vector<float> lumen_, outside_;  ///< rows of kAngles, kStep_mm apart
-    std::vector<float> largest_;          ///< outside, per row
+    void findExtremes();
+
+    std::vector<float> lumen_, outside_;     ///< rows of kAngles, kStep_mm apart
+    std::vector<float> narrowest_, widest_;  ///< of lumen_ within reach_mm
+    std::vector<float> largest_;             ///< outside, per row
 };
 
 }  // namespace vicon::phantom

@@ -101,7 +101,7 @@ struct PhantomTruth {
     double fluid_ml = 0;
     double noise_hu = 0;
     double blur_mm = 0;
-    int euler_number = 1;  ///< of the lumen: its pieces less its loops (self_contact)
+    int euler_number = 1;  ///< of the lumen: its pieces less its loops; as counted where the field cuts the colon off
     InsideVolume inside;   ///< on the grid of the scan
 };
 

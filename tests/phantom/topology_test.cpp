@@ -1,0 +1,86 @@
+#include "topology.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "euler.h"
+
+namespace vicon::phantom {
+namespace {
+
+InsideVolume empty(int n)
+{
+    Grid grid;
+    grid.size = {n, n, n};
+    return InsideVolume(grid);
+}
+
+template <class Inside>
+InsideVolume filled(int n, Inside inside)
+{
+    InsideVolume volume = empty(n);
+    for (std::size_t v = 0; v < volume.voxels.size(); ++v) {
+        const Index3 at = volume.grid.indexOf(v);
+        volume.voxels[v] = inside(at.i - n / 2, at.j - n / 2, at.k - n / 2) ? kGas : kOutside;
+    }
+    return volume;
+}
+
+int euler26(const InsideVolume& v)
+{
+    return eulerNumber26(v, {0, 0, 0}, v.grid.size);
+}
+int euler6(const InsideVolume& v)
+{
+    return eulerNumber6(v, {0, 0, 0}, v.grid.size);
+}
+
+TEST(EulerNumber, IsThatOfTheShape)
+{
+    const struct {
+        const char* name;
+        InsideVolume volume;
+        int euler;
+    } cases[] = {
+        {"nothing", empty(5), 0},
+        {"ball", filled(21, [](int x, int y, int z) { return x * x + y * y + z * z < 64; }), 1},
+        {"ball up to the rim", filled(9, [](int, int, int) { return true; }), 1},
+        {"hollow ball",
+         filled(21,
+                [](int x, int y, int z) {
+                    const int q = x * x + y * y + z * z;
+                    return q < 81 && q > 16;
+                }),
+         2},
+        {"ring", filled(25, [](int x, int y, int z) { return std::pow(std::hypot(x, y) - 8, 2) + z * z < 9; }), 0},
+        {"two balls", filled(25, [](int x, int y, int z) { return std::pow(std::abs(x) - 7, 2) + y * y + z * z < 16; }),
+         2},
+    };
+    for (const auto& c : cases) {
+        EXPECT_EQ(euler26(c.volume), c.euler) << c.name;
+        EXPECT_EQ(euler6(c.volume), c.euler) << c.name;
+        EXPECT_EQ(countedEulerNumber(c.volume), c.euler) << c.name;
+    }
+}
+
+TEST(EulerNumber, ConnectsOverCornersOrOverFacesOnly)
+{
+    InsideVolume volume = empty(4);
+    volume.at({1, 1, 1}) = volume.at({2, 2, 2}) = kGas;
+    EXPECT_EQ(euler26(volume), 1);
+    EXPECT_EQ(euler6(volume), 2);
+}
+
+TEST(EulerNumber, OfNoiseEqualsThatCountedCellByCell)
+{
+    unsigned state = 1;
+    for (int n = 0; n < 20; ++n) {
+        const InsideVolume volume =
+            filled(12, [&](int, int, int) { return ((state = state * 1664525 + 1013904223) >> 30) == 0; });
+        EXPECT_EQ(euler26(volume), countedEulerNumber(volume));
+    }
+}
+
+}  // namespace
+}  // namespace vicon::phantom
