@@ -180,12 +180,10 @@ std::u32string Typesetter::printable(std::string_view utf8, FontSet::Wish& wish)
             out += U'\n';
         else if (u_iscntrl(UChar32(c)) && !isInvisible(c))
             out += U' ';
-        else if (steersLayout(c))
+        else if (steersLayout(c) || (c != kInvalidUtf8 && !isInvisible(c) && fonts_.find(c, wish)))
             out += c;
         else if (isInvisible(c))
             continue;
-        else if (c != kInvalidUtf8 && fonts_.find(c, wish))
-            out += c;
         else {
             missing_.insert(c);
             out += inBrackets(c);

@@ -120,7 +120,7 @@ std::string dateWords(std::string_view dicom_date)
 {
     static constexpr std::array<const char*, 12> kMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                                             "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-    const std::string text(dicom_date);
+    std::string text(dicom_date);
     if (text.size() != 8 || !isNumber(text))
         return text;
     const int month = std::stoi(text.substr(4, 2)), day = std::stoi(text.substr(6, 2));
