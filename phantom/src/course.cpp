@@ -290,8 +290,11 @@ std::optional<DrawnCourse> finish(std::vector<Bead> beads, const Trunk& trunk, c
     narrowBetweenLoops(drawn.course, options.separation_mm, options.thin_wall_mm, contacts);
     smoothRadii(drawn.course);
     const bool as_wanted = int(contacts.size()) == (options.self_contact ? 1 : options.thin_walls);
-    if (!as_wanted || narrowed(drawn.course, beads) || !closeContacts(drawn.course, contacts) ||
-        !plausible(drawn.course, contacts, options.separation_mm))
+    if (!as_wanted || narrowed(drawn.course, beads) || !closeContacts(drawn.course, contacts))
+        return std::nullopt;
+    if (!options.self_contact && !contacts.empty())  // widened loops may have come too near beside the contact
+        narrowBetweenLoops(drawn.course, 0.8 * options.separation_mm, options.thin_wall_mm, contacts);
+    if (!plausible(drawn.course, contacts, options.separation_mm))
         return std::nullopt;
     return drawn;
 }

@@ -41,7 +41,7 @@ struct CourseOptions {
     Position position = Position::supine;
     double separation_mm = 5;  ///< least distance between the lumens of two loops
     int thin_walls = 0;        ///< places with little wall between two loops
-    double thin_wall_mm = 1.3;
+    double thin_wall_mm = 1.5;
     bool self_contact = false;
     double thinnest_fold_mm = 2;
     int polyps = 5;

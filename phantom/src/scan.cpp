@@ -15,7 +15,7 @@
 namespace vicon::phantom {
 namespace {
 
-constexpr double kThinWall_mm = 1, kThinWallVoxels = 1.3;  // of tissue where loops almost touch
+constexpr double kThinWall_mm = 1, kThinWallVoxels = 1.5;  // of tissue where loops almost touch
 constexpr double kSeparation_mm = 5;  // between the lumens of two loops; more where voxels are coarse
 
 Vector3 turned(Vector3 v, double angle)

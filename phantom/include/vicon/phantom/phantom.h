@@ -29,7 +29,7 @@ struct PhantomOptions {
     int polyps = 5;             ///< sessile, 5 to 10 mm
     bool folds = true;          ///< haustra and semilunar folds
     bool catheter = true;       ///< rectal tube
-    bool thin_walls = false;    ///< three places where loops lie 1.3 voxels of wall apart
+    bool thin_walls = false;    ///< three places where loops lie 1.5 voxels of wall apart
     bool self_contact = false;  ///< two loops that run into one another once: the lumen's Euler number is 0
     double noise_hu = -1;       ///< standard deviation in soft tissue; below 0: drawn from 15 to 40
     bool low_dose = false;      ///< noise drawn from 50 to 80 HU when noise_hu is below 0
@@ -57,7 +57,7 @@ struct PhantomOptions {
         v("phantom.polyps", polyps, "", "Sessile polyps of 5 to 10 mm.", {0, 12});
         v("phantom.folds", folds, "", "Haustra and semilunar folds.");
         v("phantom.catheter", catheter, "", "A rectal tube.");
-        v("phantom.thin_walls", thin_walls, "", "Loops with 1.3 voxels of wall between them, in three places.");
+        v("phantom.thin_walls", thin_walls, "", "Loops with 1.5 voxels of wall between them, in three places.");
         v("phantom.self_contact", self_contact, "", "Two loops run into one another once.");
         v("phantom.noise_hu", noise_hu, "HU", "Noise; below 0: drawn from 15 to 40 HU.", {-1, 500});
         v("phantom.low_dose", low_dose, "", "Noise drawn from 50 to 80 HU.");
