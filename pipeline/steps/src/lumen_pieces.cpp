@@ -171,7 +171,7 @@ int findRectum(std::vector<Candidate>& candidates, const InsideVolume& labels, c
             continue;
         HalfPiece half = halfPiece(labels, lumen, c.label, progress);
         for (std::size_t node = 0; node < half.graph.count(); ++node) {
-            if (half.graph.nodes[node].wall_mm < std::max(catheter_radius_mm, 1.0))
+            if (half.graph.nodes[node].wall_mm < std::max(catheter_radius_mm, kRectumRadius_mm))
                 continue;
             const Point3 p = half.graph.point(std::int32_t(node));
             const double score = p.z + 2 * std::max(0.0, std::abs(p.x - middle_x) - kMidline_mm);

@@ -25,7 +25,8 @@ using Polyline = std::vector<Point3>;
 /// Points at equal distances of about `step_mm`, ends kept.
 Polyline resampled(const Polyline& line, double step_mm);
 
-/// Gaussian of the points along the line, which must be sampled every `step_mm`; the ends stay where they are.
+/// The line without what is shorter than about sigma: a Gaussian that keeps bends where they are. The line must be
+/// sampled every `step_mm`; its ends stay.
 Polyline smoothed(const Polyline& line, double sigma_mm, double step_mm);
 
 /// Cuts both ends of a path off about one local radius before its tips.
