@@ -80,39 +80,41 @@ std::map<std::string, fs::path> findFiles(const fs::path& folder)
 
 FontSet::FontSet(const fs::path& folder)
 {
-    if (FT_Init_FreeType(&library_) != 0)
+    FT_Library library = nullptr;
+    if (FT_Init_FreeType(&library) != 0)
         throw Error(ErrorCode::no_memory, "the font library cannot be started");
+    library_.reset(library);
     const std::map<std::string, fs::path> files = findFiles(folder);
-    const auto loadAll = [&](const Names& names, bool bold, std::vector<int>& list) {
+    const auto loadAll = [&](const Names& names, std::vector<int>& list) {
         for (const char* name : names)
-            if (const int font = load(files.at(name), bold); font >= 0)
+            if (const int font = load(files.at(name)); font >= 0)
                 list.push_back(font);
     };
-    loadAll(kRegular, false, regular_);
-    loadAll(kBold, true, bold_);
-    loadAll(kChinese, false, chinese_);
-    loadAll(kJapanese, false, japanese_);
+    loadAll(kRegular, regular_);
+    loadAll(kBold, bold_);
+    loadAll(kChinese, chinese_);
+    loadAll(kJapanese, japanese_);
     if (!find(U'A', {}))
         throw Error(ErrorCode::not_found, "no font for the report is installed here", folder.string(),
                     "install the packages fonts-noto-core and fonts-dejavu-core, or set report.font_folder");
 }
 
-FontSet::~FontSet()
+FontSet::~FontSet() = default;
+
+void FontSet::CloseLibrary::operator()(FT_Library library) const
 {
-    for (const Face& face : faces_)
-        FT_Done_Face(face.face);
-    FT_Done_FreeType(library_);
+    FT_Done_FreeType(library);
 }
 
-int FontSet::load(const fs::path& file, bool bold)
+int FontSet::load(const fs::path& file)
 {
     for (std::size_t n = 0; n < faces_.size(); ++n)
         if (faces_[n].file == file)
             return int(n);
     FT_Face face = nullptr;
-    if (file.empty() || FT_New_Face(library_, file.c_str(), 0, &face) != 0)
+    if (file.empty() || FT_New_Face(library_.get(), file.c_str(), 0, &face) != 0)
         return -1;
-    faces_.push_back({file, face, bold});
+    faces_.push_back({file, face});
     return int(faces_.size()) - 1;
 }
 

@@ -40,11 +40,13 @@ private:
     struct Face {
         std::filesystem::path file;
         FT_FaceRec_* face = nullptr;
-        bool bold = false;
     };
-    int load(const std::filesystem::path& file, bool bold);
+    int load(const std::filesystem::path& file);
 
-    FT_LibraryRec_* library_ = nullptr;
+    struct CloseLibrary {
+        void operator()(FT_LibraryRec_* library) const;
+    };
+    std::unique_ptr<FT_LibraryRec_, CloseLibrary> library_;  ///< closes its faces with it
     std::vector<Face> faces_;
     std::vector<int> regular_, bold_, chinese_, japanese_;  ///< in order of preference
 };
