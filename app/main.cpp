@@ -11,6 +11,8 @@ namespace vicon::app {
 namespace {
 
 constexpr int kFailed = 1, kWrongUse = 2;
+constexpr const char* kCommonFooter =
+    "Also, before or after the subcommand: --store DIR, --config FILE, --set KEY=VALUE, --json; see 'vicon --help'.";
 
 std::vector<Subcommand> subcommands()
 {
@@ -53,6 +55,7 @@ int run(int argc, char** argv)
     for (const Subcommand& row : subcommands()) {
         CLI::App* sub = command.add_subcommand(row.name, row.help);
         sub->fallthrough();
+        sub->footer(kCommonFooter);
         sub->final_callback([&chosen, action = row.declare(*sub)] { chosen = action; });
     }
     try {

@@ -75,8 +75,8 @@ Subcommand flyCommand()
                 ->capture_default_str();
             command.add_option("--frames", request.frames, "Number of frames in each direction, instead of --step")
                 ->check(CLI::Range(2, 100000));
-            command.add_option("--width", request.width, "Pixels of a frame")->check(CLI::Range(64, 4096));
-            command.add_option("--height", request.height, "Pixels of a frame")->check(CLI::Range(64, 4096));
+            command.add_option("--width", request.width, "Pixels of a frame")->check(CLI::Range(200, 4096));
+            command.add_option("--height", request.height, "Pixels of a frame")->check(CLI::Range(200, 4096));
             command.add_option("--angle", request.view_angle_deg, "Viewing angle, degrees")
                 ->check(CLI::Range(20, 150))
                 ->capture_default_str();

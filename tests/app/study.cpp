@@ -58,7 +58,8 @@ const fs::path& smallStudy()
 std::vector<ListedScan> listedScans(const fs::path& store)
 {
     std::vector<ListedScan> scans;
-    for (const auto& c : viconJson(store, "cases")["cases"])
+    const auto worklist = viconJson(store, "cases");
+    for (const auto& c : worklist["cases"])
         for (const auto& s : c["scans"])
             if (s["state"] != "kept")
                 scans.push_back({c["id"], s["id"], s["position"], s["state"], s["folder"].get<std::string>()});

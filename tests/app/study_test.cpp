@@ -158,7 +158,7 @@ TEST_F(Study, MakesPicturesAndAReportAndPrintsTheirPaths)
 
 TEST_F(Study, FliesTheWholeColon)
 {
-    const auto report = viconJson(store(), "fly " + scan_.case_id + " --frames 20 --width 160 --height 160 --out " +
+    const auto report = viconJson(store(), "fly " + scan_.case_id + " --frames 20 --width 200 --height 200 --out " +
                                                (folder_->path() / "flight").string());
     EXPECT_EQ(report["frames"].size(), 20u);
     EXPECT_TRUE(fs::exists(folder_->path() / "flight" / "frame-00020.png"));
