@@ -4,6 +4,7 @@
 
 #include <dcmtk/dcmdata/dctk.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -43,7 +44,7 @@ void put(DcmItem& item, const DcmTagKey& tag, const std::string& value)
 std::vector<Uint16> storedPixels(const SeriesSpec& spec, int slice)
 {
     std::vector<Uint16> pixels;
-    const int range = 1 << spec.bits_stored, shift = spec.high_bit + 1 - spec.bits_stored;
+    const int range = 1 << spec.bits_stored, shift = std::max(0, spec.high_bit + 1 - spec.bits_stored);
     const int used = (range - 1) << shift;
     for (int j = 0; j < spec.rows; ++j)
         for (int i = 0; i < spec.columns; ++i) {
