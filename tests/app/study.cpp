@@ -38,7 +38,11 @@ std::string viconOn(const fs::path& store, const std::string& arguments)
 
 nlohmann::json viconJson(const fs::path& store, const std::string& arguments)
 {
-    const auto json = nlohmann::json::parse(viconOn(store, arguments + " --json"), nullptr, false);
+    // Progress goes to stderr; what is parsed is stdout alone.
+    const CommandResult result =
+        runCommand("(" + viconBinary() + " " + arguments + " --json --store " + store.string() + " 2>/dev/null)");
+    EXPECT_EQ(result.exit_code, 0) << "vicon " << arguments << "\n" << result.output;
+    auto json = nlohmann::json::parse(result.output, nullptr, false);
     EXPECT_FALSE(json.is_discarded()) << arguments;
     return json;
 }
