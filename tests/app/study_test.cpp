@@ -160,8 +160,13 @@ TEST_F(Study, FliesTheWholeColon)
 {
     const auto report = viconJson(store(), "fly " + scan_.case_id + " --frames 20 --width 200 --height 200 --out " +
                                                (folder_->path() / "flight").string());
-    EXPECT_EQ(report["frames"].size(), 20u);
-    EXPECT_TRUE(fs::exists(folder_->path() / "flight" / "frame-00020.png"));
+    // Poses on a bridge over a collapsed part are skipped; there is nothing to see.
+    const std::size_t frames = report["frames"].size();
+    EXPECT_GE(frames, 15u);
+    EXPECT_LE(frames, 20u);
+    const auto pictures = std::count_if(fs::directory_iterator(folder_->path() / "flight"), fs::directory_iterator{},
+                                        [](const auto& entry) { return entry.path().extension() == ".png"; });
+    EXPECT_EQ(std::size_t(pictures), frames);
     EXPECT_GT(report["coverage"].get<double>(), 0.3);
 }
 
