@@ -44,7 +44,7 @@ int receive(Context& context, bool no_work)
     CaseStore store(context.storeFolder());  // one of its own: the receiver imports on its own thread
     ingest::Receiver receiver(
         config.get<ingest::ReceiverOptions>(), store.folder() / "incoming",
-        [&](std::vector<std::filesystem::path> files) { importReceived(store, config, files); },
+        [&](const std::vector<std::filesystem::path>& files) { importReceived(store, config, files); },
         [](const std::string& trouble) { spdlog::warn("{}", trouble); });
     std::printf("listening on port %d\n", receiver.port());
     std::fflush(stdout);

@@ -138,7 +138,7 @@ void Config::readFile(const std::filesystem::path& file)
         std::ostringstream where;
         where << file.string() << ":" << node.source().begin.line;
         if (!table)
-            throw Error(ErrorCode::wrong_use, "'" + room + "' must be a table, as in [" + room + "]", where.str());
+            throw Error(ErrorCode::wrong_use, "'" + room + "' is not a table", where.str(), "write [" + room + "]");
         for (const auto& [name, value] : *table) {
             std::ostringstream line;
             line << file.string() << ":" << value.source().begin.line;

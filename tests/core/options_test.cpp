@@ -92,7 +92,7 @@ TEST(Options, NameFileAndLineOfAMistake)
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"[sample]\n\nrays = \"many\"\n", "c.toml:3"},
         {"[sample\n", "c.toml:1"},
-        {"rays = 3\n", "must be a table"},
+        {"rays = 3\n", "is not a table; write [rays]"},
         {"[peers.pacs]\nhost = \"x\"\n", "host and port"},
     };
     for (const auto& [text, words] : cases) {
