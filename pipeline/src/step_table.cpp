@@ -144,7 +144,7 @@ const std::vector<Step>& stepTable()
         {"resample", 1, 0, 0.3, {}, always({"volume.mha"}), parametersFrom<ResampleOptions>, runResample},
         {"segment", 1, 0.3, 0.55, {"resample"}, segmentFiles, parametersFrom<SegmentOptions>, runSegment},
         {"skeleton",
-         1,
+         2,
          0.55,
          0.65,
          {"segment"},

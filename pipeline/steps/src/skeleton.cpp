@@ -1,6 +1,9 @@
 #include "vicon/steps/skeleton.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <cstdlib>
 
 #include "skeleton_path.h"
 #include "skeleton_smooth.h"
@@ -11,6 +14,59 @@ namespace {
 
 constexpr int kBlock = 2;        // half resolution: as exact after recentring as full, and four times faster
 constexpr double kLeast_mm = 0;  // narrow lumens are kept; the cost keeps the path away from corners of the wall
+
+constexpr double kLongestArc_mm = 100;    // a longer way over a collapsed part need not bend evenly
+constexpr double kAstray_mm = 6;          // of a curve's end at a collapsed part; phantoms 1 and 3
+constexpr double kTubeReach_mm = 150;     // from the rectal end: a rectal tube lies no higher
+constexpr double kTubeSection_mm2 = 200;  // of a tube of up to 12 mm, cut obliquely
+
+/// Fills islands of no lumen in one axial slice, up to `most` pixels, that lumen surrounds.
+void fillIslands(InsideVolume& inside, int k, std::size_t most)
+{
+    const int columns = inside.grid.size[0], rows = inside.grid.size[1];
+    std::vector<std::uint8_t> seen(std::size_t(columns) * std::size_t(rows), 0);
+    std::vector<Index3> island;
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i) {
+            island.clear();
+            bool open = false;
+            const auto take = [&](int a, int b) {
+                if (a < 0 || b < 0 || a >= columns || b >= rows) {
+                    open = true;
+                    return;
+                }
+                std::uint8_t& known = seen[std::size_t(b) * std::size_t(columns) + std::size_t(a)];
+                if (!known && !inside.at({a, b, k})) {
+                    known = 1;
+                    island.push_back({a, b, k});
+                }
+            };
+            take(i, j);
+            for (std::size_t n = 0; n < island.size(); ++n) {
+                const Index3 v = island[n];
+                take(v.i - 1, v.j);
+                take(v.i + 1, v.j);
+                take(v.i, v.j - 1);
+                take(v.i, v.j + 1);
+            }
+            if (!open && island.size() <= most)
+                for (const Index3 v : island)
+                    inside.at(v) = kGas;
+        }
+}
+
+/// The lumen with the rectal tube in it filled: the middle of the rectum does not lie beside the tube.
+InsideVolume withoutRectalTube(InsideVolume inside, Point3 rectal_end_mm)
+{
+    const auto& spacing = inside.grid.spacing_mm;
+    const auto most = std::size_t(kTubeSection_mm2 / (spacing[0] * spacing[1]));
+    tbb::parallel_for(0, inside.grid.size[2], [&](int k) {
+        const Index3 end = inside.grid.indexAt(rectal_end_mm);
+        if (std::abs(k - end.k) * spacing[2] <= kTubeReach_mm)
+            fillIslands(inside, k, most);
+    });
+    return inside;
+}
 
 /// Appends points with their stations, which go on from the end of what is there.
 void append(Skeleton& skeleton, const Polyline& line, bool bridge, const DistanceProbe& wall)
@@ -25,11 +81,32 @@ void append(Skeleton& skeleton, const Polyline& line, bool bridge, const Distanc
     skeleton.pieces.push_back(std::move(piece));
 }
 
-/// From the end of one curve to the start of the next along the bridge's path, without the detours to the tips of the
-/// lumen, which lie a local radius beyond the curves' ends and often in a corner.
-Polyline bridgeLine(Point3 from, const Bridge& bridge, Point3 to, const SkeletonOptions& options)
+/// Unit vector in which a curve leaves its end, over the last 8 points: the end itself is less certain than its run.
+Vector3 leaving(const Polyline& curve, bool at_start)
 {
+    const auto reach = std::min(curve.size() - 1, std::size_t(8));
+    return at_start ? normalized(curve.front() - curve[reach])
+                    : normalized(curve.back() - curve[curve.size() - 1 - reach]);
+}
+
+/// From the end of one curve to the start of the next. Over the short way it bends as the lumen on both sides does;
+/// where the tissue says that the way is much longer than that it follows the bridge's path, without the detours to the
+/// tips of the lumen, which lie a local radius beyond the curves' ends and often in a corner.
+Polyline bridgeLine(const Polyline& before, const Bridge& bridge, const Polyline& after, const SkeletonOptions& options)
+{
+    const Point3 from = before.back(), to = after.front();
+    const double apart_mm = distance(from, to);
     Polyline line{from};
+    if (apart_mm < kLongestArc_mm) {
+        const Vector3 a = leaving(before, false) * apart_mm, b = leaving(after, true) * -apart_mm;
+        for (int n = 1; n < 64; ++n) {
+            const double t = n / 64.0;
+            line.push_back(interpolate(from, to, t * t * (3 - 2 * t)) + a * (t * (1 - t) * (1 - t)) -
+                           b * (t * t * (1 - t)));
+        }
+        line.push_back(to);
+        return resampled(line, options.step_mm);
+    }
     for (std::size_t n = 1; n + 1 < bridge.path_mm.size(); ++n)
         line.push_back(bridge.path_mm[n]);
     line.push_back(to);
@@ -37,6 +114,29 @@ Polyline bridgeLine(Point3 from, const Bridge& bridge, Point3 to, const Skeleton
     line.front() = from;
     line.back() = to;
     return line;
+}
+
+/// Joins two curves over a collapsed part: their last stretches, where a lumen that narrows into a corner leads them
+/// astray, give way to the even bend between them. What of that lies in the lumen belongs to the curves, the rest is
+/// the bridge, which is returned.
+Polyline join(Polyline& before, const Bridge& bridge, Polyline& after, const DistanceProbe& open,
+              const SkeletonOptions& options)
+{
+    const auto astray = [&](const Polyline& curve) {
+        return std::ptrdiff_t(std::min(curve.size() / 4, std::size_t(kAstray_mm / options.step_mm)));
+    };
+    before.erase(before.end() - astray(before), before.end());
+    after.erase(after.begin(), after.begin() + astray(after));
+    const Polyline line = bridgeLine(before, bridge, after, options);
+    std::size_t from = 0, to = line.size() - 1;
+    while (from + 2 < to && open.inside(line[from + 1]))
+        ++from;
+    while (to > from + 1 && open.inside(line[to - 1]))
+        --to;
+    const auto begin = line.begin();
+    before.insert(before.end(), begin + 1, begin + std::ptrdiff_t(from) + 1);
+    after.insert(after.begin(), begin + std::ptrdiff_t(to), line.end() - 1);
+    return {begin + std::ptrdiff_t(from), begin + std::ptrdiff_t(to) + 1};
 }
 
 }  // namespace
@@ -50,7 +150,8 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
         return result;
     const FieldVolume wall_mm = wallDistance(inside, progress);
     progress.report(0.3, "skeleton");
-    const DistanceProbe wall(wall_mm);
+    const FieldVolume open_mm = wallDistance(withoutRectalTube(inside, plan.pieces.front().rectal_end_mm), progress);
+    const DistanceProbe open(open_mm);
     const LumenGraph graph = makeGraph(wall_mm, kBlock, kLeast_mm);
     std::vector<Polyline> curves;
     for (std::size_t n = 0; n < plan.pieces.size(); ++n) {
@@ -59,18 +160,20 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
         Polyline voxels;
         for (const Index3 v : path.voxels)
             voxels.push_back(inside.grid.pointAt(v));
-        curves.push_back(centredCurve(voxels, wall, options));
+        curves.push_back(centredCurve(voxels, open, options));
         result.voxels.push_back(std::move(voxels));
         result.measures["pieces"].push_back({{"uncovered_fraction", path.uncovered_fraction},
                                              {"cut_contacts", path.cuts},
                                              {"path_voxels", path.voxels.size()}});
         progress.report(0.3 + 0.7 * double(n + 1) / double(plan.pieces.size()), "skeleton");
     }
+    std::vector<Polyline> bridges;
+    for (std::size_t n = 0; n + 1 < curves.size(); ++n)
+        bridges.push_back(join(curves[n], plan.bridges.at(n), curves[n + 1], open, options));
     for (std::size_t n = 0; n < curves.size(); ++n) {
-        append(result.curve, curves[n], false, wall);
-        if (n + 1 < curves.size())
-            append(result.curve, bridgeLine(curves[n].back(), plan.bridges.at(n), curves[n + 1].front(), options), true,
-                   wall);
+        append(result.curve, curves[n], false, open);
+        if (n < bridges.size())
+            append(result.curve, bridges[n], true, open);
     }
     result.measures["length_mm"] = result.curve.length_mm();
     return result;

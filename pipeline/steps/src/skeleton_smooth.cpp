@@ -9,8 +9,9 @@
 namespace vicon::steps {
 namespace {
 
-constexpr double kTipWindow_mm = 10;  // how far ahead the lumen is looked at to tell a tip from the lumen
-constexpr double kPercentile = 0.6;   // of the radii per angle: passes over folds, which are short
+constexpr double kTipWindow_mm = 20;     // how far ahead the lumen is looked at to tell a tip from the lumen
+constexpr double kBaseSmoothing_mm = 8;  // of the line from which rays start: about a third of a haustrum
+constexpr double kPercentile = 0.5;      // of the radii per angle: passes over folds, which are short
 constexpr double kPercentileWindow_mm = 25;
 constexpr double kTangent_mm = 3;
 
@@ -74,8 +75,9 @@ std::vector<float> percentileAlong(const std::vector<float>& values, std::size_t
 {
     std::vector<float> out(values.size()), window;
     for (std::size_t n = 0; n < values.size(); ++n) {
-        const std::size_t half = std::min({half_window, n, values.size() - 1 - n});
-        window.assign(values.begin() + std::ptrdiff_t(n - half), values.begin() + std::ptrdiff_t(n + half + 1));
+        const std::size_t from = n > half_window ? n - half_window : 0;
+        const std::size_t to = std::min(values.size() - 1, n + half_window);
+        window.assign(values.begin() + std::ptrdiff_t(from), values.begin() + std::ptrdiff_t(to + 1));
         const auto at = window.begin() + std::ptrdiff_t(kPercentile * double(window.size() - 1) + 0.5);
         std::nth_element(window.begin(), at, window.end());
         out[n] = *at;
@@ -248,7 +250,11 @@ Polyline centredCurve(const Polyline& path, const DistanceProbe& wall, const Ske
     Polyline line = resampledInside(withoutTips(path, wall), wall, options.step_mm);
     line = resampledInside(smoothedInside(line, options.path_smoothing_mm, wall, options), wall, options.step_mm);
     for (int n = 0; n < options.recentrings; ++n) {
-        line = smoothedInside(recentred(line, wall, options), options.smoothing_mm, wall, options);
+        // The percentiles are those of a stretch, not of a point: what the line wriggles within such a stretch would
+        // stay. So the rays start from a line without wriggles.
+        const Polyline base =
+            resampledInside(smoothedInside(line, kBaseSmoothing_mm, wall, options), wall, options.step_mm);
+        line = smoothedInside(recentred(base, wall, options), options.smoothing_mm, wall, options);
         line = resampledInside(line, wall, options.step_mm);
     }
     return line;
