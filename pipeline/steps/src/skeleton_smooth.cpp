@@ -9,6 +9,7 @@
 namespace vicon::steps {
 namespace {
 
+// The window, the smoothing and the percentile were chosen on phantoms 1 (supine) and 3 (supine), full size.
 constexpr double kTipWindow_mm = 20;     // how far ahead the lumen is looked at to tell a tip from the lumen
 constexpr double kBaseSmoothing_mm = 8;  // of the line from which rays start: about a third of a haustrum
 constexpr double kPercentile = 0.5;      // of the radii per angle: passes over folds, which are short
