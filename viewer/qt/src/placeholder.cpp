@@ -1,1 +1,6 @@
-namespace vicon { int viewer_qt_placeholder() { return 0; } }
+namespace vicon {
+int viewer_qt_placeholder()
+{
+    return 0;
+}
+}  // namespace vicon
