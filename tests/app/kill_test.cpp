@@ -2,6 +2,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 #include <thread>
@@ -60,7 +61,9 @@ TEST(Kill, AtAnyMomentOfImportAndWorkLosesNothing)
     ASSERT_EQ(runCommand(importAndWork(undisturbed.path())).exit_code, 0);
     const double whole_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const auto expected = artefactsOf(undisturbed.path());
-    ASSERT_GT(expected.size(), 10u);
+    ASSERT_TRUE(std::any_of(expected.begin(), expected.end(), [](const auto& entry) {
+        return entry.first.ends_with("cells.vtp");
+    })) << "the undisturbed run must have come to its end";
 
     std::mt19937 random(20261121);
     int killed = 0;
