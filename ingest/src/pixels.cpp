@@ -34,12 +34,17 @@ constexpr double kLightest_hu = -1500;
     throw Error(ErrorCode::bad_input, why);
 }
 
+/// A measured density as it is stored: never the one that stands for padding.
+std::int16_t measured(double hu)
+{
+    const auto stored = std::int16_t(std::lround(std::min(hu, double(std::numeric_limits<std::int16_t>::max()))));
+    return stored == kPaddingHu ? std::int16_t(kPaddingHu + 1) : stored;
+}
+
 /// A density for each 16-bit pattern of a stored pixel.
 std::vector<std::int16_t> densityTable(const PixelFormat& format, const Slice& slice)
 {
     constexpr std::size_t kPatterns = 65536;
-    constexpr double kLowest = std::numeric_limits<std::int16_t>::min();
-    constexpr double kHighest = std::numeric_limits<std::int16_t>::max();
     std::vector<std::int16_t> table(kPatterns);
     const int shift = format.high_bit + 1 - format.bits_stored;
     const int range = 1 << format.bits_stored;
@@ -49,8 +54,7 @@ std::vector<std::int16_t> densityTable(const PixelFormat& format, const Slice& s
             stored -= range;
         const bool padding = format.padding && stored >= format.padding->first && stored <= format.padding->second;
         const double hu = slice.slope * stored + slice.intercept;
-        table[pattern] =
-            padding || hu < kLightest_hu ? kPaddingHu : std::int16_t(std::lround(std::clamp(hu, kLowest, kHighest)));
+        table[pattern] = padding || hu < kLightest_hu ? kPaddingHu : measured(hu);
     }
     return table;
 }

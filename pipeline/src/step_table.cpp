@@ -141,7 +141,7 @@ const std::vector<Step>& stepTable()
 {
     using namespace steps;
     static const std::vector<Step> kTable = {
-        {"resample", 1, 0, 0.3, {}, always({"volume.mha"}), parametersFrom<ResampleOptions>, runResample},
+        {"resample", 2, 0, 0.3, {}, always({"volume.mha"}), parametersFrom<ResampleOptions>, runResample},
         {"segment", 1, 0.3, 0.55, {"resample"}, segmentFiles, parametersFrom<SegmentOptions>, runSegment},
         {"skeleton",
          2,

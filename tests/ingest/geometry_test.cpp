@@ -307,6 +307,18 @@ INSTANTIATE_TEST_SUITE_P(Layouts, Bits,
                                          BitCase{8, 8, 7, false, 4, -300, {}},
                                          BitCase{16, 10, 12, false, 1, -300, 1023}));
 
+TEST_F(Geometry, ClippedAndLightGasIsMeasuredAndNotPadding)
+{
+    SeriesSpec spec;
+    spec.intercept = -1100;
+    spec.densities = [](Point3 p) { return p.x < -5 ? -1024 : p.x < 5 ? -1025 : -1060; };
+    writeSeries(folder / "in", spec);
+    import({folder / "in"});
+    const HuVolume volume = load(onlyScan());
+    for (std::size_t n = 0; n < volume.voxels.size(); ++n)
+        EXPECT_EQ(volume.voxels[n], volume.grid.pointAt(volume.grid.indexOf(n)).x < 5 ? -1024 : -1060);
+}
+
 TEST_F(Geometry, SlopeAndInterceptAreThoseOfEachSlice)
 {
     SeriesSpec spec;

@@ -30,7 +30,8 @@ using FieldVolume = Volume<float>;            ///< potential fields, mm
 /// What a voxel of `inside.mha` holds.
 enum InsideLabel : std::uint8_t { kOutside = 0, kGas = 1, kFluid = 2 };
 
-/// The density that stands for "nothing was measured here" (DICOM's padding) in a HuVolume.
-inline constexpr std::int16_t kPaddingHu = -1024;
+/// The density that stands for "nothing was measured here" (DICOM's padding) in a HuVolume. One below -1024, which is a
+/// measured density: most scanners clip gas and air there (a stored 0 with the usual intercept).
+inline constexpr std::int16_t kPaddingHu = -1025;
 
 }  // namespace vicon
