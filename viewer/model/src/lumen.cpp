@@ -60,8 +60,7 @@ bool Lumen::sees(Point3 from, Point3 to, double allowance_mm) const
         if (!inside(p))
             return false;
         // The field belongs to the voxel's middle, at most half a diagonal away; beyond that the ball is free of wall.
-        const double free = wallAt(wall_->grid.indexAt(p)) - 2 * half_diagonal_mm_;
-        at += std::max(step_mm_, free);
+        at += std::max(step_mm_, freeBall_mm(p));
     }
     return end <= 0 || inside(from + direction * end);
 }

@@ -17,6 +17,11 @@ public:
     Vector3 clearanceGradient(Point3 p) const;
     /// Half a voxel's diagonal: how much nearer the wall may be than the field of a voxel says.
     double halfDiagonal_mm() const { return half_diagonal_mm_; }
+    /// The smallest of the voxel's sides.
+    double voxel_mm() const { return 2 * step_mm_; }
+    /// Radius of a ball around `p` that holds no wall, from the nearest voxel alone: quick, and never too large. May be
+    /// negative.
+    double freeBall_mm(Point3 p) const { return wallAt(wall_->grid.indexAt(p)) - 2 * half_diagonal_mm_; }
     /// Whether the straight line between two points stays in the lumen, but for its last `allowance_mm` before `to`.
     bool sees(Point3 from, Point3 to, double allowance_mm = 0) const;
     /// The point of an inside voxel nearest to `p`, at most `within_mm` away; `p` itself when it is inside. False

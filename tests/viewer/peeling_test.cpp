@@ -1,0 +1,213 @@
+#include "vicon/viewer/model/peeling.h"
+
+#include <gtest/gtest.h>
+
+#include "test_colon.h"
+#include "vicon/core/error.h"
+#include "vicon/viewer/model/view_pose.h"
+
+namespace vicon::viewer {
+namespace {
+
+using test::TestColon;
+
+/// Trilinear density in doubles; empty outside the scan and beside padding.
+std::optional<double> densityAt(const HuVolume& volume, Point3 p)
+{
+    const ContinuousIndex3 c = volume.grid.continuousIndexAt(p);
+    const Index3 v{int(std::floor(c.i)), int(std::floor(c.j)), int(std::floor(c.k))};
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Index3 w{v.i + (corner & 1), v.j + (corner >> 1 & 1), v.k + (corner >> 2)};
+        if (volume.valueOr(w, kPaddingHu) == kPaddingHu)
+            return {};
+        sum += volume.at(w) * (1 - std::abs(c.i - w.i)) * (1 - std::abs(c.j - w.j)) * (1 - std::abs(c.k - w.k));
+    }
+    return sum;
+}
+
+/// A ray caster with nothing clever in it: every sample from the eye on, no wall, no table, no early end.
+std::array<double, 4> castPlainly(const HuVolume& volume, Point3 eye, Vector3 direction,
+                                  const TransferFunction& colours, const PeelingOptions& options)
+{
+    std::array<double, 4> out{};
+    double left = 1;
+    for (int n = 0; n * options.step_mm < 400; ++n) {
+        const double t = n * options.step_mm;
+        const auto density = densityAt(volume, eye + direction * t);
+        if (!density)
+            continue;
+        const TransferPoint p = colours.at(*density);
+        const double opacity = 1 - std::pow(1 - p.opacity_per_mm, options.step_mm);
+        const double lamp = 1.12 / (1 + t * t / (options.lamp_half_mm * options.lamp_half_mm));
+        out[0] += left * opacity * lamp * p.red;
+        out[1] += left * opacity * lamp * p.green;
+        out[2] += left * opacity * lamp * p.blue;
+        left *= 1 - opacity;
+    }
+    out[3] = 1 - left;
+    for (double& value : out)
+        value = std::min(value, 1.0) * 255;
+    return out;
+}
+
+Pose poseInside(const TestColon& colon, double share)
+{
+    const PathFrames path(colon.skeleton);
+    return poseAtStation(path, Lumen(colon.inside, colon.wall_distance), share * path.length_mm()).pose;
+}
+
+class PeelingInStorage : public testing::TestWithParam<int> {};
+
+TEST_P(PeelingInStorage, EqualsAPlainCasterFromTheEyeWithinOneGreyLevel)
+{
+    const TestColon colon(test::storages().at(std::size_t(GetParam())));
+    const Lumen lumen(colon.inside, colon.wall_distance);
+    const Lens lens{90, 40, 40};
+    for (const std::string name : {"soft-tissue", "polyp", "fat"})
+        for (const double share : {0.1, 0.45, 0.8}) {
+            const Pose pose = poseInside(colon, share);
+            PeelingOptions options;
+            options.shaded = false;
+            options.reach_mm = 400;
+            const PeeledPicture picture = peel(colon.volume, lumen, pose, lens, transferFunction(name), options);
+            for (int y = 0; y < lens.height; ++y)
+                for (int x = 0; x < lens.width; ++x) {
+                    const Vector3 ray = rayThrough(pose, lens, {x + 0.5, y + 0.5});
+                    const auto wanted = castPlainly(colon.volume, pose.eye_mm, ray, transferFunction(name), options);
+                    for (std::size_t c = 0; c < 4; ++c)
+                        ASSERT_NEAR(picture.rgba[4 * std::size_t(y * lens.width + x) + c], std::round(wanted[c]), 1)
+                            << name << " at " << share << ", pixel " << x << ", " << y;
+                }
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Storages, PeelingInStorage, testing::Range(0, int(test::storages().size())));
+
+/// A cube of even density with a hollow of 30 x 30 x 30 mm in its middle; layers of other density at chosen depths.
+struct HollowCube {
+    HuVolume volume;
+    InsideVolume inside;
+    FieldVolume wall;
+
+    explicit HollowCube(std::int16_t tissue_hu)
+    {
+        Grid grid;
+        grid.size = {71, 71, 71};
+        grid.origin_mm = {-35, -35, -35};
+        volume = HuVolume(grid, tissue_hu);
+        inside = InsideVolume(grid, kOutside);
+        for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
+            const Point3 p = grid.pointAt(grid.indexOf(n));
+            if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < 15.5) {
+                volume.voxels[n] = -1000;
+                inside.voxels[n] = kGas;
+            }
+        }
+        wall = test::wallDistanceOf(inside);
+    }
+};
+
+TransferFunction evenOpacity(double per_mm)
+{
+    return {"even", "Even", {{-300, 1, 1, 1, 0}, {-299, 1, 1, 1, per_mm}}};
+}
+
+TEST(Peeling, EvenTissueStopsThePartOfTheLightThatItsThicknessSays)
+{
+    const HollowCube cube(40);
+    const Lumen lumen(cube.inside, cube.wall);
+    PeelingOptions options;
+    options.begin = PeelingOptions::Begin::eye;
+    options.step_mm = 0.1;
+    for (const double per_mm : {0.02, 0.1}) {
+        const auto picture =
+            peel(cube.volume, lumen, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {10, 1, 1}, evenOpacity(per_mm), options);
+        // From the wall at 15.5 mm, where the density crosses, to the edge of the scan at 35 mm.
+        EXPECT_NEAR(picture.rgba[3], 255 * (1 - std::pow(1 - per_mm, 19.5)), 2.5);
+    }
+}
+
+TEST(Peeling, AnOffsetTakesAwayWhatLiesBeforeIt)
+{
+    HollowCube cube(40);
+    // A layer of contrast 4 to 8 mm behind the wall.
+    for (std::size_t n = 0; n < cube.volume.voxels.size(); ++n) {
+        const double x = cube.volume.grid.pointAt(cube.volume.grid.indexOf(n)).x;
+        if (x > 19.5 && x < 23.5)
+            cube.volume.voxels[n] = 600;
+    }
+    const Lumen lumen(cube.inside, cube.wall);
+    const TransferFunction contrast{"contrast", "Contrast", {{300, 1, 0, 0, 0}, {301, 1, 0, 0, 0.9}}};
+    const auto opacityFrom = [&](double offset_mm) {
+        PeelingOptions options;
+        options.offset_mm = offset_mm;
+        return peel(cube.volume, lumen, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {10, 1, 1}, contrast, options).rgba[3];
+    };
+    EXPECT_GT(opacityFrom(0), 250);
+    EXPECT_GT(opacityFrom(4), 250);
+    EXPECT_LT(opacityFrom(8.5), 5);
+}
+
+TEST(Peeling, TaggedFluidIsLookedThroughFromTheWallAndSeenFromTheEye)
+{
+    HollowCube cube(40);
+    for (std::size_t n = 0; n < cube.inside.voxels.size(); ++n)
+        if (cube.inside.voxels[n] != kOutside && cube.inside.grid.pointAt(cube.inside.grid.indexOf(n)).x > 5) {
+            cube.inside.voxels[n] = kFluid;
+            cube.volume.voxels[n] = 500;
+        }
+    const Lumen lumen(cube.inside, cube.wall);
+    const TransferFunction tagging{"tagging", "Tagging", {{300, 0, 1, 0, 0}, {301, 0, 1, 0, 0.9}}};
+    PeelingOptions options;
+    const Pose pose{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+    EXPECT_LT(peel(cube.volume, lumen, pose, {10, 1, 1}, tagging, options).rgba[3], 255 * 0.8);
+    options.begin = PeelingOptions::Begin::eye;
+    EXPECT_GT(peel(cube.volume, lumen, pose, {10, 1, 1}, tagging, options).rgba[3], 250);
+}
+
+TEST(Peeling, OnlyTheCircleIsPeeled)
+{
+    const HollowCube cube(40);
+    const Lumen lumen(cube.inside, cube.wall);
+    const Lens lens{90, 32, 24};
+    const PictureCircle circle{{10, 12}, 6};
+    const auto picture =
+        peel(cube.volume, lumen, {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}, lens, transferFunction("soft-tissue"), {}, circle);
+    for (int y = 0; y < lens.height; ++y)
+        for (int x = 0; x < lens.width; ++x)
+            EXPECT_EQ(picture.rgba[4 * std::size_t(y * lens.width + x) + 3] > 0, circle.holds({x + 0.5, y + 0.5}));
+}
+
+TEST(Peeling, TheWallIsMetWhereTheDistanceSaysAndNowhereWithoutOne)
+{
+    const HollowCube cube(40);
+    const Lumen lumen(cube.inside, cube.wall);
+    for (const Vector3 d : {Vector3{1, 0, 0}, Vector3{0, -1, 0}, normalized(Vector3{1, 0.4, -0.2})}) {
+        const double exact = 15.5 / std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+        const auto found = distanceToWall_mm(lumen, {0, 0, 0}, d, 100);
+        ASSERT_TRUE(found.has_value());
+        EXPECT_NEAR(*found, exact, 0.8);
+    }
+    EXPECT_FALSE(distanceToWall_mm(lumen, {0, 0, 0}, {1, 0, 0}, 10).has_value());
+}
+
+TEST(Peeling, APictureOrAStepOutOfRangeIsRefused)
+{
+    const HollowCube cube(40);
+    const Lumen lumen(cube.inside, cube.wall);
+    PeelingOptions options;
+    options.step_mm = 0;
+    EXPECT_THROW(peel(cube.volume, lumen, {}, {90, 8, 8}, evenOpacity(0.5), options), Error);
+    EXPECT_THROW(peel(cube.volume, lumen, {}, {90, 0, 8}, evenOpacity(0.5)), Error);
+}
+
+TEST(Peeling, IsLaidOverByItsOpacity)
+{
+    std::vector<std::uint8_t> rgb{100, 100, 100, 100, 100, 100};
+    blendOver(rgb, {2, 1, {0, 0, 0, 0, 200, 100, 0, 255}});
+    EXPECT_EQ(rgb, (std::vector<std::uint8_t>{100, 100, 100, 200, 100, 0}));
+}
+
+}  // namespace
+}  // namespace vicon::viewer

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "vicon/viewer/model/transfer_function.h"
+
+namespace vicon::viewer {
+
+/// A transfer function for one length of step, looked up by density: half a HU fine, from -1100 to 3200 HU.
+class TransferTable {
+public:
+    struct Entry {
+        std::array<float, 3> colour{};
+        float opacity = 0;  ///< of one step
+    };
+
+    TransferTable(const TransferFunction& function, double step_mm) : entries_(kEntries)
+    {
+        for (std::size_t n = 0; n < kEntries; ++n) {
+            const TransferPoint p = function.at(kLowest_hu + double(n) / kPerHu);
+            entries_[n] = {{float(p.red), float(p.green), float(p.blue)},
+                           float(1 - std::pow(1 - p.opacity_per_mm, step_mm))};
+        }
+    }
+
+    const Entry& at(float density_hu) const
+    {
+        const float place = (density_hu - float(kLowest_hu)) * float(kPerHu) + 0.5F;
+        return entries_[std::size_t(std::clamp(place, 0.F, float(kEntries - 1)))];
+    }
+
+private:
+    static constexpr double kLowest_hu = -1100;
+    static constexpr double kPerHu = 2;
+    static constexpr std::size_t kEntries = 8600;
+    std::vector<Entry> entries_;
+};
+
+}  // namespace vicon::viewer
