@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -62,5 +63,14 @@ struct WayPoint {
 };
 /// The usual way from the rectum to the caecum.
 std::vector<WayPoint> usualWay();
+/// Places on the usual way, in stops.
+struct WayMarks {
+    double sigmoid = 3;            ///< the rectum leaves the sacrum's hollow
+    double descending = 10.5;      ///< fixed to the back wall from half-way between 10 and 11
+    double splenic_corner = 15.1;  ///< farthest up and to the left
+    double hepatic_corner = 23.4;  ///< farthest up and to the right
+    double caecum = 27.5;          ///< the wide end below
+    double flexure_mm = 40;        ///< to either side of the corner
+};
 
 }  // namespace vicon::phantom

@@ -66,6 +66,33 @@ std::vector<Bead> beadsAlong(const std::vector<WayPoint>& way, double length_mm)
     return beads;
 }
 
+/// Where the stops of a way of `stops` points lie on its beads, as fractions of the length.
+std::vector<double> stopFractions(const std::vector<Bead>& beads, std::size_t stops)
+{
+    std::vector<double> passed{0}, fractions;
+    for (std::size_t n = 0; n + 1 < beads.size(); ++n)
+        passed.push_back(passed.back() + beads[n].rest_mm);
+    for (std::size_t stop = 0; stop < stops; ++stop)
+        fractions.push_back(splineValue(passed, double(stop) / double(stops - 1) * double(beads.size() - 1)) /
+                            passed.back());
+    return fractions;
+}
+
+/// Stations of those fractions of the chain, whose links the relaxing may have stretched unevenly.
+std::vector<double> stationsOnChain(const std::vector<Bead>& beads, const std::vector<double>& fractions,
+                                    double length_mm)
+{
+    std::vector<double> passed{0}, stations;
+    for (std::size_t n = 0; n + 1 < beads.size(); ++n)
+        passed.push_back(passed.back() + distance(beads[n].position_mm, beads[n + 1].position_mm));
+    for (const double fraction : fractions) {
+        const double at = fraction * double(beads.size() - 1);
+        const auto n = std::min(std::size_t(at), beads.size() - 2);
+        stations.push_back(std::lerp(passed[n], passed[n + 1], at - double(n)) / passed.back() * length_mm);
+    }
+    return stations;
+}
+
 /// The chain again with links of even length: bending stiffness then means the same everywhere.
 std::vector<Bead> evenBeads(const std::vector<Bead>& beads)
 {
@@ -263,7 +290,7 @@ bool narrowed(const Course& course, const std::vector<Bead>& beads)
 }
 
 std::optional<DrawnCourse> finish(std::vector<Bead> beads, const Trunk& trunk, const Relief& relief,
-                                  const CourseOptions& options, Random& random)
+                                  const std::vector<double>& stops, const CourseOptions& options, Random& random)
 {
     relax(beads, trunk, options.separation_mm, {});
     std::vector<Contact> contacts;
@@ -283,7 +310,8 @@ std::optional<DrawnCourse> finish(std::vector<Bead> beads, const Trunk& trunk, c
         }
         relax(beads, trunk, options.separation_mm, pulled);
     }
-    DrawnCourse drawn{curveThrough(beads), relief, trunk, contacts};
+    DrawnCourse drawn{curveThrough(beads), relief, trunk, contacts, {}};
+    drawn.stop_station_mm = stationsOnChain(beads, stops, drawn.course.length_mm());
     drawn.relief = stretched(relief, drawn.course.length_mm());
     shapeRadii(drawn.course, options.position, random);
     limitSlope(drawn.course);
@@ -334,13 +362,15 @@ DrawnCourse drawCourse(const CourseOptions& options)
         Trunk trunk;
         trunk.build = patient.uniform(0.97, 1.02);
         const double length_mm = patient.uniform(kShortest, kLongest);
-        std::vector<Bead> beads = evenBeads(beadsAlong(variedWay(patient), length_mm));
+        const std::vector<Bead> drawn_beads = beadsAlong(variedWay(patient), length_mm);
+        const std::vector<double> stops = stopFractions(drawn_beads, usualWay().size());
+        std::vector<Bead> beads = evenBeads(drawn_beads);
         const Relief relief = drawRelief(options.seed, length_mm, options.thinnest_fold_mm, options.polyps);
         // The patient is the same in every position: what lies on the back decides.
         CourseOptions on_back = options;
         on_back.position = Position::supine;
         Random radii(options.seed, "radii", attempt);
-        auto supine = finish(beads, trunk, relief, on_back, radii);
+        auto supine = finish(beads, trunk, relief, stops, on_back, radii);
         if (!supine)
             continue;
         if (options.position == Position::supine)
@@ -354,7 +384,7 @@ DrawnCourse drawCourse(const CourseOptions& options)
                 pressed.flatten_front = 14;
             turnOver(turned, options.position, moved);
             Random again(options.seed, "radii", attempt);
-            if (auto drawn = finish(turned, pressed, relief, options, again))
+            if (auto drawn = finish(turned, pressed, relief, stops, options, again))
                 return *drawn;
         }
     }

@@ -52,6 +52,7 @@ struct DrawnCourse {
     Relief relief;  ///< stretched to the course
     Trunk trunk;
     std::vector<Contact> contacts;
+    std::vector<double> stop_station_mm;  ///< where the stops of usualWay() lie on the course
 };
 
 /// Draws the way of this patient's colon in this position: the usual way, varied, grown to a length of 1.5 to 1.9 m on

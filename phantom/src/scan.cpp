@@ -69,6 +69,29 @@ double innerRadius_mm(const Wall& wall, double station_mm)
     return std::max(least, 0.0);
 }
 
+ColonPartRanges partsOf(const DrawnCourse& drawn)
+{
+    const auto stationOf = [&](double stop) {
+        const auto n = std::size_t(stop);
+        return std::lerp(drawn.stop_station_mm[n], drawn.stop_station_mm[n + 1], stop - double(n));
+    };
+    const WayMarks marks;
+    const double splenic = stationOf(marks.splenic_corner), hepatic = stationOf(marks.hepatic_corner);
+    const std::array<double, 9> bounds{0,
+                                       stationOf(marks.sigmoid),
+                                       stationOf(marks.descending),
+                                       splenic - marks.flexure_mm,
+                                       splenic + marks.flexure_mm,
+                                       hepatic - marks.flexure_mm,
+                                       hepatic + marks.flexure_mm,
+                                       stationOf(marks.caecum),
+                                       drawn.course.length_mm()};
+    ColonPartRanges parts;
+    for (std::size_t n = 0; n + 1 < bounds.size(); ++n)
+        parts.push_back({ColonPart(n), bounds[n], bounds[n + 1]});
+    return parts;
+}
+
 PhantomTruth describe(const DrawnCourse& drawn, const Wall& wall)
 {
     PhantomTruth truth;
@@ -77,6 +100,7 @@ PhantomTruth describe(const DrawnCourse& drawn, const Wall& wall)
         const double station_mm = drawn.course.stationOf(n);
         truth.curve.push_back({drawn.course.samples[n].position_mm, station_mm, innerRadius_mm(wall, station_mm)});
     }
+    truth.parts = partsOf(drawn);
     truth.polyps = wall.polyps;
     for (Polyp& polyp : truth.polyps)
         polyp.clock_deg = clockAngle(drawn.course.samples[drawn.course.sampleAt(polyp.station_mm)], polyp.position_mm);

@@ -60,13 +60,11 @@ void prepareFolder(const fs::path& out)
 
 nlohmann::json describeTruth(const PhantomTruth& truth)
 {
-    nlohmann::json out = {{"length_mm", truth.length_mm},
-                          {"volume_ml", truth.volume_ml},
-                          {"fluid_ml", truth.fluid_ml},
-                          {"euler_number", truth.euler_number},
-                          {"noise_hu", truth.noise_hu},
-                          {"blur_mm", truth.blur_mm},
-                          {"gravity", {truth.gravity.x, truth.gravity.y, truth.gravity.z}}};
+    nlohmann::json out = {
+        {"length_mm", truth.length_mm}, {"volume_ml", truth.volume_ml},
+        {"fluid_ml", truth.fluid_ml},   {"euler_number", truth.euler_number},
+        {"noise_hu", truth.noise_hu},   {"blur_mm", truth.blur_mm},
+        {"parts", toJson(truth.parts)}, {"gravity", {truth.gravity.x, truth.gravity.y, truth.gravity.z}}};
     for (const char* list : {"curve_mm", "station_mm", "radius_mm", "polyps", "gaps", "pools"})
         out[list] = nlohmann::json::array();
     for (const SkeletonPoint& point : truth.curve) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "vicon/core/colon_parts.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/skeleton.h"
@@ -95,6 +96,7 @@ struct PhantomTruth {
     std::vector<Polyp> polyps;       ///< in order of station
     std::vector<CollapsedGap> gaps;  ///< in order of station
     std::vector<FluidPool> pools;    ///< in order of station
+    ColonPartRanges parts;           ///< all eight, by where they are fixed, not by the shape of the curve
     Vector3 gravity;                 ///< unit vector
     double length_mm = 0;            ///< of the curve
     double volume_ml = 0;            ///< of the lumen, gas and fluid
