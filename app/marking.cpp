@@ -77,6 +77,14 @@ std::optional<SnappedPoint> snapToSkeleton(const fs::path& folder, Point3 point,
     return SnappedPoint{voxel.distance_mm, foot.station_mm, skeleton.length_mm()};
 }
 
+ColonPartRanges partsOf(CaseStore& store, const ScanRecord& scan)
+{
+    for (const StepRecord& step : store.steps(scan.case_id, scan.id))
+        if (step.result.contains("parts"))
+            return colonPartsFromJson(step.result["parts"]);
+    return {};
+}
+
 Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id, Marker marker)
 {
     std::vector<std::pair<std::string, SnappedPoint>> places;
@@ -108,6 +116,10 @@ Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::stri
     marker.station_mm = place.station_mm;
     marker.from_caecum_mm = place.length_mm - place.station_mm;
     marker.fraction = place.length_mm > 0 ? place.station_mm / place.length_mm : 0;
+    marker.extra.erase("part");
+    if (const std::string part = partNameAt(partsOf(store, store.requireScan(case_id, scan_id)), place.station_mm);
+        !part.empty())
+        marker.extra["part"] = part;
     return marker;
 }
 

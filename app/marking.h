@@ -4,6 +4,7 @@
 #include <string>
 
 #include "vicon/core/case_store.h"
+#include "vicon/core/colon_parts.h"
 #include "vicon/core/options.h"
 
 namespace vicon::app {
@@ -31,8 +32,12 @@ struct SnappedPoint {
 /// Error{not_ready} when the scan has not been through the pipeline.
 std::optional<SnappedPoint> snapToSkeleton(const std::filesystem::path& scan_folder, Point3 point, double within_mm);
 
-/// Fills in scan, stations and fraction of a marker. An empty scan id is found: the only scan whose lumen is near the
-/// point. Throws Error{bad_input} when the point is outside, Error{wrong_use} when it could be in several scans.
+/// The parts of a scan's colon; empty where they are not known.
+ColonPartRanges partsOf(CaseStore& store, const ScanRecord& scan);
+
+/// Fills in scan, stations, fraction and part of the colon (`extra["part"]`, absent where not known) of a marker. An
+/// empty scan id is found: the only scan whose lumen is near the point. Throws Error{bad_input} when the point is
+/// outside, Error{wrong_use} when it could be in several scans.
 Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id, Marker marker);
 
 /// The first scan of the case that has been through the pipeline; the named one when `scan_id` is not empty.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "marking.h"
 #include "vicon/core/error.h"
 #include "vicon/viewer/scene/display.h"
 #include "vicon/viewer/scene/snapshot.h"
@@ -95,6 +96,7 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const CaseRecord& rec
         if (hasColon(folder)) {
             auto request = requestFor(SnapshotRequest::View::overview, record, scan, kOverviewWidth, kOverviewHeight);
             request.markers = markersOf(store, scan);
+            request.parts = partsOf(store, scan);
             entry.overview_picture = pictures / (scan.id + "-overview.png");
             viewer::renderSnapshot(viewer::PreparedScan::open(folder), request, entry.overview_picture);
         }
@@ -116,11 +118,12 @@ std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const CaseRecord&
         if (markers.empty())
             continue;
         const auto prepared = viewer::PreparedScan::open(store.scanFolder(record.id, scan.id));
+        const ColonPartRanges parts = partsOf(store, scan);
         for (const Marker& marker : markers) {
             progress.check();
             progress.report(double(entries.size()) / all, "pictures of marker " + marker.id);
             report::MarkerEntry entry{.marker = marker, .scan_label = labelOf(scan)};
-            entry.part_name = marker.extra.value("part", "");
+            entry.part_name = partNameAt(parts, marker.station_mm);
             const auto draw = [&](SnapshotRequest::View view, int width, int height, const std::string& name) {
                 auto request = requestFor(view, record, scan, width, height);
                 request.look_at_mm = marker.position_mm;

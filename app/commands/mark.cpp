@@ -36,11 +36,11 @@ void printMarkers(const std::vector<Marker>& markers)
                         formatNumber(m.position_mm.x, 1) + ", " + formatNumber(m.position_mm.y, 1) + ", " +
                             formatNumber(m.position_mm.z, 1),
                         formatNumber(m.station_mm, 0), formatNumber(m.from_caecum_mm, 0),
-                        formatNumber(m.fraction * 100, 0) + " %", m.note});
-    std::printf(
-        "%s",
-        formatTable({"ID", "SCAN", "COLOR", "LPS MM", "FROM RECTUM MM", "FROM CAECUM MM", "FRACTION", "NOTE"}, rows)
-            .c_str());
+                        formatNumber(m.fraction * 100, 0) + " %", m.extra.value("part", "-"), m.note});
+    std::printf("%s", formatTable({"ID", "SCAN", "COLOR", "LPS MM", "FROM RECTUM MM", "FROM CAECUM MM", "FRACTION",
+                                   "PART", "NOTE"},
+                                  rows)
+                          .c_str());
 }
 
 nlohmann::json listOf(const std::vector<Marker>& markers)

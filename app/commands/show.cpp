@@ -14,6 +14,38 @@ struct ShowArguments {
     bool subdivision_table = false;
 };
 
+/// Parts of the colon and how well the scan shows them.
+void printQuality(const nlohmann::json& scan)
+{
+    if (!scan.contains("quality"))
+        return;
+    const nlohmann::json& quality = scan["quality"];
+    const std::string reason = quality.value("reason", "");
+    std::printf("  quality: %s%s%s, noise %s HU\n", quality.value("adequate", false) ? "adequate" : "not adequate",
+                reason.empty() ? "" : ": ", reason.c_str(), formatNumber(quality.value("noise_hu", 0.0), 0).c_str());
+    std::vector<std::vector<std::string>> rows;
+    const auto addRow = [&](const std::string& name, const std::string& stations, const nlohmann::json& q) {
+        const auto number = [&](const char* key, double factor = 1) {
+            return formatNumber(factor * q.value(key, 0.0), 0);
+        };
+        rows.push_back({"  " + name, stations, number("median_radius_mm"), number("collapsed_mm"),
+                        number("collapsed_fraction", 100) + " %", number("volume_ml"), number("fluid_ml"),
+                        number("fluid_fraction", 100) + " %", q.value("adequate", false) ? "yes" : "no"});
+    };
+    const nlohmann::json none = nlohmann::json::array();
+    const nlohmann::json& parts = scan.contains("parts") ? scan["parts"] : none;
+    const nlohmann::json& measured = quality.contains("parts") ? quality["parts"] : none;
+    for (std::size_t n = 0; n < parts.size() && n < measured.size(); ++n)
+        addRow(parts[n].value("name", ""),
+               formatNumber(parts[n].value("from_mm", 0.0), 0) + " - " + formatNumber(parts[n].value("to_mm", 0.0), 0),
+               measured[n]);
+    addRow("whole colon", "", quality);
+    std::printf("%s", formatTable({"  PART", "STATIONS MM", "MEDIAN RADIUS MM", "COLLAPSED MM", "SHARE", "VOLUME ML",
+                                   "FLUID ML", "SHARE", "ADEQUATE"},
+                                  rows)
+                          .c_str());
+}
+
 void printScan(CaseStore& store, const WorklistScan& scan)
 {
     const ScanRecord& r = scan.record;
@@ -34,6 +66,7 @@ void printScan(CaseStore& store, const WorklistScan& scan)
     }
     if (!rows.empty())
         std::printf("%s", formatTable({"  STEP", "TIME", "MEASURES"}, rows).c_str());
+    printQuality(store.describeScan(r.case_id, r.id));
     for (const char* list : {"repairs", "refused", "set_aside"})
         for (const auto& line : r.ingest.value(list, nlohmann::json::array()))
             std::printf("  %s: %s\n", list, (line.is_string() ? line.get<std::string>() : line.dump()).c_str());

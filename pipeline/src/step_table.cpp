@@ -4,8 +4,10 @@
 
 #include "vicon/artefact/cells_file.h"
 #include "vicon/steps/cells.h"
+#include "vicon/steps/colon_parts.h"
 #include "vicon/steps/exit_distance.h"
 #include "vicon/steps/projections.h"
+#include "vicon/steps/quality.h"
 #include "vicon/steps/resample.h"
 #include "vicon/steps/segment.h"
 #include "vicon/steps/skeleton.h"
@@ -98,6 +100,20 @@ json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepR
     return result;
 }
 
+json runQuality(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
+{
+    const auto options = inputs.config.get<steps::QualityOptions>();
+    const steps::FoundParts found = steps::findColonParts(artefacts.skeleton());
+    json result = {{"parts", toJson(found.ranges)}};
+    if (!found.reason.empty())
+        result["parts_unknown"] = found.reason;
+    if (!artefacts.skeleton().empty())
+        result["quality"] = toJson(steps::measureQuality(artefacts.volume(), artefacts.inside(), artefacts.skeleton(),
+                                                         found.ranges, options, progress),
+                                   options);
+    return result;
+}
+
 json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
 {
     PartOfProgress divide(progress, 0, 0.4), contour(progress, 0.4, 0.9), project(progress, 0.9, 1);
@@ -151,9 +167,17 @@ const std::vector<Step>& stepTable()
          always({"skeleton.vtp", "skeleton_voxels.vtp"}),
          parametersFrom<SkeletonOptions>,
          runSkeleton},
-        {"subdivide",
+        {"quality",
          1,
          0.65,
+         0.67,
+         {"resample", "segment", "skeleton"},
+         always({}),
+         parametersFrom<QualityOptions>,
+         runQuality},
+        {"subdivide",
+         1,
+         0.67,
          0.85,
          {"resample", "segment", "skeleton"},
          always({"segments.mha", "subdivision.json", "cells.vtp", "projections/coronal.png",
@@ -179,6 +203,7 @@ std::vector<OptionSpec> stepOptionSpecs()
     add(specsOf<steps::ResampleOptions>());
     add(specsOf<steps::SegmentOptions>());
     add(specsOf<steps::SkeletonOptions>());
+    add(specsOf<steps::QualityOptions>());
     add(specsOf<steps::SubdivideOptions>());
     add(specsOf<steps::CellOptions>());
     add(specsOf<steps::ProjectionOptions>());

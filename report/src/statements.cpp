@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "describe_json.h"
+#include "quality_words.h"
 #include "vicon/report/wording.h"
 
 using nlohmann::json;
@@ -135,7 +136,7 @@ std::vector<Statement> scanStatements(const ScanEntry& entry)
         out.push_back({"Colon length", millimetres(entry.skeleton_length_mm) + " along the skeleton"});
         out.push_back({"Bridges", bridgeWords(entry.bridges)});
     }
-    addGiven(out, "Quality", joinedLines(describeMeasures(entry.quality)));
+    addGiven(out, "Quality", qualityWords(entry.quality));
     if (ingest.is_object()) {
         addGiven(out, "Repaired", joinedLines(describeNotes(ingest.value("repairs", json::array()))));
         addGiven(out, "Refused", joinedLines(describeNotes(ingest.value("refused", json::array()))));

@@ -135,6 +135,48 @@ TEST_F(Study, PutsMarkersAtTheStationOfTheTruthAndRefusesPointsOutside)
     EXPECT_TRUE(nlohmann::json::parse(std::ifstream(scan_.folder / "markers.json"))["markers"] == back);
 }
 
+TEST_F(Study, NamesThePartOfTheColonInShowMarkersAndReport)
+{
+    const auto scan = viconJson(store(), "show " + scan_.case_id)["scans"][0];
+    ASSERT_EQ(scan["parts"].size(), truth_["parts"].size());
+    constexpr double kTolerance_mm = 45;
+    int checked = 0;
+    for (const auto& polyp : truth_["polyps"])
+        for (const auto& part : truth_["parts"]) {
+            const double station_mm = polyp["station_mm"];
+            if (station_mm < part["from_mm"].get<double>() + kTolerance_mm ||
+                station_mm > part["to_mm"].get<double>() - kTolerance_mm)
+                continue;
+            const auto marker = viconJson(store(), "mark " + scan_.case_id + at(polyp["position_mm"]));
+            EXPECT_EQ(marker["part"], part["name"]) << station_mm;
+            const std::string id = marker["id"], name = part["name"];
+            EXPECT_THAT(viconOn(store(), "markers " + scan_.case_id), HasSubstr(name));
+            if (checked++ == 0) {
+                const fs::path pdf = folder_->path() / "named.pdf";
+                viconOn(store(), "report " + scan_.case_id + " --out " + pdf.string());
+                const std::string text = runCommand("pdftotext -layout " + pdf.string() + " -").output;
+                EXPECT_THAT(text, testing::ContainsRegex("Part of colon +" + name));
+                EXPECT_THAT(text, HasSubstr("whole colon: radius"));
+            }
+            viconOn(store(), "markers " + scan_.case_id + " --remove " + id);
+        }
+    EXPECT_GE(checked, 2);
+    const std::string shown = viconOn(store(), "show " + scan_.case_id);
+    for (const char* word : {"quality: ", "hepatic flexure", "FLUID ML", "noise"})
+        EXPECT_THAT(shown, HasSubstr(word));
+}
+
+TEST_F(Study, MeasuresNoiseAsItIsAndCountsTheFluidThatWasFound)
+{
+    const auto scan = viconJson(store(), "show " + scan_.case_id)["scans"][0];
+    const auto& quality = scan["quality"];
+    EXPECT_NEAR(quality["noise_hu"].get<double>() / truth_["noise_hu"].get<double>(), 1, 0.35)
+        << "interpolation between slices takes some away";
+    const double found_ml = scan["steps"]["segment"]["result"]["fluid_ml"];
+    EXPECT_NEAR(quality["fluid_ml"].get<double>(), found_ml, 0.02 * found_ml + 1);
+    EXPECT_EQ(quality["parts"].size(), 8u);
+}
+
 TEST_F(Study, MakesPicturesAndAReportAndPrintsTheirPaths)
 {
     viconOn(store(), "mark " + scan_.case_id + at(truth_["polyps"][1]["position_mm"]) + " --note 'for the report'");

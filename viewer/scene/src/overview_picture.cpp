@@ -50,6 +50,22 @@ void addTips(Overlay& overlay, const Skeleton& skeleton, const PlaneView& view, 
     }
 }
 
+/// The parts between rectum and caecum, whose names stand at the tips: each in its middle, a dot where one begins.
+void addParts(Overlay& overlay, const ColonPartRanges& parts, const Skeleton& skeleton, const PlaneView& view,
+              double text_px)
+{
+    for (const ColonPartRange& range : parts) {
+        if (range.part != ColonPart::rectum)
+            overlay.discs.push_back(
+                {view.toPixel(skeleton.at(range.from_mm).position_mm), 0.2 * text_px, kPathColor, 0});
+        if (range.part == ColonPart::rectum || range.part == ColonPart::caecum)
+            continue;
+        const Pixel middle = view.toPixel(skeleton.at((range.from_mm + range.to_mm) / 2).position_mm);
+        overlay.texts.push_back(
+            {middle, nameOf(range.part), 0.9 * text_px, kPathColor, Across::centre, Along::bottom, 1e9});
+    }
+}
+
 void addMarkers(Overlay& overlay, const std::vector<Marker>& markers, const PlaneView& view, double text_px)
 {
     for (const Marker& marker : markers) {
@@ -84,6 +100,7 @@ Picture overviewPicture(const PreparedScan& scan, const SnapshotRequest& request
     const Area area{0, 0, double(request.width), double(request.height)};
     addSkeleton(overlay, scan.skeleton(), view, std::max(1.5, text_px / 9));
     addTips(overlay, scan.skeleton(), view, text_px);
+    addParts(overlay, request.parts, scan.skeleton(), view, text_px);
     addMarkers(overlay, request.markers, view, text_px);
     addHere(overlay, view, place.pose, 0.8 * text_px);
     addLetters(overlay, area, view.right, view.down, text_px);
