@@ -96,7 +96,6 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const CaseRecord& rec
         if (hasColon(folder)) {
             auto request = requestFor(SnapshotRequest::View::overview, record, scan, kOverviewWidth, kOverviewHeight);
             request.markers = markersOf(store, scan);
-            request.parts = partsOf(store, scan);
             entry.overview_picture = pictures / (scan.id + "-overview.png");
             viewer::renderSnapshot(viewer::PreparedScan::open(folder), request, entry.overview_picture);
         }

@@ -39,7 +39,6 @@ int snapshot(Context& context, const SnapshotArguments& arguments)
     for (Marker& marker : store.markers(record.id))
         if (marker.scan_id == scan.id)
             request.markers.push_back(std::move(marker));
-    request.parts = partsOf(store, scan);
     request.caption = viewer::captionFor(record, scan);
     request.width = arguments.width;
     request.height = arguments.height;

@@ -100,7 +100,7 @@ Picture overviewPicture(const PreparedScan& scan, const SnapshotRequest& request
     const Area area{0, 0, double(request.width), double(request.height)};
     addSkeleton(overlay, scan.skeleton(), view, std::max(1.5, text_px / 9));
     addTips(overlay, scan.skeleton(), view, text_px);
-    addParts(overlay, request.parts, scan.skeleton(), view, text_px);
+    addParts(overlay, scan.parts(), scan.skeleton(), view, text_px);
     addMarkers(overlay, request.markers, view, text_px);
     addHere(overlay, view, place.pose, 0.8 * text_px);
     addLetters(overlay, area, view.right, view.down, text_px);

@@ -6,6 +6,7 @@
 #include "vicon/artefact/skeleton_file.h"
 #include "vicon/artefact/volume_file.h"
 #include "vicon/core/error.h"
+#include "vicon/core/file.h"
 
 namespace fs = std::filesystem;
 
@@ -52,6 +53,7 @@ struct PreparedScan::Files {
     Lazy<artefact::CellSurface> cells;
     Lazy<artefact::Subdivision> subdivision;
     Lazy<PathFrames> frames;
+    Lazy<ColonPartRanges> parts;
 
     fs::path at(const char* name) const
     {
@@ -121,6 +123,19 @@ const artefact::Subdivision& PreparedScan::subdivision() const
 const PathFrames& PreparedScan::frames() const
 {
     return files_->frames.get([&] { return PathFrames(skeleton()); });
+}
+
+const ColonPartRanges& PreparedScan::parts() const
+{
+    return files_->parts.get([&]() -> ColonPartRanges {
+        const fs::path file = folder() / "scan.json";
+        if (!fs::exists(file))
+            return {};
+        const auto scan = nlohmann::json::parse(readFile(file), nullptr, false);
+        if (!scan.is_object())
+            throw Error(ErrorCode::bad_input, "is not the description of a scan", file.string(), "run 'vicon work'");
+        return colonPartsFromJson(scan.value("parts", nlohmann::json::array()));
+    });
 }
 
 Lumen PreparedScan::lumen() const

@@ -5,6 +5,7 @@
 
 #include "vicon/artefact/cells_file.h"
 #include "vicon/artefact/subdivision_file.h"
+#include "vicon/core/colon_parts.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume.h"
 #include "vicon/viewer/model/lumen.h"
@@ -32,6 +33,7 @@ public:
     const artefact::CellSurface& cells() const;        ///< cells.vtp
     const artefact::Subdivision& subdivision() const;  ///< subdivision.json
     const PathFrames& frames() const;                  ///< of the skeleton
+    const ColonPartRanges& parts() const;              ///< of scan.json; empty where it knows none
     Lumen lumen() const;                               ///< of inside and wallDistance; valid while this object lives
 
 private:

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "vicon/core/case_store.h"
-#include "vicon/core/colon_parts.h"
 #include "vicon/viewer/model/view_pose.h"
 #include "vicon/viewer/scene/prepared_scan.h"
 
@@ -32,7 +31,6 @@ struct SnapshotRequest {
     std::optional<Point3> look_at_mm;  ///< what to look at (a marker's position); empty: the place at `station_mm`
     double station_mm = 0;             ///< used without `look_at_mm`; beyond the ends: the end
     std::vector<Marker> markers;       ///< drawn where they are in view
-    ColonPartRanges parts;             ///< overview: names written beside the skeleton; may be empty
     Caption caption;
     int width = 0;                 ///< pixels, kLeastSide to kMostSide; 0: 1024
     int height = 0;                ///< 0: 768, or 1024 for the overview
