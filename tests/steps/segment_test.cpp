@@ -10,6 +10,7 @@ namespace vicon::steps {
 namespace {
 
 using test::centredGrid;
+using test::tubeDistance;
 using test::TubeScan;
 
 /// A tube like a colon in small: up on the left, across, down on the right.
@@ -80,6 +81,35 @@ TEST(Segment, OrdersPiecesOverAGap)
     EXPECT_LT(distance(result.plan.pieces[1].caecal_end_mm, {-45, 0, -45}), 16);
     EXPECT_TRUE(result.plan.bridges[0].certain);
     EXPECT_LT(result.plan.bridges[0].length_mm, 60);
+}
+
+TEST(Segment, BridgeFollowsTheBendOfTheCollapsedBowelThroughFat)
+{
+    TubeScan scan = smallColon();
+    scan.line = {{0, 15, -70}, {0, 15, -45}, {45, 0, -40}, {45, 0, 30}};
+    scan.second_line = {{-5, 0, 30}, {-45, 0, 30}, {-45, 0, -40}};
+    // The lumens end 12 mm beyond the lines; the collapsed bowel goes up and round between them.
+    const std::vector<Point3> cord{{45, 0, 42}, {43, 0, 50}, {36, 0, 57}, {26, 0, 58},
+                                   {17, 0, 52}, {11, 0, 40}, {7, 0, 30}};
+    HuVolume volume = scan.draw(kGrid);
+    for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
+        const Point3 p = kGrid.pointAt(kGrid.indexOf(n));
+        const double outside_mm = std::min(scan.signedDistance(p) - 2, tubeDistance(cord, 6, p));
+        if (volume.voxels[n] > -100 && outside_mm > 0)
+            volume.voxels[n] = std::int16_t(40 - 140 * std::min(1.0, outside_mm));
+    }
+    const Segmentation result = segment(volume, scan.gravity);
+    ASSERT_EQ(result.plan.bridges.size(), 1U) << result.reason;
+    const Bridge& bridge = result.plan.bridges[0];
+    double length_mm = 0;
+    for (std::size_t n = 1; n < cord.size(); ++n)
+        length_mm += distance(cord[n - 1], cord[n]);
+    EXPECT_NEAR(bridge.length_mm, length_mm, 5);
+    EXPECT_GT(bridge.confidence, 0.5) << bridge.reason;  // soft tissue all the way
+    for (const Point3 p : bridge.path_mm)
+        EXPECT_LT(tubeDistance(cord, 0, p), 4) << p.x << ' ' << p.y << ' ' << p.z;
+    for (const Point3 end : {bridge.from_mm, bridge.to_mm})
+        EXPECT_NEAR(scan.signedDistance(end), 0, 3);
 }
 
 TEST(Segment, LeavesAMarginOutside)

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "body.h"
+#include "bridge_way.h"
 #include "fluid.h"
 #include "fluid_rim.h"
 #include "lumen.h"
@@ -160,6 +161,7 @@ Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const
     result.plan.bridges = ordering.bridges;
     result.inside = cropTo(labels, lumen, chosen, kMargin_voxels + layers);
     restoreFluidRim(result.inside, layers);
+    followCords(volume, result.inside, options.longest_sure_bridge_mm, result.plan, progress);
     result.measures["candidates"] = describe(candidates, ordering);
     judgeSegmentation(result, body);
     return result;

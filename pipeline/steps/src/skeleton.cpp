@@ -15,8 +15,8 @@ namespace {
 constexpr int kBlock = 2;        // half resolution: as exact after recentring as full, and four times faster
 constexpr double kLeast_mm = 0;  // narrow lumens are kept; the cost keeps the path away from corners of the wall
 
-constexpr double kLongestArc_mm = 100;    // a longer way over a collapsed part need not bend evenly
-constexpr double kAstray_mm = 6;          // of a curve's end at a collapsed part; phantoms 1 and 3
+constexpr double kClosing_mm = 12;        // before a collapsed part the lumen closes, often to one side
+constexpr double kRunUp_mm = 15;          // of the curves, smoothed together with the bridge
 constexpr double kTubeReach_mm = 150;     // from the rectal end: a rectal tube lies no higher
 constexpr double kTubeSection_mm2 = 200;  // of a tube of up to 12 mm, cut obliquely
 
@@ -81,53 +81,40 @@ void append(Skeleton& skeleton, const Polyline& line, bool bridge, const Distanc
     skeleton.pieces.push_back(std::move(piece));
 }
 
-/// Unit vector in which a curve leaves its end, over the last 8 points: the end itself is less certain than its run.
-Vector3 leaving(const Polyline& curve, bool at_start)
+/// Cuts off the end of a curve beyond the place where the bridge leaves the lumen, and the stretch before it in which
+/// the lumen closes: there the curve follows the corners of the wall.
+void cutBack(Polyline& curve, Point3 leave)
 {
-    const auto reach = std::min(curve.size() - 1, std::size_t(8));
-    return at_start ? normalized(curve.front() - curve[reach])
-                    : normalized(curve.back() - curve[curve.size() - 1 - reach]);
+    const auto near = std::min_element(curve.begin(), curve.end(),
+                                       [&](Point3 a, Point3 b) { return distance(a, leave) < distance(b, leave); });
+    const auto least = curve.begin() + std::ptrdiff_t(curve.size() * 3 / 4);
+    auto end = std::max(near, least);
+    while (end > least && distance(*end, leave) < kClosing_mm)
+        --end;
+    curve.erase(end + 1, curve.end());
 }
 
-/// From the end of one curve to the start of the next. Over the short way it bends as the lumen on both sides does;
-/// where the tissue says that the way is much longer than that it follows the bridge's path, without the detours to the
-/// tips of the lumen, which lie a local radius beyond the curves' ends and often in a corner.
-Polyline bridgeLine(const Polyline& before, const Bridge& bridge, const Polyline& after, const SkeletonOptions& options)
-{
-    const Point3 from = before.back(), to = after.front();
-    const double apart_mm = distance(from, to);
-    Polyline line{from};
-    if (apart_mm < kLongestArc_mm) {
-        const Vector3 a = leaving(before, false) * apart_mm, b = leaving(after, true) * -apart_mm;
-        for (int n = 1; n < 64; ++n) {
-            const double t = n / 64.0;
-            line.push_back(interpolate(from, to, t * t * (3 - 2 * t)) + a * (t * (1 - t) * (1 - t)) -
-                           b * (t * t * (1 - t)));
-        }
-        line.push_back(to);
-        return resampled(line, options.step_mm);
-    }
-    for (std::size_t n = 1; n + 1 < bridge.path_mm.size(); ++n)
-        line.push_back(bridge.path_mm[n]);
-    line.push_back(to);
-    line = smoothed(resampled(line, options.step_mm), options.smoothing_mm, options.step_mm);
-    line.front() = from;
-    line.back() = to;
-    return line;
-}
-
-/// Joins two curves over a collapsed part: their last stretches, where a lumen that narrows into a corner leads them
-/// astray, give way to the even bend between them. What of that lies in the lumen belongs to the curves, the rest is
-/// the bridge, which is returned.
+/// Joins two curves over a collapsed part along the bridge's way, smoothed as the curves are. What of that lies in the
+/// lumen belongs to the curves, the rest is the bridge, which is returned.
 Polyline join(Polyline& before, const Bridge& bridge, Polyline& after, const DistanceProbe& open,
               const SkeletonOptions& options)
 {
-    const auto astray = [&](const Polyline& curve) {
-        return std::ptrdiff_t(std::min(curve.size() / 4, std::size_t(kAstray_mm / options.step_mm)));
+    cutBack(before, bridge.from_mm);
+    std::reverse(after.begin(), after.end());
+    cutBack(after, bridge.to_mm);
+    std::reverse(after.begin(), after.end());
+    // A run-up on both sides makes the smoothed line leave the curves in their direction.
+    const auto run = [&](const Polyline& curve) {
+        return std::ptrdiff_t(std::min(curve.size(), std::size_t(kRunUp_mm / options.step_mm)));
     };
-    before.erase(before.end() - astray(before), before.end());
-    after.erase(after.begin(), after.begin() + astray(after));
-    const Polyline line = bridgeLine(before, bridge, after, options);
+    Polyline line(before.end() - run(before), before.end());
+    line.insert(line.end(), bridge.path_mm.begin(), bridge.path_mm.end());
+    line.insert(line.end(), after.begin(), after.begin() + run(after));
+    before.erase(before.end() - run(before) + 1, before.end());
+    after.erase(after.begin(), after.begin() + run(after) - 1);
+    line = smoothed(resampled(line, options.step_mm), options.smoothing_mm, options.step_mm);
+    line.front() = before.back();
+    line.back() = after.front();
     std::size_t from = 0, to = line.size() - 1;
     while (from + 2 < to && open.inside(line[from + 1]))
         ++from;

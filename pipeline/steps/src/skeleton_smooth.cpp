@@ -15,6 +15,9 @@ constexpr double kBaseSmoothing_mm = 8;  // of the line from which rays start: a
 constexpr double kPercentile = 0.5;      // of the radii per angle: passes over folds, which are short
 constexpr double kPercentileWindow_mm = 25;
 constexpr double kTangent_mm = 3;
+constexpr double kTipRadiusOver_mm = 12;  // of the curve, for the radius at its end
+constexpr int kOwnBase = 4;               // of the recentrings, the last so many start from the line itself
+constexpr double kMostMoved_mm = 10;      // of an end of the curve, when the lumen's tip is measured from it
 
 /// Two unit vectors across the curve at each point, turning with it as little as possible.
 struct Frame {
@@ -152,6 +155,52 @@ Polyline withoutFirstTip(const Polyline& path, const DistanceProbe& wall)
     return path;
 }
 
+double medianOf(std::vector<double> values)
+{
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// How far beyond the first point, in the line's direction, lies the centre of a ball that fills the lumen's tip and is
+/// as wide as the lumen after it. The medians are over rays, most of which meet neither a fold nor a rectal tube.
+double ballAhead(const Polyline& line, const DistanceProbe& wall, double step_mm)
+{
+    const std::size_t back = std::min(line.size() - 1, std::size_t(8 / step_mm));
+    const Vector3 along = normalized(line.front() - line[back]);
+    const Vector3 u = normalized(cross(along, std::abs(along.x) < 0.9 ? Vector3{1, 0, 0} : Vector3{0, 1, 0}));
+    const Vector3 v = cross(along, u);
+    const auto across = [&](int n) {
+        return u * std::cos(std::numbers::pi * n / 8) + v * std::sin(std::numbers::pi * n / 8);
+    };
+    std::vector<double> radii, ahead;
+    for (std::size_t m = 0; m < line.size() && distance(line[m], line.front()) <= kTipRadiusOver_mm; ++m)
+        for (int n = 0; n < 16; ++n)
+            radii.push_back(reach(wall, line[m], across(n), kTipWindow_mm * 2));
+    const double radius_mm = medianOf(radii);
+    for (const double slope : {0.3, 0.6, 0.9})
+        for (int n = 0; n < 16; ++n) {
+            const double far = reach(wall, line.front(), normalized(along + across(n) * slope), 3 * radius_mm);
+            const double height = far / std::sqrt(1 + slope * slope), off = height * slope;
+            ahead.push_back(height - std::sqrt(std::max(0.0, radius_mm * radius_mm - off * off)));
+        }
+    return medianOf(ahead);
+}
+
+/// Lengthens or shortens the line so that it begins one local radius inside the lumen's tip: the path from which it was
+/// made may run beside the middle there, and so take the local radius for smaller.
+void beginOneRadiusIn(Polyline& line, const DistanceProbe& wall, double step_mm)
+{
+    const std::size_t back = std::min(line.size() - 1, std::size_t(8 / step_mm));
+    const double move_mm = std::clamp(ballAhead(line, wall, step_mm), -kMostMoved_mm, kMostMoved_mm);
+    const Vector3 along = normalized(line.front() - line[back]);
+    const Point3 first = line.front();
+    for (double s = step_mm; s <= move_mm && wall.inside(first + along * s); s += step_mm)
+        line.insert(line.begin(), first + along * s);
+    const auto cut = std::min(line.size() / 4, std::size_t(std::max(0.0, -move_mm) / step_mm + 0.5));
+    line.erase(line.begin(), line.begin() + std::ptrdiff_t(cut));
+}
+
 Polyline gaussian(const Polyline& line, double sigma_mm, double step_mm)
 {
     const int half = int(std::ceil(3 * sigma_mm / step_mm));
@@ -252,13 +301,20 @@ Polyline centredCurve(const Polyline& path, const DistanceProbe& wall, const Ske
     line = resampledInside(smoothedInside(line, options.path_smoothing_mm, wall, options), wall, options.step_mm);
     for (int n = 0; n < options.recentrings; ++n) {
         // The percentiles are those of a stretch, not of a point: what the line wriggles within such a stretch would
-        // stay. So the rays start from a line without wriggles.
+        // stay. So the rays start from a line without wriggles; at last from the line itself, because what was taken
+        // from it as wriggles includes a tenth of every bend that is shorter than two such stretches.
+        const bool last = n + kOwnBase >= options.recentrings;
         const Polyline base =
-            resampledInside(smoothedInside(line, kBaseSmoothing_mm, wall, options), wall, options.step_mm);
+            last ? line
+                 : resampledInside(smoothedInside(line, kBaseSmoothing_mm, wall, options), wall, options.step_mm);
         line = smoothedInside(recentred(base, wall, options), options.smoothing_mm, wall, options);
         line = resampledInside(line, wall, options.step_mm);
     }
-    return line;
+    for (int end = 0; end < 2; ++end) {
+        std::reverse(line.begin(), line.end());
+        beginOneRadiusIn(line, wall, options.step_mm);
+    }
+    return resampledInside(line, wall, options.step_mm);
 }
 
 }  // namespace vicon::steps
