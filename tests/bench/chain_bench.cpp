@@ -69,12 +69,38 @@ double bytesPerSecond()
     return best + to[12345] * 1e-9;
 }
 
+struct StepUse {
+    double wall_s = 0, cpu_s = 0, peak_mb = 0;
+};
+
 struct OwnRun {
     bench::Usage import, work;
-    std::map<std::string, double> step_s;
+    std::map<std::string, StepUse> steps;
     std::map<std::string, double> megabytes;  ///< of files, as they are in memory
-    std::string peak_step;
 };
+
+const std::vector<std::string> kSteps = {"resample", "segment", "skeleton", "quality", "subdivide", "potential"};
+
+/// Steps follow each other, and the process ends with the last: so what it used between two moments is a step's.
+void shareOut(OwnRun& run)
+{
+    double end = run.work.wall_s;
+    for (auto step = kSteps.rbegin(); step != kSteps.rend(); ++step) {
+        StepUse& use = run.steps[*step];
+        const double begin = end - use.wall_s;
+        double before_s = 0, after_s = 0;
+        for (const bench::Sample& sample : run.work.samples) {
+            if (sample.at_s <= begin)
+                before_s = sample.cpu_s;
+            if (sample.at_s <= end)
+                after_s = sample.cpu_s;
+            if (sample.at_s >= begin && sample.at_s <= end)
+                use.peak_mb = std::max(use.peak_mb, sample.resident_mb);
+        }
+        use.cpu_s = after_s - before_s;
+        end = begin;
+    }
+}
 
 OwnRun runOwn(const std::string& vicon, const fs::path& series, const fs::path& folder)
 {
@@ -91,20 +117,14 @@ OwnRun runOwn(const std::string& vicon, const fs::path& series, const fs::path& 
         if (entry.path().filename() == "scan.json") {
             const auto scan = nlohmann::json::parse(contentOf(entry.path()));
             for (const auto& [step, about] : scan["steps"].items())
-                run.step_s[step] = about["seconds"];
+                run.steps[step].wall_s = about["seconds"];
         }
         if (entry.is_regular_file()) {
             const bool dicom = entry.path().parent_path().filename() == "dicom";
             run.megabytes[dicom ? "dicom" : entry.path().filename().string()] += double(entry.file_size()) / 1e6;
         }
     }
-    // Which step held the most: steps follow each other, and the process ends with the last.
-    double end = run.work.wall_s;
-    for (const char* step : {"potential", "subdivide", "quality", "skeleton", "segment", "resample"}) {
-        end -= run.step_s[step];
-        if (run.peak_step.empty() && run.work.peak_at_s >= end)
-            run.peak_step = step;
-    }
+    shareOut(run);
     fs::remove_all(store);
     return run;
 }
@@ -169,14 +189,17 @@ void printTable(const std::string& title, const std::vector<OwnRun>& own, const 
     auto mb = own.front().megabytes;
     const double inside_mb = mb["wall_distance.mha"] / 4;
     std::printf("\n### %s, median of %zu runs in turn\n\n", title.c_str(), own.size());
-    std::printf("| step | s | least MB moved | floor s |\n|---|---|---|---|\n");
-    const auto row = [&](const std::string& step, double seconds) {
+    std::printf("| step | wall s | CPU s | peak MB | least MB moved | floor s |\n|---|---|---|---|---|---|\n");
+    const auto row = [&](const std::string& step, auto use) {
         const double least = leastMegabytes(step, mb, inside_mb);
-        std::printf("| %s | %.2f | %.0f | %.2f |\n", step.c_str(), seconds, least, least * 1e6 / rate);
+        std::printf("| %s | %.2f | %.2f | %.0f | %.0f | %.2f |\n", step.c_str(),
+                    medianOf(own, [&](const OwnRun& r) { return use(r).wall_s; }),
+                    medianOf(own, [&](const OwnRun& r) { return use(r).cpu_s; }),
+                    medianOf(own, [&](const OwnRun& r) { return use(r).peak_mb; }), least, least * 1e6 / rate);
     };
-    row("import", medianOf(own, [](const OwnRun& r) { return r.import.wall_s; }));
-    for (const char* step : {"resample", "segment", "skeleton", "quality", "subdivide", "potential"})
-        row(step, medianOf(own, [&](const OwnRun& r) { return r.step_s.at(step); }));
+    row("import", [](const OwnRun& r) { return r.import; });
+    for (const std::string& step : kSteps)
+        row(step, [&](const OwnRun& r) { return r.steps.at(step); });
     std::printf("\n| stock filter | s |\n|---|---|\n");
     for (std::size_t n = 0; n < stock.front().step_s.size(); ++n)
         std::printf("| %s | %.2f |\n", stock.front().step_s[n].first.c_str(),
@@ -194,8 +217,7 @@ void printTable(const std::string& title, const std::vector<OwnRun>& own, const 
     std::printf("\n| whole | vicon | stock chain | ratio |\n|---|---|---|---|\n");
     std::printf("| wall s | %.1f | %.1f | %.2f |\n", wall, stock_wall, median(ratios));
     std::printf("| CPU s | %.1f | %.1f | %.2f |\n", cpu, stock_cpu, cpu / stock_cpu);
-    std::printf("| peak MB | %.0f (import %.0f; in %s) | %.0f | %.2f |\n", peak, own.front().import.peak_mb,
-                own.front().peak_step.c_str(), stock_peak, peak / stock_peak);
+    std::printf("| peak MB | %.0f | %.0f | %.2f |\n", peak, stock_peak, peak / stock_peak);
     std::printf("\nA copy moved %.1f GB/s in this run; volume.mha holds %.0f million voxels.\n", rate / 1e9,
                 mb["volume.mha"] / 2);
     std::fflush(stdout);

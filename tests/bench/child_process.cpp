@@ -7,16 +7,31 @@
 
 #include <chrono>
 #include <fstream>
+#include <sstream>
 
 namespace vicon::bench {
 namespace {
 
-double residentMb(pid_t pid)
+/// Of a process with all its threads; see proc(5).
+Sample sampleOf(pid_t pid, double at_s)
 {
-    std::ifstream statm("/proc/" + std::to_string(pid) + "/statm");
+    Sample sample{.at_s = at_s};
+    const std::string folder = "/proc/" + std::to_string(pid);
+    std::ifstream statm(folder + "/statm");
     long all = 0, resident = 0;
     statm >> all >> resident;
-    return double(resident) * double(::sysconf(_SC_PAGESIZE)) / 1e6;
+    sample.resident_mb = double(resident) * double(::sysconf(_SC_PAGESIZE)) / 1e6;
+    std::ifstream stat(folder + "/stat");
+    std::string line;
+    std::getline(stat, line);
+    std::istringstream rest(line.substr(std::min(line.size(), line.rfind(')') + 1)));
+    std::string word;
+    for (int field = 3; field < 14; ++field)
+        rest >> word;
+    double user = 0, system = 0;
+    rest >> user >> system;
+    sample.cpu_s = (user + system) / double(::sysconf(_SC_CLK_TCK));
+    return sample;
 }
 
 double secondsOf(const timeval& t)
@@ -43,19 +58,16 @@ Usage runToEnd(const std::vector<std::string>& command, const std::string& outpu
         ::_exit(127);
     }
     Usage usage;
-    double largest = 0;
     int status = 0;
     rusage used{};
     while (::wait4(pid, &status, WNOHANG, &used) == 0) {
-        if (const double now = residentMb(pid); now > largest) {
-            largest = now;
-            usage.peak_at_s = passed();
-        }
+        usage.samples.push_back(sampleOf(pid, passed()));
         ::usleep(10000);
     }
     usage.wall_s = passed();
     usage.cpu_s = secondsOf(used.ru_utime) + secondsOf(used.ru_stime);
     usage.peak_mb = double(used.ru_maxrss) * 1024 / 1e6;
+    usage.samples.push_back({usage.wall_s, usage.cpu_s, 0});
     usage.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
     return usage;
 }

@@ -108,7 +108,7 @@ int samplesAlong(int acquired_count, double acquired_spacing_mm, double spacing_
 class RowSampler {
 public:
     RowSampler(const CanonicalView& view, const std::vector<Tap>& taps)
-        : view_(view), taps_(taps), mixed_(std::size_t(view.grid.size[0]))
+        : view_(view), taps_(taps), mixed_(std::size_t(view.grid.size[0])), padding_(mixed_.size())
     {
         for (auto& copy : copies_)
             copy.resize(std::size_t(view.grid.size[0]));
@@ -118,11 +118,6 @@ public:
     {
         const std::array<const std::int16_t*, 4> row{acquiredRow(0, y.low, z.low), acquiredRow(1, y.high, z.low),
                                                      acquiredRow(2, y.low, z.high), acquiredRow(3, y.high, z.high)};
-        if (holdsPadding(row)) {
-            for (std::size_t i = 0; i < taps_.size(); ++i)
-                out[i] = careful(row, taps_[i], y, z);
-            return;
-        }
         const std::size_t count = mixed_.size();
         for (std::size_t i = 0; i < count; ++i) {
             const float near = float(row[0][i]) + y.weight * (float(row[1][i]) - float(row[0][i]));
@@ -133,6 +128,11 @@ public:
             const float low = mixed_[std::size_t(taps_[i].low)], high = mixed_[std::size_t(taps_[i].high)];
             out[i] = toHu(low + taps_[i].weight * (high - low));
         }
+        // Almost every row crosses the corners outside the reconstruction circle; few of its voxels lie there.
+        if (markPadding(row))
+            for (std::size_t i = 0; i < taps_.size(); ++i)
+                if (padding_[std::size_t(taps_[i].low)] | padding_[std::size_t(taps_[i].high)])
+                    out[i] = nearest(row, taps_[i], y, z);
     }
 
 private:
@@ -152,35 +152,28 @@ private:
         return copy.data();
     }
 
-    bool holdsPadding(const std::array<const std::int16_t*, 4>& row) const
+    /// Notes which columns hold padding in any of the four rows; false where none does.
+    bool markPadding(const std::array<const std::int16_t*, 4>& row)
     {
-        int found = 0;
-        for (std::size_t i = 0; i < mixed_.size(); ++i)
-            found |= int(row[0][i] == kPaddingHu) | int(row[1][i] == kPaddingHu) | int(row[2][i] == kPaddingHu) |
-                     int(row[3][i] == kPaddingHu);
+        unsigned found = 0;
+        for (std::size_t i = 0; i < padding_.size(); ++i) {
+            padding_[i] = std::uint8_t(int(row[0][i] == kPaddingHu) | int(row[1][i] == kPaddingHu) |
+                                       int(row[2][i] == kPaddingHu) | int(row[3][i] == kPaddingHu));
+            found |= padding_[i];
+        }
         return found != 0;
     }
 
-    static std::int16_t careful(const std::array<const std::int16_t*, 4>& row, Tap x, Tap y, Tap z)
+    static std::int16_t nearest(const std::array<const std::int16_t*, 4>& row, Tap x, Tap y, Tap z)
     {
-        const auto low = std::size_t(x.low), high = std::size_t(x.high);
-        bool padding = false;
-        for (const std::int16_t* values : row)
-            padding = padding || values[low] == kPaddingHu || values[high] == kPaddingHu;
-        if (padding)
-            return row[std::size_t(y.weight >= 0.5F) + 2 * std::size_t(z.weight >= 0.5F)]
-                      [x.weight >= 0.5F ? high : low];
-        const auto mixedAt = [&](std::size_t i) {
-            const float near = float(row[0][i]) + y.weight * (float(row[1][i]) - float(row[0][i]));
-            const float far = float(row[2][i]) + y.weight * (float(row[3][i]) - float(row[2][i]));
-            return near + z.weight * (far - near);
-        };
-        return toHu(mixedAt(low) + x.weight * (mixedAt(high) - mixedAt(low)));
+        return row[std::size_t(y.weight >= 0.5F) + 2 * std::size_t(z.weight >= 0.5F)]
+                  [std::size_t(x.weight >= 0.5F ? x.high : x.low)];
     }
 
     const CanonicalView& view_;
     const std::vector<Tap>& taps_;
     std::vector<float> mixed_;
+    std::vector<std::uint8_t> padding_;
     std::array<std::vector<std::int16_t>, 4> copies_;
 };
 
