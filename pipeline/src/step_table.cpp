@@ -176,7 +176,7 @@ const std::vector<Step>& stepTable()
          parametersFrom<QualityOptions>,
          runQuality},
         {"subdivide",
-         1,
+         2,
          0.67,
          0.85,
          {"resample", "segment", "skeleton"},

@@ -10,9 +10,8 @@
 
 namespace vicon::viewer::test {
 
-void expectCulledPicturesIdentical(const PreparedScan& scan, int poses, unsigned seed)
+void expectCulledPicturesIdentical(const PreparedScan& scan, int poses, unsigned seed, int side)
 {
-    constexpr int kSide = 200;
     SurfaceScene scene(scan.cells());
     Offscreen offscreen(scene.renderer());
     const CellVisibility visibility(scan);
@@ -33,10 +32,10 @@ void expectCulledPicturesIdentical(const PreparedScan& scan, int poses, unsigned
         const double angle = 60 + 60 * std::uniform_real_distribution<double>()(random);
         scene.lookFrom(pose, angle);
         scene.showOnly({});
-        const Picture all = offscreen.render(kSide, kSide);
-        scene.showOnly(visibility.segmentsSeen(pose, {angle, kSide, kSide}));
+        const Picture all = offscreen.render(side, side);
+        scene.showSeen(visibility.seenFrom(pose, {angle, side, side}));
         drawn += scene.trianglesShown();
-        ASSERT_EQ(offscreen.render(kSide, kSide).rgb, all.rgb) << "pose " << n << ", seed " << seed;
+        ASSERT_EQ(offscreen.render(side, side).rgb, all.rgb) << "pose " << n << ", seed " << seed;
     }
     EXPECT_LT(double(drawn) / poses, 0.6 * double(scene.triangleCount()));  // and yet much is not drawn
 }

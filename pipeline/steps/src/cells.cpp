@@ -2,6 +2,7 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 #include <vtkCellArray.h>
 #include <vtkFlyingEdges3D.h>
 #include <vtkImageData.h>
@@ -11,9 +12,9 @@
 #include <vtkShortArray.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "allocate.h"
 #include "wall_field.h"
@@ -143,13 +144,50 @@ Vector3 toPatient(const Grid& grid, Vector3 per_voxel)
            grid.axis[2] * (per_voxel.z / grid.spacing_mm[2]);
 }
 
-/// Puts triangles in order of their segment and points in order of their first use, in patient coordinates.
+/// The low 16 bits with two zeros before each.
+std::uint64_t spread(std::uint64_t x)
+{
+    x &= 0xFFFF;
+    x = (x | x << 16) & 0x0000FF0000FFULL;
+    x = (x | x << 8) & 0x00F00F00F00FULL;
+    x = (x | x << 4) & 0x0C30C30C30C3ULL;
+    return (x | x << 2) & 0x249249249249ULL;
+}
+
+/// Triangles by segment, and within a segment along a curve that fills space (Morton's order of their first corners):
+/// any run of them is a compact patch.
+std::vector<std::uint32_t> drawingOrder(const Contour& contour, const std::vector<std::uint16_t>& tags)
+{
+    struct Place {
+        std::uint64_t key;
+        std::uint32_t triangle;
+        bool operator<(const Place& other) const
+        {
+            return key != other.key ? key < other.key : triangle < other.triangle;
+        }
+    };
+    // Counted from the surface's own corner, so that it does not matter how closely the grid is cropped.
+    std::array<float, 3> low{1e9F, 1e9F, 1e9F};
+    for (std::size_t n = 0; n < contour.points.size(); ++n)
+        low[n % 3] = std::min(low[n % 3], std::floor(contour.points[n]));
+    std::vector<Place> places(tags.size());
+    for (std::uint32_t t = 0; t < tags.size(); ++t) {
+        const float* p = &contour.points[3 * std::size_t(contour.triangles[3 * std::size_t(t)])];
+        const auto at = [&](std::size_t d) { return spread(std::uint64_t(std::floor(p[d]) - low[d])); };
+        places[t] = {std::uint64_t(tags[t]) << 48 | at(0) | at(1) << 1 | at(2) << 2, t};
+    }
+    tbb::parallel_sort(places.begin(), places.end());
+    std::vector<std::uint32_t> order(tags.size());
+    for (std::size_t n = 0; n < places.size(); ++n)
+        order[n] = places[n].triangle;
+    return order;
+}
+
+/// Puts triangles in drawing order and points in order of their first use, in patient coordinates.
 artefact::CellSurface arrange(const Contour& contour, const std::vector<std::uint16_t>& tags, const Grid& grid,
                               std::vector<std::uint32_t>& point_source)
 {
-    std::vector<std::uint32_t> order(tags.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return tags[a] < tags[b]; });
+    const std::vector<std::uint32_t> order = drawingOrder(contour, tags);
     constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> renumbered(contour.pointCount(), kUnused);
     artefact::CellSurface surface;

@@ -32,7 +32,8 @@ void Coverage::forget()
 std::vector<float> triangleAreas_mm2(const std::vector<float>& points_mm, const std::vector<std::uint32_t>& triangles)
 {
     const auto point = [&](std::uint32_t n) {
-        return Point3{points_mm[3 * n], points_mm[3 * n + 1], points_mm[3 * n + 2]};
+        const std::size_t at = 3 * std::size_t(n);
+        return Point3{points_mm[at], points_mm[at + 1], points_mm[at + 2]};
     };
     std::vector<float> areas(triangles.size() / 3);
     for (std::size_t n = 0; n < areas.size(); ++n) {

@@ -3,7 +3,6 @@
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
-#include <vtkOpenGLPolyDataMapper.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -14,7 +13,6 @@
 namespace vicon::viewer {
 namespace {
 
-constexpr double kNear_mm = 0.3;    // well below the camera's radius, so that no wall is cut open
 constexpr double kFar_mm = 2000;    // longer than any line of sight in a body
 constexpr double kAside_mm = 1000;  // parallel projection: the eye's distance from the middle
 
@@ -58,16 +56,16 @@ vtkSmartPointer<vtkPolyData> cellData(const artefact::CellSurface& surface, cons
     return data;
 }
 
-vtkSmartPointer<vtkActor> actorFor(vtkPolyData* data)
+void makeActor(CellActor& cell)
 {
-    vtkNew<vtkOpenGLPolyDataMapper> mapper;
-    mapper->SetInputData(data);
-    mapper->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
-    mapper->ScalarVisibilityOff();
-    mapper->SetStatic(1);
-    auto actor = vtkSmartPointer<vtkActor>::New();
-    actor->SetMapper(mapper);
-    return actor;
+    cell.mapper = vtkSmartPointer<PatchMapper>::New();
+    cell.mapper->SetInputData(cell.data);
+    cell.mapper->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
+    cell.mapper->ScalarVisibilityOff();
+    cell.mapper->SetStatic(1);
+    cell.actor = vtkSmartPointer<vtkActor>::New();
+    cell.actor->SetMapper(cell.mapper);
+    cell.drawn = cell.triangles;
 }
 
 }  // namespace
@@ -84,7 +82,7 @@ std::vector<CellActor> cellActors(const artefact::CellSurface& surface)
             ++first;
         cell.triangles = first - cell.first_triangle;
         cell.data = cellData(surface, cell, number_of);
-        cell.actor = actorFor(cell.data);
+        makeActor(cell);
         cells.push_back(std::move(cell));
     }
     return cells;
@@ -92,9 +90,35 @@ std::vector<CellActor> cellActors(const artefact::CellSurface& surface)
 
 void showOnly(std::vector<CellActor>& cells, const std::vector<int>& segments)
 {
-    for (CellActor& cell : cells)
-        cell.actor->SetVisibility(segments.empty() ||
-                                  std::find(segments.begin(), segments.end(), cell.segment) != segments.end());
+    for (CellActor& cell : cells) {
+        const bool shown =
+            segments.empty() || std::find(segments.begin(), segments.end(), cell.segment) != segments.end();
+        cell.mapper->drawAll();
+        cell.actor->SetVisibility(shown);
+        cell.drawn = shown ? cell.triangles : 0;
+    }
+}
+
+void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patches,
+                 const std::vector<std::uint8_t>& shown)
+{
+    std::size_t next = 0;
+    for (CellActor& cell : cells) {
+        std::vector<TriangleRun> runs;
+        cell.drawn = 0;
+        for (; next < patches.size() && patches[next].cell == cell.segment; ++next) {
+            if (!shown[next])
+                continue;
+            const std::size_t first = patches[next].first_triangle - cell.first_triangle;
+            if (!runs.empty() && runs.back().first + runs.back().count == first)
+                runs.back().count += patches[next].triangles;
+            else
+                runs.push_back({first, patches[next].triangles});
+            cell.drawn += patches[next].triangles;
+        }
+        cell.actor->SetVisibility(!runs.empty());
+        cell.mapper->drawOnly(std::move(runs));
+    }
 }
 
 void placeCamera(vtkCamera* camera, const Pose& pose, double view_angle_deg)
@@ -105,7 +129,7 @@ void placeCamera(vtkCamera* camera, const Pose& pose, double view_angle_deg)
     camera->SetFocalPoint(focus.x, focus.y, focus.z);
     camera->SetViewUp(pose.up.x, pose.up.y, pose.up.z);
     camera->SetViewAngle(view_angle_deg);
-    camera->SetClippingRange(kNear_mm, kFar_mm);
+    camera->SetClippingRange(kNearPlane_mm, kFar_mm);
 }
 
 void placeCamera(vtkCamera* camera, const PlaneView& view)

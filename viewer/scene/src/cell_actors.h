@@ -7,10 +7,15 @@
 
 #include <vector>
 
+#include "patch_mapper.h"
 #include "vicon/artefact/cells_file.h"
 #include "vicon/viewer/model/camera.h"
+#include "vicon/viewer/model/patches.h"
 
 namespace vicon::viewer {
+
+/// Pictures from within are cut off nearer than this: well below the camera's radius, so that no wall is cut open.
+constexpr double kNearPlane_mm = 0.3;
 
 /// One cell of the surface as VTK draws it.
 struct CellActor {
@@ -18,13 +23,19 @@ struct CellActor {
     std::size_t first_triangle = 0, triangles = 0;
     vtkSmartPointer<vtkPolyData> data;
     vtkSmartPointer<vtkActor> actor;
+    vtkSmartPointer<PatchMapper> mapper;
+    std::size_t drawn = 0;  ///< triangles shown
 };
 
 /// The cells in order; each holds only its own points. Corners keep the surface's coordinates to the bit, so that
 /// neighbours meet without cracks.
 std::vector<CellActor> cellActors(const artefact::CellSurface& surface);
 
+/// Whole cells; empty: all.
 void showOnly(std::vector<CellActor>& cells, const std::vector<int>& segments);
+/// Only these patches: of each 1 or 0, as long as `patches`.
+void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patches,
+                 const std::vector<std::uint8_t>& shown);
 
 void placeCamera(vtkCamera* camera, const Pose& pose, double view_angle_deg);
 void placeCamera(vtkCamera* camera, const PlaneView& view);

@@ -1,5 +1,10 @@
 #include "vicon/viewer/scene/cell_visibility.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "cell_actors.h"
+
 namespace vicon::viewer {
 namespace {
 
@@ -11,11 +16,25 @@ std::vector<Gate> gatesOf(const artefact::Subdivision& subdivision)
     return gates;
 }
 
+// From the eye to the corners of the near plane.
+double nearCorner_mm(const Lens& lens)
+{
+    const double up = std::tan(radians(lens.view_angle_deg) / 2);
+    const double aside = lens.height > 0 ? up * lens.width / lens.height : up;
+    return kNearPlane_mm * std::hypot(1.0, up, aside);
+}
+
 }  // namespace
 
-CellVisibility::CellVisibility(const PreparedScan& scan) : scan_(scan), visibility_(gatesOf(scan.subdivision()))
+CellVisibility::CellVisibility(const PreparedScan& scan, Means means)
+    : scan_(scan), visibility_(gatesOf(scan.subdivision()))
 {
     scan_.segments();
+    if (means == Means::gates_and_sight_lines) {
+        const artefact::CellSurface& surface = scan.cells();
+        patches_ = patchesOf(surface.segment);
+        sight_lines_.emplace(scan.inside(), DrawnSurface{surface.points_mm, surface.triangles, patches_});
+    }
 }
 
 int CellVisibility::segmentAt(Point3 p) const
@@ -24,15 +43,38 @@ int CellVisibility::segmentAt(Point3 p) const
     return segments.valueOr(segments.grid.indexAt(p), 0);
 }
 
-std::vector<int> CellVisibility::segmentsSeen(const Pose& pose, const Lens& lens) const
+SeenParts CellVisibility::seenFrom(const Pose& pose, const Lens& lens) const
 {
     const int start = segmentAt(pose.eye_mm);
-    if (start == 0)
+    if (start == 0 || (sight_lines_ && !sight_lines_->holdsAt(pose.eye_mm, nearCorner_mm(lens))))
         return {};
-    std::vector<int> numbers;
-    for (const SeenSegment& seen : visibility_.seenFrom(pose, lens, start))
-        numbers.push_back(seen.segment);
-    return numbers;
+    SeenParts seen{.everything = false, .segments = {}, .patches = {}};
+    std::vector<bool> through_gates;
+    for (const SeenSegment& segment : visibility_.seenFrom(pose, lens, start)) {
+        through_gates.resize(std::max(through_gates.size(), std::size_t(segment.segment) + 1));
+        through_gates[std::size_t(segment.segment)] = true;
+    }
+    std::vector<bool> shown = through_gates;
+    if (sight_lines_) {
+        seen.patches = sight_lines_->seenFrom(pose, lens);
+        shown.assign(through_gates.size(), false);
+        for (std::size_t n = 0; n < patches_.size(); ++n) {
+            const std::size_t cell = patches_[n].cell;
+            if (cell >= through_gates.size() || !through_gates[cell])
+                seen.patches[n] = 0;
+            else if (seen.patches[n])
+                shown[cell] = true;
+        }
+    }
+    for (std::size_t n = 0; n < shown.size(); ++n)
+        if (shown[n])
+            seen.segments.push_back(int(n));
+    return seen;
+}
+
+std::vector<int> CellVisibility::segmentsSeen(const Pose& pose, const Lens& lens) const
+{
+    return seenFrom(pose, lens).segments;
 }
 
 }  // namespace vicon::viewer

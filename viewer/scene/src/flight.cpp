@@ -71,8 +71,8 @@ FlightFrame Studio::shoot(const ViewPose& view, Heading heading, const std::file
 {
     FlightFrame frame{view.pose, view.station_mm, view.clearance_mm, heading == Heading::caecum, 0, 0, 0, 0};
     const Lens lens{request.view_angle_deg, request.width, request.height};
-    const std::vector<int> shown = visibility ? visibility->segmentsSeen(view.pose, lens) : std::vector<int>{};
-    scene.showOnly(shown);
+    const SeenParts shown = visibility ? visibility->seenFrom(view.pose, lens) : SeenParts{};
+    scene.showSeen(shown);
     scene.lookFrom(view.pose, request.view_angle_deg);
     frame.cells_drawn = scene.cellsShown();
     frame.triangles_drawn = scene.trianglesShown();
@@ -89,7 +89,7 @@ FlightFrame Studio::shoot(const ViewPose& view, Heading heading, const std::file
         writePng(png, picture);
     }
     if (ids) {
-        ids->showOnly(shown);
+        ids->showOnly(shown.everything ? std::vector<int>{} : shown.segments);
         ids->lookFrom(view.pose, request.view_angle_deg);
         const auto seen = IdScene::trianglesIn(ids_offscreen->render(request.width, request.height));
         if (png.empty())

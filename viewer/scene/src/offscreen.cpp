@@ -50,14 +50,19 @@ Offscreen::Offscreen(vtkRenderer* renderer) : window_(std::make_unique<Window>()
 
 Offscreen::~Offscreen() = default;
 
-Picture Offscreen::render(int width, int height, int smooth)
+void Offscreen::draw(int width, int height)
 {
-    const int w = width * smooth, h = height * smooth;
-    window_->vtk->SetSize(w, h);
+    window_->vtk->SetSize(width, height);
     const auto begin = std::chrono::steady_clock::now();
     window_->vtk->Render();
     window_->vtk->WaitForCompletion();
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+Picture Offscreen::render(int width, int height, int smooth)
+{
+    const int w = width * smooth, h = height * smooth;
+    draw(w, h);
     vtkNew<vtkUnsignedCharArray> pixels;
     window_->vtk->GetPixelData(0, 0, w - 1, h - 1, 0, pixels);
     if (pixels->GetNumberOfValues() != vtkIdType(w) * h * 3)

@@ -46,6 +46,7 @@ std::array<double, 3> cellColor(int segment)
 
 struct SurfaceScene::Parts {
     std::vector<CellActor> cells;
+    std::vector<Patch> patches;
     vtkNew<vtkRenderer> renderer;
     vtkNew<vtkLight> lamp;
     double lamp_reach_mm = kLampReach_mm;
@@ -81,6 +82,7 @@ struct SurfaceScene::Parts {
 SurfaceScene::SurfaceScene(const artefact::CellSurface& surface) : parts_(std::make_unique<Parts>())
 {
     parts_->cells = cellActors(surface);
+    parts_->patches = patchesOf(surface.segment);
     for (const CellActor& cell : parts_->cells)
         parts_->renderer->AddActor(cell.actor);
     parts_->renderer->SetBackground(0, 0, 0);
@@ -125,6 +127,16 @@ void SurfaceScene::showOnly(const std::vector<int>& segments)
     viewer::showOnly(parts_->cells, segments);
 }
 
+void SurfaceScene::showSeen(const SeenParts& parts)
+{
+    if (parts.everything)
+        viewer::showOnly(parts_->cells, {});
+    else if (parts.patches.size() == parts_->patches.size())
+        viewer::showPatches(parts_->cells, parts_->patches, parts.patches);
+    else
+        viewer::showOnly(parts_->cells, parts.segments);
+}
+
 void SurfaceScene::colorCells(bool on)
 {
     parts_->color_cells = on;
@@ -162,7 +174,7 @@ std::size_t SurfaceScene::trianglesShown() const
 {
     std::size_t sum = 0;
     for (const CellActor& cell : parts_->cells)
-        sum += cell.actor->GetVisibility() ? cell.triangles : 0;
+        sum += cell.drawn;
     return sum;
 }
 

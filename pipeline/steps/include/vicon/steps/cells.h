@@ -23,7 +23,8 @@ struct CellOptions {
 };
 
 /// The surface of the lumen, contoured once for all segments: closed, every edge in exactly two triangles, triangles in
-/// order of their segment, front sides and unit normals towards the lumen.
+/// order of their segment and within it in such an order that any run of them is a compact patch, front sides and unit
+/// normals towards the lumen.
 ///
 /// The mask decides which voxel is inside, the densities where between two voxels the wall lies: beside gas at
 /// `gas_wall_hu`, under fluid half-way between tissue and the local fluid. Between gas and fluid there is no surface.

@@ -20,7 +20,9 @@ public:
 
     /// @param smooth each pixel is the mean of smooth x smooth ones; 1: exactly one, without any smoothing
     Picture render(int width, int height, int smooth = 1);
-    /// Duration of the last render() without reading back, in seconds.
+    /// Renders without reading back: for measuring.
+    void draw(int width, int height);
+    /// Duration of the last render() or draw() without reading back, in seconds.
     double seconds() const { return seconds_; }
 
 private:

@@ -7,6 +7,7 @@
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/overlay.h"
 #include "vicon/viewer/scene/canvas.h"
+#include "vicon/viewer/scene/cell_visibility.h"
 
 class vtkRenderer;
 
@@ -30,6 +31,8 @@ public:
 
     /// Draws only these segments' cells; empty: all.
     void showOnly(const std::vector<int>& segments);
+    /// Draws only what CellVisibility found; it must have been made for the same surface.
+    void showSeen(const SeenParts& parts);
     /// Paints each cell in a colour of its own.
     void colorCells(bool on);
     /// How far the lamp reaches: the distance at which it has lost half of its strength.

@@ -1,0 +1,199 @@
+// The thesis' Table 3 for prepared scans: how much of the surface is drawn on a flight, how much of that is seen, and
+// what a frame takes with culling and without, in one run.
+//   vicon_visibility_bench [--step MM] [--side PX] [--angle DEG] FOLDER...
+// FOLDER is a scan's folder, or a store's: then every prepared scan in it.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "vicon/viewer/model/flight_plan.h"
+#include "vicon/viewer/scene/cell_visibility.h"
+#include "vicon/viewer/scene/display.h"
+#include "vicon/viewer/scene/id_scene.h"
+#include "vicon/viewer/scene/offscreen.h"
+#include "vicon/viewer/scene/surface_scene.h"
+
+namespace fs = std::filesystem;
+using namespace vicon;
+using namespace vicon::viewer;
+
+namespace {
+
+struct Settings {
+    double step_mm = 10;
+    int side = 768;
+    double angle_deg = 90;
+    std::vector<fs::path> folders;
+};
+
+double secondsOf(const std::function<void()>& work)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// CPU time of all threads together: on a busy machine its ratios tell more than those of the time passed.
+double cpuSeconds()
+{
+    timespec t{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+double quantile(std::vector<double> values, double part)
+{
+    if (values.empty())
+        return 0;
+    std::sort(values.begin(), values.end());
+    return values[std::size_t(part * double(values.size() - 1))];
+}
+
+/// Sums over the frames of a flight.
+struct Flight {
+    std::size_t frames = 0, missing = 0;
+    double cells = 0, triangles = 0;  // drawn
+    double seen_cells = 0, seen_cells_triangles = 0, seen = 0;
+    std::vector<double> culled_s, all_s, choice_s, culled_cpu_s, all_cpu_s;
+};
+
+std::vector<ViewPose> posesOf(const PreparedScan& scan, double step_mm)
+{
+    const Lumen lumen = scan.lumen();
+    auto poses = planFlight(scan.frames(), lumen, step_mm, Heading::caecum);
+    const auto back = planFlight(scan.frames(), lumen, step_mm, Heading::rectum);
+    poses.insert(poses.end(), back.begin(), back.end());
+    return poses;
+}
+
+Flight flyThrough(const PreparedScan& scan, const Settings& settings)
+{
+    const artefact::CellSurface& surface = scan.cells();
+    std::vector<std::size_t> triangles_of(65536, 0);
+    for (const std::uint16_t s : surface.segment)
+        ++triangles_of[s];
+    SurfaceScene scene(surface);
+    Offscreen picture(scene.renderer());
+    IdScene ids(surface);
+    Offscreen id_picture(ids.renderer());
+    const CellVisibility visibility(scan);
+    const Lens lens{settings.angle_deg, settings.side, settings.side};
+    Flight flight;
+    for (const ViewPose& view : posesOf(scan, settings.step_mm)) {
+        SeenParts shown;
+        const double cpu_begin = cpuSeconds();
+        const double choice = secondsOf([&] { shown = visibility.seenFrom(view.pose, lens); });
+        scene.lookFrom(view.pose, settings.angle_deg);
+        scene.showSeen(shown);
+        picture.draw(settings.side, settings.side);
+        const double culled = picture.seconds(), cpu_culled = cpuSeconds() - cpu_begin;
+        flight.cells += double(scene.cellsShown());
+        flight.triangles += double(scene.trianglesShown());
+        scene.showOnly({});
+        const double cpu_all_begin = cpuSeconds();
+        picture.draw(settings.side, settings.side);
+        const double all = picture.seconds(), cpu_all = cpuSeconds() - cpu_all_begin;
+        ids.lookFrom(view.pose, settings.angle_deg);
+        const auto seen = IdScene::trianglesIn(id_picture.render(settings.side, settings.side));
+        std::set<int> seen_cells;
+        for (const std::uint32_t t : seen)
+            seen_cells.insert(surface.segment[t]);
+        for (const int cell : seen_cells) {
+            flight.seen_cells_triangles += double(triangles_of[std::size_t(cell)]);
+            if (!shown.everything &&
+                std::find(shown.segments.begin(), shown.segments.end(), cell) == shown.segments.end())
+                ++flight.missing;
+        }
+        flight.seen_cells += double(seen_cells.size());
+        flight.seen += double(seen.size());
+        if (flight.frames++ > 0) {  // the first frame of each scene fills the driver's buffers
+            flight.culled_s.push_back(choice + culled);
+            flight.all_s.push_back(all);
+            flight.choice_s.push_back(choice);
+            flight.culled_cpu_s.push_back(cpu_culled);
+            flight.all_cpu_s.push_back(cpu_all);
+        }
+    }
+    return flight;
+}
+
+void printHead()
+{
+    std::printf(
+        "| scan | triangles / cells | cells a frame | triangles a frame | of all | of those seen | of cells with "
+        "anything seen | ms a frame, median / 95 %% | all drawn | ratio | CPU ms a frame / all drawn | choosing |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+}
+
+void print(const PreparedScan& scan, const Flight& f)
+{
+    const double n = double(f.frames), all = double(scan.cells().triangleCount());
+    const double culled = quantile(f.culled_s, 0.5), everything = quantile(f.all_s, 0.5);
+    std::printf(
+        "| %s | %zu / %zu | %.1f (%.3f) | %.0f | %.3f | %.2f | %.2f | %.1f / %.1f | %.1f / %.1f | %.2f | %.1f / %.1f | "
+        "%.1f |\n",
+        scan.folder().filename().c_str(), scan.cells().triangleCount(), scan.subdivision().segments.size(), f.cells / n,
+        f.cells / n / double(scan.subdivision().segments.size()), f.triangles / n, f.triangles / n / all,
+        f.triangles / f.seen, f.triangles / f.seen_cells_triangles, 1e3 * culled, 1e3 * quantile(f.culled_s, 0.95),
+        1e3 * everything, 1e3 * quantile(f.all_s, 0.95), culled / everything, 1e3 * quantile(f.culled_cpu_s, 0.5),
+        1e3 * quantile(f.all_cpu_s, 0.5), 1e3 * quantile(f.choice_s, 0.5));
+    std::printf(
+        "  %zu frames; seen a frame: %.0f triangles (%.3f of all), %.1f cells (%.3f of all triangles); seen but "
+        "not drawn: %zu\n",
+        f.frames, f.seen / n, f.seen / n / all, f.seen_cells / n, f.seen_cells_triangles / n / all, f.missing);
+}
+
+std::vector<fs::path> scansIn(const fs::path& folder)
+{
+    if (fs::exists(folder / "cells.vtp"))
+        return {folder};
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.path().filename() == "cells.vtp")
+            found.push_back(entry.path().parent_path());
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+Settings settingsFrom(int argc, char** argv)
+{
+    Settings settings;
+    for (int n = 1; n < argc; ++n) {
+        const std::string word = argv[n];
+        if (word == "--step" && n + 1 < argc)
+            settings.step_mm = std::atof(argv[++n]);
+        else if (word == "--side" && n + 1 < argc)
+            settings.side = std::atoi(argv[++n]);
+        else if (word == "--angle" && n + 1 < argc)
+            settings.angle_deg = std::atof(argv[++n]);
+        else
+            for (const fs::path& scan : scansIn(word))
+                settings.folders.push_back(scan);
+    }
+    return settings;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+try {
+    const Settings settings = settingsFrom(argc, argv);
+    const Display display;
+    printHead();
+    for (const fs::path& folder : settings.folders) {
+        const auto scan = PreparedScan::open(folder);
+        print(scan, flyThrough(scan, settings));
+    }
+    return 0;
+} catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+}
