@@ -84,8 +84,8 @@ int printSubdivisionTable(CaseStore& store, const WorklistCase& c, const std::st
         const auto& s = subdivision.statistics;
         const auto number = [&](const char* key, int decimals) { return formatNumber(s.value(key, 0.0), decimals); };
         rows.push_back({scan.record.id, subdivision.method, number("specified_segments", 0), number("segments", 0),
-                        number("triangles_average", 0), number("triangles_largest", 0), number("smallest_triangles", 0),
-                        number("standard_deviation_triangles", 2)});
+                        number("triangles_average", 0), number("triangles_largest", 0), number("triangles_smallest", 0),
+                        number("triangles_standard_deviation", 2)});
     }
     std::printf("%s", formatTable({"SCAN", "METHOD", "SPECIFIED", "SEGMENTS", "AVERAGE TRIANGLES", "LARGEST",
                                    "SMALLEST", "STANDARD DEVIATION"},
