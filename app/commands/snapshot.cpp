@@ -16,6 +16,9 @@ struct SnapshotArguments {
     int width = 0, height = 0;
     double angle_deg = 90;
     std::string window = "colon";
+    std::string peel;
+    double peel_offset_mm = 0;
+    bool peel_middle = false;
 };
 
 int snapshot(Context& context, const SnapshotArguments& arguments)
@@ -44,6 +47,9 @@ int snapshot(Context& context, const SnapshotArguments& arguments)
     request.height = arguments.height;
     request.view_angle_deg = arguments.angle_deg;
     request.window = arguments.window;
+    request.peel = arguments.peel;
+    request.peeling.offset_mm = arguments.peel_offset_mm;
+    request.peel_middle_only = arguments.peel_middle;
     const auto prepared = viewer::PreparedScan::open(store.scanFolder(record.id, scan.id));
     const auto result = viewer::renderSnapshot(prepared, request, arguments.out);
     if (!result.sees_target)
@@ -54,41 +60,60 @@ int snapshot(Context& context, const SnapshotArguments& arguments)
     return 0;
 }
 
+std::string peelingPresets()
+{
+    std::string names;
+    for (const viewer::TransferFunction& function : viewer::transferFunctions())
+        names += (names.empty() ? "" : ", ") + function.name;
+    return names;
+}
+
 }  // namespace
 
 Subcommand snapshotCommand()
 {
-    return {"snapshot", "Write a picture of a scan to a PNG file, without a window", [](CLI::App& command) {
-                auto arguments = std::make_shared<SnapshotArguments>();
-                command.add_option("CASE", arguments->case_id, "The case's id")->required();
+    return {
+        "snapshot", "Write a picture of a scan to a PNG file, without a window", [](CLI::App& command) {
+            auto arguments = std::make_shared<SnapshotArguments>();
+            command.add_option("CASE", arguments->case_id, "The case's id")->required();
+            command
+                .add_option("--scan", arguments->scan_id,
+                            "The scan (default: the marker's, else the first prepared one)")
+                ->type_name("SCAN");
+            command
+                .add_option("--view", arguments->view,
+                            "endo (from inside), slices (three planes) or overview (whole colon)")
+                ->required();
+            auto* marker = command.add_option("--marker", arguments->marker, "Look at this marker")->type_name("ID");
+            auto* station = command
+                                .add_option("--station", arguments->station_mm,
+                                            "Look along the colon at this distance from the rectum")
+                                ->type_name("MM")
+                                ->excludes(marker);
+            command.add_option("--out", arguments->out, "The PNG file")->required()->type_name("FILE");
+            command.add_option("--width", arguments->width, "Pixels")->check(CLI::Range(200, 4096));
+            command.add_option("--height", arguments->height, "Pixels")->check(CLI::Range(200, 4096));
+            command.add_option("--angle", arguments->angle_deg, "Viewing angle of the endoscopic view, degrees")
+                ->check(CLI::Range(20, 150))
+                ->capture_default_str();
+            command.add_option("--window", arguments->window, "Window/level preset of the slices")
+                ->capture_default_str();
+            auto* peel =
                 command
-                    .add_option("--scan", arguments->scan_id,
-                                "The scan (default: the marker's, else the first prepared one)")
-                    ->type_name("SCAN");
-                command
-                    .add_option("--view", arguments->view,
-                                "endo (from inside), slices (three planes) or overview (whole colon)")
-                    ->required();
-                auto* marker =
-                    command.add_option("--marker", arguments->marker, "Look at this marker")->type_name("ID");
-                auto* station = command
-                                    .add_option("--station", arguments->station_mm,
-                                                "Look along the colon at this distance from the rectum")
-                                    ->type_name("MM")
-                                    ->excludes(marker);
-                command.add_option("--out", arguments->out, "The PNG file")->required()->type_name("FILE");
-                command.add_option("--width", arguments->width, "Pixels")->check(CLI::Range(200, 4096));
-                command.add_option("--height", arguments->height, "Pixels")->check(CLI::Range(200, 4096));
-                command.add_option("--angle", arguments->angle_deg, "Viewing angle of the endoscopic view, degrees")
-                    ->check(CLI::Range(20, 150))
-                    ->capture_default_str();
-                command.add_option("--window", arguments->window, "Window/level preset of the slices")
-                    ->capture_default_str();
-                return [arguments, station](Context& context) {
-                    arguments->at_station = station->count() > 0;
-                    return snapshot(context, *arguments);
-                };
-            }};
+                    .add_option("--peel", arguments->peel,
+                                "Endoscopic view: look below the wall, with this preset (" + peelingPresets() + ")")
+                    ->type_name("PRESET");
+            command
+                .add_option("--peel-offset", arguments->peel_offset_mm, "How far below the surface the look begins, mm")
+                ->check(CLI::Range(0, 20))
+                ->needs(peel)
+                ->capture_default_str();
+            command.add_flag("--peel-middle", arguments->peel_middle, "Peel only a circle in the middle")->needs(peel);
+            return [arguments, station](Context& context) {
+                arguments->at_station = station->count() > 0;
+                return snapshot(context, *arguments);
+            };
+        }};
 }
 
 }  // namespace vicon::app

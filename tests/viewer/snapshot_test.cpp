@@ -188,6 +188,24 @@ TEST_F(Snapshots, CarryNameAndWarningOfLossyPixels)
     EXPECT_GT(findColor(shoot(of, request), kWarningColor, caption, 30).count, 30);
 }
 
+TEST_F(Snapshots, LookBelowTheWallInTheMiddleOnlyWhereAskedTo)
+{
+    SnapshotRequest request;
+    request.look_at_mm = colon.polyp_mm;
+    request.width = request.height = 300;
+    const Picture surface = shoot(scan(), request);
+    request.peel = "biopsy";
+    request.peel_middle_only = true;
+    const Picture peeled = shoot(scan(), request);
+    EXPECT_NE(surface.at(150, 150), peeled.at(150, 150));
+    int beyond = 0;
+    for (int x = 0; x < 300; ++x)  // a row that has neither caption nor letters; the circle's radius is 90
+        beyond += std::abs(x - 150) > 95 && surface.at(x, 120) != peeled.at(x, 120) ? 1 : 0;
+    EXPECT_EQ(beyond, 0);
+    request.peel = "no-such-preset";
+    EXPECT_THROW(shoot(scan(), request), Error);
+}
+
 TEST_F(Snapshots, RefuseWhatCannotBeDrawn)
 {
     const PreparedScan of = scan();

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdio>
 
 #include "pictures.h"
 #include "vicon/viewer/model/annotate.h"
@@ -33,6 +34,33 @@ void addMarkers(Overlay& overlay, const PreparedScan& scan, const SnapshotReques
     }
 }
 
+/// The circle in the middle that is peeled, for a radiologist's eye on one finding.
+PictureCircle middleOf(const SnapshotRequest& request)
+{
+    return {{request.width / 2.0, request.height / 2.0}, 0.3 * std::min(request.width, request.height)};
+}
+
+std::string peelingText(const SnapshotRequest& request)
+{
+    char offset[32];
+    std::snprintf(offset, sizeof offset, "%.1f", request.peeling.offset_mm);
+    return "peeled: " + transferFunction(request.peel).title + ", " + offset + " mm below the surface";
+}
+
+void layPeelingOver(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose)
+{
+    const Lens lens{request.view_angle_deg, request.width, request.height};
+    std::optional<PictureCircle> only;
+    if (request.peel_middle_only)
+        only = middleOf(request);
+    for (int y = 0; y < picture.height; ++y)  // what is peeled off is not seen through the rest
+        for (int x = 0; x < picture.width; ++x)
+            if (!only || only->holds({x + 0.5, y + 0.5}))
+                picture.set(x, y, {0, 0, 0});
+    blendOver(picture.rgb,
+              peel(scan.volume(), scan.lumen(), pose, lens, transferFunction(request.peel), request.peeling, only));
+}
+
 std::string directionText(const Pose& pose)
 {
     return "looking towards " + sideName(pose.forward) + " (" + lettersFor(pose.forward) + ")";
@@ -56,6 +84,12 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
         note.text += ", " + std::to_string(std::lround(distance(place.pose.eye_mm, *request.look_at_mm))) + " mm away";
     note.color = kTextColor;
     lines.push_back(note);
+    if (!request.peel.empty()) {
+        note.text = peelingText(request);
+        lines.push_back(note);
+        if (request.peel_middle_only)
+            overlay.discs.push_back({middleOf(request).centre, middleOf(request).radius_px, kTextColor, 1.5});
+    }
     if (!place.sees_target) {
         note.text = "the marker lies behind the wall seen here";
         note.color = kWarningColor;
@@ -71,6 +105,8 @@ Picture endoscopicPicture(const PreparedScan& scan, const SnapshotRequest& reque
     scene.lookFrom(place.pose, request.view_angle_deg);
     Offscreen offscreen(scene.renderer());
     Picture picture = offscreen.render(request.width, request.height, kSmooth);
+    if (!request.peel.empty())
+        layPeelingOver(picture, scan, request, place.pose);
     paint(picture, endoscopicOverlay(scan, request, place));
     return picture;
 }

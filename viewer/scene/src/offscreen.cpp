@@ -7,6 +7,7 @@
 
 #include <chrono>
 
+#include "driver_leaks.h"
 #include "vicon/core/error.h"
 
 namespace vicon::viewer {
@@ -40,6 +41,7 @@ struct Offscreen::Window {
 
 Offscreen::Offscreen(vtkRenderer* renderer) : window_(std::make_unique<Window>())
 {
+    const DriverLeaks not_ours;
     window_->vtk->SetOffScreenRendering(1);
     window_->vtk->SetMultiSamples(0);
     if (!window_->vtk->SupportsOpenGL())
@@ -53,6 +55,7 @@ Offscreen::~Offscreen() = default;
 void Offscreen::draw(int width, int height)
 {
     window_->vtk->SetSize(width, height);
+    const DriverLeaks not_ours;
     const auto begin = std::chrono::steady_clock::now();
     window_->vtk->Render();
     window_->vtk->WaitForCompletion();

@@ -23,6 +23,8 @@ SnapshotRequest completed(SnapshotRequest request)
         throw Error(ErrorCode::wrong_use, "the angle of view must be 20 to 150 degrees",
                     std::to_string(request.view_angle_deg));
     windowPreset(request.window);
+    if (!request.peel.empty())
+        transferFunction(request.peel);
     return request;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vicon/core/case_store.h"
+#include "vicon/viewer/model/peeling.h"
 #include "vicon/viewer/model/view_pose.h"
 #include "vicon/viewer/scene/prepared_scan.h"
 
@@ -32,12 +33,15 @@ struct SnapshotRequest {
     double station_mm = 0;             ///< used without `look_at_mm`; beyond the ends: the end
     std::vector<Marker> markers;       ///< drawn where they are in view
     Caption caption;
-    int width = 0;                 ///< pixels, kLeastSide to kMostSide; 0: 1024
-    int height = 0;                ///< 0: 768, or 1024 for the overview
-    double view_angle_deg = 90;    ///< endo: over the picture's height, 20 to 150
-    std::string window = "colon";  ///< slices: a preset of config/windows.toml
-    double slice_field_mm = 0;     ///< slices: how much to show around the point; 0: the whole scan
-    ViewPoseOptions pose;          ///< endo: where to put the eye
+    int width = 0;                  ///< pixels, kLeastSide to kMostSide; 0: 1024
+    int height = 0;                 ///< 0: 768, or 1024 for the overview
+    double view_angle_deg = 90;     ///< endo: over the picture's height, 20 to 150
+    std::string window = "colon";   ///< slices: a preset of config/windows.toml
+    double slice_field_mm = 0;      ///< slices: how much to show around the point; 0: the whole scan
+    ViewPoseOptions pose;           ///< endo: where to put the eye
+    std::string peel;               ///< endo: a preset of config/transfer_functions.toml to look below the wall with
+    PeelingOptions peeling;         ///< used with `peel`
+    bool peel_middle_only = false;  ///< only within a circle in the middle; the surface stays around it
 
     static constexpr int kLeastSide = 200;
     static constexpr int kMostSide = 4096;
