@@ -17,7 +17,12 @@ TEST(PhantomSkeleton, LiesOnTheTrueCurveDespiteFoldsPolypsAndRectalTube)
     const auto truth = phantom::makeScan(options, "HFS", progress).truth;
     const LumenPlan plan = planForMask(truth.inside);
     ASSERT_EQ(plan.pieces.size(), 1U);
-    const auto errors = test::curveErrors(findSkeleton(truth.inside, plan, {}, progress).curve, truth);
+    const Skeleton curve = findSkeleton(truth.inside, plan, {}, progress).curve;
+    for (const SkeletonPiece& piece : curve.pieces)
+        for (const SkeletonPoint& p : piece.points)
+            EXPECT_NE(truth.inside.valueOr(truth.inside.grid.indexAt(p.position_mm), kOutside), kOutside)
+                << "at station " << p.station_mm;
+    const auto errors = test::curveErrors(curve, truth);
     RecordProperty("mean_mm", std::to_string(errors.mean_mm));
     EXPECT_LT(errors.mean_mm, 0.6);
     EXPECT_LT(errors.most_mm, 1.5);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "skeleton_detour.h"
 #include "skeleton_path.h"
 #include "skeleton_smooth.h"
 #include "vicon/steps/wall_distance.h"
@@ -157,8 +158,9 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
     std::vector<Polyline> bridges;
     for (std::size_t n = 0; n + 1 < curves.size(); ++n)
         bridges.push_back(join(curves[n], plan.bridges.at(n), curves[n + 1], open, options));
+    const DistanceProbe wall(wall_mm);
     for (std::size_t n = 0; n < curves.size(); ++n) {
-        append(result.curve, curves[n], false, open);
+        append(result.curve, besideTube(curves[n], wall, options.step_mm), false, open);
         if (n < bridges.size())
             append(result.curve, bridges[n], true, open);
     }

@@ -19,30 +19,10 @@ constexpr double kTipRadiusOver_mm = 12;  // of the curve, for the radius at its
 constexpr int kOwnBase = 4;               // of the recentrings, the last so many start from the line itself
 constexpr double kMostMoved_mm = 10;      // of an end of the curve, when the lumen's tip is measured from it
 
-/// Two unit vectors across the curve at each point, turning with it as little as possible.
-struct Frame {
-    Vector3 u, v;
-};
-
 Vector3 tangentAt(const Polyline& line, std::size_t n, std::size_t reach)
 {
     const std::size_t from = n > reach ? n - reach : 0, to = std::min(line.size() - 1, n + reach);
     return normalized(line[to] - line[from]);
-}
-
-std::vector<Frame> framesAlong(const Polyline& line, std::size_t reach)
-{
-    std::vector<Frame> frames(line.size());
-    Vector3 t = tangentAt(line, 0, reach);
-    Vector3 u = std::abs(t.x) < 0.9 ? normalized(cross(t, {1, 0, 0})) : normalized(cross(t, {0, 1, 0}));
-    for (std::size_t n = 0; n < line.size(); ++n) {
-        t = tangentAt(line, n, reach);
-        const Vector3 across = u - t * dot(u, t);
-        if (length(across) > 1e-6)
-            u = normalized(across);
-        frames[n] = {u, cross(t, u)};
-    }
-    return frames;
 }
 
 /// How far the lumen reaches from a point along a unit vector: steps of the wall distance never pass the wall.
@@ -233,6 +213,21 @@ Polyline gaussian(const Polyline& line, double sigma_mm, double step_mm)
 }
 
 }  // namespace
+
+std::vector<Frame> framesAlong(const Polyline& line, std::size_t reach)
+{
+    std::vector<Frame> frames(line.size());
+    Vector3 t = tangentAt(line, 0, reach);
+    Vector3 u = std::abs(t.x) < 0.9 ? normalized(cross(t, {1, 0, 0})) : normalized(cross(t, {0, 1, 0}));
+    for (std::size_t n = 0; n < line.size(); ++n) {
+        t = tangentAt(line, n, reach);
+        const Vector3 across = u - t * dot(u, t);
+        if (length(across) > 1e-6)
+            u = normalized(across);
+        frames[n] = {u, cross(t, u)};
+    }
+    return frames;
+}
 
 double DistanceProbe::at(Point3 p) const
 {

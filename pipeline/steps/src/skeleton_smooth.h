@@ -22,6 +22,14 @@ private:
 
 using Polyline = std::vector<Point3>;
 
+/// Two unit vectors across the curve at each point, turning with it as little as possible.
+struct Frame {
+    Vector3 u, v;
+};
+
+/// Frames for all points; a tangent is taken over `reach` points on both sides.
+std::vector<Frame> framesAlong(const Polyline& line, std::size_t reach);
+
 /// Points at equal distances of about `step_mm`, ends kept.
 Polyline resampled(const Polyline& line, double step_mm);
 
