@@ -178,10 +178,11 @@ void addVessels(std::vector<Solid>& out, const Trunk& trunk, Random& random)
     }
 }
 
-/// A tube of silicone through the anus, its tip 45 mm inside the rectum.
+/// A tube of silicone through the anus, its tip 45 mm inside the rectum. As in patients it lies beside the axis, so the
+/// middle of the lumen is free.
 std::vector<Solid> rectalTube(const Course& course)
 {
-    constexpr double kInside_mm = 45, kOffAxis_mm = 2, kOuter_mm = 4.2, kHollow_mm = 2.2;
+    constexpr double kInside_mm = 45, kOffAxis_mm = 6.5, kOuter_mm = 4.2, kHollow_mm = 2.2;
     std::vector<Point3> way;
     const auto& s = course.samples;
     way.push_back(s[0].position_mm + s[0].normal * kOffAxis_mm - s[0].tangent * 75.0);
