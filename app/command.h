@@ -52,6 +52,8 @@ void catchStopSignals();
 // The subcommands, one file each.
 Subcommand importCommand();
 Subcommand receiveCommand();
+Subcommand queryCommand();
+Subcommand retrieveCommand();
 Subcommand workCommand();
 Subcommand casesCommand();
 Subcommand showCommand();

@@ -16,9 +16,9 @@ constexpr const char* kCommonFooter =
 
 std::vector<Subcommand> subcommands()
 {
-    return {importCommand(),  receiveCommand(), workCommand(),  casesCommand(),    showCommand(),
-            markCommand(),    markersCommand(), flyCommand(),   snapshotCommand(), reportCommand(),
-            phantomCommand(), configCommand(),  doctorCommand()};
+    return {importCommand(),   receiveCommand(), queryCommand(),   retrieveCommand(), workCommand(),
+            casesCommand(),    showCommand(),    markCommand(),    markersCommand(),  flyCommand(),
+            snapshotCommand(), reportCommand(),  phantomCommand(), configCommand(),   doctorCommand()};
 }
 
 void addCommonOptions(CLI::App& command, Context& context)

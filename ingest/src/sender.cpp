@@ -3,12 +3,12 @@
 #include <dcmtk/config/osconfig.h>
 
 #include <dcmtk/dcmnet/diutil.h>
-#include <dcmtk/dcmnet/scu.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <set>
 
+#include "association.h"
 #include "dataset.h"
 #include "dicom_setup.h"
 #include "vicon/core/error.h"
@@ -18,9 +18,7 @@ namespace fs = std::filesystem;
 namespace vicon::ingest {
 namespace {
 
-constexpr Uint32 kPduBytes = 131072;
 constexpr std::size_t kMostKinds = 60;  // an association has room for 128 contexts, a kind takes one or two
-constexpr Uint32 kTimeoutSeconds = 30;
 constexpr Uint32 kLargestElementInMemory = 16384;
 
 struct Kind {
@@ -33,45 +31,10 @@ struct Item {
     Kind kind;
 };
 
-std::string nameOf(const Peer& peer)
-{
-    return (peer.name.empty() ? "" : peer.name + " ") + "(" + peer.ae_title + " at " + peer.host + ":" +
-           std::to_string(peer.port) + ")";
-}
-
-[[noreturn]] void peerFailed(const std::string& what, const Peer& peer, const OFCondition& condition)
-{
-    std::string reason = condition.text();
-    std::replace(reason.begin(), reason.end(), '\n', ' ');
-    throw Error(ErrorCode::peer, what + " (" + reason + ")", nameOf(peer),
-                "check its address, port and titles, and that it knows this application");
-}
-
 bool isUncompressed(const std::string& syntax)
 {
     const DcmXfer xfer(syntax.c_str());
     return !xfer.isEncapsulated() && xfer.getStreamCompression() == ESC_none;
-}
-
-void configure(DcmSCU& scu, const Peer& peer, const std::string& our_ae_title)
-{
-    scu.setAETitle(our_ae_title.c_str());
-    scu.setPeerHostName(peer.host.c_str());
-    scu.setPeerPort(Uint16(peer.port));
-    scu.setPeerAETitle(peer.ae_title.c_str());
-    scu.setMaxReceivePDULength(kPduBytes);
-    scu.setDIMSEBlockingMode(DIMSE_NONBLOCKING);
-    scu.setDIMSETimeout(kTimeoutSeconds);
-    scu.setACSETimeout(kTimeoutSeconds);
-    scu.setConnectionTimeout(int(kTimeoutSeconds));
-}
-
-void connect(DcmSCU& scu, const Peer& peer)
-{
-    if (const OFCondition opened = scu.initNetwork(); opened.bad())
-        peerFailed("the network cannot be used", peer, opened);
-    if (const OFCondition agreed = scu.negotiateAssociation(); agreed.bad())
-        peerFailed("no association with the peer", peer, agreed);
 }
 
 /// The transfer syntaxes that may carry an object, by presentation context: its own alone, so that a peer that takes it

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "vicon/core/options.h"
+#include "vicon/ingest/sender.h"
+
+namespace vicon::app {
+
+/// The peer that the configuration calls `name`. Throws Error{wrong_use} naming those there are.
+ingest::Peer requirePeer(const Config& config, const std::string& name);
+
+}  // namespace vicon::app

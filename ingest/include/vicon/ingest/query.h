@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vicon/core/progress.h"
+#include "vicon/ingest/sender.h"
+
+namespace vicon::ingest {
+
+/// What to look for; an empty field matches everything. Text may hold DICOM's wildcards * and ?.
+struct StudyQuery {
+    std::string patient_id;
+    std::string patient_name;
+    std::string dates;  ///< YYYYMMDD, or a range YYYYMMDD-YYYYMMDD with either end left out
+    std::string accession_number;
+    std::string study_uid;
+    std::string modality = "CT";  ///< that some series of the study has
+};
+
+/// A study as the peer describes it; UTF-8, empty where the peer says nothing.
+struct FoundStudy {
+    std::string study_uid, patient_id, patient_name, birth_date, date, time, description, accession_number, modalities;
+    int series = -1;  ///< -1: the peer does not say
+    int images = -1;
+};
+
+/// Asks a peer for studies (C-FIND, study root), in order of date, then UID.
+/// @throws Error{peer} when no association can be made, or the peer refuses or does not answer; Error{cancelled}
+std::vector<FoundStudy> findStudies(const Peer& peer, const StudyQuery& query, const std::string& our_ae_title,
+                                    Progress& progress);
+
+/// The series of a study that have this modality: their Series Instance UIDs, sorted. Throws as findStudies().
+std::vector<std::string> findSeries(const Peer& peer, const std::string& study_uid, const std::string& modality,
+                                    const std::string& our_ae_title, Progress& progress);
+
+/// What a peer sent, or says that it sent.
+struct RetrieveResult {
+    int completed = 0;
+    int failed = 0;                    ///< at least one for a series that was refused as a whole
+    std::vector<std::string> reasons;  ///< why a series was refused; the others were fetched
+};
+
+/// Fetches series over the association that asks for them (C-GET, study root); no port has to be open here. CT images
+/// and secondary captures in every encoding, kept as they come. The files lie in `folder`, which is made private.
+/// @throws Error{peer} when no association can be made, or it breaks; Error{store}, Error{cancelled}
+RetrieveResult getSeries(const Peer& peer, const std::string& study_uid, const std::vector<std::string>& series_uids,
+                         const std::filesystem::path& folder, const std::string& our_ae_title, Progress& progress);
+
+/// Has a peer send series to the listener `destination_ae_title` (C-MOVE, study root), which the peer must know and
+/// which must be listening: see Receiver. Throws Error{peer}, Error{cancelled}.
+RetrieveResult moveSeries(const Peer& peer, const std::string& study_uid, const std::vector<std::string>& series_uids,
+                          const std::string& destination_ae_title, const std::string& our_ae_title, Progress& progress);
+
+}  // namespace vicon::ingest

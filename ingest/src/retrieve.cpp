@@ -1,0 +1,163 @@
+#include <algorithm>
+
+
+#include "association.h"
+#include "dicom_setup.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+#include "vicon/ingest/query.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::ingest {
+namespace {
+
+const char* const kKinds[] = {UID_CTImageStorage, UID_EnhancedCTImageStorage,
+                              UID_LegacyConvertedEnhancedCTImageStorage,
+                              // CT scanners put their dose pages into series of modality CT.
+                              UID_SecondaryCaptureImageStorage};
+/// Each in a context of its own, so that a peer can send what it keeps as it keeps it.
+const char* const kSyntaxes[] = {
+    UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax,
+    UID_BigEndianExplicitTransferSyntax,    UID_DeflatedExplicitVRLittleEndianTransferSyntax,
+    UID_JPEGProcess14SV1TransferSyntax,     UID_JPEGProcess14TransferSyntax,
+    UID_JPEGLSLosslessTransferSyntax,       UID_JPEG2000LosslessOnlyTransferSyntax,
+    UID_RLELosslessTransferSyntax,          UID_JPEG2000TransferSyntax,
+    UID_JPEGLSLossyTransferSyntax,          UID_JPEGProcess1TransferSyntax,
+    UID_JPEGProcess2_4TransferSyntax};
+
+/// C-GET and C-MOVE: tells of what has come, and stops when told to.
+class Retrieving : public DcmSCU {
+public:
+    Retrieving(Progress& progress, std::size_t series_done, std::size_t series)
+        : progress_(progress), done_(series_done), series_(series)
+    {
+    }
+    Uint16 last_status = 0;
+    RetrieveResult result;
+
+    OFCondition handleCGETResponse(const T_ASC_PresentationContextID context, RetrieveResponse* response,
+                                   OFBool& go_on) override
+    {
+        note(context, *response);
+        return DcmSCU::handleCGETResponse(context, response, go_on);
+    }
+    OFCondition handleMOVEResponse(const T_ASC_PresentationContextID context, RetrieveResponse* response,
+                                   OFBool& go_on) override
+    {
+        note(context, *response);
+        return DcmSCU::handleMOVEResponse(context, response, go_on);
+    }
+
+private:
+    void note(T_ASC_PresentationContextID context, const RetrieveResponse& response)
+    {
+        last_status = response.m_status;
+        result.completed = response.m_numberOfCompletedSubops + response.m_numberOfWarningSubops;
+        result.failed = response.m_numberOfFailedSubops;
+        const double all = result.completed + result.failed + response.m_numberOfRemainingSubops;
+        const double here = all > 0 ? (result.completed + result.failed) / all : 0;
+        progress_.report((double(done_) + here) / double(series_), "retrieving");
+        if (progress_.cancelled())
+            sendCANCELRequest(context);
+    }
+
+    Progress& progress_;
+    std::size_t done_, series_;
+};
+
+void fillKeys(DcmDataset& keys, const std::string& study_uid, const std::string& series_uid)
+{
+    keys.putAndInsertString(DCM_QueryRetrieveLevel, "SERIES");
+    keys.putAndInsertString(DCM_StudyInstanceUID, study_uid.c_str());
+    keys.putAndInsertString(DCM_SeriesInstanceUID, series_uid.c_str());
+}
+
+/// Takes one series over an association of its own, so that one that fails leaves the others.
+/// @param request sends the request in the context and returns how it went
+template <class Prepare, class Request>
+RetrieveResult retrieveOne(Retrieving& scu, const Peer& peer, const char* model, const std::string& our_ae_title,
+                           Progress& progress, Prepare prepare, Request request)
+{
+    progress.check();
+    configure(scu, peer, our_ae_title);
+    OFList<OFString> syntaxes;
+    for (const char* syntax : {UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax})
+        syntaxes.push_back(syntax);
+    scu.addPresentationContext(model, syntaxes);
+    prepare();
+    connect(scu, peer);
+    const auto context = scu.findPresentationContextID(model, "");
+    if (context == 0)
+        peerFailed("the peer does not offer this way of retrieving", peer, NET_EC_NoAcceptablePresentationContexts);
+    const OFCondition done = request(context);
+    progress.check();
+    if (done.bad())
+        peerFailed("the transfer broke off after " + std::to_string(scu.result.completed) + " objects", peer, done);
+    // B000: some of the objects failed, which the counts tell.
+    if (scu.last_status != STATUS_Success && !DICOM_WARNING_STATUS(scu.last_status)) {
+        scu.result.failed = std::max(scu.result.failed, 1);
+        scu.result.reasons.push_back(std::string("the peer refused a series (") +
+                                     DU_cmoveStatusString(scu.last_status) + ")");
+    }
+    scu.releaseAssociation();
+    return scu.result;
+}
+
+void add(RetrieveResult& all, const RetrieveResult& one)
+{
+    all.completed += one.completed;
+    all.failed += one.failed;
+    all.reasons.insert(all.reasons.end(), one.reasons.begin(), one.reasons.end());
+}
+
+}  // namespace
+
+RetrieveResult getSeries(const Peer& peer, const std::string& study_uid, const std::vector<std::string>& series_uids,
+                         const fs::path& folder, const std::string& our_ae_title, Progress& progress)
+{
+    setUpDicom();
+    makePrivateFolder(folder);
+    RetrieveResult all;
+    for (std::size_t n = 0; n < series_uids.size(); ++n) {
+        Retrieving scu(progress, n, series_uids.size());
+        scu.setStorageMode(DCMSCU_STORAGE_BIT_PRESERVING);
+        scu.setStorageDir(folder.c_str());
+        DcmDataset keys;
+        fillKeys(keys, study_uid, series_uids[n]);
+        const RetrieveResult one = retrieveOne(
+            scu, peer, UID_GETStudyRootQueryRetrieveInformationModel, our_ae_title, progress,
+            [&] {
+                for (const char* kind : kKinds)
+                    for (const char* syntax : kSyntaxes) {
+                        OFList<OFString> alone;
+                        alone.push_back(syntax);
+                        scu.addPresentationContext(kind, alone, ASC_SC_ROLE_SCP);
+                    }
+            },
+            [&](T_ASC_PresentationContextID context) { return scu.sendCGETRequest(context, &keys, nullptr); });
+        add(all, one);
+    }
+    return all;
+}
+
+RetrieveResult moveSeries(const Peer& peer, const std::string& study_uid, const std::vector<std::string>& series_uids,
+                          const std::string& destination_ae_title, const std::string& our_ae_title, Progress& progress)
+{
+    setUpDicom();
+    RetrieveResult all;
+    for (std::size_t n = 0; n < series_uids.size(); ++n) {
+        Retrieving scu(progress, n, series_uids.size());
+        DcmDataset keys;
+        fillKeys(keys, study_uid, series_uids[n]);
+        const RetrieveResult one = retrieveOne(
+            scu, peer, UID_MOVEStudyRootQueryRetrieveInformationModel, our_ae_title, progress, [] {},
+            [&](T_ASC_PresentationContextID context) {
+                return scu.sendMOVERequest(context, destination_ae_title.c_str(), &keys, nullptr);
+            });
+        add(all, one);
+    }
+    return all;
+}
+
+}  // namespace vicon::ingest

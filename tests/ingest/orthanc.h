@@ -1,0 +1,145 @@
+#pragma once
+
+#include <arpa/inet.h>
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+#include "vicon/ingest/sender.h"
+#include "vicon/support/support.h"
+
+namespace vicon::test {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr auto kPatience = 60s;  // for a loaded machine; nothing waits so long when it works
+
+/// The data set of a file: what follows the meta header.
+inline std::string datasetBytes(const std::string& file)
+{
+    std::uint32_t length = 0;
+    std::memcpy(&length, file.data() + 140, 4);
+    return file.substr(144 + length);
+}
+
+/// The transfer syntax and a hash of an object without what a network leaves out: group lengths and meta header.
+inline std::string fingerprint(const std::string& file)
+{
+    const support::TemporaryFolder folder;
+    std::ofstream(folder / "in.dcm", std::ios::binary) << file;
+    DcmFileFormat format;
+    EXPECT_TRUE(format.loadFile((folder / "in.dcm").c_str()).good());
+    const E_TransferSyntax syntax = format.getDataset()->getOriginalXfer();
+    EXPECT_TRUE(
+        format.saveFile((folder / "out.dcm").c_str(), syntax, EET_ExplicitLength, EGL_withoutGL, EPD_withoutPadding)
+            .good());
+    return std::string(DcmXfer(syntax).getXferID()) + " " + sha256(datasetBytes(readFile(folder / "out.dcm")));
+}
+
+inline int freePort()
+{
+    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t length = sizeof address;
+    ::bind(socket, reinterpret_cast<sockaddr*>(&address), length);
+    ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &length);
+    ::close(socket);
+    return ntohs(address.sin_port);
+}
+
+/// A PACS of somebody else's, for the length of a test.
+class Orthanc {
+public:
+    /// @param vicon_port where "VICON" listens, for C-MOVE; 0: nowhere
+    explicit Orthanc(const fs::path& folder, int vicon_port = 0) : dicom_port_(freePort()), http_port_(freePort())
+    {
+        fs::create_directories(folder);
+        nlohmann::json config = {{"Name", "test"},
+                                 {"StorageDirectory", folder.string()},
+                                 {"IndexDirectory", folder.string()},
+                                 {"RemoteAccessAllowed", false},
+                                 {"AuthenticationEnabled", false},
+                                 {"HttpPort", http_port_},
+                                 {"DicomPort", dicom_port_},
+                                 {"DicomAet", "ORTHANC"},
+                                 {"DicomAlwaysAllowStore", true},
+                                 {"DicomAlwaysAllowEcho", true},
+                                 {"DicomAlwaysAllowFind", true},
+                                 {"DicomAlwaysAllowGet", true},
+                                 {"DicomAlwaysAllowMove", true},
+                                 {"Plugins", nlohmann::json::array()}};
+        if (vicon_port != 0)
+            config["DicomModalities"]["vicon"] = {"VICON", "127.0.0.1", vicon_port};
+        std::ofstream(folder / "orthanc.json") << config;
+        process_ = ::fork();
+        if (process_ == 0) {
+            const std::string log = (folder / "log").string(), file = (folder / "orthanc.json").string();
+            if (!std::freopen(log.c_str(), "w", stdout) || !std::freopen(log.c_str(), "a", stderr))
+                std::_Exit(126);
+            ::execlp("Orthanc", "Orthanc", file.c_str(), nullptr);
+            std::_Exit(127);
+        }
+    }
+    ~Orthanc()
+    {
+        ::kill(process_, SIGTERM);
+        ::waitpid(process_, nullptr, 0);
+    }
+    Orthanc(const Orthanc&) = delete;
+    Orthanc& operator=(const Orthanc&) = delete;
+
+    ingest::Peer peer() const { return {"orthanc", "127.0.0.1", "ORTHANC", dicom_port_}; }
+    bool answers() const
+    {
+        for (const auto end = std::chrono::steady_clock::now() + kPatience; std::chrono::steady_clock::now() < end;) {
+            try {
+                ingest::echo(peer(), "VICON");
+                return true;
+            } catch (const Error&) {
+                std::this_thread::sleep_for(100ms);
+            }
+        }
+        return false;
+    }
+    /// The body that a GET of its REST interface gives.
+    std::string get(const std::string& path) const
+    {
+        const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_port = htons(std::uint16_t(http_port_));
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        std::string answer;
+        if (::connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) {
+            const std::string request = "GET " + path + " HTTP/1.0\r\nHost: localhost\r\n\r\n";
+            EXPECT_EQ(::send(socket, request.data(), request.size(), MSG_NOSIGNAL), ssize_t(request.size()));
+            char block[65536];
+            for (ssize_t count = 0; (count = ::recv(socket, block, sizeof block, 0)) > 0;)
+                answer.append(block, std::size_t(count));
+        }
+        ::close(socket);
+        return answer.substr(std::min(answer.find("\r\n\r\n"), answer.size() - 4) + 4);
+    }
+
+private:
+    int dicom_port_, http_port_;
+    pid_t process_ = -1;
+};
+
+}  // namespace vicon::test

@@ -1,0 +1,108 @@
+// Query and retrieve against a PACS that is not ours.
+#include <atomic>
+#include <mutex>
+#include <set>
+
+#include "dicom_writer.h"
+#include "orthanc.h"
+#include "store_fixture.h"
+#include "vicon/ingest/query.h"
+#include "vicon/ingest/receiver.h"
+
+namespace vicon::test {
+namespace {
+
+/// Two patients' studies in an Orthanc.
+class Retrieve : public StoreFixture {
+protected:
+    const int port = freePort();
+    Orthanc orthanc{folder / "orthanc", port};
+    SeriesSpec wanted, other;
+    std::multiset<std::string> sent;
+
+    void SetUp() override
+    {
+        other.study_uid += ".7";
+        other.series_uid += ".7";
+        other.patient_id = "P2";
+        other.patient_name = "Roe^Richard";
+        ASSERT_TRUE(orthanc.answers()) << readFile(folder / "orthanc/log");
+        auto files = writeSeries(folder / "wanted", wanted);
+        for (const fs::path& file : files)
+            sent.insert(fingerprint(readFile(file)));
+        for (const fs::path& file : writeSeries(folder / "other", other))
+            files.push_back(file);
+        ASSERT_TRUE(ingest::storeFiles(orthanc.peer(), files, "VICON", quiet).complete());
+    }
+    std::vector<std::string> uidsOf(const ingest::StudyQuery& query)
+    {
+        std::vector<std::string> uids;
+        for (const auto& study : ingest::findStudies(orthanc.peer(), query, "VICON", quiet))
+            uids.push_back(study.study_uid);
+        return uids;
+    }
+};
+
+TEST_F(Retrieve, FindsStudiesByWhatTheyAreAskedFor)
+{
+    using Uids = std::vector<std::string>;
+    EXPECT_EQ(uidsOf({}).size(), 2U);
+    EXPECT_EQ(uidsOf({.patient_id = "P2"}), Uids{other.study_uid});
+    EXPECT_EQ(uidsOf({.patient_name = "DOE*"}), Uids{wanted.study_uid});
+    EXPECT_EQ(uidsOf({.dates = "20260101-20260103"}).size(), 2U);
+    EXPECT_EQ(uidsOf({.dates = "-20251231"}), Uids{});
+    EXPECT_EQ(uidsOf({.study_uid = wanted.study_uid}), Uids{wanted.study_uid});
+    EXPECT_EQ(uidsOf({.modality = "MR"}), Uids{});
+    const auto study = ingest::findStudies(orthanc.peer(), {.patient_id = "P1"}, "VICON", quiet).at(0);
+    EXPECT_EQ(study.patient_name, "Doe^Jane");
+    EXPECT_EQ(study.date, "20260102");
+    EXPECT_EQ(study.images, wanted.slices);
+    EXPECT_EQ(ingest::findSeries(orthanc.peer(), wanted.study_uid, "CT", "VICON", quiet), Uids{wanted.series_uid});
+}
+
+TEST_F(Retrieve, GetsASeriesElementByElement)
+{
+    const auto result =
+        ingest::getSeries(orthanc.peer(), wanted.study_uid, {wanted.series_uid}, folder / "got", "VICON", quiet);
+    EXPECT_EQ(result.completed, wanted.slices);
+    EXPECT_EQ(result.failed, 0);
+    std::multiset<std::string> got;
+    for (const auto& entry : fs::directory_iterator(folder / "got"))
+        got.insert(fingerprint(readFile(entry.path())));
+    EXPECT_EQ(got, sent);
+    EXPECT_EQ(import({folder / "got"}).scans_stored, 1);
+}
+
+TEST_F(Retrieve, HasASeriesMovedToTheReceiver)
+{
+    std::multiset<std::string> got;
+    ingest::ReceiverOptions options;
+    options.port = port;
+    std::atomic<bool> stop = false;
+    ingest::Receiver receiver(options, store.folder() / "incoming", [&](const std::vector<fs::path>& files) {
+        for (const fs::path& file : files)
+            got.insert(fingerprint(readFile(file)));
+    });
+    std::thread thread([&] { receiver.run(stop); });
+    const auto result =
+        ingest::moveSeries(orthanc.peer(), wanted.study_uid, {wanted.series_uid}, "VICON", "VICON", quiet);
+    stop = true;
+    thread.join();
+    EXPECT_EQ(result.completed, wanted.slices);
+    EXPECT_EQ(got, sent);
+}
+
+TEST_F(Retrieve, SaysWhatThePeerRefuses)
+{
+    const auto unknown =
+        ingest::moveSeries(orthanc.peer(), wanted.study_uid, {wanted.series_uid}, "NOBODY", "VICON", quiet);
+    EXPECT_EQ(unknown.completed, 0);
+    EXPECT_EQ(unknown.failed, 1);
+    EXPECT_EQ(unknown.reasons.size(), 1U);
+    ingest::Peer nobody = orthanc.peer();
+    nobody.port = freePort();
+    EXPECT_THROW(ingest::findStudies(nobody, {}, "VICON", quiet), Error);
+}
+
+}  // namespace
+}  // namespace vicon::test
