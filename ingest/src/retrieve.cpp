@@ -1,6 +1,5 @@
 #include <algorithm>
 
-
 #include "association.h"
 #include "dicom_setup.h"
 #include "vicon/core/error.h"
@@ -12,8 +11,7 @@ namespace fs = std::filesystem;
 namespace vicon::ingest {
 namespace {
 
-const char* const kKinds[] = {UID_CTImageStorage, UID_EnhancedCTImageStorage,
-                              UID_LegacyConvertedEnhancedCTImageStorage,
+const char* const kKinds[] = {UID_CTImageStorage, UID_EnhancedCTImageStorage, UID_LegacyConvertedEnhancedCTImageStorage,
                               // CT scanners put their dose pages into series of modality CT.
                               UID_SecondaryCaptureImageStorage};
 /// Each in a context of its own, so that a peer can send what it keeps as it keeps it.
