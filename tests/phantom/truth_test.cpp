@@ -108,7 +108,8 @@ TEST(PhantomTruth, EndsTheCurveOneRadiusInsideTheTips)
         const SkeletonPoint& next = rectal ? truth.curve[5] : truth.curve[truth.curve.size() - 6];
         const Vector3 outward = normalized(end.position_mm - next.position_mm);
         const auto& grid = truth.inside.grid;
-        const Vector3 aside = normalized(cross(outward, Vector3{1, 0, 0})) * 7.0;  // beside the rectal tube
+        const Vector3 aside =
+            normalized(cross(outward, Vector3{1, 0, 0})) * -7.0;  // on the other side than the rectal tube
         const auto labelAt = [&](double along) {
             return truth.inside.at(grid.indexAt(end.position_mm + outward * along + aside));
         };
