@@ -36,10 +36,19 @@ double crossing(double before, double after, int n, double hu)
     return after > before ? n - 1 + std::clamp((hu - before) / (after - before), 0.0, 1.0) : n;
 }
 
+/// How deep along gravity a place `level` voxels below a voxel lies, in voxels of the axis nearest to gravity.
+float depthOf(const Grid& grid, Down down, Index3 voxel, double level)
+{
+    ContinuousIndex3 place{double(voxel.i), double(voxel.j), double(voxel.k)};
+    (down.axis == 0 ? place.i : down.axis == 1 ? place.j : place.k) += down.sign * level;
+    return float(dot(grid.pointAt(place) - grid.origin_mm, down.gravity) / grid.spacing_mm[std::size_t(down.axis)]);
+}
+
 /// The contact below a gas voxel, when the densities step from gas straight into something bright.
 std::optional<Contact> contactBelow(const HuVolume& volume, Down down, const FluidDensities& densities, Index3 gas)
 {
     const double spacing_mm = volume.grid.spacing_mm[std::size_t(down.axis)];
+    const double upright = std::abs(dot(volume.grid.axis[std::size_t(down.axis)], down.gravity));
     const int deepest = kFarthestStep + int(std::lround(kDeepest_mm / spacing_mm));
     std::array<double, 64> hu{};
     const int count = std::min(deepest, 63);
@@ -70,10 +79,9 @@ std::optional<Contact> contactBelow(const HuVolume& volume, Down down, const Flu
             break;
         }
     }
-    if (n > count || (enter_fluid - leave_gas) * spacing_mm > kThickestStep_mm)
+    if (n > count || (enter_fluid - leave_gas) * spacing_mm * upright > kThickestStep_mm)
         return std::nullopt;
-    Index3 base = gas;
-    return Contact{gas, n, float(brightest), float(down.sign * along(base, down.axis) + level)};
+    return Contact{gas, n, float(brightest), depthOf(volume.grid, down, gas, level)};
 }
 
 std::vector<Contact> findContacts(const HuVolume& volume, Down down, const FluidDensities& densities,
@@ -167,7 +175,7 @@ Down downFor(const Grid& grid, Vector3 gravity)
         const double share = dot(grid.axis[std::size_t(a)], gravity);
         if (std::abs(share) > most) {
             most = std::abs(share);
-            down = {a, share < 0 ? -1 : 1};
+            down = {a, share < 0 ? -1 : 1, normalized(gravity)};
         }
     }
     return down;

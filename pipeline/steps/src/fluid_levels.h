@@ -11,7 +11,7 @@ struct Contact {
     Index3 gas;              ///< the last voxel of gas
     int steps = 0;           ///< voxels from there to the first one of at least half-way density
     float density_hu = 0;    ///< of the fluid below
-    float level_voxels = 0;  ///< where the density passes half-way between gas and fluid, along gravity
+    float level_voxels = 0;  ///< depth along gravity at which the density passes half-way between gas and fluid
 };
 
 /// Contacts that form one flat level.
@@ -20,10 +20,12 @@ struct ContactPatch {
     double density_hu = 0;
 };
 
-/// The voxel axis nearest to gravity, and its direction along that axis.
+/// Gravity, the voxel axis nearest to it, and its direction along that axis. On an oblique scan the two differ: columns
+/// are followed along the axis, but a level is flat across gravity.
 struct Down {
     int axis = 1;
     int sign = 1;
+    Vector3 gravity;  ///< unit vector
 };
 Down downFor(const Grid& grid, Vector3 gravity);
 
