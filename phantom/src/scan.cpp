@@ -120,6 +120,12 @@ void measure(PhantomTruth& truth)
     truth.fluid_ml = double(fluid) * voxel_ml;
 }
 
+bool hasTopology(const InsideVolume& inside, const LumenField& field, int euler_number)
+{
+    return eulerNumber26(inside, field.low, field.size) == euler_number &&
+           eulerNumber6(inside, field.low, field.size) == euler_number;
+}
+
 /// The lumen's voxels, rounded off until they have the lumen's own topology.
 InsideVolume soundLumen(const Grid& grid, const Scene& scene, LumenField& field, const PhantomTruth& truth,
                         Progress& progress)
@@ -132,9 +138,16 @@ InsideVolume soundLumen(const Grid& grid, const Scene& scene, LumenField& field,
         InsideVolume inside = labelLumen(grid, scene, field, truth.pools);
         if (field.cropped)
             return inside;
-        if (eulerNumber26(inside, field.low, field.size) == truth.euler_number &&
-            eulerNumber6(inside, field.low, field.size) == truth.euler_number)
+        if (hasTopology(inside, field, truth.euler_number))
             return inside;
+        const std::vector<Index3> out = partAtCorners(inside, field.low, field.size, truth.euler_number);
+        // A tunnel too many can hide a piece too many; a contact of loops may join what a gap parts.
+        const int pieces = hasTopology(inside, field, truth.euler_number) ? countPieces(inside) : -1;
+        if (pieces < truth.euler_number || pieces > int(truth.gaps.size()) + 1)
+            continue;
+        for (const Index3 v : out)
+            field.lumen[field.offset(v)] = 0;
+        return inside;
     }
     throw Error(ErrorCode::internal, "the lumen cannot be shown on so coarse a grid", {},
                 "use another seed or smaller voxels");

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <bit>
+#include <cstdlib>
 #include <functional>
 
 namespace vicon::phantom {
@@ -74,6 +75,66 @@ int sumOverBlocks(const InsideVolume& volume, Index3 low, std::array<int, 3> siz
     return int(sum / 8);
 }
 
+struct EulerNumbers {
+    int as26 = 0, as6 = 0;
+    int touching = 0;  ///< blocks in which the two differ
+
+    int misses(int wanted) const { return std::abs(as26 - wanted) + std::abs(as6 - wanted); }
+};
+
+/// What the eight blocks around a voxel contribute, times eight.
+EulerNumbers around(const InsideVolume& volume, Index3 v)
+{
+    static const std::array<int, 256> table26 = contributions(), table6 = contributionsOfFaces();
+    EulerNumbers sum;
+    for (int corner = 0; corner < 8; ++corner) {
+        std::size_t block = 0;
+        for (int n = 0; n < 8; ++n) {
+            const Index3 at{v.i - (corner & 1) + (n & 1), v.j - ((corner >> 1) & 1) + ((n >> 1) & 1),
+                            v.k - (corner >> 2) + (n >> 2)};
+            block |= std::size_t(volume.valueOr(at, kOutside) != kOutside) << n;
+        }
+        sum.as26 += table26[block];
+        sum.as6 += table6[block];
+        sum.touching += table26[block] != table6[block];
+    }
+    return sum;
+}
+
+/// Takes a voxel out if that helps.
+bool takenOut(InsideVolume& volume, Index3 v, int wanted, EulerNumbers& all)
+{
+    const EulerNumbers before = around(volume, v);
+    if (before.touching == 0)
+        return false;
+    const std::uint8_t was = volume.at(v);
+    volume.at(v) = kOutside;
+    const EulerNumbers after = around(volume, v);
+    const EulerNumbers changed{all.as26 + (after.as26 - before.as26) / 8, all.as6 + (after.as6 - before.as6) / 8};
+    if (after.touching < before.touching && changed.misses(wanted) <= all.misses(wanted)) {
+        all = changed;
+        return true;
+    }
+    volume.at(v) = was;
+    return false;
+}
+
+void emptyPiece(InsideVolume& volume, Index3 first)
+{
+    std::vector<Index3> todo{first};
+    volume.at(first) = kOutside;
+    while (!todo.empty()) {
+        const Index3 v = todo.back();
+        todo.pop_back();
+        for (const Index3 w : {Index3{v.i - 1, v.j, v.k}, Index3{v.i + 1, v.j, v.k}, Index3{v.i, v.j - 1, v.k},
+                               Index3{v.i, v.j + 1, v.k}, Index3{v.i, v.j, v.k - 1}, Index3{v.i, v.j, v.k + 1}})
+            if (volume.valueOr(w, kOutside) != kOutside) {
+                volume.at(w) = kOutside;
+                todo.push_back(w);
+            }
+    }
+}
+
 }  // namespace
 
 int eulerNumber26(const InsideVolume& volume, Index3 low, std::array<int, 3> size)
@@ -84,6 +145,29 @@ int eulerNumber26(const InsideVolume& volume, Index3 low, std::array<int, 3> siz
 int eulerNumber6(const InsideVolume& volume, Index3 low, std::array<int, 3> size)
 {
     return sumOverBlocks(volume, low, size, contributionsOfFaces());
+}
+
+std::vector<Index3> partAtCorners(InsideVolume& volume, Index3 low, std::array<int, 3> size, int wanted)
+{
+    EulerNumbers all{eulerNumber26(volume, low, size), eulerNumber6(volume, low, size)};
+    std::vector<Index3> changed;
+    for (int k = low.k; k < low.k + size[2]; ++k)
+        for (int j = low.j; j < low.j + size[1]; ++j)
+            for (int i = low.i; i < low.i + size[0] && all.misses(wanted) > 0; ++i)
+                if (volume.at({i, j, k}) != kOutside && takenOut(volume, {i, j, k}, wanted, all))
+                    changed.push_back({i, j, k});
+    return changed;
+}
+
+int countPieces(InsideVolume volume)
+{
+    int count = 0;
+    for (std::size_t n = 0; n < volume.voxels.size(); ++n)
+        if (volume.voxels[n] != kOutside) {
+            ++count;
+            emptyPiece(volume, volume.grid.indexOf(n));
+        }
+    return count;
 }
 
 }  // namespace vicon::phantom

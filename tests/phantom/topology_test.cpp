@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "euler.h"
@@ -80,6 +81,47 @@ TEST(EulerNumber, OfNoiseEqualsThatCountedCellByCell)
             filled(12, [&](int, int, int) { return ((state = state * 1664525 + 1013904223) >> 30) == 0; });
         EXPECT_EQ(euler26(volume), countedEulerNumber(volume));
     }
+}
+
+TEST(PartAtCorners, PartsCubesThatTouchByAnEdgeOrACornerAlone)
+{
+    const struct {
+        const char* name;
+        std::array<int, 3> offset;
+    } cases[] = {{"edge of one voxel", {5, 5, 4}}, {"corner", {5, 5, 5}}};
+    for (const auto& c : cases) {
+        SCOPED_TRACE(c.name);
+        InsideVolume volume = filled(25, [&](int x, int y, int z) {
+            const auto cube = [](int a, int b, int d) { return a >= 0 && a < 5 && b >= 0 && b < 5 && d >= 0 && d < 5; };
+            return cube(x, y, z) || cube(x - c.offset[0], y - c.offset[1], z - c.offset[2]);
+        });
+        ASSERT_EQ(euler26(volume), 1);
+        const InsideVolume before = volume;
+        const std::vector<Index3> out = partAtCorners(volume, {0, 0, 0}, volume.grid.size, 2);
+        EXPECT_FALSE(out.empty());
+        EXPECT_EQ(euler26(volume), 2);
+        EXPECT_EQ(euler6(volume), 2);
+        EXPECT_EQ(countPieces(volume), 2);
+        std::size_t changed = 0;
+        for (std::size_t n = 0; n < volume.voxels.size(); ++n)
+            changed += volume.voxels[n] != before.voxels[n];
+        EXPECT_EQ(changed, out.size());
+    }
+}
+
+TEST(PartAtCorners, LeavesASoundVolumeAlone)
+{
+    InsideVolume ball = filled(21, [](int x, int y, int z) { return x * x + y * y + z * z < 64; });
+    const InsideVolume before = ball;
+    EXPECT_TRUE(partAtCorners(ball, {0, 0, 0}, ball.grid.size, 1).empty());
+    EXPECT_EQ(ball.voxels, before.voxels);
+}
+
+TEST(CountPieces, CountsWhatHangsTogetherOverFaces)
+{
+    EXPECT_EQ(countPieces(empty(4)), 0);
+    EXPECT_EQ(countPieces(filled(5, [](int, int, int) { return true; })), 1);
+    EXPECT_EQ(countPieces(filled(6, [](int x, int y, int z) { return (x + y + z) % 2 == 0; })), 108);
 }
 
 }  // namespace
