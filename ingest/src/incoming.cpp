@@ -80,7 +80,7 @@ fs::path Incoming::open()
     for (const char c : nowUtc())
         if (c != ':' && c != '-')
             name += c;
-    const fs::path folder = folder_ / (name + "-" + std::to_string(::getpid()) + "-" + std::to_string(count_++));
+    fs::path folder = folder_ / (name + "-" + std::to_string(::getpid()) + "-" + std::to_string(count_++));
     makePrivateFolder(folder);
     batches_[folder].last = std::chrono::steady_clock::now();
     return folder;

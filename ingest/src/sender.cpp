@@ -23,6 +23,7 @@ constexpr Uint32 kLargestElementInMemory = 16384;
 
 struct Kind {
     std::string sop_class, transfer_syntax;
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 means the 0 that such an operator is compared with
     friend auto operator<=>(const Kind&, const Kind&) = default;
 };
 

@@ -45,9 +45,9 @@ void StudyImport::run(std::vector<Arrival> arrivals, std::map<std::string, Serie
         describe(scan, notes);
     for (Assembled& scan : scans_)
         store(scan);
-    for (const auto& [id, scan] : old_scans_)
-        if (std::none_of(scans_.begin(), scans_.end(), [&](const Assembled& s) { return s.record.id == id; }))
-            store_.removeScan(case_.id, id);  // all its objects belong to other scans now
+    for (const auto& old : old_scans_)
+        if (std::none_of(scans_.begin(), scans_.end(), [&](const Assembled& s) { return s.record.id == old.first; }))
+            store_.removeScan(case_.id, old.first);  // all its objects belong to other scans now
     flagSharedIds();
 }
 

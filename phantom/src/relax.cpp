@@ -84,9 +84,10 @@ void keepLoopsApart(std::vector<Bead>& beads, double separation_mm, const std::v
     for (const BeadPair& pair : pulled) {
         const Vector3 apart = beads[pair.b].position_mm - beads[pair.a].position_mm;
         const Vector3 shift = normalized(apart) * (kPush / 2 * (length(apart) - pair.distance_mm));
-        for (int n = -3; n <= 3; ++n) {
-            beads[std::size_t(int(pair.a) + n)].position_mm += shift * (1 - std::abs(n) / 4.0);
-            beads[std::size_t(int(pair.b) + n)].position_mm += shift * -(1 - std::abs(n) / 4.0);
+        for (std::size_t n = 0; n <= 6; ++n) {
+            const Vector3 share = shift * (1 - std::abs(double(n) - 3) / 4);
+            beads[pair.a - 3 + n].position_mm += share;
+            beads[pair.b - 3 + n].position_mm += -share;
         }
     }
 }

@@ -32,7 +32,7 @@ Grid coarseGrid(const Grid& grid, int factor)
 Volume<std::int16_t> shrink(const HuVolume& volume, int factor)
 {
     Volume<std::int16_t> coarse(coarseGrid(volume.grid, factor));
-    const auto [nx, ny, nz] = volume.grid.size;
+    const int nx = volume.grid.size[0], ny = volume.grid.size[1], nz = volume.grid.size[2];
     tbb::parallel_for(0, coarse.grid.size[2], [&](int ck) {
         const auto cx = std::size_t(coarse.grid.size[0]);
         std::vector<std::int64_t> sum(cx * std::size_t(coarse.grid.size[1]), 0);

@@ -94,7 +94,7 @@ Ordering orderPieces(const std::vector<Candidate>& candidates, int rectum, const
     const Ways ways = allWays(candidates, body, labels, progress);
     // A state's tip is the one through which the piece is left: 2 * candidate + tip.
     std::vector<std::vector<State>> best(std::size_t(1) << count, std::vector<State>(2 * std::size_t(count)));
-    best[1U << unsigned(rectum)][std::size_t(2 * rectum + 1)] = {0, -1};
+    best[1U << unsigned(rectum)][2 * std::size_t(rectum) + 1] = {0, -1};
     for (unsigned set = 1; set < best.size(); ++set)
         for (unsigned tip = 0; tip < 2 * count; ++tip) {
             const State& here = best[set][tip];

@@ -117,7 +117,7 @@ Raster rasterize(const artefact::CellSurface& surface, const ProjectionPicture& 
 {
     Raster raster(picture.width * kFiner, picture.height * kFiner);
     const Vector3 ahead = cross(picture.right, picture.down);
-    const auto corner = [&](std::uint32_t n) {
+    const auto corner = [&](std::size_t n) {
         const Point3 p = surface.point(n);
         const Vector3 normal{surface.normals[3 * n], surface.normals[3 * n + 1], surface.normals[3 * n + 2]};
         // The middle of a fine pixel (0,0) lies (kFiner - 1)/2 fine pixels before the middle of pixel (0,0).

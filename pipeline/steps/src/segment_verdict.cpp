@@ -1,6 +1,7 @@
 #include "segment_verdict.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vicon::steps {
 namespace {
@@ -22,7 +23,7 @@ void doubt(Segmentation& result, double factor, const std::string& reason)
 
 std::string round(double value)
 {
-    return std::to_string(int(value + 0.5));
+    return std::to_string(std::lround(value));
 }
 
 }  // namespace

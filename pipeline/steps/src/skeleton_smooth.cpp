@@ -62,7 +62,7 @@ std::vector<float> percentileAlong(const std::vector<float>& values, std::size_t
         const std::size_t from = n > half_window ? n - half_window : 0;
         const std::size_t to = std::min(values.size() - 1, n + half_window);
         window.assign(values.begin() + std::ptrdiff_t(from), values.begin() + std::ptrdiff_t(to + 1));
-        const auto at = window.begin() + std::ptrdiff_t(kPercentile * double(window.size() - 1) + 0.5);
+        const auto at = window.begin() + std::lround(kPercentile * double(window.size() - 1));
         std::nth_element(window.begin(), at, window.end());
         out[n] = *at;
     }
@@ -177,7 +177,7 @@ void beginOneRadiusIn(Polyline& line, const DistanceProbe& wall, double step_mm)
     const Point3 first = line.front();
     for (double s = step_mm; s <= move_mm && wall.inside(first + along * s); s += step_mm)
         line.insert(line.begin(), first + along * s);
-    const auto cut = std::min(line.size() / 4, std::size_t(std::max(0.0, -move_mm) / step_mm + 0.5));
+    const auto cut = std::min(line.size() / 4, std::size_t(std::lround(std::max(0.0, -move_mm) / step_mm)));
     line.erase(line.begin(), line.begin() + std::ptrdiff_t(cut));
 }
 
@@ -204,8 +204,10 @@ Polyline gaussian(const Polyline& line, double sigma_mm, double step_mm)
         Vector3 sum;
         double weight = 0;
         for (int m = -half; m <= half; ++m) {
-            sum += at(n + m) * weights[std::size_t(m + half)];
-            weight += weights[std::size_t(m + half)];
+            const int nth = m + half;
+            const double share = weights[std::size_t(nth)];
+            sum += at(n + m) * share;
+            weight += share;
         }
         out[std::size_t(n)] = Point3{} + sum / weight;
     }

@@ -24,7 +24,7 @@ std::array<int, 256> trianglesOfCases()
     std::array<int, 256> count{};
     const vtkMarchingCubesTriangleCases* cases = vtkMarchingCubesTriangleCases::GetCases();
     for (std::size_t c = 0; c < count.size(); ++c)
-        while (cases[c].edges[3 * count[c]] >= 0)
+        while (cases[c].edges[std::ptrdiff_t{3} * count[c]] >= 0)
             ++count[c];
     return count;
 }

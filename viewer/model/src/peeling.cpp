@@ -2,6 +2,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "density_sampler.h"
 #include "transfer_table.h"
 #include "vicon/core/error.h"
@@ -100,7 +103,7 @@ void check(const Lens& lens, const PeelingOptions& options)
 
 std::uint8_t byteOf(float share)
 {
-    return std::uint8_t(std::clamp(share, 0.F, 1.F) * 255 + 0.5F);
+    return std::uint8_t(std::lround(std::clamp(share, 0.F, 1.F) * 255));
 }
 
 }  // namespace
@@ -161,7 +164,7 @@ void blendOver(std::vector<std::uint8_t>& rgb, const PeeledPicture& peeled, doub
         const std::uint8_t* over = &peeled.rgba[4 * n];
         for (std::size_t c = 0; c < 3; ++c) {
             const double mixed = weight * over[c] + (1 - weight * over[3] / 255.0) * rgb[3 * n + c];
-            rgb[3 * n + c] = std::uint8_t(std::clamp(mixed, 0.0, 255.0) + 0.5);
+            rgb[3 * n + c] = std::uint8_t(std::lround(std::clamp(mixed, 0.0, 255.0)));
         }
     }
 }

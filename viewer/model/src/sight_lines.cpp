@@ -219,7 +219,8 @@ std::vector<std::uint8_t> SightLines::seenFrom(const Pose& pose, const Lens& len
     const double side = lens.height > 0 ? bundles.top() * lens.width / lens.height : bundles.top();
     const int rows = int(kFirst), columns = std::max(1, int(std::ceil(side / half - 1e-9)));
     tbb::parallel_for(0, rows * columns, [&](int n) {
-        bundles.follow({half * (2 * (n % columns) + 1 - columns), half * (2 * (n / columns) + 1 - rows), half, 0});
+        const int column = n % columns, row = n / columns;
+        bundles.follow({half * (2 * column + 1 - columns), half * (2 * row + 1 - rows), half, 0});
     });
     return seen;
 }

@@ -32,8 +32,9 @@ vtkSmartPointer<vtkPolyData> cellData(const artefact::CellSurface& surface, cons
 {
     std::vector<std::uint32_t> points;
     vtkNew<vtkTypeInt32Array> corners, offsets;
-    corners->SetNumberOfValues(vtkIdType(cell.triangles * 3));
-    offsets->SetNumberOfValues(vtkIdType(cell.triangles + 1));
+    const auto triangles = vtkIdType(cell.triangles);
+    corners->SetNumberOfValues(triangles * 3);
+    offsets->SetNumberOfValues(triangles + 1);
     for (std::size_t n = 0; n < 3 * cell.triangles; ++n) {
         const std::uint32_t p = surface.triangles[3 * cell.first_triangle + n];
         if (number_of[p] >= points.size() || points[number_of[p]] != p) {
