@@ -242,7 +242,7 @@ void setNormals(artefact::CellSurface& surface, const Contour& contour, const st
             const double towards = inside.at(edge.inside) == kGas ? -1 : 1;
             Vector3 normal = normalized(toPatient(inside.grid, per_voxel) * towards);
             const Vector3 own = normalized(geometric[n]);
-            if (dot(normal, own) < kAgree)
+            if (dot(normal, own) < kAgree || !field.densitiesTell(edge.inside))
                 normal = own;
             surface.normals[3 * n] = float(normal.x);
             surface.normals[3 * n + 1] = float(normal.y);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fluid_layer.h"
 #include "fluid_levels.h"
+#include "meniscus.h"
 
 namespace vicon::steps {
 namespace {
@@ -36,18 +38,6 @@ void flood(const HuVolume& volume, double half_hu, InsideVolume& labels, std::ve
                 stack.push_back(m);
             }
     }
-}
-
-/// The partial-volume layer between gas and fluid belongs to the lumen: to the side that its density is nearer to.
-void fillLayer(const HuVolume& volume, Down down, const ContactPatch& patch, InsideVolume& labels)
-{
-    for (const Contact& contact : patch.contacts)
-        for (int n = 1; n < contact.steps; ++n) {
-            const Index3 v = below(contact.gas, down, n);
-            std::uint8_t& label = labels.at(v);
-            if (!label)
-                label = volume.at(v) < (contact.density_hu - 1000) / 2 ? kGas : kFluid;
-        }
 }
 
 }  // namespace
@@ -84,8 +74,8 @@ FluidResult addTaggedFluid(const HuVolume& volume, Vector3 gravity, const FluidD
         result.levels.push_back(level);
         progress.check();
     }
-    for (const ContactPatch& patch : patches)
-        fillLayer(volume, down, patch, labels);
+    closeFluidLayer(volume, down, patches, labels);
+    smoothAtMeniscus(labels);
     result.voxels = std::size_t(std::count(labels.voxels.begin(), labels.voxels.end(), std::uint8_t(kFluid)));
     return result;
 }

@@ -81,7 +81,7 @@ std::optional<Contact> contactBelow(const HuVolume& volume, Down down, const Flu
     }
     if (n > count || (enter_fluid - leave_gas) * spacing_mm * upright > kThickestStep_mm)
         return std::nullopt;
-    return Contact{gas, n, float(brightest), depthOf(volume.grid, down, gas, level)};
+    return Contact{gas, n, float(brightest), float(level), depthOf(volume.grid, down, gas, level)};
 }
 
 std::vector<Contact> findContacts(const HuVolume& volume, Down down, const FluidDensities& densities,

@@ -11,6 +11,7 @@ struct Contact {
     Index3 gas;              ///< the last voxel of gas
     int steps = 0;           ///< voxels from there to the first one of at least half-way density
     float density_hu = 0;    ///< of the fluid below
+    float below_voxels = 0;  ///< from the gas voxel down its column to half-way between gas and fluid
     float level_voxels = 0;  ///< depth along gravity at which the density passes half-way between gas and fluid
 };
 

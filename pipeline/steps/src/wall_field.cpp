@@ -8,8 +8,6 @@
 namespace vicon::steps {
 namespace {
 
-/// Where densities cannot tell (the layer between gas and fluid looks like tissue), the wall lies half-way.
-constexpr float kUnknown = -0.5F;
 /// A pool's density must differ from tissue by this much to place a wall; less is taken as this.
 constexpr double kLeastContrast_hu = 50;
 
@@ -62,7 +60,8 @@ WallField::WallField(const HuVolume& hu, const InsideVolume& inside, Levels leve
       inside_(inside),
       levels_(levels),
       offset_(latticeOffset(inside.grid, hu.grid)),
-      pools_(inside.grid, fluidOnly(inside))
+      pools_(inside.grid, fluidOnly(inside)),
+      meniscus_(inside)
 {
     measurePools();
 }
@@ -113,27 +112,13 @@ double WallField::valueBeside(Index3 labelled, std::uint8_t label, double densit
     return (levels_.tissue_hu + contrast / 2 - density) / (contrast / 2);
 }
 
-bool WallField::betweenGasAndFluid(Index3 v) const
+/// The value that the densities tell, whichever voxel it is.
+float WallField::fromDensities(Index3 v) const
 {
-    int labels = 0;
-    for (int k = v.k - 1; k <= v.k + 1; ++k)
-        for (int j = v.j - 1; j <= v.j + 1; ++j)
-            for (int i = v.i - 1; i <= v.i + 1; ++i)
-                labels |= inside_.valueOr({i, j, k}, kOutside);
-    return labels == (kGas | kFluid);
-}
-
-float WallField::ofInside(Index3 v) const
-{
-    const std::uint8_t label = inside_.at(v);
-    const auto value = float(valueBeside(v, label, hu(v, label == kGas ? -1000 : pool_hu_[pools_.at(v)])));
-    if (value > 0 && betweenGasAndFluid(v))
-        return kUnknown;
-    return std::clamp(value, -1.0F, -kLeast);
-}
-
-float WallField::ofOutside(Index3 v) const
-{
+    if (const std::uint8_t own = inside_.valueOr(v, kOutside)) {
+        const double density = hu(v, own == kGas ? -1000 : pool_hu_[pools_.at(v)]);
+        return std::clamp(float(valueBeside(v, own, density)), -1.0F, -kLeast);
+    }
     double sum = 0;
     int count = 0;
     const double density = hu(v, levels_.tissue_hu);
@@ -145,6 +130,31 @@ float WallField::ofOutside(Index3 v) const
         }
     }
     return count == 0 ? 1.0F : std::clamp(float(sum / count), kLeast, 1.0F);
+}
+
+/// The binomial mean around a voxel where gas, fluid and wall meet: of the mask there, of the densities' values beyond.
+float WallField::smoothed(Index3 v) const
+{
+    float sum = 0;
+    for (int k = -2; k <= 2; ++k)
+        for (int j = -2; j <= 2; ++j)
+            for (int i = -2; i <= 2; ++i) {
+                const Index3 n{v.i + i, v.j + j, v.k + k};
+                const float mask = inside_.valueOr(n, kOutside) != kOutside ? -1.0F : 1.0F;
+                const float value = meniscus_.near(n) ? mask : fromDensities(n);
+                sum += value * float(binomial(i) * binomial(j) * binomial(k));
+            }
+    return sum / float(kBinomialSum);
+}
+
+float WallField::ofInside(Index3 v) const
+{
+    return meniscus_.near(v) ? std::clamp(smoothed(v), -1.0F, -kLeast) : fromDensities(v);
+}
+
+float WallField::ofOutside(Index3 v) const
+{
+    return meniscus_.near(v) ? std::clamp(smoothed(v), kLeast, 1.0F) : fromDensities(v);
 }
 
 }  // namespace vicon::steps

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "components.h"
+#include "meniscus.h"
 #include "vicon/core/volume.h"
 
 namespace vicon::steps {
@@ -26,7 +27,8 @@ bool besideOther(const InsideVolume& inside, Index3 v);
 /// Where the wall lies between an inside and an outside voxel, from the densities: a signed value of each voxel beside
 /// the wall, below 0 inside, above 0 outside, about -1 and +1 away from the wall, linear in the density. Beside gas it
 /// is 0 at the wall's density, under fluid half-way between tissue and the pool's own density, so one level serves
-/// both. The mask decides the sign.
+/// both. Where gas, fluid and wall meet the densities cannot tell, and the wall follows the mask, smoothed together
+/// with what the densities tell around. The mask decides the sign.
 class WallField {
 public:
     struct Levels {
@@ -42,6 +44,9 @@ public:
     /// The value of an outside voxel (also beyond the grid), in [kLeast, 1]; 1 where no neighbour is inside.
     float ofOutside(Index3 v) const;
 
+    /// Whether the densities around a voxel belong to the wall, not to a level between gas and fluid beside it.
+    bool densitiesTell(Index3 v) const { return !meniscus_.near(v); }
+
     /// The density, or `otherwise` where none was measured.
     double hu(Index3 v, double otherwise) const;
     /// The gradient of the densities by central differences, in HU per voxel along the grid's axes.
@@ -52,7 +57,8 @@ public:
 
 private:
     double valueBeside(Index3 labelled, std::uint8_t label, double density) const;
-    bool betweenGasAndFluid(Index3 v) const;
+    float fromDensities(Index3 v) const;
+    float smoothed(Index3 v) const;
     void measurePools();
 
     const HuVolume& hu_;
@@ -60,6 +66,7 @@ private:
     Levels levels_;
     Index3 offset_;
     Components pools_;
+    Meniscus meniscus_;
     std::vector<double> pool_hu_;
 };
 
