@@ -61,6 +61,7 @@ Subcommand markCommand();
 Subcommand markersCommand();
 Subcommand flyCommand();
 Subcommand snapshotCommand();
+Subcommand readCommand();  ///< only with the viewer built
 Subcommand reportCommand();
 Subcommand phantomCommand();
 Subcommand configCommand();

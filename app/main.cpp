@@ -16,9 +16,14 @@ constexpr const char* kCommonFooter =
 
 std::vector<Subcommand> subcommands()
 {
-    return {importCommand(),   receiveCommand(), queryCommand(),   retrieveCommand(), workCommand(),
-            casesCommand(),    showCommand(),    markCommand(),    markersCommand(),  flyCommand(),
-            snapshotCommand(), reportCommand(),  phantomCommand(), configCommand(),   doctorCommand()};
+    std::vector<Subcommand> rows{importCommand(),  receiveCommand(), queryCommand(),    retrieveCommand(),
+                                 workCommand(),    casesCommand(),   showCommand(),     markCommand(),
+                                 markersCommand(), flyCommand(),     snapshotCommand(), reportCommand(),
+                                 phantomCommand(), configCommand(),  doctorCommand()};
+#ifdef VICON_HAS_VIEWER
+    rows.push_back(readCommand());
+#endif
+    return rows;
 }
 
 void addCommonOptions(CLI::App& command, Context& context)

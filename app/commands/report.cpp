@@ -2,36 +2,16 @@
 
 #include "../command.h"
 #include "../progress_line.h"
-#include "../report_pictures.h"
-#include "vicon/core/error.h"
-#include "vicon/core/file.h"
-#include "vicon/report/pdf_writer.h"
-
-namespace fs = std::filesystem;
+#include "../report_writing.h"
 
 namespace vicon::app {
 namespace {
 
 int report(Context& context, const std::string& case_id, std::string out)
 {
-    CaseStore& store = context.existingStore();
-    const CaseRecord record = store.requireCase(case_id);
-    report::ReportContent content;
-    content.a_case = record;
-    content.created = nowUtc();
-    content.software_version = VICON_VERSION;
-    content.number = store.nextNumber("report " + record.id);
     ProgressLine progress("report");
-    const PictureFolder pictures;
-    content.scans = drawScans(store, record, pictures, progress);
-    content.markers = drawMarkers(store, record, content.scans, pictures, progress);
-    if (out.empty()) {
-        const fs::path folder = store.caseFolder(record.id) / "report";
-        makePrivateFolder(folder);
-        out = (folder / (std::to_string(content.number) + ".pdf")).string();
-    }
-    const report::PdfResult written = report::writePdf(content, out, context.config().get<report::ReportOptions>());
-    store.audit("report written", record.id, "", "number " + std::to_string(content.number));
+    const WrittenReport written = writeReport(context.existingStore(), context.config(), case_id, out, progress);
+    out = written.file.string();
     progress.clear();
     for (const std::string& warning : written.warnings)
         std::fprintf(stderr, "vicon: %s\n", warning.c_str());
@@ -39,11 +19,11 @@ int report(Context& context, const std::string& case_id, std::string out)
         std::printf(
             "%s\n",
             nlohmann::json{
-                {"file", out}, {"pages", written.pages}, {"number", content.number}, {"warnings", written.warnings}}
+                {"file", out}, {"pages", written.pages}, {"number", written.number}, {"warnings", written.warnings}}
                 .dump(2)
                 .c_str());
     else
-        std::printf("report %d, %d pages, %zu markers\n%s\n", content.number, written.pages, content.markers.size(),
+        std::printf("report %d, %d pages, %zu markers\n%s\n", written.number, written.pages, written.markers,
                     out.c_str());
     return 0;
 }

@@ -47,6 +47,17 @@ std::string peelingText(const SnapshotRequest& request)
     return "peeled: " + transferFunction(request.peel).title + ", " + offset + " mm below the surface";
 }
 
+/// Each pixel as a square of pixels.
+PeeledPicture enlarged(const PeeledPicture& from, int times, int width, int height)
+{
+    PeeledPicture to{width, height, std::vector<std::uint8_t>(std::size_t(width) * std::size_t(height) * 4)};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            std::copy_n(from.rgba.begin() + (std::ptrdiff_t(y / times) * from.width + x / times) * 4, 4,
+                        to.rgba.begin() + (std::ptrdiff_t(y) * width + x) * 4);
+    return to;
+}
+
 void layPeelingOver(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose)
 {
     const Lens lens{request.view_angle_deg, request.width, request.height};
@@ -57,8 +68,13 @@ void layPeelingOver(Picture& picture, const PreparedScan& scan, const SnapshotRe
         for (int x = 0; x < picture.width; ++x)
             if (!only || only->holds({x + 0.5, y + 0.5}))
                 picture.set(x, y, {0, 0, 0});
-    blendOver(picture.rgb,
-              peel(scan.volume(), scan.lumen(), pose, lens, transferFunction(request.peel), request.peeling, only));
+    const int coarse = std::max(1, request.peel_coarse);
+    const Lens few{lens.view_angle_deg, (lens.width + coarse - 1) / coarse, (lens.height + coarse - 1) / coarse};
+    if (only)
+        only = PictureCircle{{only->centre.x / coarse, only->centre.y / coarse}, only->radius_px / coarse};
+    const PeeledPicture peeled =
+        peel(scan.volume(), scan.lumen(), pose, few, transferFunction(request.peel), request.peeling, only);
+    blendOver(picture.rgb, coarse == 1 ? peeled : enlarged(peeled, coarse, lens.width, lens.height));
 }
 
 std::string directionText(const Pose& pose)
@@ -105,10 +121,16 @@ Picture endoscopicPicture(const PreparedScan& scan, const SnapshotRequest& reque
     scene.lookFrom(place.pose, request.view_angle_deg);
     Offscreen offscreen(scene.renderer());
     Picture picture = offscreen.render(request.width, request.height, kSmooth);
+    finishEndoscopic(picture, scan, request, place);
+    return picture;
+}
+
+void finishEndoscopic(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request,
+                      const SnapshotResult& place)
+{
     if (!request.peel.empty())
         layPeelingOver(picture, scan, request, place.pose);
     paint(picture, endoscopicOverlay(scan, request, place));
-    return picture;
 }
 
 }  // namespace vicon::viewer

@@ -83,19 +83,25 @@ void addMarkers(Overlay& overlay, const std::vector<Marker>& markers, const Plan
 
 }  // namespace
 
-Picture overviewPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
+OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request, SurfaceScene& scene,
+                              Offscreen& offscreen)
 {
     const double text_px = textHeightFor(request.width, request.height);
+    OverviewGround ground;
+    ground.header_px = double(captionLines(request.caption, 0, 0).size()) * 1.35 * 0.8 * text_px + 0.48 * text_px;
+    ground.view = viewOfAll(scan.cells(), request.width, request.height, ground.header_px, 2.2 * text_px);
+    scene.lookOnto(ground.view);
+    ground.picture = offscreen.render(request.width, request.height, kSmooth);
+    return ground;
+}
+
+Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, const SnapshotRequest& request,
+                     const SnapshotResult& place)
+{
+    const PlaneView& view = ground.view;
+    const double text_px = textHeightFor(request.width, request.height);
     const auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm());
-    const double caption_px = 0.8 * text_px;
-    const double header_px = (double(lines.size()) * 1.35 + 0.6) * caption_px;
-    const PlaneView view = viewOfAll(scan.cells(), request.width, request.height, header_px, 2.2 * text_px);
-
-    SurfaceScene scene(scan.cells());
-    scene.lookOnto(view);
-    Offscreen offscreen(scene.renderer());
-    Picture picture = offscreen.render(request.width, request.height, kSmooth);
-
+    Picture picture = ground.picture;
     Overlay overlay;
     const Area area{0, 0, double(request.width), double(request.height)};
     addSkeleton(overlay, scan.skeleton(), view, std::max(1.5, text_px / 9));
@@ -105,9 +111,16 @@ Picture overviewPicture(const PreparedScan& scan, const SnapshotRequest& request
     addHere(overlay, view, place.pose, 0.8 * text_px);
     addLetters(overlay, area, view.right, view.down, text_px);
     addScaleBar(overlay, area, view.mm_per_pixel, text_px);
-    addLines(overlay, {0, 0, area.width * 0.47, header_px}, lines, caption_px);
+    addLines(overlay, {0, 0, area.width * 0.47, ground.header_px}, lines, 0.8 * text_px);
     paint(picture, overlay);
     return picture;
+}
+
+Picture overviewPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
+{
+    SurfaceScene scene(scan.cells());
+    Offscreen offscreen(scene.renderer());
+    return overviewOver(overviewGround(scan, request, scene, offscreen), scan, request, place);
 }
 
 }  // namespace vicon::viewer

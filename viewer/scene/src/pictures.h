@@ -19,7 +19,20 @@ std::vector<OverlayText> captionLines(const Caption& caption, double station_mm,
 Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
 
 Picture endoscopicPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
+/// Lays what the request asks to peel, and everything that is written, over a picture of the surface.
+void finishEndoscopic(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request,
+                      const SnapshotResult& place);
 Picture slicesPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
+/// The overview's part that does not change while the eye moves.
+struct OverviewGround {
+    Picture picture;
+    PlaneView view;
+    double header_px = 0;  ///< height that the caption takes
+};
+OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request, SurfaceScene& scene,
+                              Offscreen& offscreen);
+Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, const SnapshotRequest& request,
+                     const SnapshotResult& place);
 Picture overviewPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
 
 }  // namespace vicon::viewer

@@ -4,6 +4,7 @@
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/slice_image.h"
 #include "vicon/viewer/model/window_level.h"
+#include "vicon/viewer/scene/reading_pictures.h"
 
 namespace vicon::viewer {
 namespace {
@@ -94,6 +95,41 @@ Picture captionPanel(const PreparedScan& scan, const SnapshotRequest& request, c
 }
 
 }  // namespace
+
+Picture slicePicture(const PreparedScan& scan, const SliceRequest& request)
+{
+    const PlaneView& view = request.view;
+    Picture picture = greyPicture(scan.volume(), view, request.window);
+    Overlay overlay;
+    const Area area{0, 0, double(view.width), double(view.height)};
+    const double text_px = textHeightFor(view.width, view.height) * 1.15;
+    const double ring = std::max(kRing_mm / view.mm_per_pixel, 0.9 * text_px);
+    addCrosshair(overlay, area, view.toPixel(request.point_mm), ring * 1.5);
+    addHere(overlay, view, request.pose, 0.8 * text_px);
+    for (const Marker& marker : request.markers)
+        if (std::abs(view.depth_mm(marker.position_mm)) <= kMarkerNear_mm)
+            addMarkerRing(overlay, view.toPixel(marker.position_mm), ring, marker, text_px);
+    addLetters(overlay, area, view.right, view.down, text_px);
+    addScaleBar(overlay, area, view.mm_per_pixel, text_px);
+    OverlayText line;
+    line.color = kTextColor;
+    line.text = titleOf(request.plane, view.centre_mm);
+    std::vector<OverlayText> lines{line};
+    for (OverlayText& words : captionLines(request.caption, 0, 0))
+        if (lines.size() < 4)  // name, id and birth date, position and date
+            lines.push_back(words);
+    line.text = request.window.name + " " + std::to_string(std::lround(request.window.width_hu)) + " / " +
+                std::to_string(std::lround(request.window.level_hu)) + " HU";
+    lines.push_back(line);
+    if (request.caption.lossy) {
+        line.text = "LOSSY COMPRESSION";
+        line.color = kWarningColor;
+        lines.push_back(line);
+    }
+    addLines(overlay, {0, 0, area.width * 0.46, area.height}, lines, text_px);
+    paint(picture, overlay);
+    return picture;
+}
 
 Picture slicesPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
 {

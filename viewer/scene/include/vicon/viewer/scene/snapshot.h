@@ -41,6 +41,7 @@ struct SnapshotRequest {
     ViewPoseOptions pose;           ///< endo: where to put the eye
     std::string peel;               ///< endo: a preset of config/transfer_functions.toml to look below the wall with
     PeelingOptions peeling;         ///< used with `peel`
+    int peel_coarse = 1;            ///< one ray for a square of so many pixels a side: quicker, while the eye moves
     bool peel_middle_only = false;  ///< only within a circle in the middle; the surface stays around it
 
     static constexpr int kLeastSide = 200;

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vicon/core/case_store.h"
+#include "vicon/core/options.h"
+#include "vicon/core/progress.h"
+
+namespace vicon::app {
+
+struct WrittenReport {
+    std::filesystem::path file;
+    int number = 0;
+    int pages = 0;
+    std::size_t markers = 0;
+    std::vector<std::string> warnings;
+};
+
+/// Draws and writes a case's report as PDF; `out` empty: into the case's folder, under its number.
+WrittenReport writeReport(CaseStore& store, const Config& config, const std::string& case_id, std::filesystem::path out,
+                          Progress& progress);
+
+}  // namespace vicon::app

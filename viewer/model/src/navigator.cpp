@@ -1,0 +1,135 @@
+#include "vicon/viewer/model/navigator.h"
+
+#include <algorithm>
+
+#include "rotation.h"
+
+namespace vicon::viewer {
+namespace {
+
+Heading opposite(Heading heading)
+{
+    return heading == Heading::caecum ? Heading::rectum : Heading::caecum;
+}
+
+}  // namespace
+
+Navigator::Navigator(const PathFrames& path, const Lumen& lumen, const FieldVolume& exit_distance,
+                     const SubmarineOptions& options)
+    : path_(&path), lumen_(lumen), options_(options), submarine_(path, lumen_, exit_distance, options)
+{
+    jumpTo(0);
+}
+
+void Navigator::setMode(NavigationMode mode)
+{
+    if (mode == mode_)
+        return;
+    const NavigationState now = state();
+    station_mm_ = now.station_mm;
+    free_ = now.pose;
+    owed_s_ = 0;
+    direction_ = 0;
+    mode_ = mode;
+    if (mode == NavigationMode::guided)
+        submarine_.placeAt(station_mm_, heading_);
+}
+
+void Navigator::setHeading(Heading heading)
+{
+    heading_ = heading;
+    submarine_.setHeading(heading);
+}
+
+void Navigator::setSpeed(double mm_s)
+{
+    speed_mm_s_ = std::clamp(mm_s, kLeastSpeed_mm_s, kMostSpeed_mm_s);
+}
+
+void Navigator::jumpTo(double station_mm)
+{
+    direction_ = 0;
+    station_mm_ = std::clamp(station_mm, 0.0, path_->length_mm());
+    submarine_.placeAt(station_mm_, heading_);
+    if (mode_ == NavigationMode::free)
+        free_ = poseAtStation(*path_, lumen_, station_mm_, heading_).pose;
+}
+
+void Navigator::step(double mm)
+{
+    jumpTo(state().station_mm + sign() * mm);
+}
+
+void Navigator::lookFrom(const Pose& pose, double station_mm)
+{
+    direction_ = 0;
+    station_mm_ = std::clamp(station_mm, 0.0, path_->length_mm());
+    mode_ = NavigationMode::free;
+    free_ = lumen_.inside(pose.eye_mm) ? pose : poseAtStation(*path_, lumen_, station_mm_, heading_).pose;
+}
+
+void Navigator::advance(double seconds)
+{
+    switch (mode_) {
+        case NavigationMode::planned:
+            station_mm_ =
+                std::clamp(station_mm_ + sign() * direction_ * speed_mm_s_ * seconds, 0.0, path_->length_mm());
+            break;
+        case NavigationMode::guided: {
+            Steering steering = steering_;
+            steering.pull = std::clamp(steering.pull + direction_, -1.0, 1.0);
+            submarine_.steer(steering);
+            submarine_.advance(seconds);
+            break;
+        }
+        case NavigationMode::free:
+            owed_s_ += seconds;
+            for (; owed_s_ >= Submarine::kTick_s; owed_s_ -= Submarine::kTick_s)
+                tickFree();
+            break;
+    }
+}
+
+void Navigator::tickFree()
+{
+    const double turn = radians(options_.turning_deg_s) * Submarine::kTick_s;
+    if (steering_.turns()) {
+        const Vector3 right = free_.right();
+        free_.forward = rotated(free_.forward, free_.up * (-steering_.turn_right * turn));
+        free_.forward = normalized(rotated(free_.forward, right * (steering_.turn_up * turn)));
+        free_.up = uprightOn(free_.forward, free_.up);
+    }
+    if (!steering_.thrusts())
+        return;
+    Vector3 way = (free_.forward * steering_.thrust_forward + free_.right() * steering_.thrust_right +
+                   free_.up * steering_.thrust_up) *
+                  (speed_mm_s_ * Submarine::kTick_s);
+    const auto fits = [&](Point3 p) { return lumen_.clearance_mm(p) >= options_.camera_radius_mm; };
+    const bool leaves_wall = lumen_.clearance_mm(free_.eye_mm + way) > lumen_.clearance_mm(free_.eye_mm);
+    if (!fits(free_.eye_mm + way) && !leaves_wall) {  // slide along the wall
+        const Vector3 off = normalized(lumen_.clearanceGradient(free_.eye_mm));
+        way -= off * std::min(0.0, dot(way, off));
+    }
+    const Point3 next = free_.eye_mm + way;
+    if (fits(next) || (lumen_.inside(next) && lumen_.clearance_mm(next) > lumen_.clearance_mm(free_.eye_mm)))
+        free_.eye_mm = next;
+    constexpr double kReach_mm = 30;  // farther off on the path than a tick can move, nearer than a neighbouring loop
+    station_mm_ = path_->nearestStation(free_.eye_mm, station_mm_, kReach_mm);
+}
+
+NavigationState Navigator::state() const
+{
+    if (mode_ == NavigationMode::guided) {
+        const SubmarineState s = submarine_.state();
+        return {s.pose, s.station_mm, s.clearance_mm, s.carried, s.at_end};
+    }
+    if (mode_ == NavigationMode::free)
+        return {free_, station_mm_, lumen_.clearance_mm(free_.eye_mm), false, false};
+    const ViewPose view = poseAtStation(*path_, lumen_, station_mm_, look_back_ ? opposite(heading_) : heading_);
+    const double end = heading_ == Heading::caecum ? path_->length_mm() : 0;
+    constexpr double kOff_mm = 2;  // the pose of a place that is too narrow lies elsewhere
+    return {view.pose, station_mm_, view.clearance_mm, std::abs(view.station_mm - station_mm_) > kOff_mm,
+            station_mm_ == end};
+}
+
+}  // namespace vicon::viewer

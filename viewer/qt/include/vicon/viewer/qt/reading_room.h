@@ -1,0 +1,57 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "vicon/core/case_store.h"
+
+class QWidget;
+
+namespace vicon::viewer {
+
+/// A scan that the reading room may offer.
+struct WorklistScanRow {
+    ScanRecord record;
+    std::string state;  ///< queued, running, done, failed, kept
+    std::string step;
+    double progress = 0;
+    std::string reason;  ///< why it failed, or the pipeline's verdict
+    std::filesystem::path folder;
+};
+
+/// A line of the worklist.
+struct WorklistRow {
+    CaseRecord record;
+    std::string state;
+    std::string reason;
+    double progress = 0;  ///< of its jobs together, 0 to 1
+    int markers = 0;
+    int reports = 0;  ///< how many were written
+    std::vector<WorklistScanRow> scans;
+};
+
+/// What the reading room needs from rooms it does not know; `app` gives it. Each is called on a thread other than the
+/// window's, with that thread's connection to the store.
+struct ReadingServices {
+    std::filesystem::path store;
+    std::function<std::vector<WorklistRow>(CaseStore&)> worklist;
+    /// Puts the failed jobs of a case back into the queue.
+    std::function<void(CaseStore&, const std::string& case_id)> retry;
+    /// Fills in a marker's stations and its part of the colon; throws where the point is not in the colon.
+    std::function<Marker(CaseStore&, const std::string& case_id, Marker)> place;
+    /// Writes a report and returns its file.
+    std::function<std::filesystem::path(CaseStore&, const std::string& case_id)> report;
+};
+
+/// The worklist's window; it opens cases in windows of their own. `case_id` not empty: opens that case at once.
+std::unique_ptr<QWidget> makeReadingRoom(const ReadingServices& services, const std::string& case_id = {});
+
+/// Shows the reading room until its windows are closed, or `stop` is set. Returns the exit code.
+/// Throws Error{no_display} where no window can be shown.
+int runReadingRoom(const ReadingServices& services, const std::string& case_id, const std::atomic<bool>& stop);
+
+}  // namespace vicon::viewer

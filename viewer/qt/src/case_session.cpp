@@ -1,0 +1,176 @@
+#include "case_session.h"
+
+#include <algorithm>
+
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+#include "vicon/viewer/scene/canvas.h"
+
+namespace vicon::viewer {
+namespace {
+
+nlohmann::json jsonOf(const std::vector<Marker>& markers)
+{
+    nlohmann::json list = nlohmann::json::array();
+    for (const Marker& marker : markers)
+        list.push_back(toJson(marker));
+    return list;
+}
+
+}  // namespace
+
+OpenScan::OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case)
+    : files(std::move(prepared)),
+      record(scan),
+      caption(captionFor(a_case, scan)),
+      lumen(files.lumen()),
+      navigator(files.frames(), lumen, files.exitDistance())
+{
+}
+
+CaseSession::CaseSession(const ReadingServices& services, const WorklistRow& row)
+    : services_(services), row_(row), history_(row.record.id)
+{
+    for (const WorklistScanRow& scan : row.scans)
+        if (scan.state == "done" && scan.reason.empty())
+            scans_.push_back(scan.record);
+    connect(&worker_, &Worker::failed, this, &CaseSession::warned);
+    connect(&loader_, &Worker::failed, this, &CaseSession::warned);
+    refresh();
+}
+
+CaseStore& CaseSession::store()
+{
+    if (!store_)
+        store_ = std::make_unique<CaseStore>(services_.store);
+    return *store_;
+}
+
+std::vector<Marker> CaseSession::markersOf(const std::string& scan_id) const
+{
+    std::vector<Marker> some;
+    std::copy_if(markers_.begin(), markers_.end(), std::back_inserter(some),
+                 [&](const Marker& marker) { return marker.scan_id == scan_id; });
+    return some;
+}
+
+void CaseSession::open(const std::string& scan_id)
+{
+    const auto row = std::find_if(row_.scans.begin(), row_.scans.end(),
+                                  [&](const WorklistScanRow& scan) { return scan.record.id == scan_id; });
+    if (row == row_.scans.end())
+        return;
+    wanted_scan_ = scan_id;
+    loader_.post("open", [this, folder = row->folder, scan = row->record]() -> Worker::Work {
+        auto files = PreparedScan::open(folder);
+        files.volume();
+        files.cells();
+        files.segments();
+        files.subdivision();
+        auto made = std::make_shared<OpenScan>(files, scan, row_.record);
+        return [this, made] {
+            if (made->record.id != wanted_scan_)
+                return;
+            scan_ = made;
+            emit opened();
+        };
+    });
+}
+
+void CaseSession::edit(const QString& what, Edit work)
+{
+    worker_.postAlways([this, what, work = std::move(work)]() -> Worker::Work {
+        std::string trouble;
+        try {
+            work(store(), history_);
+        } catch (const Error& e) {
+            trouble = e.what();  // the list is shown as it is now, whatever happened
+        }
+        auto markers = store().markers(row_.record.id);
+        return
+            [this, what, trouble, markers = std::move(markers), undo = history_.canUndo(), redo = history_.canRedo()] {
+                markers_ = markers;
+                can_undo_ = undo;
+                can_redo_ = redo;
+                emit markersChanged();
+                if (trouble.empty())
+                    emit saved(what);
+                else
+                    emit warned(QString::fromStdString(trouble));
+            };
+    });
+}
+
+void CaseSession::addMarker(const Marker& marker)
+{
+    edit(tr("Marker saved"), [this, marker](CaseStore& store, MarkerHistory& history) {
+        history.add(store, services_.place(store, row_.record.id, marker));
+    });
+}
+
+void CaseSession::changeMarker(const Marker& before, const Marker& after, bool moved)
+{
+    edit(tr("Change saved"), [this, before, after, moved](CaseStore& store, MarkerHistory& history) {
+        history.change(store, before, moved ? services_.place(store, row_.record.id, after) : after);
+    });
+}
+
+void CaseSession::removeMarker(const Marker& marker)
+{
+    edit(tr("Marker deleted"), [marker](CaseStore& store, MarkerHistory& history) { history.remove(store, marker); });
+}
+
+void CaseSession::undo()
+{
+    edit(tr("Undone"), [](CaseStore& store, MarkerHistory& history) { history.undo(store); });
+}
+
+void CaseSession::redo()
+{
+    edit(tr("Done again"), [](CaseStore& store, MarkerHistory& history) { history.redo(store); });
+}
+
+void CaseSession::refresh()
+{
+    worker_.post("refresh", [this]() -> Worker::Work {
+        store().requireCase(row_.record.id);
+        return [this, markers = store().markers(row_.record.id)] {
+            if (markers_known_ && jsonOf(markers) == jsonOf(markers_))
+                return;
+            const bool by_other = markers_known_;
+            markers_known_ = true;
+            markers_ = markers;
+            emit markersChanged();
+            if (by_other)
+                emit warned(
+                    tr("Another reader changed the markers of this case; the list shows them as they are now."));
+        };
+    });
+}
+
+void CaseSession::savePicture(const QImage& picture)
+{
+    worker_.postAlways([this, picture = picture.convertToFormat(QImage::Format_RGB888)]() -> Worker::Work {
+        const std::string& id = row_.record.id;
+        store().requireCase(id);
+        const auto folder = store().caseFolder(id) / "pictures";
+        makePrivateFolder(folder);
+        const auto file = folder / (std::to_string(store().nextNumber("picture " + id)) + ".png");
+        Picture out(picture.width(), picture.height());
+        for (int y = 0; y < out.height; ++y)
+            std::copy_n(picture.constScanLine(y), 3 * out.width, out.rgb.begin() + std::ptrdiff_t(y) * 3 * out.width);
+        writePng(file, out);
+        store().audit("picture saved", id, "", file.filename().string());
+        return [this, name = QString::fromStdString(file.string())] { emit saved(tr("Picture saved: %1").arg(name)); };
+    });
+}
+
+void CaseSession::writeReport()
+{
+    worker_.postAlways([this]() -> Worker::Work {
+        const auto file = services_.report(store(), row_.record.id);
+        return [this, name = QString::fromStdString(file.string())] { emit reportWritten(name); };
+    });
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <QImage>
+#include <QObject>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "vicon/viewer/model/marker_history.h"
+#include "vicon/viewer/model/navigator.h"
+#include "vicon/viewer/qt/reading_room.h"
+#include "vicon/viewer/scene/prepared_scan.h"
+#include "vicon/viewer/scene/snapshot.h"
+#include "worker.h"
+
+namespace vicon::viewer {
+
+/// A scan that is open: its files, read, and where the eye is in it.
+struct OpenScan {
+    PreparedScan files;
+    ScanRecord record;
+    Caption caption;
+    Lumen lumen;
+    Navigator navigator;
+
+    OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case);
+};
+
+/// A case that is open: its scans and its markers, with one thread that speaks to the database. A change of a marker
+/// is shown when it has been saved.
+class CaseSession : public QObject {
+    Q_OBJECT
+public:
+    CaseSession(const ReadingServices& services, const WorklistRow& row);
+
+    const CaseRecord& record() const { return row_.record; }
+    /// Those that can be shown: their jobs are done and found a colon.
+    const std::vector<ScanRecord>& scans() const { return scans_; }
+    const std::vector<Marker>& markers() const { return markers_; }
+    std::vector<Marker> markersOf(const std::string& scan_id) const;
+
+    /// Reads a scan's files; opened() follows, or failed().
+    void open(const std::string& scan_id);
+    OpenScan* scan() const { return scan_.get(); }
+    std::shared_ptr<OpenScan> sharedScan() const { return scan_; }
+
+    void addMarker(const Marker& marker);
+    void changeMarker(const Marker& before, const Marker& after, bool moved);
+    void removeMarker(const Marker& marker);
+    void undo();
+    void redo();
+    bool canUndo() const { return can_undo_; }
+    bool canRedo() const { return can_redo_; }
+    /// Looks whether another reader changed something.
+    void refresh();
+    void writeReport();
+    /// Keeps a picture in the case's folder, "pictures/1.png" and on.
+    void savePicture(const QImage& picture);
+
+signals:
+    void opened();
+    void markersChanged();
+    void saved(const QString& what);
+    void warned(const QString& message);
+    void reportWritten(const QString& file);
+
+private:
+    using Edit = std::function<void(CaseStore&, MarkerHistory&)>;
+    void edit(const QString& what, Edit work);
+    CaseStore& store();  // on the worker's thread
+
+    ReadingServices services_;
+    WorklistRow row_;
+    std::vector<ScanRecord> scans_;
+    std::vector<Marker> markers_;
+    std::shared_ptr<OpenScan> scan_;
+    std::string wanted_scan_;
+    bool can_undo_ = false, can_redo_ = false;
+    bool markers_known_ = false;
+    MarkerHistory history_;             // the worker's
+    std::unique_ptr<CaseStore> store_;  // the worker's
+    Worker loader_;
+    Worker worker_;  // last: it ends first
+};
+
+}  // namespace vicon::viewer

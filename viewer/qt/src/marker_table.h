@@ -1,0 +1,49 @@
+#pragma once
+
+#include <QWidget>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vicon/core/records.h"
+
+class QTableWidget;
+class QPushButton;
+class QComboBox;
+
+namespace vicon::viewer {
+
+/// The markers of a case; the note can be written in its cell.
+class MarkerTable : public QWidget {
+    Q_OBJECT
+public:
+    explicit MarkerTable(QWidget* parent = nullptr);
+
+    /// @param positions of the scans by id: "supine", "prone"
+    void show(const std::vector<Marker>& markers, const std::map<std::string, std::string>& positions);
+    void setUndo(bool can_undo, bool can_redo);
+    std::optional<Marker> selected() const;
+    void select(const std::string& id);
+
+signals:
+    void flyWanted(const vicon::Marker& marker);
+    void changed(const vicon::Marker& before, const vicon::Marker& after);
+    void removeWanted(const vicon::Marker& marker);
+    void pairWanted(const vicon::Marker& marker);
+    void moveWanted(const vicon::Marker& marker);
+    void undoWanted();
+    void redoWanted();
+
+private:
+    void updateButtons();
+    void noteEdited(int row, int column);
+
+    std::vector<Marker> markers_;
+    bool filling_ = false;
+    QTableWidget* table_;
+    QComboBox* color_;
+    QPushButton *go_, *move_, *pair_, *remove_, *undo_, *redo_;
+};
+
+}  // namespace vicon::viewer

@@ -1,0 +1,101 @@
+#include "navigation_panel.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSlider>
+
+#include "vicon/viewer/model/annotate.h"
+
+namespace vicon::viewer {
+namespace {
+constexpr double kStep_mm = 10;
+}
+
+NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
+{
+    auto* grid = new QGridLayout(this);
+    grid->setContentsMargins(2, 2, 2, 2);
+    const auto named = [](auto* widget, const char* name, const QString& title, const QString& tip) {
+        widget->setObjectName(name);
+        widget->setAccessibleName(title);
+        widget->setToolTip(tip);
+        return widget;
+    };
+    const auto button = [&](const QString& face, const char* name, const QString& title, const QString& tip) {
+        return named(new QPushButton(face, this), name, title, tip);
+    };
+    mode_ = named(new QComboBox(this), "mode", tr("Kind of flight"),
+                  tr("Planned: along the path (P). Guided: steered, back on the path when let go (G). Free (F)."));
+    mode_->addItems({tr("planned"), tr("guided"), tr("free")});
+    back_ = button(tr("Back"), "back", tr("Fly back"), tr("Fly backwards"));
+    stop_ = button(tr("Stop"), "stop", tr("Stop"), tr("Stop (Space)"));
+    forward_ = button(tr("Fly"), "forward", tr("Fly on"), tr("Fly the way that is chosen (Space)"));
+    about_ = button(tr("To caecum"), "about", tr("Way of flight"), tr("Turn about (R)"));
+    look_back_ = button(tr("Look back"), "lookBack", tr("Look back"), tr("Look back while flying on (B)"));
+    look_back_->setCheckable(true);
+    step_back_ = button(tr("-1 cm"), "stepBack", tr("A centimetre back"), tr("A centimetre back (,)"));
+    step_on_ = button(tr("+1 cm"), "stepOn", tr("A centimetre on"), tr("A centimetre on (.)"));
+    speed_ = named(new QSlider(Qt::Horizontal, this), "speed", tr("Speed"), tr("Speed of flight (+, -)"));
+    speed_->setRange(int(Navigator::kLeastSpeed_mm_s), int(Navigator::kMostSpeed_mm_s));
+    speed_text_ = new QLabel(this);
+    station_ = named(new QDoubleSpinBox(this), "station", tr("Distance from the rectum"), tr("Where to jump to"));
+    station_->setDecimals(0);
+    station_->setSuffix(tr(" mm"));
+    station_->setKeyboardTracking(false);
+    go_ = button(tr("Jump"), "jump", tr("Jump to this distance from the rectum"), tr("Jump there"));
+    where_ = named(new QLabel(this), "where", tr("Place"), tr("Where the eye is"));
+    where_->setWordWrap(true);
+
+    grid->addWidget(mode_, 0, 0);
+    grid->addWidget(back_, 0, 1);
+    grid->addWidget(stop_, 0, 2);
+    grid->addWidget(forward_, 0, 3);
+    grid->addWidget(about_, 1, 0);
+    grid->addWidget(look_back_, 1, 1);
+    grid->addWidget(step_back_, 1, 2);
+    grid->addWidget(step_on_, 1, 3);
+    grid->addWidget(speed_, 2, 0, 1, 3);
+    grid->addWidget(speed_text_, 2, 3);
+    grid->addWidget(station_, 3, 0, 1, 3);
+    grid->addWidget(go_, 3, 3);
+    grid->addWidget(where_, 4, 0, 1, 4);
+
+    connect(mode_, qOverload<int>(&QComboBox::activated), this,
+            [this](int index) { emit modeWanted(NavigationMode(index)); });
+    connect(back_, &QPushButton::clicked, this, [this] { emit flyWanted(-1); });
+    connect(stop_, &QPushButton::clicked, this, [this] { emit flyWanted(0); });
+    connect(forward_, &QPushButton::clicked, this, [this] { emit flyWanted(1); });
+    connect(about_, &QPushButton::clicked, this, &NavigationPanel::turnAboutWanted);
+    connect(look_back_, &QPushButton::clicked, this, &NavigationPanel::lookBackWanted);
+    connect(step_back_, &QPushButton::clicked, this, [this] { emit stepWanted(-kStep_mm); });
+    connect(step_on_, &QPushButton::clicked, this, [this] { emit stepWanted(kStep_mm); });
+    connect(speed_, &QSlider::valueChanged, this, [this](int mm_s) { emit speedWanted(mm_s); });
+    connect(go_, &QPushButton::clicked, this, [this] { emit jumpWanted(station_->value()); });
+}
+
+void NavigationPanel::show(const Navigator& navigator, double length_mm)
+{
+    const NavigationState state = navigator.state();
+    const bool planned = navigator.mode() == NavigationMode::planned, free = navigator.mode() == NavigationMode::free;
+    mode_->setCurrentIndex(int(navigator.mode()));
+    back_->setEnabled(!free);
+    forward_->setEnabled(!free);
+    stop_->setEnabled(!free);
+    look_back_->setEnabled(planned);
+    look_back_->setChecked(navigator.looksBack());
+    about_->setText(navigator.heading() == Heading::caecum ? tr("To caecum") : tr("To rectum"));
+    {
+        const QSignalBlocker quiet(speed_);
+        speed_->setValue(int(navigator.speed_mm_s()));
+    }
+    speed_->setEnabled(navigator.mode() != NavigationMode::guided);
+    speed_text_->setText(tr("%1 mm/s").arg(navigator.speed_mm_s(), 0, 'f', 0));
+    station_->setRange(0, length_mm);
+    const auto texts = stationTexts(state.station_mm, length_mm);
+    where_->setText(QString::fromStdString(texts[0]) + ", " + QString::fromStdString(texts[1]));
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <QWidget>
+
+#include "vicon/viewer/model/navigator.h"
+
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QPushButton;
+class QSlider;
+
+namespace vicon::viewer {
+
+/// The controls of flight.
+class NavigationPanel : public QWidget {
+    Q_OBJECT
+public:
+    explicit NavigationPanel(QWidget* parent = nullptr);
+    void show(const Navigator& navigator, double length_mm);
+
+signals:
+    void modeWanted(vicon::viewer::NavigationMode mode);
+    void flyWanted(int direction);
+    void turnAboutWanted();
+    void lookBackWanted(bool on);
+    void speedWanted(double mm_s);
+    void stepWanted(double mm);
+    void jumpWanted(double station_mm);
+
+private:
+    QComboBox* mode_;
+    QPushButton *back_, *stop_, *forward_, *about_, *look_back_, *step_back_, *step_on_, *go_;
+    QSlider* speed_;
+    QDoubleSpinBox* station_;
+    QLabel *speed_text_, *where_;
+};
+
+}  // namespace vicon::viewer

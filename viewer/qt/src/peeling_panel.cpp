@@ -1,0 +1,63 @@
+#include "peeling_panel.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QSlider>
+
+namespace vicon::viewer {
+namespace {
+constexpr double kTick_mm = 0.1;
+constexpr double kMostOffset_mm = 20;
+}  // namespace
+
+PeelingPanel::PeelingPanel(QWidget* parent) : QWidget(parent)
+{
+    preset_ = new QComboBox(this);
+    preset_->setObjectName("peel");
+    preset_->setAccessibleName(tr("Look below the wall"));
+    preset_->setToolTip(tr("Colours of the look below the wall"));
+    preset_->addItem(tr("no peeling"), QString());
+    for (const TransferFunction& function : transferFunctions())
+        preset_->addItem(QString::fromStdString(function.title), QString::fromStdString(function.name));
+    offset_ = new QSlider(Qt::Horizontal, this);
+    offset_->setObjectName("peelOffset");
+    offset_->setAccessibleName(tr("Depth of the look below the wall"));
+    offset_->setToolTip(tr("How far below the surface the look begins"));
+    offset_->setRange(0, int(kMostOffset_mm / kTick_mm));
+    offset_text_ = new QLabel(this);
+    circle_ = new QCheckBox(tr("only in a circle"), this);
+    circle_->setObjectName("peelCircle");
+    circle_->setToolTip(tr("Peel in a circle in the middle, the surface stays around it"));
+    auto* grid = new QGridLayout(this);
+    grid->setContentsMargins(2, 2, 2, 2);
+    grid->addWidget(preset_, 0, 0);
+    grid->addWidget(circle_, 0, 1);
+    grid->addWidget(offset_, 1, 0);
+    grid->addWidget(offset_text_, 1, 1);
+    const auto tell = [this] {
+        offset_->setEnabled(on());
+        circle_->setEnabled(on());
+        offset_text_->setText(tr("%1 mm deep").arg(offset_->value() * kTick_mm, 0, 'f', 1));
+        emit changed();
+    };
+    connect(preset_, qOverload<int>(&QComboBox::currentIndexChanged), this, tell);
+    connect(offset_, &QSlider::valueChanged, this, tell);
+    connect(circle_, &QCheckBox::toggled, this, tell);
+    tell();
+}
+
+bool PeelingPanel::on() const
+{
+    return !preset_->currentData().toString().isEmpty();
+}
+
+void PeelingPanel::fill(SnapshotRequest& request) const
+{
+    request.peel = preset_->currentData().toString().toStdString();
+    request.peeling.offset_mm = offset_->value() * kTick_mm;
+    request.peel_middle_only = circle_->isChecked();
+}
+
+}  // namespace vicon::viewer

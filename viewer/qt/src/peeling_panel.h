@@ -1,0 +1,33 @@
+#pragma once
+
+#include <QWidget>
+
+#include "vicon/viewer/scene/snapshot.h"
+
+class QCheckBox;
+class QComboBox;
+class QSlider;
+class QLabel;
+
+namespace vicon::viewer {
+
+/// What lies below the wall: with which colours, from how deep on, everywhere or in a circle.
+class PeelingPanel : public QWidget {
+    Q_OBJECT
+public:
+    explicit PeelingPanel(QWidget* parent = nullptr);
+    bool on() const;
+    /// Puts the choice into a request for an endoscopic picture.
+    void fill(SnapshotRequest& request) const;
+
+signals:
+    void changed();
+
+private:
+    QComboBox* preset_;
+    QSlider* offset_;
+    QLabel* offset_text_;
+    QCheckBox* circle_;
+};
+
+}  // namespace vicon::viewer

@@ -1,0 +1,97 @@
+#include "picture_view.h"
+
+#include <QApplication>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QWheelEvent>
+
+#include "vicon/viewer/scene/snapshot.h"
+
+namespace vicon::viewer {
+
+PictureView::PictureView(const QString& name, QWidget* parent) : QWidget(parent)
+{
+    setAccessibleName(name);
+    setMinimumSize(SnapshotRequest::kLeastSide, SnapshotRequest::kLeastSide);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    setFocusPolicy(Qt::ClickFocus);
+    setAttribute(Qt::WA_OpaquePaintEvent);
+}
+
+void PictureView::showPicture(const Picture& picture)
+{
+    image_ = QImage(picture.rgb.data(), picture.width, picture.height, 3 * picture.width, QImage::Format_RGB888).copy();
+    image_.setDevicePixelRatio(devicePixelRatioF());
+    update();
+}
+
+QSize PictureView::pictureSize() const
+{
+    const QSize wanted = size() * devicePixelRatioF();
+    return wanted.boundedTo({SnapshotRequest::kMostSide, SnapshotRequest::kMostSide})
+        .expandedTo({SnapshotRequest::kLeastSide, SnapshotRequest::kLeastSide});
+}
+
+QPointF PictureView::toWidget(Pixel at) const
+{
+    return QPointF(at.x, at.y) / devicePixelRatioF();
+}
+
+void PictureView::paintEvent(QPaintEvent*)
+{
+    QPainter painter(this);
+    painter.fillRect(rect(), Qt::black);
+    painter.drawImage(0, 0, image_);
+}
+
+void PictureView::resizeEvent(QResizeEvent*)
+{
+    emit resized();
+}
+
+void PictureView::mousePressEvent(QMouseEvent* event)
+{
+    pressed_ = last_ = event->pos();
+    button_ = event->button();
+    dragging_ = false;
+}
+
+void PictureView::mouseMoveEvent(QMouseEvent* event)
+{
+    if (button_ == Qt::NoButton)
+        return;
+    dragging_ = dragging_ || (event->pos() - pressed_).manhattanLength() >= QApplication::startDragDistance();
+    if (!dragging_)
+        return;
+    emit dragged(QPointF(event->pos() - last_) * devicePixelRatioF(), button_);
+    last_ = event->pos();
+}
+
+void PictureView::mouseReleaseEvent(QMouseEvent* event)
+{
+    const bool was_click = !dragging_ && button_ == Qt::LeftButton && event->button() == Qt::LeftButton;
+    if (dragging_)
+        emit dragEnded();
+    button_ = Qt::NoButton;
+    dragging_ = false;
+    const double ratio = devicePixelRatioF();
+    if (was_click && !image_.isNull())
+        emit clicked({(event->pos().x() + 0.5) * ratio, (event->pos().y() + 0.5) * ratio}, event->modifiers());
+}
+
+void PictureView::mouseDoubleClickEvent(QMouseEvent*)
+{
+    emit enlargeWanted();
+}
+
+void PictureView::wheelEvent(QWheelEvent* event)
+{
+    constexpr int kStep = 120;  // Qt: one notch of a usual wheel
+    wheel_ += event->angleDelta().y();
+    if (const int steps = wheel_ / kStep) {
+        wheel_ -= steps * kStep;
+        emit turned(steps, event->modifiers());
+    }
+}
+
+}  // namespace vicon::viewer

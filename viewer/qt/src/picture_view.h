@@ -1,0 +1,49 @@
+#pragma once
+
+#include <QImage>
+#include <QWidget>
+
+#include "vicon/viewer/model/camera.h"
+#include "vicon/viewer/scene/canvas.h"
+
+namespace vicon::viewer {
+
+/// Shows a picture that a worker made, and says in the picture's own pixels what the mouse does on it.
+class PictureView : public QWidget {
+    Q_OBJECT
+public:
+    explicit PictureView(const QString& name, QWidget* parent = nullptr);
+
+    void showPicture(const Picture& picture);
+    const QImage& image() const { return image_; }
+    /// Size that a picture should have, in device pixels.
+    QSize pictureSize() const;
+    /// From picture pixels to the widget's place.
+    QPointF toWidget(Pixel at) const;
+
+signals:
+    void clicked(vicon::viewer::Pixel at, Qt::KeyboardModifiers modifiers);
+    void enlargeWanted();
+    void dragged(QPointF by, Qt::MouseButton button);  ///< in device pixels
+    void dragEnded();
+    void turned(int steps, Qt::KeyboardModifiers modifiers);
+    void resized();
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void mouseDoubleClickEvent(QMouseEvent* event) override;
+    void wheelEvent(QWheelEvent* event) override;
+
+private:
+    QImage image_;
+    QPoint pressed_, last_;
+    Qt::MouseButton button_ = Qt::NoButton;
+    bool dragging_ = false;
+    int wheel_ = 0;  // eighths of a degree not yet reported
+};
+
+}  // namespace vicon::viewer

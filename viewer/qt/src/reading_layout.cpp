@@ -1,0 +1,202 @@
+#include <QAction>
+#include <QComboBox>
+#include <QGroupBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QSplitter>
+#include <QVBoxLayout>
+
+#include "reading_window.h"
+#include "vicon/viewer/model/window_level.h"
+
+namespace vicon::viewer {
+namespace {
+
+QWidget* group(const QString& title, QWidget* inside)
+{
+    auto* box = new QGroupBox(title);
+    auto* layout = new QVBoxLayout(box);
+    layout->setContentsMargins(4, 4, 4, 4);
+    layout->addWidget(inside);
+    return box;
+}
+
+}  // namespace
+
+QWidget* ReadingWindow::buildTop()
+{
+    auto* top = new QWidget(this);
+    auto* row = new QHBoxLayout(top);
+    row->setContentsMargins(4, 2, 4, 2);
+    scan_choice_ = new QComboBox(top);
+    scan_choice_->setObjectName("scan");
+    scan_choice_->setAccessibleName(tr("Scan"));
+    scan_choice_->setToolTip(tr("Supine or prone; the other one opens at the same part of the way (Tab)"));
+    window_choice_ = new QComboBox(top);
+    window_choice_->setObjectName("window");
+    window_choice_->setAccessibleName(tr("Window of the slices"));
+    window_choice_->setToolTip(tr("Window and level of the slices"));
+    for (const WindowLevel& window : windowPresets())
+        window_choice_->addItem(QString::fromStdString(window.name));
+    notice_ = new QLabel(top);
+    notice_->setObjectName("notice");
+    warning_ = new QLabel(top);
+    warning_->setObjectName("warning");
+    warning_->setWordWrap(true);
+    warning_->setStyleSheet("color: #ff9a4a; font-weight: bold;");
+    row->addWidget(scan_choice_);
+    row->addWidget(window_choice_);
+    row->addWidget(notice_);
+    row->addWidget(warning_, 1);
+    return top;
+}
+
+QWidget* ReadingWindow::buildSide()
+{
+    table_ = new MarkerTable;
+    navigation_ = new NavigationPanel;
+    peeling_ = new PeelingPanel;
+    auto* side = new QWidget;
+    auto* column = new QVBoxLayout(side);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->addWidget(overview_, 3);
+    column->addWidget(group(tr("Flight"), navigation_));
+    column->addWidget(group(tr("Markers"), table_), 2);
+    column->addWidget(group(tr("Below the wall"), peeling_));
+    return side;
+}
+
+void ReadingWindow::buildViews()
+{
+    endoscopic_ = new PictureView(tr("Endoscopic view"));
+    endoscopic_->setObjectName("endoscopic");
+    endoscopic_->setToolTip(
+        tr("Click: slices there. Drag: steer. Wheel: on and back. Double click: enlarge. "
+           "Shift and click: marker."));
+    overview_ = new PictureView(tr("Projection of the colon"));
+    overview_->setObjectName("overview");
+    overview_->setToolTip(tr("Click: go there"));
+    transverse_ = new SliceView(SlicePlane::transverse, tr("Transverse slice"));
+    coronal_ = new SliceView(SlicePlane::coronal, tr("Coronal slice"));
+    sagittal_ = new SliceView(SlicePlane::sagittal, tr("Sagittal slice"));
+    transverse_->setObjectName("transverse");
+    coronal_->setObjectName("coronal");
+    sagittal_->setObjectName("sagittal");
+
+    auto* slices = new QSplitter(Qt::Vertical);
+    for (SliceView* slice : {transverse_, coronal_, sagittal_})
+        slices->addWidget(slice);
+    slices->setObjectName("slices");
+    side_ = buildSide();
+    auto* columns = new QSplitter(Qt::Horizontal);
+    columns->addWidget(endoscopic_);
+    columns->addWidget(slices);
+    columns->addWidget(side_);
+    columns->setStretchFactor(0, 5);
+    columns->setStretchFactor(1, 2);
+    columns->setStretchFactor(2, 3);
+    auto* all = new QWidget(this);
+    auto* layout = new QVBoxLayout(all);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(buildTop());
+    layout->addWidget(columns, 1);
+    setCentralWidget(all);
+}
+
+void ReadingWindow::enlarge(QWidget* view)
+{
+    enlarged_ = enlarged_ == view ? nullptr : view;
+    const auto shown = [&](QWidget* widget) { return !enlarged_ || enlarged_ == widget; };
+    bool any_slice = false;
+    for (QWidget* slice :
+         {static_cast<QWidget*>(transverse_), static_cast<QWidget*>(coronal_), static_cast<QWidget*>(sagittal_)}) {
+        slice->setVisible(shown(slice));
+        any_slice = any_slice || shown(slice);
+    }
+    transverse_->parentWidget()->setVisible(any_slice);
+    endoscopic_->setVisible(shown(endoscopic_));
+}
+
+void ReadingWindow::addActions()
+{
+    const auto add = [this](QMenu* menu, const QString& title, const QKeySequence& key, auto what) {
+        QAction* action = menu->addAction(title);
+        action->setShortcut(key);
+        connect(action, &QAction::triggered, this, what);
+    };
+    QMenu* a_case = menuBar()->addMenu(tr("&Case"));
+    add(a_case, tr("Save picture to the case"), QKeySequence("Ctrl+S"), [this] { snapshot(false); });
+    add(a_case, tr("Copy picture"), QKeySequence("Ctrl+C"), [this] { snapshot(true); });
+    add(a_case, tr("Write report"), QKeySequence("Ctrl+P"), [this] {
+        tell(tr("Writing the report ..."));
+        session_.writeReport();
+    });
+    add(a_case, tr("Close"), QKeySequence("Ctrl+W"), [this] { close(); });
+    QMenu* edit = menuBar()->addMenu(tr("&Edit"));
+    add(edit, tr("Undo"), QKeySequence("Ctrl+Z"), [this] { session_.undo(); });
+    add(edit, tr("Redo"), QKeySequence("Ctrl+Y"), [this] { session_.redo(); });
+    add(edit, tr("Red marker at the next click"), QKeySequence("1"), [this] { arm(MarkerColor::red); });
+    add(edit, tr("Yellow marker at the next click"), QKeySequence("2"), [this] { arm(MarkerColor::yellow); });
+    add(edit, tr("Green marker at the next click"), QKeySequence("3"), [this] { arm(MarkerColor::green); });
+    add(edit, tr("No marker after all"), QKeySequence("Esc"), [this] { arm({}); });
+    add(edit, tr("Delete marker"), QKeySequence("Del"), [this] {
+        if (const auto marker = table_->selected())
+            session_.removeMarker(*marker);
+    });
+    QMenu* flight = menuBar()->addMenu(tr("&Flight"));
+    add(flight, tr("Planned"), QKeySequence("P"), [this] { setMode(NavigationMode::planned); });
+    add(flight, tr("Guided"), QKeySequence("G"), [this] { setMode(NavigationMode::guided); });
+    add(flight, tr("Free"), QKeySequence("F"), [this] { setMode(NavigationMode::free); });
+    add(flight, tr("Fly or stop"), QKeySequence("Space"),
+        [this] { fly(navigator() && navigator()->direction() ? 0 : 1); });
+    add(flight, tr("Turn about"), QKeySequence("R"), [this] { turnAbout(); });
+    add(flight, tr("Look back"), QKeySequence("B"),
+        [this] { emit navigation_->lookBackWanted(navigator() && !navigator()->looksBack()); });
+    add(flight, tr("A centimetre on"), QKeySequence("."), [this] { emit navigation_->stepWanted(10); });
+    add(flight, tr("A centimetre back"), QKeySequence(","), [this] { emit navigation_->stepWanted(-10); });
+    add(flight, tr("To the rectum"), QKeySequence("Home"), [this] { emit navigation_->jumpWanted(0); });
+    add(flight, tr("To the caecum"), QKeySequence("End"), [this] { emit navigation_->jumpWanted(1e9); });
+    add(flight, tr("Faster"), QKeySequence("+"), [this] {
+        if (navigator())
+            emit navigation_->speedWanted(navigator()->speed_mm_s() + 5);
+    });
+    add(flight, tr("Slower"), QKeySequence("-"), [this] {
+        if (navigator())
+            emit navigation_->speedWanted(navigator()->speed_mm_s() - 5);
+    });
+    QMenu* view = menuBar()->addMenu(tr("&View"));
+    add(view, tr("Whole slices"), QKeySequence("0"), [this] {
+        for (SliceView* slice : {transverse_, coronal_, sagittal_})
+            slice->resetView();
+    });
+    add(view, tr("Other scan"), QKeySequence("X"), [this] {
+        if (scan_choice_->count() < 2)
+            return;
+        scan_choice_->setCurrentIndex((scan_choice_->currentIndex() + 1) % scan_choice_->count());
+        emit scan_choice_->activated(scan_choice_->currentIndex());
+    });
+    add(menuBar()->addMenu(tr("&Help")), tr("Keys"), QKeySequence("?"), [this] { showKeys(); });
+}
+
+void ReadingWindow::showKeys()
+{
+    QString text = "<table>";
+    for (const QMenu* menu : menuBar()->findChildren<QMenu*>())
+        for (const QAction* action : menu->actions())
+            if (!action->shortcut().isEmpty())
+                text += QString("<tr><td><b>%1</b>&nbsp;&nbsp;</td><td>%2</td></tr>")
+                            .arg(action->shortcut().toString().toHtmlEscaped(), action->text().toHtmlEscaped());
+    text +=
+        tr("<tr><td><b>W A S D</b></td><td>guided and free: on, left, back, right</td></tr>"
+           "<tr><td><b>arrows</b></td><td>guided and free: turn the view</td></tr>");
+    auto* box = new QMessageBox(QMessageBox::NoIcon, tr("Keys"), text + "</table>", QMessageBox::Close, this);
+    box->setObjectName("keys");
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->open();
+}
+
+}  // namespace vicon::viewer

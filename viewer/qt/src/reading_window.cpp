@@ -1,0 +1,302 @@
+#include "reading_window.h"
+
+#include <QCloseEvent>
+#include <QComboBox>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QSettings>
+#include <QStatusBar>
+
+#include "vicon/viewer/model/annotate.h"
+#include "vicon/viewer/model/window_level.h"
+
+namespace vicon::viewer {
+namespace {
+constexpr int kFrame_ms = 16;
+constexpr int kStill_ms = 150;  // after the last movement the picture is drawn smoothly
+constexpr int kPoll_ms = 2000;  // how often other readers' changes are looked for
+constexpr int kPeelCoarse = 3;  // while moving: a ray for 3 x 3 pixels
+}  // namespace
+
+ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistRow& row) : session_(services, row)
+{
+    setObjectName("reading");
+    setWindowTitle(tr("%1 - VICON").arg(QString::fromStdString(personName(row.record.patient.name))));
+    buildViews();
+    addActions();
+    connectAll();
+    for (const ScanRecord& scan : session_.scans())
+        scan_choice_->addItem(QString::fromStdString(positionName(scan.series.patient_position) + ", series " +
+                                                     std::to_string(scan.series.number)),
+                              QString::fromStdString(scan.id));
+    if (session_.scans().empty()) {
+        warn(tr("No scan of this case can be read yet."));
+        return;
+    }
+    QSettings settings;
+    const int known =
+        scan_choice_->findData(settings.value("place/" + QString::fromStdString(row.record.id) + "/scan"));
+    scan_choice_->setCurrentIndex(std::max(0, known));
+    tell(tr("Reading the scan ..."));
+    session_.open(scan_choice_->currentData().toString().toStdString());
+}
+
+ReadingWindow::~ReadingWindow() = default;
+
+void ReadingWindow::connectAll()
+{
+    connect(&session_, &CaseSession::opened, this, &ReadingWindow::scanOpened);
+    connect(&session_, &CaseSession::markersChanged, this, &ReadingWindow::markersChanged);
+    connect(&session_, &CaseSession::saved, this, &ReadingWindow::tell);
+    connect(&session_, &CaseSession::warned, this, &ReadingWindow::warn);
+    connect(&session_, &CaseSession::reportWritten, this,
+            [this](const QString& file) { tell(tr("Report written: %1").arg(file)); });
+    connect(&studio_, &Studio::failed, this, &ReadingWindow::warn);
+    connect(&studio_, &Studio::endoscopicDrawn, this,
+            [this](const Picture& picture, const Pose& pose, const Lens& lens) {
+                shown_pose_ = pose;
+                shown_lens_ = lens;
+                endoscopic_->showPicture(picture);
+            });
+    connect(&studio_, &Studio::overviewDrawn, this, [this](const Picture& picture, const PlaneView& view) {
+        shown_overview_ = view;
+        overview_shown_ = true;
+        overview_->showPicture(picture);
+    });
+    connect(endoscopic_, &PictureView::resized, this, [this] { drawEndoscopic(true); });
+    connect(endoscopic_, &PictureView::clicked, this, &ReadingWindow::clickedEndoscopic);
+    connect(endoscopic_, &PictureView::enlargeWanted, this, [this] { enlarge(endoscopic_); });
+    connect(endoscopic_, &PictureView::turned, this, [this](int steps) { emit navigation_->stepWanted(5.0 * steps); });
+    connect(endoscopic_, &PictureView::dragged, this, [this](QPointF by) {
+        if (navigator() && navigator()->mode() == NavigationMode::planned)
+            setMode(NavigationMode::guided);
+        const double full = endoscopic_->pictureSize().height() / 4.0;  // a drag this long steers fully
+        mouse_steering_ += QPointF(by.x() / full, -by.y() / full);
+        updateSteering();
+    });
+    connect(endoscopic_, &PictureView::dragEnded, this, [this] {
+        mouse_steering_ = {};
+        updateSteering();
+    });
+    connect(overview_, &PictureView::resized, this, &ReadingWindow::drawOverview);
+    connect(overview_, &PictureView::clicked, this, &ReadingWindow::clickedOverview);
+    for (SliceView* slice : {transverse_, coronal_, sagittal_}) {
+        connect(slice, &SliceView::pointClicked, this, &ReadingWindow::clickedSlice);
+        connect(slice, &SliceView::failed, this, &ReadingWindow::warn);
+        connect(slice, &PictureView::enlargeWanted, this, [this, slice] { enlarge(slice); });
+        connect(window_choice_, &QComboBox::currentTextChanged, slice,
+                [slice](const QString& name) { slice->setWindow(windowPreset(name.toStdString())); });
+    }
+    connect(scan_choice_, qOverload<int>(&QComboBox::activated), this, [this](int) {
+        savePlace();
+        if (navigator())
+            wanted_fraction_ = navigator()->state().station_mm / session_.scan()->files.frames().length_mm();
+        tell(tr("Reading the scan ..."));
+        session_.open(scan_choice_->currentData().toString().toStdString());
+    });
+    connect(peeling_, &PeelingPanel::changed, this, [this] {
+        drawEndoscopic(false);
+        still_.start();
+    });
+
+    connect(table_, &MarkerTable::flyWanted, this, &ReadingWindow::flyTo);
+    connect(table_, &MarkerTable::changed, this,
+            [this](const Marker& before, const Marker& after) { session_.changeMarker(before, after, false); });
+    connect(table_, &MarkerTable::removeWanted, &session_, &CaseSession::removeMarker);
+    connect(table_, &MarkerTable::pairWanted, this, &ReadingWindow::pair);
+    connect(table_, &MarkerTable::moveWanted, this, [this](const Marker& marker) {
+        moving_ = marker;
+        tell(tr("Click on the new place of %1").arg(QString::fromStdString(marker.id)));
+    });
+    connect(table_, &MarkerTable::undoWanted, &session_, &CaseSession::undo);
+    connect(table_, &MarkerTable::redoWanted, &session_, &CaseSession::redo);
+
+    const auto steered = [this](auto what) {
+        return [this, what](auto value) {
+            if (!navigator())
+                return;
+            focus_.reset();
+            (navigator()->*what)(value);
+            moved(false);
+        };
+    };
+    connect(navigation_, &NavigationPanel::modeWanted, this, &ReadingWindow::setMode);
+    connect(navigation_, &NavigationPanel::flyWanted, this, &ReadingWindow::fly);
+    connect(navigation_, &NavigationPanel::turnAboutWanted, this, &ReadingWindow::turnAbout);
+    connect(navigation_, &NavigationPanel::lookBackWanted, this, steered(&Navigator::setLookBack));
+    connect(navigation_, &NavigationPanel::speedWanted, this, steered(&Navigator::setSpeed));
+    connect(navigation_, &NavigationPanel::stepWanted, this, steered(&Navigator::step));
+    connect(navigation_, &NavigationPanel::jumpWanted, this, steered(&Navigator::jumpTo));
+
+    timer_.setTimerType(Qt::PreciseTimer);
+    timer_.setInterval(kFrame_ms);
+    connect(&timer_, &QTimer::timeout, this, &ReadingWindow::tick);
+    still_.setSingleShot(true);
+    still_.setInterval(kStill_ms);
+    connect(&still_, &QTimer::timeout, this, [this] { drawEndoscopic(true); });
+    poll_.setInterval(kPoll_ms);
+    connect(&poll_, &QTimer::timeout, &session_, &CaseSession::refresh);
+    poll_.start();
+}
+
+void ReadingWindow::scanOpened()
+{
+    overview_shown_ = false;
+    focus_.reset();
+    warning_->clear();
+    tell({});
+    restorePlace();
+    markersChanged();
+    clock_.start();
+    timer_.start();
+    moved(true);
+}
+
+void ReadingWindow::restorePlace()
+{
+    if (wanted_fraction_ >= 0) {
+        navigator()->jumpTo(wanted_fraction_ * session_.scan()->files.frames().length_mm());
+        wanted_fraction_ = -1;
+        return;
+    }
+    QSettings settings;
+    settings.beginGroup("place/" + QString::fromStdString(session_.record().id));
+    navigator()->setHeading(settings.value("to_rectum").toBool() ? Heading::rectum : Heading::caecum);
+    navigator()->jumpTo(settings.value(QString::fromStdString(session_.scan()->record.id), 0).toDouble());
+}
+
+void ReadingWindow::savePlace()
+{
+    if (!navigator())
+        return;
+    QSettings settings;
+    settings.beginGroup("place/" + QString::fromStdString(session_.record().id));
+    settings.setValue("scan", QString::fromStdString(session_.scan()->record.id));
+    settings.setValue("to_rectum", navigator()->heading() == Heading::rectum);
+    settings.setValue(QString::fromStdString(session_.scan()->record.id), navigator()->state().station_mm);
+}
+
+void ReadingWindow::tick()
+{
+    const double seconds = double(clock_.nsecsElapsed()) * 1e-9;
+    clock_.restart();
+    constexpr double kMost_s = 0.25;  // after a pause of the whole machine the flight does not leap
+    const Pose before = navigator()->state().pose;
+    navigator()->advance(std::min(seconds, kMost_s));
+    const NavigationState now = navigator()->state();
+    if (now.at_end && navigator()->direction() > 0)
+        navigator()->fly(0);
+    if (!(now.pose.eye_mm == before.eye_mm) || !(now.pose.forward == before.forward)) {
+        focus_.reset();
+        moved(false);
+    }
+}
+
+void ReadingWindow::moved(bool still)
+{
+    if (!navigator())
+        return;
+    drawEndoscopic(still);
+    if (!still)
+        still_.start();
+    drawOverview();
+    showPlace();
+}
+
+SnapshotRequest ReadingWindow::request(const QSize& size) const
+{
+    SnapshotRequest request;
+    request.width = size.width();
+    request.height = size.height();
+    request.view_angle_deg = view_angle_deg_;
+    request.caption = session_.scan()->caption;
+    request.markers = session_.markersOf(session_.scan()->record.id);
+    return request;
+}
+
+SnapshotResult ReadingWindow::place() const
+{
+    const NavigationState state = navigator()->state();
+    return {state.pose, state.station_mm, state.clearance_mm, true};
+}
+
+void ReadingWindow::drawEndoscopic(bool still)
+{
+    if (!session_.scan())
+        return;
+    SnapshotRequest wanted = request(endoscopic_->pictureSize());
+    peeling_->fill(wanted);
+    wanted.peel_coarse = still ? 1 : kPeelCoarse;
+    studio_.drawEndoscopic(session_.sharedScan(), wanted, place(), still);
+}
+
+void ReadingWindow::drawOverview()
+{
+    if (session_.scan())
+        studio_.drawOverview(session_.sharedScan(), request(overview_->pictureSize()), place());
+}
+
+void ReadingWindow::showPlace()
+{
+    const NavigationState state = navigator()->state();
+    navigation_->show(*navigator(), session_.scan()->files.frames().length_mm());
+    notice_->setText(state.carried ? tr("collapsed or narrow part: carried along the path") : QString());
+    const auto markers = session_.markersOf(session_.scan()->record.id);
+    for (SliceView* slice : {transverse_, coronal_, sagittal_})
+        slice->look(session_.sharedScan(), focus_.value_or(state.pose.eye_mm), state.pose, markers);
+}
+
+void ReadingWindow::markersChanged()
+{
+    std::map<std::string, std::string> positions;
+    for (const ScanRecord& scan : session_.scans())
+        positions[scan.id] = positionName(scan.series.patient_position);
+    table_->show(session_.markers(), positions);
+    table_->setUndo(session_.canUndo(), session_.canRedo());
+    moved(true);
+}
+
+void ReadingWindow::tell(const QString& message)
+{
+    statusBar()->showMessage(message);
+}
+
+void ReadingWindow::warn(const QString& message)
+{
+    warning_->setText(message);
+    warning_->setToolTip(message);
+}
+
+void ReadingWindow::keyPressEvent(QKeyEvent* event)
+{
+    if (event->isAutoRepeat())
+        return;
+    keys_.insert(event->key());
+    updateSteering();
+}
+
+void ReadingWindow::keyReleaseEvent(QKeyEvent* event)
+{
+    if (event->isAutoRepeat())
+        return;
+    keys_.erase(event->key());
+    updateSteering();
+}
+
+void ReadingWindow::changeEvent(QEvent* event)
+{
+    if (event->type() == QEvent::ActivationChange && !isActiveWindow()) {
+        keys_.clear();  // a key that is let go elsewhere would steer for ever
+        updateSteering();
+    }
+    QMainWindow::changeEvent(event);
+}
+
+void ReadingWindow::closeEvent(QCloseEvent* event)
+{
+    timer_.stop();
+    savePlace();
+    event->accept();
+}
+
+}  // namespace vicon::viewer

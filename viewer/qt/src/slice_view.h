@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+
+#include "case_session.h"
+#include "picture_view.h"
+#include "vicon/viewer/scene/reading_pictures.h"
+#include "worker.h"
+
+namespace vicon::viewer {
+
+/// A slice through the point that is looked at. The wheel scrolls, with Control it zooms, the middle or right button
+/// pans, a double click enlarges.
+class SliceView : public PictureView {
+    Q_OBJECT
+public:
+    SliceView(SlicePlane plane, const QString& name, QWidget* parent = nullptr);
+
+    /// Draws the slice through `point`, with the crosshair there.
+    void look(std::shared_ptr<OpenScan> scan, Point3 point, const Pose& pose, std::vector<Marker> markers);
+    void setWindow(const WindowLevel& window);
+    /// The whole scan, centred on the point.
+    void resetView();
+    const PlaneView& shown() const { return shown_; }
+
+signals:
+    void pointClicked(vicon::Point3 point, Qt::KeyboardModifiers modifiers);
+    void failed(const QString& message);
+
+private:
+    void draw();
+    void scroll(int steps, Qt::KeyboardModifiers modifiers);
+
+    SlicePlane plane_;
+    std::shared_ptr<OpenScan> scan_;
+    SliceRequest request_;
+    Vector3 pan_mm_;  // of the picture's middle from the point, across the plane as well
+    double zoom_ = 1;
+    PlaneView shown_;
+    Worker worker_;
+};
+
+}  // namespace vicon::viewer

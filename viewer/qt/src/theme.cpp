@@ -1,0 +1,33 @@
+#include "theme.h"
+
+#include <QApplication>
+#include <QPalette>
+#include <QStyleFactory>
+
+namespace vicon::viewer {
+
+void applyTheme(QApplication& application)
+{
+    QApplication::setStyle(QStyleFactory::create("Fusion"));
+    QPalette palette;
+    const QColor ground(30, 32, 36), field(20, 21, 24), text(222, 222, 222), accent(64, 128, 176);
+    palette.setColor(QPalette::Window, ground);
+    palette.setColor(QPalette::WindowText, text);
+    palette.setColor(QPalette::Base, field);
+    palette.setColor(QPalette::AlternateBase, QColor(26, 28, 31));
+    palette.setColor(QPalette::Text, text);
+    palette.setColor(QPalette::Button, QColor(46, 49, 55));
+    palette.setColor(QPalette::ButtonText, text);
+    palette.setColor(QPalette::BrightText, Qt::white);
+    palette.setColor(QPalette::ToolTipBase, field);
+    palette.setColor(QPalette::ToolTipText, text);
+    palette.setColor(QPalette::PlaceholderText, QColor(140, 140, 140));
+    palette.setColor(QPalette::Highlight, accent);
+    palette.setColor(QPalette::HighlightedText, Qt::white);
+    for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
+        palette.setColor(QPalette::Disabled, role, QColor(120, 120, 120));
+    QApplication::setPalette(palette);
+    application.setStyleSheet("QToolTip { color: #dedede; background: #141518; border: 1px solid #555; }");
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,69 @@
+#include "worker.h"
+
+#include <algorithm>
+
+#include "vicon/core/error.h"
+
+namespace vicon::viewer {
+namespace {
+
+QString messageOf(const Error& e)
+{
+    return QString::fromStdString(e.what());
+}
+
+}  // namespace
+
+Worker::Worker() : thread_([this] { run(); }) {}
+
+Worker::~Worker()
+{
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+        tasks_.remove_if([](const Task& task) { return !task.name.empty(); });
+    }
+    wake_.notify_all();
+    thread_.join();
+}
+
+void Worker::post(const std::string& name, std::function<Work()> work)
+{
+    {
+        const std::lock_guard lock(mutex_);
+        const auto waiting = std::find_if(tasks_.begin(), tasks_.end(),
+                                          [&](const Task& task) { return !name.empty() && task.name == name; });
+        if (waiting != tasks_.end())
+            waiting->work = std::move(work);
+        else
+            tasks_.push_back({name, std::move(work)});
+    }
+    wake_.notify_all();
+}
+
+void Worker::run()
+{
+    for (;;) {
+        Task task;
+        {
+            std::unique_lock lock(mutex_);
+            wake_.wait(lock, [&] { return stop_ || !tasks_.empty(); });
+            if (tasks_.empty())
+                return;
+            task = std::move(tasks_.front());
+            tasks_.pop_front();
+        }
+        try {
+            if (Work after = task.work())
+                QMetaObject::invokeMethod(this, std::move(after), Qt::QueuedConnection);
+        } catch (const Error& e) {
+            emit failed(messageOf(e));
+        } catch (const std::bad_alloc&) {
+            emit failed(tr("Not enough memory; close other programs and try again."));
+        } catch (const std::exception& e) {
+            emit failed(QString::fromUtf8(e.what()));
+        }
+    }
+}
+
+}  // namespace vicon::viewer

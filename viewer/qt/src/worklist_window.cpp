@@ -1,0 +1,248 @@
+#include "worklist_window.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "reading_window.h"
+#include "vicon/viewer/model/annotate.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr int kRefresh_ms = 2000;
+enum Column { kPatient, kId, kDate, kScans, kState, kProgress, kMarkers, kReports, kColumns };
+
+QString text(const std::string& utf8)
+{
+    return QString::fromStdString(utf8);
+}
+
+/// Whether any of its scans can be read, others may still be in work.
+bool readable(const WorklistRow& row)
+{
+    return std::any_of(row.scans.begin(), row.scans.end(),
+                       [](const WorklistScanRow& s) { return s.state == "done" && s.reason.empty(); });
+}
+
+QString scansOf(const WorklistRow& row)
+{
+    QStringList names;
+    for (const WorklistScanRow& scan : row.scans)
+        if (scan.state != "kept")
+            names << text(positionName(scan.record.series.patient_position));
+    return names.join(", ");
+}
+
+QString progressOf(const WorklistRow& row)
+{
+    for (const WorklistScanRow& scan : row.scans)
+        if (scan.state == "running")
+            return QString("%1 %, %2").arg(100 * row.progress, 0, 'f', 0).arg(text(scan.step));
+    return QString("%1 %").arg(100 * row.progress, 0, 'f', 0);
+}
+
+}  // namespace
+
+WorklistWindow::WorklistWindow(const ReadingServices& services, const std::string& open_case)
+    : services_(services), open_case_(open_case)
+{
+    setObjectName("worklist");
+    setWindowTitle(tr("VICON - worklist"));
+    search_ = new QLineEdit(this);
+    search_->setObjectName("search");
+    search_->setAccessibleName(tr("Search"));
+    search_->setPlaceholderText(tr("Search name or ID"));
+    search_->setClearButtonEnabled(true);
+    state_ = new QComboBox(this);
+    state_->setObjectName("state");
+    state_->setAccessibleName(tr("State of the cases shown"));
+    state_->addItem(tr("all"), "");
+    for (const char* state : {"done", "running", "queued", "failed"})
+        state_->addItem(tr(state), state);
+    table_ = new QTableWidget(0, kColumns, this);
+    table_->setObjectName("cases");
+    table_->setAccessibleName(tr("Cases"));
+    table_->setHorizontalHeaderLabels({tr("Patient"), tr("ID"), tr("Study date"), tr("Scans"), tr("State"),
+                                       tr("Progress"), tr("Markers"), tr("Reports")});
+    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+    table_->setSelectionMode(QAbstractItemView::SingleSelection);
+    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    table_->setAlternatingRowColors(true);
+    table_->verticalHeader()->hide();
+    table_->horizontalHeader()->setStretchLastSection(true);
+    reason_ = new QLabel(this);
+    reason_->setObjectName("reason");
+    reason_->setWordWrap(true);
+    message_ = new QLabel(this);
+    message_->setObjectName("message");
+    message_->setWordWrap(true);
+    message_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    const auto button = [this](const QString& title, const char* name, const QString& tip) {
+        auto* made = new QPushButton(title, this);
+        made->setObjectName(name);
+        made->setToolTip(tip);
+        return made;
+    };
+    open_ = button(tr("Open"), "open", tr("Read the case (Return)"));
+    retry_ = button(tr("Retry"), "retry", tr("Put its failed jobs back into the queue"));
+    report_ = button(tr("Report"), "report", tr("Write the report as PDF"));
+
+    auto* top = new QHBoxLayout;
+    top->addWidget(search_, 1);
+    top->addWidget(state_);
+    auto* bottom = new QHBoxLayout;
+    bottom->addWidget(message_, 1);
+    for (QPushButton* b : {retry_, report_, open_})
+        bottom->addWidget(b);
+    auto* column = new QVBoxLayout(this);
+    column->addLayout(top);
+    column->addWidget(table_, 1);
+    column->addWidget(reason_);
+    column->addLayout(bottom);
+    resize(1000, 500);
+
+    connect(search_, &QLineEdit::textChanged, this, &WorklistWindow::filter);
+    connect(state_, qOverload<int>(&QComboBox::currentIndexChanged), this, &WorklistWindow::filter);
+    connect(table_, &QTableWidget::itemSelectionChanged, this, &WorklistWindow::updateButtons);
+    const auto open_selected = [this] {
+        if (const WorklistRow* row = selected(); row && readable(*row))
+            open(*row);
+    };
+    connect(table_, &QTableWidget::itemActivated, this, open_selected);
+    connect(open_, &QPushButton::clicked, this, open_selected);
+    connect(retry_, &QPushButton::clicked, this, &WorklistWindow::retry);
+    connect(report_, &QPushButton::clicked, this, &WorklistWindow::report);
+    connect(&worker_, &Worker::failed, message_, &QLabel::setText);
+    timer_.setInterval(kRefresh_ms);
+    connect(&timer_, &QTimer::timeout, this, &WorklistWindow::refresh);
+    timer_.start();
+    updateButtons();
+    refresh();
+}
+
+WorklistWindow::~WorklistWindow()
+{
+    for (const auto& window : std::map(windows_))
+        delete window.second;
+}
+
+void WorklistWindow::refresh()
+{
+    worker_.post("list", [this]() -> Worker::Work {
+        if (!store_)
+            store_ = std::make_unique<CaseStore>(services_.store);
+        return [this, rows = services_.worklist(*store_)] { show(rows); };
+    });
+}
+
+void WorklistWindow::show(const std::vector<WorklistRow>& rows)
+{
+    const WorklistRow* chosen = selected();
+    const std::string chosen_id = chosen ? chosen->record.id : "";
+    const QSignalBlocker quiet(table_);
+    rows_ = rows;
+    table_->setRowCount(int(rows.size()));
+    for (int n = 0; n < int(rows.size()); ++n) {
+        const WorklistRow& row = rows[std::size_t(n)];
+        const QStringList cells{text(personName(row.record.patient.name)),
+                                text(row.record.patient.id),
+                                text(dateText(row.record.study.date)),
+                                scansOf(row),
+                                text(row.state),
+                                progressOf(row),
+                                QString::number(row.markers),
+                                QString::number(row.reports)};
+        for (int column = 0; column < kColumns; ++column) {
+            if (!table_->item(n, column))
+                table_->setItem(n, column, new QTableWidgetItem);
+            table_->item(n, column)->setText(cells[column]);
+        }
+        if (row.record.id == chosen_id || (chosen_id.empty() && n == 0))
+            table_->selectRow(n);
+    }
+    table_->resizeColumnsToContents();
+    filter();
+    updateButtons();
+    const auto wanted = std::find_if(rows_.begin(), rows_.end(), [&](const WorklistRow& row) {
+        return !open_case_.empty() && row.record.id == open_case_;
+    });
+    open_case_.clear();
+    if (wanted != rows_.end())
+        open(*wanted);
+}
+
+void WorklistWindow::filter()
+{
+    const QString words = search_->text().trimmed(), state = state_->currentData().toString();
+    for (int n = 0; n < table_->rowCount(); ++n) {
+        const bool found = table_->item(n, kPatient)->text().contains(words, Qt::CaseInsensitive) ||
+                           table_->item(n, kId)->text().contains(words, Qt::CaseInsensitive);
+        table_->setRowHidden(n, !found || (!state.isEmpty() && table_->item(n, kState)->text() != state));
+    }
+    updateButtons();
+}
+
+const WorklistRow* WorklistWindow::selected() const
+{
+    const auto chosen = table_->selectionModel()->selectedRows();
+    if (chosen.empty() || chosen.front().row() >= int(rows_.size()) || table_->isRowHidden(chosen.front().row()))
+        return nullptr;
+    return &rows_[std::size_t(chosen.front().row())];
+}
+
+void WorklistWindow::updateButtons()
+{
+    const WorklistRow* row = selected();
+    open_->setEnabled(row && readable(*row));
+    report_->setEnabled(row && readable(*row));
+    retry_->setEnabled(row && row->state == "failed");
+    reason_->setText(row ? text(row->reason) : QString());
+}
+
+void WorklistWindow::open(const WorklistRow& row)
+{
+    const std::string id = row.record.id;
+    if (const auto window = windows_.find(id); window != windows_.end()) {
+        window->second->raise();
+        window->second->activateWindow();
+        return;
+    }
+    auto* window = new ReadingWindow(services_, row);
+    window->setAttribute(Qt::WA_DeleteOnClose);
+    windows_[id] = window;
+    connect(window, &QObject::destroyed, this, [this, id] { windows_.erase(id); });
+    window->resize(1500, 900);
+    window->show();
+}
+
+void WorklistWindow::retry()
+{
+    worker_.postAlways([this, id = selected()->record.id]() -> Worker::Work {
+        services_.retry(*store_, id);
+        return [this] {
+            message_->setText(tr("Back in the queue; 'vicon work' runs it."));
+            refresh();
+        };
+    });
+}
+
+void WorklistWindow::report()
+{
+    message_->setText(tr("Writing the report ..."));
+    worker_.postAlways([this, id = selected()->record.id]() -> Worker::Work {
+        const auto file = services_.report(*store_, id);
+        return [this, name = text(file.string())] {
+            message_->setText(tr("Report written: %1").arg(name));
+            refresh();
+        };
+    });
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <QTimer>
+#include <QWidget>
+#include <map>
+#include <memory>
+
+#include "vicon/viewer/qt/reading_room.h"
+#include "worker.h"
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QTableWidget;
+
+namespace vicon::viewer {
+
+/// The cases of a store, kept up to date; opens them.
+class WorklistWindow : public QWidget {
+    Q_OBJECT
+public:
+    WorklistWindow(const ReadingServices& services, const std::string& open_case);
+    ~WorklistWindow() override;
+
+private:
+    void refresh();
+    void show(const std::vector<WorklistRow>& rows);
+    void filter();
+    const WorklistRow* selected() const;
+    void updateButtons();
+    void open(const WorklistRow& row);
+    void retry();
+    void report();
+
+    ReadingServices services_;
+    std::string open_case_;  // to be opened as soon as the list is there
+    std::vector<WorklistRow> rows_;
+    QLineEdit* search_;
+    QComboBox* state_;
+    QTableWidget* table_;
+    QLabel *reason_, *message_;
+    QPushButton *open_, *retry_, *report_;
+    QTimer timer_;
+    std::map<std::string, QWidget*> windows_;
+    std::unique_ptr<CaseStore> store_;  // the worker's
+    Worker worker_;
+};
+
+}  // namespace vicon::viewer

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+
+#include "vicon/viewer/model/orientation.h"
+#include "vicon/viewer/model/window_level.h"
+#include "vicon/viewer/scene/canvas.h"
+#include "vicon/viewer/scene/snapshot.h"
+
+namespace vicon::viewer {
+
+/// A slice as the reading room shows it; the plane passes through the middle of `view`.
+struct SliceRequest {
+    SlicePlane plane = SlicePlane::transverse;
+    PlaneView view;
+    Point3 point_mm;  ///< where the crosshair is
+    Pose pose;        ///< the endoscopic view's eye, drawn with its direction
+    WindowLevel window;
+    std::vector<Marker> markers;  ///< drawn where they lie within 5 mm of the plane
+    Caption caption;
+};
+/// Needs no display.
+Picture slicePicture(const PreparedScan& scan, const SliceRequest& request);
+
+/// The pictures of a scan that need OpenGL, one after the other from the same scene. To be made, used and destroyed on
+/// one thread.
+class ReadingPictures {
+public:
+    /// Throws Error{no_display}, and as PreparedScan does.
+    explicit ReadingPictures(const PreparedScan& scan);
+    ~ReadingPictures();
+
+    /// The endoscopic view from `place`, only cells that may be seen drawn; the request's width and height must be set.
+    /// @param still smoothed; while the eye moves: not
+    Picture endoscopic(const SnapshotRequest& request, const SnapshotResult& place, bool still);
+
+    /// The whole colon from the front, and which millimetres its pixels are.
+    struct Overview {
+        Picture picture;
+        PlaneView view;
+    };
+    Overview overview(const SnapshotRequest& request, const SnapshotResult& place);
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace vicon::viewer
