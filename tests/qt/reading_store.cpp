@@ -1,0 +1,84 @@
+#include "reading_store.h"
+
+#include <memory>
+
+#include "test_colon.h"
+#include "vicon/artefact/skeleton_file.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::viewer::test {
+
+void makeStore(const fs::path& folder)
+{
+    CaseStore store(folder);
+    CaseRecord a_case;
+    a_case.id = kCase;
+    a_case.patient = {"PH-1", "Phantom^Anna", "19600102", "F"};
+    a_case.study.uid = "1.2.3";
+    a_case.study.date = "20260102";
+    CaseRecord failed = a_case;
+    failed.id = kFailedCase;
+    failed.patient = {"PH-2", "Other^Bert", "19500203", "M"};
+    failed.study.uid = "1.2.4";
+    const auto scan = [&](const CaseRecord& of, const char* id, const char* position, int number) {
+        ScanRecord record;
+        record.id = id;
+        record.case_id = of.id;
+        record.series.uid = of.study.uid + "." + std::to_string(number);
+        record.series.number = number;
+        record.series.patient_position = position;
+        fs::create_directories(store.scanFolder(of.id, id));
+        store.addScan(of, record, {}, false);
+    };
+    scan(a_case, kSupine, "HFS", 1);
+    scan(a_case, kProne, "HFP", 2);
+    scan(failed, "s3", "HFS", 1);
+    const TestColon colon;
+    for (const char* id : {kSupine, kProne}) {
+        colon.write(store.scanFolder(kCase, id));
+        store.writeScanFile(kCase, id);
+    }
+}
+
+ReadingServices servicesFor(const fs::path& folder)
+{
+    ReadingServices services;
+    services.store = folder;
+    const auto retried = std::make_shared<std::atomic<bool>>(false);
+    services.worklist = [retried](CaseStore& store) {
+        std::vector<WorklistRow> rows;
+        for (const CaseRecord& record : store.cases()) {
+            const bool ready = record.id == kCase;
+            const std::string state = ready ? "done" : *retried ? "queued" : "failed";
+            const std::string reason = state == "failed" ? "the series has a gap of 40 mm" : "";
+            WorklistRow row{record, state, reason, ready ? 1.0 : 0.0, int(store.markers(record.id).size()), 0, {}};
+            for (const ScanRecord& scan : store.scans(record.id))
+                row.scans.push_back({scan, state, "", row.progress, reason, store.scanFolder(record.id, scan.id)});
+            rows.push_back(row);
+        }
+        return rows;
+    };
+    services.retry = [retried](CaseStore&, const std::string&) { *retried = true; };
+    services.place = [](CaseStore& store, const std::string& case_id, Marker marker) {
+        const Skeleton path = artefact::readSkeleton(store.scanFolder(case_id, marker.scan_id) / "skeleton.vtp");
+        const SkeletonFoot foot = path.nearest(marker.position_mm);
+        constexpr double kFar_mm = 60;
+        if (foot.distance_mm > kFar_mm)
+            throw Error(ErrorCode::bad_input, "the point is not in the colon");
+        marker.station_mm = foot.station_mm;
+        marker.from_caecum_mm = path.length_mm() - foot.station_mm;
+        marker.fraction = foot.station_mm / path.length_mm();
+        return marker;
+    };
+    services.report = [](CaseStore& store, const std::string& case_id) {
+        const fs::path file = store.caseFolder(case_id) / "1.pdf";
+        replaceFile(file, "a report");
+        return file;
+    };
+    return services;
+}
+
+}  // namespace vicon::viewer::test

@@ -1,0 +1,347 @@
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMainWindow>
+#include <QPushButton>
+#include <QSettings>
+#include <QStatusBar>
+#include <QTableWidget>
+#include <QtTest/QTest>
+
+#include "reading_store.h"
+#include "vicon/core/error.h"
+#include "vicon/support/support.h"
+#include "vicon/viewer/scene/display.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr int kPatience_ms = 20000;
+
+/// One reader at the screen: looks for controls by name, presses, waits until what must follow is there.
+class Reading : public testing::Test {
+protected:
+    static void SetUpTestSuite()
+    {
+        display_ = std::make_unique<Display>();
+        folder_ = std::make_unique<support::TemporaryFolder>();
+        qputenv("XDG_CONFIG_HOME", (*folder_ / "config").c_str());
+        static int argc = 1;
+        static char name[] = "reading_test";
+        static char* argv[] = {name, nullptr};
+        application_ = std::make_unique<QApplication>(argc, argv);
+        QCoreApplication::setOrganizationName("vicon");
+        std::filesystem::create_directories(VICON_SCREENSHOTS);
+    }
+    static void TearDownTestSuite()
+    {
+        application_.reset();
+        folder_.reset();
+        display_.reset();
+    }
+    void SetUp() override
+    {
+        store_ = *folder_ / testing::UnitTest::GetInstance()->current_test_info()->name();
+        test::makeStore(store_);
+        openRoom();
+    }
+    void TearDown() override { room_.reset(); }
+
+    void openRoom(const std::string& case_id = {})
+    {
+        room_ = makeReadingRoom(test::servicesFor(store_), case_id);
+        room_->show();
+        ASSERT_TRUE(eventually([&] { return cases()->rowCount() == 2; }));
+    }
+
+    template <class Condition>
+    static bool eventually(Condition condition)
+    {
+        return QTest::qWaitFor(condition, kPatience_ms);
+    }
+
+    QTableWidget* cases() const { return room_->findChild<QTableWidget*>("cases"); }
+    static QMainWindow* window()
+    {
+        for (QWidget* widget : QApplication::topLevelWidgets())
+            if (widget->objectName() == "reading")
+                return qobject_cast<QMainWindow*>(widget);
+        return nullptr;
+    }
+    template <class T>
+    static T* the(const char* name)
+    {
+        T* found = window()->findChild<T*>(name);
+        EXPECT_NE(found, nullptr) << name;
+        return found;
+    }
+    static void press(QWidget* in, const char* name)
+    {
+        auto* button = in->findChild<QPushButton*>(name);
+        ASSERT_NE(button, nullptr) << name;
+        ASSERT_TRUE(button->isEnabled()) << name;
+        QTest::mouseClick(button, Qt::LeftButton);
+    }
+    static void click(const char* view, QPoint at, Qt::KeyboardModifiers modifiers = {})
+    {
+        QTest::mouseClick(the<QWidget>(view), Qt::LeftButton, modifiers, at);
+    }
+    static QPoint middle(const char* view) { return the<QWidget>(view)->rect().center(); }
+    static QTableWidget* markers() { return the<QTableWidget>("markers"); }
+    static QString cell(int row, int column) { return markers()->item(row, column)->text(); }
+
+    void openCase()
+    {
+        for (int row = 0; row < cases()->rowCount(); ++row)
+            if (cases()->item(row, 1)->text() == "PH-1")
+                QTest::mouseClick(cases()->viewport(), Qt::LeftButton, {},
+                                  cases()->visualItemRect(cases()->item(row, 0)).center());
+        press(room_.get(), "open");
+        ASSERT_NE(window(), nullptr);
+        waitForScan();
+    }
+    static void waitForScan()
+    {
+        ASSERT_TRUE(eventually([] { return !the<QLabel>("where")->text().isEmpty(); }));
+        window()->activateWindow();
+        settle();
+    }
+    static void settle()
+    {
+        QTest::qWait(400);
+    }  // for the screenshots: the smooth picture comes after the last movement
+    static double station() { return the<QLabel>("where")->text().section(' ', 0, 0).toDouble(); }
+    static double length()
+    {
+        const QString text = the<QLabel>("where")->text();
+        return station() + text.section(", ", 1).section(' ', 0, 0).toDouble();
+    }
+    void screenshot(const char* name) const
+    {
+        settle();
+        QWidget* of = window() ? static_cast<QWidget*>(window()) : room_.get();
+        of->grab().save(QString(VICON_SCREENSHOTS "/%1.png").arg(name));
+    }
+    std::vector<Marker> stored() const
+    {
+        CaseStore store(store_);
+        return store.markers(test::kCase);
+    }
+
+    static std::unique_ptr<Display> display_;
+    static std::unique_ptr<support::TemporaryFolder> folder_;
+    static std::unique_ptr<QApplication> application_;
+    std::filesystem::path store_;
+    std::unique_ptr<QWidget> room_;
+};
+std::unique_ptr<Display> Reading::display_;
+std::unique_ptr<support::TemporaryFolder> Reading::folder_;
+std::unique_ptr<QApplication> Reading::application_;
+
+TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
+{
+    const auto shown = [&] {
+        int count = 0;
+        for (int row = 0; row < cases()->rowCount(); ++row)
+            count += cases()->isRowHidden(row) ? 0 : 1;
+        return count;
+    };
+    QTest::keyClicks(room_->findChild<QLineEdit*>("search"), "bert");
+    EXPECT_EQ(shown(), 1);
+    room_->findChild<QLineEdit*>("search")->clear();
+    auto* state = room_->findChild<QComboBox*>("state");
+    state->setCurrentIndex(state->findData("failed"));
+    ASSERT_EQ(shown(), 1);
+    const int failed = cases()->isRowHidden(0) ? 1 : 0;
+    QTest::mouseClick(cases()->viewport(), Qt::LeftButton, {},
+                      cases()->visualItemRect(cases()->item(failed, 0)).center());
+    EXPECT_EQ(room_->findChild<QLabel*>("reason")->text(), "the series has a gap of 40 mm");
+    EXPECT_FALSE(room_->findChild<QPushButton*>("open")->isEnabled());
+    screenshot("worklist");
+    press(room_.get(), "retry");
+    EXPECT_TRUE(eventually([&] { return cases()->item(failed, 4)->text() == "queued"; }));
+    EXPECT_EQ(shown(), 0) << "it is no longer failed";
+}
+
+TEST_F(Reading, FliesToTheCaecumAndBackAndIsWhereItWasAfterReopening)
+{
+    openCase();
+    screenshot("opened");
+    EXPECT_NEAR(station(), 0, 2);
+    for (int n = 0; n < 30; ++n)
+        QTest::keyClick(window(), Qt::Key_Plus);
+    press(window(), "forward");
+    ASSERT_TRUE(eventually([] { return station() > 60; }));
+    screenshot("flying");
+    press(window(), "stop");
+    const double stopped = station();
+    settle();
+    EXPECT_NEAR(station(), stopped, 1);
+    QTest::keyClick(window(), Qt::Key_End);
+    ASSERT_TRUE(eventually([] { return length() - station() < 2; }));
+    screenshot("caecum");
+    QTest::keyClick(window(), Qt::Key_R);
+    QTest::keyClick(window(), Qt::Key_Space);
+    ASSERT_TRUE(eventually([] { return length() - station() > 60; }));
+    QTest::keyClick(window(), Qt::Key_Space);
+    auto* spin = the<QDoubleSpinBox>("station");
+    spin->setValue(150);
+    press(window(), "jump");
+    ASSERT_TRUE(eventually([] { return std::abs(station() - 150) < 2; }));
+    window()->close();
+    ASSERT_TRUE(eventually([] { return window() == nullptr; }));
+    openCase();
+    EXPECT_NEAR(station(), 150, 2);
+    EXPECT_EQ(the<QPushButton>("about")->text(), "To rectum");
+}
+
+TEST_F(Reading, GuidedFlightIsSteeredByKeysAndComesBackWhenLetGo)
+{
+    openCase();
+    QTest::keyClick(window(), Qt::Key_G);
+    EXPECT_EQ(the<QComboBox>("mode")->currentText(), "guided");
+    QTest::keyPress(window(), Qt::Key_W);
+    ASSERT_TRUE(eventually([] { return station() > 40; }));
+    QTest::keyRelease(window(), Qt::Key_W);
+    screenshot("guided");
+    const double let_go = station();
+    settle();
+    EXPECT_LT(std::abs(station() - let_go), 40) << "nothing pulls it any more";
+}
+
+TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
+{
+    openCase();
+    QTest::keyClick(window(), Qt::Key_2);
+    click("endoscopic", middle("endoscopic") + QPoint(90, 60));
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1; }));
+    ASSERT_EQ(stored().size(), 1U);
+    EXPECT_EQ(stored()[0].color, MarkerColor::yellow);
+    EXPECT_TRUE(stored()[0].extra.contains("view"));
+    EXPECT_EQ(stored()[0].scan_id, test::kSupine);
+    screenshot("marker");
+
+    // A note, written in its cell.
+    const auto* note = markers()->item(0, 5);
+    QTest::mouseClick(markers()->viewport(), Qt::LeftButton, {}, markers()->visualItemRect(note).center());
+    QTest::mouseDClick(markers()->viewport(), Qt::LeftButton, {}, markers()->visualItemRect(note).center());
+    auto* editor = markers()->findChild<QLineEdit*>();
+    ASSERT_NE(editor, nullptr);
+    QTest::keyClicks(editor, "6 mm, sessile");
+    QTest::keyClick(editor, Qt::Key_Return);
+    ASSERT_TRUE(eventually([&] { return stored()[0].note == "6 mm, sessile"; }));
+
+    // Its colour, by the keyboard of the list of colours.
+    auto* color = the<QComboBox>("markerColor");
+    color->setFocus();
+    QTest::keyClick(color, Qt::Key_Up);
+    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::red; }));
+
+    ASSERT_TRUE(eventually([] { return the<QPushButton>("undo")->isEnabled(); }));
+    press(window(), "undo");
+    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::yellow; }));
+    ASSERT_TRUE(eventually([] { return the<QPushButton>("redo")->isEnabled(); }));
+    press(window(), "redo");
+    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::red; }));
+
+    // The same finding in the other scan, and the pair.
+    auto* scan = the<QComboBox>("scan");
+    the<QLabel>("where")->clear();
+    scan->setFocus();
+    QTest::keyClick(scan, Qt::Key_Down);
+    waitForScan();
+    click("endoscopic", middle("endoscopic") + QPoint(90, 60), Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 2; }));
+    EXPECT_EQ(cell(1, 1), "prone");
+    const auto choose = [](int row) {
+        QTest::mouseClick(markers()->viewport(), Qt::LeftButton, {},
+                          markers()->visualItemRect(markers()->item(row, 0)).center());
+    };
+    choose(1);
+    press(window(), "markerPair");
+    choose(0);
+    ASSERT_TRUE(eventually([&] { return stored()[0].extra.value("pair", "") == stored()[1].id; }));
+    EXPECT_TRUE(eventually([&] { return stored()[1].extra.value("pair", "") == stored()[0].id; }));
+    screenshot("paired");
+
+    window()->close();
+    ASSERT_TRUE(eventually([] { return window() == nullptr; }));
+    openCase();
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 2; }));
+    EXPECT_EQ(cell(0, 5), "6 mm, sessile");
+    EXPECT_EQ(cell(0, 4), cell(1, 0));
+    choose(1);
+    press(window(), "markerRemove");
+    ASSERT_TRUE(eventually([&] { return stored().size() == 1; }));
+}
+
+TEST_F(Reading, AMarkerThatAnotherReaderChangedIsNotOverwritten)
+{
+    openCase();
+    click("endoscopic", middle("endoscopic") + QPoint(60, 90), Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1; }));
+    {
+        CaseStore other(store_);
+        Marker marker = other.markers(test::kCase).front();
+        marker.note = "by the other reader";
+        other.saveMarker(test::kCase, marker);
+    }
+    press(window(), "undo");  // would delete it
+    ASSERT_TRUE(eventually([] { return the<QLabel>("warning")->text().contains("another reader"); }));
+    ASSERT_EQ(stored().size(), 1U);
+    EXPECT_EQ(stored()[0].note, "by the other reader");
+    EXPECT_EQ(cell(0, 5), "by the other reader");
+    screenshot("conflict");
+}
+
+TEST_F(Reading, SlicesProjectionAndPeelingFollowTheMouse)
+{
+    openCase();
+    auto* overview = the<QWidget>("overview");
+    const double before = station();
+    click("overview", QPoint(overview->width() * 2 / 3, overview->height() / 2));
+    ASSERT_TRUE(eventually([&] { return std::abs(station() - before) > 50; }));
+    screenshot("jumped");
+    auto* window_choice = the<QComboBox>("window");
+    window_choice->setFocus();
+    QTest::keyClick(window_choice, Qt::Key_Down);
+    EXPECT_EQ(window_choice->currentText(), "soft-tissue");
+    const double width = the<QWidget>("coronal")->width();
+    QTest::mouseDClick(the<QWidget>("coronal"), Qt::LeftButton, {}, middle("coronal"));
+    EXPECT_FALSE(the<QWidget>("endoscopic")->isVisible());
+    ASSERT_TRUE(eventually([&] { return the<QWidget>("coronal")->width() > 2 * width; }));
+    screenshot("enlarged");
+    QTest::mouseDClick(the<QWidget>("coronal"), Qt::LeftButton, {}, middle("coronal"));
+    EXPECT_TRUE(the<QWidget>("endoscopic")->isVisible());
+    const QImage plain = the<QWidget>("endoscopic")->grab().toImage();
+    auto* peel = the<QComboBox>("peel");
+    peel->setFocus();
+    QTest::keyClick(peel, Qt::Key_Down);
+    ASSERT_TRUE(eventually([&] { return the<QWidget>("endoscopic")->grab().toImage() != plain; }));
+    screenshot("peeled");
+}
+
+TEST_F(Reading, ACaseDeletedUnderItsReaderIsSaidSo)
+{
+    openCase();
+    {
+        CaseStore other(store_);
+        other.database().write([](soci::session& sql) {
+            for (const char* table : {"jobs", "steps", "markers", "instances", "scans"})
+                sql << std::string("DELETE FROM ") + table + " WHERE case_id = 'c1'";
+            sql << "DELETE FROM cases WHERE id = 'c1'";
+        });
+    }
+    EXPECT_TRUE(eventually([] { return !the<QLabel>("warning")->text().isEmpty(); }));
+    click("endoscopic", middle("endoscopic") + QPoint(60, 90), Qt::ShiftModifier);
+    settle();
+    EXPECT_EQ(markers()->rowCount(), 0) << "nothing is shown as saved that is not";
+    screenshot("deleted");
+}
+
+}  // namespace
+}  // namespace vicon::viewer
