@@ -46,6 +46,7 @@ protected:
     void SetUp() override
     {
         store_ = *folder_ / testing::UnitTest::GetInstance()->current_test_info()->name();
+        QSettings().clear();
         test::makeStore(store_);
         openRoom();
     }
@@ -92,6 +93,8 @@ protected:
     }
     static QPoint middle(const char* view) { return the<QWidget>(view)->rect().center(); }
     static QTableWidget* markers() { return the<QTableWidget>("markers"); }
+    /// Nothing is on its way to the database.
+    static bool settled() { return the<QWidget>("markerTable")->isEnabled(); }
     static QString cell(int row, int column) { return markers()->item(row, column)->text(); }
 
     void openCase()
@@ -107,8 +110,19 @@ protected:
     static void waitForScan()
     {
         ASSERT_TRUE(eventually([] { return !the<QLabel>("where")->text().isEmpty(); }));
+        ASSERT_TRUE(eventually([] { return drawn("endoscopic") && drawn("overview") && drawn("coronal"); }));
         window()->activateWindow();
         settle();
+    }
+    /// More than text: the colours of its middle differ.
+    static bool drawn(const char* view)
+    {
+        const QImage image = the<QWidget>(view)->grab().toImage();
+        const int x = image.width() / 2, y = image.height() / 2;
+        for (int n = 1; n < std::min(x, y) / 2; ++n)
+            if (image.pixel(x + n, y) != image.pixel(x, y))
+                return true;
+        return false;
     }
     static void settle()
     {
@@ -189,7 +203,9 @@ TEST_F(Reading, FliesToTheCaecumAndBackAndIsWhereItWasAfterReopening)
     ASSERT_TRUE(eventually([] { return length() - station() > 60; }));
     QTest::keyClick(window(), Qt::Key_Space);
     auto* spin = the<QDoubleSpinBox>("station");
-    spin->setValue(150);
+    spin->setFocus();
+    spin->selectAll();
+    QTest::keyClicks(spin, "150");
     press(window(), "jump");
     ASSERT_TRUE(eventually([] { return std::abs(station() - 150) < 2; }));
     window()->close();
@@ -233,20 +249,20 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     ASSERT_NE(editor, nullptr);
     QTest::keyClicks(editor, "6 mm, sessile");
     QTest::keyClick(editor, Qt::Key_Return);
-    ASSERT_TRUE(eventually([&] { return stored()[0].note == "6 mm, sessile"; }));
+    ASSERT_TRUE(eventually([&] { return stored()[0].note == "6 mm, sessile" && settled(); }));
 
     // Its colour, by the keyboard of the list of colours.
     auto* color = the<QComboBox>("markerColor");
     color->setFocus();
     QTest::keyClick(color, Qt::Key_Up);
-    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::red; }));
+    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::red && settled(); }));
 
     ASSERT_TRUE(eventually([] { return the<QPushButton>("undo")->isEnabled(); }));
     press(window(), "undo");
-    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::yellow; }));
+    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::yellow && settled(); }));
     ASSERT_TRUE(eventually([] { return the<QPushButton>("redo")->isEnabled(); }));
     press(window(), "redo");
-    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::red; }));
+    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::red && settled(); }));
 
     // The same finding in the other scan, and the pair.
     auto* scan = the<QComboBox>("scan");
@@ -265,7 +281,7 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     press(window(), "markerPair");
     choose(0);
     ASSERT_TRUE(eventually([&] { return stored()[0].extra.value("pair", "") == stored()[1].id; }));
-    EXPECT_TRUE(eventually([&] { return stored()[1].extra.value("pair", "") == stored()[0].id; }));
+    EXPECT_TRUE(eventually([&] { return stored()[1].extra.value("pair", "") == stored()[0].id && settled(); }));
     screenshot("paired");
 
     window()->close();

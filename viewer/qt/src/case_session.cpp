@@ -79,26 +79,41 @@ void CaseSession::open(const std::string& scan_id)
 
 void CaseSession::edit(const QString& what, Edit work)
 {
+    if (++edits_under_way_ == 1)
+        emit busyChanged(true);
     worker_.postAlways([this, what, work = std::move(work)]() -> Worker::Work {
         std::string trouble;
+        std::optional<std::vector<Marker>> markers;
         try {
             work(store(), history_);
-        } catch (const Error& e) {
-            trouble = e.what();  // the list is shown as it is now, whatever happened
+        } catch (const std::exception& e) {
+            trouble = e.what();
         }
-        auto markers = store().markers(row_.record.id);
+        try {  // the list is shown as it is now, whatever happened
+            markers = store().markers(row_.record.id);
+        } catch (const std::exception& e) {
+            trouble = trouble.empty() ? e.what() : trouble;
+        }
         return
             [this, what, trouble, markers = std::move(markers), undo = history_.canUndo(), redo = history_.canRedo()] {
-                markers_ = markers;
+                if (markers)
+                    markers_ = *markers;
                 can_undo_ = undo;
                 can_redo_ = redo;
-                emit markersChanged();
+                edited();
                 if (trouble.empty())
                     emit saved(what);
                 else
                     emit warned(QString::fromStdString(trouble));
             };
     });
+}
+
+void CaseSession::edited()
+{
+    emit markersChanged();
+    if (--edits_under_way_ == 0)
+        emit busyChanged(false);
 }
 
 void CaseSession::addMarker(const Marker& marker)

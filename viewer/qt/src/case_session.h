@@ -60,6 +60,8 @@ public:
 signals:
     void opened();
     void markersChanged();
+    /// A change is on its way to the database; until then the markers shown may be old ones.
+    void busyChanged(bool busy);
     void saved(const QString& what);
     void warned(const QString& message);
     void reportWritten(const QString& file);
@@ -67,6 +69,7 @@ signals:
 private:
     using Edit = std::function<void(CaseStore&, MarkerHistory&)>;
     void edit(const QString& what, Edit work);
+    void edited();
     CaseStore& store();  // on the worker's thread
 
     ReadingServices services_;
@@ -77,6 +80,7 @@ private:
     std::string wanted_scan_;
     bool can_undo_ = false, can_redo_ = false;
     bool markers_known_ = false;
+    int edits_under_way_ = 0;
     MarkerHistory history_;             // the worker's
     std::unique_ptr<CaseStore> store_;  // the worker's
     Worker loader_;

@@ -1,5 +1,6 @@
 #include "marker_table.h"
 
+#include <QApplication>
 #include <QComboBox>
 #include <QGridLayout>
 #include <QHeaderView>
@@ -30,12 +31,14 @@ QColor qtColor(MarkerColor color)
 
 MarkerTable::MarkerTable(QWidget* parent) : QWidget(parent)
 {
+    setObjectName("markerTable");
     table_ = new QTableWidget(0, kColumns, this);
     table_->setObjectName("markers");
     table_->setAccessibleName(tr("Markers"));
-    table_->setHorizontalHeaderLabels({tr("ID"), tr("Scan"), tr("mm from rectum"), tr("Part"), tr("Pair"), tr("Note")});
+    table_->setHorizontalHeaderLabels({tr("ID"), tr("Scan"), tr("mm"), tr("Part"), tr("Pair"), tr("Note")});
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
+    table_->horizontalHeaderItem(kStation)->setToolTip(tr("Distance from the rectum along the colon"));
     table_->verticalHeader()->hide();
     table_->horizontalHeader()->setStretchLastSection(true);
     table_->setToolTip(tr("Click: fly there. Double click on the note: write it."));
@@ -131,6 +134,15 @@ void MarkerTable::setUndo(bool can_undo, bool can_redo)
 {
     undo_->setEnabled(can_undo);
     redo_->setEnabled(can_redo);
+}
+
+void MarkerTable::setBusy(bool busy)
+{
+    if (QWidget* focused = QApplication::focusWidget(); busy)
+        had_focus_ = focused && isAncestorOf(focused) ? focused : nullptr;
+    setEnabled(!busy);
+    if (!busy && had_focus_)
+        had_focus_->setFocus();
 }
 
 std::optional<Marker> MarkerTable::selected() const

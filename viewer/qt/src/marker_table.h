@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QPointer>
 #include <QWidget>
 #include <map>
 #include <optional>
@@ -23,6 +24,8 @@ public:
     /// @param positions of the scans by id: "supine", "prone"
     void show(const std::vector<Marker>& markers, const std::map<std::string, std::string>& positions);
     void setUndo(bool can_undo, bool can_redo);
+    /// Nothing can be changed meanwhile; who had the keyboard gets it back.
+    void setBusy(bool busy);
     std::optional<Marker> selected() const;
     void select(const std::string& id);
 
@@ -41,6 +44,7 @@ private:
 
     std::vector<Marker> markers_;
     bool filling_ = false;
+    QPointer<QWidget> had_focus_;
     QTableWidget* table_;
     QComboBox* color_;
     QPushButton *go_, *move_, *pair_, *remove_, *undo_, *redo_;

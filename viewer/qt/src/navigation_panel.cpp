@@ -94,6 +94,8 @@ void NavigationPanel::show(const Navigator& navigator, double length_mm)
     speed_->setEnabled(navigator.mode() != NavigationMode::guided);
     speed_text_->setText(tr("%1 mm/s").arg(navigator.speed_mm_s(), 0, 'f', 0));
     station_->setRange(0, length_mm);
+    if (!station_->hasFocus())
+        station_->setValue(state.station_mm);
     const auto texts = stationTexts(state.station_mm, length_mm);
     where_->setText(QString::fromStdString(texts[0]) + ", " + QString::fromStdString(texts[1]));
 }

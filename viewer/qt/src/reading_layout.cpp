@@ -15,6 +15,8 @@
 namespace vicon::viewer {
 namespace {
 
+constexpr int kPart = 150, kSideWidth = 430;  // pixels of 96 to the inch, before the window is resized
+
 QWidget* group(const QString& title, QWidget* inside)
 {
     auto* box = new QGroupBox(title);
@@ -60,6 +62,7 @@ QWidget* ReadingWindow::buildSide()
     navigation_ = new NavigationPanel;
     peeling_ = new PeelingPanel;
     auto* side = new QWidget;
+    side->setMaximumWidth(kSideWidth * 5 / 4);
     auto* column = new QVBoxLayout(side);
     column->setContentsMargins(0, 0, 0, 0);
     column->addWidget(overview_, 3);
@@ -96,8 +99,9 @@ void ReadingWindow::buildViews()
     columns->addWidget(slices);
     columns->addWidget(side_);
     columns->setStretchFactor(0, 5);
-    columns->setStretchFactor(1, 2);
-    columns->setStretchFactor(2, 3);
+    columns->setStretchFactor(1, 3);
+    columns->setStretchFactor(2, 0);
+    columns->setSizes({5 * kPart, 3 * kPart, kSideWidth});
     auto* all = new QWidget(this);
     auto* layout = new QVBoxLayout(all);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -144,7 +148,7 @@ void ReadingWindow::addActions()
     add(edit, tr("Green marker at the next click"), QKeySequence("3"), [this] { arm(MarkerColor::green); });
     add(edit, tr("No marker after all"), QKeySequence("Esc"), [this] { arm({}); });
     add(edit, tr("Delete marker"), QKeySequence("Del"), [this] {
-        if (const auto marker = table_->selected())
+        if (const auto marker = table_->selected(); marker && table_->isEnabled())
             session_.removeMarker(*marker);
     });
     QMenu* flight = menuBar()->addMenu(tr("&Flight"));

@@ -13,6 +13,7 @@ namespace vicon::viewer {
 
 std::unique_ptr<QWidget> makeReadingRoom(const ReadingServices& services, const std::string& case_id)
 {
+    applyTheme(*qobject_cast<QApplication*>(QCoreApplication::instance()));
     return std::make_unique<WorklistWindow>(services, case_id);
 }
 
@@ -29,7 +30,6 @@ int runReadingRoom(const ReadingServices& services, const std::string& case_id, 
     QApplication application(argc, argv);
     QCoreApplication::setOrganizationName("vicon");
     QCoreApplication::setApplicationName("vicon");
-    applyTheme(application);
     const auto room = makeReadingRoom(services, case_id);
     QTimer asked;
     QObject::connect(&asked, &QTimer::timeout, [&] {

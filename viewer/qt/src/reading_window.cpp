@@ -47,6 +47,8 @@ void ReadingWindow::connectAll()
 {
     connect(&session_, &CaseSession::opened, this, &ReadingWindow::scanOpened);
     connect(&session_, &CaseSession::markersChanged, this, &ReadingWindow::markersChanged);
+    // A second change of a marker before the first is saved would start from what it was.
+    connect(&session_, &CaseSession::busyChanged, table_, &MarkerTable::setBusy);
     connect(&session_, &CaseSession::saved, this, &ReadingWindow::tell);
     connect(&session_, &CaseSession::warned, this, &ReadingWindow::warn);
     connect(&session_, &CaseSession::reportWritten, this,
