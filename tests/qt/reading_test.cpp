@@ -201,7 +201,6 @@ TEST_F(Reading, FliesToTheCaecumAndBackAndIsWhereItWasAfterReopening)
     QTest::keyClick(window(), Qt::Key_R);
     QTest::keyClick(window(), Qt::Key_Space);
     ASSERT_TRUE(eventually([] { return length() - station() > 60; }));
-    QTest::keyClick(window(), Qt::Key_Space);
     auto* spin = the<QDoubleSpinBox>("station");
     spin->setFocus();
     spin->selectAll();
@@ -240,6 +239,14 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     EXPECT_TRUE(stored()[0].extra.contains("view"));
     EXPECT_EQ(stored()[0].scan_id, test::kSupine);
     screenshot("marker");
+
+    // From the other end back to the view that was saved with it.
+    const double seen_from = station();
+    QTest::keyClick(window(), Qt::Key_End);
+    ASSERT_TRUE(eventually([] { return length() - station() < 2; }));
+    QTest::mouseClick(markers()->viewport(), Qt::LeftButton, {},
+                      markers()->visualItemRect(markers()->item(0, 0)).center());
+    ASSERT_TRUE(eventually([&] { return std::abs(station() - seen_from) < 2; })) << "at " << station();
 
     // A note, written in its cell.
     const auto* note = markers()->item(0, 5);

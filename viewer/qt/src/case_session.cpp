@@ -54,6 +54,12 @@ std::vector<Marker> CaseSession::markersOf(const std::string& scan_id) const
     return some;
 }
 
+std::optional<Marker> CaseSession::marker(const std::string& id) const
+{
+    const auto found = std::find_if(markers_.begin(), markers_.end(), [&](const Marker& m) { return m.id == id; });
+    return found == markers_.end() ? std::nullopt : std::optional(*found);
+}
+
 void CaseSession::open(const std::string& scan_id)
 {
     const auto row = std::find_if(row_.scans.begin(), row_.scans.end(),
@@ -98,6 +104,8 @@ void CaseSession::edit(const QString& what, Edit work)
             [this, what, trouble, markers = std::move(markers), undo = history_.canUndo(), redo = history_.canRedo()] {
                 if (markers)
                     markers_ = *markers;
+                else
+                    markers_known_ = false;  // what is read next is not another reader's doing
                 can_undo_ = undo;
                 can_redo_ = redo;
                 edited();

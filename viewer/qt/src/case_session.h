@@ -38,6 +38,8 @@ public:
     const std::vector<ScanRecord>& scans() const { return scans_; }
     const std::vector<Marker>& markers() const { return markers_; }
     std::vector<Marker> markersOf(const std::string& scan_id) const;
+    /// Nothing when it was deleted.
+    std::optional<Marker> marker(const std::string& id) const;
 
     /// Reads a scan's files; opened() follows, or failed().
     void open(const std::string& scan_id);

@@ -141,7 +141,7 @@ void MarkerTable::setBusy(bool busy)
     if (QWidget* focused = QApplication::focusWidget(); busy)
         had_focus_ = focused && isAncestorOf(focused) ? focused : nullptr;
     setEnabled(!busy);
-    if (!busy && had_focus_)
+    if (!busy && had_focus_ && !QApplication::focusWidget())
         had_focus_->setFocus();
 }
 

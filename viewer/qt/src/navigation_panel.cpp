@@ -73,17 +73,17 @@ NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
     connect(step_back_, &QPushButton::clicked, this, [this] { emit stepWanted(-kStep_mm); });
     connect(step_on_, &QPushButton::clicked, this, [this] { emit stepWanted(kStep_mm); });
     connect(speed_, &QSlider::valueChanged, this, [this](int mm_s) { emit speedWanted(mm_s); });
-    connect(go_, &QPushButton::clicked, this, [this] { emit jumpWanted(station_->value()); });
+    connect(go_, &QPushButton::clicked, this, [this] {
+        shown_station_mm_ = station_->value();
+        emit jumpWanted(shown_station_mm_);
+    });
 }
 
 void NavigationPanel::show(const Navigator& navigator, double length_mm)
 {
     const NavigationState state = navigator.state();
-    const bool planned = navigator.mode() == NavigationMode::planned, free = navigator.mode() == NavigationMode::free;
+    const bool planned = navigator.mode() == NavigationMode::planned;
     mode_->setCurrentIndex(int(navigator.mode()));
-    back_->setEnabled(!free);
-    forward_->setEnabled(!free);
-    stop_->setEnabled(!free);
     look_back_->setEnabled(planned);
     look_back_->setChecked(navigator.looksBack());
     about_->setText(navigator.heading() == Heading::caecum ? tr("To caecum") : tr("To rectum"));
@@ -94,8 +94,10 @@ void NavigationPanel::show(const Navigator& navigator, double length_mm)
     speed_->setEnabled(navigator.mode() != NavigationMode::guided);
     speed_text_->setText(tr("%1 mm/s").arg(navigator.speed_mm_s(), 0, 'f', 0));
     station_->setRange(0, length_mm);
-    if (!station_->hasFocus())
+    if (!station_->hasFocus() && station_->value() == shown_station_mm_) {  // what was typed stays until it is used
         station_->setValue(state.station_mm);
+        shown_station_mm_ = station_->value();
+    }
     const auto texts = stationTexts(state.station_mm, length_mm);
     where_->setText(QString::fromStdString(texts[0]) + ", " + QString::fromStdString(texts[1]));
 }

@@ -33,6 +33,7 @@ private:
     QPushButton *back_, *stop_, *forward_, *about_, *look_back_, *step_back_, *step_on_, *go_;
     QSlider* speed_;
     QDoubleSpinBox* station_;
+    double shown_station_mm_ = 0;  // what show() last put into the field
     QLabel *speed_text_, *where_;
 };
 

@@ -41,7 +41,14 @@ void PictureView::paintEvent(QPaintEvent*)
 {
     QPainter painter(this);
     painter.fillRect(rect(), Qt::black);
-    painter.drawImage(0, 0, image_);
+    const QSizeF drawn = QSizeF(image_.size()) / image_.devicePixelRatioF();
+    if (QSizeF(pictureSize()) / devicePixelRatioF() == drawn || image_.isNull()) {
+        painter.drawImage(0, 0, image_);
+        return;
+    }
+    // The view has another size by now, and its picture is still to come.
+    const QSizeF fitting = drawn.scaled(size(), Qt::KeepAspectRatio);
+    painter.drawImage(QRectF({(width() - fitting.width()) / 2, (height() - fitting.height()) / 2}, fitting), image_);
 }
 
 void PictureView::resizeEvent(QResizeEvent*)

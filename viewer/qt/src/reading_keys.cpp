@@ -22,20 +22,30 @@ Vector3 vectorFrom(const nlohmann::json& json)
     return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
-nlohmann::json viewOf(const Pose& pose)
+nlohmann::json viewOf(const NavigationState& state)
 {
-    return {{"eye_mm", jsonOf(pose.eye_mm - Point3{})}, {"forward", jsonOf(pose.forward)}, {"up", jsonOf(pose.up)}};
+    return {{"eye_mm", jsonOf(state.pose.eye_mm - Point3{})},
+            {"forward", jsonOf(state.pose.forward)},
+            {"up", jsonOf(state.pose.up)},
+            {"station_mm", state.station_mm}};
 }
 
-/// The view that was saved with a marker; nothing where there is none or it makes no sense.
-std::optional<Pose> savedView(const Marker& marker)
+/// A view that was saved with a marker, and the station of its eye, which is not the marker's.
+struct SavedView {
+    Pose pose;
+    double station_mm = 0;
+};
+
+/// Nothing where there is none or it makes no sense.
+std::optional<SavedView> savedView(const Marker& marker)
 {
     try {
         const auto& view = marker.extra.at("view");
-        Pose pose{Point3{} + vectorFrom(view.at("eye_mm")), normalized(vectorFrom(view.at("forward"))), {}};
-        pose.up = uprightOn(pose.forward, vectorFrom(view.at("up")));
-        if (length(pose.forward) > 0.5)
-            return pose;
+        SavedView saved{{Point3{} + vectorFrom(view.at("eye_mm")), normalized(vectorFrom(view.at("forward"))), {}},
+                        view.at("station_mm").get<double>()};
+        saved.pose.up = uprightOn(saved.pose.forward, vectorFrom(view.at("up")));
+        if (length(saved.pose.forward) > 0.5)
+            return saved;
     } catch (const nlohmann::json::exception&) {
         // written by something else
     }
@@ -58,8 +68,11 @@ void ReadingWindow::lookAt(Point3 point)
 void ReadingWindow::flyTo(const Marker& marker)
 {
     if (pairing_) {
-        const Marker first = *pairing_;
+        const auto known = session_.marker(*pairing_);
         pairing_.reset();
+        if (!known)
+            return;
+        const Marker& first = *known;
         if (first.scan_id == marker.scan_id) {
             warn(tr("A pair is one finding in two scans; both markers lie in the same one."));
             return;
@@ -82,7 +95,7 @@ void ReadingWindow::flyTo(const Marker& marker)
         lookAt(marker.position_mm);
         return;
     }
-    navigator()->lookFrom(*view, marker.station_mm);
+    navigator()->lookFrom(view->pose, view->station_mm);
     focus_ = marker.position_mm;
     moved(true);
 }
@@ -90,11 +103,14 @@ void ReadingWindow::flyTo(const Marker& marker)
 bool ReadingWindow::placed(Point3 point, Qt::KeyboardModifiers modifiers)
 {
     if (moving_) {
-        Marker after = *moving_;
+        const auto before = session_.marker(*moving_);
+        moving_.reset();
+        if (!before)
+            return true;
+        Marker after = *before;
         after.position_mm = point;
         after.extra.erase("view");
-        session_.changeMarker(*moving_, after, true);
-        moving_.reset();
+        session_.changeMarker(*before, after, true);
         return true;
     }
     if (!armed_ && !(modifiers & Qt::ShiftModifier))
@@ -103,7 +119,7 @@ bool ReadingWindow::placed(Point3 point, Qt::KeyboardModifiers modifiers)
     marker.scan_id = session_.scan()->record.id;
     marker.position_mm = point;
     marker.color = armed_.value_or(MarkerColor::red);
-    marker.extra["view"] = viewOf(navigator()->state().pose);
+    marker.extra["view"] = viewOf(navigator()->state());
     session_.addMarker(marker);
     arm({});
     return true;
@@ -157,7 +173,7 @@ void ReadingWindow::pair(const Marker& marker)
 {
     const std::string other = marker.extra.value("pair", "");
     if (other.empty()) {
-        pairing_ = marker;
+        pairing_ = marker.id;
         tell(tr("Choose the same finding in the other scan"));
         return;
     }
@@ -193,10 +209,12 @@ void ReadingWindow::setMode(NavigationMode mode)
 
 void ReadingWindow::fly(int direction)
 {
-    if (!navigator() || navigator()->mode() == NavigationMode::free)
+    if (!navigator())
         return;
+    if (direction != 0 && navigator()->mode() == NavigationMode::free)
+        navigator()->setMode(NavigationMode::planned);  // on along the path from where the eye is
     navigator()->fly(direction);
-    showPlace();
+    moved(false);
 }
 
 void ReadingWindow::turnAbout()

@@ -35,6 +35,7 @@ QWidget* ReadingWindow::buildTop()
     row->setContentsMargins(4, 2, 4, 2);
     scan_choice_ = new QComboBox(top);
     scan_choice_->setObjectName("scan");
+    scan_choice_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     scan_choice_->setAccessibleName(tr("Scan"));
     scan_choice_->setToolTip(tr("Supine or prone; the other one opens at the same part of the way (Tab)"));
     window_choice_ = new QComboBox(top);

@@ -107,7 +107,7 @@ void ReadingWindow::connectAll()
     connect(table_, &MarkerTable::removeWanted, &session_, &CaseSession::removeMarker);
     connect(table_, &MarkerTable::pairWanted, this, &ReadingWindow::pair);
     connect(table_, &MarkerTable::moveWanted, this, [this](const Marker& marker) {
-        moving_ = marker;
+        moving_ = marker.id;
         tell(tr("Click on the new place of %1").arg(QString::fromStdString(marker.id)));
     });
     connect(table_, &MarkerTable::undoWanted, &session_, &CaseSession::undo);

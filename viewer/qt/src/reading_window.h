@@ -96,7 +96,7 @@ private:
     bool overview_shown_ = false;
     std::optional<Point3> focus_;  // what was clicked; else the place on the path
     std::optional<MarkerColor> armed_;
-    std::optional<Marker> moving_, pairing_;
+    std::optional<std::string> moving_, pairing_;  // markers, by id: what they are may change meanwhile
     std::set<int> keys_;
     QPointF mouse_steering_;
     double wanted_fraction_ = -1;  // of the path, when the scan is changed

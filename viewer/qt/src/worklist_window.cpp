@@ -76,7 +76,8 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setAlternatingRowColors(true);
     table_->verticalHeader()->hide();
-    table_->horizontalHeader()->setStretchLastSection(true);
+    table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    table_->horizontalHeader()->setSectionResizeMode(kPatient, QHeaderView::Stretch);
     reason_ = new QLabel(this);
     reason_->setObjectName("reason");
     reason_->setWordWrap(true);
