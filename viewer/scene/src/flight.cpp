@@ -11,6 +11,7 @@
 #include "vicon/viewer/model/flight_plan.h"
 #include "vicon/viewer/scene/cell_visibility.h"
 #include "vicon/viewer/scene/id_scene.h"
+#include "vicon/viewer/scene/sight_ahead.h"
 
 namespace vicon::viewer {
 namespace {
@@ -47,6 +48,7 @@ struct Studio {
     std::optional<IdScene> ids;
     std::optional<Offscreen> ids_offscreen;
     std::optional<CellVisibility> visibility;
+    std::optional<SightAhead> ahead;
     Coverage coverage;
 
     Studio(const PreparedScan& s, const FlightRequest& r)
@@ -61,17 +63,23 @@ struct Studio {
             ids_offscreen.emplace(ids->renderer());
         }
         if (request.cull)
-            visibility.emplace(s);
+            ahead.emplace(visibility.emplace(s));
     }
 
-    FlightFrame shoot(const ViewPose& view, Heading heading, const std::filesystem::path& png);
+    Lens lens() const { return {request.view_angle_deg, request.width, request.height}; }
+    void prepare(const ViewPose& next)
+    {
+        if (ahead)
+            ahead->prepare(next.pose, lens());
+    }
+    SeenParts seenFrom(const ViewPose& view) { return ahead ? ahead->seenFrom(view.pose, lens()) : SeenParts{}; }
+    FlightFrame shoot(const ViewPose& view, const SeenParts& shown, Heading heading, const std::filesystem::path& png);
 };
 
-FlightFrame Studio::shoot(const ViewPose& view, Heading heading, const std::filesystem::path& png)
+FlightFrame Studio::shoot(const ViewPose& view, const SeenParts& shown, Heading heading,
+                          const std::filesystem::path& png)
 {
     FlightFrame frame{view.pose, view.station_mm, view.clearance_mm, heading == Heading::caecum, 0, 0, 0, 0};
-    const Lens lens{request.view_angle_deg, request.width, request.height};
-    const SeenParts shown = visibility ? visibility->seenFrom(view.pose, lens) : SeenParts{};
     scene.showSeen(shown);
     scene.lookFrom(view.pose, request.view_angle_deg);
     frame.cells_drawn = scene.cellsShown();
@@ -184,10 +192,13 @@ FlightReport fly(const PreparedScan& scan, const FlightRequest& request, Progres
         all += leg.poses.size();
     const bool write = request.write_frames && !request.out.empty();
     for (const Leg& leg : legs)
-        for (const ViewPose& view : leg.poses) {
+        for (std::size_t n = 0; n < leg.poses.size(); ++n) {
             progress.check();
+            const SeenParts shown = studio.seenFrom(leg.poses[n]);
+            if (n + 1 < leg.poses.size())
+                studio.prepare(leg.poses[n + 1]);
             const auto png = write ? request.out / frameName(report.frames.size() + 1) : std::filesystem::path{};
-            report.frames.push_back(studio.shoot(view, leg.heading, png));
+            report.frames.push_back(studio.shoot(leg.poses[n], shown, leg.heading, png));
             progress.report(double(report.frames.size()) / double(all), "flying");
         }
     report.coverage = studio.request.measure_coverage ? studio.coverage.fraction() : 0;

@@ -28,6 +28,7 @@ struct Pose {
     /// To the right in the picture. LPS is right-handed, so looking posterior with the head up this is the patient's
     /// left.
     Vector3 right() const { return cross(forward, up); }
+    friend bool operator==(const Pose&, const Pose&) = default;
 };
 
 /// A perspective picture: the angle of view over its height, and its size.
@@ -37,6 +38,7 @@ struct Lens {
 
     /// Distance of the picture's plane from the eye, in pixels.
     double focal_px() const { return height / 2.0 / std::tan(radians(view_angle_deg) / 2); }
+    friend bool operator==(const Lens&, const Lens&) = default;
 };
 
 /// A point of space in a picture. What lies behind the eye has a depth of 0 or less and no meaningful pixel.
