@@ -9,6 +9,7 @@
 #include "vicon/viewer/model/flight_plan.h"
 #include "vicon/viewer/scene/id_scene.h"
 #include "vicon/viewer/scene/offscreen.h"
+#include "vicon/viewer/scene/sight_ahead.h"
 
 namespace vicon::viewer {
 namespace {
@@ -57,6 +58,25 @@ TEST_F(Flights, ShowNothingButWallAndEachTriangleWhereTheModelPutsIt)
 TEST_F(Flights, CulledPicturesAreIdenticalToPicturesOfEverything)
 {
     test::expectCulledPicturesIdentical(scan(), 25, 1);
+}
+
+TEST_F(Flights, ChoosingAheadGivesWhatChoosingAtOnceGives)
+{
+    const PreparedScan of = scan();
+    const CellVisibility visibility(of);
+    SightAhead ahead(visibility);
+    const Lens lens{90, 200, 160}, wide{110, 200, 160};
+    const auto poses = planFlight(of.frames(), of.lumen(), 40, Heading::caecum);
+    ASSERT_GT(poses.size(), 4U);
+    for (std::size_t n = 0; n < poses.size(); ++n) {
+        const Pose here = poses[n].pose, next = poses[(n + 1) % poses.size()].pose;
+        const SeenParts wanted = visibility.seenFrom(here, lens), found = ahead.seenFrom(here, lens);
+        EXPECT_EQ(found.everything, wanted.everything);
+        EXPECT_EQ(found.segments, wanted.segments);
+        EXPECT_EQ(found.patches, wanted.patches);
+        ahead.prepare(next, n % 3 == 0 ? wide : lens);  // now and then for another lens than is asked then
+        ahead.prepare(n % 4 == 1 ? here : next, lens);  // or another place
+    }
 }
 
 TEST_F(Flights, ReportPosesFramesAndCoverage)
