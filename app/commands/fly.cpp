@@ -1,5 +1,6 @@
 #include "vicon/viewer/scene/flight.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "../command.h"
@@ -25,6 +26,24 @@ viewer::FlightRequest::Direction directionFrom(const std::string& name)
     if (name == "both")
         return Direction::both;
     throw Error(ErrorCode::wrong_use, "must be caecum, rectum or both", "--to");
+}
+
+constexpr std::size_t kMostListed = 10;
+
+void printUnseen(const viewer::FlightReport& report, double least_mm2)
+{
+    if (report.whole_mm2 <= 0)
+        return;
+    std::printf("unseen: %.0f of %.0f mm2; patches of %g mm2 and more: %zu\n", report.whole_mm2 - report.seen_mm2,
+                report.whole_mm2, least_mm2, report.unseen.size());
+    for (std::size_t n = 0; n < std::min(report.unseen.size(), kMostListed); ++n) {
+        const viewer::UnseenPatch& patch = report.unseen[n];
+        const std::string part = partNameAt(report.parts, patch.station_mm);
+        std::printf("  %6.0f mm2 at station %.0f mm%s%s, LPS %.1f %.1f %.1f mm\n", patch.area_mm2, patch.station_mm,
+                    part.empty() ? "" : ", ", part.c_str(), patch.centre_mm.x, patch.centre_mm.y, patch.centre_mm.z);
+    }
+    if (report.unseen.size() > kMostListed)
+        std::printf("  ... (all with --json or in flight.json)\n");
 }
 
 int fly(Context& context, const FlyArguments& arguments)
@@ -53,6 +72,7 @@ int fly(Context& context, const FlyArguments& arguments)
     std::printf("cells drawn %.1f of %zu, triangles drawn %.0f of %zu on average; frame %.1f ms median\n",
                 report.average_cells, report.cells, report.average_triangles, report.triangles,
                 report.median_seconds * 1e3);
+    printUnseen(report, request.least_unseen_mm2);
     if (!arguments.out.empty())
         std::printf("%s\n", arguments.out.c_str());
     return 0;
@@ -81,6 +101,9 @@ Subcommand flyCommand()
                 ->check(CLI::Range(20, 150))
                 ->capture_default_str();
             command.add_flag("!--no-coverage", request.measure_coverage, "Do not measure what is seen (faster)");
+            command.add_option("--unseen", request.least_unseen_mm2, "Least area of an unseen patch to be listed, mm2")
+                ->check(CLI::Range(0.0, 1e6))
+                ->capture_default_str();
             command.add_flag("!--no-culling", request.cull, "Draw every cell in every frame");
             command.add_option("--out", arguments->out, "Folder for the frames and flight.json")->type_name("DIR");
             return [arguments](Context& context) { return fly(context, *arguments); };

@@ -106,6 +106,16 @@ TEST_F(Flights, ReportPosesFramesAndCoverage)
     EXPECT_EQ(json.at("frames").size(), one_way.frames.size());
     EXPECT_NEAR(json.at("coverage").get<double>(), one_way.coverage, 1e-9);
 
+    EXPECT_NEAR(one_way.seen_mm2, one_way.coverage * one_way.whole_mm2, 1e-6 * one_way.whole_mm2);
+    double unseen = 0;
+    for (const UnseenPatch& patch : one_way.unseen)
+        unseen += patch.area_mm2;
+    ASSERT_FALSE(one_way.unseen.empty());
+    EXPECT_LE(unseen, one_way.whole_mm2 - one_way.seen_mm2 + 1e-3 * unseen);
+    EXPECT_GT(unseen, 0.5 * (one_way.whole_mm2 - one_way.seen_mm2));  // most of it hides behind folds, not in specks
+    ASSERT_EQ(json.at("unseen").size(), one_way.unseen.size());
+    EXPECT_NEAR(json.at("unseen")[0].at("area_mm2").get<double>(), one_way.unseen[0].area_mm2, 1e-9);
+
     request.direction = FlightRequest::Direction::both;
     request.write_frames = false;
     const FlightReport both = fly(of, request, progress);

@@ -149,6 +149,36 @@ nlohmann::json triple(double x, double y, double z)
     return {x, y, z};
 }
 
+nlohmann::json toJson(const std::vector<UnseenPatch>& patches, const ColonPartRanges& parts)
+{
+    nlohmann::json list = nlohmann::json::array();
+    for (const UnseenPatch& patch : patches) {
+        const Pose& p = patch.view.pose;
+        list.push_back({{"area_mm2", patch.area_mm2},
+                        {"centre_mm", triple(patch.centre_mm.x, patch.centre_mm.y, patch.centre_mm.z)},
+                        {"station_mm", patch.station_mm},
+                        {"part", partNameAt(parts, patch.station_mm)},
+                        {"in_plain_view", patch.view.sees_target},
+                        {"eye_mm", triple(p.eye_mm.x, p.eye_mm.y, p.eye_mm.z)},
+                        {"forward", triple(p.forward.x, p.forward.y, p.forward.z)},
+                        {"up", triple(p.up.x, p.up.y, p.up.z)}});
+    }
+    return list;
+}
+
+void addCoverage(FlightReport& report, const Studio& studio)
+{
+    const PreparedScan& scan = studio.scan;
+    report.coverage = studio.coverage.fraction();
+    report.seen_mm2 = studio.coverage.seenArea_mm2();
+    report.whole_mm2 = studio.coverage.wholeArea_mm2();
+    report.parts = scan.parts();
+    UnseenOptions options;
+    options.least_area_mm2 = studio.request.least_unseen_mm2;
+    report.unseen = unseenPatches(scan.cells().points_mm, scan.cells().triangles, studio.coverage, scan.skeleton(),
+                                  scan.frames(), scan.lumen(), options);
+}
+
 }  // namespace
 
 nlohmann::json toJson(const FlightReport& report)
@@ -171,6 +201,9 @@ nlohmann::json toJson(const FlightReport& report)
             {"cells", report.cells},
             {"triangles", report.triangles},
             {"coverage", report.coverage},
+            {"seen_mm2", report.seen_mm2},
+            {"whole_mm2", report.whole_mm2},
+            {"unseen", toJson(report.unseen, report.parts)},
             {"average_cells", report.average_cells},
             {"average_triangles", report.average_triangles},
             {"average_triangles_seen", report.average_seen},
@@ -201,7 +234,8 @@ FlightReport fly(const PreparedScan& scan, const FlightRequest& request, Progres
             report.frames.push_back(studio.shoot(leg.poses[n], shown, leg.heading, png));
             progress.report(double(report.frames.size()) / double(all), "flying");
         }
-    report.coverage = studio.request.measure_coverage ? studio.coverage.fraction() : 0;
+    if (studio.request.measure_coverage)
+        addCoverage(report, studio);
     summarise(report);
     if (!request.out.empty())
         replaceFile(request.out / "flight.json", toJson(report).dump(1) + "\n");

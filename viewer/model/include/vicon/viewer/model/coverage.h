@@ -15,7 +15,9 @@ public:
     void see(const std::vector<std::uint32_t>& triangles);
     void forget();
 
+    std::size_t triangleCount() const { return seen_.size(); }
     bool seen(std::size_t triangle) const { return seen_[triangle] != 0; }
+    double area_mm2(std::size_t triangle) const { return areas_mm2_[triangle]; }
     std::size_t seenCount() const { return seen_count_; }
     double seenArea_mm2() const { return seen_area_; }
     double wholeArea_mm2() const { return whole_area_; }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vicon/core/progress.h"
+#include "vicon/viewer/model/unseen.h"
 #include "vicon/viewer/scene/snapshot.h"
 
 namespace vicon::viewer {
@@ -21,7 +22,8 @@ struct FlightRequest {
     bool write_frames = true;      ///< frames as PNG, "frame-00001.png" and on
     bool measure_coverage = true;  ///< which triangles are seen; costs a second rendering of each frame
     bool cull = true;              ///< draw only cells that may be seen
-    std::filesystem::path out;     ///< folder for frames and flight.json; empty: nothing is written
+    double least_unseen_mm2 = UnseenOptions().least_area_mm2;  ///< smaller unseen patches are not listed
+    std::filesystem::path out;  ///< folder for frames and flight.json; empty: nothing is written
     std::vector<Marker> markers;
     Caption caption;
 };
@@ -44,6 +46,9 @@ struct FlightReport {
     double length_mm = 0;
     std::size_t cells = 0, triangles = 0;  ///< of the whole surface
     double coverage = 0;  ///< part of the surface's area that was seen, 0 to 1; 0 where it is not measured
+    double seen_mm2 = 0, whole_mm2 = 0;
+    std::vector<UnseenPatch> unseen;  ///< the largest first; empty where coverage is not measured
+    ColonPartRanges parts;            ///< by which the patches' stations are named
     double average_cells = 0, average_triangles = 0, average_seen = 0;
     double median_seconds = 0, slow_seconds = 0;  ///< of the frames; slow: 95 % are faster
 };

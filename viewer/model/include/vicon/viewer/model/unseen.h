@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "vicon/viewer/model/coverage.h"
+#include "vicon/viewer/model/view_pose.h"
+
+namespace vicon::viewer {
+
+/// A connected piece of the wall that has not been seen.
+struct UnseenPatch {
+    double area_mm2 = 0;
+    Point3 centre_mm;       ///< LPS; on the wall, the middle of the triangle nearest to the piece's middle
+    double station_mm = 0;  ///< of the nearest point of the path
+    ViewPose view;          ///< a place from which the centre is looked at
+    std::vector<std::uint32_t> triangles;  ///< ascending
+};
+
+struct UnseenOptions {
+    /// Smaller pieces are left out. A polyp of 6 mm, the least that is reported, hides behind 28 mm2 (a disc of 6 mm).
+    double least_area_mm2 = 28;
+    ViewPoseOptions pose;
+};
+
+/// The unseen pieces of a surface, the largest first. Triangles belong to one piece when they share an edge; so pieces
+/// cross the borders of cells, and single triangles too thin for any pixel do not join what lies around them.
+/// @param points_mm x, y, z of each point, LPS
+/// @param triangles three point numbers each, as many triangles as `coverage` has
+/// Throws Error{bad_input} when the coverage is one of another surface, and as poseForPoint() does.
+std::vector<UnseenPatch> unseenPatches(const std::vector<float>& points_mm, const std::vector<std::uint32_t>& triangles,
+                                       const Coverage& coverage, const Skeleton& skeleton, const PathFrames& path,
+                                       const Lumen& lumen, const UnseenOptions& options = {});
+
+}  // namespace vicon::viewer
