@@ -92,6 +92,17 @@ std::string bridgeWords(const json& bridges)
     return std::to_string(bridges.size()) + (bridges.size() == 1 ? " collapsed part: " : " collapsed parts:\n") + out;
 }
 
+/// What the reader measured; nothing where that was not done.
+std::string sizeWords(const json& size)
+{
+    if (!size.is_object() || !size.contains("straight_mm") || !size["straight_mm"].is_number())
+        return {};
+    std::string words = millimetres(size["straight_mm"].get<double>(), 1) + " straight";
+    if (size.contains("along_mm") && size["along_mm"].is_number())
+        words += ", " + millimetres(size["along_mm"].get<double>(), 1) + " along the wall";
+    return words;
+}
+
 }  // namespace
 
 std::vector<Statement> patientStatements(const CaseRecord& a_case)
@@ -155,6 +166,8 @@ std::vector<Statement> markerStatements(const MarkerEntry& entry)
     out.push_back({"From caecal end", millimetres(marker.from_caecum_mm) + " along the skeleton"});
     out.push_back(
         {"Fraction", percent(marker.fraction) + " of the whole, " + millimetres(length_mm) + ", from the rectal end"});
+    addGiven(out, "Size", sizeWords(marker.extra.value("size", json())));
+    addGiven(out, "Same finding", marker.extra.value("pair", ""));
     out.push_back({"By endoscope", "estimated: " + endoscopeEstimate(marker.station_mm, entry.part_name)});
     return out;
 }

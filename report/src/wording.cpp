@@ -181,9 +181,9 @@ std::string positionWords(Point3 p)
            (isNegative(p.z) ? "footward" : "headward") + " of the scan's origin";
 }
 
-std::string millimetres(double length_mm)
+std::string millimetres(double length_mm, int decimals)
 {
-    return format("%.0f mm", length_mm + 0.0);
+    return format(decimals == 0 ? "%.0f mm" : "%.1f mm", length_mm + 0.0);
 }
 
 std::string percent(double fraction, int decimals)

@@ -249,7 +249,7 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     ASSERT_TRUE(eventually([&] { return std::abs(station() - seen_from) < 2; })) << "at " << station();
 
     // A note, written in its cell.
-    const auto* note = markers()->item(0, 5);
+    const auto* note = markers()->item(0, 6);
     QTest::mouseClick(markers()->viewport(), Qt::LeftButton, {}, markers()->visualItemRect(note).center());
     QTest::mouseDClick(markers()->viewport(), Qt::LeftButton, {}, markers()->visualItemRect(note).center());
     auto* editor = markers()->findChild<QLineEdit*>();
@@ -295,11 +295,30 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     ASSERT_TRUE(eventually([] { return window() == nullptr; }));
     openCase();
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 2; }));
-    EXPECT_EQ(cell(0, 5), "6 mm, sessile");
+    EXPECT_EQ(cell(0, 6), "6 mm, sessile");
     EXPECT_EQ(cell(0, 4), cell(1, 0));
     choose(1);
     press(window(), "markerRemove");
     ASSERT_TRUE(eventually([&] { return stored().size() == 1; }));
+}
+
+TEST_F(Reading, ASizeIsMeasuredBetweenTwoClicksAndKeptWithTheMarkerBesideIt)
+{
+    openCase();
+    const QPoint first = middle("endoscopic") + QPoint(90, 60), second = first + QPoint(30, 30);
+    click("endoscopic", first, Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    QTest::keyClick(window(), Qt::Key_M);
+    click("endoscopic", first);
+    click("endoscopic", second);
+    ASSERT_TRUE(eventually([&] { return stored()[0].extra.contains("size") && settled(); }));
+    const auto size = stored()[0].extra["size"];
+    EXPECT_GT(size["straight_mm"].get<double>(), 1);
+    EXPECT_GE(size["along_mm"].get<double>(), size["straight_mm"].get<double>() - 1e-9);
+    EXPECT_EQ(cell(0, 5), QString::number(size["straight_mm"].get<double>(), 'f', 1));
+    screenshot("measured");
+    press(window(), "undo");
+    ASSERT_TRUE(eventually([&] { return !stored()[0].extra.contains("size"); }));
 }
 
 TEST_F(Reading, AMarkerThatAnotherReaderChangedIsNotOverwritten)
@@ -317,7 +336,7 @@ TEST_F(Reading, AMarkerThatAnotherReaderChangedIsNotOverwritten)
     ASSERT_TRUE(eventually([] { return the<QLabel>("warning")->text().contains("another reader"); }));
     ASSERT_EQ(stored().size(), 1U);
     EXPECT_EQ(stored()[0].note, "by the other reader");
-    EXPECT_EQ(cell(0, 5), "by the other reader");
+    EXPECT_EQ(cell(0, 6), "by the other reader");
     screenshot("conflict");
 }
 

@@ -161,6 +161,12 @@ TEST(Statements, AMarkerGivesTheMeasuredDistanceFirstAndTheEstimateLast)
             Statement{"From caecal end", "1183 mm along the skeleton"},
             Statement{"Fraction", "25.8 % of the whole, 1595 mm, from the rectal end"},
             Statement{"By endoscope", "estimated: about 32 cm (0.78 × CT distance, left colon)"}));
+    entry.marker.extra["size"] = {{"straight_mm", 6.24}, {"along_mm", 8.0}};
+    entry.marker.extra["pair"] = "m7";
+    EXPECT_EQ(said(markerStatements(entry), "Size"), "6.2 mm straight, 8.0 mm along the wall");
+    EXPECT_EQ(said(markerStatements(entry), "Same finding"), "m7");
+    entry.marker.extra["size"] = "what another program wrote";
+    EXPECT_EQ(said(markerStatements(entry), "Size"), "(nothing)");
     entry.part_name.clear();
     EXPECT_EQ(said(markerStatements(entry), "Part of colon"), "(nothing)");
     EXPECT_THAT(said(markerStatements(entry), "By endoscope"), HasSubstr("24 to 32 cm"));

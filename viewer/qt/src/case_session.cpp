@@ -131,11 +131,12 @@ void CaseSession::addMarker(const Marker& marker)
     });
 }
 
-void CaseSession::changeMarker(const Marker& before, const Marker& after, bool moved)
+void CaseSession::changeMarker(const Marker& before, const Marker& after, bool moved, const QString& what)
 {
-    edit(tr("Change saved"), [this, before, after, moved](CaseStore& store, MarkerHistory& history) {
-        history.change(store, before, moved ? services_.place(store, row_.record.id, after) : after);
-    });
+    edit(what.isEmpty() ? tr("Change saved") : what,
+         [this, before, after, moved](CaseStore& store, MarkerHistory& history) {
+             history.change(store, before, moved ? services_.place(store, row_.record.id, after) : after);
+         });
 }
 
 void CaseSession::removeMarker(const Marker& marker)
@@ -185,6 +186,22 @@ void CaseSession::savePicture(const QImage& picture)
         writePng(file, out);
         store().audit("picture saved", id, "", file.filename().string());
         return [this, name = QString::fromStdString(file.string())] { emit saved(tr("Picture saved: %1").arg(name)); };
+    });
+}
+
+void CaseSession::measure(Point3 from, Point3 to)
+{
+    loader_.post("measure", [this, scan = scan_, from, to]() -> Worker::Work {
+        const auto& cells = scan->files.cells();
+        const auto size = distanceOverWall(cells.points_mm, cells.triangles, from, to);
+        return [this, scan, size] {
+            if (scan != scan_)
+                return;
+            if (size)
+                emit measured(*size);
+            else
+                emit warned(tr("No way over the wall joins the two points; measure them straight, in a slice."));
+        };
     });
 }
 

@@ -8,6 +8,7 @@
 
 #include "vicon/viewer/model/marker_history.h"
 #include "vicon/viewer/model/navigator.h"
+#include "vicon/viewer/model/wall_distance.h"
 #include "vicon/viewer/qt/reading_room.h"
 #include "vicon/viewer/scene/prepared_scan.h"
 #include "vicon/viewer/scene/snapshot.h"
@@ -47,7 +48,8 @@ public:
     std::shared_ptr<OpenScan> sharedScan() const { return scan_; }
 
     void addMarker(const Marker& marker);
-    void changeMarker(const Marker& before, const Marker& after, bool moved);
+    /// @param what is said when it is saved; empty: that it is
+    void changeMarker(const Marker& before, const Marker& after, bool moved, const QString& what = {});
     void removeMarker(const Marker& marker);
     void undo();
     void redo();
@@ -56,6 +58,8 @@ public:
     /// Looks whether another reader changed something.
     void refresh();
     void writeReport();
+    /// Between two points of the open scan's wall; measured() follows, or warned().
+    void measure(Point3 from, Point3 to);
     /// Keeps a picture in the case's folder, "pictures/1.png" and on.
     void savePicture(const QImage& picture);
 
@@ -66,6 +70,7 @@ signals:
     void busyChanged(bool busy);
     void saved(const QString& what);
     void warned(const QString& message);
+    void measured(const vicon::viewer::WallDistance& size);
     void reportWritten(const QString& file);
 
 private:

@@ -14,11 +14,20 @@
 namespace vicon::viewer {
 namespace {
 
-enum Column { kId, kScan, kStation, kPart, kPair, kNote, kColumns };
+enum Column { kId, kScan, kStation, kPart, kPair, kSize, kNote, kColumns };
 
 QString text(const std::string& utf8)
 {
     return QString::fromStdString(utf8);
+}
+
+/// Straight between its ends, in mm.
+QString sizeOf(const Marker& marker)
+{
+    const auto size = marker.extra.find("size");
+    if (size == marker.extra.end() || !size->is_object() || !size->contains("straight_mm"))
+        return {};
+    return QString::number((*size)["straight_mm"].get<double>(), 'f', 1);
 }
 
 QColor qtColor(MarkerColor color)
@@ -35,10 +44,11 @@ MarkerTable::MarkerTable(QWidget* parent) : QWidget(parent)
     table_ = new QTableWidget(0, kColumns, this);
     table_->setObjectName("markers");
     table_->setAccessibleName(tr("Markers"));
-    table_->setHorizontalHeaderLabels({tr("ID"), tr("Scan"), tr("mm"), tr("Part"), tr("Pair"), tr("Note")});
+    table_->setHorizontalHeaderLabels({tr("ID"), tr("Scan"), tr("mm"), tr("Part"), tr("Pair"), tr("Size"), tr("Note")});
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
     table_->horizontalHeaderItem(kStation)->setToolTip(tr("Distance from the rectum along the colon"));
+    table_->horizontalHeaderItem(kSize)->setToolTip(tr("Straight between the two ends that were clicked, in mm (M)"));
     table_->verticalHeader()->hide();
     table_->horizontalHeader()->setStretchLastSection(true);
     table_->setToolTip(tr("Click: fly there. Double click on the note: write it."));
@@ -112,6 +122,7 @@ void MarkerTable::show(const std::vector<Marker>& markers, const std::map<std::s
                                 QString::number(m.station_mm, 'f', 0),
                                 text(m.extra.value("part", "")),
                                 text(m.extra.value("pair", "")),
+                                sizeOf(m),
                                 text(m.note)};
         for (int column = 0; column < kColumns; ++column) {
             auto* item = new QTableWidgetItem(cells[column]);

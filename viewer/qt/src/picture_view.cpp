@@ -25,6 +25,22 @@ void PictureView::showPicture(const Picture& picture)
     update();
 }
 
+void PictureView::setLines(const QVector<QLineF>& lines)
+{
+    lines_ = lines;
+    update();
+}
+
+void PictureView::drawLines(QPainter& painter) const
+{
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.scale(1 / devicePixelRatioF(), 1 / devicePixelRatioF());
+    for (const auto& [color, width] : {std::pair(Qt::black, 5.0), std::pair(Qt::white, 2.0)}) {
+        painter.setPen(QPen(color, width, Qt::SolidLine, Qt::RoundCap));
+        painter.drawLines(lines_);
+    }
+}
+
 QSize PictureView::pictureSize() const
 {
     const QSize wanted = size() * devicePixelRatioF();
@@ -44,6 +60,7 @@ void PictureView::paintEvent(QPaintEvent*)
     const QSizeF drawn = QSizeF(image_.size()) / image_.devicePixelRatioF();
     if (QSizeF(pictureSize()) / devicePixelRatioF() == drawn || image_.isNull()) {
         painter.drawImage(0, 0, image_);
+        drawLines(painter);
         return;
     }
     // The view has another size by now, and its picture is still to come.

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <QImage>
+#include <QLineF>
+#include <QVector>
 #include <QWidget>
 
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/scene/canvas.h"
+
+class QPainter;
 
 namespace vicon::viewer {
 
@@ -14,6 +18,8 @@ class PictureView : public QWidget {
 public:
     explicit PictureView(const QString& name, QWidget* parent = nullptr);
 
+    /// Drawn over the picture; in its pixels.
+    void setLines(const QVector<QLineF>& lines);
     void showPicture(const Picture& picture);
     const QImage& image() const { return image_; }
     /// Size that a picture should have, in device pixels.
@@ -39,7 +45,10 @@ protected:
     void wheelEvent(QWheelEvent* event) override;
 
 private:
+    void drawLines(QPainter& painter) const;
+
     QImage image_;
+    QVector<QLineF> lines_;
     QPoint pressed_, last_;
     Qt::MouseButton button_ = Qt::NoButton;
     bool dragging_ = false;

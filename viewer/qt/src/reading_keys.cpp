@@ -100,8 +100,10 @@ void ReadingWindow::flyTo(const Marker& marker)
     moved(true);
 }
 
-bool ReadingWindow::placed(Point3 point, Qt::KeyboardModifiers modifiers)
+bool ReadingWindow::placed(Point3 point, Qt::KeyboardModifiers modifiers, bool on_wall)
 {
+    if (measuredAt(point, on_wall))
+        return true;
     if (moving_) {
         const auto before = session_.marker(*moving_);
         moving_.reset();
@@ -134,7 +136,7 @@ void ReadingWindow::clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers)
     if (!far)
         return;
     const Point3 point = shown_pose_.eye_mm + ray * *far;
-    placed(point, modifiers);
+    placed(point, modifiers, true);
     focus_ = point;
     showPlace();
 }
@@ -192,10 +194,15 @@ void ReadingWindow::arm(std::optional<MarkerColor> color)
         moving_.reset();
         pairing_.reset();
     }
-    const Qt::CursorShape shape = color ? Qt::CrossCursor : Qt::ArrowCursor;
-    for (QWidget* view : std::initializer_list<QWidget*>{endoscopic_, overview_, transverse_, coronal_, sagittal_})
-        view->setCursor(shape);
+    stopMeasuring();
+    setPickCursor(color.has_value());
     tell(color ? tr("Click where the %1 marker shall be").arg(QString::fromStdString(nameOf(*color))) : QString());
+}
+
+void ReadingWindow::setPickCursor(bool on)
+{
+    for (QWidget* view : std::initializer_list<QWidget*>{endoscopic_, overview_, transverse_, coronal_, sagittal_})
+        view->setCursor(on ? Qt::CrossCursor : Qt::ArrowCursor);
 }
 
 void ReadingWindow::setMode(NavigationMode mode)

@@ -51,6 +51,7 @@ void ReadingWindow::connectAll()
     connect(&session_, &CaseSession::busyChanged, table_, &MarkerTable::setBusy);
     connect(&session_, &CaseSession::saved, this, &ReadingWindow::tell);
     connect(&session_, &CaseSession::warned, this, &ReadingWindow::warn);
+    connect(&session_, &CaseSession::measured, this, &ReadingWindow::showMeasured);
     connect(&session_, &CaseSession::reportWritten, this,
             [this](const QString& file) { tell(tr("Report written: %1").arg(file)); });
     connect(&studio_, &Studio::failed, this, &ReadingWindow::warn);
@@ -59,6 +60,7 @@ void ReadingWindow::connectAll()
                 shown_pose_ = pose;
                 shown_lens_ = lens;
                 endoscopic_->showPicture(picture);
+                drawMeasured();
             });
     connect(&studio_, &Studio::overviewDrawn, this, [this](const Picture& picture, const PlaneView& view) {
         shown_overview_ = view;
@@ -144,6 +146,7 @@ void ReadingWindow::connectAll()
 void ReadingWindow::scanOpened()
 {
     overview_shown_ = false;
+    measured_way_.clear();
     focus_.reset();
     warning_->clear();
     tell({});

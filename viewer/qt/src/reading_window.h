@@ -64,7 +64,8 @@ private:
     void clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers);
     void clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers);
     void clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers);
-    bool placed(Point3 point, Qt::KeyboardModifiers modifiers);
+    bool placed(Point3 point, Qt::KeyboardModifiers modifiers, bool on_wall = false);
+    void setPickCursor(bool on);
     void pair(const Marker& marker);
     void arm(std::optional<MarkerColor> color);
     void setMode(NavigationMode mode);
@@ -72,6 +73,14 @@ private:
     void turnAbout();
     void updateSteering();
     void snapshot(bool to_clipboard);
+
+    // reading_measure.cpp
+    void startMeasuring();
+    void stopMeasuring();
+    bool measuredAt(Point3 point, bool on_wall);
+    void showMeasured(const WallDistance& size);
+    void drawMeasured();
+    std::optional<Marker> markerBeside(const std::vector<Point3>& way) const;
 
     SnapshotRequest request(const QSize& size) const;
     SnapshotResult place() const;
@@ -97,6 +106,13 @@ private:
     std::optional<Point3> focus_;  // what was clicked; else the place on the path
     std::optional<MarkerColor> armed_;
     std::optional<std::string> moving_, pairing_;  // markers, by id: what they are may change meanwhile
+    /// Two clicks that are being measured.
+    struct Measuring {
+        std::vector<Point3> ends;
+        bool on_wall = true;  ///< both; else straight, as in a slice
+    };
+    std::optional<Measuring> measuring_;
+    std::vector<Point3> measured_way_;
     std::set<int> keys_;
     QPointF mouse_steering_;
     double wanted_fraction_ = -1;  // of the path, when the scan is changed

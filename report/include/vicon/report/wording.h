@@ -34,7 +34,7 @@ std::string positionLetters(Point3 position_mm);
 std::string positionWords(Point3 position_mm);
 
 /// "412 mm".
-std::string millimetres(double length_mm);
+std::string millimetres(double length_mm, int decimals = 0);
 /// "25.8 %" of 0.258.
 std::string percent(double fraction, int decimals = 1);
 

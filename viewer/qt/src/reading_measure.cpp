@@ -1,0 +1,105 @@
+#include <QStatusBar>
+
+#include "reading_window.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr double kBeside_mm = 10;  // a size belongs to a marker this near to its line
+
+QString mm(double length)
+{
+    return QObject::tr("%1 mm").arg(length, 0, 'f', 1);
+}
+
+nlohmann::json jsonOf(Point3 p)
+{
+    return {p.x, p.y, p.z};
+}
+
+}  // namespace
+
+void ReadingWindow::startMeasuring()
+{
+    arm({});
+    measuring_ = Measuring{};
+    measured_way_.clear();
+    drawMeasured();
+    setPickCursor(true);
+    tell(tr("Measure: click on the two ends, on the wall or in a slice"));
+}
+
+void ReadingWindow::stopMeasuring()
+{
+    measuring_.reset();
+}
+
+bool ReadingWindow::measuredAt(Point3 point, bool on_wall)
+{
+    if (!measuring_)
+        return false;
+    measuring_->ends.push_back(point);
+    measuring_->on_wall = measuring_->on_wall && on_wall;
+    if (measuring_->ends.size() < 2) {
+        tell(tr("Measure: click on the other end"));
+        return true;
+    }
+    const Measuring done = *measuring_;
+    stopMeasuring();
+    setPickCursor(false);
+    if (done.on_wall) {
+        tell(tr("Measuring ..."));
+        session_.measure(done.ends[0], done.ends[1]);
+    } else {
+        showMeasured({distance(done.ends[0], done.ends[1]), 0, done.ends});
+    }
+    return true;
+}
+
+std::optional<Marker> ReadingWindow::markerBeside(const std::vector<Point3>& way) const
+{
+    std::optional<Marker> beside;
+    double least = kBeside_mm;
+    for (const Marker& marker : session_.markersOf(session_.scan()->record.id))
+        for (const Point3 p : way)
+            if (const double d = distance(p, marker.position_mm); d < least) {
+                least = d;
+                beside = marker;
+            }
+    return beside;
+}
+
+void ReadingWindow::showMeasured(const WallDistance& size)
+{
+    measured_way_ = size.way_mm;
+    drawMeasured();
+    QString text = tr("%1 straight").arg(mm(size.straight_mm));
+    if (size.along_mm > 0)
+        text += tr(", %1 along the wall").arg(mm(size.along_mm));
+    const auto marker = markerBeside(size.way_mm);
+    if (!marker) {
+        tell(text + tr("; no marker beside it to keep it with"));
+        return;
+    }
+    Marker after = *marker;
+    after.extra["size"] = {{"straight_mm", size.straight_mm},
+                           {"from_mm", jsonOf(size.way_mm.front())},
+                           {"to_mm", jsonOf(size.way_mm.back())}};
+    if (size.along_mm > 0)
+        after.extra["size"]["along_mm"] = size.along_mm;
+    session_.changeMarker(*marker, after, false, tr("%1; kept with %2").arg(text, QString::fromStdString(marker->id)));
+}
+
+void ReadingWindow::drawMeasured()
+{
+    QVector<QLineF> lines;
+    for (std::size_t n = 1; n < measured_way_.size(); ++n) {
+        const Projected a = project(shown_pose_, shown_lens_, measured_way_[n - 1]);
+        const Projected b = project(shown_pose_, shown_lens_, measured_way_[n]);
+        if (a.depth_mm > 0 && b.depth_mm > 0)
+            lines << QLineF(a.at.x, a.at.y, b.at.x, b.at.y);
+    }
+    endoscopic_->setLines(lines);
+}
+
+}  // namespace vicon::viewer
