@@ -28,7 +28,8 @@ std::string scanTitle(const ScanEntry& entry);
 /// or refused.
 std::vector<Statement> scanStatements(const ScanEntry& entry);
 
-/// Position, part, distances from both ends, fraction, size and paired marker where given and, last, the estimated endoscope distance.
+/// Position, part, distances from both ends, fraction, size and paired marker where given and, last, the estimated
+/// endoscope distance.
 std::vector<Statement> markerStatements(const MarkerEntry& entry);
 
 /// Whether the marker's scan went through a lossy compression.
