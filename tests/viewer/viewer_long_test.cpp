@@ -1,5 +1,6 @@
 // The proofs in full; the ordinary tests hold samples of them.
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "render_checks.h"
@@ -13,9 +14,8 @@ namespace {
 struct LongFlights : test::ColonFixture {};
 
 // The real scan and the default phantom, imported and worked through by the built command.
-TEST(LongPrepared, AThousandCulledPicturesOfEachScanAreIdenticalToPicturesOfEverything)
+void forEachPreparedScan(const std::function<void(const PreparedScan&)>& check)
 {
-    VICON_NEEDS_DATA("ctc-prone");
     const support::TemporaryFolder folder;
     const std::string phantom = (folder / "phantom").string(), store = (folder / "store").string();
     for (const std::string& arguments :
@@ -25,15 +25,34 @@ TEST(LongPrepared, AThousandCulledPicturesOfEachScanAreIdenticalToPicturesOfEver
         const support::CommandResult result = support::runVicon(arguments);
         ASSERT_EQ(result.exit_code, 0) << "vicon " << arguments << "\n" << result.output;
     }
-    const Display display;
     std::size_t scans = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(store))
         if (entry.path().filename() == "cells.vtp") {
             SCOPED_TRACE(entry.path().parent_path().filename().string());
-            test::expectCulledPicturesIdentical(PreparedScan::open(entry.path().parent_path()), 1000, 7, 256);
+            check(PreparedScan::open(entry.path().parent_path()));
             ++scans;
         }
     EXPECT_EQ(scans, 2U);
+}
+
+TEST(LongPrepared, AThousandCulledPicturesOfEachScanAreIdenticalToPicturesOfEverything)
+{
+    VICON_NEEDS_DATA("ctc-prone");
+    const Display display;
+    forEachPreparedScan([](const PreparedScan& scan) { test::expectCulledPicturesIdentical(scan, 1000, 7, 256); });
+}
+
+// One test for all, as preparing the scans takes longer than the flights.
+TEST(LongPrepared, TheGuidedCameraKeepsOffTheWallFliesAlikeAtAnyFrameRateAndComesBackWhenLetGo)
+{
+    VICON_NEEDS_DATA("ctc-prone");
+    forEachPreparedScan([](const PreparedScan& scan) {
+        const test::Course course{scan.frames(), scan.lumen(), scan.exitDistance(), scan.cells()};
+        test::steerAtRandom(course, 1000000, 1000);
+        for (unsigned n = 0; n < 20; ++n)
+            test::flyAtTwoRates(course, scan.frames().length_mm() * n / 20, 9 + n);
+        test::letGoAlong(course, 100);
+    });
 }
 
 struct LongSubmarines : test::Submarines {};
@@ -45,7 +64,7 @@ TEST_F(LongFlights, AThousandCulledPicturesAreIdenticalToPicturesOfEverything)
 
 TEST_F(LongSubmarines, AMillionTicksNeverComeNearerToTheWallThanTheCamerasRadius)
 {
-    test::steerAtRandom(*this, 1000000);
+    EXPECT_EQ(test::steerAtRandom(course, 1000000), 0);
 }
 
 }  // namespace
