@@ -1,5 +1,5 @@
 // Frames a second of the look below the surface, on a flight through prepared scans.
-//   vicon_peeling_bench [--side PX] [--step MM] [--preset NAME] FOLDER...
+//   vicon_peeling_bench [--side PX] [--step MM] [--sample MM] [--unshaded] [--preset NAME] FOLDER...
 // FOLDER is a scan's folder, or a store's: then every prepared scan in it.
 #include <algorithm>
 #include <cstdio>
@@ -23,6 +23,7 @@ namespace {
 struct Settings {
     int side = 256;
     double step_mm = 50;
+    PeelingOptions peeling;
     std::vector<std::string> presets;
     std::vector<fs::path> folders;
 };
@@ -50,7 +51,7 @@ void measure(const PreparedScan& scan, const std::string& preset, const Settings
     std::vector<double> wall, cpu;
     for (const ViewPose& view : planFlight(scan.frames(), lumen, settings.step_mm, Heading::caecum)) {
         const double begin = secondsOn(CLOCK_MONOTONIC), cpu_begin = secondsOn(CLOCK_PROCESS_CPUTIME_ID);
-        peel(volume, lumen, view.pose, lens, transferFunction(preset));
+        peel(volume, lumen, view.pose, lens, transferFunction(preset), settings.peeling);
         wall.push_back(secondsOn(CLOCK_MONOTONIC) - begin);
         cpu.push_back(secondsOn(CLOCK_PROCESS_CPUTIME_ID) - cpu_begin);
     }
@@ -68,6 +69,10 @@ Settings settingsFrom(int argc, char** argv)
             settings.side = std::atoi(argv[++n]);
         else if (word == "--step" && n + 1 < argc)
             settings.step_mm = std::atof(argv[++n]);
+        else if (word == "--sample" && n + 1 < argc)
+            settings.peeling.step_mm = std::atof(argv[++n]);
+        else if (word == "--unshaded")
+            settings.peeling.shaded = false;
         else if (word == "--preset" && n + 1 < argc)
             settings.presets.emplace_back(argv[++n]);
         else if (fs::exists(fs::path(word) / "cells.vtp"))
