@@ -43,6 +43,14 @@ void printMarkers(const std::vector<Marker>& markers)
                           .c_str());
 }
 
+/// A copy that could not be written is not a change that failed.
+void tellOfCopy(const CaseStore& store)
+{
+    if (!store.markerFileTrouble().empty())
+        std::fprintf(stderr, "vicon: saved in the database; markers.json will be written later: %s\n",
+                     store.markerFileTrouble().c_str());
+}
+
 nlohmann::json listOf(const std::vector<Marker>& markers)
 {
     nlohmann::json list = nlohmann::json::array();
@@ -61,6 +69,7 @@ int mark(Context& context, const MarkArguments& arguments)
     marker.color = markerColorFrom(arguments.color);
     marker.note = arguments.note;
     marker = store.saveMarker(case_id, placeMarker(store, context.config().get<MarkOptions>(), case_id, marker));
+    tellOfCopy(store);
     if (context.json)
         std::printf("%s\n", toJson(marker).dump(2).c_str());
     else
@@ -97,7 +106,8 @@ void importMarkers(CaseStore& store, const MarkOptions& options, const std::stri
 void changeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id,
                   const MarkersArguments& arguments)
 {
-    Marker marker = store.requireMarker(case_id, arguments.change);
+    const Marker before = store.requireMarker(case_id, arguments.change);
+    Marker marker = before;
     if (!arguments.color.empty())
         marker.color = markerColorFrom(arguments.color);
     if (arguments.change_note)
@@ -106,7 +116,7 @@ void changeMarker(CaseStore& store, const MarkOptions& options, const std::strin
         marker.position_mm = pointFrom(arguments.at);
         marker = placeMarker(store, options, case_id, std::move(marker));
     }
-    store.saveMarker(case_id, std::move(marker));
+    store.editMarkers(case_id, {{before, marker}});
 }
 
 int markers(Context& context, const MarkersArguments& arguments)
@@ -120,6 +130,7 @@ int markers(Context& context, const MarkersArguments& arguments)
         changeMarker(store, options, case_id, arguments);
     if (!arguments.remove.empty())
         store.removeMarker(case_id, arguments.remove);
+    tellOfCopy(store);
     const auto list = store.markers(case_id);
     if (!arguments.export_file.empty())
         replaceFile(arguments.export_file, listOf(list).dump(2) + "\n");

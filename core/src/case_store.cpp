@@ -2,6 +2,7 @@
 
 #include <soci/soci.h>
 
+#include "case_rows.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
@@ -13,111 +14,6 @@ namespace {
 
 constexpr std::size_t kIdDigits =
     10;  // 40 bits: among 10,000 cases two ids collide with probability 5e-5, and then import refuses
-
-CaseRecord caseFrom(const soci::row& row)
-{
-    CaseRecord c;
-    c.id = row.get<std::string>("id");
-    c.patient = {row.get<std::string>("patient_id"), row.get<std::string>("patient_name"),
-                 row.get<std::string>("birth_date"), row.get<std::string>("sex")};
-    c.study = json::parse(row.get<std::string>("study")).get<Study>();
-    c.flags = json::parse(row.get<std::string>("flags")).get<std::vector<std::string>>();
-    c.created = row.get<std::string>("created");
-    return c;
-}
-
-ScanRecord scanFrom(const soci::row& row)
-{
-    ScanRecord s;
-    s.id = row.get<std::string>("id");
-    s.case_id = row.get<std::string>("case_id");
-    s.series = json::parse(row.get<std::string>("series")).get<Series>();
-    s.role = row.get<std::string>("role");
-    s.ingest = json::parse(row.get<std::string>("ingest"));
-    s.created = row.get<std::string>("created");
-    return s;
-}
-
-InstanceRecord instanceFrom(const soci::row& row)
-{
-    return {row.get<std::string>("sop_uid"), row.get<std::string>("case_id"), row.get<std::string>("scan_id"),
-            row.get<std::string>("sha256"), row.get<std::string>("file")};
-}
-
-StepRecord stepFrom(const soci::row& row)
-{
-    return {row.get<std::string>("step"),
-            row.get<int>("version"),
-            row.get<std::string>("digest"),
-            json::parse(row.get<std::string>("parameters")),
-            json::parse(row.get<std::string>("result")),
-            row.get<double>("seconds"),
-            row.get<std::string>("finished")};
-}
-
-/// Reads all rows of a query into records.
-template <class Record, class Statement>
-std::vector<Record> collect(Statement&& rows, Record (*from)(const soci::row&))
-{
-    std::vector<Record> records;
-    for (const soci::row& row : rows)
-        records.push_back(from(row));
-    return records;
-}
-
-void putCase(soci::session& sql, const CaseRecord& c)
-{
-    const std::string study = json(c.study).dump(), flags = json(c.flags).dump();
-    sql << "INSERT INTO cases (id, study_uid, patient_id, patient_name, birth_date, sex, study, flags, created)"
-           " VALUES (:id, :uid, :pid, :name, :birth, :sex, :study, :flags, :created)"
-           " ON CONFLICT (id) DO UPDATE SET flags = excluded.flags",
-        soci::use(c.id), soci::use(c.study.uid), soci::use(c.patient.id), soci::use(c.patient.name),
-        soci::use(c.patient.birth_date), soci::use(c.patient.sex), soci::use(study), soci::use(flags),
-        soci::use(c.created);
-}
-
-void putScan(soci::session& sql, const ScanRecord& s)
-{
-    const std::string series = json(s.series).dump(), ingest = s.ingest.dump();
-    sql << "INSERT INTO scans (id, case_id, series_uid, series, role, ingest, created)"
-           " VALUES (:id, :case, :uid, :series, :role, :ingest, :created)"
-           " ON CONFLICT (case_id, id) DO UPDATE SET series = excluded.series, role = excluded.role,"
-           " ingest = excluded.ingest",
-        soci::use(s.id), soci::use(s.case_id), soci::use(s.series.uid), soci::use(series), soci::use(s.role),
-        soci::use(ingest), soci::use(s.created);
-}
-
-void putInstances(soci::session& sql, const std::vector<InstanceRecord>& instances)
-{
-    InstanceRecord row;
-    soci::statement insert =
-        (sql.prepare << "INSERT INTO instances (sop_uid, case_id, scan_id, sha256, file)"
-                        " VALUES (:sop, :case, :scan, :sha, :file) ON CONFLICT (sop_uid) DO UPDATE SET"
-                        " scan_id = excluded.scan_id, file = excluded.file",
-         soci::use(row.sop_uid), soci::use(row.case_id), soci::use(row.scan_id), soci::use(row.sha256),
-         soci::use(row.file));
-    for (const InstanceRecord& instance : instances) {
-        row = instance;
-        insert.execute(true);
-    }
-}
-
-void putAudit(soci::session& sql, const std::string& event, const std::string& case_id, const std::string& scan_id,
-              const std::string& detail)
-{
-    const std::string now = nowUtc();
-    sql << "INSERT INTO audit (at, event, case_id, scan_id, detail) VALUES (:at, :event, :case, :scan, :detail)",
-        soci::use(now), soci::use(event), soci::use(case_id), soci::use(scan_id), soci::use(detail);
-}
-
-int takeNumber(soci::session& sql, const std::string& name)
-{
-    int value = 0;
-    sql << "INSERT INTO counters (name, value) VALUES (:name, 1)"
-           " ON CONFLICT (name) DO UPDATE SET value = value + 1 RETURNING value",
-        soci::use(name), soci::into(value);
-    return value;
-}
 
 }  // namespace
 
@@ -135,6 +31,7 @@ CaseStore::CaseStore(const fs::path& folder)
     : folder_(fs::absolute(folder).lexically_normal()),
       database_((makePrivateFolder(folder_ / "cases"), folder_ / "vicon.db"))
 {
+    renewMarkerFiles();
 }
 
 fs::path CaseStore::caseFolder(const std::string& case_id) const
@@ -321,70 +218,6 @@ json CaseStore::describeScan(const std::string& case_id, const std::string& scan
 void CaseStore::writeScanFile(const std::string& case_id, const std::string& scan_id)
 {
     replaceFile(scanFolder(case_id, scan_id) / "scan.json", describeScan(case_id, scan_id).dump(2) + "\n");
-}
-
-std::vector<Marker> CaseStore::markers(const std::string& case_id)
-{
-    std::vector<Marker> out;
-    const soci::rowset<std::string> rows =
-        (database_.session().prepare << "SELECT content FROM markers WHERE case_id = :c ORDER BY rowid",
-         soci::use(case_id));
-    for (const std::string& content : rows)
-        out.push_back(markerFromJson(json::parse(content)));
-    return out;
-}
-
-Marker CaseStore::requireMarker(const std::string& case_id, const std::string& marker_id)
-{
-    for (Marker& marker : markers(case_id))
-        if (marker.id == marker_id)
-            return std::move(marker);
-    throw Error(ErrorCode::not_found, "no marker '" + marker_id + "'", case_id,
-                "'vicon markers " + case_id + "' lists them");
-}
-
-Marker CaseStore::saveMarker(const std::string& case_id, Marker marker)
-{
-    database_.write([&](soci::session& sql) {
-        marker.changed = nowUtc();
-        if (marker.created.empty())
-            marker.created = marker.changed;
-        if (marker.id.empty())
-            marker.id = "m" + std::to_string(takeNumber(sql, "marker " + case_id));
-        const std::string content = toJson(marker).dump();
-        sql << "INSERT INTO markers (case_id, id, scan_id, content) VALUES (:case, :id, :scan, :content)"
-               " ON CONFLICT (case_id, id) DO UPDATE SET scan_id = excluded.scan_id, content = excluded.content",
-            soci::use(case_id), soci::use(marker.id), soci::use(marker.scan_id), soci::use(content);
-        putAudit(sql, "marker saved", case_id, marker.scan_id, marker.id);
-    });
-    writeMarkerFiles(case_id);
-    return marker;
-}
-
-void CaseStore::removeMarker(const std::string& case_id, const std::string& marker_id)
-{
-    const Marker marker = requireMarker(case_id, marker_id);
-    database_.write([&](soci::session& sql) {
-        sql << "DELETE FROM markers WHERE case_id = :c AND id = :id", soci::use(case_id), soci::use(marker_id);
-        putAudit(sql, "marker removed", case_id, marker.scan_id, marker_id);
-    });
-    writeMarkerFiles(case_id);
-}
-
-void CaseStore::writeMarkerFiles(const std::string& case_id)
-{
-    const std::vector<Marker> all = markers(case_id);
-    const auto write = [&](const fs::path& folder, const std::string& scan_id) {
-        json list = json::array();
-        for (const Marker& marker : all)
-            if (scan_id.empty() || marker.scan_id == scan_id)
-                list.push_back(toJson(marker));
-        replaceFile(folder / "markers.json", json{{"markers", list}}.dump(2) + "\n");
-    };
-    write(caseFolder(case_id), "");
-    for (const ScanRecord& scan : scans(case_id))
-        if (fs::is_directory(scanFolder(case_id, scan.id)))
-            write(scanFolder(case_id, scan.id), scan.id);
 }
 
 int CaseStore::nextNumber(const std::string& name)

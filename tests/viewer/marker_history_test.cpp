@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "vicon/core/error.h"
 #include "vicon/support/support.h"
 
@@ -18,12 +20,14 @@ struct History : testing::Test {
         CaseRecord a_case;
         a_case.id = "c1";
         a_case.study.uid = "1.2.3";
-        ScanRecord scan;
-        scan.id = "s1";
-        scan.case_id = "c1";
-        scan.series.uid = "1.2.3.1";
-        std::filesystem::create_directories(store.scanFolder("c1", "s1"));
-        store.addScan(a_case, scan, {}, false);
+        for (const std::string id : {"s1", "s2"}) {
+            ScanRecord scan;
+            scan.id = id;
+            scan.case_id = "c1";
+            scan.series.uid = "1.2.3." + id;
+            std::filesystem::create_directories(store.scanFolder("c1", id));
+            store.addScan(a_case, scan, {}, false);
+        }
     }
     Marker aMarker() const
     {
@@ -91,6 +95,111 @@ TEST_F(History, NeverOverwritesWhatAnotherReaderDid)
     store.removeMarker("c1", added.id);
     EXPECT_THROW(history.change(store, added, ours), Error);
     EXPECT_EQ(notes(), Notes{}) << "what they deleted does not come back";
+}
+
+/// Two markers of one finding and a third one in the second scan.
+struct Pairs : History {
+    Marker a = add("a", "s1"), b = add("b", "s2"), c = add("c", "s2");
+
+    Marker add(const std::string& note, const std::string& scan_id)
+    {
+        Marker marker = aMarker();
+        marker.scan_id = scan_id;
+        marker.note = note;
+        return history.add(store, marker);
+    }
+    Marker now(const Marker& marker) { return store.requireMarker("c1", marker.id); }
+    /// "ab": a's partner is b; in the order of the notes.
+    std::vector<std::string> pairs()
+    {
+        std::vector<std::string> all;
+        for (const Marker& m : store.markers("c1"))
+            all.push_back(m.note + (pairOf(m).empty() ? "" : store.requireMarker("c1", pairOf(m)).note));
+        std::sort(all.begin(), all.end());
+        return all;
+    }
+    const Notes apart{"a", "b", "c"}, together{"ab", "ba", "c"};
+};
+
+TEST_F(Pairs, ArePairedPartedAndDeletedAsOneStepEach)
+{
+    history.pair(store, a, b);
+    EXPECT_EQ(pairs(), together);
+    history.part(store, now(b));
+    EXPECT_EQ(pairs(), apart);
+    history.undo(store);
+    EXPECT_EQ(pairs(), together);
+    history.undo(store);
+    EXPECT_EQ(pairs(), apart);
+    history.redo(store);
+    history.remove(store, now(a));
+    EXPECT_EQ(pairs(), (Notes{"b", "c"}));
+    history.undo(store);
+    EXPECT_EQ(pairs(), together);
+    history.redo(store);
+    EXPECT_EQ(pairs(), (Notes{"b", "c"}));
+    history.undo(store);
+    history.undo(store);
+    EXPECT_EQ(pairs(), apart);
+}
+
+TEST_F(Pairs, LetGoOfTheFormerPartner)
+{
+    history.pair(store, a, b);
+    history.pair(store, now(a), c);
+    EXPECT_EQ(pairs(), (Notes{"ac", "b", "ca"}));
+    history.undo(store);
+    EXPECT_EQ(pairs(), together);
+    history.redo(store);
+    EXPECT_EQ(pairs(), (Notes{"ac", "b", "ca"}));
+}
+
+TEST_F(Pairs, AreNeverHalfWhenTheOtherMarkerWasChangedMeanwhile)
+{
+    Marker theirs = b;
+    theirs.note = "B";
+    store.saveMarker("c1", theirs);
+    EXPECT_THROW(history.pair(store, a, b), Error);
+    EXPECT_EQ(pairs(), (Notes{"B", "a", "c"}));
+    history.pair(store, a, theirs);
+    theirs = now(theirs);
+    theirs.note = "b";
+    store.saveMarker("c1", theirs);
+    EXPECT_THROW(history.undo(store), Error);
+    EXPECT_EQ(pairs(), together) << "what could not be undone is in force as a whole";
+    EXPECT_TRUE(history.canUndo());
+    EXPECT_FALSE(history.canRedo());
+}
+
+TEST_F(Pairs, OfOneScanAreRefused)
+{
+    EXPECT_THROW(history.pair(store, b, c), Error);
+    EXPECT_EQ(pairs(), apart);
+}
+
+TEST_F(History, AChangeThatFailsIsNotUndone)
+{
+    const Marker added = history.add(store, aMarker());
+    Marker theirs = added;
+    theirs.note = "theirs";
+    store.saveMarker("c1", theirs);
+    EXPECT_THROW(history.remove(store, added), Error);
+    store.saveMarker("c1", added);
+    history.undo(store);
+    EXPECT_EQ(notes(), Notes{}) << "the adding, not the failed deletion";
+    EXPECT_FALSE(history.canUndo());
+}
+
+TEST_F(History, SavesOnceThoughTheFileOfMarkersCannotBeWritten)
+{
+    const auto file = store.caseFolder("c1") / "markers.json";
+    std::filesystem::create_directories(file / "in the way");
+    history.add(store, aMarker());
+    EXPECT_NE(store.markerFileTrouble(), "");
+    EXPECT_EQ(notes(), Notes{"first"});
+    EXPECT_TRUE(history.canUndo());
+    history.undo(store);
+    EXPECT_EQ(notes(), Notes{});
 }
 
 }  // namespace

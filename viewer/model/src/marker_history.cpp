@@ -7,72 +7,70 @@
 namespace vicon::viewer {
 namespace {
 
-/// When a marker was last written does not make it another one.
-bool same(const std::optional<Marker>& a, const std::optional<Marker>& b)
+/// The way back: in reverse order, what was found is what there was.
+std::vector<MarkerEdit> inverse(const std::vector<MarkerEdit>& step)
 {
-    if (!a || !b)
-        return !a && !b;
-    auto x = toJson(*a), y = toJson(*b);
-    x.erase("changed");
-    y.erase("changed");
-    return x == y;
+    std::vector<MarkerEdit> back;
+    std::transform(step.rbegin(), step.rend(), std::back_inserter(back), [](const MarkerEdit& edit) {
+        return MarkerEdit{edit.after, edit.before};
+    });
+    return back;
 }
 
-std::optional<Marker> stored(CaseStore& store, const std::string& case_id, const std::string& id)
+Marker named(Marker marker, const std::string& partner)
 {
-    const auto all = store.markers(case_id);
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Marker& m) { return m.id == id; });
-    return found == all.end() ? std::nullopt : std::optional(*found);
+    if (partner.empty())
+        marker.extra.erase("pair");
+    else
+        marker.extra["pair"] = partner;
+    return marker;
 }
 
 }  // namespace
 
-std::optional<Marker> MarkerHistory::put(CaseStore& store, const std::optional<Marker>& expected,
-                                         const std::optional<Marker>& wanted) const
+const MarkerHistory::Step& MarkerHistory::take(CaseStore& store, const Step& step)
 {
-    store.requireCase(case_id_);
-    const std::string id = expected ? expected->id : wanted->id;
-    if (!id.empty() && !same(stored(store, case_id_, id), expected))
-        throw Error(ErrorCode::bad_input, "another reader changed this marker meanwhile; nothing was written", id,
-                    "look at the list, which shows it as it is now, and do it again if you still want it");
-    if (wanted)
-        return store.saveMarker(case_id_, *wanted);
-    store.removeMarker(case_id_, id);
-    return std::nullopt;
-}
-
-void MarkerHistory::remember(Change change)
-{
-    changes_.resize(done_);
-    changes_.push_back(std::move(change));
+    Step done = store.editMarkers(case_id_, step);
+    steps_.resize(done_);
+    steps_.push_back(std::move(done));
     ++done_;
+    return steps_.back();
 }
 
 Marker MarkerHistory::add(CaseStore& store, const Marker& marker)
 {
-    Change change{std::nullopt, put(store, std::nullopt, marker)};
-    remember(change);
-    return *change.after;
+    return *take(store, {{std::nullopt, marker}}).front().after;
 }
 
 Marker MarkerHistory::change(CaseStore& store, const Marker& before, const Marker& after)
 {
-    Change change{before, put(store, before, after)};
-    remember(change);
-    return *change.after;
+    return *take(store, {{before, after}}).front().after;
 }
 
 void MarkerHistory::remove(CaseStore& store, const Marker& before)
 {
-    remember({before, put(store, before, std::nullopt)});
+    take(store, {{before, std::nullopt}});
+}
+
+void MarkerHistory::pair(CaseStore& store, const Marker& a, const Marker& b)
+{
+    if (a.scan_id == b.scan_id)
+        throw Error(ErrorCode::wrong_use, "a pair is one finding in two scans; both markers lie in the same one",
+                    a.id + " and " + b.id);
+    take(store, {{a, named(a, b.id)}, {b, named(b, a.id)}});
+}
+
+void MarkerHistory::part(CaseStore& store, const Marker& marker)
+{
+    take(store, {{marker, named(marker, "")}});
 }
 
 void MarkerHistory::undo(CaseStore& store)
 {
     if (!canUndo())
         return;
-    const Change& change = changes_[done_ - 1];
-    put(store, change.after, change.before);
+    Step& step = steps_[done_ - 1];
+    step = inverse(store.editMarkers(case_id_, inverse(step)));
     --done_;
 }
 
@@ -80,8 +78,7 @@ void MarkerHistory::redo(CaseStore& store)
 {
     if (!canRedo())
         return;
-    const Change& change = changes_[done_];
-    put(store, change.before, change.after);
+    steps_[done_] = store.editMarkers(case_id_, steps_[done_]);
     ++done_;
 }
 

@@ -88,10 +88,11 @@ void CaseSession::edit(const QString& what, Edit work)
     if (++edits_under_way_ == 1)
         emit busyChanged(true);
     worker_.postAlways([this, what, work = std::move(work)]() -> Worker::Work {
-        std::string trouble;
+        std::string trouble, copy_trouble;
         std::optional<std::vector<Marker>> markers;
         try {
             work(store(), history_);
+            copy_trouble = store().markerFileTrouble();
         } catch (const std::exception& e) {
             trouble = e.what();
         }
@@ -100,20 +101,24 @@ void CaseSession::edit(const QString& what, Edit work)
         } catch (const std::exception& e) {
             trouble = trouble.empty() ? e.what() : trouble;
         }
-        return
-            [this, what, trouble, markers = std::move(markers), undo = history_.canUndo(), redo = history_.canRedo()] {
-                if (markers)
-                    markers_ = *markers;
-                else
-                    markers_known_ = false;  // what is read next is not another reader's doing
-                can_undo_ = undo;
-                can_redo_ = redo;
-                edited();
-                if (trouble.empty())
-                    emit saved(what);
-                else
-                    emit warned(QString::fromStdString(trouble));
-            };
+        return [this, what, trouble, copy_trouble, markers = std::move(markers), undo = history_.canUndo(),
+                redo = history_.canRedo()] {
+            if (markers)
+                markers_ = *markers;
+            else
+                markers_known_ = false;  // what is read next is not another reader's doing
+            can_undo_ = undo;
+            can_redo_ = redo;
+            edited();
+            if (trouble.empty())
+                emit saved(what);
+            else
+                emit warned(QString::fromStdString(trouble));
+            if (!copy_trouble.empty())
+                emit warned(tr("The marker is saved in the database; its copy in markers.json will be written "
+                               "later: %1")
+                                .arg(QString::fromStdString(copy_trouble)));
+        };
     });
 }
 
@@ -142,6 +147,16 @@ void CaseSession::changeMarker(const Marker& before, const Marker& after, bool m
 void CaseSession::removeMarker(const Marker& marker)
 {
     edit(tr("Marker deleted"), [marker](CaseStore& store, MarkerHistory& history) { history.remove(store, marker); });
+}
+
+void CaseSession::pairMarkers(const Marker& a, const Marker& b)
+{
+    edit(tr("Paired"), [a, b](CaseStore& store, MarkerHistory& history) { history.pair(store, a, b); });
+}
+
+void CaseSession::partMarkers(const Marker& marker)
+{
+    edit(tr("Parted"), [marker](CaseStore& store, MarkerHistory& history) { history.part(store, marker); });
 }
 
 void CaseSession::undo()

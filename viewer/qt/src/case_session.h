@@ -51,6 +51,9 @@ public:
     /// @param what is said when it is saved; empty: that it is
     void changeMarker(const Marker& before, const Marker& after, bool moved, const QString& what = {});
     void removeMarker(const Marker& marker);
+    void pairMarkers(const Marker& a, const Marker& b);
+    /// Ends a pair, on both sides.
+    void partMarkers(const Marker& marker);
     void undo();
     void redo();
     bool canUndo() const { return can_undo_; }

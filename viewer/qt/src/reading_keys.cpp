@@ -77,11 +77,7 @@ void ReadingWindow::flyTo(const Marker& marker)
             warn(tr("A pair is one finding in two scans; both markers lie in the same one."));
             return;
         }
-        Marker a = first, b = marker;
-        a.extra["pair"] = b.id;
-        b.extra["pair"] = a.id;
-        session_.changeMarker(first, a, false);
-        session_.changeMarker(marker, b, false);
+        session_.pairMarkers(first, marker);
         return;
     }
     if (!navigator())
@@ -173,18 +169,12 @@ void ReadingWindow::clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers)
 
 void ReadingWindow::pair(const Marker& marker)
 {
-    const std::string other = marker.extra.value("pair", "");
-    if (other.empty()) {
+    if (pairOf(marker).empty()) {
         pairing_ = marker.id;
         tell(tr("Choose the same finding in the other scan"));
-        return;
+    } else {
+        session_.partMarkers(marker);
     }
-    for (const Marker& m : session_.markers())
-        if (m.id == marker.id || m.id == other) {
-            Marker after = m;
-            after.extra.erase("pair");
-            session_.changeMarker(m, after, false);
-        }
 }
 
 void ReadingWindow::arm(std::optional<MarkerColor> color)

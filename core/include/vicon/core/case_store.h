@@ -10,6 +10,15 @@
 
 namespace vicon {
 
+/// What shall become of one marker: `before` as the reader saw it (nothing: it is new), `after` as it shall be
+/// (nothing: it is deleted).
+struct MarkerEdit {
+    std::optional<Marker> before, after;
+};
+
+/// The id of the marker that shows the same finding in the other scan; empty where there is none.
+std::string pairOf(const Marker& marker);
+
 /// A store: its folder (data) and its database (state). Every method that changes something is one transaction.
 class CaseStore {
 public:
@@ -57,9 +66,18 @@ public:
 
     std::vector<Marker> markers(const std::string& case_id);
     Marker requireMarker(const std::string& case_id, const std::string& marker_id);
-    /// Adds (an empty id gets the next one) or replaces a marker and rewrites markers.json. Returns it as saved.
+    /// Adds (an empty id gets the next one) or replaces a marker, whatever is stored. Returns it as saved.
     Marker saveMarker(const std::string& case_id, Marker marker);
     void removeMarker(const std::string& case_id, const std::string& marker_id);
+    /// All of these edits in one transaction, or none. A pair holds on both sides or not at all: who deletes or parts a
+    /// marker, or pairs it with another, also parts the one that it was paired with.
+    /// Returns what was done, with ids and times as saved, and the partners that were parted at the end.
+    /// Throws Error{bad_input} when a stored marker is no longer what the reader saw, and Error{not_found} when the
+    /// case is gone; nothing was written then.
+    std::vector<MarkerEdit> editMarkers(const std::string& case_id, std::vector<MarkerEdit> edits);
+    /// Why markers.json could not be written after the last change; empty when it was. The change itself is saved: the
+    /// database owns the markers, and the copy is written anew by the next change or when the store is opened.
+    const std::string& markerFileTrouble() const { return marker_file_trouble_; }
 
     /// Next value of a counter that belongs to `name`, starting with 1.
     int nextNumber(const std::string& name);
@@ -67,10 +85,13 @@ public:
                const std::string& detail);
 
 private:
+    void renewMarkerFiles();
+    void renewMarkerFiles(const std::string& case_id);
     void writeMarkerFiles(const std::string& case_id);
 
     std::filesystem::path folder_;
     Database database_;
+    std::string marker_file_trouble_;
 };
 
 /// Adds a job for a scan, or puts a finished one back into the queue, within a transaction of the caller.

@@ -8,8 +8,9 @@
 
 namespace vicon::viewer {
 
-/// A reader's changes of a case's markers: each is saved at once, and can be undone and redone. A marker that somebody
-/// else has changed meanwhile is never overwritten: the change throws Error{bad_input} saying so, nothing is written.
+/// A reader's changes of a case's markers: each is saved at once, and can be undone and redone. A change of several
+/// markers is one step: one transaction, one undo. A marker that somebody else has changed meanwhile is never
+/// overwritten: the change throws Error{bad_input} saying so, nothing is written and nothing is remembered.
 class MarkerHistory {
 public:
     explicit MarkerHistory(std::string case_id) : case_id_(std::move(case_id)) {}
@@ -18,25 +19,27 @@ public:
     Marker add(CaseStore& store, const Marker& marker);
     /// @param before the marker as the reader saw it
     Marker change(CaseStore& store, const Marker& before, const Marker& after);
+    /// Takes the pair entry off the marker that it was paired with, too.
     void remove(CaseStore& store, const Marker& before);
+    /// The same finding in two scans: each names the other. Who was the partner of one of them is parted.
+    /// Throws Error{wrong_use} for two markers of one scan.
+    void pair(CaseStore& store, const Marker& a, const Marker& b);
+    /// Ends the pair on both sides.
+    void part(CaseStore& store, const Marker& marker);
 
     bool canUndo() const { return done_ > 0; }
-    bool canRedo() const { return done_ < changes_.size(); }
+    bool canRedo() const { return done_ < steps_.size(); }
     /// Do nothing where there is nothing to undo or redo.
     void undo(CaseStore& store);
     void redo(CaseStore& store);
 
 private:
-    struct Change {
-        std::optional<Marker> before, after;
-    };
-    std::optional<Marker> put(CaseStore& store, const std::optional<Marker>& expected,
-                              const std::optional<Marker>& wanted) const;
-    void remember(Change change);
+    using Step = std::vector<MarkerEdit>;
+    const Step& take(CaseStore& store, const Step& step);
 
     std::string case_id_;
-    std::vector<Change> changes_;
-    std::size_t done_ = 0;  // the changes that are in force
+    std::vector<Step> steps_;
+    std::size_t done_ = 0;  // the steps that are in force
 };
 
 }  // namespace vicon::viewer
