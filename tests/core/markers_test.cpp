@@ -204,7 +204,7 @@ TEST_F(Markers, OnAFullDiskAreNotSavedAndThenSavedOnce)
 
 TEST_F(Markers, LoseNoChangeWhenTwoReadersRace)
 {
-    constexpr int kChanges = 40;  // of each reader
+    constexpr int kChanges = 15;  // of each reader
     const Marker start = saved("s1", "0");
     const auto read = [&] {
         CaseStore store(folder_.path());
