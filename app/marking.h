@@ -20,6 +20,9 @@ struct MarkOptions {
     }
 };
 
+/// "X,Y,Z" of the command line, LPS mm. Throws Error{wrong_use} naming the option.
+Point3 pointFrom(const std::string& text, const char* option);
+
 /// Where a point of space lies in a scan's colon.
 struct SnappedPoint {
     double outside_mm = 0;  ///< distance to the nearest inside voxel; 0 within the lumen

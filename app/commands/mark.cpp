@@ -16,18 +16,6 @@ struct MarkArguments {
     std::string case_id, scan_id, at, color = "red", note;
 };
 
-Point3 pointFrom(const std::string& text)
-{
-    Point3 p;
-    char comma1 = 0, comma2 = 0;
-    std::istringstream in(text);
-    if (!(in >> p.x >> comma1 >> p.y >> comma2 >> p.z) || comma1 != ',' || comma2 != ',' || !(in >> std::ws).eof() ||
-        !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-        throw Error(ErrorCode::wrong_use, "'" + text + "' is not a point", "--at",
-                    "write X,Y,Z in LPS mm, as in --at 12.5,-30,410");
-    return p;
-}
-
 void printMarkers(const std::vector<Marker>& markers)
 {
     std::vector<std::vector<std::string>> rows;
@@ -65,7 +53,7 @@ int mark(Context& context, const MarkArguments& arguments)
     const std::string case_id = store.requireCase(arguments.case_id).id;
     Marker marker;
     marker.scan_id = arguments.scan_id;
-    marker.position_mm = pointFrom(arguments.at);
+    marker.position_mm = pointFrom(arguments.at, "--at");
     marker.color = markerColorFrom(arguments.color);
     marker.note = arguments.note;
     marker = store.saveMarker(case_id, placeMarker(store, context.config().get<MarkOptions>(), case_id, marker));
@@ -113,7 +101,7 @@ void changeMarker(CaseStore& store, const MarkOptions& options, const std::strin
     if (arguments.change_note)
         marker.note = arguments.note;
     if (!arguments.at.empty()) {
-        marker.position_mm = pointFrom(arguments.at);
+        marker.position_mm = pointFrom(arguments.at, "--at");
         marker = placeMarker(store, options, case_id, std::move(marker));
     }
     store.editMarkers(case_id, {{before, marker}});

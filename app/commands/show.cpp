@@ -4,6 +4,7 @@
 #include "../text_table.h"
 #include "../worklist.h"
 #include "vicon/artefact/subdivision_file.h"
+#include "vicon/pipeline/corrections.h"
 
 namespace vicon::app {
 namespace {
@@ -46,6 +47,17 @@ void printQuality(const nlohmann::json& scan)
                           .c_str());
 }
 
+/// What a person said about the lumen.
+void printCorrections(const std::filesystem::path& scan_folder)
+{
+    const pipeline::Corrections corrections = pipeline::readCorrections(scan_folder);
+    for (const auto& [name, points] : {std::pair{"seed", &corrections.add}, std::pair{"cut", &corrections.cut},
+                                       std::pair{"drop", &corrections.drop}})
+        for (const Point3 p : *points)
+            std::printf("  corrected: %s at %s,%s,%s\n", name, formatNumber(p.x, 1).c_str(),
+                        formatNumber(p.y, 1).c_str(), formatNumber(p.z, 1).c_str());
+}
+
 void printScan(CaseStore& store, const WorklistScan& scan)
 {
     const ScanRecord& r = scan.record;
@@ -66,6 +78,7 @@ void printScan(CaseStore& store, const WorklistScan& scan)
     }
     if (!rows.empty())
         std::printf("%s", formatTable({"  STEP", "TIME", "MEASURES"}, rows).c_str());
+    printCorrections(scan.folder);
     printQuality(store.describeScan(r.case_id, r.id));
     for (const char* list : {"repairs", "refused", "set_aside"})
         for (const auto& line : r.ingest.value(list, nlohmann::json::array()))

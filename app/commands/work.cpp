@@ -1,9 +1,12 @@
 #include <cstdio>
 
 #include "../command.h"
+#include "../marking.h"
 #include "../progress_line.h"
 #include "../scan_work.h"
+#include "vicon/artefact/volume_file.h"
 #include "vicon/core/error.h"
+#include "vicon/pipeline/corrections.h"
 #include "vicon/pipeline/worker.h"
 
 namespace vicon::app {
@@ -12,7 +15,59 @@ namespace {
 struct WorkArguments {
     bool until_idle = false;
     bool retry = false;
+    std::string case_id, scan_id;
+    std::vector<std::string> seed, cut, drop;
+    bool undo_corrections = false;
+
+    bool correct() const { return undo_corrections || !seed.empty() || !cut.empty() || !drop.empty(); }
 };
+
+/// Points of the command line, refused where they lie outside the scan.
+void appendPoints(std::vector<Point3>& points, const std::vector<std::string>& texts, const char* option,
+                  const std::filesystem::path& scan_folder)
+{
+    for (const std::string& text : texts) {
+        const Point3 p = pointFrom(text, option);
+        if (const auto volume = scan_folder / "volume.mha"; std::filesystem::exists(volume)) {
+            const Grid grid = artefact::readGrid(volume);
+            if (!grid.contains(grid.indexAt(p)))
+                throw Error(ErrorCode::wrong_use, "the point " + text + " lies outside the scan", option,
+                            "give LPS mm, as 'vicon snapshot --view slices' shows them");
+        }
+        points.push_back(p);
+    }
+}
+
+/// Adds what a person says about one scan to what was said before, and queues the scan again when that is another
+/// result. The steps that do not depend on it are kept.
+void correct(Context& context, CaseStore& store, const WorkArguments& arguments)
+{
+    if (arguments.case_id.empty())
+        throw Error(ErrorCode::wrong_use, "corrections belong to one scan", "--seed, --cut, --drop",
+                    "name its case with --case");
+    const ScanRecord scan = store.requireScan(store.requireCase(arguments.case_id).id, arguments.scan_id);
+    const auto folder = store.scanFolder(scan.case_id, scan.id);
+    pipeline::Corrections corrections;
+    if (!arguments.undo_corrections)
+        corrections = pipeline::readCorrections(folder);
+    appendPoints(corrections.add, arguments.seed, "--seed", folder);
+    appendPoints(corrections.cut, arguments.cut, "--cut", folder);
+    appendPoints(corrections.drop, arguments.drop, "--drop", folder);
+    pipeline::writeCorrections(folder, corrections);
+    store.audit("corrections", scan.case_id, scan.id, toJson(corrections).dump());
+    pipeline::JobQueue queue(store.database(), context.config().get<pipeline::QueueOptions>());
+    if (const auto job = queue.find(scan.case_id, scan.id); job && job->state == pipeline::JobState::failed)
+        queue.retry(scan.case_id, scan.id);
+}
+
+/// What the pipeline says of a scan whose colon it is not sure of.
+std::string warningOf(CaseStore& store, const pipeline::Job& job)
+{
+    for (const StepRecord& step : store.steps(job.case_id, job.scan_id))
+        if (step.step == "segment" && step.result.value("verdict", "colon") != "colon")
+            return step.result.value("verdict", "") + ": " + step.result.value("reason", "");
+    return {};
+}
 
 void retryFailed(CaseStore& store, const pipeline::QueueOptions& options)
 {
@@ -28,6 +83,8 @@ int work(Context& context, const WorkArguments& arguments)
     const auto queue_options = context.config().get<pipeline::QueueOptions>();
     if (arguments.retry)
         retryFailed(store, queue_options);
+    if (arguments.correct())
+        correct(context, store, arguments);
     requeueOutdated(store, context.config());
     auto options = context.config().get<pipeline::WorkOptions>();
     options.until_idle = arguments.until_idle;
@@ -42,6 +99,9 @@ int work(Context& context, const WorkArguments& arguments)
         progress.clear();
         std::printf("%s/%s: %s%s\n", job.case_id.c_str(), job.scan_id.c_str(), pipeline::nameOf(state).c_str(),
                     reason.empty() ? "" : (", " + reason).c_str());
+        if (const std::string warning = state == pipeline::JobState::done ? warningOf(store, job) : "";
+            !warning.empty())
+            std::printf("  ! %s\n", warning.c_str());
         std::fflush(stdout);
     };
     const auto summary =
@@ -58,13 +118,28 @@ int work(Context& context, const WorkArguments& arguments)
 
 Subcommand workCommand()
 {
-    return {"work", "Run the queue: resample, segment, skeleton, subdivide and potential of every waiting scan",
-            [](CLI::App& command) {
-                auto arguments = std::make_shared<WorkArguments>();
-                command.add_flag("--until-idle", arguments->until_idle, "Stop when the queue is empty");
-                command.add_flag("--retry", arguments->retry, "Put failed jobs back into the queue first");
-                return [arguments](Context& context) { return work(context, *arguments); };
-            }};
+    return {
+        "work", "Run the queue: resample, segment, skeleton, subdivide and potential of every waiting scan",
+        [](CLI::App& command) {
+            auto arguments = std::make_shared<WorkArguments>();
+            command.add_flag("--until-idle", arguments->until_idle, "Stop when the queue is empty");
+            command.add_flag("--retry", arguments->retry, "Put failed jobs back into the queue first");
+            command.add_option("--case", arguments->case_id, "The case whose lumen is corrected")->type_name("CASE");
+            command.add_option("--scan", arguments->scan_id, "Its scan; needed where the case has several")
+                ->type_name("SCAN");
+            command.add_option("--seed", arguments->seed, "The gas or fluid here (LPS mm) belongs to the colon")
+                ->type_name("X,Y,Z")
+                ->allow_extra_args(false);
+            command.add_option("--cut", arguments->cut, "Cut the lumen here; the smaller part is dropped")
+                ->type_name("X,Y,Z")
+                ->allow_extra_args(false);
+            command.add_option("--drop", arguments->drop, "The piece here does not belong to the colon")
+                ->type_name("X,Y,Z")
+                ->allow_extra_args(false);
+            command.add_flag("--undo-corrections", arguments->undo_corrections,
+                             "Forget the scan's earlier seeds, cuts and drops");
+            return [arguments](Context& context) { return work(context, *arguments); };
+        }};
 }
 
 }  // namespace vicon::app

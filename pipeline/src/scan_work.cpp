@@ -6,6 +6,7 @@
 #include "step_table.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/pipeline/corrections.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -79,7 +80,8 @@ public:
           context_(context),
           scan_(store.requireScan(context.job().case_id, context.job().scan_id)),
           folder_(store.scanFolder(scan_.case_id, scan_.id)),
-          inputs_{config, loader, gravityFor(scan_.series.patient_position), folder_ / "dicom"},
+          inputs_{withCorrections(config, readCorrections(folder_)), loader, gravityFor(scan_.series.patient_position),
+                  folder_ / "dicom"},
           artefacts_(folder_),
           loader_parameters_(loader_parameters),
           instances_(store.instances(scan_.case_id, scan_.id)),
@@ -153,11 +155,12 @@ bool isOutdated(CaseStore& store, const Config& config, const json& loader_param
     const ScanRecord scan = store.requireScan(case_id, scan_id);
     const auto instances = store.instances(case_id, scan_id);
     StepRecords records = recordsOf(store, scan);
+    const Config corrected = withCorrections(config, readCorrections(store.scanFolder(case_id, scan_id)));
     for (const Step& step : stepTable()) {
         const auto record = records.find(step.name);
         if (record == records.end() ||
             !isCurrent(record->second,
-                       digestOf(step, parametersOf(step, config, loader_parameters), records, instances),
+                       digestOf(step, parametersOf(step, corrected, loader_parameters), records, instances),
                        store.scanFolder(case_id, scan_id)))
             return true;
         if (endsHere(record->second))

@@ -91,6 +91,46 @@ TEST_F(Study, WorkingAgainChangesNothingAndOtherParametersRedoWhatDependsOnThem)
     EXPECT_TRUE(artefactsOf(store()) == before) << "and back";
 }
 
+TEST_F(Study, ACorrectionIsKeptWithTheScanAndRedoesWhatDependsOnIt)
+{
+    const auto before = artefactsOf(store());
+    const auto stepsOf = [&] {
+        const auto show = viconJson(store(), "show " + scan_.case_id);
+        return show["scans"][0]["steps"];
+    };
+    const auto first = stepsOf();
+    const auto& p = truth_["curve_mm"][truth_["curve_mm"].size() * 8 / 10];
+    const std::string point = std::to_string(p[0].get<double>()) + "," + std::to_string(p[1].get<double>()) + "," +
+                              std::to_string(p[2].get<double>());
+    viconOn(store(), "work --until-idle --case " + scan_.case_id + " --cut=" + point);
+    const auto second = stepsOf();
+    EXPECT_EQ(second["resample"]["digest"], first["resample"]["digest"]);
+    EXPECT_EQ(second["resample"]["finished"], first["resample"]["finished"]) << "not done again";
+    for (const char* redone : {"segment", "skeleton", "subdivide", "potential", "quality"})
+        EXPECT_NE(second[redone]["digest"], first[redone]["digest"]) << redone;
+    EXPECT_NEAR(second["skeleton"]["result"]["length_mm"].get<double>() /
+                    first["skeleton"]["result"]["length_mm"].get<double>(),
+                0.8, 0.05);
+    EXPECT_THAT(viconOn(store(), "show " + scan_.case_id), HasSubstr("corrected: cut at"));
+
+    viconOn(store(), "work --until-idle");
+    EXPECT_EQ(stepsOf()["segment"]["digest"], second["segment"]["digest"]) << "kept for every later run";
+
+    viconOn(store(), "work --until-idle --undo-corrections --case " + scan_.case_id);
+    EXPECT_TRUE(artefactsOf(store()) == before) << "and back";
+}
+
+TEST_F(Study, RefusesCorrectionsThatCannotBeMeant)
+{
+    for (const std::string arguments : {" --seed=1,2", " --cut=5000,0,0", " --drop=a,b,c"}) {
+        const auto refused =
+            runVicon("work --until-idle --case " + scan_.case_id + arguments + " --store " + store().string());
+        EXPECT_NE(refused.exit_code, 0) << arguments;
+        EXPECT_THAT(refused.output, HasSubstr(arguments.substr(1, 5))) << "names the option";
+    }
+    EXPECT_NE(runVicon("work --until-idle --seed=1,2,3 --store " + store().string()).exit_code, 0) << "of which case?";
+}
+
 TEST_F(Study, RedoesAnArtefactThatIsMissing)
 {
     const auto before = artefactsOf(store());

@@ -5,6 +5,7 @@
 
 #include "fluid_layer.h"
 #include "fluid_levels.h"
+#include "fluid_specks.h"
 #include "meniscus.h"
 
 namespace vicon::steps {
@@ -75,9 +76,32 @@ FluidResult addTaggedFluid(const HuVolume& volume, Vector3 gravity, const FluidD
         progress.check();
     }
     closeFluidLayer(volume, down, patches, labels);
+    fillFluidSpecks(labels);
     smoothAtMeniscus(labels);
     result.voxels = std::size_t(std::count(labels.voxels.begin(), labels.voxels.end(), std::uint8_t(kFluid)));
     return result;
+}
+
+void addFluidAt(const HuVolume& volume, Point3 point, const FluidDensities& densities, InsideVolume& labels)
+{
+    const Index3 v = volume.grid.indexAt(point);
+    if (!volume.grid.contains(v) || labels.at(v) != kOutside)
+        return;
+    double sum = 0;
+    int count = 0;
+    for (int k = -1; k <= 1; ++k)
+        for (int j = -1; j <= 1; ++j)
+            for (int i = -1; i <= 1; ++i)
+                if (const Index3 n{v.i + i, v.j + j, v.k + k}; volume.grid.contains(n)) {
+                    sum += volume.at(n);
+                    ++count;
+                }
+    const double density_hu = sum / count;
+    if (density_hu < densities.fluid_above_hu)
+        return;
+    labels.at(v) = kFluid;
+    std::vector<std::size_t> stack{labels.grid.offset(v)};
+    flood(volume, (density_hu + densities.tissue_hu) / 2, labels, stack);
 }
 
 }  // namespace vicon::steps

@@ -33,4 +33,8 @@ struct FluidResult {
 FluidResult addTaggedFluid(const HuVolume& volume, Vector3 gravity, const FluidDensities& densities,
                            InsideVolume& labels, Progress& progress);
 
+/// Adds the tagged fluid that a person points at, level or not: everything of at least half-way density connected to
+/// the voxel at `point`. Does nothing where that is no brighter than `fluid_above_hu`, or has a label.
+void addFluidAt(const HuVolume& volume, Point3 point, const FluidDensities& densities, InsideVolume& labels);
+
 }  // namespace vicon::steps

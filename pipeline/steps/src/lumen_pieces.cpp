@@ -137,15 +137,18 @@ HalfPiece halfPiece(const InsideVolume& labels, const RunLabels& lumen, std::uin
 }
 
 std::vector<Candidate> findCandidates(const InsideVolume& labels, const RunLabels& lumen, const Body& body,
-                                      double smallest_ml, int most, Progress& progress)
+                                      double smallest_ml, int most, const std::vector<int>& always, Progress& progress)
 {
     const double voxel_ml = labels.grid.voxelVolume_mm3() / 1000;
+    const auto isAsked = [&](std::uint32_t n) {
+        return std::find(always.begin(), always.end(), int(n)) != always.end();
+    };
     std::vector<std::uint32_t> large;
     for (std::size_t n = 0; n < lumen.components.size(); ++n)
-        if (double(lumen.components[n].voxels) * voxel_ml >= smallest_ml)
+        if (double(lumen.components[n].voxels) * voxel_ml >= smallest_ml || isAsked(std::uint32_t(n)))
             large.push_back(std::uint32_t(n));
     std::stable_sort(large.begin(), large.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return lumen.components[a].voxels > lumen.components[b].voxels;
+        return isAsked(a) != isAsked(b) ? isAsked(a) : lumen.components[a].voxels > lumen.components[b].voxels;
     });
     large.resize(std::min(large.size(), std::size_t(most)));
     std::vector<Candidate> candidates;

@@ -32,9 +32,10 @@ struct HalfPiece {
 };
 HalfPiece halfPiece(const InsideVolume& labels, const RunLabels& lumen, std::uint32_t label, Progress& progress);
 
-/// Measures the components that are large enough to matter, largest first, at most `most` of them.
+/// Measures the components that are large enough to matter, largest first, at most `most` of them; those in `always`
+/// come before all others, whatever their size.
 std::vector<Candidate> findCandidates(const InsideVolume& labels, const RunLabels& lumen, const Body& body,
-                                      double smallest_ml, int most, Progress& progress);
+                                      double smallest_ml, int most, const std::vector<int>& always, Progress& progress);
 
 /// The candidate that holds the rectum: low, near the midline, and wide; -1 when there is none. Its first tip becomes
 /// the rectal end, above what is narrower than a rectal catheter; the second tip the farthest point from there.

@@ -7,6 +7,7 @@
 
 #include "body.h"
 #include "bridge_way.h"
+#include "field_of_view.h"
 #include "fluid.h"
 #include "fluid_rim.h"
 #include "lumen.h"
@@ -40,6 +41,8 @@ InsideVolume findLumen(const HuVolume& volume, Vector3 gravity, const Body& body
     const FluidDensities densities{options.fluid_above_hu, options.tissue_hu, options.wall_hu};
     const FluidResult fluid = addTaggedFluid(volume, gravity, densities, labels, progress);
     result.measures["fluid_levels"] = fluid.levels.size();
+    for (const Point3 p : corrections.add)
+        addFluidAt(volume, p, densities, labels);
     return labels;
 }
 
@@ -139,8 +142,11 @@ Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const
     for (const int n : componentsAt(lumen, labels.grid, corrections.drop))
         dropped.insert(n);
     const std::vector<int> added = componentsAt(lumen, labels.grid, corrections.add);
+    std::vector<Point3> unmet;
+    std::copy_if(corrections.add.begin(), corrections.add.end(), std::back_inserter(unmet),
+                 [&](Point3 p) { return componentsAt(lumen, labels.grid, {p}).empty(); });
     std::vector<Candidate> candidates =
-        findCandidates(labels, lumen, body, options.smallest_piece_ml, kMostCandidates, progress);
+        findCandidates(labels, lumen, body, options.smallest_piece_ml, kMostCandidates, added, progress);
     std::erase_if(candidates, [&](const Candidate& c) { return dropped.contains(int(c.label)); });
     const int rectum = findRectum(candidates, labels, lumen, body, options.catheter_radius_mm, progress);
     if (rectum < 0)
@@ -163,7 +169,9 @@ Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const
     restoreFluidRim(result.inside, layers);
     followCords(volume, result.inside, options.longest_sure_bridge_mm, result.plan, progress);
     result.measures["candidates"] = describe(candidates, ordering);
-    judgeSegmentation(result, body);
+    judgeSegmentation(result, body, lumenCut_mm2(volume, result.inside));
+    for (const Point3 p : unmet)
+        note(result, "there is no gas or fluid at the seed " + textOf(p));
     return result;
 }
 

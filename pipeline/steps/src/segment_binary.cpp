@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "body.h"
+#include "field_of_view.h"
 #include "lumen.h"
 #include "segment_points.h"
 #include "segment_verdict.h"
@@ -63,7 +64,7 @@ Segmentation segmentBinary(const HuVolume& volume, const SegmentOptions& options
     result.inside = cropped(gas, volume.grid, chosen);
     progress.report(0.7, "ends");
     result.plan = planForMask(result.inside);
-    judgeSegmentation(result, body);
+    judgeSegmentation(result, body, lumenCut_mm2(volume, result.inside));
     return result;
 }
 

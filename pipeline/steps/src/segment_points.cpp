@@ -49,6 +49,12 @@ std::vector<Point3> parsePoints(const std::string& text, const std::string& opti
     return points;
 }
 
+std::string textOf(Point3 point)
+{
+    const auto whole = [](double mm) { return std::to_string(std::lround(mm)); };
+    return whole(point.x) + "," + whole(point.y) + "," + whole(point.z);
+}
+
 std::vector<int> componentsAt(const RunLabels& labels, const Grid& grid, const std::vector<Point3>& points)
 {
     std::set<int> found;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "field_of_view.h"
+
 namespace vicon::steps {
 namespace {
 
@@ -13,12 +15,13 @@ constexpr double kUsual_mm = 900;
 constexpr double kLongest_mm = 3000;
 constexpr double kLeast_ml = 20;
 constexpr double kNarrowest_mm = 6;
+constexpr double kLargestCut_mm2 = 30;  // of lumen at the end of the scan: a lumen of 6 mm
 constexpr double kLowestStart = 0.4;  // of the body's height in the scan: a rectum lies at the lower end of an abdomen
 
 void doubt(Segmentation& result, double factor, const std::string& reason)
 {
     result.confidence *= factor;
-    result.reason += (result.reason.empty() ? "" : "; ") + reason;
+    note(result, reason);
 }
 
 std::string round(double value)
@@ -27,6 +30,11 @@ std::string round(double value)
 }
 
 }  // namespace
+
+void note(Segmentation& result, const std::string& what)
+{
+    result.reason += (result.reason.empty() ? "" : "; ") + what;
+}
 
 Segmentation noColon(const std::string& reason)
 {
@@ -37,7 +45,7 @@ Segmentation noColon(const std::string& reason)
     return result;
 }
 
-void judgeSegmentation(Segmentation& result, const Body& body)
+void judgeSegmentation(Segmentation& result, const Body& body, double lumen_cut_mm2)
 {
     double length = 0, volume = 0, widest = 0;
     for (const LumenPiece& piece : result.plan.pieces) {
@@ -66,6 +74,10 @@ void judgeSegmentation(Segmentation& result, const Body& body)
     for (const Bridge& bridge : result.plan.bridges)
         if (!bridge.certain)
             doubt(result, 0.7, "a bridge of " + round(bridge.length_mm) + " mm is uncertain: " + bridge.reason);
+    if (lumen_cut_mm2 > kLargestCut_mm2)
+        doubt(result, 0.45, "the lumen goes on beyond the end of the scan, over " + round(lumen_cut_mm2) + " mm2");
+    if (result.confidence < 0.5 && bodyIsCut(body))
+        note(result, "the field of view cuts the body");
     result.verdict = result.confidence >= 0.5 ? "colon" : "unsure";
     if (result.reason.empty())
         result.reason =

@@ -1,0 +1,218 @@
+// What a person is told: scans without a colon, colons cut by the field of view, and what a person says in turn.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "segment_shapes.h"
+#include "vicon/core/error.h"
+#include "vicon/phantom/phantom.h"
+#include "vicon/steps/resample.h"
+#include "vicon/steps/segment.h"
+
+namespace vicon::steps {
+namespace {
+
+using test::blurred;
+using test::centredGrid;
+using test::tubeDistance;
+using test::TubeScan;
+using testing::HasSubstr;
+
+const Grid kGrid = centredGrid({110, 80, 120}, 1.5);
+
+Segmentation segment(const HuVolume& volume, const SegmentOptions& options = {})
+{
+    NoProgress progress;
+    return segmentColon(volume, {0, 1, 0}, options, progress);
+}
+
+/// Signed distance to an ellipsoid, about right near it.
+double ellipsoid(Point3 p, Point3 centre, Vector3 radii)
+{
+    const Vector3 d = p - centre;
+    const double r =
+        std::sqrt(d.x * d.x / (radii.x * radii.x) + d.y * d.y / (radii.y * radii.y) + d.z * d.z / (radii.z * radii.z));
+    return (r - 1) * std::min({radii.x, radii.y, radii.z});
+}
+
+/// A body's cross-section of soft tissue, and in it what `paint` makes of a density.
+template <class Paint>
+HuVolume drawBody(Paint paint)
+{
+    HuVolume volume(kGrid, -1000);
+    for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
+        const Point3 p = kGrid.pointAt(kGrid.indexOf(n));
+        const double skin_mm = (1 - std::hypot(p.x / 72, p.y / 50)) * 50;
+        volume.voxels[n] = std::int16_t(std::lround(paint(p, -1000 + 1040 * blurred(skin_mm, 0.7))));
+    }
+    return volume;
+}
+
+/// Two lungs with vessels, a trachea; they leave the scan at its upper end.
+HuVolume chest()
+{
+    return drawBody([](Point3 p, double hu) {
+        for (const double side : {-1.0, 1.0}) {
+            const double lung_mm = ellipsoid(p, {side * 34, 0, 60}, {26, 38, 110});
+            const double vessels = std::sin(p.x / 3) * std::sin(p.y / 4) * std::sin(p.z / 5) > 0.6 ? 300 : 0;
+            hu += (-870 + vessels - hu) * (1 - blurred(lung_mm, 0.7));
+        }
+        const double trachea_mm = tubeDistance({{0, -5, 20}, {0, -5, 120}}, 8, p);
+        return hu + (-1000 - hu) * (1 - blurred(trachea_mm, 0.7));
+    });
+}
+
+/// A skull with air in its sinuses and ears.
+HuVolume head()
+{
+    return drawBody([](Point3 p, double hu) {
+        const double skull_mm = std::abs(ellipsoid(p, {0, 0, 20}, {58, 40, 60})) - 3;
+        hu += (1100 - hu) * (1 - blurred(skull_mm, 0.7));
+        double air_mm = 1e9;
+        for (const double side : {-1.0, 1.0}) {
+            air_mm = std::min(air_mm, ellipsoid(p, {side * 18, -28, -25}, {10, 7, 13}));
+            air_mm = std::min(air_mm, tubeDistance({{side * 50, 5, -10}, {side * 64, 5, -12}}, 3.5, p));
+        }
+        air_mm = std::min(air_mm, tubeDistance({{0, -34, -20}, {0, -15, -30}, {0, -8, -89}}, 6, p));
+        return hu + (-1000 - hu) * (1 - blurred(air_mm, 0.7));
+    });
+}
+
+TEST(Verdict, ChestHasNoColon)
+{
+    const Segmentation result = segment(chest());
+    EXPECT_EQ(result.verdict, "no colon") << result.reason;
+    EXPECT_FALSE(result.reason.empty());
+}
+
+TEST(Verdict, HeadHasNoColon)
+{
+    const Segmentation result = segment(head());
+    EXPECT_EQ(result.verdict, "no colon") << result.reason;
+    EXPECT_FALSE(result.reason.empty());
+}
+
+TEST(Verdict, AColonThatTheEndOfTheScanCutsIsUnsureAndSaysSo)
+{
+    TubeScan scan{.line = {{0, 15, -70}, {0, 15, -45}, {45, 0, -40}, {45, 0, 100}, {-45, 0, 100}, {-45, 0, -40}}};
+    const Segmentation result = segment(scan.draw(kGrid));
+    EXPECT_EQ(result.verdict, "unsure");
+    EXPECT_LT(result.confidence, 0.5);
+    EXPECT_THAT(result.reason, HasSubstr("beyond the end of the scan"));
+}
+
+TEST(Verdict, AColonThatTheFieldOfViewCutsAtTheSidesIsNotTakenForWhole)
+{
+    NoProgress progress;
+    phantom::PhantomOptions options;
+    options.seed = 3;
+    options.gaps = 0;
+    options.folds = false;
+    options.size = {120, 120, 134};
+    options.spacing_mm = {2, 2, 3.25};
+    phantom::PhantomScan scan = phantom::makeScan(options, "HFS", progress);
+    const HuVolume volume = resample(std::move(scan.hu), {}, progress);
+    const Segmentation result = segmentColon(volume, scan.truth.gravity, {}, progress);
+    EXPECT_EQ(result.verdict, "unsure") << result.reason;
+    EXPECT_THAT(result.reason, HasSubstr("the field of view cuts the body"));
+}
+
+TEST(Verdict, AVolumeThatDoesNotFitIntoMemoryIsAnErrorWithARemedy)
+{
+    NoProgress progress;
+    ResampleOptions options;
+    options.spacing_mm = 0.01;
+    HuVolume volume(centredGrid({64, 64, 64}, 5), 40);
+    try {
+        (void)resample(std::move(volume), options, progress);
+        FAIL() << "a volume of 32000 x 32000 x 32000 voxels";
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ErrorCode::no_memory);
+        EXPECT_FALSE(e.remedy().empty());
+    }
+}
+
+/// A colon with a bubble of 1.4 ml beside its far end, too small to be taken, and a pool of fluid without gas.
+struct Correctable {
+    TubeScan scan{.line = {{0, 15, -70}, {0, 15, -45}, {45, 0, -40}, {45, 0, 45}, {-45, 0, 45}, {-45, 0, -20}}};
+    Point3 bubble{-45, 0, -55}, pool{0, -20, 0}, nothing{0, 30, 30};
+
+    HuVolume draw() const
+    {
+        HuVolume volume = scan.draw(kGrid);
+        for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
+            const Point3 p = kGrid.pointAt(kGrid.indexOf(n));
+            const double gas = 1 - blurred(distance(p, bubble) - 7, 0.7),
+                         fluid = 1 - blurred(distance(p, pool) - 9, 0.7);
+            const double hu = volume.voxels[n] + (-1000 - volume.voxels[n]) * gas;
+            volume.voxels[n] = std::int16_t(std::lround(hu + (600 - hu) * fluid));
+        }
+        return volume;
+    }
+    static std::string text(Point3 p)
+    {
+        return std::to_string(p.x) + "," + std::to_string(p.y) + "," + std::to_string(p.z);
+    }
+    static bool holds(const Segmentation& s, Point3 p)
+    {
+        return s.inside.valueOr(s.inside.grid.indexAt(p), kOutside) != kOutside;
+    }
+};
+
+TEST(Correction, ASeedAddsWhatIsTooSmallToBeTakenAlone)
+{
+    const Correctable colon;
+    const HuVolume volume = colon.draw();
+    EXPECT_FALSE(Correctable::holds(segment(volume), colon.bubble));
+    SegmentOptions options;
+    options.add = Correctable::text(colon.bubble);
+    const Segmentation result = segment(volume, options);
+    EXPECT_TRUE(Correctable::holds(result, colon.bubble));
+    EXPECT_EQ(result.plan.pieces.size(), 2U);
+}
+
+TEST(Correction, ASeedAddsFluidThatNoGasLiesAbove)
+{
+    const Correctable colon;
+    const HuVolume volume = colon.draw();
+    EXPECT_FALSE(Correctable::holds(segment(volume), colon.pool));
+    SegmentOptions options;
+    options.add = Correctable::text(colon.pool);
+    const Segmentation result = segment(volume, options);
+    EXPECT_TRUE(Correctable::holds(result, colon.pool));
+    EXPECT_EQ(result.inside.valueOr(result.inside.grid.indexAt(colon.pool), kOutside), kFluid);
+}
+
+TEST(Correction, ASeedInTissueIsReported)
+{
+    const Correctable colon;
+    SegmentOptions options;
+    options.add = Correctable::text(colon.nothing);
+    EXPECT_THAT(segment(colon.draw(), options).reason, HasSubstr("no gas or fluid at the seed 0,30,30"));
+}
+
+TEST(Correction, ACutDropsTheSmallerPart)
+{
+    const Correctable colon;
+    SegmentOptions options;
+    options.cut = "-45,0,12";
+    const Segmentation result = segment(colon.draw(), options);
+    EXPECT_TRUE(Correctable::holds(result, {45, 0, 0}));
+    EXPECT_TRUE(Correctable::holds(result, {-20, 0, 45}));
+    EXPECT_FALSE(Correctable::holds(result, {-45, 0, -15}));
+}
+
+TEST(Correction, ADroppedPieceIsLeftOut)
+{
+    TubeScan scan{.line = {{0, 15, -70}, {0, 15, -45}, {45, 0, -40}, {45, 0, 45}, {-45, 0, 45}, {-45, 0, 15}},
+                  .second_line = {{-45, 0, -20}, {-45, 0, -60}}};
+    const HuVolume volume = scan.draw(kGrid);
+    ASSERT_EQ(segment(volume).plan.pieces.size(), 2U);
+    SegmentOptions options;
+    options.drop = "-45,0,-40";
+    const Segmentation result = segment(volume, options);
+    EXPECT_EQ(result.plan.pieces.size(), 1U);
+    EXPECT_FALSE(Correctable::holds(result, {-45, 0, -40}));
+}
+
+}  // namespace
+}  // namespace vicon::steps
