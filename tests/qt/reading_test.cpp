@@ -365,6 +365,15 @@ TEST_F(Reading, SlicesProjectionAndPeelingFollowTheMouse)
     QTest::keyClick(peel, Qt::Key_Down);
     ASSERT_TRUE(eventually([&] { return the<QWidget>("endoscopic")->grab().toImage() != plain; }));
     screenshot("peeled");
+    QTest::mouseClick(the<QWidget>("peelCircle"), Qt::LeftButton, {},
+                      QPoint(8, the<QWidget>("peelCircle")->height() / 2));
+    const auto hover = [](QPoint at) { QTest::mouseMove(the<QWidget>("endoscopic"), at); };
+    hover(middle("endoscopic") + QPoint(-80, -80));
+    settle();
+    const QImage one = the<QWidget>("endoscopic")->grab().toImage();
+    hover(middle("endoscopic") + QPoint(80, 80));
+    ASSERT_TRUE(eventually([&] { return the<QWidget>("endoscopic")->grab().toImage() != one; }));
+    screenshot("lens");
 }
 
 TEST_F(Reading, ACaseDeletedUnderItsReaderIsSaidSo)

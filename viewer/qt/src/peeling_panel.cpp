@@ -29,7 +29,7 @@ PeelingPanel::PeelingPanel(QWidget* parent) : QWidget(parent)
     offset_text_ = new QLabel(this);
     circle_ = new QCheckBox(tr("only in a circle"), this);
     circle_->setObjectName("peelCircle");
-    circle_->setToolTip(tr("Peel in a circle in the middle, the surface stays around it"));
+    circle_->setToolTip(tr("Peel in a circle that follows the mouse; the surface stays around it"));
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(2, 2, 2, 2);
     grid->addWidget(preset_, 0, 0);
@@ -51,6 +51,11 @@ PeelingPanel::PeelingPanel(QWidget* parent) : QWidget(parent)
 bool PeelingPanel::on() const
 {
     return !preset_->currentData().toString().isEmpty();
+}
+
+bool PeelingPanel::circleOnly() const
+{
+    return circle_->isChecked();
 }
 
 void PeelingPanel::fill(SnapshotRequest& request) const

@@ -17,6 +17,7 @@ class PeelingPanel : public QWidget {
 public:
     explicit PeelingPanel(QWidget* parent = nullptr);
     bool on() const;
+    bool circleOnly() const;
     /// Puts the choice into a request for an endoscopic picture.
     void fill(SnapshotRequest& request) const;
 

@@ -82,8 +82,11 @@ void PictureView::mousePressEvent(QMouseEvent* event)
 
 void PictureView::mouseMoveEvent(QMouseEvent* event)
 {
-    if (button_ == Qt::NoButton)
+    if (button_ == Qt::NoButton) {
+        const double ratio = devicePixelRatioF();
+        emit hovered({(event->pos().x() + 0.5) * ratio, (event->pos().y() + 0.5) * ratio});
         return;
+    }
     dragging_ = dragging_ || (event->pos() - pressed_).manhattanLength() >= QApplication::startDragDistance();
     if (!dragging_)
         return;

@@ -29,6 +29,7 @@ public:
 
 signals:
     void clicked(vicon::viewer::Pixel at, Qt::KeyboardModifiers modifiers);
+    void hovered(vicon::viewer::Pixel at);  ///< where setMouseTracking() is on
     void enlargeWanted();
     void dragged(QPointF by, Qt::MouseButton button);  ///< in device pixels
     void dragEnded();

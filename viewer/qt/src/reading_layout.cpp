@@ -19,7 +19,7 @@ constexpr int kPart = 150, kSideWidth = 430;  // pixels of 96 to the inch, befor
 
 QWidget* group(const QString& title, QWidget* inside)
 {
-    auto* box = new QGroupBox(title);
+    auto* box = new QGroupBox(title + ' ');  // the style cuts a pixel off the last letter
     auto* layout = new QVBoxLayout(box);
     layout->setContentsMargins(4, 4, 4, 4);
     layout->addWidget(inside);
@@ -77,6 +77,7 @@ void ReadingWindow::buildViews()
 {
     endoscopic_ = new PictureView(tr("Endoscopic view"));
     endoscopic_->setObjectName("endoscopic");
+    endoscopic_->setMouseTracking(true);
     endoscopic_->setToolTip(
         tr("Click: slices there. Drag: steer. Wheel: on and back. Double click: enlarge. "
            "Shift and click: marker."));

@@ -69,6 +69,13 @@ void ReadingWindow::connectAll()
     });
     connect(endoscopic_, &PictureView::resized, this, [this] { drawEndoscopic(true); });
     connect(endoscopic_, &PictureView::clicked, this, &ReadingWindow::clickedEndoscopic);
+    connect(endoscopic_, &PictureView::hovered, this, [this](Pixel at) {
+        lens_at_ = at;
+        if (peeling_->on() && peeling_->circleOnly()) {
+            drawEndoscopic(false);
+            still_.start();
+        }
+    });
     connect(endoscopic_, &PictureView::enlargeWanted, this, [this] { enlarge(endoscopic_); });
     connect(endoscopic_, &PictureView::turned, this, [this](int steps) { emit navigation_->stepWanted(5.0 * steps); });
     connect(endoscopic_, &PictureView::dragged, this, [this](QPointF by) {
@@ -231,6 +238,7 @@ void ReadingWindow::drawEndoscopic(bool still)
         return;
     SnapshotRequest wanted = request(endoscopic_->pictureSize());
     peeling_->fill(wanted);
+    wanted.peel_circle_at = lens_at_;
     wanted.peel_coarse = still ? 1 : kPeelCoarse;
     studio_.drawEndoscopic(session_.sharedScan(), wanted, place(), still);
 }
@@ -268,6 +276,7 @@ void ReadingWindow::tell(const QString& message)
 
 void ReadingWindow::warn(const QString& message)
 {
+    tell({});
     warning_->setText(message);
     warning_->setToolTip(message);
 }

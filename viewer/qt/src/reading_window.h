@@ -105,6 +105,7 @@ private:
     bool overview_shown_ = false;
     std::optional<Point3> focus_;  // what was clicked; else the place on the path
     std::optional<MarkerColor> armed_;
+    std::optional<Pixel> lens_at_;                 // where the mouse was last
     std::optional<std::string> moving_, pairing_;  // markers, by id: what they are may change meanwhile
     /// Two clicks that are being measured.
     struct Measuring {

@@ -34,10 +34,11 @@ void addMarkers(Overlay& overlay, const PreparedScan& scan, const SnapshotReques
     }
 }
 
-/// The circle in the middle that is peeled, for a radiologist's eye on one finding.
-PictureCircle middleOf(const SnapshotRequest& request)
+/// The circle that is peeled, for a radiologist's eye on one finding.
+PictureCircle circleOf(const SnapshotRequest& request)
 {
-    return {{request.width / 2.0, request.height / 2.0}, 0.3 * std::min(request.width, request.height)};
+    const Pixel middle{request.width / 2.0, request.height / 2.0};
+    return {request.peel_circle_at.value_or(middle), 0.3 * std::min(request.width, request.height)};
 }
 
 std::string peelingText(const SnapshotRequest& request)
@@ -63,7 +64,7 @@ void layPeelingOver(Picture& picture, const PreparedScan& scan, const SnapshotRe
     const Lens lens{request.view_angle_deg, request.width, request.height};
     std::optional<PictureCircle> only;
     if (request.peel_middle_only)
-        only = middleOf(request);
+        only = circleOf(request);
     for (int y = 0; y < picture.height; ++y)  // what is peeled off is not seen through the rest
         for (int x = 0; x < picture.width; ++x)
             if (!only || only->holds({x + 0.5, y + 0.5}))
@@ -104,7 +105,7 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
         note.text = peelingText(request);
         lines.push_back(note);
         if (request.peel_middle_only)
-            overlay.discs.push_back({middleOf(request).centre, middleOf(request).radius_px, kTextColor, 1.5});
+            overlay.discs.push_back({circleOf(request).centre, circleOf(request).radius_px, kTextColor, 1.5});
     }
     if (!place.sees_target) {
         note.text = "the marker lies behind the wall seen here";

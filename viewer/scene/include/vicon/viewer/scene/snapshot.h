@@ -42,7 +42,8 @@ struct SnapshotRequest {
     std::string peel;               ///< endo: a preset of config/transfer_functions.toml to look below the wall with
     PeelingOptions peeling;         ///< used with `peel`
     int peel_coarse = 1;            ///< one ray for a square of so many pixels a side: quicker, while the eye moves
-    bool peel_middle_only = false;  ///< only within a circle in the middle; the surface stays around it
+    bool peel_middle_only = false;  ///< only within a circle; the surface stays around it
+    std::optional<Pixel> peel_circle_at;  ///< its centre; nothing: the middle of the picture
 
     static constexpr int kLeastSide = 200;
     static constexpr int kMostSide = 4096;
