@@ -5,6 +5,7 @@
 
 #include "describe_json.h"
 #include "quality_words.h"
+#include "vicon/core/case_store.h"
 #include "vicon/report/wording.h"
 
 using nlohmann::json;
@@ -167,7 +168,7 @@ std::vector<Statement> markerStatements(const MarkerEntry& entry)
     out.push_back(
         {"Fraction", percent(marker.fraction) + " of the whole, " + millimetres(length_mm) + ", from the rectal end"});
     addGiven(out, "Size", sizeWords(marker.extra.value("size", json())));
-    addGiven(out, "Same finding", marker.extra.value("pair", ""));
+    addGiven(out, "Same finding", pairOf(marker));
     out.push_back({"By endoscope", "estimated: " + endoscopeEstimate(marker.station_mm, entry.part_name)});
     return out;
 }

@@ -368,11 +368,24 @@ TEST_F(Reading, SlicesProjectionAndPeelingFollowTheMouse)
     QTest::mouseClick(the<QWidget>("peelCircle"), Qt::LeftButton, {},
                       QPoint(8, the<QWidget>("peelCircle")->height() / 2));
     const auto hover = [](QPoint at) { QTest::mouseMove(the<QWidget>("endoscopic"), at); };
-    hover(middle("endoscopic") + QPoint(-80, -80));
-    settle();
-    const QImage one = the<QWidget>("endoscopic")->grab().toImage();
-    hover(middle("endoscopic") + QPoint(80, 80));
-    ASSERT_TRUE(eventually([&] { return the<QWidget>("endoscopic")->grab().toImage() != one; }));
+    // The ring around the circle is the same light grey at its left and right end.
+    const auto circleIsAt = [](QPoint at) {
+        const QImage image = the<QWidget>("endoscopic")->grab().toImage();
+        const int radius = int(0.3 * std::min(image.width(), image.height()));
+        for (const int side : {-1, 1}) {
+            bool ring = false;
+            for (int n = -2; n <= 2; ++n)
+                ring = ring || qGray(image.pixel(at.x() + side * radius + n, at.y())) > 200;
+            if (!ring)
+                return false;
+        }
+        return true;
+    };
+    for (const QPoint by : {QPoint(-80, -80), QPoint(80, 80)}) {
+        const QPoint at = middle("endoscopic") + by;
+        hover(at);
+        EXPECT_TRUE(eventually([&] { return circleIsAt(at); })) << at.x() << ", " << at.y();
+    }
     screenshot("lens");
 }
 

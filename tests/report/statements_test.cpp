@@ -166,6 +166,8 @@ TEST(Statements, AMarkerGivesTheMeasuredDistanceFirstAndTheEstimateLast)
     EXPECT_EQ(said(markerStatements(entry), "Size"), "6.2 mm straight, 8.0 mm along the wall");
     EXPECT_EQ(said(markerStatements(entry), "Same finding"), "m7");
     entry.marker.extra["size"] = "what another program wrote";
+    entry.marker.extra["pair"] = 7;
+    EXPECT_EQ(said(markerStatements(entry), "Same finding"), "(nothing)");
     EXPECT_EQ(said(markerStatements(entry), "Size"), "(nothing)");
     entry.part_name.clear();
     EXPECT_EQ(said(markerStatements(entry), "Part of colon"), "(nothing)");
