@@ -9,6 +9,7 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QStatusBar>
+#include <QTabWidget>
 #include <QTableWidget>
 #include <QtTest/QTest>
 
@@ -387,6 +388,61 @@ TEST_F(Reading, SlicesProjectionAndPeelingFollowTheMouse)
         EXPECT_TRUE(eventually([&] { return circleIsAt(at); })) << at.x() << ", " << at.y();
     }
     screenshot("lens");
+}
+
+TEST_F(Reading, WhatWasSeenIsCountedPaintedListedAndKept)
+{
+    const auto seen = [] { return the<QLabel>("seen")->text().section(' ', 0, 0).toDouble(); };
+    const auto picture = [] { return the<QWidget>("endoscopic")->grab().toImage(); };
+    openCase();
+    ASSERT_TRUE(eventually([&] { return seen() > 0; }));
+    for (int n = 0; n < 30; ++n)
+        QTest::keyClick(window(), Qt::Key_Plus);
+    const double before = seen();
+    press(window(), "forward");
+    ASSERT_TRUE(eventually([] { return station() > 250; }));
+    press(window(), "stop");
+    ASSERT_TRUE(eventually([&] { return seen() > before + 10; }));
+    settle();
+    // Ahead nothing was seen earlier; behind the wall was, and is painted.
+    QTest::keyClick(window(), Qt::Key_V);
+    settle();
+    QTest::keyClick(window(), Qt::Key_R);
+    settle();
+    const auto green = [&] {
+        const QImage image = picture();
+        int count = 0;
+        for (int y = 0; y < image.height(); y += 4)
+            for (int x = 0; x < image.width(); x += 4) {
+                const QColor c = image.pixelColor(x, y);
+                count += c.green() > 40 && c.green() > c.red() * 5 / 4 ? 1 : 0;
+            }
+        return double(count) * 16 / (image.width() * image.height());
+    };
+    EXPECT_TRUE(eventually([&] { return green() > 0.2; })) << green();
+    screenshot("seen");
+    QTest::keyClick(window(), Qt::Key_V);
+    EXPECT_TRUE(eventually([&] { return green() < 0.02; })) << green();
+
+    QTest::mouseClick(the<QTabWidget>("lists")->tabBar(), Qt::LeftButton, {},
+                      the<QTabWidget>("lists")->tabBar()->tabRect(1).center());
+    auto* list = the<QTableWidget>("unseen");
+    ASSERT_TRUE(eventually([&] { return list->rowCount() > 0; }));
+    for (int row = 1; row < list->rowCount(); ++row)
+        EXPECT_LE(list->item(row - 1, 0)->text().toDouble(), list->item(row, 0)->text().toDouble());
+    const int last = list->rowCount() - 1;
+    const double there = list->item(last, 0)->text().toDouble();
+    QTest::mouseClick(list->viewport(), Qt::LeftButton, {}, list->visualItemRect(list->item(last, 0)).center());
+    EXPECT_TRUE(eventually([&] { return std::abs(station() - there) < 40; })) << station() << " for " << there;
+    screenshot("unseen");
+    settle();
+    const double kept = seen();
+    window()->close();
+    ASSERT_TRUE(eventually([] { return window() == nullptr; }));
+    openCase();
+    EXPECT_TRUE(eventually([&] { return seen() >= kept; })) << seen() << " after " << kept;
+    press(window(), "forgetSeen");
+    EXPECT_TRUE(eventually([&] { return seen() < before + 1; })) << seen();
 }
 
 TEST_F(Reading, ACaseDeletedUnderItsReaderIsSaidSo)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "seen_keeper.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/viewer/scene/canvas.h"
@@ -24,7 +25,8 @@ OpenScan::OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseReco
       record(scan),
       caption(captionFor(a_case, scan)),
       lumen(files.lumen()),
-      navigator(files.frames(), lumen, files.exitDistance())
+      navigator(files.frames(), lumen, files.exitDistance()),
+      seen(triangleAreas_mm2(files.cells().points_mm, files.cells().triangles))
 {
 }
 
@@ -74,6 +76,7 @@ void CaseSession::open(const std::string& scan_id)
         files.segments();
         files.subdivision();
         auto made = std::make_shared<OpenScan>(files, scan, row_.record);
+        SeenKeeper::restore(made->seen, folder);
         return [this, made] {
             if (made->record.id != wanted_scan_)
                 return;

@@ -8,6 +8,7 @@
 
 #include "vicon/viewer/model/marker_history.h"
 #include "vicon/viewer/model/navigator.h"
+#include "vicon/viewer/model/seen_so_far.h"
 #include "vicon/viewer/model/wall_distance.h"
 #include "vicon/viewer/qt/reading_room.h"
 #include "vicon/viewer/scene/prepared_scan.h"
@@ -23,6 +24,7 @@ struct OpenScan {
     Caption caption;
     Lumen lumen;
     Navigator navigator;
+    SeenSoFar seen;
 
     OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case);
 };

@@ -59,6 +59,7 @@ void ReadingWindow::lookAt(Point3 point)
     const OpenScan& scan = *session_.scan();
     if (scan.lumen.nearestInside(point, kFromLumen_mm).found) {
         const ViewPose view = poseForPoint(scan.files.skeleton(), scan.files.frames(), scan.lumen, point);
+        beginPass();
         navigator()->lookFrom(view.pose, view.station_mm);
     }
     focus_ = point;
@@ -91,6 +92,7 @@ void ReadingWindow::flyTo(const Marker& marker)
         lookAt(marker.position_mm);
         return;
     }
+    beginPass();
     navigator()->lookFrom(view->pose, view->station_mm);
     focus_ = marker.position_mm;
     moved(true);
@@ -218,6 +220,7 @@ void ReadingWindow::turnAbout()
 {
     if (!navigator())
         return;
+    beginPass();
     navigator()->setHeading(navigator()->heading() == Heading::caecum ? Heading::rectum : Heading::caecum);
     moved(true);
 }

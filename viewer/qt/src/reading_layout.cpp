@@ -7,8 +7,11 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QSplitter>
+#include <QStatusBar>
+#include <QTabWidget>
 #include <QVBoxLayout>
 
+#include "coverage_panel.h"
 #include "reading_window.h"
 #include "vicon/viewer/model/window_level.h"
 
@@ -62,13 +65,26 @@ QWidget* ReadingWindow::buildSide()
     table_ = new MarkerTable;
     navigation_ = new NavigationPanel;
     peeling_ = new PeelingPanel;
+    coverage_ = new CoveragePanel;
+    auto* lists = new QTabWidget;
+    lists->setObjectName("lists");
+    lists->addTab(table_, tr("&Markers"));
+    lists->addTab(coverage_, tr("&Unseen"));
+    connect(lists, &QTabWidget::currentChanged, this, [this, lists] {
+        if (lists->currentWidget() == coverage_)
+            listUnseen();
+    });
+    seen_text_ = new QLabel;
+    seen_text_->setObjectName("seenText");
+    seen_text_->setToolTip(tr("Part of the wall seen so far"));
+    statusBar()->addPermanentWidget(seen_text_);
     auto* side = new QWidget;
     side->setMaximumWidth(kSideWidth * 5 / 4);
     auto* column = new QVBoxLayout(side);
     column->setContentsMargins(0, 0, 0, 0);
     column->addWidget(overview_, 3);
     column->addWidget(group(tr("Flight"), navigation_));
-    column->addWidget(group(tr("Markers"), table_), 2);
+    column->addWidget(lists, 2);
     column->addWidget(group(tr("Below the wall"), peeling_));
     return side;
 }
@@ -186,6 +202,7 @@ void ReadingWindow::addActions()
         scan_choice_->setCurrentIndex((scan_choice_->currentIndex() + 1) % scan_choice_->count());
         emit scan_choice_->activated(scan_choice_->currentIndex());
     });
+    add(view, tr("Paint what was seen"), QKeySequence("V"), [this] { coverage_->setPaints(!coverage_->paints()); });
     add(menuBar()->addMenu(tr("&Help")), tr("Keys"), QKeySequence("?"), [this] { showKeys(); });
 }
 

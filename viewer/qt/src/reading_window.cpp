@@ -7,6 +7,7 @@
 #include <QSettings>
 #include <QStatusBar>
 
+#include "coverage_panel.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/window_level.h"
 
@@ -100,6 +101,7 @@ void ReadingWindow::connectAll()
     }
     connect(scan_choice_, qOverload<int>(&QComboBox::activated), this, [this](int) {
         savePlace();
+        keepSeen();
         if (navigator())
             wanted_fraction_ = navigator()->state().station_mm / session_.scan()->files.frames().length_mm();
         tell(tr("Reading the scan ..."));
@@ -139,6 +141,7 @@ void ReadingWindow::connectAll()
     connect(navigation_, &NavigationPanel::stepWanted, this, steered(&Navigator::step));
     connect(navigation_, &NavigationPanel::jumpWanted, this, steered(&Navigator::jumpTo));
 
+    connectCoverage();
     timer_.setTimerType(Qt::PreciseTimer);
     timer_.setInterval(kFrame_ms);
     connect(&timer_, &QTimer::timeout, this, &ReadingWindow::tick);
@@ -162,6 +165,8 @@ void ReadingWindow::scanOpened()
     clock_.start();
     timer_.start();
     moved(true);
+    showSeen();
+    listUnseen();
 }
 
 void ReadingWindow::restorePlace()
@@ -236,11 +241,12 @@ void ReadingWindow::drawEndoscopic(bool still)
 {
     if (!session_.scan())
         return;
-    SnapshotRequest wanted = request(endoscopic_->pictureSize());
-    peeling_->fill(wanted);
-    wanted.peel_circle_at = lens_at_;
-    wanted.peel_coarse = still ? 1 : kPeelCoarse;
-    studio_.drawEndoscopic(session_.sharedScan(), wanted, place(), still);
+    Studio::Wish wish{request(endoscopic_->pictureSize()), place(), still, endoscopic_->isVisible(),
+                      coverage_->paints()};
+    peeling_->fill(wish.request);
+    wish.request.peel_circle_at = lens_at_;
+    wish.request.peel_coarse = still ? 1 : kPeelCoarse;
+    studio_.drawEndoscopic(session_.sharedScan(), wish);
 }
 
 void ReadingWindow::drawOverview()
@@ -310,6 +316,7 @@ void ReadingWindow::closeEvent(QCloseEvent* event)
 {
     timer_.stop();
     savePlace();
+    keepSeen();
     event->accept();
 }
 

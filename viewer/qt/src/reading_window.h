@@ -11,6 +11,7 @@
 #include "navigation_panel.h"
 #include "peeling_panel.h"
 #include "picture_view.h"
+#include "seen_keeper.h"
 #include "slice_view.h"
 #include "studio.h"
 
@@ -18,6 +19,8 @@ class QComboBox;
 class QLabel;
 
 namespace vicon::viewer {
+
+class CoveragePanel;
 
 /// A case in reading: the endoscopic view, three slices and the colon's projection, all at one place, with the
 /// controls of flight, the markers and the look below the wall.
@@ -82,12 +85,20 @@ private:
     void drawMeasured();
     std::optional<Marker> markerBeside(const std::vector<Point3>& way) const;
 
+    // reading_coverage.cpp
+    void connectCoverage();
+    void beginPass();
+    void listUnseen();
+    void showSeen();
+    void keepSeen();
+
     SnapshotRequest request(const QSize& size) const;
     SnapshotResult place() const;
     Navigator* navigator() const { return session_.scan() ? &session_.scan()->navigator : nullptr; }
 
     CaseSession session_;
     Studio studio_;
+    SeenKeeper seen_keeper_;
     PictureView *endoscopic_, *overview_;
     SliceView *transverse_, *coronal_, *sagittal_;
     QWidget* side_ = nullptr;
@@ -95,9 +106,10 @@ private:
     MarkerTable* table_;
     NavigationPanel* navigation_;
     PeelingPanel* peeling_;
+    CoveragePanel* coverage_;
     QComboBox *scan_choice_, *window_choice_;
-    QLabel *warning_, *notice_;
-    QTimer timer_, still_, poll_;
+    QLabel *warning_, *notice_, *seen_text_;
+    QTimer timer_, still_, poll_, keep_seen_;
     QElapsedTimer clock_;
     Pose shown_pose_;
     Lens shown_lens_;

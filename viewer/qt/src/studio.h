@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 
 #include "case_session.h"
@@ -16,21 +17,31 @@ public:
     Studio();
     ~Studio() override;
 
-    void drawEndoscopic(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place,
-                        bool still);
+    /// An endoscopic picture: what is in it, and what is done about the wall that it shows.
+    struct Wish {
+        SnapshotRequest request;
+        SnapshotResult place;
+        bool still = true;
+        bool count_seen = true;   ///< it is shown to somebody; while moving, some pictures are counted
+        bool paint_seen = false;  ///< what was seen in earlier passes
+    };
+    void drawEndoscopic(std::shared_ptr<OpenScan> scan, const Wish& wish);
     void drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place);
 
 signals:
     void endoscopicDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::Pose& pose,
                          const vicon::viewer::Lens& lens);
     void overviewDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::PlaneView& view);
+    void seenChanged();
     void failed(const QString& message);
 
 private:
     ReadingPictures& picturesOf(const std::shared_ptr<OpenScan>& scan);
+    void countSeen();  // of the picture drawn last
 
-    std::shared_ptr<OpenScan> scan_;             // the worker's
-    std::unique_ptr<ReadingPictures> pictures_;  // the worker's
+    std::shared_ptr<OpenScan> scan_;                 // the worker's
+    std::unique_ptr<ReadingPictures> pictures_;      // the worker's
+    std::chrono::steady_clock::time_point counted_;  // the worker's
     Worker worker_;
 };
 

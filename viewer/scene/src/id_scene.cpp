@@ -35,6 +35,7 @@ vtkSmartPointer<vtkUnsignedCharArray> idColors(std::size_t first, std::size_t co
 
 struct IdScene::Parts {
     std::vector<CellActor> cells;
+    std::vector<Patch> patches;
     vtkNew<vtkRenderer> renderer;
 };
 
@@ -43,6 +44,7 @@ IdScene::IdScene(const artefact::CellSurface& surface) : parts_(std::make_unique
     if (surface.triangleCount() > kMostIds)
         throw Error(ErrorCode::bad_input, "the surface has too many triangles for a colour each");
     parts_->cells = cellActors(surface);
+    parts_->patches = patchesOf(surface.segment);
     for (const CellActor& cell : parts_->cells) {
         cell.data->GetPointData()->SetNormals(nullptr);
         cell.data->GetCellData()->SetScalars(idColors(cell.first_triangle, cell.triangles));
@@ -71,6 +73,16 @@ void IdScene::lookFrom(const Pose& pose, double view_angle_deg)
 void IdScene::showOnly(const std::vector<int>& segments)
 {
     viewer::showOnly(parts_->cells, segments);
+}
+
+void IdScene::showSeen(const SeenParts& parts)
+{
+    if (parts.everything)
+        showOnly({});
+    else if (parts.patches.size() == parts_->patches.size())
+        viewer::showPatches(parts_->cells, parts_->patches, parts.patches);
+    else
+        showOnly(parts.segments);
 }
 
 std::vector<std::uint32_t> IdScene::trianglesIn(const Picture& picture)

@@ -7,6 +7,7 @@
 #include "vicon/artefact/cells_file.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/scene/canvas.h"
+#include "vicon/viewer/scene/cell_visibility.h"
 
 class vtkRenderer;
 
@@ -22,6 +23,8 @@ public:
     vtkRenderer* renderer() const;
     void lookFrom(const Pose& pose, double view_angle_deg);
     void showOnly(const std::vector<int>& segments);
+    /// Draws only what CellVisibility found; it must have been made for the same surface.
+    void showSeen(const SeenParts& parts);
 
     /// The numbers of the triangles in a picture of this scene that was rendered without smoothing; ascending, each
     /// once.

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "vicon/viewer/model/orientation.h"
+#include "vicon/viewer/model/seen_so_far.h"
 #include "vicon/viewer/model/window_level.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/snapshot.h"
@@ -32,7 +33,11 @@ public:
 
     /// The endoscopic view from `place`, only cells that may be seen drawn; the request's width and height must be set.
     /// @param still smoothed; while the eye moves: not
-    Picture endoscopic(const SnapshotRequest& request, const SnapshotResult& place, bool still);
+    /// @param earlier the wall that was seen in earlier passes is tinted; nothing: none is
+    Picture endoscopic(const SnapshotRequest& request, const SnapshotResult& place, bool still,
+                       const SeenSoFar* earlier = nullptr);
+    /// Counts what the last endoscopic picture shows as seen. Not where it was peeled: the wall is not in it.
+    void countSeen(SeenSoFar& seen);
 
     /// The whole colon from the front, and which millimetres its pixels are.
     struct Overview {
