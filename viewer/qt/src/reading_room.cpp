@@ -23,6 +23,8 @@ int runReadingRoom(const ReadingServices& services, const std::string& case_id, 
     if (display.isPrivate())
         throw Error(ErrorCode::no_display, "there is no screen to show a window on", "DISPLAY",
                     "start it from a desktop session, or set DISPLAY to one; 'vicon snapshot' needs none");
+    // Pictures come from VTK's own context; Qt opens none that a broken driver could fail at.
+    qputenv("QT_XCB_GL_INTEGRATION", "none");
     int argc = 1;
     char name[] = "vicon";
     char* argv[] = {name, nullptr};
