@@ -290,7 +290,24 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     choose(0);
     ASSERT_TRUE(eventually([&] { return stored()[0].extra.value("pair", "") == stored()[1].id; }));
     EXPECT_TRUE(eventually([&] { return stored()[1].extra.value("pair", "") == stored()[0].id && settled(); }));
+    // Both at once: what is chosen in one is shown in both, and they move together.
+    QTest::keyClick(window(), Qt::Key_C);
+    ASSERT_TRUE(eventually([] { return drawn("besideEndoscopic") && drawn("besideTransverse"); }));
+    const auto beside = [] { return the<QWidget>("besideEndoscopic")->grab().toImage(); };
+    settle();
+    const QImage first_shown = beside();
+    press(window(), "stepOn");
+    ASSERT_TRUE(eventually([&] { return beside() != first_shown; })) << "it moves with the other";
+    settle();
+    const QImage along_the_path = beside();
+    choose(1);
+    ASSERT_TRUE(eventually([&] { return beside() != along_the_path; }));
     screenshot("paired");
+    // A click reads on in the other scan, at the same place: the two are the same colon.
+    const double place = station();
+    click("besideEndoscopic", middle("besideEndoscopic"));
+    ASSERT_TRUE(eventually([] { return the<QComboBox>("scan")->currentText().startsWith("supine"); }));
+    EXPECT_NEAR(station(), place, 1);
 
     window()->close();
     ASSERT_TRUE(eventually([] { return window() == nullptr; }));
@@ -298,7 +315,11 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 2; }));
     EXPECT_EQ(cell(0, 6), "6 mm, sessile");
     EXPECT_EQ(cell(0, 4), cell(1, 0));
+    EXPECT_TRUE(the<QWidget>("besideEndoscopic")->isVisible()) << "side by side as it was left";
+    // A marker of the other scan takes the reader there.
+    ASSERT_TRUE(eventually([] { return drawn("besideEndoscopic"); }));
     choose(1);
+    EXPECT_TRUE(eventually([] { return the<QComboBox>("scan")->currentText().startsWith("prone"); }));
     press(window(), "markerRemove");
     ASSERT_TRUE(eventually([&] { return stored().size() == 1; }));
 }

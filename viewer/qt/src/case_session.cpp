@@ -64,12 +64,46 @@ std::optional<Marker> CaseSession::marker(const std::string& id) const
 
 void CaseSession::open(const std::string& scan_id)
 {
+    wanted_scan_ = scan_id;
+    if (beside_ && beside_->record.id == scan_id) {
+        std::swap(scan_, beside_);
+        wanted_beside_ = beside_ ? beside_->record.id : "";
+        emit opened();
+        emit besideOpened();
+        return;
+    }
+    load("open", scan_id, [this](std::shared_ptr<OpenScan> made) {
+        if (made->record.id != wanted_scan_)
+            return;
+        scan_ = std::move(made);
+        emit opened();
+    });
+}
+
+void CaseSession::openBeside(const std::string& scan_id)
+{
+    wanted_beside_ = scan_id;
+    load("open beside", scan_id, [this](std::shared_ptr<OpenScan> made) {
+        if (made->record.id != wanted_beside_)
+            return;
+        beside_ = std::move(made);
+        emit besideOpened();
+    });
+}
+
+void CaseSession::closeBeside()
+{
+    wanted_beside_.clear();
+    beside_.reset();
+}
+
+void CaseSession::load(const std::string& work, const std::string& scan_id, Opened then)
+{
     const auto row = std::find_if(row_.scans.begin(), row_.scans.end(),
                                   [&](const WorklistScanRow& scan) { return scan.record.id == scan_id; });
     if (row == row_.scans.end())
         return;
-    wanted_scan_ = scan_id;
-    loader_.post("open", [this, folder = row->folder, scan = row->record]() -> Worker::Work {
+    loader_.post(work, [this, folder = row->folder, scan = row->record, then = std::move(then)]() -> Worker::Work {
         auto files = PreparedScan::open(folder);
         files.volume();
         files.cells();
@@ -77,12 +111,7 @@ void CaseSession::open(const std::string& scan_id)
         files.subdivision();
         auto made = std::make_shared<OpenScan>(files, scan, row_.record);
         SeenKeeper::restore(made->seen, folder);
-        return [this, made] {
-            if (made->record.id != wanted_scan_)
-                return;
-            scan_ = made;
-            emit opened();
-        };
+        return [made, then] { then(made); };
     });
 }
 

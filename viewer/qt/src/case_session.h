@@ -44,8 +44,13 @@ public:
     /// Nothing when it was deleted.
     std::optional<Marker> marker(const std::string& id) const;
 
-    /// Reads a scan's files; opened() follows, or failed().
+    /// Reads a scan's files; opened() follows, or warned(). The scan beside changes places with the one being read.
     void open(const std::string& scan_id);
+    /// Reads another scan to be shown beside the one being read; besideOpened() follows.
+    void openBeside(const std::string& scan_id);
+    void closeBeside();
+    OpenScan* beside() const { return beside_.get(); }
+    std::shared_ptr<OpenScan> sharedBeside() const { return beside_; }
     OpenScan* scan() const { return scan_.get(); }
     std::shared_ptr<OpenScan> sharedScan() const { return scan_; }
 
@@ -70,6 +75,7 @@ public:
 
 signals:
     void opened();
+    void besideOpened();
     void markersChanged();
     /// A change is on its way to the database; until then the markers shown may be old ones.
     void busyChanged(bool busy);
@@ -82,6 +88,9 @@ private:
     using Edit = std::function<void(CaseStore&, MarkerHistory&)>;
     void edit(const QString& what, Edit work);
     void edited();
+    using Opened = std::function<void(std::shared_ptr<OpenScan>)>;
+    /// Reads a scan's files on the loader's thread.
+    void load(const std::string& work, const std::string& scan_id, Opened then);
     CaseStore& store();  // on the worker's thread
 
     ReadingServices services_;
@@ -89,7 +98,8 @@ private:
     std::vector<ScanRecord> scans_;
     std::vector<Marker> markers_;
     std::shared_ptr<OpenScan> scan_;
-    std::string wanted_scan_;
+    std::shared_ptr<OpenScan> beside_;
+    std::string wanted_scan_, wanted_beside_;
     bool can_undo_ = false, can_redo_ = false;
     bool markers_known_ = false;
     int edits_under_way_ = 0;

@@ -46,8 +46,9 @@ void ReadingWindow::connectCoverage()
 
 void ReadingWindow::beginPass()
 {
-    if (session_.scan())
-        session_.scan()->seen.beginPass();
+    for (OpenScan* scan : {session_.scan(), session_.beside()})
+        if (scan)
+            scan->seen.beginPass();
 }
 
 void ReadingWindow::listUnseen()
@@ -64,10 +65,16 @@ void ReadingWindow::showSeen()
     seen_text_->setText(tr("%1 % seen").arg(int(session_.scan()->seen.fraction() * 1000) / 10.0, 0, 'f', 1));
 }
 
+bool ReadingWindow::paintsSeen() const
+{
+    return coverage_->paints();
+}
+
 void ReadingWindow::keepSeen()
 {
-    if (session_.scan())
-        seen_keeper_.save(session_.sharedScan());
+    for (const auto& scan : {session_.sharedScan(), session_.sharedBeside()})
+        if (scan)
+            seen_keeper_.save(scan);
 }
 
 }  // namespace vicon::viewer

@@ -3,6 +3,7 @@
 #include <QStatusBar>
 
 #include "reading_window.h"
+#include "saved_view.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
@@ -11,46 +12,6 @@ namespace {
 
 constexpr double kReach_mm = 500;     // of a click into the endoscopic view
 constexpr double kFromLumen_mm = 15;  // a click on a slice this near to the lumen moves the eye as well
-
-nlohmann::json jsonOf(Vector3 v)
-{
-    return {v.x, v.y, v.z};
-}
-
-Vector3 vectorFrom(const nlohmann::json& json)
-{
-    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
-
-nlohmann::json viewOf(const NavigationState& state)
-{
-    return {{"eye_mm", jsonOf(state.pose.eye_mm - Point3{})},
-            {"forward", jsonOf(state.pose.forward)},
-            {"up", jsonOf(state.pose.up)},
-            {"station_mm", state.station_mm}};
-}
-
-/// A view that was saved with a marker, and the station of its eye, which is not the marker's.
-struct SavedView {
-    Pose pose;
-    double station_mm = 0;
-};
-
-/// Nothing where there is none or it makes no sense.
-std::optional<SavedView> savedView(const Marker& marker)
-{
-    try {
-        const auto& view = marker.extra.at("view");
-        SavedView saved{{Point3{} + vectorFrom(view.at("eye_mm")), normalized(vectorFrom(view.at("forward"))), {}},
-                        view.at("station_mm").get<double>()};
-        saved.pose.up = uprightOn(saved.pose.forward, vectorFrom(view.at("up")));
-        if (length(saved.pose.forward) > 0.5)
-            return saved;
-    } catch (const nlohmann::json::exception&) {
-        // written by something else
-    }
-    return std::nullopt;
-}
 
 }  // namespace
 
@@ -84,22 +45,25 @@ void ReadingWindow::flyTo(const Marker& marker)
     if (!navigator())
         return;
     if (marker.scan_id != session_.scan()->record.id) {
-        warn(tr("This marker lies in the other scan; change to it first."));
+        fly_to_when_open_ = marker.id;
+        changeScan(marker.scan_id);
         return;
     }
-    const auto view = savedView(marker);
-    if (!view) {
-        lookAt(marker.position_mm);
-        return;
-    }
+    const ViewPose view = viewFor(*session_.scan(), marker);
     beginPass();
-    navigator()->lookFrom(view->pose, view->station_mm);
+    navigator()->lookFrom(view.pose, view.station_mm);
     focus_ = marker.position_mm;
+    showPairOf(marker);
     moved(true);
 }
 
-bool ReadingWindow::placed(Point3 point, Qt::KeyboardModifiers modifiers, bool on_wall)
+bool ReadingWindow::placed(const OpenScan& scan, const NavigationState& from, Point3 point,
+                           Qt::KeyboardModifiers modifiers, bool on_wall)
 {
+    if (measuring_ && &scan != session_.scan()) {
+        warn(tr("Both ends of a size lie in the scan that is being read."));
+        return true;
+    }
     if (measuredAt(point, on_wall))
         return true;
     if (moving_) {
@@ -107,6 +71,11 @@ bool ReadingWindow::placed(Point3 point, Qt::KeyboardModifiers modifiers, bool o
         moving_.reset();
         if (!before)
             return true;
+        if (before->scan_id != scan.record.id) {
+            warn(tr("%1 lies in the other scan and cannot be moved to this one.")
+                     .arg(QString::fromStdString(before->id)));
+            return true;
+        }
         Marker after = *before;
         after.position_mm = point;
         after.extra.erase("view");
@@ -116,25 +85,30 @@ bool ReadingWindow::placed(Point3 point, Qt::KeyboardModifiers modifiers, bool o
     if (!armed_ && !(modifiers & Qt::ShiftModifier))
         return false;
     Marker marker;
-    marker.scan_id = session_.scan()->record.id;
+    marker.scan_id = scan.record.id;
     marker.position_mm = point;
     marker.color = armed_.value_or(MarkerColor::red);
-    marker.extra["view"] = viewOf(navigator()->state());
+    marker.extra["view"] = viewOf(from);
     session_.addMarker(marker);
     arm({});
     return true;
+}
+
+std::optional<Point3> ReadingWindow::wallAt(const OpenScan& scan, const Pose& pose, const Lens& lens, Pixel at)
+{
+    const Vector3 ray = rayThrough(pose, lens, at);
+    const auto far = distanceToWall_mm(scan.lumen, pose.eye_mm, ray, kReach_mm);
+    return far ? std::optional(pose.eye_mm + ray * *far) : std::nullopt;
 }
 
 void ReadingWindow::clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers)
 {
     if (!navigator() || shown_lens_.width == 0)
         return;
-    const Vector3 ray = rayThrough(shown_pose_, shown_lens_, at);
-    const auto far = distanceToWall_mm(session_.scan()->lumen, shown_pose_.eye_mm, ray, kReach_mm);
-    if (!far)
+    const auto point = wallAt(*session_.scan(), shown_pose_, shown_lens_, at);
+    if (!point)
         return;
-    const Point3 point = shown_pose_.eye_mm + ray * *far;
-    placed(point, modifiers, true);
+    placed(*session_.scan(), navigator()->state(), *point, modifiers, true);
     focus_ = point;
     showPlace();
 }
@@ -143,7 +117,7 @@ void ReadingWindow::clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers)
 {
     if (!navigator())
         return;
-    if (placed(point, modifiers)) {
+    if (placed(*session_.scan(), navigator()->state(), point, modifiers)) {
         focus_ = point;
         showPlace();
     } else {
@@ -164,7 +138,7 @@ void ReadingWindow::clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers)
             station = s;
         }
     }
-    if (placed(path.at(station).position_mm, modifiers))
+    if (placed(*session_.scan(), navigator()->state(), path.at(station).position_mm, modifiers))
         return;
     emit navigation_->jumpWanted(station);
 }

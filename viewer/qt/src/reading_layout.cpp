@@ -11,6 +11,7 @@
 #include <QTabWidget>
 #include <QVBoxLayout>
 
+#include "beside_view.h"
 #include "coverage_panel.h"
 #include "reading_window.h"
 #include "vicon/viewer/model/window_level.h"
@@ -114,12 +115,16 @@ void ReadingWindow::buildViews()
     side_ = buildSide();
     auto* columns = new QSplitter(Qt::Horizontal);
     columns->addWidget(endoscopic_);
+    beside_ = new BesideView;
+    beside_->hide();
+    columns->addWidget(beside_);
     columns->addWidget(slices);
     columns->addWidget(side_);
     columns->setStretchFactor(0, 5);
-    columns->setStretchFactor(1, 3);
-    columns->setStretchFactor(2, 0);
-    columns->setSizes({5 * kPart, 3 * kPart, kSideWidth});
+    columns->setStretchFactor(1, 4);
+    columns->setStretchFactor(2, 3);
+    columns->setStretchFactor(3, 0);
+    columns->setSizes({5 * kPart, 4 * kPart, 3 * kPart, kSideWidth});
     auto* all = new QWidget(this);
     auto* layout = new QVBoxLayout(all);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -141,6 +146,8 @@ void ReadingWindow::enlarge(QWidget* view)
     }
     transverse_->parentWidget()->setVisible(any_slice);
     endoscopic_->setVisible(shown(endoscopic_));
+    beside_->setVisible(compare_->isChecked() && !enlarged_);
+    drawBeside(true);
 }
 
 void ReadingWindow::addActions()
@@ -196,6 +203,10 @@ void ReadingWindow::addActions()
         for (SliceView* slice : {transverse_, coronal_, sagittal_})
             slice->resetView();
     });
+    compare_ = view->addAction(tr("Both scans side by side"));
+    compare_->setCheckable(true);
+    compare_->setShortcut(QKeySequence("C"));
+    connect(compare_, &QAction::triggered, this, &ReadingWindow::setBeside);
     add(view, tr("Other scan"), QKeySequence("X"), [this] {
         if (scan_choice_->count() < 2)
             return;

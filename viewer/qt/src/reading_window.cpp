@@ -1,5 +1,6 @@
 #include "reading_window.h"
 
+#include <QAction>
 #include <QCloseEvent>
 #include <QComboBox>
 #include <QKeyEvent>
@@ -7,7 +8,6 @@
 #include <QSettings>
 #include <QStatusBar>
 
-#include "coverage_panel.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/window_level.h"
 
@@ -99,14 +99,8 @@ void ReadingWindow::connectAll()
         connect(window_choice_, &QComboBox::currentTextChanged, slice,
                 [slice](const QString& name) { slice->setWindow(windowPreset(name.toStdString())); });
     }
-    connect(scan_choice_, qOverload<int>(&QComboBox::activated), this, [this](int) {
-        savePlace();
-        keepSeen();
-        if (navigator())
-            wanted_fraction_ = navigator()->state().station_mm / session_.scan()->files.frames().length_mm();
-        tell(tr("Reading the scan ..."));
-        session_.open(scan_choice_->currentData().toString().toStdString());
-    });
+    connect(scan_choice_, qOverload<int>(&QComboBox::activated), this,
+            [this](int) { changeScan(scan_choice_->currentData().toString().toStdString()); });
     connect(peeling_, &PeelingPanel::changed, this, [this] {
         drawEndoscopic(false);
         still_.start();
@@ -129,6 +123,7 @@ void ReadingWindow::connectAll()
             if (!navigator())
                 return;
             focus_.reset();
+            beside_place_.reset();
             (navigator()->*what)(value);
             moved(false);
         };
@@ -142,19 +137,36 @@ void ReadingWindow::connectAll()
     connect(navigation_, &NavigationPanel::jumpWanted, this, steered(&Navigator::jumpTo));
 
     connectCoverage();
+    connectBeside();
     timer_.setTimerType(Qt::PreciseTimer);
     timer_.setInterval(kFrame_ms);
     connect(&timer_, &QTimer::timeout, this, &ReadingWindow::tick);
     still_.setSingleShot(true);
     still_.setInterval(kStill_ms);
-    connect(&still_, &QTimer::timeout, this, [this] { drawEndoscopic(true); });
+    connect(&still_, &QTimer::timeout, this, [this] {
+        drawEndoscopic(true);
+        drawBeside(true);
+    });
     poll_.setInterval(kPoll_ms);
     connect(&poll_, &QTimer::timeout, &session_, &CaseSession::refresh);
     poll_.start();
 }
 
+void ReadingWindow::changeScan(const std::string& scan_id)
+{
+    savePlace();
+    keepSeen();
+    came_from_ = session_.sharedScan();
+    if (navigator())
+        came_from_mm_ = navigator()->state().station_mm;
+    tell(tr("Reading the scan ..."));
+    session_.open(scan_id);
+}
+
 void ReadingWindow::scanOpened()
 {
+    scan_choice_->setCurrentIndex(scan_choice_->findData(QString::fromStdString(session_.scan()->record.id)));
+    beside_place_.reset();
     overview_shown_ = false;
     measured_way_.clear();
     focus_.reset();
@@ -167,17 +179,24 @@ void ReadingWindow::scanOpened()
     moved(true);
     showSeen();
     listUnseen();
+    if (compare_->isChecked())
+        setBeside(true);
+    if (const auto marker = session_.marker(fly_to_when_open_.value_or("")))
+        flyTo(*marker);
+    fly_to_when_open_.reset();
 }
 
 void ReadingWindow::restorePlace()
 {
-    if (wanted_fraction_ >= 0) {
-        navigator()->jumpTo(wanted_fraction_ * session_.scan()->files.frames().length_mm());
-        wanted_fraction_ = -1;
+    if (came_from_) {
+        navigator()->setHeading(came_from_->navigator.heading());
+        navigator()->jumpTo(corresponding_mm(*came_from_, came_from_mm_, *session_.scan()));
+        came_from_.reset();
         return;
     }
     QSettings settings;
     settings.beginGroup("place/" + QString::fromStdString(session_.record().id));
+    compare_->setChecked(settings.value("beside").toBool());
     navigator()->setHeading(settings.value("to_rectum").toBool() ? Heading::rectum : Heading::caecum);
     navigator()->jumpTo(settings.value(QString::fromStdString(session_.scan()->record.id), 0).toDouble());
 }
@@ -189,6 +208,7 @@ void ReadingWindow::savePlace()
     QSettings settings;
     settings.beginGroup("place/" + QString::fromStdString(session_.record().id));
     settings.setValue("scan", QString::fromStdString(session_.scan()->record.id));
+    settings.setValue("beside", compare_->isChecked());
     settings.setValue("to_rectum", navigator()->heading() == Heading::rectum);
     settings.setValue(QString::fromStdString(session_.scan()->record.id), navigator()->state().station_mm);
 }
@@ -205,6 +225,7 @@ void ReadingWindow::tick()
         navigator()->fly(0);
     if (!(now.pose.eye_mm == before.eye_mm) || !(now.pose.forward == before.forward)) {
         focus_.reset();
+        beside_place_.reset();
         moved(false);
     }
 }
@@ -214,20 +235,21 @@ void ReadingWindow::moved(bool still)
     if (!navigator())
         return;
     drawEndoscopic(still);
+    drawBeside(still);
     if (!still)
         still_.start();
     drawOverview();
     showPlace();
 }
 
-SnapshotRequest ReadingWindow::request(const QSize& size) const
+SnapshotRequest ReadingWindow::request(const OpenScan& scan, const QSize& size) const
 {
     SnapshotRequest request;
     request.width = size.width();
     request.height = size.height();
     request.view_angle_deg = view_angle_deg_;
-    request.caption = session_.scan()->caption;
-    request.markers = session_.markersOf(session_.scan()->record.id);
+    request.caption = scan.caption;
+    request.markers = session_.markersOf(scan.record.id);
     return request;
 }
 
@@ -241,8 +263,8 @@ void ReadingWindow::drawEndoscopic(bool still)
 {
     if (!session_.scan())
         return;
-    Studio::Wish wish{request(endoscopic_->pictureSize()), place(), still, endoscopic_->isVisible(),
-                      coverage_->paints()};
+    Studio::Wish wish{request(*session_.scan(), endoscopic_->pictureSize()), place(), still, endoscopic_->isVisible(),
+                      paintsSeen()};
     peeling_->fill(wish.request);
     wish.request.peel_circle_at = lens_at_;
     wish.request.peel_coarse = still ? 1 : kPeelCoarse;
@@ -252,7 +274,7 @@ void ReadingWindow::drawEndoscopic(bool still)
 void ReadingWindow::drawOverview()
 {
     if (session_.scan())
-        studio_.drawOverview(session_.sharedScan(), request(overview_->pictureSize()), place());
+        studio_.drawOverview(session_.sharedScan(), request(*session_.scan(), overview_->pictureSize()), place());
 }
 
 void ReadingWindow::showPlace()

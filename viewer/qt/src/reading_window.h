@@ -15,11 +15,13 @@
 #include "slice_view.h"
 #include "studio.h"
 
+class QAction;
 class QComboBox;
 class QLabel;
 
 namespace vicon::viewer {
 
+class BesideView;
 class CoveragePanel;
 
 /// A case in reading: the endoscopic view, three slices and the colon's projection, all at one place, with the
@@ -67,7 +69,11 @@ private:
     void clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers);
     void clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers);
     void clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers);
-    bool placed(Point3 point, Qt::KeyboardModifiers modifiers, bool on_wall = false);
+    /// @param from the view in which the point was chosen
+    bool placed(const OpenScan& scan, const NavigationState& from, Point3 point, Qt::KeyboardModifiers modifiers,
+                bool on_wall = false);
+    /// What lies on the wall at a pixel of an endoscopic picture.
+    static std::optional<Point3> wallAt(const OpenScan& scan, const Pose& pose, const Lens& lens, Pixel at);
     void setPickCursor(bool on);
     void pair(const Marker& marker);
     void arm(std::optional<MarkerColor> color);
@@ -91,8 +97,22 @@ private:
     void listUnseen();
     void showSeen();
     void keepSeen();
+    bool paintsSeen() const;
 
-    SnapshotRequest request(const QSize& size) const;
+    // reading_beside.cpp
+    void connectBeside();
+    void setBeside(bool on);
+    NavigationState besidePlace() const;
+    void drawBeside(bool still);
+    void clickedBeside(Pixel at, Qt::KeyboardModifiers modifiers);
+    /// In the other scan's view, where it is open.
+    void showPairOf(const Marker& marker);
+    static ViewPose viewFor(const OpenScan& scan, const Marker& marker);
+    static double corresponding_mm(const OpenScan& from, double station_mm, const OpenScan& to);
+
+    /// The other scan is read on from the place that corresponds.
+    void changeScan(const std::string& scan_id);
+    SnapshotRequest request(const OpenScan& scan, const QSize& size) const;
     SnapshotResult place() const;
     Navigator* navigator() const { return session_.scan() ? &session_.scan()->navigator : nullptr; }
 
@@ -107,6 +127,8 @@ private:
     NavigationPanel* navigation_;
     PeelingPanel* peeling_;
     CoveragePanel* coverage_;
+    BesideView* beside_;
+    QAction* compare_ = nullptr;
     QComboBox *scan_choice_, *window_choice_;
     QLabel *warning_, *notice_, *seen_text_;
     QTimer timer_, still_, poll_, keep_seen_;
@@ -128,7 +150,12 @@ private:
     std::vector<Point3> measured_way_;
     std::set<int> keys_;
     QPointF mouse_steering_;
-    double wanted_fraction_ = -1;  // of the path, when the scan is changed
+    std::shared_ptr<OpenScan> came_from_;  // when the scan is changed, with the station there
+    double came_from_mm_ = 0;
+    std::optional<std::string> fly_to_when_open_;  // a marker
+    std::optional<ViewPose> beside_place_;         // the partner of the marker that is shown; else what corresponds
+    Pose beside_pose_;
+    Lens beside_lens_;
     double view_angle_deg_ = 90;
 };
 

@@ -44,11 +44,12 @@ void SeenKeeper::save(std::shared_ptr<OpenScan> scan)
     worker_.postAlways([this, scan = std::move(scan)]() -> Worker::Work {
         std::string bytes = scan->seen.packed();
         const auto file = fileFor(scan->files.folder());
-        if (bytes == written_ || !std::filesystem::exists(scan->files.folder()))  // the case may have been deleted
+        if (bytes == written_[file] ||
+            !std::filesystem::exists(scan->files.folder()))  // the case may have been deleted
             return {};
         makePrivateFolder(file.parent_path());
         replaceFile(file, bytes);
-        written_ = std::move(bytes);
+        written_[file] = std::move(bytes);
         return {};
     });
 }

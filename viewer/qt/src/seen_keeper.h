@@ -29,7 +29,7 @@ signals:
     void failed(const QString& message);
 
 private:
-    std::string written_;  // the worker's
+    std::map<std::filesystem::path, std::string> written_;  // the worker's
     Worker worker_;
 };
 

@@ -13,45 +13,60 @@ Studio::Studio()
 
 Studio::~Studio()
 {
-    worker_.postAlways([this]() -> Worker::Work {  // the context ends on the thread that it belongs to
-        pictures_.reset();
+    worker_.postAlways([this]() -> Worker::Work {  // the contexts end on the thread that they belong to
+        pictures_.clear();
         return {};
     });
 }
 
 ReadingPictures& Studio::picturesOf(const std::shared_ptr<OpenScan>& scan)
 {
-    if (!pictures_ || scan_ != scan) {
-        pictures_.reset();
-        pictures_ = std::make_unique<ReadingPictures>(scan->files);
-        scan_ = scan;
-    }
-    return *pictures_;
+    pictures_.remove_if([](const Pictures& some) { return some.of.expired(); });
+    for (Pictures& some : pictures_)
+        if (some.of.lock() == scan)
+            return *some.pictures;
+    pictures_.push_back({scan, std::make_unique<ReadingPictures>(scan->files), {}});
+    return *pictures_.back().pictures;
 }
 
 void Studio::drawEndoscopic(std::shared_ptr<OpenScan> scan, const Wish& wish)
 {
-    worker_.post("endoscopic", [this, scan = std::move(scan), wish]() -> Worker::Work {
+    draw(Which::leading, std::move(scan), wish);
+}
+
+void Studio::drawBeside(std::shared_ptr<OpenScan> scan, const Wish& wish)
+{
+    draw(Which::beside, std::move(scan), wish);
+}
+
+void Studio::draw(Which which, std::shared_ptr<OpenScan> scan, const Wish& wish)
+{
+    const char* name = which == Which::leading ? "endoscopic" : "beside";
+    worker_.post(name, [this, which, scan = std::move(scan), wish]() -> Worker::Work {
         const SnapshotRequest& request = wish.request;
         auto picture = std::make_shared<Picture>(
             picturesOf(scan).endoscopic(request, wish.place, wish.still, wish.paint_seen ? &scan->seen : nullptr));
-        if (wish.count_seen && (wish.still || std::chrono::steady_clock::now() - counted_ > kBetweenCounts))
-            worker_.post("seen", [this]() -> Worker::Work {
-                countSeen();
-                return [this] { emit seenChanged(); };
-            });
-        return [this, picture, pose = wish.place.pose,
-                lens = Lens{request.view_angle_deg, request.width, request.height}] {
-            emit endoscopicDrawn(*picture, pose, lens);
-        };
+        if (wish.count_seen)
+            worker_.post(which == Which::leading ? "seen" : "seen beside",
+                         [this, scan, always = wish.still]() -> Worker::Work {
+                             countSeen(scan, always);
+                             return [this] { emit seenChanged(); };
+                         });
+        const Lens lens{request.view_angle_deg, request.width, request.height};
+        const auto signal = which == Which::leading ? &Studio::endoscopicDrawn : &Studio::besideDrawn;
+        return [this, picture, signal, pose = wish.place.pose, lens] { emit(this->*signal)(*picture, pose, lens); };
     });
 }
 
-void Studio::countSeen()
+void Studio::countSeen(const std::shared_ptr<OpenScan>& scan, bool always)
 {
-    counted_ = std::chrono::steady_clock::now();
-    if (pictures_)
-        pictures_->countSeen(scan_->seen);
+    for (Pictures& some : pictures_) {
+        const auto now = std::chrono::steady_clock::now();
+        if (some.of.lock() != scan || (!always && now - some.counted < kBetweenCounts))
+            continue;
+        some.pictures->countSeen(scan->seen);
+        some.counted = now;
+    }
 }
 
 void Studio::drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <list>
 #include <memory>
 
 #include "case_session.h"
@@ -26,22 +27,32 @@ public:
         bool paint_seen = false;  ///< what was seen in earlier passes
     };
     void drawEndoscopic(std::shared_ptr<OpenScan> scan, const Wish& wish);
+    /// The same of the other scan; besideDrawn() follows.
+    void drawBeside(std::shared_ptr<OpenScan> scan, const Wish& wish);
     void drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place);
 
 signals:
     void endoscopicDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::Pose& pose,
                          const vicon::viewer::Lens& lens);
+    void besideDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::Pose& pose,
+                     const vicon::viewer::Lens& lens);
     void overviewDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::PlaneView& view);
     void seenChanged();
     void failed(const QString& message);
 
 private:
+    enum class Which { leading, beside };
+    void draw(Which which, std::shared_ptr<OpenScan> scan, const Wish& wish);
     ReadingPictures& picturesOf(const std::shared_ptr<OpenScan>& scan);
-    void countSeen();  // of the picture drawn last
+    /// In the picture drawn last; while moving not in every one.
+    void countSeen(const std::shared_ptr<OpenScan>& scan, bool always);
 
-    std::shared_ptr<OpenScan> scan_;                 // the worker's
-    std::unique_ptr<ReadingPictures> pictures_;      // the worker's
-    std::chrono::steady_clock::time_point counted_;  // the worker's
+    struct Pictures {
+        std::weak_ptr<OpenScan> of;
+        std::unique_ptr<ReadingPictures> pictures;
+        std::chrono::steady_clock::time_point counted;
+    };
+    std::list<Pictures> pictures_;  // the worker's
     Worker worker_;
 };
 

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "vicon/core/records.h"
+#include "vicon/viewer/model/navigator.h"
+
+namespace vicon::viewer {
+
+/// A view that was saved with a marker, and the station of its eye, which is not the marker's.
+struct SavedView {
+    Pose pose;
+    double station_mm = 0;
+};
+
+/// What is kept as the marker's "view".
+nlohmann::json viewOf(const NavigationState& state);
+
+/// Nothing where there is none or it makes no sense.
+std::optional<SavedView> savedView(const Marker& marker);
+
+}  // namespace vicon::viewer
