@@ -146,6 +146,35 @@ TEST_P(FluidLine, HasASmoothWallBesideIt)
 
 INSTANTIATE_TEST_SUITE_P(Densities, FluidLine, testing::Values(300, 900));
 
+TEST(Segment, FaintFluidDoesNotMoveTheWallOfABrightPoolItRunsInto)
+{
+    TubeScan scan = smallColon();
+    scan.line = {{0, 15, -70}, {0, 15, -45}, {45, 0, -40}, {45, 0, 45}, {0, 25, 45}, {-45, 0, 45}, {-45, 0, -40}};
+    scan.level_mm = 4;
+    scan.fluid_hu = 350;
+    HuVolume volume = scan.draw(kGrid);
+    scan.fluid_hu = 800;
+    const HuVolume bright = scan.draw(kGrid);
+    for (std::size_t n = 0; n < volume.voxels.size(); ++n)
+        if (kGrid.pointAt(kGrid.indexOf(n)).x < 30)  // most of it
+            volume.voxels[n] = bright.voxels[n];
+    const Segmentation result = segment(volume, scan.gravity);
+    int outside = 0, missed = 0, truth = 0;
+    for (std::size_t n = 0; n < kGrid.voxelCount(); ++n) {
+        const Point3 p = kGrid.pointAt(kGrid.indexOf(n));
+        if (p.x > 20 || p.y < scan.level_mm + 5)
+            continue;
+        const double wall_mm = scan.signedDistance(p);
+        const bool found = result.inside.valueOr(result.inside.grid.indexAt(p), kOutside) != kOutside;
+        truth += wall_mm < 0 ? 1 : 0;
+        outside += found && wall_mm > 0.2 ? 1 : 0;
+        missed += !found && wall_mm < -0.2 ? 1 : 0;
+    }
+    EXPECT_GT(truth, 1000);
+    EXPECT_LE(outside, truth / 1000);
+    EXPECT_LE(missed, truth / 1000);
+}
+
 TEST(Segment, OrdersPiecesOverAGap)
 {
     TubeScan scan = smallColon();

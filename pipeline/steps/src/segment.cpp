@@ -16,6 +16,7 @@
 #include "segment_binary.h"
 #include "segment_points.h"
 #include "segment_verdict.h"
+#include "settle_wall.h"
 
 namespace vicon::steps {
 namespace {
@@ -23,6 +24,8 @@ namespace {
 // Holes in thin walls between pools are smaller than this radius; passages of the colon itself are wider, and gas keeps
 // narrower ones open. Chosen on the prone scan of the reference data, where 1.5 mm leaves small bowel attached.
 constexpr double kLeak_mm = 3;
+// Half-way densities of pools that differ by no more than this lie a tenth of a voxel apart.
+constexpr double kSameFluid_hu = 60;
 constexpr int kMostCandidates = 10;  // the exact ordering takes 2^n steps
 constexpr int kMargin_voxels = 2;
 
@@ -43,6 +46,11 @@ InsideVolume findLumen(const HuVolume& volume, Vector3 gravity, const Body& body
     result.measures["fluid_levels"] = fluid.levels.size();
     for (const Point3 p : corrections.add)
         addFluidAt(volume, p, densities, labels);
+    const auto [faintest, brightest] =
+        std::minmax_element(fluid.levels.begin(), fluid.levels.end(),
+                            [](const FluidLevel& a, const FluidLevel& b) { return a.density_hu < b.density_hu; });
+    result.measures["fluid_faintest_hu"] = fluid.levels.empty() ? 0 : faintest->density_hu;
+    result.measures["fluid_brightest_hu"] = fluid.levels.empty() ? 0 : brightest->density_hu;
     return labels;
 }
 
@@ -167,6 +175,8 @@ Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const
     result.plan.bridges = ordering.bridges;
     result.inside = cropTo(labels, lumen, chosen, kMargin_voxels + layers);
     restoreFluidRim(result.inside, layers);
+    if (result.measures["fluid_faintest_hu"] < result.measures["fluid_brightest_hu"].get<double>() - kSameFluid_hu)
+        settleFluidWall(volume, {options.wall_hu, options.tissue_hu}, int(chosen.size()), result.inside);
     followCords(volume, result.inside, options.longest_sure_bridge_mm, result.plan, progress);
     result.measures["candidates"] = describe(candidates, ordering);
     judgeSegmentation(result, body, lumenCut_mm2(volume, result.inside));

@@ -47,6 +47,9 @@ public:
     /// Whether the densities around a voxel belong to the wall, not to a level between gas and fluid beside it.
     bool densitiesTell(Index3 v) const { return !meniscus_.near(v); }
 
+    /// The density of the pool that a voxel belonged to, as fluid, when the field was made, in HU.
+    double poolDensity(Index3 fluid) const { return pool_hu_[pools_.at(fluid)]; }
+
     /// The density, or `otherwise` where none was measured.
     double hu(Index3 v, double otherwise) const;
     /// The gradient of the densities by central differences, in HU per voxel along the grid's axes.

@@ -1,0 +1,107 @@
+#include "settle_wall.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "lumen.h"
+
+namespace vicon::steps {
+namespace {
+
+/// How deep the wall under fluid is moved inwards at most, in voxels: the faintest pool's half-way density lies at most
+/// that far out on a blurred edge.
+constexpr int kMostLayers = 2;
+/// Gas two voxels away is 5 % of what lies in a voxel, 60 to 80 HU: little against half of this contrast.
+constexpr double kBright_hu = 400;
+/// Where a pool is fainter than the rest of it, its density is the highest this near.
+constexpr int kNear_voxels = 2;
+/// Crumbs are smaller than the smallest component of gas that is taken for lumen.
+constexpr double kCrumb_ml = 0.05;
+
+double brightestNear(const WallField& wall, const InsideVolume& inside, Index3 v)
+{
+    double hu = -1e9;
+    for (int k = v.k - kNear_voxels; k <= v.k + kNear_voxels; ++k)
+        for (int j = v.j - kNear_voxels; j <= v.j + kNear_voxels; ++j)
+            for (int i = v.i - kNear_voxels; i <= v.i + kNear_voxels; ++i)
+                if (inside.valueOr({i, j, k}, kOutside) == kFluid)
+                    hu = std::max(hu, wall.hu({i, j, k}, hu));
+    return hu;
+}
+
+/// Whether the blur of gas near a voxel of fluid takes more from its density than half-way allows.
+bool besideGas(const InsideVolume& inside, Index3 v, double contrast_hu)
+{
+    const int reach = contrast_hu < kBright_hu ? 2 : 1;
+    for (int k = v.k - reach; k <= v.k + reach; ++k)
+        for (int j = v.j - reach; j <= v.j + reach; ++j)
+            for (int i = v.i - reach; i <= v.i + reach; ++i)
+                if (inside.valueOr({i, j, k}, kOutside) == kGas)
+                    return true;
+    return false;
+}
+
+/// Fluid beside the outside whose density is nearer to tissue's than to its own pool's.
+std::vector<std::size_t> tooFaint(const WallField& wall, double tissue_hu, const InsideVolume& inside)
+{
+    const auto slice = std::size_t(inside.grid.size[0]) * std::size_t(inside.grid.size[1]);
+    std::vector<std::vector<std::size_t>> slices(std::size_t(inside.grid.size[2]), std::vector<std::size_t>{});
+    tbb::parallel_for(std::size_t(0), slices.size(), [&](std::size_t k) {
+        for (std::size_t n = k * slice; n < (k + 1) * slice; ++n) {
+            if (inside.voxels[n] != kFluid)
+                continue;
+            const Index3 v = inside.grid.indexOf(n);
+            if (!besideOther(inside, v) || besideGas(inside, v, wall.poolDensity(v) - tissue_hu))
+                continue;
+            const double hu = wall.hu(v, tissue_hu);
+            if (hu < (tissue_hu + wall.poolDensity(v)) / 2 && hu < (tissue_hu + brightestNear(wall, inside, v)) / 2)
+                slices[k].push_back(n);
+        }
+    });
+    std::vector<std::size_t> all;
+    for (const auto& here : slices)
+        all.insert(all.end(), here.begin(), here.end());
+    return all;
+}
+
+bool isCrumb(const RunComponent& part, const Grid& grid)
+{
+    return double(part.voxels) * grid.voxelVolume_mm3() / 1000 < kCrumb_ml;
+}
+
+void clearCrumbs(const RunLabels& lumen, InsideVolume& inside)
+{
+    lumen.forEachRun([&](const VoxelRun& run, int j, int k) {
+        if (isCrumb(lumen.components[run.label], inside.grid))
+            std::fill_n(&inside.at({run.begin, j, k}), run.end - run.begin, std::uint8_t(kOutside));
+    });
+}
+
+}  // namespace
+
+void settleFluidWall(const HuVolume& volume, WallField::Levels levels, int pieces, InsideVolume& inside)
+{
+    std::vector<std::size_t> taken;
+    {
+        const WallField wall(volume, inside, levels);
+        for (int layer = 0; layer < kMostLayers; ++layer) {
+            const std::vector<std::size_t> faint = tooFaint(wall, levels.tissue_hu, inside);
+            for (const std::size_t n : faint)
+                inside.voxels[n] = kOutside;
+            taken.insert(taken.end(), faint.begin(), faint.end());
+        }
+    }
+    if (taken.empty())
+        return;
+    const RunLabels lumen = labelLumen(inside, Neighbours::faces);
+    const auto parts = std::count_if(lumen.components.begin(), lumen.components.end(),
+                                     [&](const RunComponent& part) { return !isCrumb(part, inside.grid); });
+    if (parts > pieces)  // a neck gave way: better a wall half a voxel too far out than a colon in two
+        for (const std::size_t n : taken)
+            inside.voxels[n] = kFluid;
+    else
+        clearCrumbs(lumen, inside);
+}
+
+}  // namespace vicon::steps
