@@ -269,6 +269,33 @@ INSTANTIATE_TEST_SUITE_P(
                     NoColonCase{"tissue", {64, 64, 79}, 40}, NoColonCase{"bone", {32, 32, 16}, 900},
                     NoColonCase{"one voxel", {1, 1, 1}, -1000}, NoColonCase{"one slice", {40, 40, 1}, 40}));
 
+/// A chest: two lungs that leave the scan at its upper end.
+HuVolume chest(double lung_hu)
+{
+    TubeScan scan;
+    scan.line = {{-40, 0, -30}, {-40, 0, 120}};
+    scan.second_line = {{40, 0, -30}, {40, 0, 120}};
+    scan.radius_mm = 28;
+    HuVolume volume = scan.draw(kGrid);
+    for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
+        const Point3 p = kGrid.pointAt(kGrid.indexOf(n));
+        if (scan.signedDistance(p) < 5)
+            volume.voxels[n] =
+                std::int16_t(std::lround(40 - (40 - lung_hu) * (1 - test::blurred(scan.signedDistance(p), 0.7))));
+    }
+    return volume;
+}
+
+TEST(Segment, LungsAloneAreNoColon)
+{
+    const Segmentation result = segment(chest(-850), {0, 1, 0});
+    EXPECT_EQ(result.verdict, "no colon") << result.reason;
+    EXPECT_FALSE(result.reason.empty());
+    EXPECT_TRUE(result.inside.voxels.empty());
+    // The same shapes full of gas are seen.
+    EXPECT_NE(segment(chest(-1000), {0, 1, 0}).reason, result.reason);
+}
+
 TEST(Segment, BinaryMethodTakesWhatTheSeedPointLiesIn)
 {
     const TubeScan scan = smallColon();
