@@ -44,9 +44,18 @@ inline Steering randomSteering(std::mt19937& random)
     return {any(random), any(random), any(random), any(random), any(random), any(random)};
 }
 
-/// Random hands for that many ticks; the whole proof is a million.
+/// How near to the wall a camera may be: its radius or, while it is carried through a narrower part, what the path has.
+inline double leastClearance_mm(const Course& course, const SubmarineState& state)
+{
+    const double radius = SubmarineOptions().camera_radius_mm;
+    const double path = course.lumen.clearance_mm(course.path.at(state.station_mm).position_mm);
+    constexpr double kRounding_mm = 1e-6;
+    return (state.carried ? std::min(radius, path) : radius) - kRounding_mm;
+}
+
+/// Random hands for that many ticks, pulled up and down the colon; the whole proof is a million.
 /// @param wall_every ticks between measurements against the surface itself
-/// @return ticks during which the camera was carried over a collapsed part, where it has no lumen around it
+/// @return ticks during which the camera was carried through a part that is collapsed or narrower than itself
 inline int steerAtRandom(const Course& course, int ticks, int wall_every = 100)
 {
     Submarine boat = course.submarine();
@@ -56,12 +65,17 @@ inline int steerAtRandom(const Course& course, int ticks, int wall_every = 100)
     int carried = 0;
     Point3 last = boat.state().pose.eye_mm;
     for (int n = 0; n < ticks; ++n) {
-        if (n % 40 == 0)
-            boat.steer(randomSteering(random));
+        constexpr int kSweep = 20000;
+        if (n % 40 == 0) {
+            Steering steering = randomSteering(random);
+            steering.pull = std::abs(steering.pull) * (n / kSweep % 2 == 0 ? 1 : -1);
+            boat.steer(steering);
+        }
         boat.advance(Submarine::kTick_s);
         const SubmarineState state = boat.state();
         carried += state.carried ? 1 : 0;
-        EXPECT_TRUE(state.carried || state.clearance_mm >= 2) << "tick " << n << ": " << state.clearance_mm;
+        EXPECT_GE(state.clearance_mm, leastClearance_mm(course, state))
+            << "tick " << n << " at " << state.station_mm << (state.carried ? ", carried" : "");
         if (n % wall_every == 0 && !state.carried) {
             EXPECT_GE(course.wallDistance(state.pose.eye_mm), 2) << "tick " << n;
         }
@@ -98,7 +112,18 @@ inline void flyAtTwoRates(const Course& course, double from_station_mm, unsigned
         EXPECT_LT(distance(slow[n], fast[n]), 0.1) << "from " << from_station_mm << ", change " << n;
 }
 
-/// Steered away from the path for a second at many places, then let go.
+inline void expectReachesEnd(Submarine& boat, double station_mm, double length_mm)
+{
+    boat.steer({.pull = 1});
+    const double rest = boat.state().heading == Heading::caecum ? length_mm - station_mm : station_mm;
+    double t = 0;
+    for (; t < 200 && !boat.state().at_end; t += 0.1)
+        boat.advance(0.1);
+    EXPECT_TRUE(boat.state().at_end) << "from " << station_mm;
+    EXPECT_LT(t, rest / 30 * 1.6 + 2) << "near cruise speed, from " << station_mm;
+}
+
+/// Steered away from the path for a second at many places, then let go; back on it, it is pulled to its end.
 inline void letGoAlong(const Course& course, int places)
 {
     std::mt19937 random(11);
@@ -119,6 +144,8 @@ inline void letGoAlong(const Course& course, int places)
         const double sign = state.heading == Heading::caecum ? 1 : -1;
         const Vector3 ahead = course.path.at(state.station_mm + sign * SubmarineOptions().look_ahead_mm).forward * sign;
         EXPECT_GT(dot(state.pose.forward, ahead), 0.9) << n << " at " << state.station_mm;
+        if (n % 5 == 0)
+            expectReachesEnd(boat, state.station_mm, course.path.length_mm());
     }
     EXPECT_GT(farthest, 3);  // they had been off it
 }
@@ -130,13 +157,8 @@ inline void pullToBothEnds(const Course& course)
         const double length = course.path.length_mm();
         Submarine boat = course.submarine();
         boat.placeAt(length / 2, heading);
-        boat.steer({.pull = 1});
-        double t = 0;
-        for (; t < 600 && !boat.state().at_end; t += 0.1)
-            boat.advance(0.1);
-        EXPECT_TRUE(boat.state().at_end);
-        EXPECT_LT(t, length / 2 / 30 * 1.6 + 2);  // near cruise speed
-        EXPECT_NEAR(boat.state().station_mm, heading == Heading::caecum ? length : 0, 12);
+        expectReachesEnd(boat, length / 2, length);
+        EXPECT_NEAR(boat.state().station_mm, heading == Heading::caecum ? length : 0, 2);
     }
 }
 

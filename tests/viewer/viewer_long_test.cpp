@@ -51,7 +51,8 @@ TEST(LongPrepared, TheGuidedCameraKeepsOffTheWallFliesAlikeAtAnyFrameRateAndCome
         test::steerAtRandom(course, 1000000, 1000);
         for (unsigned n = 0; n < 20; ++n)
             test::flyAtTwoRates(course, scan.frames().length_mm() * n / 20, 9 + n);
-        test::letGoAlong(course, 100);
+        test::letGoAlong(course, 1000);
+        test::pullToBothEnds(course);
     });
 }
 

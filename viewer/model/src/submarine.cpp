@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "free_space.h"
 #include "rotation.h"
 #include "vicon/core/error.h"
 
@@ -9,10 +10,10 @@ namespace vicon::viewer {
 namespace {
 
 constexpr double kDt = Submarine::kTick_s;
-constexpr double kFootReach_mm = 8;     // how far a foot moves in a tick at most, with room for folded paths
+constexpr double kFootReach_mm = 8;  // how far a foot moves in a tick at most, with room for folded paths
+constexpr double kStationStep_mm = 0.5;
 constexpr double kSpare_mm = 0.3;       // a station counts as wide when it leaves this beside the camera
-constexpr double kHomeReach_mm = 40;    // how far along the path a camera behind a fold looks for its way back
-constexpr long kHomeTicks = 24;         // how often it looks: ten times a second
+constexpr double kBlend_per_s = 20;     // how fast a camera that is carried comes onto the path
 constexpr double kSteerRate_per_s = 8;  // how fast turning follows the hand
 
 }  // namespace
@@ -22,33 +23,45 @@ Submarine::Submarine(const PathFrames& path, const Lumen& lumen, const FieldVolu
     : path_(&path), lumen_(lumen), exit_(&exit_distance), options_(options)
 {
     placeAt(0, Heading::caecum);
+    const double length = path.length_mm();
+    for (first_mm_ = 0; first_mm_ < length && !openAt(first_mm_);)
+        first_mm_ = std::min(first_mm_ + kStationStep_mm, length);
+    for (last_mm_ = length; last_mm_ > first_mm_ && !openAt(last_mm_);)
+        last_mm_ = std::max(last_mm_ - kStationStep_mm, first_mm_);
 }
 
-// The field of a voxel may promise half a diagonal more than there is.
-bool Submarine::fits(Point3 p) const
+FreeSpace Submarine::space() const
 {
-    return lumen_.inside(p) && lumen_.clearance_mm(p) >= options_.camera_radius_mm + lumen_.halfDiagonal_mm();
+    return {lumen_, options_.camera_radius_mm};
+}
+
+bool Submarine::openAt(double station_mm) const
+{
+    const PathFrame frame = path_->at(station_mm);
+    return !frame.on_bridge && lumen_.inside(frame.position_mm) &&
+           lumen_.clearance_mm(frame.position_mm) >= lumen_.halfDiagonal_mm();
 }
 
 bool Submarine::wideAt(double station_mm) const
 {
     const PathFrame frame = path_->at(station_mm);
-    return !frame.on_bridge && fits(frame.position_mm) &&
-           lumen_.clearance_mm(frame.position_mm) >= options_.camera_radius_mm + lumen_.halfDiagonal_mm() + kSpare_mm;
+    const FreeSpace free = space();
+    return !frame.on_bridge && free.holds(frame.position_mm) &&
+           lumen_.clearance_mm(frame.position_mm) >= free.least_mm() + kSpare_mm;
 }
 
 void Submarine::placeAt(double station_mm, Heading heading)
 {
     const double length = path_->length_mm();
     const double wanted = std::clamp(station_mm, 0.0, length);
-    for (double d = 0; d <= length; d += 0.5)
+    for (double d = 0; d <= length; d += kStationStep_mm)
         for (const double station : {wanted - d, wanted + d})
             if (station >= 0 && station <= length && wideAt(station)) {
                 const PathFrame frame = path_->at(station);
                 now_ = {frame.position_mm, {}, {}, {}, frame.up, station, false, heading};
                 now_.forward = frame.forward * sign();
                 before_ = now_;
-                foot_in_sight_ = true;
+                way_home_.clear();
                 owed_s_ = 0;
                 return;
             }
@@ -82,18 +95,12 @@ SubmarineState Submarine::state() const
     s.carried = now_.carried;
     s.heading = now_.heading;
     constexpr double kEnd_mm = 1;
-    const double rest = sign() > 0 ? path_->length_mm() - now_.station_mm : now_.station_mm;
-    double wide_ahead = 0;  // what is left may be too narrow to be flown
-    for (double d = 0.5; d <= rest && wide_ahead == 0; d += 0.5)
-        if (wideAt(now_.station_mm + sign() * d))
-            wide_ahead = d > kEnd_mm ? d : 0;
-    s.at_end = rest <= kEnd_mm || wide_ahead == 0;
+    s.at_end = (sign() > 0 ? last_mm_ - now_.station_mm : now_.station_mm - first_mm_) <= kEnd_mm;
     return s;
 }
 
 void Submarine::tick()
 {
-    ++ticks_;
     if (now_.carried || startCarry()) {
         carry(steering_.pull < 0 ? -sign() : sign());
         turn();
@@ -111,27 +118,35 @@ bool Submarine::startCarry()
         return false;
     const double direction = steering_.pull > 0 ? sign() : -sign();
     const double ahead = now_.station_mm + direction * kAhead_mm;
-    if (ahead < 0 || ahead > path_->length_mm() || wideAt(ahead) ||
+    if (ahead < first_mm_ || ahead > last_mm_ || wideAt(ahead) ||
         distance(now_.position_mm, path_->at(now_.station_mm).position_mm) > kNearPath_mm)
         return false;
-    for (double s = ahead; s >= 0 && s <= path_->length_mm(); s += direction * 0.5)
-        if (wideAt(s))
-            return now_.carried = true;
-    return false;  // nothing wide beyond: this is the end
+    way_home_.clear();
+    return now_.carried = true;
 }
 
+// Along the path, never nearer to the wall than the camera's radius or, where the path has less, than the path: what it
+// was off the path fades first, then it goes on.
 void Submarine::carry(double direction)
 {
-    const double station =
-        std::clamp(now_.station_mm + direction * options_.cruise_mm_s * kDt, 0.0, path_->length_mm());
-    const PathFrame frame = path_->at(station);
-    now_.velocity_mm_s = frame.forward * (direction * options_.cruise_mm_s);
-    now_.station_mm = station;
-    foot_in_sight_ = true;
-    // From wherever it was, onto the path within a few ticks.
+    const double onward = std::clamp(now_.station_mm + direction * options_.cruise_mm_s * kDt, first_mm_, last_mm_);
     const Vector3 off = now_.position_mm - path_->at(now_.station_mm).position_mm;
-    now_.position_mm = frame.position_mm + off * std::exp(-20 * kDt);
-    if (wideAt(station) && fits(now_.position_mm))
+    const auto allowed = [&](double station, double share) {
+        const Point3 on_path = path_->at(station).position_mm;
+        return lumen_.clearance_mm(on_path + off * share) >=
+               std::min(options_.camera_radius_mm, lumen_.clearance_mm(on_path));
+    };
+    constexpr double kNothing_mm = 0.01;
+    const auto shrunk = [&](double share) { return share * length(off) > kNothing_mm ? share : 0; };
+    double share = shrunk(std::exp(-kBlend_per_s * kDt));
+    const double station = allowed(onward, share) ? onward : now_.station_mm;
+    while (share > 0 && !allowed(station, share))
+        share = shrunk(share / 2);
+    const PathFrame frame = path_->at(station);
+    now_.velocity_mm_s = frame.forward * ((station - now_.station_mm) / kDt);
+    now_.station_mm = station;
+    now_.position_mm = frame.position_mm + off * share;
+    if (wideAt(station) && space().holds(now_.position_mm))
         now_.carried = false;
 }
 
@@ -170,37 +185,6 @@ Vector3 Submarine::pushOffWall() const
     return lumen_.clearanceGradient(now_.position_mm) * slope;
 }
 
-void Submarine::lookForPath(Point3 foot)
-{
-    foot_in_sight_ = lumen_.sees(now_.position_mm, foot);
-    home_station_mm_ = now_.station_mm;
-    for (double d = 1; d <= kHomeReach_mm && !foot_in_sight_; d += 1)
-        for (const double s : {now_.station_mm + d, now_.station_mm - d})
-            if (s >= 0 && s <= path_->length_mm() && lumen_.sees(now_.position_mm, path_->at(s).position_mm)) {
-                home_station_mm_ = s;
-                return;
-            }
-}
-
-// A critically damped spring across the path, exact over the tick, to the foot or, behind a fold, to the nearest place
-// of the path in sight.
-void Submarine::home()
-{
-    const PathFrame foot = path_->at(now_.station_mm);
-    if (ticks_ % kHomeTicks == 0)
-        lookForPath(foot.position_mm);
-    const Point3 target = foot_in_sight_ ? foot.position_mm : path_->at(home_station_mm_).position_mm;
-    const bool slides = foot_in_sight_ && now_.station_mm > 0 && now_.station_mm < path_->length_mm();
-    Vector3 off = now_.position_mm - target;
-    if (slides)
-        off = off - foot.forward * dot(off, foot.forward);
-    const Vector3 along = slides ? foot.forward * dot(now_.velocity_mm_s, foot.forward) : Vector3{};
-    const Vector3 across = now_.velocity_mm_s - along;
-    const double w = options_.homing_per_s, fade = std::exp(-w * kDt);
-    const Vector3 mixed = across + off * w;
-    now_.velocity_mm_s = along + (across - mixed * (w * kDt)) * fade;
-}
-
 void Submarine::move()
 {
     const Vector3 right = cross(now_.forward, now_.up);
@@ -211,10 +195,13 @@ void Submarine::move()
             (options_.thrust_mm_s * options_.friction_per_s);
     const double speed_left = std::exp(-options_.friction_per_s * kDt);
     now_.velocity_mm_s = now_.velocity_mm_s * speed_left + force * ((1 - speed_left) / options_.friction_per_s);
-    if (steering_.thrusts())
+    if (steering_.thrusts()) {
         now_.velocity_mm_s += pushOffWall() * kDt;
-    else
+        way_home_.clear();
+        let_go_ticks_ = 0;
+    } else {
         home();
+    }
     step();
     now_.station_mm = path_->nearestStation(now_.position_mm, now_.station_mm, kFootReach_mm);
 }
@@ -223,19 +210,19 @@ void Submarine::move()
 void Submarine::step()
 {
     constexpr double kMostStep_mm = 0.5;
+    const FreeSpace free = space();
     Vector3 move = now_.velocity_mm_s * kDt;
     if (length(move) > kMostStep_mm)
         move = normalized(move) * kMostStep_mm;
-    if (fits(now_.position_mm + move)) {
+    if (free.holds(now_.position_mm + move)) {
         now_.position_mm += move;
         return;
     }
     const Vector3 off_wall = normalized(lumen_.clearanceGradient(now_.position_mm));
     const auto slid = [&](Vector3 v) { return v - off_wall * std::min(0.0, dot(v, off_wall)); };
-    const double least = options_.camera_radius_mm + lumen_.halfDiagonal_mm();
     Point3 next = now_.position_mm + slid(move);
-    next += off_wall * std::max(0.0, least + 1e-3 - lumen_.clearance_mm(next));
-    if (fits(next) && distance(next, now_.position_mm) <= 2 * kMostStep_mm)
+    next += off_wall * std::max(0.0, free.least_mm() + 1e-3 - lumen_.clearance_mm(next));
+    if (free.holds(next) && distance(next, now_.position_mm) <= 2 * kMostStep_mm)
         now_.position_mm = next;
     now_.velocity_mm_s = slid(now_.velocity_mm_s);
 }

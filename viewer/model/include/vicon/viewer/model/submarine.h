@@ -1,9 +1,13 @@
 #pragma once
 
+#include <vector>
+
 #include "vicon/core/options.h"
 #include "vicon/viewer/model/view_pose.h"
 
 namespace vicon::viewer {
+
+class FreeSpace;
 
 /// How the guided camera moves. Defaults chosen on bent tubes of 8 to 25 mm radius with folds, and on a real prone
 /// scan.
@@ -68,7 +72,8 @@ struct SubmarineState {
 /// The guided camera (thesis, section 3.3; Hong et al., Virtual Voyage, 1997): pulled along the distance from the exit,
 /// pushed off the wall, steered by the user, back on its path when let go. It moves in fixed steps of 1/240 s whatever
 /// the frame rate; where it is between two steps is interpolated. Bridges and parts narrower than the camera are
-/// crossed along the path, and the state says so.
+/// crossed along the path, and the state says so; there it is never nearer to the wall than the path itself, elsewhere
+/// never nearer than its radius. Its way back leads round folds and to where the path is wide enough for it.
 class Submarine {
 public:
     static constexpr double kTick_s = 1.0 / 240;
@@ -104,10 +109,11 @@ private:
     Vector3 pull() const;
     Vector3 pushOffWall() const;
     void home();
-    void lookForPath(Point3 foot);
+    void lookForWayHome();
     void step();
+    FreeSpace space() const;
     bool wideAt(double station_mm) const;
-    bool fits(Point3 p) const;
+    bool openAt(double station_mm) const;
     double sign() const { return now_.heading == Heading::caecum ? 1 : -1; }
 
     const PathFrames* path_;
@@ -116,10 +122,11 @@ private:
     SubmarineOptions options_;
     Steering steering_;
     Moment now_, before_;
-    bool foot_in_sight_ = true;   // as last looked for
-    double home_station_mm_ = 0;  // where to make for while it is not
-    double owed_s_ = 0;           // time that has passed since `now_`
-    long ticks_ = 0;
+    double first_mm_ = 0, last_mm_ = 0;  // the stations between which the path can be flown
+    std::vector<Point3> way_home_;       // places to make for, the next one last; empty: the foot
+    double home_station_mm_ = 0;         // of the first of them
+    long let_go_ticks_ = 0;
+    double owed_s_ = 0;  // time that has passed since `now_`
 };
 
 }  // namespace vicon::viewer
