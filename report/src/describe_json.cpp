@@ -88,6 +88,14 @@ std::string textAt(const json& object, const char* key)
     return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
+bool flagAt(const json& object, const char* key)
+{
+    if (!object.is_object())
+        return false;
+    const auto found = object.find(key);
+    return found != object.end() && found->is_boolean() && found->get<bool>();
+}
+
 std::vector<std::string> describeMeasures(const json& measures)
 {
     if (measures.is_string())

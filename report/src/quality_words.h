@@ -5,8 +5,8 @@
 
 namespace vicon::report {
 
-/// The measures of scan.json's "quality" as lines: adequate or why not, the whole colon, each part. Measures of another
-/// form are listed as they are.
+/// What scan.json's "quality" says of the scan as lines: adequate or why not, and its noise; the table of quality has
+/// the rest. Measures of another form are listed as they are.
 std::string qualityWords(const nlohmann::json& quality);
 
 }  // namespace vicon::report

@@ -30,6 +30,7 @@ void Sections::draw()
     drawTitle();
     drawCase();
     drawScans();
+    drawQuality();
     drawMarkers();
 }
 

@@ -24,6 +24,9 @@ private:
     void drawScan(const ScanEntry& entry);
     /// Two scans side by side; false, and nothing drawn, when what is left of the page does not hold them.
     bool drawScanPair(const ScanEntry& first, const ScanEntry& second);
+    void drawQuality();
+    void drawQualityOf(const std::vector<const ScanEntry*>& scans);
+    void drawQualityHead(const std::vector<const ScanEntry*>& scans);
     FramedPicture overviewOf(const ScanEntry& entry);
     void drawMarkers();
     void drawMarkerTable();

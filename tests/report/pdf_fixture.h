@@ -37,4 +37,27 @@ inline void expectSound(const std::filesystem::path& pdf)
     EXPECT_THAT(text.output, testing::IsEmpty());
 }
 
+/// No word leaves the page's margins, and no two overlap.
+inline void expectTidy(const std::filesystem::path& pdf, double page_width = 595.28, double page_height = 841.89)
+{
+    constexpr double kMargin = 45, kEdge = 20;
+    for (std::vector<samples::Word>& words : samples::wordsByPage(pdf)) {
+        ASSERT_FALSE(words.empty());
+        for (samples::Word& w : words) {
+            EXPECT_TRUE(w.left > kMargin && w.right < page_width - kMargin && w.top > kEdge &&
+                        w.bottom < page_height - kEdge)
+                << "'" << w.text << "' at " << w.left << ", " << w.top;
+            const double trim = 0.2 * (w.bottom - w.top);  // boxes are as high as the highest accent
+            w.top += trim;
+            w.bottom -= trim;
+        }
+        for (std::size_t a = 0; a < words.size(); ++a)
+            for (std::size_t b = a + 1; b < words.size(); ++b) {
+                const auto &p = words[a], &q = words[b];
+                if (p.left < q.right - 0.5 && q.left < p.right - 0.5 && p.top < q.bottom && q.top < p.bottom)
+                    ADD_FAILURE() << "'" << p.text << "' over '" << q.text << "'";
+            }
+    }
+}
+
 }  // namespace vicon::report

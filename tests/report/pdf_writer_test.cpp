@@ -33,29 +33,6 @@ void expectFurniture(const fs::path& pdf, int pages, const std::string& name)
             EXPECT_THAT(texts[std::size_t(page - 1)], HasSubstr(what)) << "page " << page;
 }
 
-/// No word leaves the page's margins, and no two overlap.
-void expectTidy(const fs::path& pdf, double page_width = 595.28, double page_height = 841.89)
-{
-    constexpr double kMargin = 45, kEdge = 20;
-    for (std::vector<samples::Word>& words : samples::wordsByPage(pdf)) {
-        ASSERT_FALSE(words.empty());
-        for (samples::Word& w : words) {
-            EXPECT_TRUE(w.left > kMargin && w.right < page_width - kMargin && w.top > kEdge &&
-                        w.bottom < page_height - kEdge)
-                << "'" << w.text << "' at " << w.left << ", " << w.top;
-            const double trim = 0.2 * (w.bottom - w.top);  // boxes are as high as the highest accent
-            w.top += trim;
-            w.bottom -= trim;
-        }
-        for (std::size_t a = 0; a < words.size(); ++a)
-            for (std::size_t b = a + 1; b < words.size(); ++b) {
-                const auto &p = words[a], &q = words[b];
-                if (p.left < q.right - 0.5 && q.left < p.right - 0.5 && p.top < q.bottom && q.top < p.bottom)
-                    ADD_FAILURE() << "'" << p.text << "' over '" << q.text << "'";
-            }
-    }
-}
-
 TEST_F(PdfWriter, WritesASoundFileWithEmbeddedFontsAndNoPatientInItsMetadata)
 {
     addMarkers(2);

@@ -1,0 +1,87 @@
+#include "quality_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pdf_fixture.h"
+#include "vicon/support/support.h"
+
+namespace vicon::report {
+namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+ScanEntry supineScan()
+{
+    ScanEntry entry;
+    entry.scan.series.number = 1;
+    entry.scan.series.patient_position = "HFS";
+    entry.skeleton_length_mm = 1600;
+    entry.quality = nlohmann::json::parse(
+        R"({"adequate": false, "reason": "sigmoid collapsed over 14 mm", "median_radius_mm": 16.2, "fluid_ml": 212.4,
+            "fluid_fraction": 0.125, "collapsed_mm": 14, "collapsed_fraction": 0.0088, "noise_hu": 14.25,
+            "parts": [{"name": "rectum", "adequate": true, "median_radius_mm": 20, "fluid_ml": 0, "fluid_fraction": 0,
+                       "collapsed_mm": 0},
+                      {"name": "sigmoid", "adequate": false, "median_radius_mm": 12, "fluid_ml": 3,
+                       "fluid_fraction": 0.02, "collapsed_mm": 14, "collapsed_fraction": 0.03}]})");
+    return entry;
+}
+
+ScanEntry proneScan()
+{
+    ScanEntry entry = supineScan();
+    entry.scan.series.number = 2;
+    entry.scan.series.patient_position = "HFP";
+    entry.quality["parts"][0]["name"] = "caecum";
+    entry.quality["parts"][1]["adequate"] = true;
+    entry.quality["parts"][1]["collapsed_mm"] = 0;
+    return entry;
+}
+
+TEST(QualityTable, PutsThePartsOfBothPositionsBesideEachOtherAndTheWholeLast)
+{
+    const ScanEntry supine = supineScan(), prone = proneScan();
+    const std::vector<QualityRow> rows = qualityRows({&supine, &prone});
+    ASSERT_EQ(rows.size(), 4U);
+    EXPECT_EQ(rows[0].part, "rectum");
+    ASSERT_TRUE(rows[0].scans[0]);
+    EXPECT_EQ(rows[0].scans[0]->radius, "20 mm");
+    EXPECT_EQ(rows[0].scans[0]->collapsed, "none");
+    EXPECT_FALSE(rows[0].scans[1]) << "the prone scan has no rectum";
+    EXPECT_EQ(rows[1].part, "sigmoid");
+    EXPECT_EQ(rows[1].scans[0]->fluid, "3 ml, 2 %");
+    EXPECT_EQ(rows[1].scans[0]->collapsed, "14 mm, 3 %");
+    EXPECT_FALSE(rows[1].scans[0]->adequate);
+    EXPECT_TRUE(rows[1].scans[1]->adequate);
+    EXPECT_EQ(rows[2].part, "caecum");
+    EXPECT_FALSE(rows[2].scans[0]);
+    EXPECT_EQ(rows[3].part, "whole colon");
+    EXPECT_EQ(rows[3].scans[0]->fluid, "212 ml, 12 %");
+}
+
+TEST(QualityTable, IsEmptyForScansWithoutPartsOrOfAnotherShape)
+{
+    ScanEntry none, odd = supineScan();
+    odd.quality["parts"] = 5;
+    EXPECT_TRUE(qualityRows({&none, &odd}).empty());
+}
+
+TEST_F(PdfWriter, TheTableOfQualityShowsBothPositionsAndStaysAwayWhereNothingWasMeasured)
+{
+    const auto layout = [&] {
+        write();
+        return support::runCommand("pdftotext -layout " + pdf_.string() + " -").output;
+    };
+    EXPECT_THAT(layout(), Not(HasSubstr("Distension and fluid")));
+    content_.scans = {supineScan(), proneScan()};
+    const std::string text = layout();
+    EXPECT_THAT(text, ContainsRegex("Supine, head first[^\n]*Prone, head first[^\n]*\n *Radius[^\n]*Adequate *Radius"));
+    EXPECT_THAT(text, ContainsRegex("rectum *20 mm *0 ml, 0 % *none *yes *not found"));
+    EXPECT_THAT(text, ContainsRegex("sigmoid *12 mm *3 ml, 2 % *14 mm, 3 % *NO *12 mm *3 ml, 2 % *none *yes"));
+    expectTidy(pdf_);
+}
+
+}  // namespace
+}  // namespace vicon::report
