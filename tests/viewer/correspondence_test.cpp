@@ -26,9 +26,8 @@ TEST(Correspondence, IsTheSameFractionOfTheSamePart)
         for (const double t : {0.0, 0.25, 0.9}) {
             const auto& a = kSupine.parts[n];
             const auto& b = kProne.parts[n];
-            EXPECT_NEAR(
-                correspondingStation_mm(kSupine, a.from_mm + t * (a.to_mm - a.from_mm), kProne),
-                b.from_mm + t * (b.to_mm - b.from_mm), 1e-9)
+            EXPECT_NEAR(correspondingStation_mm(kSupine, a.from_mm + t * (a.to_mm - a.from_mm), kProne),
+                        b.from_mm + t * (b.to_mm - b.from_mm), 1e-9)
                 << nameOf(a.part) << " at " << t;
         }
     EXPECT_NEAR(correspondingStation_mm(kSupine, 1500, kProne), 1560, 1e-9);

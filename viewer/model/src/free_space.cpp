@@ -14,7 +14,10 @@ constexpr int kMoves[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 
 class Lattice {
 public:
     Lattice(Point3 middle, double step_mm, double reach_mm)
-        : middle_(middle), step_mm_(step_mm), reach_(int(reach_mm / step_mm)), side_(2 * reach_ + 1),
+        : middle_(middle),
+          step_mm_(step_mm),
+          reach_(int(reach_mm / step_mm)),
+          side_(2 * reach_ + 1),
           from_(std::size_t(side_) * std::size_t(side_) * std::size_t(side_), kUnseen)
     {
     }

@@ -6,8 +6,8 @@ namespace vicon::viewer {
 namespace {
 
 constexpr double kDt = Submarine::kTick_s;
-constexpr double kReach_mm = 40;    // how far along the path and around itself the camera looks
-constexpr long kLookTicks = 6;      // how often it looks: forty times a second
+constexpr double kReach_mm = 40;  // how far along the path and around itself the camera looks
+constexpr long kLookTicks = 6;    // how often it looks: forty times a second
 constexpr double kArrived_mm = 0.3;
 
 }  // namespace

@@ -7,7 +7,8 @@ BesideView::BesideView(QWidget* parent) : QSplitter(Qt::Vertical, parent)
     setObjectName("beside");
     endoscopic_ = new PictureView(tr("Endoscopic view of the other scan"));
     endoscopic_->setObjectName("besideEndoscopic");
-    endoscopic_->setToolTip(tr("The same place in the other scan. Click: read on from there. Shift and click: marker."));
+    endoscopic_->setToolTip(
+        tr("The same place in the other scan. Click: read on from there. Shift and click: marker."));
     slice_ = new SliceView(SlicePlane::transverse, tr("Transverse slice of the other scan"));
     slice_->setObjectName("besideTransverse");
     addWidget(endoscopic_);
