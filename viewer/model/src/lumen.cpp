@@ -26,6 +26,18 @@ double Lumen::clearance_mm(Point3 p) const
     const ContinuousIndex3 c = wall_->grid.continuousIndexAt(p);
     const Index3 v{int(std::floor(c.i)), int(std::floor(c.j)), int(std::floor(c.k))};
     const double a = c.i - v.i, b = c.j - v.j, d = c.k - v.k;
+    const auto& size = wall_->grid.size;
+    if (v.i >= 0 && v.j >= 0 && v.k >= 0 && v.i + 1 < size[0] && v.j + 1 < size[1] && v.k + 1 < size[2]) {
+        const float* w = &wall_->at(v);
+        const std::ptrdiff_t row = size[0], slice = row * size[1];
+        const auto mixed = [&](const float* r) {
+            const double front = r[0] + a * (r[1] - r[0]);
+            const double back = r[row] + a * (r[row + 1] - r[row]);
+            return front + b * (back - front);
+        };
+        const double low = mixed(w), high = mixed(w + slice);
+        return low + d * (high - low);
+    }
     double sum = 0;
     for (int corner = 0; corner < 8; ++corner) {
         const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;

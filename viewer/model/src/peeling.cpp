@@ -8,16 +8,19 @@
 #include "density_sampler.h"
 #include "transfer_table.h"
 #include "vicon/core/error.h"
+#include "wall_rays.h"
 
 namespace vicon::viewer {
 namespace {
 
 constexpr double kFarthest_mm = 500;        // longer than any colon is wide: no ray needs more to meet a wall
-constexpr float kLightThatCounts = 0.001F;  // a quarter of a grey level
+constexpr float kLightThatCounts = 0.002F;  // half a grey level
 constexpr float kOpacityThatIsShaded = 0.004F;
 constexpr double kMostPixels = 4096;
+constexpr int kTile = 8;  // pixels that are cast together: a beam through them finds what is free for all
 // As the lamp of the surface's picture (scene/surface_scene.cpp), so that the two fit together.
-constexpr double kLeastLight = 0.16, kFacingLight = 0.84, kExposure = 1.12;
+constexpr float kLeastLight = 0.16F, kFacingLight = 0.84F;
+constexpr double kExposure = 1.12;
 
 struct Light {
     std::array<float, 3> colour{};
@@ -26,70 +29,92 @@ struct Light {
 
 class Caster {
 public:
-    Caster(const HuVolume& volume, const Lumen& lumen, const Pose& pose, const TransferFunction& colours,
-           const PeelingOptions& options)
-        : densities_(volume), lumen_(lumen), pose_(pose), colours_(colours, options.step_mm), options_(options)
+    Caster(const HuVolume& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
+           const TransferFunction& colours, const PeelingOptions& options)
+        : densities_(volume),
+          walls_(lumen, pose.eye_mm),
+          eye_(densities_.indexAt(pose.eye_mm)),
+          pose_(pose),
+          lens_(lens),
+          colours_(colours, options.step_mm),
+          options_(options)
     {
+        const double farthest = kFarthest_mm + std::max(0.0, options.offset_mm) + options.reach_mm;
+        for (double t = 0; t <= farthest + options.step_mm; t += options.step_mm)
+            fade_.push_back(float(kExposure / (1 + t * t / (options.lamp_half_mm * options.lamp_half_mm))));
     }
 
-    Light cast(Vector3 direction) const
+    /// Hands the light of each pixel of a tile to `take`.
+    template <class Take>
+    void castTile(int left, int top, const Take& take) const
+    {
+        const int right = std::min(left + kTile, lens_.width), bottom = std::min(top + kTile, lens_.height);
+        const Vector3 middle = rayThrough(pose_, lens_, {(left + right) / 2.0, (top + bottom) / 2.0});
+        double spread = 0;
+        for (const Pixel corner : {Pixel{double(left), double(top)}, Pixel{double(right), double(top)},
+                                   Pixel{double(left), double(bottom)}, Pixel{double(right), double(bottom)}})
+            spread = std::max(spread, length(rayThrough(pose_, lens_, corner) - middle));
+        const double free_mm = walls_.freeBeam_mm(middle, spread, kFarthest_mm);
+        for (int y = top; y < bottom; ++y)
+            for (int x = left; x < right; ++x)
+                take(x, y, [&] { return cast(rayThrough(pose_, lens_, {x + 0.5, y + 0.5}), free_mm); });
+    }
+
+private:
+    Light cast(Vector3 direction, double free_mm) const
     {
         Light light;
-        const auto wall = distanceToWall_mm(lumen_, pose_.eye_mm, direction, kFarthest_mm);
+        const auto wall = walls_.along(direction, free_mm, kFarthest_mm);
         if (!wall)
             return light;
         const double begin = (options_.begin == PeelingOptions::Begin::wall ? *wall : 0) + options_.offset_mm;
         const double end = *wall + options_.offset_mm + options_.reach_mm;
-        const ContinuousIndex3 eye = densities_.indexAt(pose_.eye_mm), unit = densities_.indexStep(direction);
-        for (double n = std::ceil(begin / options_.step_mm); n * options_.step_mm <= end; ++n) {
-            const double t = n * options_.step_mm;
-            add(light, eye.i + unit.i * t, eye.j + unit.j * t, eye.k + unit.k * t, t, direction);
-            if (light.left < kLightThatCounts)
-                break;
+        const auto first = std::size_t(std::ceil(std::max(0.0, begin) / options_.step_mm));
+        const auto last = std::min(std::size_t(std::max(0.0, end) / options_.step_mm), fade_.size() - 1);
+        const DensitySampler::Place unit = densities_.indexStep(direction);
+        for (std::size_t n = first; n <= last && light.left >= kLightThatCounts; ++n) {
+            const float t = float(n) * float(options_.step_mm);
+            add(light, {eye_.x + unit.x * t, eye_.y + unit.y * t, eye_.z + unit.z * t}, fade_[n], direction);
         }
         return light;
     }
 
-private:
-    void add(Light& light, double x, double y, double z, double t, Vector3 direction) const
+    void add(Light& light, DensitySampler::Place p, float fade, Vector3 direction) const
     {
         float density_hu = 0;
-        if (!densities_.sample(x, y, z, density_hu))
+        if (!densities_.sample(p, density_hu))
             return;
         const TransferTable::Entry& entry = colours_.at(density_hu);
         if (entry.opacity <= 0)
             return;
         const float weight = light.left * entry.opacity;
-        const float strength = weight * (weight > kOpacityThatIsShaded ? lamp(x, y, z, t, direction) : fade(t));
+        const bool lit = options_.shaded && weight > kOpacityThatIsShaded;
+        const float strength = weight * fade * (lit ? facing(p, direction) : 1);
         for (std::size_t c = 0; c < 3; ++c)
             light.colour[c] += strength * entry.colour[c];
         light.left -= weight;
     }
 
-    float fade(double t) const
+    float facing(DensitySampler::Place p, Vector3 direction) const
     {
-        return float(kExposure / (1 + t * t / (options_.lamp_half_mm * options_.lamp_half_mm)));
-    }
-
-    float lamp(double x, double y, double z, double t, Vector3 direction) const
-    {
-        if (!options_.shaded)
-            return fade(t);
-        const Vector3 gradient = densities_.gradient(x, y, z);
-        const double steep = length(gradient);
+        const Vector3 gradient = densities_.gradient(p);
+        const auto steep = float(length(gradient));
         // A border between densities shines when it faces the lamp; inside even tissue there is none to face it.
-        const double facing = steep > 0 ? std::abs(dot(gradient, direction)) / steep : 1;
-        const double edge = steep / (steep + kEvenTissue_hu);
-        return float((kLeastLight + kFacingLight * std::lerp(1.0, facing, edge)) * fade(t));
+        const float cosine = steep > 0 ? float(std::abs(dot(gradient, direction))) / steep : 1;
+        const float edge = steep / (steep + kEvenTissue_hu);
+        return kLeastLight + kFacingLight * (1 + edge * (cosine - 1));
     }
 
-    static constexpr double kEvenTissue_hu = 60;  // three times the noise of a colonography at 50 mAs
+    static constexpr float kEvenTissue_hu = 60;  // three times the noise of a colonography at 50 mAs
 
     DensitySampler densities_;
-    const Lumen& lumen_;
+    WallRays walls_;
+    DensitySampler::Place eye_;
     Pose pose_;
+    Lens lens_;
     TransferTable colours_;
     PeelingOptions options_;
+    std::vector<float> fade_;  // of the lamp, step by step
 };
 
 void check(const Lens& lens, const PeelingOptions& options)
@@ -110,29 +135,7 @@ std::uint8_t byteOf(float share)
 
 std::optional<double> distanceToWall_mm(const Lumen& lumen, Point3 from, Vector3 direction, double reach_mm)
 {
-    const double near = lumen.voxel_mm() / 2;
-    double before = 0;
-    for (double at = 0; at <= reach_mm;) {
-        const Point3 p = from + direction * at;
-        const double free = lumen.freeBall_mm(p);
-        if (free > near) {
-            before = at;
-            at += std::max(free - near, near / 2);
-            continue;
-        }
-        const double clearance = lumen.clearance_mm(p);
-        if (clearance > near) {
-            before = at;
-            at += near / 2;
-            continue;
-        }
-        for (int halving = 0; halving < 6; ++halving) {
-            const double middle = (before + at) / 2;
-            (lumen.clearance_mm(from + direction * middle) > near ? before : at) = middle;
-        }
-        return at;
-    }
-    return {};
+    return WallRays(lumen, from).along(direction, 0, reach_mm);
 }
 
 PeeledPicture peel(const HuVolume& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
@@ -142,18 +145,19 @@ PeeledPicture peel(const HuVolume& volume, const Lumen& lumen, const Pose& pose,
     check(lens, options);
     PeeledPicture picture{lens.width, lens.height, {}};
     picture.rgba.assign(std::size_t(lens.width) * std::size_t(lens.height) * 4, 0);
-    const Caster caster(volume, lumen, pose, colours, options);
-    tbb::parallel_for(0, lens.height, [&](int y) {
-        for (int x = 0; x < lens.width; ++x) {
-            const Pixel pixel{x + 0.5, y + 0.5};
-            if (only && !only->holds(pixel))
-                continue;
-            const Light light = caster.cast(rayThrough(pose, lens, pixel));
-            std::uint8_t* out = &picture.rgba[4 * (std::size_t(y) * std::size_t(lens.width) + std::size_t(x))];
-            for (std::size_t c = 0; c < 3; ++c)
-                out[c] = byteOf(light.colour[c]);
-            out[3] = byteOf(1 - light.left);
-        }
+    const Caster caster(volume, lumen, pose, lens, colours, options);
+    const auto take = [&](int x, int y, const auto& cast) {
+        if (only && !only->holds({x + 0.5, y + 0.5}))
+            return;
+        const Light light = cast();
+        std::uint8_t* out = &picture.rgba[4 * (std::size_t(y) * std::size_t(lens.width) + std::size_t(x))];
+        for (std::size_t c = 0; c < 3; ++c)
+            out[c] = byteOf(light.colour[c]);
+        out[3] = byteOf(1 - light.left);
+    };
+    tbb::parallel_for(0, (lens.height + kTile - 1) / kTile, [&](int tile_row) {
+        for (int left = 0; left < lens.width; left += kTile)
+            caster.castTile(left, tile_row * kTile, take);
     });
     return picture;
 }
