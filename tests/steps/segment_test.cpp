@@ -175,6 +175,34 @@ TEST(Segment, FaintFluidDoesNotMoveTheWallOfABrightPoolItRunsInto)
     EXPECT_LE(missed, truth / 1000);
 }
 
+TEST(Segment, AFoldAlongTheFluidsLevelStaysWall)
+{
+    TubeScan scan = smallColon();
+    scan.fluid_hu = 700;
+    scan.level_mm = 4;
+    HuVolume volume = scan.draw(kGrid);
+    // A sheet of tissue, 3 mm thick, over the outer half of one stretch: gas above it, fluid below it.
+    const auto sheet = [&](Point3 p) {
+        const double away = std::max({std::abs(p.y - scan.level_mm) - 1.5, 46 - p.x, std::abs(p.z) - 20});
+        return 1 - test::blurred(away, 0.7);
+    };
+    for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
+        std::int16_t& hu = volume.voxels[n];
+        hu = std::int16_t(std::lround(std::lerp(double(hu), 40, sheet(kGrid.pointAt(kGrid.indexOf(n))))));
+    }
+    const Segmentation result = segment(volume, scan.gravity);
+    int opened = 0, all = 0;
+    for (std::size_t n = 0; n < kGrid.voxelCount(); ++n) {
+        const Point3 p = kGrid.pointAt(kGrid.indexOf(n));
+        if (sheet(p) < 0.9 || p.x < 48 || std::abs(p.z) > 18 || scan.signedDistance(p) > -2)
+            continue;  // the outermost voxel of its edge is rounded
+        ++all;
+        opened += result.inside.valueOr(result.inside.grid.indexAt(p), kOutside) != kOutside ? 1 : 0;
+    }
+    ASSERT_GT(all, 80);
+    EXPECT_EQ(opened, 0) << "of " << all;
+}
+
 TEST(Segment, OrdersPiecesOverAGap)
 {
     TubeScan scan = smallColon();

@@ -81,7 +81,7 @@ FluidResult addTaggedFluid(const HuVolume& volume, Vector3 gravity, const FluidD
         result.levels.push_back(level);
         progress.check();
     }
-    closeFluidLayer(volume, down, patches, labels);
+    closeFluidLayer(volume, down, patches, densities.tissue_hu, labels);
     // Where noise cannot have made them, holes are what is left of a wall between two pools, and keep them apart.
     if (!patches.empty() && (patches.front().density_hu - densities.tissue_hu) / 2 < kNoisy * softTissueNoise(volume))
         fillFluidSpecks(labels);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <unordered_map>
 
 namespace vicon::steps {
@@ -12,6 +13,11 @@ namespace {
 constexpr double kHalfLayer_mm = 1.6;
 // How far the wall beside a level may reach into the layer's columns; the shape is sought as far.
 constexpr int kBeside_voxels = 3;
+// The widest point spread that is reckoned with.
+constexpr double kSigma_mm = 0.8;
+// Where a level's own blur is this far from tissue, a voxel nearer to tissue than to it is wall: half of it is two
+// standard deviations of a low-dose scan's noise.
+constexpr double kTelling_hu = 300;
 
 int& along(Index3& v, int axis)
 {
@@ -27,9 +33,10 @@ struct Column {
 
 class Layer {
 public:
-    Layer(const HuVolume& volume, Down down, InsideVolume& labels)
+    Layer(const HuVolume& volume, Down down, double tissue_hu, InsideVolume& labels)
         : volume_(volume),
           down_(down),
+          tissue_hu_(tissue_hu),
           labels_(labels),
           side_{(down.axis + 1) % 3, (down.axis + 2) % 3},
           half_(std::max(1, int(std::lround(kHalfLayer_mm / labels.grid.spacing_mm[std::size_t(down.axis)]))))
@@ -47,7 +54,7 @@ public:
         fillContacts(patch);
         std::vector<Index3> found;
         for (const Column& column : columnsBeside(patch))
-            shape(column, found);
+            shape(column, patch.density_hu, found);
         for (const Index3 v : found)
             fill(v, patch.density_hu);
     }
@@ -115,8 +122,23 @@ private:
         return inside ? -away : away;
     }
 
-    /// The voxels of a column's layer that lie inside the shape between its two ends.
-    void shape(const Column& column, std::vector<Index3>& found) const
+    enum class Tells : std::uint8_t { nothing, wall, lumen };
+
+    /// What the density of a voxel so far below the level tells: nearer to tissue than to what the level's blur makes
+    /// of gas and fluid there is wall, a thin fold that stands in the layer or runs along it.
+    Tells density(Index3 v, double below_voxels, double fluid_hu) const
+    {
+        const double sigmas = below_voxels * labels_.grid.spacing_mm[std::size_t(down_.axis)] / kSigma_mm;
+        const double level_hu = std::lerp(-1000, fluid_hu, (1 + std::erf(sigmas / std::sqrt(2))) / 2);
+        const double contrast = level_hu - tissue_hu_;
+        if (std::abs(contrast) <= kTelling_hu)
+            return Tells::nothing;
+        return (volume_.at(v) - tissue_hu_) / contrast < 0.5 ? Tells::wall : Tells::lumen;
+    }
+
+    /// The voxels of a column's layer that lie inside the shape between its two ends and are not plainly wall, nor
+    /// between what is.
+    void shape(const Column& column, double fluid_hu, std::vector<Index3>& found) const
     {
         bool open = false;
         for (int n = -half_; n <= half_; ++n)
@@ -125,16 +147,31 @@ private:
             return;
         const double top = edgeDistance(below(column.at, -half_ - 1)),
                      bottom = edgeDistance(below(column.at, half_ + 1));
+        std::vector<Tells> told{top < 0 ? Tells::lumen : Tells::wall};
         for (int n = -half_; n <= half_; ++n) {
             const Index3 v = below(column.at, n);
             const double part = (n - column.level_voxels + half_ + 1) / (2.0 * half_ + 2);
-            if (labels_.grid.contains(v) && labels_.at(v) == kOutside && std::lerp(top, bottom, part) < 0)
+            if (labels_.valueOr(v, kGas) != kOutside)
+                told.push_back(Tells::lumen);
+            else if (std::lerp(top, bottom, part) >= 0)
+                told.push_back(Tells::wall);
+            else
+                told.push_back(density(v, n - column.level_voxels, fluid_hu));
+        }
+        told.push_back(bottom < 0 ? Tells::lumen : Tells::wall);
+        const auto tells = [](Tells t) { return t != Tells::nothing; };
+        for (auto here = told.begin() + 1; here + 1 != told.end(); ++here) {
+            const Index3 v = below(column.at, int(here - told.begin()) - 1 - half_);
+            const bool in_lumen = *std::find_if(here, told.end(), tells) == Tells::lumen ||
+                                  *std::find_if(std::reverse_iterator(here + 1), told.rend(), tells) == Tells::lumen;
+            if (in_lumen && labels_.valueOr(v, kGas) == kOutside)
                 found.push_back(v);
         }
     }
 
     const HuVolume& volume_;
     Down down_;
+    double tissue_hu_;
     InsideVolume& labels_;
     std::array<int, 2> side_;
     std::array<double, 2> slope_{};  ///< how much lower a level lies one voxel further along a side axis
@@ -143,9 +180,10 @@ private:
 
 }  // namespace
 
-void closeFluidLayer(const HuVolume& volume, Down down, const std::vector<ContactPatch>& patches, InsideVolume& labels)
+void closeFluidLayer(const HuVolume& volume, Down down, const std::vector<ContactPatch>& patches, double tissue_hu,
+                     InsideVolume& labels)
 {
-    Layer layer(volume, down, labels);
+    Layer layer(volume, down, tissue_hu, labels);
     for (const ContactPatch& patch : patches)
         layer.close(patch);
 }
