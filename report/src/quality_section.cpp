@@ -1,4 +1,5 @@
-// The part of Sections that is about quality: how far open and how wet each part of the colon is, position beside position.
+// The part of Sections that is about quality: how far open and how wet each part of the colon is, position beside
+// position.
 #include <algorithm>
 #include <array>
 
@@ -14,7 +15,8 @@ struct QualityColumn {
     const char* title;
     double width;
 };
-constexpr std::array<QualityColumn, 4> kColumns = {{{"Radius", 44}, {"Fluid", 64}, {"Collapsed", 62}, {"Adequate", 36}}};
+constexpr std::array<QualityColumn, 4> kColumns = {
+    {{"Radius", 44}, {"Fluid", 64}, {"Collapsed", 62}, {"Adequate", 36}}};
 constexpr std::size_t kScansBeside = 2;  // as many as a page's width holds
 
 double scanLeft(const PageFlow& flow, std::size_t n)
@@ -34,7 +36,8 @@ void Sections::drawQuality()
         if (!qualityRows({&entry}).empty())
             measured.push_back(&entry);
     for (std::size_t n = 0; n < measured.size(); n += kScansBeside)
-        drawQualityOf({measured.begin() + long(n), measured.begin() + long(std::min(n + kScansBeside, measured.size()))});
+        drawQualityOf(
+            {measured.begin() + long(n), measured.begin() + long(std::min(n + kScansBeside, measured.size()))});
 }
 
 void Sections::drawQualityOf(const std::vector<const ScanEntry*>& scans)

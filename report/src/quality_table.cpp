@@ -25,9 +25,8 @@ QualityCells cellsOf(const json& q)
     out.radius = whole(numberAt(q, "median_radius_mm"), "mm");
     out.fluid = whole(numberAt(q, "fluid_ml"), "ml") + ", " + percent(numberAt(q, "fluid_fraction"), 0);
     const double collapsed_mm = numberAt(q, "collapsed_mm");
-    out.collapsed = collapsed_mm > 0
-                        ? whole(collapsed_mm, "mm") + ", " + percent(numberAt(q, "collapsed_fraction"), 0)
-                        : "none";
+    out.collapsed =
+        collapsed_mm > 0 ? whole(collapsed_mm, "mm") + ", " + percent(numberAt(q, "collapsed_fraction"), 0) : "none";
     out.adequate = flagAt(q, "adequate");
     return out;
 }

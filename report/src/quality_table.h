@@ -16,8 +16,8 @@ struct QualityCells {
     bool adequate = false;
 };
 
-/// A part of the colon, or the whole, in each scan that measures it: a part that one position does not show may be shown by
-/// the other.
+/// A part of the colon, or the whole, in each scan that measures it: a part that one position does not show may be
+/// shown by the other.
 struct QualityRow {
     std::string part;
     std::vector<std::optional<QualityCells>> scans;  ///< as many as were asked for, in their order
