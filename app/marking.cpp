@@ -8,6 +8,7 @@
 #include "vicon/artefact/subdivision_file.h"
 #include "vicon/artefact/volume_file.h"
 #include "vicon/core/error.h"
+#include "vicon/core/file.h"
 
 namespace fs = std::filesystem;
 
@@ -134,6 +135,23 @@ Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::stri
         !part.empty())
         marker.extra["part"] = part;
     return marker;
+}
+
+std::vector<MarkerEdit> importOf(CaseStore& store, const MarkOptions& options, const std::string& case_id,
+                                 const std::filesystem::path& file)
+{
+    const auto json = nlohmann::json::parse(readFile(file), nullptr, false);
+    if (json.is_discarded() || !json.is_object() || !json.contains("markers") || !json["markers"].is_array())
+        throw Error(ErrorCode::bad_input, "is not a file of markers", file.string(), "it must be {\"markers\": [...]}");
+    const std::vector<Marker> known = store.markers(case_id);
+    std::vector<MarkerEdit> edits;
+    for (const auto& entry : json["markers"]) {
+        const Marker placed = placeMarker(store, options, case_id, markerFromJson(entry));
+        const auto before =
+            std::find_if(known.begin(), known.end(), [&](const Marker& m) { return m.id == placed.id; });
+        edits.push_back({before == known.end() ? std::nullopt : std::optional(*before), placed});
+    }
+    return edits;
 }
 
 ScanRecord requirePreparedScan(CaseStore& store, const std::string& case_id, const std::string& scan_id)

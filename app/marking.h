@@ -43,6 +43,11 @@ ColonPartRanges partsOf(CaseStore& store, const ScanRecord& scan);
 /// outside, Error{wrong_use} when it could be in several scans.
 Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id, Marker marker);
 
+/// The change that adds the markers of a file, {"markers": [...]}, each placed as placeMarker() does; an id that the
+/// case has is replaced. Throws Error{bad_input} when the file makes no sense, and as placeMarker().
+std::vector<MarkerEdit> importOf(CaseStore& store, const MarkOptions& options, const std::string& case_id,
+                                 const std::filesystem::path& file);
+
 /// The first scan of the case that has been through the pipeline; the named one when `scan_id` is not empty.
 /// Throws Error{not_ready} or Error{not_found}.
 ScanRecord requirePreparedScan(CaseStore& store, const std::string& case_id, const std::string& scan_id);

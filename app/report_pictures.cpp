@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "correcting.h"
 #include "marking.h"
 #include "vicon/core/error.h"
 #include "vicon/viewer/scene/display.h"
@@ -55,7 +56,7 @@ report::ScanEntry describeScan(CaseStore& store, const ScanRecord& scan)
     entry.verdict = about.value("verdict", "");
     entry.confidence = about.value("confidence", 0.0);
     entry.quality = about.value("quality", nlohmann::json::object());
-    entry.bridges = about.value("bridges", nlohmann::json::array());
+    entry.bridges = reviewedBridges(store, scan);
     for (const StepRecord& step : store.steps(scan.case_id, scan.id)) {
         if (step.step == "segment")
             entry.reason = step.result.value("reason", "");

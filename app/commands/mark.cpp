@@ -70,25 +70,10 @@ struct MarkersArguments {
     bool change_note = false;
 };
 
-std::vector<Marker> markersIn(const std::string& file)
-{
-    const auto json = nlohmann::json::parse(readFile(file), nullptr, false);
-    if (json.is_discarded() || !json.is_object() || !json.contains("markers") || !json["markers"].is_array())
-        throw Error(ErrorCode::bad_input, "is not a file of markers", file, "it must be {\"markers\": [...]}");
-    std::vector<Marker> markers;
-    for (const auto& entry : json["markers"])
-        markers.push_back(markerFromJson(entry));
-    return markers;
-}
-
-/// All or nothing: every marker is placed before the first is saved. An id that the case has is replaced.
+/// All or nothing. An id that the case has is replaced.
 void importMarkers(CaseStore& store, const MarkOptions& options, const std::string& case_id, const std::string& file)
 {
-    std::vector<Marker> placed;
-    for (Marker& marker : markersIn(file))
-        placed.push_back(placeMarker(store, options, case_id, std::move(marker)));
-    for (Marker& marker : placed)
-        store.saveMarker(case_id, std::move(marker));
+    store.editMarkers(case_id, importOf(store, options, case_id, file));
 }
 
 void changeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id,

@@ -1,12 +1,11 @@
 #include <cstdio>
 
 #include "../command.h"
+#include "../correcting.h"
 #include "../marking.h"
 #include "../progress_line.h"
 #include "../scan_work.h"
-#include "vicon/artefact/volume_file.h"
 #include "vicon/core/error.h"
-#include "vicon/pipeline/corrections.h"
 #include "vicon/pipeline/worker.h"
 
 namespace vicon::app {
@@ -22,42 +21,23 @@ struct WorkArguments {
     bool correct() const { return undo_corrections || !seed.empty() || !cut.empty() || !drop.empty(); }
 };
 
-/// Points of the command line, refused where they lie outside the scan.
-void appendPoints(std::vector<Point3>& points, const std::vector<std::string>& texts, const char* option,
-                  const std::filesystem::path& scan_folder)
+std::vector<Point3> pointsFrom(const std::vector<std::string>& texts, const char* option)
 {
-    for (const std::string& text : texts) {
-        const Point3 p = pointFrom(text, option);
-        if (const auto volume = scan_folder / "volume.mha"; std::filesystem::exists(volume)) {
-            const Grid grid = artefact::readGrid(volume);
-            if (!grid.contains(grid.indexAt(p)))
-                throw Error(ErrorCode::wrong_use, "the point " + text + " lies outside the scan", option,
-                            "give LPS mm, as 'vicon snapshot --view slices' shows them");
-        }
-        points.push_back(p);
-    }
+    std::vector<Point3> points;
+    for (const std::string& text : texts)
+        points.push_back(pointFrom(text, option));
+    return points;
 }
 
-/// Adds what a person says about one scan to what was said before, and queues the scan again when that is another
-/// result. The steps that do not depend on it are kept.
 void correct(Context& context, CaseStore& store, const WorkArguments& arguments)
 {
     if (arguments.case_id.empty())
         throw Error(ErrorCode::wrong_use, "corrections belong to one scan", "--seed, --cut, --drop",
                     "name its case with --case");
     const ScanRecord scan = store.requireScan(store.requireCase(arguments.case_id).id, arguments.scan_id);
-    const auto folder = store.scanFolder(scan.case_id, scan.id);
-    pipeline::Corrections corrections;
-    if (!arguments.undo_corrections)
-        corrections = pipeline::readCorrections(folder);
-    appendPoints(corrections.add, arguments.seed, "--seed", folder);
-    appendPoints(corrections.cut, arguments.cut, "--cut", folder);
-    appendPoints(corrections.drop, arguments.drop, "--drop", folder);
-    pipeline::writeCorrections(folder, corrections);
-    store.audit("corrections", scan.case_id, scan.id, toJson(corrections).dump());
-    pipeline::JobQueue queue(store.database(), context.config().get<pipeline::QueueOptions>());
-    if (const auto job = queue.find(scan.case_id, scan.id); job && job->state == pipeline::JobState::failed)
-        queue.retry(scan.case_id, scan.id);
+    const pipeline::Corrections more{pointsFrom(arguments.seed, "--seed"), pointsFrom(arguments.cut, "--cut"),
+                                     pointsFrom(arguments.drop, "--drop")};
+    correctScan(store, context.config(), scan, more, arguments.undo_corrections);
 }
 
 /// What the pipeline says of a scan whose colon it is not sure of.

@@ -89,6 +89,9 @@ std::string bridgeWords(const json& bridges)
             out += ", confidence " + percent(numberAt(bridge, "confidence"), 0);
         if (const std::string reason = textAt(bridge, "reason"); !reason.empty())
             out += ": " + reason;
+        if (const json review = bridge.is_object() ? bridge.value("review", json::object()) : json::object();
+            !textAt(review, "verdict").empty())
+            out += "; " + textAt(review, "verdict") + " by " + textAt(review, "by") + ", " + textAt(review, "at");
     }
     return std::to_string(bridges.size()) + (bridges.size() == 1 ? " collapsed part: " : " collapsed parts:\n") + out;
 }

@@ -1,6 +1,7 @@
 #include "reading_store.h"
 
 #include <memory>
+#include <mutex>
 
 #include "test_colon.h"
 #include "vicon/artefact/skeleton_file.h"
@@ -43,6 +44,71 @@ void makeStore(const fs::path& folder)
     }
 }
 
+namespace {
+
+/// What `app` does with corrections and bridges, without its pipeline: the queue's work is to write the scan anew, of
+/// larger voxels.
+void addCorrections(ReadingServices& services)
+{
+    struct State {
+        std::mutex mutex;
+        std::string queued;  // the scan
+        std::string verdict;
+    };
+    const auto state = std::make_shared<State>();
+    const auto queue = [state](CaseStore&, const ScanRecord& scan) {
+        const std::lock_guard lock(state->mutex);
+        state->queued = scan.id;
+    };
+    services.correct = [queue](CaseStore& store, const ScanRecord& scan, Correction kind, Point3 point) {
+        store.audit("corrections", scan.case_id, scan.id, std::to_string(int(kind)) + " " + std::to_string(point.x));
+        queue(store, scan);
+    };
+    services.forget_corrections = queue;
+    services.bridges = [state](CaseStore& store, const ScanRecord& scan) {
+        const Skeleton path = artefact::readSkeleton(store.scanFolder(scan.case_id, scan.id) / "skeleton.vtp");
+        const std::lock_guard lock(state->mutex);
+        return std::vector<BridgeRow>{{path.at(180).position_mm, path.at(200).position_mm, 20, 0.7, true, "a short gap",
+                                       state->verdict, state->verdict.empty() ? "" : "anna", "2026-01-03"}};
+    };
+    services.review_bridge = [state](CaseStore&, const ScanRecord&, const BridgeRow&, bool confirmed) {
+        const std::lock_guard lock(state->mutex);
+        state->verdict = confirmed ? "confirmed" : "rejected";
+    };
+    services.work = [state](CaseStore& store, const std::atomic<bool>&) {
+        constexpr double kCoarser_mm = 3;
+        std::string scan;
+        {
+            const std::lock_guard lock(state->mutex);
+            scan = state->queued;
+        }
+        TestColon(storages().front(), kCoarser_mm).write(store.scanFolder(kCase, scan));
+        const std::lock_guard lock(state->mutex);
+        state->queued.clear();
+    };
+    services.worklist = [state, before = services.worklist](CaseStore& store) {
+        auto rows = before(store);
+        const std::lock_guard lock(state->mutex);
+        for (WorklistRow& row : rows)
+            for (WorklistScanRow& scan : row.scans)
+                if (scan.record.id == state->queued)
+                    scan.state = "running";
+        return rows;
+    };
+    services.import_markers = [place = services.place](CaseStore& store, const std::string& case_id,
+                                                       const fs::path& file) {
+        std::vector<MarkerEdit> edits;
+        const auto all = nlohmann::json::parse(readFile(file));
+        for (const auto& entry : all.at("markers")) {
+            const Marker marker = place(store, case_id, markerFromJson(entry));
+            edits.push_back({store.requireMarker(case_id, marker.id), marker});
+        }
+        return edits;
+    };
+}
+
+}  // namespace
+
 ReadingServices servicesFor(const fs::path& folder)
 {
     ReadingServices services;
@@ -56,7 +122,9 @@ ReadingServices servicesFor(const fs::path& folder)
             const std::string reason = state == "failed" ? "the series has a gap of 40 mm" : "";
             WorklistRow row{record, state, reason, ready ? 1.0 : 0.0, int(store.markers(record.id).size()), 0, {}};
             for (const ScanRecord& scan : store.scans(record.id))
-                row.scans.push_back({scan, state, "", row.progress, reason, store.scanFolder(record.id, scan.id)});
+                row.scans.push_back({scan, state, "", row.progress, reason, store.scanFolder(record.id, scan.id),
+                                     ready ? "radius 18 mm, fluid 7 %, sigmoid collapsed over 38 mm" : "",
+                                     scan.id != kProne});
             rows.push_back(row);
         }
         return rows;
@@ -78,6 +146,7 @@ ReadingServices servicesFor(const fs::path& folder)
         replaceFile(file, "a report");
         return file;
     };
+    addCorrections(services);
     return services;
 }
 

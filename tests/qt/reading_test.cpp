@@ -3,11 +3,15 @@
 #include <QApplication>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMainWindow>
+#include <QMessageBox>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QSettings>
+#include <QSlider>
 #include <QStatusBar>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -15,6 +19,7 @@
 
 #include "reading_store.h"
 #include "vicon/core/error.h"
+#include "vicon/core/file.h"
 #include "vicon/support/support.h"
 #include "vicon/viewer/scene/display.h"
 
@@ -177,6 +182,8 @@ TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
     EXPECT_EQ(room_->findChild<QLabel*>("reason")->text(), "the series has a gap of 40 mm");
     EXPECT_FALSE(room_->findChild<QPushButton*>("open")->isEnabled());
     screenshot("worklist");
+    EXPECT_EQ(cases()->item(1 - failed, 6)->text(), "poor: prone");
+    EXPECT_TRUE(cases()->item(1 - failed, 6)->toolTip().contains("collapsed over 38 mm"));
     press(room_.get(), "retry");
     EXPECT_TRUE(eventually([&] { return cases()->item(failed, 4)->text() == "queued"; }));
     EXPECT_EQ(shown(), 0) << "it is no longer failed";
@@ -199,7 +206,7 @@ TEST_F(Reading, FliesToTheCaecumAndBackAndIsWhereItWasAfterReopening)
     QTest::keyClick(window(), Qt::Key_End);
     ASSERT_TRUE(eventually([] { return length() - station() < 2; }));
     screenshot("caecum");
-    QTest::keyClick(window(), Qt::Key_R);
+    EXPECT_EQ(the<QPushButton>("about")->text(), "To rectum") << "it looks into the colon, ready for the way back";
     QTest::keyClick(window(), Qt::Key_Space);
     ASSERT_TRUE(eventually([] { return length() - station() > 60; }));
     auto* spin = the<QDoubleSpinBox>("station");
@@ -248,6 +255,7 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     QTest::mouseClick(markers()->viewport(), Qt::LeftButton, {},
                       markers()->visualItemRect(markers()->item(0, 0)).center());
     ASSERT_TRUE(eventually([&] { return std::abs(station() - seen_from) < 2; })) << "at " << station();
+    QTest::keyClick(window(), Qt::Key_R);  // on towards the caecum
 
     // A note, written in its cell.
     const auto* note = markers()->item(0, 6);
@@ -292,7 +300,9 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     EXPECT_TRUE(eventually([&] { return stored()[1].extra.value("pair", "") == stored()[0].id && settled(); }));
     // Both at once: what is chosen in one is shown in both, and they move together.
     QTest::keyClick(window(), Qt::Key_C);
-    ASSERT_TRUE(eventually([] { return drawn("besideEndoscopic") && drawn("besideTransverse"); }));
+    const bool both = eventually([] { return drawn("besideEndoscopic") && drawn("besideTransverse"); });
+    screenshot("beside");
+    ASSERT_TRUE(both);
     const auto beside = [] { return the<QWidget>("besideEndoscopic")->grab().toImage(); };
     settle();
     const QImage first_shown = beside();
@@ -466,6 +476,117 @@ TEST_F(Reading, WhatWasSeenIsCountedPaintedListedAndKept)
     EXPECT_TRUE(eventually([&] { return seen() < before + 1; })) << seen();
 }
 
+TEST_F(Reading, MarkersOfAFileAreLoadedInOneStepAndSaved)
+{
+    openCase();
+    for (const QPoint by : {QPoint(90, 60), QPoint(-60, 60)}) {
+        const int before = markers()->rowCount();
+        click("endoscopic", middle("endoscopic") + by, Qt::ShiftModifier);
+        ASSERT_TRUE(eventually([&] { return markers()->rowCount() == before + 1 && settled(); }));
+    }
+    const auto choose = [](const char* name, const QString& file) {
+        auto* dialog = the<QFileDialog>(name);
+        emit dialog->fileSelected(file);  // how Qt's own dialog is used is Qt's business
+        dialog->reject();
+    };
+    const std::filesystem::path file = store_ / "list.json";
+    QTest::keyClick(window(), Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
+    choose("saveMarkers", file.c_str());
+    ASSERT_TRUE(eventually([&] { return std::filesystem::exists(file); }));
+    auto list = nlohmann::json::parse(readFile(file));
+    ASSERT_EQ(list["markers"].size(), 2U);
+    for (auto& marker : list["markers"])
+        marker["note"] = "from the file";
+    replaceFile(file, list.dump());
+    QTest::keyClick(window(), Qt::Key_O, Qt::ControlModifier);
+    choose("loadMarkers", file.c_str());
+    const auto notes = [&](const char* note) { return cell(0, 6) == note && cell(1, 6) == note && settled(); };
+    ASSERT_TRUE(eventually([&] { return notes("from the file"); })) << the<QLabel>("warning")->text().toStdString();
+    EXPECT_EQ(stored()[1].note, "from the file");
+    QTest::mouseClick(markers()->viewport(), Qt::LeftButton, {},
+                      markers()->visualItemRect(markers()->item(1, 0)).center());
+    QTest::keyClick(window(), Qt::Key_I);
+    auto* box = the<QMessageBox>("markerInformation");
+    EXPECT_TRUE(box->text().contains("from the file") && box->text().contains("supine"));
+    screenshot("information");
+    box->close();
+    press(window(), "undo");
+    EXPECT_TRUE(eventually([&] { return notes(""); })) << "one undo takes both back";
+}
+
+TEST_F(Reading, CorrectionsGoToThePipelineAndTheNewResultIsTakenOver)
+{
+    openCase();
+    auto* lists = the<QTabWidget>("lists");
+    QTest::mouseClick(lists->tabBar(), Qt::LeftButton, {}, lists->tabBar()->tabRect(2).center());
+    auto* bridges = the<QTableWidget>("bridges");
+    ASSERT_TRUE(eventually([&] { return bridges->rowCount() == 1; }));
+    QTest::mouseClick(bridges->viewport(), Qt::LeftButton, {}, bridges->visualItemRect(bridges->item(0, 0)).center());
+    EXPECT_TRUE(eventually([] { return std::abs(station() - 180) < 3; }));
+    const auto judged = [&] { return bridges->item(0, 3)->text(); };
+    press(window(), "rejectBridge");
+    EXPECT_TRUE(eventually([&] { return judged() == "rejected, anna"; })) << judged().toStdString();
+    press(window(), "confirmBridge");
+    EXPECT_TRUE(eventually([&] { return judged() == "confirmed, anna"; }));
+    QTest::keyClick(window(), Qt::Key_End);
+    settle();
+    press(window(), "correctCut");
+    click("coronal", middle("coronal"));
+    ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); }));
+    screenshot("corrected");
+    ASSERT_TRUE(eventually([] { return !the<QProgressBar>("redo")->isVisible(); }));
+    // What was seen is kept with the surface that it was seen on; the new one is another.
+    const auto surface = [&] {
+        for (const auto& entry : std::filesystem::directory_iterator(store_ / "cases" / test::kCase / "reading"))
+            return readFile(entry.path()).substr(0, readFile(entry.path()).find('\n'));
+        return std::string();
+    };
+    const std::filesystem::path reading = store_ / "cases" / test::kCase / "reading";
+    ASSERT_TRUE(eventually([&] { return std::filesystem::exists(reading) && !surface().empty(); }));
+    const std::string before = surface();
+    waitForScan();
+    EXPECT_LT(length() - station(), 10) << "the eye is where it was";
+    window()->close();
+    ASSERT_TRUE(eventually([] { return window() == nullptr; }));
+    EXPECT_NE(surface(), before);
+}
+
+TEST_F(Reading, AFilmIsMadeOrCancelledAndThePictureShowsHowItIsMade)
+{
+    openCase();
+    const QImage plain = the<QWidget>("endoscopic")->grab().toImage();
+    QTest::keyClick(window(), Qt::Key_O);
+    ASSERT_TRUE(eventually([&] { return the<QWidget>("endoscopic")->grab().toImage() != plain; }));
+    QTest::keyClick(the<QSlider>("angle"), Qt::Key_End);
+    screenshot("structure");
+    QTest::keyClick(window(), Qt::Key_O);
+    const auto folder = store_ / "cases" / test::kCase / "pictures";
+    const auto files = [&] {
+        std::error_code none;
+        std::vector<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+            names.push_back(entry.path().filename().string());
+        return names;
+    };
+    for (int n = 0; n < 30; ++n)
+        QTest::keyClick(window(), Qt::Key_Plus);
+    auto* bar = the<QProgressBar>("filmBar");
+    QTest::keyClick(window(), Qt::Key_M, Qt::ControlModifier);
+    ASSERT_TRUE(eventually([&] { return bar->isVisible() && bar->value() > 5; }));
+    press(window(), "filmCancel");
+    EXPECT_TRUE(eventually([&] { return files().empty(); })) << "nothing is left of it";
+    QTest::keyClick(window(), Qt::Key_End);
+    the<QDoubleSpinBox>("station")->setValue(60);
+    press(window(), "jump");
+    ASSERT_TRUE(eventually([] { return std::abs(station() - 60) < 2; }));
+    QTest::keyClick(window(), Qt::Key_M, Qt::ControlModifier);
+    ASSERT_TRUE(eventually([&] { return bar->isVisible(); }));
+    ASSERT_TRUE(eventually([&] { return !bar->isVisible(); }));
+    ASSERT_EQ(files(), std::vector<std::string>{"2.ogv"});
+    EXPECT_EQ(readFile(folder / "2.ogv").substr(0, 4), "OggS");
+    EXPECT_GT(std::filesystem::file_size(folder / "2.ogv"), 10000U);
+}
+
 TEST_F(Reading, ACaseDeletedUnderItsReaderIsSaidSo)
 {
     openCase();
@@ -477,7 +598,7 @@ TEST_F(Reading, ACaseDeletedUnderItsReaderIsSaidSo)
             sql << "DELETE FROM cases WHERE id = 'c1'";
         });
     }
-    EXPECT_TRUE(eventually([] { return !the<QLabel>("warning")->text().isEmpty(); }));
+    EXPECT_TRUE(eventually([] { return the<QLabel>("warning")->text().startsWith("This case was deleted"); }));
     click("endoscopic", middle("endoscopic") + QPoint(60, 90), Qt::ShiftModifier);
     settle();
     EXPECT_EQ(markers()->rowCount(), 0) << "nothing is shown as saved that is not";

@@ -18,6 +18,14 @@ nlohmann::json jsonOf(const std::vector<Marker>& markers)
     return list;
 }
 
+QString caseIsGone()
+{
+    return CaseSession::tr(
+        "This case was deleted while you read it. The pictures stay until you close the window, but markers, pictures "
+        "and "
+        "reports can no longer be saved.");
+}
+
 }  // namespace
 
 OpenScan::OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case)
@@ -41,6 +49,13 @@ CaseSession::CaseSession(const ReadingServices& services, const WorklistRow& row
     refresh();
 }
 
+std::string CaseSession::wordsFor(const Error& error)
+{
+    if (error.code() == ErrorCode::not_found && !store().findCase(row_.record.id))
+        return caseIsGone().toStdString();
+    return error.what();
+}
+
 CaseStore& CaseSession::store()
 {
     if (!store_)
@@ -62,10 +77,10 @@ std::optional<Marker> CaseSession::marker(const std::string& id) const
     return found == markers_.end() ? std::nullopt : std::optional(*found);
 }
 
-void CaseSession::open(const std::string& scan_id)
+void CaseSession::open(const std::string& scan_id, bool fresh)
 {
     wanted_scan_ = scan_id;
-    if (beside_ && beside_->record.id == scan_id) {
+    if (!fresh && beside_ && beside_->record.id == scan_id) {
         std::swap(scan_, beside_);
         wanted_beside_ = beside_ ? beside_->record.id : "";
         emit opened();
@@ -125,6 +140,8 @@ void CaseSession::edit(const QString& what, Edit work)
         try {
             work(store(), history_);
             copy_trouble = store().markerFileTrouble();
+        } catch (const Error& e) {
+            trouble = wordsFor(e);
         } catch (const std::exception& e) {
             trouble = e.what();
         }
@@ -191,6 +208,23 @@ void CaseSession::partMarkers(const Marker& marker)
     edit(tr("Parted"), [marker](CaseStore& store, MarkerHistory& history) { history.part(store, marker); });
 }
 
+void CaseSession::loadMarkers(const std::filesystem::path& file)
+{
+    edit(tr("Markers loaded"), [this, file](CaseStore& store, MarkerHistory& history) {
+        history.changeAll(store, services_.import_markers(store, row_.record.id, file));
+    });
+}
+
+void CaseSession::saveMarkers(const std::filesystem::path& file)
+{
+    worker_.postAlways([this, file]() -> Worker::Work {
+        const nlohmann::json all{{"markers", jsonOf(store().markers(row_.record.id))}};
+        replaceFile(file, all.dump(2) + "\n");
+        return
+            [this, name = QString::fromStdString(file.string())] { emit saved(tr("Markers written: %1").arg(name)); };
+    });
+}
+
 void CaseSession::undo()
 {
     edit(tr("Undone"), [](CaseStore& store, MarkerHistory& history) { history.undo(store); });
@@ -204,7 +238,8 @@ void CaseSession::redo()
 void CaseSession::refresh()
 {
     worker_.post("refresh", [this]() -> Worker::Work {
-        store().requireCase(row_.record.id);
+        if (!store().findCase(row_.record.id))
+            return [this] { emit warned(caseIsGone()); };
         return [this, markers = store().markers(row_.record.id)] {
             if (markers_known_ && jsonOf(markers) == jsonOf(markers_))
                 return;
@@ -219,19 +254,31 @@ void CaseSession::refresh()
     });
 }
 
+std::filesystem::path CaseSession::newPicture(const std::string& extension)
+{
+    const std::string& id = row_.record.id;
+    store().requireCase(id);
+    const auto folder = store().caseFolder(id) / "pictures";
+    makePrivateFolder(folder);
+    return folder / (std::to_string(store().nextNumber("picture " + id)) + extension);
+}
+
+void CaseSession::nameFilm()
+{
+    worker_.postAlways([this]() -> Worker::Work {
+        return [this, name = QString::fromStdString(newPicture(".ogv").string())] { emit filmNamed(name); };
+    });
+}
+
 void CaseSession::savePicture(const QImage& picture)
 {
     worker_.postAlways([this, picture = picture.convertToFormat(QImage::Format_RGB888)]() -> Worker::Work {
-        const std::string& id = row_.record.id;
-        store().requireCase(id);
-        const auto folder = store().caseFolder(id) / "pictures";
-        makePrivateFolder(folder);
-        const auto file = folder / (std::to_string(store().nextNumber("picture " + id)) + ".png");
+        const auto file = newPicture(".png");
         Picture out(picture.width(), picture.height());
         for (int y = 0; y < out.height; ++y)
             std::copy_n(picture.constScanLine(y), 3 * out.width, out.rgb.begin() + std::ptrdiff_t(y) * 3 * out.width);
         writePng(file, out);
-        store().audit("picture saved", id, "", file.filename().string());
+        store().audit("picture saved", row_.record.id, "", file.filename().string());
         return [this, name = QString::fromStdString(file.string())] { emit saved(tr("Picture saved: %1").arg(name)); };
     });
 }

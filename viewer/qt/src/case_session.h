@@ -15,6 +15,10 @@
 #include "vicon/viewer/scene/snapshot.h"
 #include "worker.h"
 
+namespace vicon {
+class Error;
+}
+
 namespace vicon::viewer {
 
 /// A scan that is open: its files, read, and where the eye is in it.
@@ -45,7 +49,8 @@ public:
     std::optional<Marker> marker(const std::string& id) const;
 
     /// Reads a scan's files; opened() follows, or warned(). The scan beside changes places with the one being read.
-    void open(const std::string& scan_id);
+    /// @param fresh reads it again, after its files were made anew
+    void open(const std::string& scan_id, bool fresh = false);
     /// Reads another scan to be shown beside the one being read; besideOpened() follows.
     void openBeside(const std::string& scan_id);
     void closeBeside();
@@ -61,6 +66,10 @@ public:
     void pairMarkers(const Marker& a, const Marker& b);
     /// Ends a pair, on both sides.
     void partMarkers(const Marker& marker);
+    /// The markers of a file join those of the case: all in one step, or none.
+    void loadMarkers(const std::filesystem::path& file);
+    /// All markers of the case, as loadMarkers() and `vicon markers --import` take them.
+    void saveMarkers(const std::filesystem::path& file);
     void undo();
     void redo();
     bool canUndo() const { return can_undo_; }
@@ -72,6 +81,8 @@ public:
     void measure(Point3 from, Point3 to);
     /// Keeps a picture in the case's folder, "pictures/1.png" and on.
     void savePicture(const QImage& picture);
+    /// A name for a film beside the pictures; filmNamed() follows.
+    void nameFilm();
 
 signals:
     void opened();
@@ -82,6 +93,7 @@ signals:
     void saved(const QString& what);
     void warned(const QString& message);
     void measured(const vicon::viewer::WallDistance& size);
+    void filmNamed(const QString& file);
     void reportWritten(const QString& file);
 
 private:
@@ -91,7 +103,9 @@ private:
     using Opened = std::function<void(std::shared_ptr<OpenScan>)>;
     /// Reads a scan's files on the loader's thread.
     void load(const std::string& work, const std::string& scan_id, Opened then);
-    CaseStore& store();  // on the worker's thread
+    CaseStore& store();                                              // on the worker's thread
+    std::filesystem::path newPicture(const std::string& extension);  // on the worker's thread
+    std::string wordsFor(const Error& error);                        // on the worker's thread
 
     ReadingServices services_;
     WorklistRow row_;

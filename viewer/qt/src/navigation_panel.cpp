@@ -61,7 +61,14 @@ NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
     grid->addWidget(speed_text_, 2, 3);
     grid->addWidget(station_, 3, 0, 1, 3);
     grid->addWidget(go_, 3, 3);
-    grid->addWidget(where_, 4, 0, 1, 4);
+    angle_ = named(new QSlider(Qt::Horizontal, this), "angle", tr("Angle of view"),
+                   tr("Angle of view: narrow is true to shape, wide sees more of the wall"));
+    angle_->setRange(60, 120);
+    angle_text_ = new QLabel(this);
+    grid->addWidget(angle_, 4, 0, 1, 3);
+    grid->addWidget(angle_text_, 4, 3);
+    grid->addWidget(where_, 5, 0, 1, 4);
+    connect(angle_, &QSlider::valueChanged, this, [this](int degrees) { emit angleWanted(degrees); });
 
     connect(mode_, qOverload<int>(&QComboBox::activated), this,
             [this](int index) { emit modeWanted(NavigationMode(index)); });
@@ -77,6 +84,13 @@ NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
         shown_station_mm_ = station_->value();
         emit jumpWanted(shown_station_mm_);
     });
+}
+
+void NavigationPanel::setAngle(double angle_deg)
+{
+    const QSignalBlocker quiet(angle_);
+    angle_->setValue(int(angle_deg));
+    angle_text_->setText(tr("%1° wide").arg(angle_deg, 0, 'f', 0));
 }
 
 void NavigationPanel::show(const Navigator& navigator, double length_mm)

@@ -18,6 +18,7 @@ class NavigationPanel : public QWidget {
 public:
     explicit NavigationPanel(QWidget* parent = nullptr);
     void show(const Navigator& navigator, double length_mm);
+    void setAngle(double angle_deg);
 
 signals:
     void modeWanted(vicon::viewer::NavigationMode mode);
@@ -27,11 +28,13 @@ signals:
     void speedWanted(double mm_s);
     void stepWanted(double mm);
     void jumpWanted(double station_mm);
+    void angleWanted(double angle_deg);
 
 private:
     QComboBox* mode_;
     QPushButton *back_, *stop_, *forward_, *about_, *look_back_, *step_back_, *step_on_, *go_;
-    QSlider* speed_;
+    QSlider *speed_, *angle_;
+    QLabel* angle_text_;
     QDoubleSpinBox* station_;
     double shown_station_mm_ = 0;  // what show() last put into the field
     QLabel *speed_text_, *where_;

@@ -85,13 +85,10 @@ void ReadingWindow::drawBeside(bool still)
         return;
     const NavigationState at = besidePlace();
     const auto scan = session_.sharedBeside();
-    Studio::Wish wish;
-    wish.request = request(*scan, beside_->endoscopic()->pictureSize());
-    wish.place = {at.pose, at.station_mm, at.clearance_mm, true};
-    wish.still = still;
-    wish.paint_seen = paintsSeen();
+    const Studio::Wish wish = wishFor(*scan, at, beside_->endoscopic()->pictureSize(), still);
     studio_.drawBeside(scan, wish);
-    beside_->slice()->look(scan, at.pose.eye_mm, at.pose, wish.request.markers);
+    beside_->slice()->look(scan, beside_place_ ? beside_focus_.value_or(at.pose.eye_mm) : at.pose.eye_mm, at.pose,
+                           wish.request.markers);
 }
 
 void ReadingWindow::clickedBeside(Pixel at, Qt::KeyboardModifiers modifiers)
@@ -111,6 +108,7 @@ void ReadingWindow::showPairOf(const Marker& marker)
     if (!partner || !session_.beside() || partner->scan_id != session_.beside()->record.id)
         return;
     beside_place_ = viewFor(*session_.beside(), *partner);
+    beside_focus_ = partner->position_mm;
 }
 
 ViewPose ReadingWindow::viewFor(const OpenScan& scan, const Marker& marker)

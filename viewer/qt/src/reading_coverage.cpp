@@ -39,6 +39,7 @@ void ReadingWindow::connectCoverage()
     });
     connect(navigation_, &NavigationPanel::jumpWanted, this, &ReadingWindow::beginPass);
     connect(navigation_, &NavigationPanel::lookBackWanted, this, &ReadingWindow::beginPass);
+    connect(navigation_, &NavigationPanel::angleWanted, this, &ReadingWindow::setAngle);
     keep_seen_.setInterval(kKeep_ms);
     connect(&keep_seen_, &QTimer::timeout, this, &ReadingWindow::keepSeen);
     keep_seen_.start();

@@ -64,7 +64,7 @@ bool ReadingWindow::placed(const OpenScan& scan, const NavigationState& from, Po
         warn(tr("Both ends of a size lie in the scan that is being read."));
         return true;
     }
-    if (measuredAt(point, on_wall))
+    if (correctedAt(scan, point) || measuredAt(point, on_wall))
         return true;
     if (moving_) {
         const auto before = session_.marker(*moving_);
@@ -160,6 +160,7 @@ void ReadingWindow::arm(std::optional<MarkerColor> color)
         moving_.reset();
         pairing_.reset();
     }
+    correcting_.reset();
     stopMeasuring();
     setPickCursor(color.has_value());
     tell(color ? tr("Click where the %1 marker shall be").arg(QString::fromStdString(nameOf(*color))) : QString());
@@ -197,6 +198,14 @@ void ReadingWindow::turnAbout()
     beginPass();
     navigator()->setHeading(navigator()->heading() == Heading::caecum ? Heading::rectum : Heading::caecum);
     moved(true);
+}
+
+void ReadingWindow::goToEnd(Heading end)
+{
+    if (!navigator())
+        return;
+    navigator()->setHeading(end == Heading::caecum ? Heading::rectum : Heading::caecum);
+    emit navigation_->jumpWanted(end == Heading::caecum ? session_.scan()->files.frames().length_mm() : 0);
 }
 
 void ReadingWindow::updateSteering()

@@ -1,6 +1,6 @@
 #include <QAction>
 #include <QComboBox>
-#include <QGroupBox>
+#include <QFrame>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
@@ -12,6 +12,7 @@
 #include <QVBoxLayout>
 
 #include "beside_view.h"
+#include "colon_panel.h"
 #include "coverage_panel.h"
 #include "reading_window.h"
 #include "vicon/viewer/model/window_level.h"
@@ -23,9 +24,12 @@ constexpr int kPart = 150, kSideWidth = 430;  // pixels of 96 to the inch, befor
 
 QWidget* group(const QString& title, QWidget* inside)
 {
-    auto* box = new QGroupBox(title + ' ');  // the style cuts a pixel off the last letter
+    auto* box = new QFrame;  // a group box of this style cuts a pixel off its title
+    box->setFrameShape(QFrame::StyledPanel);
     auto* layout = new QVBoxLayout(box);
-    layout->setContentsMargins(4, 4, 4, 4);
+    layout->setContentsMargins(4, 2, 4, 2);
+    layout->setSpacing(2);
+    layout->addWidget(new QLabel(title));
     layout->addWidget(inside);
     return box;
 }
@@ -71,6 +75,8 @@ QWidget* ReadingWindow::buildSide()
     lists->setObjectName("lists");
     lists->addTab(table_, tr("&Markers"));
     lists->addTab(coverage_, tr("&Unseen"));
+    colon_ = new ColonPanel;
+    lists->addTab(colon_, tr("C&olon"));
     connect(lists, &QTabWidget::currentChanged, this, [this, lists] {
         if (lists->currentWidget() == coverage_)
             listUnseen();
@@ -160,6 +166,9 @@ void ReadingWindow::addActions()
     QMenu* a_case = menuBar()->addMenu(tr("&Case"));
     add(a_case, tr("Save picture to the case"), QKeySequence("Ctrl+S"), [this] { snapshot(false); });
     add(a_case, tr("Copy picture"), QKeySequence("Ctrl+C"), [this] { snapshot(true); });
+    add(a_case, tr("Film the way to the end (again: cancel)"), QKeySequence("Ctrl+M"), [this] { film(); });
+    add(a_case, tr("Load markers ..."), QKeySequence("Ctrl+O"), [this] { chooseMarkerFile(false); });
+    add(a_case, tr("Save markers to a file ..."), QKeySequence("Ctrl+Shift+S"), [this] { chooseMarkerFile(true); });
     add(a_case, tr("Write report"), QKeySequence("Ctrl+P"), [this] {
         tell(tr("Writing the report ..."));
         session_.writeReport();
@@ -173,6 +182,7 @@ void ReadingWindow::addActions()
     add(edit, tr("Green marker at the next click"), QKeySequence("3"), [this] { arm(MarkerColor::green); });
     add(edit, tr("No marker after all"), QKeySequence("Esc"), [this] { arm({}); });
     add(edit, tr("Measure between two clicks"), QKeySequence("M"), [this] { startMeasuring(); });
+    add(edit, tr("Marker information"), QKeySequence("I"), [this] { showMarkerInformation(); });
     add(edit, tr("Delete marker"), QKeySequence("Del"), [this] {
         if (const auto marker = table_->selected(); marker && table_->isEnabled())
             session_.removeMarker(*marker);
@@ -188,8 +198,8 @@ void ReadingWindow::addActions()
         [this] { emit navigation_->lookBackWanted(navigator() && !navigator()->looksBack()); });
     add(flight, tr("A centimetre on"), QKeySequence("."), [this] { emit navigation_->stepWanted(10); });
     add(flight, tr("A centimetre back"), QKeySequence(","), [this] { emit navigation_->stepWanted(-10); });
-    add(flight, tr("To the rectum"), QKeySequence("Home"), [this] { emit navigation_->jumpWanted(0); });
-    add(flight, tr("To the caecum"), QKeySequence("End"), [this] { emit navigation_->jumpWanted(1e9); });
+    add(flight, tr("To the rectum"), QKeySequence("Home"), [this] { goToEnd(Heading::rectum); });
+    add(flight, tr("To the caecum"), QKeySequence("End"), [this] { goToEnd(Heading::caecum); });
     add(flight, tr("Faster"), QKeySequence("+"), [this] {
         if (navigator())
             emit navigation_->speedWanted(navigator()->speed_mm_s() + 5);
@@ -207,6 +217,7 @@ void ReadingWindow::addActions()
     compare_->setCheckable(true);
     compare_->setShortcut(QKeySequence("C"));
     connect(compare_, &QAction::triggered, this, &ReadingWindow::setBeside);
+    addLooks(view);
     add(view, tr("Other scan"), QKeySequence("X"), [this] {
         if (scan_choice_->count() < 2)
             return;

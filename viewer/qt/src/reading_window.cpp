@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QSettings>
 #include <QStatusBar>
+#include <utility>
 
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/window_level.h"
@@ -19,7 +20,8 @@ constexpr int kPoll_ms = 2000;  // how often other readers' changes are looked f
 constexpr int kPeelCoarse = 3;  // while moving: a ray for 3 x 3 pixels
 }  // namespace
 
-ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistRow& row) : session_(services, row)
+ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistRow& row)
+    : session_(services, row), corrector_(services, row.record.id)
 {
     setObjectName("reading");
     setWindowTitle(tr("%1 - VICON").arg(QString::fromStdString(personName(row.record.patient.name))));
@@ -138,6 +140,8 @@ void ReadingWindow::connectAll()
 
     connectCoverage();
     connectBeside();
+    connectCorrections();
+    connectFilm();
     timer_.setTimerType(Qt::PreciseTimer);
     timer_.setInterval(kFrame_ms);
     connect(&timer_, &QTimer::timeout, this, &ReadingWindow::tick);
@@ -160,7 +164,7 @@ void ReadingWindow::changeScan(const std::string& scan_id)
     if (navigator())
         came_from_mm_ = navigator()->state().station_mm;
     tell(tr("Reading the scan ..."));
-    session_.open(scan_id);
+    session_.open(scan_id, std::exchange(fresh_, false));
 }
 
 void ReadingWindow::scanOpened()
@@ -179,6 +183,7 @@ void ReadingWindow::scanOpened()
     moved(true);
     showSeen();
     listUnseen();
+    corrector_.findBridges(session_.scan()->record);
     if (compare_->isChecked())
         setBeside(true);
     if (const auto marker = session_.marker(fly_to_when_open_.value_or("")))
@@ -190,13 +195,17 @@ void ReadingWindow::restorePlace()
 {
     if (came_from_) {
         navigator()->setHeading(came_from_->navigator.heading());
-        navigator()->jumpTo(corresponding_mm(*came_from_, came_from_mm_, *session_.scan()));
+        const bool same = came_from_->record.id == session_.scan()->record.id;  // done again: where the eye was
+        const Point3 eye = came_from_->navigator.state().pose.eye_mm;
+        navigator()->jumpTo(same ? session_.scan()->files.skeleton().nearest(eye).station_mm
+                                 : corresponding_mm(*came_from_, came_from_mm_, *session_.scan()));
         came_from_.reset();
         return;
     }
     QSettings settings;
     settings.beginGroup("place/" + QString::fromStdString(session_.record().id));
     compare_->setChecked(settings.value("beside").toBool());
+    setAngle(settings.value("angle_deg", view_angle_deg_).toDouble());
     navigator()->setHeading(settings.value("to_rectum").toBool() ? Heading::rectum : Heading::caecum);
     navigator()->jumpTo(settings.value(QString::fromStdString(session_.scan()->record.id), 0).toDouble());
 }
@@ -208,6 +217,7 @@ void ReadingWindow::savePlace()
     QSettings settings;
     settings.beginGroup("place/" + QString::fromStdString(session_.record().id));
     settings.setValue("scan", QString::fromStdString(session_.scan()->record.id));
+    settings.setValue("angle_deg", view_angle_deg_);
     settings.setValue("beside", compare_->isChecked());
     settings.setValue("to_rectum", navigator()->heading() == Heading::rectum);
     settings.setValue(QString::fromStdString(session_.scan()->record.id), navigator()->state().station_mm);
@@ -263,8 +273,8 @@ void ReadingWindow::drawEndoscopic(bool still)
 {
     if (!session_.scan())
         return;
-    Studio::Wish wish{request(*session_.scan(), endoscopic_->pictureSize()), place(), still, endoscopic_->isVisible(),
-                      paintsSeen()};
+    Studio::Wish wish = wishFor(*session_.scan(), navigator()->state(), endoscopic_->pictureSize(), still);
+    wish.count_seen = endoscopic_->isVisible();
     peeling_->fill(wish.request);
     wish.request.peel_circle_at = lens_at_;
     wish.request.peel_coarse = still ? 1 : kPeelCoarse;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "case_session.h"
+#include "corrector.h"
 #include "marker_table.h"
 #include "navigation_panel.h"
 #include "peeling_panel.h"
@@ -18,11 +19,14 @@
 class QAction;
 class QComboBox;
 class QLabel;
+class QMenu;
 
 namespace vicon::viewer {
 
 class BesideView;
+class ColonPanel;
 class CoveragePanel;
+class FilmMaker;
 
 /// A case in reading: the endoscopic view, three slices and the colon's projection, all at one place, with the
 /// controls of flight, the markers and the look below the wall.
@@ -80,6 +84,8 @@ private:
     void setMode(NavigationMode mode);
     void fly(int direction);
     void turnAbout();
+    /// Looking into the colon: the way back is what is flown next.
+    void goToEnd(Heading end);
     void updateSteering();
     void snapshot(bool to_clipboard);
 
@@ -98,6 +104,21 @@ private:
     void showSeen();
     void keepSeen();
     bool paintsSeen() const;
+
+    // reading_corrections.cpp
+    void connectCorrections();
+    bool correctedAt(const OpenScan& scan, Point3 point);
+
+    // reading_files.cpp
+    void chooseMarkerFile(bool to_save);
+    void showMarkerInformation();
+    void connectFilm();
+    void film();
+
+    // reading_looks.cpp
+    void addLooks(QMenu* menu);
+    void setAngle(double angle_deg);
+    Studio::Wish wishFor(const OpenScan& scan, const NavigationState& at, const QSize& size, bool still) const;
 
     // reading_beside.cpp
     void connectBeside();
@@ -119,6 +140,7 @@ private:
     CaseSession session_;
     Studio studio_;
     SeenKeeper seen_keeper_;
+    Corrector corrector_;
     PictureView *endoscopic_, *overview_;
     SliceView *transverse_, *coronal_, *sagittal_;
     QWidget* side_ = nullptr;
@@ -127,8 +149,10 @@ private:
     NavigationPanel* navigation_;
     PeelingPanel* peeling_;
     CoveragePanel* coverage_;
+    ColonPanel* colon_;
+    FilmMaker* film_maker_ = nullptr;
     BesideView* beside_;
-    QAction* compare_ = nullptr;
+    QAction *compare_ = nullptr, *structure_ = nullptr;
     QComboBox *scan_choice_, *window_choice_;
     QLabel *warning_, *notice_, *seen_text_;
     QTimer timer_, still_, poll_, keep_seen_;
@@ -139,6 +163,7 @@ private:
     bool overview_shown_ = false;
     std::optional<Point3> focus_;  // what was clicked; else the place on the path
     std::optional<MarkerColor> armed_;
+    std::optional<Correction> correcting_;         // at the next click
     std::optional<Pixel> lens_at_;                 // where the mouse was last
     std::optional<std::string> moving_, pairing_;  // markers, by id: what they are may change meanwhile
     /// Two clicks that are being measured.
@@ -154,9 +179,12 @@ private:
     double came_from_mm_ = 0;
     std::optional<std::string> fly_to_when_open_;  // a marker
     std::optional<ViewPose> beside_place_;         // the partner of the marker that is shown; else what corresponds
+    std::optional<Point3> beside_focus_;           // that partner
+    bool fresh_ = false;                           // the scan was done again; its files are read anew
     Pose beside_pose_;
     Lens beside_lens_;
     double view_angle_deg_ = 90;
+    double lamp_reach_mm_ = kUsualLampReach_mm;
 };
 
 }  // namespace vicon::viewer

@@ -45,7 +45,8 @@ void Studio::draw(Which which, std::shared_ptr<OpenScan> scan, const Wish& wish)
     worker_.post(name, [this, which, scan = std::move(scan), wish]() -> Worker::Work {
         const SnapshotRequest& request = wish.request;
         auto picture = std::make_shared<Picture>(
-            picturesOf(scan).endoscopic(request, wish.place, wish.still, wish.paint_seen ? &scan->seen : nullptr));
+            picturesOf(scan).endoscopic(request, wish.place, wish.still,
+                                        {wish.paint_seen ? &scan->seen : nullptr, wish.structure, wish.lamp_reach_mm}));
         if (wish.count_seen)
             worker_.post(which == Which::leading ? "seen" : "seen beside",
                          [this, scan, always = wish.still]() -> Worker::Work {
@@ -67,6 +68,20 @@ void Studio::countSeen(const std::shared_ptr<OpenScan>& scan, bool always)
         some.pictures->countSeen(scan->seen);
         some.counted = now;
     }
+}
+
+void Studio::film(std::shared_ptr<OpenScan> scan, const Wish& wish, Heading heading, std::shared_ptr<Film> film,
+                  bool last)
+{
+    worker_.post("film", [this, scan = std::move(scan), wish, heading, film = std::move(film), last]() -> Worker::Work {
+        const ViewPose view = poseAtStation(scan->files.frames(), scan->lumen, wish.place.station_mm, heading);
+        const SnapshotResult place{view.pose, wish.place.station_mm, view.clearance_mm, true};
+        film->add(
+            picturesOf(scan).endoscopic(wish.request, place, false, {nullptr, wish.structure, wish.lamp_reach_mm}));
+        if (last)
+            film->finish();
+        return [this, film, last] { emit filmed(film, last); };
+    });
 }
 
 void Studio::drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place)

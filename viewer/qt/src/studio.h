@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "case_session.h"
+#include "vicon/viewer/scene/film.h"
 #include "vicon/viewer/scene/reading_pictures.h"
 #include "worker.h"
 
@@ -25,13 +26,19 @@ public:
         bool still = true;
         bool count_seen = true;   ///< it is shown to somebody; while moving, some pictures are counted
         bool paint_seen = false;  ///< what was seen in earlier passes
+        bool structure = false;   ///< cells coloured, gates drawn, what is drawn counted
+        double lamp_reach_mm = kUsualLampReach_mm;
     };
     void drawEndoscopic(std::shared_ptr<OpenScan> scan, const Wish& wish);
     /// The same of the other scan; besideDrawn() follows.
     void drawBeside(std::shared_ptr<OpenScan> scan, const Wish& wish);
     void drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place);
+    /// A picture of a film, looking along the path from the wish's station; filmed() follows.
+    /// @param last the film is finished with it
+    void film(std::shared_ptr<OpenScan> scan, const Wish& wish, Heading heading, std::shared_ptr<Film> film, bool last);
 
 signals:
+    void filmed(const std::shared_ptr<vicon::viewer::Film>& film, bool finished);
     void endoscopicDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::Pose& pose,
                          const vicon::viewer::Lens& lens);
     void besideDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::Pose& pose,

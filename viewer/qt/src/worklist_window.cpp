@@ -17,7 +17,7 @@ namespace vicon::viewer {
 namespace {
 
 constexpr int kRefresh_ms = 2000;
-enum Column { kPatient, kId, kDate, kScans, kState, kProgress, kMarkers, kReports, kColumns };
+enum Column { kPatient, kId, kDate, kScans, kState, kProgress, kQuality, kMarkers, kReports, kColumns };
 
 QString text(const std::string& utf8)
 {
@@ -38,6 +38,30 @@ QString scansOf(const WorklistRow& row)
         if (scan.state != "kept")
             names << text(positionName(scan.record.series.patient_position));
     return names.join(", ");
+}
+
+/// Enough to choose the next case by; the tooltip says it of each scan.
+QString qualityOf(const WorklistRow& row)
+{
+    QStringList poor;
+    bool known = false;
+    for (const WorklistScanRow& scan : row.scans) {
+        known = known || !scan.quality.empty();
+        if (!scan.quality.empty() && !scan.adequate)
+            poor << text(positionName(scan.record.series.patient_position));
+    }
+    if (!known)
+        return {};
+    return poor.empty() ? WorklistWindow::tr("adequate") : WorklistWindow::tr("poor: %1").arg(poor.join(", "));
+}
+
+QString qualityWords(const WorklistRow& row)
+{
+    QStringList lines;
+    for (const WorklistScanRow& scan : row.scans)
+        if (!scan.quality.empty())
+            lines << text(positionName(scan.record.series.patient_position) + ": " + scan.quality);
+    return lines.join("\n");
 }
 
 QString progressOf(const WorklistRow& row)
@@ -70,7 +94,7 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
     table_->setObjectName("cases");
     table_->setAccessibleName(tr("Cases"));
     table_->setHorizontalHeaderLabels({tr("Patient"), tr("ID"), tr("Study date"), tr("Scans"), tr("State"),
-                                       tr("Progress"), tr("Markers"), tr("Reports")});
+                                       tr("Progress"), tr("Quality"), tr("Markers"), tr("Reports")});
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -158,6 +182,7 @@ void WorklistWindow::show(const std::vector<WorklistRow>& rows)
                                 scansOf(row),
                                 text(row.state),
                                 progressOf(row),
+                                qualityOf(row),
                                 QString::number(row.markers),
                                 QString::number(row.reports)};
         for (int column = 0; column < kColumns; ++column) {
@@ -165,6 +190,7 @@ void WorklistWindow::show(const std::vector<WorklistRow>& rows)
                 table_->setItem(n, column, new QTableWidgetItem);
             table_->item(n, column)->setText(cells[column]);
         }
+        table_->item(n, kQuality)->setToolTip(qualityWords(row));
         if (row.record.id == chosen_id || (chosen_id.empty() && n == 0))
             table_->selectRow(n);
     }
@@ -204,7 +230,8 @@ void WorklistWindow::updateButtons()
     open_->setEnabled(row && readable(*row));
     report_->setEnabled(row && readable(*row));
     retry_->setEnabled(row && row->state == "failed");
-    reason_->setText(row ? text(row->reason) : QString());
+    const QString quality = row ? qualityWords(*row) : QString();
+    reason_->setText(row && !row->reason.empty() ? text(row->reason) : quality);
 }
 
 void WorklistWindow::open(const WorklistRow& row)

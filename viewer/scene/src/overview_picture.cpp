@@ -20,6 +20,13 @@ struct Extent {
     double size() const { return high - low; }
 };
 
+// In a window the projection is small, its words are not.
+double captionHeight(double text_px)
+{
+    constexpr double kLeast_px = 11;
+    return std::max(0.8 * text_px, kLeast_px);
+}
+
 // The whole surface with the caption's room above it and a margin for letters.
 PlaneView viewOfAll(const artefact::CellSurface& surface, int width, int height, double header_px, double margin_px)
 {
@@ -88,7 +95,8 @@ OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& r
 {
     const double text_px = textHeightFor(request.width, request.height);
     OverviewGround ground;
-    ground.header_px = double(captionLines(request.caption, 0, 0).size()) * 1.35 * 0.8 * text_px + 0.48 * text_px;
+    ground.header_px =
+        double(captionLines(request.caption, 0, 0).size()) * 1.35 * captionHeight(text_px) + 0.48 * text_px;
     ground.view = viewOfAll(scan.cells(), request.width, request.height, ground.header_px, 2.2 * text_px);
     scene.lookOnto(ground.view);
     ground.picture = offscreen.render(request.width, request.height, kSmooth);
@@ -99,7 +107,7 @@ Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, con
                      const SnapshotResult& place)
 {
     const PlaneView& view = ground.view;
-    const double text_px = textHeightFor(request.width, request.height);
+    const double text_px = std::max(textHeightFor(request.width, request.height), 12.0);
     const auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm());
     Picture picture = ground.picture;
     Overlay overlay;
@@ -111,7 +119,7 @@ Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, con
     addHere(overlay, view, place.pose, 0.8 * text_px);
     addLetters(overlay, area, view.right, view.down, text_px);
     addScaleBar(overlay, area, view.mm_per_pixel, text_px);
-    addLines(overlay, {0, 0, area.width * 0.47, ground.header_px}, lines, 0.8 * text_px);
+    addLines(overlay, {0, 0, area.width * 0.47, ground.header_px}, lines, captionHeight(text_px));
     paint(picture, overlay);
     return picture;
 }

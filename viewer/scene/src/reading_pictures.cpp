@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "pictures.h"
+#include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/scene/cell_visibility.h"
 #include "vicon/viewer/scene/seen_wall.h"
 
@@ -22,6 +23,8 @@ struct ReadingPictures::Parts {
         bool told = false;  ///< seen_wall has looked at it
     };
     std::optional<Shown> shown;
+    bool cells_colored = false;
+    double lamp_reach_mm = kUsualLampReach_mm;
     std::optional<SeenWall> seen_wall;  // made when it is first asked for
 
     SeenWall& seenWall()
@@ -34,24 +37,77 @@ struct ReadingPictures::Parts {
         return *seen_wall;
     }
 
+    void setLook(bool color_cells, double reach_mm)
+    {
+        if (cells_colored != color_cells)
+            scene.colorCells(color_cells);
+        if (lamp_reach_mm != reach_mm)
+            scene.setLampReach(reach_mm);
+        cells_colored = color_cells;
+        lamp_reach_mm = reach_mm;
+    }
+
     explicit Parts(const PreparedScan& of) : scan(of), visibility(of), scene(of.cells()), offscreen(scene.renderer()) {}
 };
+
+namespace {
+
+constexpr Rgb kGateColor{255, 235, 60};
+
+std::string drawnText(const SurfaceScene& scene)
+{
+    return std::to_string(scene.cellsShown()) + " of " + std::to_string(scene.cellCount()) + " cells, " +
+           std::to_string(scene.trianglesShown()) + " of " + std::to_string(scene.triangleCount()) + " triangles drawn";
+}
+
+/// The rectangles through which each cell may be seen, and the figures.
+Overlay structureOverlay(const CellVisibility& visibility, const SurfaceScene& scene, const Pose& pose,
+                         const Lens& lens)
+{
+    Overlay overlay;
+    const auto at = [&](double x, double y) {
+        return Pixel{lens.width / 2.0 + x * lens.focal_px(), lens.height / 2.0 - y * lens.focal_px()};
+    };
+    if (const int start = visibility.segmentAt(pose.eye_mm); start > 0)
+        for (const SeenSegment& seen : visibility.visibility().seenFrom(pose, lens, start))
+            for (const ViewRectangle& r : seen.through)
+                if (seen.segment != start && !r.empty())
+                    overlay.lines.push_back({{at(r.left, r.top), at(r.right, r.top), at(r.right, r.bottom),
+                                              at(r.left, r.bottom), at(r.left, r.top)},
+                                             kGateColor,
+                                             1.5,
+                                             0});
+    const double text_px = 0.8 * textHeightFor(lens.width, lens.height);
+    overlay.texts.push_back({{lens.width - text_px, lens.height - text_px},
+                             drawnText(scene),
+                             text_px,
+                             kGateColor,
+                             Across::right,
+                             Along::bottom,
+                             lens.width * 0.6});
+    return overlay;
+}
+
+}  // namespace
 
 ReadingPictures::ReadingPictures(const PreparedScan& scan) : parts_(std::make_unique<Parts>(scan)) {}
 ReadingPictures::~ReadingPictures() = default;
 
 Picture ReadingPictures::endoscopic(const SnapshotRequest& request, const SnapshotResult& place, bool still,
-                                    const SeenSoFar* earlier)
+                                    const EndoscopicLook& look)
 {
     Parts& p = *parts_;
     const Lens lens{request.view_angle_deg, request.width, request.height};
     p.shown = Parts::Shown{p.visibility.seenFrom(place.pose, lens), place.pose, lens};
+    p.setLook(look.structure, look.lamp_reach_mm);
     p.scene.showSeen(p.shown->parts);
     p.scene.lookFrom(place.pose, request.view_angle_deg);
     Picture picture = p.offscreen.render(request.width, request.height, still ? 2 : 1);
-    if (earlier)
-        p.seenWall().tint(picture, earlier->earlier());
+    if (look.earlier)
+        p.seenWall().tint(picture, look.earlier->earlier());
     finishEndoscopic(picture, p.scan, request, place);
+    if (look.structure)
+        paint(picture, structureOverlay(p.visibility, p.scene, place.pose, lens));
     if (!request.peel.empty())
         p.shown.reset();
     return picture;
@@ -67,6 +123,7 @@ ReadingPictures::Overview ReadingPictures::overview(const SnapshotRequest& reque
 {
     Parts& p = *parts_;
     if (p.ground.picture.width != request.width || p.ground.picture.height != request.height) {
+        p.setLook(false, p.lamp_reach_mm);
         p.scene.showSeen({});
         p.ground = overviewGround(p.scan, request, p.scene, p.offscreen);
     }

@@ -17,8 +17,9 @@ struct ScanEntry {
     std::string verdict;                                ///< of the segmentation: "colon", ...; empty: not prepared
     std::string reason;                                 ///< why this verdict and confidence; may be empty
     double confidence = 0;                              ///< 0 to 1
-    nlohmann::json bridges = nlohmann::json::array();   ///< [{"length_mm", "confidence", "certain", "reason", ..}]
-    std::filesystem::path overview_picture;             ///< PNG; empty: none was made
+    nlohmann::json bridges =
+        nlohmann::json::array();             ///< [{"length_mm", "confidence", "certain", "reason", "review", ..}]
+    std::filesystem::path overview_picture;  ///< PNG; empty: none was made
 };
 
 /// A marker, with the names and pictures that its entry shows.

@@ -17,6 +17,8 @@ public:
 
     /// Saves a new marker (its id is given by the store).
     Marker add(CaseStore& store, const Marker& marker);
+    /// Several changes as one step.
+    void changeAll(CaseStore& store, const std::vector<MarkerEdit>& edits) { take(store, edits); }
     /// @param before the marker as the reader saw it
     Marker change(CaseStore& store, const Marker& before, const Marker& after);
     /// Takes the pair entry off the marker that it was paired with, too.

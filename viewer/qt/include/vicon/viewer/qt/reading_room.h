@@ -21,6 +21,8 @@ struct WorklistScanRow {
     double progress = 0;
     std::string reason;  ///< why it failed, or the pipeline's verdict
     std::filesystem::path folder;
+    std::string quality;  ///< how well it can be read, in a few words; empty where it is not known
+    bool adequate = true;
 };
 
 /// A line of the worklist.
@@ -34,6 +36,19 @@ struct WorklistRow {
     std::vector<WorklistScanRow> scans;
 };
 
+/// What a person says about the lumen at a point: it belongs to the colon; it is cut here; the piece here does not
+/// belong to the colon.
+enum class Correction { add, cut, drop };
+
+/// A gap between two pieces of lumen that the pipeline joined.
+struct BridgeRow {
+    Point3 from_mm, to_mm;
+    double length_mm = 0, confidence = 0;
+    bool certain = true;
+    std::string reason;
+    std::string verdict, by, at;  ///< "confirmed" or "rejected", who and when; empty: nobody has judged it
+};
+
 /// What the reading room needs from rooms it does not know; `app` gives it. Each is called on a thread other than the
 /// window's, with that thread's connection to the store.
 struct ReadingServices {
@@ -45,6 +60,17 @@ struct ReadingServices {
     std::function<Marker(CaseStore&, const std::string& case_id, Marker)> place;
     /// Writes a report and returns its file.
     std::function<std::filesystem::path(CaseStore&, const std::string& case_id)> report;
+    /// Keeps a correction of a scan and queues what has to be done again.
+    std::function<void(CaseStore&, const ScanRecord&, Correction, Point3)> correct;
+    /// Forgets a scan's corrections, and queues what has to be done again.
+    std::function<void(CaseStore&, const ScanRecord&)> forget_corrections;
+    std::function<std::vector<BridgeRow>(CaseStore&, const ScanRecord&)> bridges;
+    std::function<void(CaseStore&, const ScanRecord&, const BridgeRow&, bool confirmed)> review_bridge;
+    /// Runs the queue until it is empty or `stop` is set: what was under way then waits in the queue.
+    std::function<void(CaseStore&, const std::atomic<bool>& stop)> work;
+    /// The change that adds the markers of a file, placed.
+    std::function<std::vector<MarkerEdit>(CaseStore&, const std::string& case_id, const std::filesystem::path&)>
+        import_markers;
 };
 
 /// The worklist's window; it opens cases in windows of their own. `case_id` not empty: opens that case at once.

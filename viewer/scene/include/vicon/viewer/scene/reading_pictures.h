@@ -23,6 +23,16 @@ struct SliceRequest {
 /// Needs no display.
 Picture slicePicture(const PreparedScan& scan, const SliceRequest& request);
 
+/// How far the lamp at the eye reaches unless asked otherwise: where it has lost half of its strength.
+constexpr double kUsualLampReach_mm = 45;
+
+/// What an endoscopic picture shows beside the wall.
+struct EndoscopicLook {
+    const SeenSoFar* earlier = nullptr;  ///< the wall that was seen in earlier passes is tinted; nothing: none is
+    bool structure = false;              ///< cells in colours of their own, the gates, and how much is drawn
+    double lamp_reach_mm = kUsualLampReach_mm;
+};
+
 /// The pictures of a scan that need OpenGL, one after the other from the same scene. To be made, used and destroyed on
 /// one thread.
 class ReadingPictures {
@@ -33,9 +43,8 @@ public:
 
     /// The endoscopic view from `place`, only cells that may be seen drawn; the request's width and height must be set.
     /// @param still smoothed; while the eye moves: not
-    /// @param earlier the wall that was seen in earlier passes is tinted; nothing: none is
     Picture endoscopic(const SnapshotRequest& request, const SnapshotResult& place, bool still,
-                       const SeenSoFar* earlier = nullptr);
+                       const EndoscopicLook& look = {});
     /// Counts what the last endoscopic picture shows as seen. Not where it was peeled: the wall is not in it.
     void countSeen(SeenSoFar& seen);
 

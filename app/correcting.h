@@ -1,0 +1,24 @@
+#pragma once
+
+#include "vicon/core/case_store.h"
+#include "vicon/core/options.h"
+#include "vicon/pipeline/corrections.h"
+
+namespace vicon::app {
+
+/// Adds what a person says about one scan to what was said before, and puts its job back where it failed. What is
+/// out of date then is queued by requeueOutdated(); steps that do not depend on it are kept.
+/// @param forget what was said before
+/// Throws Error{wrong_use} for a point outside the scan.
+void correctScan(CaseStore& store, const Config& config, const ScanRecord& scan, const pipeline::Corrections& more,
+                 bool forget = false);
+
+/// The bridges of a scan as scan.json has them, from the rectum; those that a person has judged carry
+/// {"review": {"verdict": "confirmed|rejected", "by", "at"}}.
+nlohmann::json reviewedBridges(CaseStore& store, const ScanRecord& scan);
+
+/// Keeps what a person says of a bridge, with who and when, as `bridge_reviews.json` in the scan's folder. A bridge is
+/// known by its two ends. Throws Error{not_found} when the scan has no such bridge.
+void reviewBridge(CaseStore& store, const ScanRecord& scan, Point3 from, Point3 to, bool confirmed);
+
+}  // namespace vicon::app

@@ -1,0 +1,229 @@
+// How long the reading room takes to open a prepared case, and how long it blocks its window's thread.
+//   vicon_reading_bench STORE CASE
+// Opens the case from the worklist, flies, jumps, scrolls, paints what was seen, lists what was not, and closes. Every
+// event of the window's thread is timed: a call that takes longer is felt as a jerk. Notes are made in a copy of the
+// reader's settings; the store gets the list of what was seen, nothing else.
+#include <QApplication>
+#include <QLabel>
+#include <QMainWindow>
+#include <QPushButton>
+#include <QTabWidget>
+#include <QTableWidget>
+#include <QTemporaryDir>
+#include <QtTest/QTest>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <vector>
+
+#include "picture_view.h"
+#include "vicon/core/error.h"
+#include "vicon/viewer/qt/reading_room.h"
+#include "vicon/viewer/scene/display.h"
+
+using namespace vicon;
+using namespace vicon::viewer;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr double kFelt_ms = 50;
+constexpr int kPatience_ms = 60000;
+
+double millisecondsSince(Clock::time_point begin)
+{
+    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+/// Times every event that reaches the window's thread.
+class TimedApplication : public QApplication {
+public:
+    using QApplication::QApplication;
+
+    bool notify(QObject* to, QEvent* event) override
+    {
+        if (++depth_ > 1) {  // within an event that is timed already
+            const bool done = QApplication::notify(to, event);
+            --depth_;
+            return done;
+        }
+        const std::string what = std::string(to->metaObject()->className()) + " " + to->objectName().toStdString() +
+                                 ", event " + std::to_string(int(event->type()));
+        const auto begin = Clock::now();
+        const bool done = QApplication::notify(to, event);
+        const double ms = millisecondsSince(begin);
+        depth_ = 0;
+        durations_.push_back(ms);
+        double& longest = longest_[what];
+        longest = std::max(longest, ms);
+        return done;
+    }
+
+    /// Forgets what was measured so far.
+    void begin()
+    {
+        durations_.clear();
+        longest_.clear();
+    }
+
+    void print(const char* stage)
+    {
+        std::sort(durations_.begin(), durations_.end());
+        const auto at = [&](double part) {
+            return durations_.empty() ? 0 : durations_[std::size_t(part * double(durations_.size() - 1))];
+        };
+        const auto felt = durations_.end() - std::upper_bound(durations_.begin(), durations_.end(), kFelt_ms);
+        std::printf("| %s | %zu | %.1f | %.1f | %td |\n", stage, durations_.size(), at(0.99), at(1), felt);
+        for (const auto& [what, ms] : longest_)
+            if (ms > kFelt_ms)
+                std::fprintf(stderr, "  %s: %.0f ms: %s\n", stage, ms, what.c_str());
+        begin();
+    }
+
+private:
+    int depth_ = 0;
+    std::vector<double> durations_;
+    std::map<std::string, double> longest_;
+};
+
+ReadingServices servicesFor(const std::filesystem::path& folder)
+{
+    ReadingServices services;
+    services.store = folder;
+    services.worklist = [](CaseStore& store) {
+        std::vector<WorklistRow> rows;
+        for (const CaseRecord& record : store.cases()) {
+            WorklistRow row{record, "done", "", 1, 0, 0, {}};
+            for (const ScanRecord& scan : store.scans(record.id))
+                if (scan.role == "scan")
+                    row.scans.push_back({scan, "done", "", 1, "", store.scanFolder(record.id, scan.id), {}});
+            rows.push_back(row);
+        }
+        return rows;
+    };
+    services.bridges = [](CaseStore&, const ScanRecord&) { return std::vector<BridgeRow>(); };
+    return services;
+}
+
+QMainWindow* window()
+{
+    for (QWidget* widget : QApplication::topLevelWidgets())
+        if (widget->objectName() == "reading")
+            return qobject_cast<QMainWindow*>(widget);
+    return nullptr;
+}
+
+template <class T>
+T* the(const char* name)
+{
+    T* found = window() ? window()->findChild<T*>(name) : nullptr;
+    if (!found)
+        throw Error(ErrorCode::internal, "the window has no such part", name);
+    return found;
+}
+
+template <class Condition>
+void await(const char* what, Condition condition)
+{
+    if (!QTest::qWaitFor(condition, kPatience_ms))
+        throw Error(ErrorCode::internal, "did not happen", what);
+}
+
+bool shows(const char* view)
+{
+    return window() && !the<PictureView>(view)->image().isNull();
+}
+
+void press(const char* button)
+{
+    QTest::mouseClick(the<QPushButton>(button), Qt::LeftButton);
+}
+
+void open(TimedApplication& application, QWidget& room)
+{
+    application.begin();
+    const auto begin = Clock::now();
+    QTest::mouseClick(room.findChild<QPushButton*>("open"), Qt::LeftButton);
+    await("a first picture", [] { return shows("endoscopic"); });
+    const double first_s = millisecondsSince(begin) / 1000;
+    await("all pictures",
+          [] { return shows("overview") && shows("transverse") && shows("coronal") && shows("sagittal"); });
+    const qint64 shown = the<PictureView>("endoscopic")->image().cacheKey();
+    press("stepOn");
+    await("an answer", [&] { return the<PictureView>("endoscopic")->image().cacheKey() != shown; });
+    std::printf("first picture after %.2f s, all usable after %.2f s\n\n", first_s, millisecondsSince(begin) / 1000);
+    std::printf("| stage | events | 99 %% ms | longest ms | over %.0f ms |\n|---|---|---|---|---|\n", kFelt_ms);
+    application.print("opening");
+}
+
+void use(TimedApplication& application)
+{
+    constexpr int kFlight_ms = 8000, kRest_ms = 1500;
+    press("forward");
+    QTest::qWait(kFlight_ms);
+    press("stop");
+    QTest::qWait(kRest_ms);
+    application.print("flight, 8 s");
+    for (const int part : {3, 5, 7, 2}) {
+        auto* overview = the<QWidget>("overview");
+        QTest::mouseClick(overview, Qt::LeftButton, {}, {overview->width() * part / 10, overview->height() / 2});
+        QTest::qWait(kRest_ms);
+    }
+    QTest::mouseClick(the<QWidget>("coronal"), Qt::LeftButton, {}, the<QWidget>("coronal")->rect().center());
+    QTest::qWait(kRest_ms);
+    application.print("jumps and clicks");
+    QTest::keyClick(window(), Qt::Key_V);
+    QTest::keyClick(window(), Qt::Key_R);
+    QTest::qWait(kRest_ms);
+    auto* lists = the<QTabWidget>("lists");
+    QTest::mouseClick(lists->tabBar(), Qt::LeftButton, {}, lists->tabBar()->tabRect(1).center());
+    await("unseen patches", [] { return the<QTableWidget>("unseen")->rowCount() > 0; });
+    application.print("what was seen");
+    std::printf("\n%s\n", the<QLabel>("seen")->text().toUtf8().constData());
+}
+
+void close(TimedApplication& application)
+{
+    application.begin();
+    window()->close();
+    await("the end", [] { return window() == nullptr; });
+    application.print("closing");
+}
+
+int run(int argc, char** argv)
+{
+    if (argc != 3)
+        throw Error(ErrorCode::wrong_use, "wants a store and a case");
+    const Display display;
+    const QTemporaryDir settings;
+    qputenv("XDG_CONFIG_HOME", settings.path().toUtf8());
+    qputenv("QT_XCB_GL_INTEGRATION", "none");
+    TimedApplication application(argc, argv);
+    QCoreApplication::setOrganizationName("vicon");
+    const auto room = makeReadingRoom(servicesFor(argv[1]));
+    room->show();
+    auto* cases = room->findChild<QTableWidget*>("cases");
+    await("a worklist", [&] { return cases->rowCount() > 0; });
+    CaseStore store(argv[1]);
+    const std::string patient = store.requireCase(argv[2]).patient.id;
+    for (int row = 0; row < cases->rowCount(); ++row)
+        if (cases->item(row, 1)->text().toStdString() == patient)
+            cases->selectRow(row);
+    open(application, *room);
+    use(application);
+    close(application);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "%s\n", e.what());
+        return 1;
+    }
+}

@@ -1,0 +1,130 @@
+#include "colon_panel.h"
+
+#include <QGridLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QTableWidget>
+
+namespace vicon::viewer {
+namespace {
+enum Column { kStation, kLength, kConfidence, kVerdict, kColumns };
+}
+
+QPushButton* ColonPanel::button(const QString& title, const char* name, const QString& tip)
+{
+    auto* made = new QPushButton(title, this);
+    made->setObjectName(name);
+    made->setAccessibleName(title);
+    made->setToolTip(tip);
+    return made;
+}
+
+ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
+{
+    table_ = new QTableWidget(0, kColumns, this);
+    table_->setObjectName("bridges");
+    table_->setAccessibleName(tr("Bridges over collapsed parts"));
+    table_->setToolTip(tr("Where the pipeline joined two pieces of lumen. Click: fly there."));
+    table_->setHorizontalHeaderLabels({tr("mm"), tr("Bridge"), tr("Sure"), tr("Judged")});
+    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+    table_->setSelectionMode(QAbstractItemView::SingleSelection);
+    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    table_->verticalHeader()->hide();
+    table_->horizontalHeader()->setStretchLastSection(true);
+    confirm_ = button(tr("Confirm"), "confirmBridge", tr("The two pieces belong together"));
+    reject_ = button(tr("Reject"), "rejectBridge", tr("They do not; kept with your name and printed in the report"));
+    auto* add = button(tr("Add ..."), "correctAdd", tr("Then click on gas or fluid that belongs to the colon"));
+    auto* cut =
+        button(tr("Cut ..."), "correctCut", tr("Then click where the lumen is cut; the smaller part is dropped"));
+    auto* drop = button(tr("Drop ..."), "correctDrop", tr("Then click on a piece that is not colon"));
+    auto* forget = button(tr("Forget"), "forgetCorrections", tr("Take back all corrections of this scan"));
+    stop_ = button(tr("Stop"), "stopRedo", tr("Stop the work; the job waits in the queue"));
+    state_ = new QLabel(this);
+    state_->setObjectName("redoState");
+    bar_ = new QProgressBar(this);
+    bar_->setObjectName("redo");
+    bar_->setAccessibleName(tr("Progress of the scan that is done again"));
+
+    auto* grid = new QGridLayout(this);
+    grid->setContentsMargins(2, 2, 2, 2);
+    grid->addWidget(table_, 0, 0, 1, 6);
+    grid->addWidget(confirm_, 1, 0);
+    grid->addWidget(reject_, 1, 1);
+    grid->addWidget(add, 1, 2);
+    grid->addWidget(cut, 1, 3);
+    grid->addWidget(drop, 1, 4);
+    grid->addWidget(forget, 1, 5);
+    grid->addWidget(state_, 2, 0, 1, 2);
+    grid->addWidget(bar_, 2, 2, 1, 3);
+    grid->addWidget(stop_, 2, 5);
+    connect(table_, &QTableWidget::itemSelectionChanged, this, &ColonPanel::updateButtons);
+    connect(table_, &QTableWidget::cellClicked, this, [this](int row, int) {
+        const BridgeRow& bridge = bridges_[std::size_t(row)];
+        emit flyWanted(bridge.from_mm, stations_mm_[std::size_t(row)]);
+    });
+    for (QPushButton* verdict : {confirm_, reject_})
+        connect(verdict, &QPushButton::clicked, this, [this, verdict] {
+            if (const auto bridge = selected())
+                emit reviewed(*bridge, verdict == confirm_);
+        });
+    connect(add, &QPushButton::clicked, this, [this] { emit correctionWanted(Correction::add); });
+    connect(cut, &QPushButton::clicked, this, [this] { emit correctionWanted(Correction::cut); });
+    connect(drop, &QPushButton::clicked, this, [this] { emit correctionWanted(Correction::drop); });
+    connect(forget, &QPushButton::clicked, this, &ColonPanel::forgetWanted);
+    connect(stop_, &QPushButton::clicked, this, &ColonPanel::stopWanted);
+    showProgress({}, -1);
+    updateButtons();
+}
+
+void ColonPanel::show(const std::vector<BridgeRow>& bridges, const Skeleton& skeleton)
+{
+    bridges_ = bridges;
+    stations_mm_.clear();
+    table_->setRowCount(int(bridges.size()));
+    for (int row = 0; row < int(bridges.size()); ++row) {
+        const BridgeRow& bridge = bridges[std::size_t(row)];
+        stations_mm_.push_back(skeleton.nearest(bridge.from_mm).station_mm);
+        const QString judged = bridge.verdict.empty() ? tr("no")
+                                                      : tr("%1, %2").arg(QString::fromStdString(bridge.verdict),
+                                                                         QString::fromStdString(bridge.by));
+        const QStringList cells{QString::number(stations_mm_.back(), 'f', 0),
+                                tr("%1 mm").arg(bridge.length_mm, 0, 'f', 0),
+                                tr("%1 %").arg(100 * bridge.confidence, 0, 'f', 0), judged};
+        for (int column = 0; column < kColumns; ++column) {
+            auto* item = new QTableWidgetItem(cells[column]);
+            item->setToolTip(
+                QString::fromStdString(bridge.reason + (bridge.at.empty() ? "" : "; judged " + bridge.at)));
+            if (!bridge.certain && column == kConfidence)
+                item->setForeground(QColor(255, 154, 74));
+            table_->setItem(row, column, item);
+        }
+    }
+    table_->resizeColumnsToContents();
+    updateButtons();
+}
+
+void ColonPanel::showProgress(const QString& what, double fraction)
+{
+    state_->setText(what);
+    bar_->setVisible(fraction >= 0);
+    stop_->setVisible(fraction >= 0);
+    bar_->setValue(int(100 * fraction));
+}
+
+std::optional<BridgeRow> ColonPanel::selected() const
+{
+    const auto rows = table_->selectionModel()->selectedRows();
+    if (rows.empty() || rows.front().row() >= int(bridges_.size()))
+        return std::nullopt;
+    return bridges_[std::size_t(rows.front().row())];
+}
+
+void ColonPanel::updateButtons()
+{
+    confirm_->setEnabled(selected().has_value());
+    reject_->setEnabled(selected().has_value());
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,122 @@
+#include "corrector.h"
+
+#include <algorithm>
+
+namespace vicon::viewer {
+namespace {
+constexpr int kWatch_ms = 500;
+}
+
+Corrector::Corrector(const ReadingServices& services, const std::string& case_id)
+    : services_(services), case_id_(case_id)
+{
+    connect(&worker_, &Worker::failed, this, &Corrector::failed);
+    connect(&pipeline_, &Worker::failed, this, &Corrector::failed);
+    watch_.setInterval(kWatch_ms);
+    connect(&watch_, &QTimer::timeout, this, &Corrector::look);
+}
+
+Corrector::~Corrector()
+{
+    *stop_ = true;
+}
+
+CaseStore& Corrector::store()
+{
+    if (!store_)
+        store_ = std::make_unique<CaseStore>(services_.store);
+    return *store_;
+}
+
+void Corrector::redo(const ScanRecord& scan, const QString& said, Change change)
+{
+    worker_.postAlways([this, id = scan.id, said, change = std::move(change)]() -> Worker::Work {
+        change(store());
+        return [this, id, said] {
+            emit told(said);
+            watched_ = id;
+            watch_.start();
+            emit progressed(tr("waiting"), 0);
+            *stop_ = false;
+            pipeline_.post("work", [services = services_, stop = stop_]() -> Worker::Work {
+                CaseStore own(services.store);
+                services.work(own, *stop);
+                return {};
+            });
+        };
+    });
+}
+
+void Corrector::correct(const ScanRecord& scan, Correction kind, Point3 point)
+{
+    redo(scan, tr("Correction saved; the scan is done again."),
+         [services = services_, scan, kind, point](CaseStore& store) { services.correct(store, scan, kind, point); });
+}
+
+void Corrector::forget(const ScanRecord& scan)
+{
+    redo(scan, tr("Corrections forgotten; the scan is done again."),
+         [services = services_, scan](CaseStore& store) { services.forget_corrections(store, scan); });
+}
+
+void Corrector::findBridges(const ScanRecord& scan)
+{
+    worker_.post("bridges", [this, scan]() -> Worker::Work {
+        return [this, bridges = services_.bridges(store(), scan), id = QString::fromStdString(scan.id)] {
+            emit bridgesFound(bridges, id);
+        };
+    });
+}
+
+void Corrector::review(const ScanRecord& scan, const BridgeRow& bridge, bool confirmed)
+{
+    worker_.postAlways([this, scan, bridge, confirmed]() -> Worker::Work {
+        services_.review_bridge(store(), scan, bridge, confirmed);
+        return [this, scan, confirmed] {
+            emit told(confirmed ? tr("Bridge confirmed; the report says so.")
+                                : tr("Bridge rejected; the report says so. Cut beside it to keep the parts asunder."));
+            findBridges(scan);
+        };
+    });
+}
+
+void Corrector::stop()
+{
+    *stop_ = true;
+}
+
+void Corrector::look()
+{
+    worker_.post("look", [this]() -> Worker::Work {
+        return [this, rows = services_.worklist(store())] {
+            for (const WorklistRow& row : rows)
+                for (const WorklistScanRow& scan : row.scans)
+                    if (row.record.id == case_id_ && scan.record.id == watched_)
+                        show(scan);
+        };
+    });
+}
+
+void Corrector::show(const WorklistScanRow& row)
+{
+    if (!watch_.isActive())
+        return;
+    if (row.state == "running") {
+        emit progressed(QString::fromStdString(row.step), row.progress);
+    } else if (row.state == "queued") {
+        emit progressed(tr("waiting"), row.progress);
+        if (*stop_) {
+            watch_.stop();
+            emit progressed(tr("stopped; 'vicon work' or the next correction goes on"), -1);
+        }
+    } else {
+        watch_.stop();
+        emit progressed({}, -1);
+        if (row.state == "done" && row.reason.empty())
+            emit redone(QString::fromStdString(row.record.id));
+        else
+            emit failed(tr("The corrected scan cannot be read: %1").arg(QString::fromStdString(row.reason)));
+    }
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+#include <atomic>
+#include <memory>
+
+#include "vicon/viewer/qt/reading_room.h"
+#include "worker.h"
+
+namespace vicon::viewer {
+
+/// Corrections of a case's scans and what the pipeline makes of them, away from the window's thread.
+class Corrector : public QObject {
+    Q_OBJECT
+public:
+    Corrector(const ReadingServices& services, const std::string& case_id);
+    ~Corrector() override;  ///< what runs is stopped; its job waits in the queue
+
+    /// The scan is done again; progressed() and redone() follow.
+    void correct(const ScanRecord& scan, Correction kind, Point3 point);
+    void forget(const ScanRecord& scan);
+    /// bridgesFound() follows.
+    void findBridges(const ScanRecord& scan);
+    void review(const ScanRecord& scan, const BridgeRow& bridge, bool confirmed);
+    /// What runs is stopped; its job waits in the queue.
+    void stop();
+
+signals:
+    void bridgesFound(const std::vector<vicon::viewer::BridgeRow>& bridges, const QString& scan_id);
+    /// @param fraction 0 to 1; below 0: nothing is under way
+    void progressed(const QString& what, double fraction);
+    void redone(const QString& scan_id);
+    void told(const QString& message);
+    void failed(const QString& message);
+
+private:
+    using Change = std::function<void(CaseStore&)>;
+    void redo(const ScanRecord& scan, const QString& said, Change change);
+    void look();
+    void show(const WorklistScanRow& row);
+    CaseStore& store();  // on the worker's thread
+
+    ReadingServices services_;
+    std::string case_id_;
+    std::string watched_;  // the scan that is done again
+    std::shared_ptr<std::atomic<bool>> stop_ = std::make_shared<std::atomic<bool>>(false);
+    QTimer watch_;
+    std::unique_ptr<CaseStore> store_;  // the worker's
+    Worker worker_;
+    Worker pipeline_;
+};
+
+}  // namespace vicon::viewer

@@ -1,0 +1,61 @@
+#include "colon_panel.h"
+#include "corrector.h"
+#include "reading_window.h"
+
+namespace vicon::viewer {
+
+void ReadingWindow::connectCorrections()
+{
+    connect(&corrector_, &Corrector::told, this, &ReadingWindow::tell);
+    connect(&corrector_, &Corrector::failed, this, &ReadingWindow::warn);
+    connect(&corrector_, &Corrector::progressed, colon_, &ColonPanel::showProgress);
+    connect(&corrector_, &Corrector::bridgesFound, this,
+            [this](const std::vector<BridgeRow>& bridges, const QString& scan_id) {
+                if (session_.scan() && session_.scan()->record.id == scan_id.toStdString())
+                    colon_->show(bridges, session_.scan()->files.skeleton());
+            });
+    connect(&corrector_, &Corrector::redone, this, [this](const QString& scan_id) {
+        if (!session_.scan() || session_.scan()->record.id != scan_id.toStdString())
+            return;
+        fresh_ = true;
+        changeScan(scan_id.toStdString());
+    });
+    connect(colon_, &ColonPanel::stopWanted, &corrector_, &Corrector::stop);
+    connect(colon_, &ColonPanel::correctionWanted, this, [this](Correction kind) {
+        arm({});
+        correcting_ = kind;
+        setPickCursor(true);
+        tell(kind == Correction::add   ? tr("Click on the gas or fluid that belongs to the colon, in a slice")
+             : kind == Correction::cut ? tr("Click where the lumen is cut; the smaller part is dropped")
+                                       : tr("Click on the piece that does not belong to the colon"));
+    });
+    connect(colon_, &ColonPanel::forgetWanted, this, [this] {
+        if (session_.scan())
+            corrector_.forget(session_.scan()->record);
+    });
+    connect(colon_, &ColonPanel::reviewed, this, [this](const BridgeRow& bridge, bool confirmed) {
+        if (session_.scan())
+            corrector_.review(session_.scan()->record, bridge, confirmed);
+    });
+    connect(colon_, &ColonPanel::flyWanted, this, [this](Point3 point, double station_mm) {
+        if (!navigator())
+            return;
+        beginPass();
+        navigator()->jumpTo(station_mm);
+        focus_ = point;
+        moved(true);
+    });
+}
+
+bool ReadingWindow::correctedAt(const OpenScan& scan, Point3 point)
+{
+    if (!correcting_)
+        return false;
+    const Correction kind = *correcting_;
+    correcting_.reset();
+    setPickCursor(false);
+    corrector_.correct(scan.record, kind, point);
+    return true;
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,138 @@
+#include <QFileDialog>
+#include <QMessageBox>
+#include <QStatusBar>
+
+#include "film_maker.h"
+#include "reading_window.h"
+
+namespace vicon::viewer {
+namespace {
+
+QString row(const QString& name, const QString& value)
+{
+    if (value.isEmpty())
+        return {};
+    return QString("<tr><td><b>%1</b>&nbsp;&nbsp;</td><td>%2</td></tr>")
+        .arg(name.toHtmlEscaped(), value.toHtmlEscaped());
+}
+
+QString mm(double value)
+{
+    return QString::number(value, 'f', 1) + " mm";
+}
+
+QString words(const std::string& utf8)
+{
+    return QString::fromStdString(utf8);
+}
+
+QString textAt(const nlohmann::json& json, const char* key)
+{
+    const auto value = json.find(key);
+    return value != json.end() && value->is_string() ? words(value->get<std::string>()) : QString();
+}
+
+double numberAt(const nlohmann::json& json, const char* key)
+{
+    const auto value = json.find(key);
+    return value != json.end() && value->is_number() ? value->get<double>() : 0;
+}
+
+QString sizeWords(const Marker& marker)
+{
+    const auto size = marker.extra.find("size");
+    if (size == marker.extra.end() || !size->is_object() || numberAt(*size, "straight_mm") <= 0)
+        return {};
+    const double along = numberAt(*size, "along_mm");
+    const QString straight = QObject::tr("%1 straight").arg(mm(numberAt(*size, "straight_mm")));
+    return along > 0 ? QObject::tr("%1, %2 along the wall").arg(straight, mm(along)) : straight;
+}
+
+QString informationOf(const Marker& marker, const QString& scan)
+{
+    const Point3 p = marker.position_mm;
+    return "<table>" + row(QObject::tr("Marker"), words(marker.id + ", " + nameOf(marker.color))) +
+           row(QObject::tr("Scan"), scan) + row(QObject::tr("Part"), textAt(marker.extra, "part")) +
+           row(QObject::tr("From the rectum"), mm(marker.station_mm)) +
+           row(QObject::tr("From the caecum"), mm(marker.from_caecum_mm)) +
+           row(QObject::tr("LPS"),
+               QObject::tr("%1, %2, %3 mm").arg(p.x, 0, 'f', 1).arg(p.y, 0, 'f', 1).arg(p.z, 0, 'f', 1)) +
+           row(QObject::tr("Size"), sizeWords(marker)) + row(QObject::tr("Same finding"), words(pairOf(marker))) +
+           row(QObject::tr("Note"), words(marker.note)) + row(QObject::tr("Placed"), words(marker.created)) +
+           row(QObject::tr("Changed"), words(marker.changed)) + "</table>";
+}
+
+}  // namespace
+
+void ReadingWindow::chooseMarkerFile(bool to_save)
+{
+    auto* dialog = new QFileDialog(this, to_save ? tr("Save markers") : tr("Load markers"));
+    dialog->setObjectName(to_save ? "saveMarkers" : "loadMarkers");
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setOption(QFileDialog::DontUseNativeDialog);
+    dialog->setAcceptMode(to_save ? QFileDialog::AcceptSave : QFileDialog::AcceptOpen);
+    dialog->setFileMode(to_save ? QFileDialog::AnyFile : QFileDialog::ExistingFile);
+    dialog->setNameFilter(tr("Markers (*.json)"));
+    dialog->setDefaultSuffix("json");
+    connect(dialog, &QFileDialog::fileSelected, this, [this, to_save](const QString& file) {
+        if (to_save)
+            session_.saveMarkers(file.toStdString());
+        else
+            session_.loadMarkers(file.toStdString());
+    });
+    dialog->open();
+}
+
+void ReadingWindow::showMarkerInformation()
+{
+    const auto marker = table_->selected();
+    if (!marker) {
+        tell(tr("Choose a marker in the list first"));
+        return;
+    }
+    QString scan = words(marker->scan_id);
+    for (const ScanRecord& record : session_.scans())
+        if (record.id == marker->scan_id)
+            scan = words(positionName(record.series.patient_position));
+    auto* box = new QMessageBox(QMessageBox::NoIcon, tr("Marker information"), informationOf(*marker, scan),
+                                QMessageBox::Close, this);
+    box->setObjectName("markerInformation");
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->open();
+}
+
+void ReadingWindow::connectFilm()
+{
+    film_maker_ = new FilmMaker(studio_, this);
+    statusBar()->addPermanentWidget(film_maker_);
+    film_maker_->hide();
+    connect(film_maker_, &FilmMaker::finished, this,
+            [this](const QString& file) { tell(tr("Film saved: %1").arg(file)); });
+    connect(film_maker_, &FilmMaker::cancelled, this,
+            [this] { tell(tr("The film was cancelled; nothing is kept of it.")); });
+    connect(&session_, &CaseSession::filmNamed, this, [this](const QString& file) {
+        if (!navigator())
+            return;
+        constexpr int kLargest_px = 768;
+        const QSize view = endoscopic_->pictureSize().boundedTo({kLargest_px, kLargest_px});
+        const QSize size(view.width() / 2 * 2, view.height() / 2 * 2);  // Theora's colours have half the pixels
+        const NavigationState from = navigator()->state();
+        const double step_mm = navigator()->speed_mm_s() / FilmMaker::kPictures_per_s;
+        film_maker_->start(session_.sharedScan(), wishFor(*session_.scan(), from, size, false), from.station_mm,
+                           navigator()->heading(), step_mm, file.toStdString());
+    });
+}
+
+void ReadingWindow::film()
+{
+    if (!navigator())
+        return;
+    if (film_maker_->running()) {
+        film_maker_->cancel();
+        return;
+    }
+    tell(tr("Filming the way from here to the end; you can read on meanwhile"));
+    session_.nameFilm();
+}
+
+}  // namespace vicon::viewer
