@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kReviews = "bridge_reviews.json";
 constexpr double kSame_mm = 0.5;  // less than a voxel: the same end of the same bridge
 
-void requireInside(const std::filesystem::path& scan_folder, const std::vector<Point3>& points)
+void requireInside(const std::filesystem::path& scan_folder, const std::vector<Point3>& points, const char* option)
 {
     const auto file = scan_folder / "volume.mha";
     if (points.empty() || !std::filesystem::exists(file))
@@ -28,7 +28,7 @@ void requireInside(const std::filesystem::path& scan_folder, const std::vector<P
             continue;
         char text[96];
         std::snprintf(text, sizeof text, "%.1f,%.1f,%.1f", p.x, p.y, p.z);
-        throw Error(ErrorCode::wrong_use, "the point lies outside the scan", text,
+        throw Error(ErrorCode::wrong_use, std::string("the point ") + text + " lies outside the scan", option,
                     "give LPS mm, as 'vicon snapshot --view slices' shows them");
     }
 }
@@ -73,8 +73,9 @@ void correctScan(CaseStore& store, const Config& config, const ScanRecord& scan,
                  bool forget)
 {
     const auto folder = store.scanFolder(scan.case_id, scan.id);
-    for (const auto* points : {&more.add, &more.cut, &more.drop})
-        requireInside(folder, *points);
+    requireInside(folder, more.add, "--seed");
+    requireInside(folder, more.cut, "--cut");
+    requireInside(folder, more.drop, "--drop");
     pipeline::Corrections all;
     if (!forget)
         all = pipeline::readCorrections(folder);
