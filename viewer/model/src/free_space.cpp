@@ -25,9 +25,8 @@ public:
     std::int32_t middle() const { return numberOf(reach_, reach_, reach_); }
     Point3 at(std::int32_t n) const
     {
-        return middle_ + Vector3{double(n % side_ - reach_), double(n / side_ % side_ - reach_),
-                                 double(n / side_ / side_ - reach_)} *
-                             step_mm_;
+        const int i = n % side_ - reach_, j = n / side_ % side_ - reach_, k = n / side_ / side_ - reach_;
+        return middle_ + Vector3{double(i), double(j), double(k)} * step_mm_;
     }
     /// The place nearest to `p`; negative outside.
     std::int32_t nearest(Point3 p) const
