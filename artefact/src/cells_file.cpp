@@ -31,6 +31,21 @@ vtkNew<vtkFloatArray> triples(const std::vector<float>& values, const char* name
     return array;
 }
 
+/// @tparam Usual the kind of array that writeCells() writes; others are read one value at a time
+template <class Usual, class T>
+void copyValues(vtkDataArray* from, std::vector<T>& to)
+{
+    const vtkIdType count = from->GetNumberOfValues();
+    if (auto* usual = Usual::FastDownCast(from)) {
+        to.assign(usual->GetPointer(0), usual->GetPointer(0) + count);
+        return;
+    }
+    const int components = from->GetNumberOfComponents();
+    to.resize(std::size_t(count));
+    for (vtkIdType n = 0; n < count; ++n)
+        to[std::size_t(n)] = T(from->GetComponent(n / components, int(n % components)));
+}
+
 }  // namespace
 
 void writeCells(const fs::path& file, const CellSurface& surface)
@@ -68,21 +83,10 @@ CellSurface readCells(const fs::path& file)
         throw Error(ErrorCode::bad_input, "is not a surface of cells", file.string(),
                     "run 'vicon work' to make it anew");
     CellSurface surface;
-    const auto copyTriples = [](vtkDataArray* from, std::vector<float>& to) {
-        to.resize(std::size_t(from->GetNumberOfTuples()) * 3);
-        for (vtkIdType n = 0; n < from->GetNumberOfTuples(); ++n)
-            for (int c = 0; c < 3; ++c)
-                to[std::size_t(3 * n + c)] = float(from->GetComponent(n, c));
-    };
-    copyTriples(data->GetPoints()->GetData(), surface.points_mm);
-    copyTriples(normals, surface.normals);
-    auto* corners = data->GetPolys()->GetConnectivityArray();
-    surface.triangles.resize(std::size_t(corners->GetNumberOfTuples()));
-    for (vtkIdType n = 0; n < corners->GetNumberOfTuples(); ++n)
-        surface.triangles[std::size_t(n)] = std::uint32_t(corners->GetComponent(n, 0));
-    surface.segment.resize(std::size_t(segment->GetNumberOfTuples()));
-    for (vtkIdType n = 0; n < segment->GetNumberOfTuples(); ++n)
-        surface.segment[std::size_t(n)] = std::uint16_t(segment->GetComponent(n, 0));
+    copyValues<vtkFloatArray>(data->GetPoints()->GetData(), surface.points_mm);
+    copyValues<vtkFloatArray>(normals, surface.normals);
+    copyValues<vtkTypeInt32Array>(data->GetPolys()->GetConnectivityArray(), surface.triangles);
+    copyValues<vtkUnsignedShortArray>(segment, surface.segment);
     return surface;
 }
 

@@ -2,10 +2,12 @@
 
 #include <itkMetaImageIO.h>
 
-#include <cstring>
 #include <fstream>
 #include <new>
 
+#include "mapped_file.h"
+#include "meta_header.h"
+#include "vicon/artefact/stored_volume.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
@@ -56,25 +58,79 @@ Grid gridOf(itk::MetaImageIO& io)
     return grid;
 }
 
-/// The reader fills what a cut-off file lacks with zeros and says nothing, so the file's length is checked before.
-void requireWholeFile(const fs::path& file, std::size_t voxel_bytes)
+template <class T>
+constexpr const char* kTypeName = "";
+template <>
+constexpr const char* kTypeName<std::int16_t> = "MET_SHORT";
+template <>
+constexpr const char* kTypeName<std::uint8_t> = "MET_UCHAR";
+template <>
+constexpr const char* kTypeName<std::uint16_t> = "MET_USHORT";
+template <>
+constexpr const char* kTypeName<float> = "MET_FLOAT";
+
+// By hand, not by ITK: voxels that ITK writes begin anywhere, and could not be mapped.
+template <class T>
+void writeRaw(const fs::path& file, const Volume<T>& volume)
 {
-    std::string head(4096, '\0');
-    std::ifstream in(file, std::ios::binary);
-    in.read(head.data(), std::streamsize(head.size()));
-    head.resize(std::size_t(in.gcount()));
-    const auto value = [&](const std::string& key) -> std::string {
-        const auto at = head.find(key + " = ");
-        return at == std::string::npos ? ""
-                                       : head.substr(at + key.size() + 3, head.find('\n', at) - at - key.size() - 3);
-    };
-    const auto local = head.find("ElementDataFile = LOCAL\n");
-    if (local == std::string::npos)
-        return;  // voxels in another file: not written by us, and the reader's business
-    const std::string packed = value("CompressedDataSize");
-    const std::size_t data = packed.empty() ? voxel_bytes : std::stoull(packed);
-    if (fs::file_size(file) < local + std::strlen("ElementDataFile = LOCAL\n") + data)
-        throw Error(ErrorCode::bad_input, "is cut off", file.string(), "run 'vicon work' to make it anew");
+    std::ofstream out(file, std::ios::binary);
+    out << rawHeader(volume.grid, kTypeName<T>);
+    out.write(reinterpret_cast<const char*>(volume.voxels.data()), std::streamsize(volume.voxels.size() * sizeof(T)));
+}
+
+template <class T>
+void writePacked(const fs::path& file, const Volume<T>& volume)
+{
+    auto io = itk::MetaImageIO::New();
+    io->SetNumberOfDimensions(3);
+    io->SetNumberOfComponents(1);
+    io->SetPixelType(itk::IOPixelEnum::SCALAR);
+    io->SetComponentType(kComponent<T>);
+    io->SetFileType(itk::IOFileEnum::Binary);
+    const Grid& g = volume.grid;
+    const std::array<double, 3> origin{g.origin_mm.x, g.origin_mm.y, g.origin_mm.z};
+    itk::ImageIORegion region(3);
+    for (unsigned a = 0; a < 3; ++a) {
+        io->SetDimensions(a, std::size_t(g.size[a]));
+        io->SetSpacing(a, g.spacing_mm[a]);
+        io->SetOrigin(a, origin[a]);
+        io->SetDirection(a, std::vector<double>{g.axis[a].x, g.axis[a].y, g.axis[a].z});
+        region.SetSize(a, std::size_t(g.size[a]));
+    }
+    io->SetIORegion(region);
+    io->SetUseCompression(true);
+    io->SetCompressionLevel(kZlibLevel);
+    io->SetFileName(file.string());
+    io->Write(volume.voxels.data());
+}
+
+template <class T>
+itk::MetaImageIO::Pointer openVolume(const fs::path& file)
+{
+    auto io = openHeader(file);
+    if (io->GetComponentType() != kComponent<T>)
+        throw Error(ErrorCode::bad_input, "has another voxel type than expected", file.string());
+    return io;
+}
+
+template <class T>
+Volume<T> readVoxels(itk::MetaImageIO& io, const fs::path& file)
+{
+    Volume<T> volume;
+    volume.grid = gridOf(io);
+    itk::ImageIORegion region(3);
+    for (unsigned a = 0; a < 3; ++a)
+        region.SetSize(a, std::size_t(volume.grid.size[a]));
+    io.SetIORegion(region);
+    try {
+        volume.voxels.resize(volume.grid.voxelCount());
+        io.Read(volume.voxels.data());
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::no_memory, "does not fit into memory", file.string(), "close other programs");
+    } catch (const itk::ExceptionObject&) {
+        throw Error(ErrorCode::bad_input, "is damaged or too short", file.string(), "run 'vicon work' to make it anew");
+    }
+    return volume;
 }
 
 }  // namespace
@@ -83,32 +139,15 @@ template <class T>
 void writeVolume(const fs::path& file, const Volume<T>& volume, Packing packing)
 {
     replaceFile(file, [&](const fs::path& temporary) {
-        auto io = itk::MetaImageIO::New();
-        io->SetNumberOfDimensions(3);
-        io->SetNumberOfComponents(1);
-        io->SetPixelType(itk::IOPixelEnum::SCALAR);
-        io->SetComponentType(kComponent<T>);
-        io->SetFileType(itk::IOFileEnum::Binary);
-        const Grid& g = volume.grid;
-        const std::array<double, 3> origin{g.origin_mm.x, g.origin_mm.y, g.origin_mm.z};
-        itk::ImageIORegion region(3);
-        for (unsigned a = 0; a < 3; ++a) {
-            io->SetDimensions(a, std::size_t(g.size[a]));
-            io->SetSpacing(a, g.spacing_mm[a]);
-            io->SetOrigin(a, origin[a]);
-            io->SetDirection(a, std::vector<double>{g.axis[a].x, g.axis[a].y, g.axis[a].z});
-            region.SetSize(a, std::size_t(g.size[a]));
-        }
-        io->SetIORegion(region);
-        io->SetUseCompression(packing == Packing::zlib);
-        io->SetCompressionLevel(kZlibLevel);
-        io->SetFileName(temporary.string());
         try {
-            io->Write(volume.voxels.data());
+            if (packing == Packing::raw)
+                writeRaw(temporary, volume);
+            else
+                writePacked(temporary, volume);
         } catch (const itk::ExceptionObject&) {
             throw Error(ErrorCode::store, "cannot be written", file.string(), "check the disk's free space");
         }
-        const auto least = packing == Packing::raw ? volume.voxels.size() * sizeof(T) : 1;
+        const auto least = packing == Packing::raw ? volume.voxels.size() * sizeof(T) + 1 : 1;
         if (!fs::exists(temporary) || fs::file_size(temporary) < least)
             throw Error(ErrorCode::store, "cannot be written completely", file.string(), "check the disk's free space");
     });
@@ -117,25 +156,28 @@ void writeVolume(const fs::path& file, const Volume<T>& volume, Packing packing)
 template <class T>
 Volume<T> readVolume(const fs::path& file)
 {
-    auto io = openHeader(file);
-    if (io->GetComponentType() != kComponent<T>)
-        throw Error(ErrorCode::bad_input, "has another voxel type than expected", file.string());
-    Volume<T> volume;
-    volume.grid = gridOf(*io);
-    requireWholeFile(file, volume.grid.voxelCount() * sizeof(T));
-    itk::ImageIORegion region(3);
-    for (unsigned a = 0; a < 3; ++a)
-        region.SetSize(a, std::size_t(volume.grid.size[a]));
-    io->SetIORegion(region);
-    try {
-        volume.voxels.resize(volume.grid.voxelCount());
-        io->Read(volume.voxels.data());
-    } catch (const std::bad_alloc&) {
-        throw Error(ErrorCode::no_memory, "does not fit into memory", file.string(), "close other programs");
-    } catch (const itk::ExceptionObject&) {
-        throw Error(ErrorCode::bad_input, "is damaged or too short", file.string(), "run 'vicon work' to make it anew");
+    const auto io = openVolume<T>(file);
+    // ITK fills what a cut-off file lacks with zeros and says nothing, so its length is checked before.
+    voxelBytesIn(file, gridOf(*io).voxelCount() * sizeof(T));
+    return readVoxels<T>(*io, file);
+}
+
+template <class T>
+StoredVolume<T>::StoredVolume(const fs::path& file)
+{
+    const auto io = openVolume<T>(file);
+    const Grid grid = gridOf(*io);
+    const auto bytes = voxelBytesIn(file, grid.voxelCount() * sizeof(T));
+    if (bytes && !bytes->packed && bytes->begin % kVoxelAlignment == 0) {
+        auto mapped = std::make_shared<const MappedFile>(file);
+        const void* first = mapped->data() + bytes->begin;
+        view_ = {grid, std::span(static_cast<const T*>(first), grid.voxelCount())};
+        owner_ = std::move(mapped);
+    } else {
+        auto read = std::make_shared<const Volume<T>>(readVoxels<T>(*io, file));
+        view_ = *read;
+        owner_ = std::move(read);
     }
-    return volume;
 }
 
 Grid readGrid(const fs::path& file)
@@ -151,5 +193,10 @@ template Volume<std::int16_t> readVolume(const fs::path&);
 template Volume<std::uint8_t> readVolume(const fs::path&);
 template Volume<std::uint16_t> readVolume(const fs::path&);
 template Volume<float> readVolume(const fs::path&);
+
+template class StoredVolume<std::int16_t>;
+template class StoredVolume<std::uint8_t>;
+template class StoredVolume<std::uint16_t>;
+template class StoredVolume<float>;
 
 }  // namespace vicon::artefact

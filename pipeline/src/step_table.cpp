@@ -127,8 +127,8 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
     artefacts.dropVolume();
     steps::countTriangles(surface, divided.description);
     artefact::writeCells(artefacts.folder() / "cells.vtp", surface);
-    steps::writeProjections(artefacts.folder() / "projections", surface, inputs.config.get<steps::ProjectionOptions>(),
-                            project);
+    artefact::writeProjections(artefacts.folder() / "projections",
+                               steps::project(surface, inputs.config.get<steps::ProjectionOptions>(), project));
     artefact::writeSubdivision(artefacts.folder() / "subdivision.json", divided.description);
     json result = divided.description.statistics;
     result["method"] = divided.description.method;

@@ -1,10 +1,13 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <numeric>
 
 #include "vicon/artefact/cells_file.h"
+#include "vicon/artefact/projections_file.h"
 #include "vicon/artefact/skeleton_file.h"
+#include "vicon/artefact/stored_volume.h"
 #include "vicon/artefact/subdivision_file.h"
 #include "vicon/artefact/volume_file.h"
 #include "vicon/core/error.h"
@@ -14,6 +17,7 @@
 namespace vicon::artefact {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// A grid turned by 30 degrees about z, with a flipped third axis: left-handed and oblique.
@@ -57,6 +61,53 @@ TEST(VolumeFile, StatesItsAxesAsTheMetaImageFormatDefinesThem)
     EXPECT_THAT(header, HasSubstr("TransformMatrix = 0.87758256"));
     EXPECT_THAT(header, HasSubstr(" 0.47942553"));
     EXPECT_THAT(header, HasSubstr("ElementDataFile = LOCAL"));
+}
+
+template <class T>
+void expectSameStored(const std::filesystem::path& file, Packing packing)
+{
+    Volume<T> volume(obliqueGrid());
+    std::iota(volume.voxels.begin(), volume.voxels.end(), T(3));
+    writeVolume(file, volume, packing);
+    const StoredVolume<T> stored(file);
+    writeVolume(file, Volume<T>(obliqueGrid()), packing);  // another file under the same name
+    EXPECT_TRUE(std::ranges::equal(stored.view().voxels, volume.voxels));
+    EXPECT_EQ(stored.view().at({4, 3, 2}), volume.at({4, 3, 2}));
+    EXPECT_EQ(stored.view().valueOr({5, 3, 2}, T(77)), T(77));
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(stored.view().voxels.data()) % alignof(T), 0U);
+}
+
+TEST(StoredVolume, HoldsWhatTheFileHeldWhenItWasOpened)
+{
+    const support::TemporaryFolder folder;
+    for (const Packing packing : {Packing::raw, Packing::zlib}) {
+        expectSameStored<std::int16_t>(folder / "v.mha", packing);
+        expectSameStored<std::uint8_t>(folder / "v.mha", packing);
+        expectSameStored<std::uint16_t>(folder / "v.mha", packing);
+        expectSameStored<float>(folder / "v.mha", packing);
+    }
+}
+
+TEST(StoredVolume, ReadsFilesOfOthersWhoseVoxelsBeginAnywhere)
+{
+    const support::TemporaryFolder folder;
+    for (const int longer : {0, 1, 2, 3}) {
+        std::ofstream(folder / "v.mha", std::ios::binary)
+            << "ObjectType = Image\nNDims = 3\nComment = " << std::string(std::size_t(longer), 'c')
+            << "\nBinaryData = True\nBinaryDataByteOrderMSB = False\nCompressedData = False\nDimSize = 2 1 1\n"
+            << "ElementSpacing = 1 1 1\nElementType = MET_SHORT\nElementDataFile = LOCAL\n"
+            << std::string("\x01\x00\x02\x01", 4);
+        const StoredVolume<std::int16_t> stored(folder / "v.mha");
+        EXPECT_THAT(std::vector(stored.view().voxels.begin(), stored.view().voxels.end()), ElementsAre(1, 258));
+    }
+}
+
+TEST(StoredVolume, RefusesWhatIsCutOff)
+{
+    const support::TemporaryFolder folder;
+    writeVolume(folder / "v.mha", Volume<float>(obliqueGrid()), Packing::raw);
+    std::filesystem::resize_file(folder / "v.mha", std::filesystem::file_size(folder / "v.mha") - 1);
+    EXPECT_THROW(StoredVolume<float>(folder / "v.mha"), Error);
 }
 
 TEST(VolumeFile, RefusesWhatCannotBeRead)
@@ -114,6 +165,31 @@ TEST(CellsFile, GivesBackTheSurface)
     EXPECT_EQ(back.normals, surface.normals);
     EXPECT_EQ(back.triangles, surface.triangles);
     EXPECT_EQ(back.segment, surface.segment);
+}
+
+TEST(ProjectionsFile, GivesBackPicturesAndTheirPlaces)
+{
+    const support::TemporaryFolder folder;
+    std::vector<Projection> written{{"coronal", 3, 2, 0.5, {1, 0, 0}, {0, 0, -1}, {-10, 0, 20}, {}},
+                                    {"sagittal", 2, 2, 0.6, {0, 1, 0}, {0, 0, -1}, {0, -5, 20}, {}}};
+    for (Projection& p : written) {
+        p.rgba.resize(std::size_t(p.width) * std::size_t(p.height) * 4);
+        std::iota(p.rgba.begin(), p.rgba.end(), std::uint8_t(p.width));
+    }
+    writeProjections(folder / "projections", written);
+    for (const Projection& p : written) {
+        const Projection back = readProjection(folder / "projections", p.name);
+        EXPECT_EQ(back.rgba, p.rgba);
+        const Point3 somewhere{3, 4, 5};
+        EXPECT_EQ(back.column(somewhere), p.column(somewhere));
+        EXPECT_EQ(back.row(somewhere), p.row(somewhere));
+        EXPECT_THAT(readFile(folder / "projections" / (p.name + ".png")), HasSubstr("vicon:mapping"));
+    }
+    EXPECT_THROW(readProjection(folder / "projections", "transverse"), Error);
+    EXPECT_THROW(readProjection(folder / "absent", "coronal"), Error);
+    std::filesystem::copy_file(folder / "projections" / "sagittal.png", folder / "projections" / "coronal.png",
+                               std::filesystem::copy_options::overwrite_existing);
+    EXPECT_THROW(readProjection(folder / "projections", "coronal"), Error) << "another picture's size";
 }
 
 TEST(SubdivisionFile, GivesBackSegmentsAndPortals)

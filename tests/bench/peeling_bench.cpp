@@ -46,7 +46,7 @@ double quantile(std::vector<double> values, double part)
 void measure(const PreparedScan& scan, const std::string& preset, const Settings& settings)
 {
     const Lumen lumen = scan.lumen();
-    const HuVolume& volume = scan.volume();
+    const HuView& volume = scan.volume();
     const Lens lens{90, settings.side, settings.side};
     std::vector<double> wall, cpu;
     for (const ViewPose& view : planFlight(scan.frames(), lumen, settings.step_mm, Heading::caecum)) {

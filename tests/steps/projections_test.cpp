@@ -1,7 +1,6 @@
 #include "vicon/steps/projections.h"
 
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <cmath>
 
@@ -38,14 +37,14 @@ void addBall(artefact::CellSurface& s, Point3 centre, double radius_mm)
         }
 }
 
-bool covered(const ProjectionPicture& picture, Point3 p)
+bool covered(const artefact::Projection& picture, Point3 p)
 {
     const int x = int(std::lround(picture.column(p))), y = int(std::lround(picture.row(p)));
     return x >= 0 && y >= 0 && x < picture.width && y < picture.height &&
            picture.rgba[4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x)) + 3] > 127;
 }
 
-int brightness(const ProjectionPicture& picture, Point3 p)
+int brightness(const artefact::Projection& picture, Point3 p)
 {
     const int x = int(std::lround(picture.column(p))), y = int(std::lround(picture.row(p)));
     return picture.rgba[4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x))];
@@ -79,7 +78,7 @@ TEST(Projections, ShowThePatientsLeftOnTheRightHeadUpAndFrontUp)
 TEST(Projections, HaveTheSurfaceWhereTheMappingSays)
 {
     for (const double pixel_mm : {0.6, 1.7})
-        for (const ProjectionPicture& picture : project(twoBalls(), {pixel_mm}, quiet)) {
+        for (const artefact::Projection& picture : project(twoBalls(), {pixel_mm}, quiet)) {
             const Vector3 ahead = cross(picture.right, picture.down);
             for (const Point3 centre : {kLeftHead, kRightFeet})
                 for (int n = 0; n < 16; ++n) {
@@ -108,32 +107,6 @@ TEST(Projections, ShowWhatIsNearer)
         const auto picture = project(both, {}, quiet)[c.view];
         EXPECT_GT(brightness(picture, near), brightness(picture, away + aside) + 50);
     }
-}
-
-TEST(Projections, FilesCarryTheMapping)
-{
-    const support::TemporaryFolder folder;
-    writeProjections(folder / "projections", twoBalls(), {}, quiet);
-    const auto pictures = project(twoBalls(), {}, quiet);
-    const auto mapping = readProjectionMapping(folder / "projections");
-    for (std::size_t n = 0; n < 3; ++n) {
-        EXPECT_EQ(mapping[n].name, pictures[n].name);
-        EXPECT_EQ(mapping[n].width, pictures[n].width);
-        EXPECT_EQ(mapping[n].column(kLeftHead), pictures[n].column(kLeftHead));
-        EXPECT_EQ(mapping[n].row(kLeftHead), pictures[n].row(kLeftHead));
-        const auto file = folder / "projections" / (pictures[n].name + ".png");
-        png_image image{};
-        image.version = PNG_IMAGE_VERSION;
-        ASSERT_TRUE(png_image_begin_read_from_file(&image, file.c_str()));
-        EXPECT_EQ(int(image.width), pictures[n].width);
-        EXPECT_EQ(int(image.height), pictures[n].height);
-        image.format = PNG_FORMAT_RGBA;
-        std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(image));
-        ASSERT_TRUE(png_image_finish_read(&image, nullptr, rgba.data(), 0, nullptr));
-        EXPECT_EQ(rgba, pictures[n].rgba);
-        EXPECT_NE(readFile(file).find("vicon:mapping"), std::string::npos);
-    }
-    EXPECT_THROW(readProjectionMapping(folder / "absent"), Error);
 }
 
 TEST(Projections, RefuseAnEmptySurface)

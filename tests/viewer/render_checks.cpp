@@ -15,7 +15,7 @@ void expectCulledPicturesIdentical(const PreparedScan& scan, int poses, unsigned
     SurfaceScene scene(scan.cells());
     Offscreen offscreen(scene.renderer());
     const CellVisibility visibility(scan);
-    const InsideVolume& inside = scan.inside();
+    const InsideView& inside = scan.inside();
     std::vector<std::size_t> voxels;
     for (std::size_t n = 0; n < inside.voxels.size(); ++n)
         if (inside.voxels[n] != kOutside && scan.wallDistance().voxels[n] >= 2)

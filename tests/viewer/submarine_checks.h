@@ -13,7 +13,7 @@ namespace vicon::viewer::test {
 struct Course {
     const PathFrames& path;
     Lumen lumen;
-    const FieldVolume& exit_distance;
+    FieldView exit_distance;
     const artefact::CellSurface& wall;
 
     Submarine submarine(const SubmarineOptions& options = {}) const { return {path, lumen, exit_distance, options}; }

@@ -6,8 +6,10 @@
 #include <numbers>
 
 #include "test_surface.h"
+#include "vicon/artefact/projections_file.h"
 #include "vicon/artefact/skeleton_file.h"
 #include "vicon/artefact/volume_file.h"
+#include "vicon/steps/projections.h"
 
 namespace vicon::viewer::test {
 namespace {
@@ -194,6 +196,8 @@ void TestColon::write(const std::filesystem::path& folder) const
     artefact::writeSkeleton(folder / "skeleton.vtp", skeleton);
     artefact::writeCells(folder / "cells.vtp", cells);
     artefact::writeSubdivision(folder / "subdivision.json", subdivision);
+    NoProgress quiet;
+    artefact::writeProjections(folder / "projections", steps::project(cells, {}, quiet));
 }
 
 FieldVolume wallDistanceOf(const InsideVolume& inside)

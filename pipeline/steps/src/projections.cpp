@@ -4,13 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "png_file.h"
 #include "vicon/core/error.h"
-#include "vicon/core/file.h"
-
-namespace fs = std::filesystem;
 
 namespace vicon::steps {
 namespace {
@@ -94,7 +89,7 @@ Box boxOf(const artefact::CellSurface& surface)
 }
 
 /// The picture's place: the box of the surface with its border, from its corner of least column and row.
-ProjectionPicture frameFor(const View& view, const Box& box, double pixel_mm)
+artefact::Projection frameFor(const View& view, const Box& box, double pixel_mm)
 {
     const auto cornerAlong = [](Vector3 direction, Point3 low, Point3 high, bool first) {
         const Vector3 from = (direction.x + direction.y + direction.z > 0) == first ? low - Point3{} : high - Point3{};
@@ -102,7 +97,7 @@ ProjectionPicture frameFor(const View& view, const Box& box, double pixel_mm)
     };
     const double left = cornerAlong(view.right, box.low, box.high, true);
     const double top = cornerAlong(view.down, box.low, box.high, true);
-    ProjectionPicture picture;
+    artefact::Projection picture;
     picture.name = view.name;
     picture.pixel_mm = pixel_mm;
     picture.right = view.right;
@@ -113,7 +108,7 @@ ProjectionPicture frameFor(const View& view, const Box& box, double pixel_mm)
     return picture;
 }
 
-Raster rasterize(const artefact::CellSurface& surface, const ProjectionPicture& picture)
+Raster rasterize(const artefact::CellSurface& surface, const artefact::Projection& picture)
 {
     Raster raster(picture.width * kFiner, picture.height * kFiner);
     const Vector3 ahead = cross(picture.right, picture.down);
@@ -131,7 +126,7 @@ Raster rasterize(const artefact::CellSurface& surface, const ProjectionPicture& 
     return raster;
 }
 
-void shade(ProjectionPicture& picture, const Raster& raster)
+void shade(artefact::Projection& picture, const Raster& raster)
 {
     float nearest = std::numeric_limits<float>::max(), farthest = -nearest;
     for (const float depth : raster.depth)
@@ -162,80 +157,22 @@ void shade(ProjectionPicture& picture, const Raster& raster)
         }
 }
 
-template <class Triple>
-nlohmann::json triple(const Triple& t)
-{
-    return {t.x, t.y, t.z};
-}
-
-nlohmann::json mappingOf(const ProjectionPicture& p)
-{
-    return {{"name", p.name},         {"file", p.name + ".png"},
-            {"width", p.width},       {"height", p.height},
-            {"pixel_mm", p.pixel_mm}, {"right", triple(p.right)},
-            {"down", triple(p.down)}, {"first_pixel_mm", triple(p.first_pixel_mm)}};
-}
-
-template <class Triple>
-Triple tripleFrom(const nlohmann::json& j)
-{
-    return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
-}
-
 }  // namespace
 
-std::array<ProjectionPicture, 3> project(const artefact::CellSurface& surface, const ProjectionOptions& options,
-                                         Progress& progress)
+std::array<artefact::Projection, 3> project(const artefact::CellSurface& surface, const ProjectionOptions& options,
+                                            Progress& progress)
 {
     if (surface.triangleCount() == 0)
         throw Error(ErrorCode::bad_input, "the surface has no triangles to project");
     progress.report(0, "projections");
     const Box box = boxOf(surface);
-    std::array<ProjectionPicture, 3> pictures;
+    std::array<artefact::Projection, 3> pictures;
     tbb::parallel_for(std::size_t(0), kViews.size(), [&](std::size_t n) {
         pictures[n] = frameFor(kViews[n], box, options.pixel_mm);
         shade(pictures[n], rasterize(surface, pictures[n]));
     });
     progress.check();
     progress.report(1, "projections");
-    return pictures;
-}
-
-void writeProjections(const fs::path& folder, const artefact::CellSurface& surface, const ProjectionOptions& options,
-                      Progress& progress)
-{
-    makePrivateFolder(folder);
-    nlohmann::json mapping = {{"projections", nlohmann::json::array()}};
-    for (const ProjectionPicture& picture : project(surface, options, progress)) {
-        const nlohmann::json one = mappingOf(picture);
-        writePng(folder / (picture.name + ".png"), picture.width, picture.height, picture.rgba, "vicon:mapping",
-                 one.dump());
-        mapping["projections"].push_back(one);
-    }
-    replaceFile(folder / "projections.json", mapping.dump(1) + "\n");
-}
-
-std::array<ProjectionPicture, 3> readProjectionMapping(const fs::path& folder)
-{
-    const fs::path file = folder / "projections.json";
-    const auto in = nlohmann::json::parse(readFile(file), nullptr, false);
-    std::array<ProjectionPicture, 3> pictures;
-    try {
-        for (std::size_t n = 0; n < pictures.size(); ++n) {
-            const auto& j = in.at("projections").at(n);
-            ProjectionPicture& p = pictures[n];
-            p.name = j.at("name");
-            p.width = j.at("width");
-            p.height = j.at("height");
-            p.pixel_mm = j.at("pixel_mm");
-            p.right = tripleFrom<Vector3>(j.at("right"));
-            p.down = tripleFrom<Vector3>(j.at("down"));
-            p.first_pixel_mm = tripleFrom<Point3>(j.at("first_pixel_mm"));
-        }
-    } catch (const nlohmann::json::exception&) {
-        throw Error(ErrorCode::bad_input, "does not describe three projections", file.string(),
-                    "run 'vicon work' to make it anew");
-    }
     return pictures;
 }
 

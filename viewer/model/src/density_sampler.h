@@ -3,15 +3,15 @@
 #include <cmath>
 #include <cstring>
 
-#include "vicon/core/volume.h"
+#include "vicon/core/volume_view.h"
 
 namespace vicon::viewer {
 
 /// Trilinear densities for rays: positions and directions are turned into voxels once for each ray.
 class DensitySampler {
 public:
-    explicit DensitySampler(const HuVolume& volume)
-        : grid_(&volume.grid),
+    explicit DensitySampler(const HuView& volume)
+        : grid_(volume.grid),
           voxels_(volume.voxels.data()),
           row_(volume.grid.size[0]),
           slice_(std::ptrdiff_t(volume.grid.size[0]) * volume.grid.size[1])
@@ -28,7 +28,7 @@ public:
     };
     Place indexAt(Point3 p) const
     {
-        const ContinuousIndex3 c = grid_->continuousIndexAt(p);
+        const ContinuousIndex3 c = grid_.continuousIndexAt(p);
         return {float(c.i), float(c.j), float(c.k)};
     }
     /// A displacement in voxels.
@@ -127,7 +127,7 @@ private:
         return false;
     }
 
-    const Grid* grid_;
+    Grid grid_;
     const std::int16_t* voxels_;
     std::ptrdiff_t row_, slice_;
     float last_[3];

@@ -6,7 +6,7 @@
 
 namespace vicon::viewer {
 
-Lumen::Lumen(const InsideVolume& inside, const FieldVolume& wall_distance) : inside_(&inside), wall_(&wall_distance)
+Lumen::Lumen(const InsideView& inside, const FieldView& wall_distance) : inside_(inside), wall_(wall_distance)
 {
     if (inside.grid != wall_distance.grid)
         throw Error(ErrorCode::bad_input, "the inside voxels and the wall distance lie on different grids", {},
@@ -18,17 +18,17 @@ Lumen::Lumen(const InsideVolume& inside, const FieldVolume& wall_distance) : ins
 
 bool Lumen::inside(Point3 p) const
 {
-    return inside_->valueOr(inside_->grid.indexAt(p), std::uint8_t(kOutside)) != kOutside;
+    return inside_.valueOr(inside_.grid.indexAt(p), std::uint8_t(kOutside)) != kOutside;
 }
 
 double Lumen::clearance_mm(Point3 p) const
 {
-    const ContinuousIndex3 c = wall_->grid.continuousIndexAt(p);
+    const ContinuousIndex3 c = wall_.grid.continuousIndexAt(p);
     const Index3 v{int(std::floor(c.i)), int(std::floor(c.j)), int(std::floor(c.k))};
     const double a = c.i - v.i, b = c.j - v.j, d = c.k - v.k;
-    const auto& size = wall_->grid.size;
+    const auto& size = wall_.grid.size;
     if (v.i >= 0 && v.j >= 0 && v.k >= 0 && v.i + 1 < size[0] && v.j + 1 < size[1] && v.k + 1 < size[2]) {
-        const float* w = &wall_->at(v);
+        const float* w = &wall_.at(v);
         const std::ptrdiff_t row = size[0], slice = row * size[1];
         const auto mixed = [&](const float* r) {
             const double front = r[0] + a * (r[1] - r[0]);
@@ -52,8 +52,8 @@ Vector3 Lumen::clearanceGradient(Point3 p) const
 {
     Vector3 gradient;
     for (int a = 0; a < 3; ++a) {
-        const Vector3 axis = wall_->grid.axis[a];
-        const double h = wall_->grid.spacing_mm[a];
+        const Vector3 axis = wall_.grid.axis[a];
+        const double h = wall_.grid.spacing_mm[a];
         gradient += axis * ((clearance_mm(p + axis * h) - clearance_mm(p - axis * h)) / (2 * h));
     }
     return gradient;
@@ -83,14 +83,14 @@ Lumen::Nearest Lumen::nearestInside(Point3 p, double within_mm) const
         return {true, p, 0};
     Nearest best;
     best.distance_mm = within_mm;
-    const Grid& g = inside_->grid;
+    const Grid& g = inside_.grid;
     const Index3 middle = g.indexAt(p);
     const std::array<int, 3> reach{int(within_mm / g.spacing_mm[0]) + 1, int(within_mm / g.spacing_mm[1]) + 1,
                                    int(within_mm / g.spacing_mm[2]) + 1};
     for (int k = middle.k - reach[2]; k <= middle.k + reach[2]; ++k)
         for (int j = middle.j - reach[1]; j <= middle.j + reach[1]; ++j)
             for (int i = middle.i - reach[0]; i <= middle.i + reach[0]; ++i) {
-                if (inside_->valueOr({i, j, k}, std::uint8_t(kOutside)) == kOutside)
+                if (inside_.valueOr({i, j, k}, std::uint8_t(kOutside)) == kOutside)
                     continue;
                 const Point3 q = g.pointAt(Index3{i, j, k});
                 const double d = distance(p, q);

@@ -14,7 +14,7 @@ Heading opposite(Heading heading)
 
 }  // namespace
 
-Navigator::Navigator(const PathFrames& path, const Lumen& lumen, const FieldVolume& exit_distance,
+Navigator::Navigator(const PathFrames& path, const Lumen& lumen, const FieldView& exit_distance,
                      const SubmarineOptions& options)
     : path_(&path), lumen_(lumen), options_(options), submarine_(path, lumen_, exit_distance, options)
 {

@@ -29,7 +29,7 @@ struct Light {
 
 class Caster {
 public:
-    Caster(const HuVolume& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
+    Caster(const HuView& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
            const TransferFunction& colours, const PeelingOptions& options)
         : densities_(volume),
           walls_(lumen, pose.eye_mm),
@@ -138,7 +138,7 @@ std::optional<double> distanceToWall_mm(const Lumen& lumen, Point3 from, Vector3
     return WallRays(lumen, from).along(direction, 0, reach_mm);
 }
 
-PeeledPicture peel(const HuVolume& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
+PeeledPicture peel(const HuView& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
                    const TransferFunction& colours, const PeelingOptions& options,
                    const std::optional<PictureCircle>& only)
 {

@@ -53,7 +53,7 @@ void sweep(std::vector<std::uint8_t>& steps, const std::array<int, 3>& size, boo
 
 }  // namespace
 
-SightField::SightField(const InsideVolume& inside) : grid_(inside.grid)
+SightField::SightField(const InsideView& inside) : grid_(inside.grid)
 {
     for (std::size_t d = 0; d < 3; ++d)
         size_[d] = grid_.size[d] + 1;
@@ -76,7 +76,7 @@ SightField::SightField(const InsideVolume& inside) : grid_(inside.grid)
 }
 
 // Signs into steps_ (1 open, -1 solid), and 0 in the wall or the most elsewhere into steps.
-void SightField::classifyRow(const InsideVolume& inside, int j, int k, std::vector<std::uint8_t>& steps)
+void SightField::classifyRow(const InsideView& inside, int j, int k, std::vector<std::uint8_t>& steps)
 {
     const auto voxelRow = [&](int v, int w) -> const std::uint8_t* {
         if (v < 0 || v >= grid_.size[1] || w < 0 || w >= grid_.size[2])

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "vicon/core/volume.h"
+#include "vicon/core/volume_view.h"
 
 namespace vicon::viewer {
 
@@ -17,7 +17,7 @@ namespace vicon::viewer {
 /// corners are inside and some are not (wall); it never enters those with all corners inside (open) or none (solid).
 class SightField {
 public:
-    explicit SightField(const InsideVolume& inside);
+    explicit SightField(const InsideView& inside);
 
     enum class Kind { open, wall, solid };
     /// A place's kind, and the half edge, in voxels, of a box around it that holds no cube of another kind.
@@ -67,7 +67,7 @@ public:
     const std::array<int, 3>& cubes() const { return size_; }
 
 private:
-    void classifyRow(const InsideVolume& inside, int j, int k, std::vector<std::uint8_t>& steps);
+    void classifyRow(const InsideView& inside, int j, int k, std::vector<std::uint8_t>& steps);
 
     Grid grid_;
     std::array<int, 3> size_{};

@@ -192,7 +192,7 @@ struct SightLines::Parts {
     std::size_t patches;
 };
 
-SightLines::SightLines(const InsideVolume& inside, const DrawnSurface& surface)
+SightLines::SightLines(const InsideView& inside, const DrawnSurface& surface)
     : parts_(
           std::make_unique<Parts>(Parts{SightField(inside), PatchBlocks(inside.grid, surface), surface.patches.size()}))
 {

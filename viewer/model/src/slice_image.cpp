@@ -6,10 +6,10 @@ namespace vicon::viewer {
 namespace {
 
 struct Sampler {
-    const HuVolume* volume;
+    const HuView* volume;
     std::size_t stride_j, stride_k;
 
-    explicit Sampler(const HuVolume& v)
+    explicit Sampler(const HuView& v)
         : volume(&v), stride_j(std::size_t(v.grid.size[0])), stride_k(stride_j * std::size_t(v.grid.size[1]))
     {
     }
@@ -43,7 +43,7 @@ double along(Vector3 direction, const Bounds& bounds)
 
 }  // namespace
 
-std::vector<float> sliceDensities(const HuVolume& volume, const PlaneView& view)
+std::vector<float> sliceDensities(const HuView& volume, const PlaneView& view)
 {
     const Sampler sample(volume);
     const auto at = [&](double x, double y) { return volume.grid.continuousIndexAt(view.pointAt({x, y})); };

@@ -18,9 +18,9 @@ constexpr double kSteerRate_per_s = 8;  // how fast turning follows the hand
 
 }  // namespace
 
-Submarine::Submarine(const PathFrames& path, const Lumen& lumen, const FieldVolume& exit_distance,
+Submarine::Submarine(const PathFrames& path, const Lumen& lumen, const FieldView& exit_distance,
                      const SubmarineOptions& options)
-    : path_(&path), lumen_(lumen), exit_(&exit_distance), options_(options)
+    : path_(&path), lumen_(lumen), exit_(exit_distance), options_(options)
 {
     placeAt(0, Heading::caecum);
     const double length = path.length_mm();
@@ -159,13 +159,13 @@ Vector3 Submarine::pull() const
     if (station < 0 || station > path_->length_mm())
         return {};
     Vector3 direction;  // along which the distance from the exit grows, of inside voxels only
-    const Grid& g = exit_->grid;
+    const Grid& g = exit_.grid;
     const Index3 v = g.indexAt(now_.position_mm);
-    const float here = exit_->valueOr(v, -1);
+    const float here = exit_.valueOr(v, -1);
     for (int a = 0; a < 3 && here >= 0; ++a) {
         const Index3 step{a == 0, a == 1, a == 2};
-        const float up = exit_->valueOr({v.i + step.i, v.j + step.j, v.k + step.k}, -1);
-        const float down = exit_->valueOr({v.i - step.i, v.j - step.j, v.k - step.k}, -1);
+        const float up = exit_.valueOr({v.i + step.i, v.j + step.j, v.k + step.k}, -1);
+        const float down = exit_.valueOr({v.i - step.i, v.j - step.j, v.k - step.k}, -1);
         const double slope = ((up >= 0 ? up : here) - (down >= 0 ? down : here)) / ((up >= 0) + (down >= 0) + 1e-9);
         direction += g.axis[std::size_t(a)] * (slope / g.spacing_mm[std::size_t(a)]);
     }

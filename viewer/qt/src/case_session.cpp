@@ -1,5 +1,6 @@
 #include "case_session.h"
 
+#include <QThreadPool>
 #include <algorithm>
 
 #include "seen_keeper.h"
@@ -16,6 +17,12 @@ nlohmann::json jsonOf(const std::vector<Marker>& markers)
     for (const Marker& marker : markers)
         list.push_back(toJson(marker));
     return list;
+}
+
+/// Giving back a scan's memory takes long enough to be felt, whoever lets it go last.
+void letGo(OpenScan* scan)
+{
+    QThreadPool::globalInstance()->start([scan] { delete scan; });
 }
 
 QString caseIsGone()
@@ -120,11 +127,8 @@ void CaseSession::load(const std::string& work, const std::string& scan_id, Open
         return;
     loader_.post(work, [this, folder = row->folder, scan = row->record, then = std::move(then)]() -> Worker::Work {
         auto files = PreparedScan::open(folder);
-        files.volume();
-        files.cells();
-        files.segments();
-        files.subdivision();
-        auto made = std::make_shared<OpenScan>(files, scan, row_.record);
+        files.readForFlight();
+        const std::shared_ptr<OpenScan> made(new OpenScan(files, scan, row_.record), letGo);
         SeenKeeper::restore(made->seen, folder);
         return [made, then] { then(made); };
     });

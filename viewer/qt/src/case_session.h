@@ -119,8 +119,8 @@ private:
     int edits_under_way_ = 0;
     MarkerHistory history_;             // the worker's
     std::unique_ptr<CaseStore> store_;  // the worker's
-    Worker loader_;
-    Worker worker_;  // last: it ends first
+    Worker loader_{this};
+    Worker worker_{this};  // last: it ends first
 };
 
 }  // namespace vicon::viewer

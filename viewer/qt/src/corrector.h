@@ -47,8 +47,8 @@ private:
     std::shared_ptr<std::atomic<bool>> stop_ = std::make_shared<std::atomic<bool>>(false);
     QTimer watch_;
     std::unique_ptr<CaseStore> store_;  // the worker's
-    Worker worker_;
-    Worker pipeline_;
+    Worker worker_{this};
+    Worker pipeline_{this};
 };
 
 }  // namespace vicon::viewer

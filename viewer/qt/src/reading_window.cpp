@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QSettings>
 #include <QStatusBar>
+#include <algorithm>
 #include <utility>
 
 #include "vicon/viewer/model/annotate.h"
@@ -349,7 +350,31 @@ void ReadingWindow::closeEvent(QCloseEvent* event)
     timer_.stop();
     savePlace();
     keepSeen();
+    poll_.stop();
+    keep_seen_.stop();
+    still_.stop();
+    end();
     event->accept();
+}
+
+// What is being drawn, read or saved is waited for without a window that does not answer.
+void ReadingWindow::end()
+{
+    constexpr int kLook_ms = 20;
+    corrector_.stop();
+    studio_.end();
+    for (QObject* part : std::initializer_list<QObject*>{&session_, &studio_, &seen_keeper_, &corrector_, this})
+        for (Worker* worker : part->findChildren<Worker*>()) {
+            worker->end();
+            workers_.push_back(worker);
+        }
+    auto* look = new QTimer(this);
+    connect(look, &QTimer::timeout, this, [this] {
+        if (std::all_of(workers_.begin(), workers_.end(), [](const Worker* worker) { return worker->ended(); }))
+            deleteLater();
+    });
+    look->start(kLook_ms);
+    emit closed();
 }
 
 }  // namespace vicon::viewer

@@ -38,6 +38,10 @@ public:
 
     const CaseSession& session() const { return session_; }
 
+signals:
+    /// The window is gone; it deletes itself when its threads have ended.
+    void closed();
+
 protected:
     void keyPressEvent(QKeyEvent* event) override;
     void keyReleaseEvent(QKeyEvent* event) override;
@@ -45,6 +49,7 @@ protected:
     void closeEvent(QCloseEvent* event) override;
 
 private:
+    void end();
     // reading_layout.cpp
     void buildViews();
     QWidget* buildSide();
@@ -183,6 +188,7 @@ private:
     bool fresh_ = false;                           // the scan was done again; its files are read anew
     Pose beside_pose_;
     Lens beside_lens_;
+    std::vector<Worker*> workers_;  // once the window is closed
     double view_angle_deg_ = 90;
     double lamp_reach_mm_ = kUsualLampReach_mm;
 };

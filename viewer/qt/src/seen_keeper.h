@@ -30,7 +30,7 @@ signals:
 
 private:
     std::map<std::filesystem::path, std::string> written_;  // the worker's
-    Worker worker_;
+    Worker worker_{this};
 };
 
 }  // namespace vicon::viewer

@@ -37,7 +37,7 @@ private:
     Vector3 pan_mm_;  // of the picture's middle from the point, across the plane as well
     double zoom_ = 1;
     PlaneView shown_;
-    Worker worker_;
+    Worker worker_{this};
 };
 
 }  // namespace vicon::viewer

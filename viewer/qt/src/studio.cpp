@@ -13,10 +13,17 @@ Studio::Studio()
 
 Studio::~Studio()
 {
-    worker_.postAlways([this]() -> Worker::Work {  // the contexts end on the thread that they belong to
+    end();
+}
+
+void Studio::end()
+{
+    worker_.postAlways([this]() -> Worker::Work {
         pictures_.clear();
         return {};
     });
+    sight_worker_.end();
+    worker_.end();
 }
 
 ReadingPictures& Studio::picturesOf(const std::shared_ptr<OpenScan>& scan)
@@ -26,7 +33,25 @@ ReadingPictures& Studio::picturesOf(const std::shared_ptr<OpenScan>& scan)
         if (some.of.lock() == scan)
             return *some.pictures;
     pictures_.push_back({scan, std::make_unique<ReadingPictures>(scan->files), {}});
+    findSightLines(scan);
     return *pictures_.back().pictures;
+}
+
+void Studio::findSightLines(const std::shared_ptr<OpenScan>& scan)
+{
+    sight_worker_.post("sight lines " + scan->record.id,
+                       [this, files = scan->files, of = std::weak_ptr(scan)]() -> Worker::Work {
+                           if (of.expired())
+                               return {};
+                           auto visibility = std::make_shared<const CellVisibility>(files);
+                           worker_.post("sight lines", [this, visibility, of]() -> Worker::Work {
+                               for (Pictures& some : pictures_)
+                                   if (some.of.lock() == of.lock())
+                                       some.pictures->chooseBy(visibility);
+                               return {};
+                           });
+                           return {};
+                       });
 }
 
 void Studio::drawEndoscopic(std::shared_ptr<OpenScan> scan, const Wish& wish)

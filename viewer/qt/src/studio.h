@@ -19,6 +19,9 @@ public:
     Studio();
     ~Studio() override;
 
+    /// The contexts end on the thread that they belong to; nothing is drawn after that.
+    void end();
+
     /// An endoscopic picture: what is in it, and what is done about the wall that it shows.
     struct Wish {
         SnapshotRequest request;
@@ -60,7 +63,11 @@ private:
         std::chrono::steady_clock::time_point counted;
     };
     std::list<Pictures> pictures_;  // the worker's
-    Worker worker_;
+    /// Finds the lines of sight of a scan whose pictures have been begun; until then gates choose what is drawn.
+    void findSightLines(const std::shared_ptr<OpenScan>& scan);
+
+    Worker worker_{this};
+    Worker sight_worker_{this};  // ends before worker_, to which it speaks
 };
 
 }  // namespace vicon::viewer

@@ -14,9 +14,15 @@ QString messageOf(const Error& e)
 
 }  // namespace
 
-Worker::Worker() : thread_([this] { run(); }) {}
+Worker::Worker(QObject* owner) : QObject(owner), thread_([this] { run(); }) {}
 
 Worker::~Worker()
+{
+    end();
+    thread_.join();
+}
+
+void Worker::end()
 {
     {
         const std::lock_guard lock(mutex_);
@@ -24,7 +30,6 @@ Worker::~Worker()
         tasks_.remove_if([](const Task& task) { return !task.name.empty(); });
     }
     wake_.notify_all();
-    thread_.join();
 }
 
 void Worker::post(const std::string& name, std::function<Work()> work)
@@ -48,8 +53,10 @@ void Worker::run()
         {
             std::unique_lock lock(mutex_);
             wake_.wait(lock, [&] { return stop_ || !tasks_.empty(); });
-            if (tasks_.empty())
+            if (tasks_.empty()) {
+                ended_ = true;
                 return;
+            }
             task = std::move(tasks_.front());
             tasks_.pop_front();
         }

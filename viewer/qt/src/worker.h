@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <list>
@@ -15,8 +16,13 @@ namespace vicon::viewer {
 class Worker : public QObject {
     Q_OBJECT
 public:
-    Worker();
-    ~Worker() override;  ///< waits for the work that runs; what waits is dropped, but for work without a name
+    explicit Worker(QObject* owner);
+    ~Worker() override;  ///< end(), and waits
+
+    /// What waits is dropped, but for work without a name; after that and the work that runs the thread ends. Does not
+    /// wait for it. Later work is not done.
+    void end();
+    bool ended() const { return ended_; }
 
     using Work = std::function<void()>;
     /// `work` runs on the thread; what it returns runs on the window's, unless the worker is gone.
@@ -38,6 +44,7 @@ private:
     std::condition_variable wake_;
     std::list<Task> tasks_;
     bool stop_ = false;
+    std::atomic<bool> ended_ = false;
     std::thread thread_;
 };
 

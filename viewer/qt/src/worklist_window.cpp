@@ -154,8 +154,8 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
 
 WorklistWindow::~WorklistWindow()
 {
-    for (const auto& window : std::map(windows_))
-        delete window.second;
+    for (const auto& window : made_)
+        delete window.data();
 }
 
 void WorklistWindow::refresh()
@@ -243,9 +243,10 @@ void WorklistWindow::open(const WorklistRow& row)
         return;
     }
     auto* window = new ReadingWindow(services_, row);
-    window->setAttribute(Qt::WA_DeleteOnClose);
     windows_[id] = window;
-    connect(window, &QObject::destroyed, this, [this, id] { windows_.erase(id); });
+    made_.erase(std::remove(made_.begin(), made_.end(), nullptr), made_.end());
+    made_.emplace_back(window);
+    connect(window, &ReadingWindow::closed, this, [this, id] { windows_.erase(id); });
     window->resize(1500, 900);
     window->show();
 }

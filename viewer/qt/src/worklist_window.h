@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QPointer>
 #include <QTimer>
 #include <QWidget>
 #include <map>
@@ -21,7 +22,7 @@ class WorklistWindow : public QWidget {
     Q_OBJECT
 public:
     WorklistWindow(const ReadingServices& services, const std::string& open_case);
-    ~WorklistWindow() override;
+    ~WorklistWindow() override;  ///< waits for reading windows that are closed but still saving
 
 private:
     void refresh();
@@ -42,9 +43,10 @@ private:
     QLabel *reason_, *message_;
     QPushButton *open_, *retry_, *report_;
     QTimer timer_;
-    std::map<std::string, QWidget*> windows_;
-    std::unique_ptr<CaseStore> store_;  // the worker's
-    Worker worker_;
+    std::map<std::string, QWidget*> windows_;  ///< open ones, by case
+    std::vector<QPointer<QWidget>> made_;      ///< with those that are closed but still saving
+    std::unique_ptr<CaseStore> store_;         // the worker's
+    Worker worker_{this};
 };
 
 }  // namespace vicon::viewer

@@ -13,8 +13,7 @@
 namespace vicon::viewer {
 namespace {
 
-constexpr double kFar_mm = 2000;    // longer than any line of sight in a body
-constexpr double kAside_mm = 1000;  // parallel projection: the eye's distance from the middle
+constexpr double kFar_mm = 2000;  // longer than any line of sight in a body
 
 vtkSmartPointer<vtkFloatArray> gathered(const std::vector<float>& values, const std::vector<std::uint32_t>& points)
 {
@@ -131,17 +130,6 @@ void placeCamera(vtkCamera* camera, const Pose& pose, double view_angle_deg)
     camera->SetViewUp(pose.up.x, pose.up.y, pose.up.z);
     camera->SetViewAngle(view_angle_deg);
     camera->SetClippingRange(kNearPlane_mm, kFar_mm);
-}
-
-void placeCamera(vtkCamera* camera, const PlaneView& view)
-{
-    const Point3 eye = view.centre_mm - view.forward() * kAside_mm;
-    camera->ParallelProjectionOn();
-    camera->SetPosition(eye.x, eye.y, eye.z);
-    camera->SetFocalPoint(view.centre_mm.x, view.centre_mm.y, view.centre_mm.z);
-    camera->SetViewUp(-view.down.x, -view.down.y, -view.down.z);
-    camera->SetParallelScale(view.height / 2.0 * view.mm_per_pixel);
-    camera->SetClippingRange(1, 2 * kAside_mm);
 }
 
 }  // namespace vicon::viewer

@@ -38,6 +38,5 @@ void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patche
                  const std::vector<std::uint8_t>& shown);
 
 void placeCamera(vtkCamera* camera, const Pose& pose, double view_angle_deg);
-void placeCamera(vtkCamera* camera, const PlaneView& view);
 
 }  // namespace vicon::viewer

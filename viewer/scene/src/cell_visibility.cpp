@@ -39,7 +39,7 @@ CellVisibility::CellVisibility(const PreparedScan& scan, Means means)
 
 int CellVisibility::segmentAt(Point3 p) const
 {
-    const SegmentVolume& segments = scan_.segments();
+    const SegmentView& segments = scan_.segments();
     return segments.valueOr(segments.grid.indexAt(p), 0);
 }
 

@@ -1,4 +1,8 @@
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "pictures.h"
 #include "vicon/viewer/model/annotate.h"
@@ -7,19 +11,6 @@
 namespace vicon::viewer {
 namespace {
 
-constexpr int kSmooth = 2;
-
-struct Extent {
-    double low = 1e300, high = -1e300;
-    void add(double v)
-    {
-        low = std::min(low, v);
-        high = std::max(high, v);
-    }
-    double middle() const { return (low + high) / 2; }
-    double size() const { return high - low; }
-};
-
 // In a window the projection is small, its words are not.
 double captionHeight(double text_px)
 {
@@ -27,23 +18,64 @@ double captionHeight(double text_px)
     return std::max(0.8 * text_px, kLeast_px);
 }
 
-// The whole surface with the caption's room above it and a margin for letters.
-PlaneView viewOfAll(const artefact::CellSurface& surface, int width, int height, double header_px, double margin_px)
+/// The whole projection with the caption's room above it and a margin for letters.
+PlaneView viewOfAll(const artefact::Projection& projection, int width, int height, double header_px, double margin_px)
 {
-    std::array<Extent, 3> extent;
-    for (std::size_t n = 0; n < surface.pointCount(); ++n) {
-        const Point3 p = surface.point(n);
-        extent[0].add(p.x);
-        extent[1].add(p.y);
-        extent[2].add(p.z);
-    }
-    const SliceAxes axes = axesOf(SlicePlane::coronal);
     const double room_x = width - 2 * margin_px, room_y = height - 2 * margin_px - header_px;
-    PlaneView view{{},    axes.right, axes.down, std::max(extent[0].size() / room_x, extent[2].size() / room_y),
-                   width, height};
-    const Point3 middle{extent[0].middle(), extent[1].middle(), extent[2].middle()};
-    view.centre_mm = middle - axes.down * (header_px / 2 * view.mm_per_pixel);
+    const double across_mm = projection.width * projection.pixel_mm, down_mm = projection.height * projection.pixel_mm;
+    PlaneView view{{},    projection.right, projection.down, std::max(across_mm / room_x, down_mm / room_y), width,
+                   height};
+    view.centre_mm = projection.first_pixel_mm + view.right * ((across_mm - projection.pixel_mm) / 2) +
+                     view.down * ((down_mm - projection.pixel_mm) / 2 - header_px / 2 * view.mm_per_pixel);
     return view;
+}
+
+using Ink = std::array<double, 4>;  ///< colour times opacity, and opacity
+
+// Between four pixels; beyond the border there is nothing.
+Ink inkAt(const artefact::Projection& from, double column, double row)
+{
+    const int x = int(std::floor(column)), y = int(std::floor(row));
+    Ink ink{};
+    for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+        const double weight = std::abs(1 - dx - (column - x)) * std::abs(1 - dy - (row - y));
+        if (x + dx < 0 || y + dy < 0 || x + dx >= from.width || y + dy >= from.height)
+            continue;
+        const auto* p = &from.rgba[4 * (std::size_t(y + dy) * std::size_t(from.width) + std::size_t(x + dx))];
+        const double opacity = weight * p[3] / 255.0;
+        for (std::size_t c = 0; c < 3; ++c)
+            ink[c] += opacity * p[c];
+        ink[3] += opacity;
+    }
+    return ink;
+}
+
+// The mean of a few places in each pixel, so that a small picture of a large projection is smooth.
+Picture drawn(const artefact::Projection& from, const PlaneView& view)
+{
+    constexpr Rgb kGround{10, 13, 18};
+    const double step = view.mm_per_pixel / from.pixel_mm;  // projection's pixels in a pixel
+    const int finer = std::clamp(int(std::ceil(step)), 1, 8);
+    const Point3 corner = view.pointAt({0, 0});
+    const double left = from.column(corner), top = from.row(corner);
+    Picture picture(view.width, view.height);
+    tbb::parallel_for(0, view.height, [&](int y) {
+        for (int x = 0; x < view.width; ++x) {
+            Ink sum{};
+            for (int part = 0; part < finer * finer; ++part) {
+                const int across = part % finer, down = part / finer;
+                const Ink ink =
+                    inkAt(from, left + step * (x + (across + 0.5) / finer), top + step * (y + (down + 0.5) / finer));
+                for (std::size_t c = 0; c < 4; ++c)
+                    sum[c] += ink[c] / (finer * finer);
+            }
+            const auto mixed = [&](std::size_t c, double ground) {
+                return std::uint8_t(std::lround(std::min(255.0, sum[c] + (1 - sum[3]) * ground)));
+            };
+            picture.set(x, y, {mixed(0, kGround.red), mixed(1, kGround.green), mixed(2, kGround.blue)});
+        }
+    });
+    return picture;
 }
 
 void addTips(Overlay& overlay, const Skeleton& skeleton, const PlaneView& view, double text_px)
@@ -90,16 +122,15 @@ void addMarkers(Overlay& overlay, const std::vector<Marker>& markers, const Plan
 
 }  // namespace
 
-OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request, SurfaceScene& scene,
-                              Offscreen& offscreen)
+OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request)
 {
     const double text_px = textHeightFor(request.width, request.height);
+    const artefact::Projection& projection = scan.coronalProjection();
     OverviewGround ground;
     ground.header_px =
         double(captionLines(request.caption, 0, 0).size()) * 1.35 * captionHeight(text_px) + 0.48 * text_px;
-    ground.view = viewOfAll(scan.cells(), request.width, request.height, ground.header_px, 2.2 * text_px);
-    scene.lookOnto(ground.view);
-    ground.picture = offscreen.render(request.width, request.height, kSmooth);
+    ground.view = viewOfAll(projection, request.width, request.height, ground.header_px, 2.2 * text_px);
+    ground.picture = drawn(projection, ground.view);
     return ground;
 }
 
@@ -126,9 +157,7 @@ Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, con
 
 Picture overviewPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
 {
-    SurfaceScene scene(scan.cells());
-    Offscreen offscreen(scene.renderer());
-    return overviewOver(overviewGround(scan, request, scene, offscreen), scan, request, place);
+    return overviewOver(overviewGround(scan, request), scan, request, place);
 }
 
 }  // namespace vicon::viewer

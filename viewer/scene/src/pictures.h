@@ -29,8 +29,7 @@ struct OverviewGround {
     PlaneView view;
     double header_px = 0;  ///< height that the caption takes
 };
-OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request, SurfaceScene& scene,
-                              Offscreen& offscreen);
+OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request);
 Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, const SnapshotRequest& request,
                      const SnapshotResult& place);
 Picture overviewPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);

@@ -1,10 +1,12 @@
 #include "vicon/viewer/scene/prepared_scan.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <mutex>
 #include <optional>
 
 #include "vicon/artefact/skeleton_file.h"
-#include "vicon/artefact/volume_file.h"
+#include "vicon/artefact/stored_volume.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
@@ -45,13 +47,14 @@ private:
 
 struct PreparedScan::Files {
     fs::path folder;
-    Lazy<HuVolume> volume;
-    Lazy<InsideVolume> inside;
-    Lazy<FieldVolume> wall_distance, exit_distance;
-    Lazy<SegmentVolume> segments;
+    Lazy<artefact::StoredVolume<std::int16_t>> volume;
+    Lazy<artefact::StoredVolume<std::uint8_t>> inside;
+    Lazy<artefact::StoredVolume<float>> wall_distance, exit_distance;
+    Lazy<artefact::StoredVolume<std::uint16_t>> segments;
     Lazy<Skeleton> skeleton;
     Lazy<artefact::CellSurface> cells;
     Lazy<artefact::Subdivision> subdivision;
+    Lazy<artefact::Projection> coronal;
     Lazy<PathFrames> frames;
     Lazy<ColonPartRanges> parts;
 
@@ -80,29 +83,43 @@ const fs::path& PreparedScan::folder() const
     return files_->folder;
 }
 
-const HuVolume& PreparedScan::volume() const
+void PreparedScan::readForFlight() const
 {
-    return files_->volume.get([&] { return artefact::readVolume<std::int16_t>(files_->at("volume.mha")); });
+    tbb::parallel_invoke([&] { segments(); }, [&] { cells(); }, [&] { inside(); },
+                         [&] {
+                             subdivision();
+                             volume();
+                             wallDistance();
+                             exitDistance();
+                         });
 }
 
-const InsideVolume& PreparedScan::inside() const
+const HuView& PreparedScan::volume() const
 {
-    return files_->inside.get([&] { return artefact::readVolume<std::uint8_t>(files_->at("inside.mha")); });
+    return files_->volume.get([&] { return artefact::StoredVolume<std::int16_t>(files_->at("volume.mha")); }).view();
 }
 
-const FieldVolume& PreparedScan::wallDistance() const
+const InsideView& PreparedScan::inside() const
 {
-    return files_->wall_distance.get([&] { return artefact::readVolume<float>(files_->at("wall_distance.mha")); });
+    return files_->inside.get([&] { return artefact::StoredVolume<std::uint8_t>(files_->at("inside.mha")); }).view();
 }
 
-const FieldVolume& PreparedScan::exitDistance() const
+const FieldView& PreparedScan::wallDistance() const
 {
-    return files_->exit_distance.get([&] { return artefact::readVolume<float>(files_->at("exit_distance.mha")); });
+    return files_->wall_distance.get([&] { return artefact::StoredVolume<float>(files_->at("wall_distance.mha")); })
+        .view();
 }
 
-const SegmentVolume& PreparedScan::segments() const
+const FieldView& PreparedScan::exitDistance() const
 {
-    return files_->segments.get([&] { return artefact::readVolume<std::uint16_t>(files_->at("segments.mha")); });
+    return files_->exit_distance.get([&] { return artefact::StoredVolume<float>(files_->at("exit_distance.mha")); })
+        .view();
+}
+
+const SegmentView& PreparedScan::segments() const
+{
+    return files_->segments.get([&] { return artefact::StoredVolume<std::uint16_t>(files_->at("segments.mha")); })
+        .view();
 }
 
 const Skeleton& PreparedScan::skeleton() const
@@ -118,6 +135,11 @@ const artefact::CellSurface& PreparedScan::cells() const
 const artefact::Subdivision& PreparedScan::subdivision() const
 {
     return files_->subdivision.get([&] { return artefact::readSubdivision(files_->at("subdivision.json")); });
+}
+
+const artefact::Projection& PreparedScan::coronalProjection() const
+{
+    return files_->coronal.get([&] { return artefact::readProjection(files_->at("projections"), "coronal"); });
 }
 
 const PathFrames& PreparedScan::frames() const

@@ -11,7 +11,7 @@ namespace vicon::viewer {
 
 struct ReadingPictures::Parts {
     PreparedScan scan;
-    CellVisibility visibility;
+    std::shared_ptr<const CellVisibility> visibility;
     SurfaceScene scene;
     Offscreen offscreen;
     OverviewGround ground;
@@ -47,7 +47,13 @@ struct ReadingPictures::Parts {
         lamp_reach_mm = reach_mm;
     }
 
-    explicit Parts(const PreparedScan& of) : scan(of), visibility(of), scene(of.cells()), offscreen(scene.renderer()) {}
+    explicit Parts(const PreparedScan& of)
+        : scan(of),
+          visibility(std::make_shared<CellVisibility>(of, CellVisibility::Means::gates)),
+          scene(of.cells()),
+          offscreen(scene.renderer())
+    {
+    }
 };
 
 namespace {
@@ -98,7 +104,7 @@ Picture ReadingPictures::endoscopic(const SnapshotRequest& request, const Snapsh
 {
     Parts& p = *parts_;
     const Lens lens{request.view_angle_deg, request.width, request.height};
-    p.shown = Parts::Shown{p.visibility.seenFrom(place.pose, lens), place.pose, lens};
+    p.shown = Parts::Shown{p.visibility->seenFrom(place.pose, lens), place.pose, lens};
     p.setLook(look.structure, look.lamp_reach_mm);
     p.scene.showSeen(p.shown->parts);
     p.scene.lookFrom(place.pose, request.view_angle_deg);
@@ -107,10 +113,15 @@ Picture ReadingPictures::endoscopic(const SnapshotRequest& request, const Snapsh
         p.seenWall().tint(picture, look.earlier->earlier());
     finishEndoscopic(picture, p.scan, request, place);
     if (look.structure)
-        paint(picture, structureOverlay(p.visibility, p.scene, place.pose, lens));
+        paint(picture, structureOverlay(*p.visibility, p.scene, place.pose, lens));
     if (!request.peel.empty())
         p.shown.reset();
     return picture;
+}
+
+void ReadingPictures::chooseBy(std::shared_ptr<const CellVisibility> visibility)
+{
+    parts_->visibility = std::move(visibility);
 }
 
 void ReadingPictures::countSeen(SeenSoFar& seen)
@@ -122,11 +133,8 @@ void ReadingPictures::countSeen(SeenSoFar& seen)
 ReadingPictures::Overview ReadingPictures::overview(const SnapshotRequest& request, const SnapshotResult& place)
 {
     Parts& p = *parts_;
-    if (p.ground.picture.width != request.width || p.ground.picture.height != request.height) {
-        p.setLook(false, p.lamp_reach_mm);
-        p.scene.showSeen({});
-        p.ground = overviewGround(p.scan, request, p.scene, p.offscreen);
-    }
+    if (p.ground.picture.width != request.width || p.ground.picture.height != request.height)
+        p.ground = overviewGround(p.scan, request);
     return {overviewOver(p.ground, p.scan, request, place), p.ground.view};
 }
 

@@ -15,7 +15,7 @@ constexpr std::size_t kNoteLine = 44;  // characters
 constexpr std::size_t kMostNoteLines = 3;
 constexpr double kCloseUp_mm = 50;  // what the close-up shows: a polyp of 6 mm fills an eighth of it
 
-Picture greyPicture(const HuVolume& volume, const PlaneView& view, const WindowLevel& window)
+Picture greyPicture(const HuView& volume, const PlaneView& view, const WindowLevel& window)
 {
     Picture picture(view.width, view.height);
     const auto densities = sliceDensities(volume, view);
@@ -42,7 +42,7 @@ struct Panel {
 Picture slice(const PreparedScan& scan, const SnapshotRequest& request, const Panel& panel)
 {
     const auto& [plane, point, width, height, field_mm, cross] = panel;
-    const HuVolume& volume = scan.volume();
+    const HuView& volume = scan.volume();
     const PlaneView view = sliceThrough(volume.grid, plane, point, width, height, field_mm);
     Picture picture = greyPicture(volume, view, windowPreset(request.window));
     Overlay overlay;

@@ -19,7 +19,6 @@ namespace {
 // ahead is dark but not black.
 constexpr double kLampReach_mm = 45;
 constexpr std::array kMucosa{0.93, 0.66, 0.56};
-constexpr std::array kOutside{0.78, 0.72, 0.66};
 
 // A lamp at the eye. Light fades with the distance, so that depth is seen; a wall seen flat keeps some light, as from
 // the walls around it, so that the far side of a fold's edge is not a black rim. Written in place of VTK's light loop,
@@ -51,17 +50,16 @@ struct SurfaceScene::Parts {
     vtkNew<vtkLight> lamp;
     double lamp_reach_mm = kLampReach_mm;
     bool color_cells = false;
-    bool endoscopic = true;
 
     void setMaterial() const
     {
         for (const CellActor& cell : cells) {
             vtkProperty* p = cell.actor->GetProperty();
-            const auto color = color_cells ? cellColor(cell.segment) : endoscopic ? kMucosa : kOutside;
+            const auto color = color_cells ? cellColor(cell.segment) : kMucosa;
             p->SetColor(color[0], color[1], color[2]);
-            p->SetAmbient(endoscopic ? 0 : 0.25);
-            p->SetDiffuse(endoscopic ? 1 : 0.75);
-            p->SetBackfaceCulling(endoscopic);
+            p->SetAmbient(0);
+            p->SetDiffuse(1);
+            p->BackfaceCullingOn();
         }
     }
 
@@ -71,8 +69,6 @@ struct SurfaceScene::Parts {
         for (const CellActor& cell : cells) {
             vtkShaderProperty* shader = cell.actor->GetShaderProperty();
             shader->ClearAllFragmentShaderReplacements();
-            if (!endoscopic)
-                continue;
             shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, kLampShader, false);
             shader->GetFragmentCustomUniforms()->SetUniformf("lampReach", float(lamp_reach_mm));
         }
@@ -104,22 +100,7 @@ vtkRenderer* SurfaceScene::renderer() const
 
 void SurfaceScene::lookFrom(const Pose& pose, double view_angle_deg)
 {
-    if (!parts_->endoscopic) {
-        parts_->endoscopic = true;
-        parts_->setMaterial();
-        parts_->setLamp();
-    }
-    parts_->renderer->SetBackground(0, 0, 0);
     placeCamera(parts_->renderer->GetActiveCamera(), pose, view_angle_deg);
-}
-
-void SurfaceScene::lookOnto(const PlaneView& view)
-{
-    parts_->endoscopic = false;
-    parts_->setMaterial();
-    parts_->setLamp();
-    parts_->renderer->SetBackground(0.04, 0.05, 0.07);
-    placeCamera(parts_->renderer->GetActiveCamera(), view);
 }
 
 void SurfaceScene::showOnly(const std::vector<int>& segments)

@@ -22,7 +22,7 @@ public:
     static constexpr double kLeastSpeed_mm_s = 5, kMostSpeed_mm_s = 100;
 
     /// Everything must outlive it. Throws Error{unusable_scan} when no station of the path is wide enough.
-    Navigator(const PathFrames& path, const Lumen& lumen, const FieldVolume& exit_distance,
+    Navigator(const PathFrames& path, const Lumen& lumen, const FieldView& exit_distance,
               const SubmarineOptions& options = {});
 
     NavigationMode mode() const { return mode_; }

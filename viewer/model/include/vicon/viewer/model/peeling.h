@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "vicon/core/volume.h"
+#include "vicon/core/volume_view.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/lumen.h"
 #include "vicon/viewer/model/transfer_function.h"
@@ -46,7 +46,7 @@ std::optional<double> distanceToWall_mm(const Lumen& lumen, Point3 from, Vector3
 /// Densities are trilinear; outside the scan and at padding nothing is seen. A ray ends when less than 0.2 % of its
 /// light is left. Source: peeling as in the thesis, chapter 4; empty space leaping by distance: Zuiderveld et al., VBC
 /// 1992. `only`: the other pixels stay clear. Throws Error{wrong_use} for a step or a picture size out of range.
-PeeledPicture peel(const HuVolume& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
+PeeledPicture peel(const HuView& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
                    const TransferFunction& colours, const PeelingOptions& options = {},
                    const std::optional<PictureCircle>& only = {});
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "vicon/core/volume.h"
+#include "vicon/core/volume_view.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/patches.h"
 
@@ -29,7 +29,7 @@ struct DrawnSurface {
 class SightLines {
 public:
     /// Takes about 0.4 s and one byte a voxel. The surface and the volume need not live on.
-    SightLines(const InsideVolume& inside, const DrawnSurface& surface);
+    SightLines(const InsideView& inside, const DrawnSurface& surface);
     ~SightLines();
     SightLines(SightLines&&) noexcept;
     SightLines& operator=(SightLines&&) noexcept;

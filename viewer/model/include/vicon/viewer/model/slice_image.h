@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "vicon/core/volume.h"
+#include "vicon/core/volume_view.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/orientation.h"
 
@@ -10,7 +10,7 @@ namespace vicon::viewer {
 
 /// Densities in the plane of a picture, row by row from the top, trilinear between voxels; kPaddingHu outside the
 /// scan. The plane may lie in any direction, and so may the scan's axes.
-std::vector<float> sliceDensities(const HuVolume& volume, const PlaneView& view);
+std::vector<float> sliceDensities(const HuView& volume, const PlaneView& view);
 
 /// The orthogonal slice through `point` that shows the whole scan, or, with `field_mm` above 0, that much of it around
 /// the point.

@@ -80,7 +80,7 @@ public:
 
     /// Path, lumen and field must outlive it. Starts at the rectal end, heading for the caecum.
     /// Throws Error{unusable_scan} when no station of the path is wide enough.
-    Submarine(const PathFrames& path, const Lumen& lumen, const FieldVolume& exit_distance,
+    Submarine(const PathFrames& path, const Lumen& lumen, const FieldView& exit_distance,
               const SubmarineOptions& options = {});
 
     /// Puts it on the path, at rest, at the wide enough station nearest to this one.
@@ -118,7 +118,7 @@ private:
 
     const PathFrames* path_;
     Lumen lumen_;
-    const FieldVolume* exit_;
+    FieldView exit_;
     SubmarineOptions options_;
     Steering steering_;
     Moment now_, before_;

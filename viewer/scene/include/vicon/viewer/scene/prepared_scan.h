@@ -4,10 +4,11 @@
 #include <memory>
 
 #include "vicon/artefact/cells_file.h"
+#include "vicon/artefact/projections_file.h"
 #include "vicon/artefact/subdivision_file.h"
 #include "vicon/core/colon_parts.h"
 #include "vicon/core/skeleton.h"
-#include "vicon/core/volume.h"
+#include "vicon/core/volume_view.h"
 #include "vicon/viewer/model/lumen.h"
 #include "vicon/viewer/model/path_frames.h"
 
@@ -23,18 +24,22 @@ public:
 
     const std::filesystem::path& folder() const;
 
+    /// Reads what a flight needs now, on all cores. Throws as the functions below do.
+    void readForFlight() const;
+
     // Each throws Error{not_ready} where its file is missing, Error{bad_input} where it is damaged.
-    const HuVolume& volume() const;                    ///< volume.mha
-    const InsideVolume& inside() const;                ///< inside.mha
-    const FieldVolume& wallDistance() const;           ///< wall_distance.mha
-    const FieldVolume& exitDistance() const;           ///< exit_distance.mha
-    const SegmentVolume& segments() const;             ///< segments.mha
-    const Skeleton& skeleton() const;                  ///< skeleton.vtp
-    const artefact::CellSurface& cells() const;        ///< cells.vtp
-    const artefact::Subdivision& subdivision() const;  ///< subdivision.json
-    const PathFrames& frames() const;                  ///< of the skeleton
-    const ColonPartRanges& parts() const;              ///< of scan.json; empty where it knows none
-    Lumen lumen() const;                               ///< of inside and wallDistance; valid while this object lives
+    const HuView& volume() const;                           ///< volume.mha
+    const InsideView& inside() const;                       ///< inside.mha
+    const FieldView& wallDistance() const;                  ///< wall_distance.mha
+    const FieldView& exitDistance() const;                  ///< exit_distance.mha
+    const SegmentView& segments() const;                    ///< segments.mha
+    const Skeleton& skeleton() const;                       ///< skeleton.vtp
+    const artefact::CellSurface& cells() const;             ///< cells.vtp
+    const artefact::Subdivision& subdivision() const;       ///< subdivision.json
+    const artefact::Projection& coronalProjection() const;  ///< of projections/
+    const PathFrames& frames() const;                       ///< of the skeleton
+    const ColonPartRanges& parts() const;                   ///< of scan.json; empty where it knows none
+    Lumen lumen() const;  ///< of inside and wallDistance; valid while this object lives
 
 private:
     struct Files;

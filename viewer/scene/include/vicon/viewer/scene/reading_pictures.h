@@ -6,6 +6,7 @@
 #include "vicon/viewer/model/seen_so_far.h"
 #include "vicon/viewer/model/window_level.h"
 #include "vicon/viewer/scene/canvas.h"
+#include "vicon/viewer/scene/cell_visibility.h"
 #include "vicon/viewer/scene/snapshot.h"
 
 namespace vicon::viewer {
@@ -37,7 +38,8 @@ struct EndoscopicLook {
 /// one thread.
 class ReadingPictures {
 public:
-    /// Throws Error{no_display}, and as PreparedScan does.
+    /// Chooses what to draw by gates alone, which are there at once. Throws Error{no_display}, and as PreparedScan
+    /// does.
     explicit ReadingPictures(const PreparedScan& scan);
     ~ReadingPictures();
 
@@ -45,6 +47,9 @@ public:
     /// @param still smoothed; while the eye moves: not
     Picture endoscopic(const SnapshotRequest& request, const SnapshotResult& place, bool still,
                        const EndoscopicLook& look = {});
+    /// From now on `visibility`, of the same scan, chooses what is drawn; the pictures stay the same, but take less
+    /// time.
+    void chooseBy(std::shared_ptr<const CellVisibility> visibility);
     /// Counts what the last endoscopic picture shows as seen. Not where it was peeled: the wall is not in it.
     void countSeen(SeenSoFar& seen);
 

@@ -26,8 +26,6 @@ public:
 
     /// The endoscopic view: perspective, light that fades with the distance.
     void lookFrom(const Pose& pose, double view_angle_deg);
-    /// From outside in parallel projection: the wall's outer side, lit from the eye.
-    void lookOnto(const PlaneView& view);
 
     /// Draws only these segments' cells; empty: all.
     void showOnly(const std::vector<int>& segments);

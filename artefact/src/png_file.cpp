@@ -8,7 +8,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
-namespace vicon::steps {
+namespace vicon::artefact {
 namespace {
 
 [[noreturn]] void fail(png_structp, png_const_charp what)
@@ -65,4 +65,26 @@ void writePng(const std::filesystem::path& file, int width, int height, const st
     });
 }
 
-}  // namespace vicon::steps
+std::vector<std::uint8_t> readPng(const std::filesystem::path& file, int width, int height)
+{
+    if (!std::filesystem::exists(file))
+        throw Error(ErrorCode::not_found, "no such file", file.string(), "run 'vicon work' to make it");
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    std::vector<std::uint8_t> rgba;
+    bool read = png_image_begin_read_from_file(&image, file.c_str()) != 0;
+    if (read && int(image.width) == width && int(image.height) == height) {
+        image.format = PNG_FORMAT_RGBA;
+        rgba.resize(PNG_IMAGE_SIZE(image));
+        read = png_image_finish_read(&image, nullptr, rgba.data(), 0, nullptr) != 0;
+    } else {
+        read = false;
+    }
+    png_image_free(&image);
+    if (!read)
+        throw Error(ErrorCode::bad_input, "is damaged, or not the picture that its description speaks of",
+                    file.string(), "run 'vicon work' to make it anew");
+    return rgba;
+}
+
+}  // namespace vicon::artefact

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "vicon/core/volume_view.h"
+
+namespace vicon::artefact {
+
+/// A volume as its file holds it. Raw voxels are mapped: opening costs nothing, and only what is looked at is read from
+/// the disk. Packed ones are unpacked into memory. The file may be replaced or deleted meanwhile. Copies share it.
+template <class T>
+class StoredVolume {
+public:
+    /// Instantiated for the voxel types of core/volume.h. Throws as readVolume() does.
+    explicit StoredVolume(const std::filesystem::path& file);
+
+    const VolumeView<T>& view() const { return view_; }
+
+private:
+    std::shared_ptr<const void> owner_;
+    VolumeView<T> view_;
+};
+
+}  // namespace vicon::artefact

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+namespace vicon::artefact {
+
+/// A file's bytes as memory, to be read only; they stay when the file is replaced or deleted.
+class MappedFile {
+public:
+    /// Throws Error{store}.
+    explicit MappedFile(const std::filesystem::path& file);
+    ~MappedFile();
+    MappedFile(const MappedFile&) = delete;
+    MappedFile& operator=(const MappedFile&) = delete;
+
+    const std::byte* data() const { return data_; }
+
+private:
+    const std::byte* data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+}  // namespace vicon::artefact
