@@ -46,7 +46,7 @@ double quantile(std::vector<double> values, double part)
 void measure(const PreparedScan& scan, const std::string& preset, const Settings& settings)
 {
     const Lumen lumen = scan.lumen();
-    const HuView& volume = scan.volume();
+    const DensityBricks& volume = scan.bricks();
     const Lens lens{90, settings.side, settings.side};
     std::vector<double> wall, cpu;
     for (const ViewPose& view : planFlight(scan.frames(), lumen, settings.step_mm, Heading::caecum)) {
@@ -71,6 +71,8 @@ Settings settingsFrom(int argc, char** argv)
             settings.step_mm = std::atof(argv[++n]);
         else if (word == "--sample" && n + 1 < argc)
             settings.peeling.step_mm = std::atof(argv[++n]);
+        else if (word == "--moving")
+            settings.peeling = settings.peeling.whileMoving();
         else if (word == "--unshaded")
             settings.peeling.shaded = false;
         else if (word == "--preset" && n + 1 < argc)

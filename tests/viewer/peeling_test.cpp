@@ -82,6 +82,51 @@ TEST_P(PeelingInStorage, EqualsAPlainCasterFromTheEyeWithinOneGreyLevel)
         }
 }
 
+TEST(DensityBricks, KnowTheDensitiesFromWhichSamplesInThemAreMade)
+{
+    HuVolume volume(Grid{.size = {19, 17, 9}});
+    for (std::size_t n = 0; n < volume.voxels.size(); ++n)
+        volume.voxels[n] = std::int16_t(int(n * 7919 % 3001) - 1000);
+    volume.at({14, 3, 4}) = kPaddingHu;
+    const DensityBricks bricks{HuView(volume)};
+    for (int asked = 0; asked < 2; ++asked)  // looked at, then known
+        for (const Index3 first : {Index3{0, 0, 0}, Index3{8, 0, 0}, Index3{16, 8, 8}, Index3{8, 16, 0}}) {
+            const DensityBricks::Range range = bricks.around(bricks.brickOf(first.i + 1, first.j, first.k));
+            std::int16_t lowest = INT16_MAX, highest = INT16_MIN;
+            for (int k = first.k - 1; k < first.k + 10; ++k)
+                for (int j = first.j - 1; j < first.j + 10; ++j)
+                    for (int i = first.i - 1; i < first.i + 10; ++i)
+                        if (volume.grid.contains({i, j, k})) {
+                            lowest = std::min(lowest, volume.at({i, j, k}));
+                            highest = std::max(highest, volume.at({i, j, k}));
+                        }
+            EXPECT_EQ(range.lowest, lowest);
+            EXPECT_EQ(range.highest, highest);
+            EXPECT_TRUE(range.padding) << "all of these lie at the border";
+        }
+    const HuVolume even(Grid{.size = {40, 40, 40}}, 5);
+    const DensityBricks inner{HuView(even)};
+    EXPECT_FALSE(inner.around(inner.brickOf(20, 20, 20)).padding);
+}
+
+TEST(Peeling, WhileMovingShowsNearlyTheSame)
+{
+    const TestColon colon(test::storages().front());
+    const Lumen lumen(colon.inside, colon.wall_distance);
+    const Lens lens{90, 40, 40};
+    const Pose pose = poseInside(colon, 0.45);
+    for (const std::string name : {"soft-tissue", "polyp", "fat"}) {
+        const PeelingOptions still;
+        const auto slow = peel(colon.volume, lumen, pose, lens, transferFunction(name), still);
+        const auto quick = peel(colon.volume, lumen, pose, lens, transferFunction(name), still.whileMoving());
+        double sum = 0;
+        for (std::size_t n = 0; n < slow.rgba.size(); ++n)
+            sum += std::abs(int(slow.rgba[n]) - int(quick.rgba[n]));
+        EXPECT_GT(sum, 0) << "they are not the same picture";
+        EXPECT_LT(sum / double(slow.rgba.size()), 8) << name;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Storages, PeelingInStorage, testing::Range(0, int(test::storages().size())));
 
 /// A cube of even density with a hollow of 30 x 30 x 30 mm in its middle; layers of other density at chosen depths.

@@ -19,6 +19,7 @@ public:
         for (std::size_t a = 0; a < 3; ++a) {
             last_[a] = float(volume.grid.size[a] - 1);
             per_voxel_[a] = volume.grid.axis[a] / volume.grid.spacing_mm[a];
+            per_mm_[a] = float(1 / volume.grid.spacing_mm[a]);
         }
     }
 
@@ -37,41 +38,55 @@ public:
         return {float(dot(v, per_voxel_[0])), float(dot(v, per_voxel_[1])), float(dot(v, per_voxel_[2]))};
     }
 
-    /// False outside the scan and beside padding.
-    bool sample(Place p, float& density_hu) const
+    /// Whether a place lies between voxels of the scan.
+    bool holds(Place p) const
     {
-        if (!(p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x < last_[0] && p.y < last_[1] && p.z < last_[2]))
-            return false;
+        return p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x < last_[0] && p.y < last_[1] && p.z < last_[2];
+    }
+
+    /// False beside padding. `p` must be held by the scan.
+    /// @param padding whether some may be near
+    bool sample(Place p, bool padding, float& density_hu) const
+    {
         const Cell cell = cellAt(p);
         const std::int16_t *v = cell.first, *w = v + slice_;
-        if (holdsPadding(pairs(v, v + row_)) || holdsPadding(pairs(w, w + row_)))
+        if (padding && (holdsPadding(pairs(v, v + row_)) || holdsPadding(pairs(w, w + row_))))
             return false;
         const float near = mixed(v, cell.x, cell.y), far = mixed(w, cell.x, cell.y);
         density_hu = near + cell.z * (far - near);
         return true;
     }
 
-    /// The gradient in patient coordinates, from trilinear samples one voxel to either side; zero where one of them is
-    /// missing. All six lie in shifted copies of one cell, so they are taken together.
-    Vector3 gradient(Place p) const
+    /// The gradient of the density, taken over two voxels, of which a ray asks two things.
+    struct Slope {
+        float along = 0;  ///< its part along the ray, with its sign
+        float steep = 0;  ///< its length
+    };
+    /// From trilinear samples one voxel to either side; zero where one of them is missing. All of them lie in rows of
+    /// four voxels around one cell, which are taken as vectors.
+    /// @param unit what indexStep() says of the ray's unit direction
+    /// @param padding whether some may be near
+    Slope slope(Place p, Place unit, bool padding) const
     {
         if (!(p.x >= 1 && p.y >= 1 && p.z >= 1 && p.x < last_[0] - 1 && p.y < last_[1] - 1 && p.z < last_[2] - 1))
             return {};
         const Cell cell = cellAt(p);
         const std::int16_t* v = cell.first;
-        if (paddingAround(v))
+        if (padding && paddingAround(v))
             return {};
-        float x = 0, y = 0, z = 0;
-        for (int corner = 0; corner < 4; ++corner) {
-            const bool back = corner & 1, up = corner & 2;
-            const std::int16_t* r = v + (back ? row_ : 0) + (up ? slice_ : 0);
-            const float weight = (back ? cell.y : 1 - cell.y) * (up ? cell.z : 1 - cell.z);
-            const float right = weight * cell.x, left = weight - right;
-            x += left * float(r[1] - r[-1]) + right * float(r[2] - r[0]);
-            y += left * float(r[row_] - r[-row_]) + right * float(r[row_ + 1] - r[1 - row_]);
-            z += left * float(r[slice_] - r[-slice_]) + right * float(r[slice_ + 1] - r[1 - slice_]);
-        }
-        return per_voxel_[0] * double(x) + per_voxel_[1] * double(y) + per_voxel_[2] * double(z);
+        const auto row = [&](int j, int k) { return rowOf(v + row_ * j + slice_ * k); };
+        const Four front = row(0, 0), back = row(1, 0), front_up = row(0, 1), back_up = row(1, 1);
+        const Four low = front + cell.y * (back - front), high = front_up + cell.y * (back_up - front_up);
+        const Four across = low + cell.z * (high - low);
+        const Four deep = mixed(back - row(-1, 0), row(2, 0) - front, cell.y);
+        const Four deep_up = mixed(back_up - row(-1, 1), row(2, 1) - front_up, cell.y);
+        const Four under = mixed(front_up - row(0, -1), back_up - row(1, -1), cell.y);
+        const Four over = mixed(row(0, 2) - front, row(1, 2) - back, cell.y);
+        const float x = mixed(across[2] - across[0], across[3] - across[1], cell.x);
+        const Four y = mixed(deep, deep_up, cell.z), z = mixed(under, over, cell.z);
+        const float gy = mixed(y[1], y[2], cell.x), gz = mixed(z[1], z[2], cell.x);
+        const float sx = x * per_mm_[0], sy = gy * per_mm_[1], sz = gz * per_mm_[2];
+        return {x * unit.x + gy * unit.y + gz * unit.z, std::sqrt(sx * sx + sy * sy + sz * sz)};
     }
 
 private:
@@ -83,6 +98,23 @@ private:
     {
         const int i = int(p.x), j = int(p.y), k = int(p.z);  // none is negative
         return {voxels_ + i + row_ * j + slice_ * k, p.x - float(i), p.y - float(j), p.z - float(k)};
+    }
+    using Four = float __attribute__((vector_size(16)));
+    // The voxel before `v`, it, and two more.
+    static Four rowOf(const std::int16_t* v)
+    {
+        using Eight = std::int16_t __attribute__((vector_size(16)));
+        using FourWords = std::int32_t __attribute__((vector_size(16)));
+        using TwoLong = std::uint64_t __attribute__((vector_size(16)));
+        const auto voxels = reinterpret_cast<Eight>(TwoLong{four(v - 1), 0});
+        // Each twice, so that the upper half of a word is the voxel; a plain conversion is made one by one.
+        const Eight twice = __builtin_shuffle(voxels, Eight{0, 0, 1, 1, 2, 2, 3, 3});
+        return __builtin_convertvector(reinterpret_cast<FourWords>(twice) >> 16, Four);
+    }
+    template <class T>
+    static T mixed(T a, T b, float share)
+    {
+        return a + share * (b - a);
     }
     float mixed(const std::int16_t* v, float tx, float ty) const
     {
@@ -132,6 +164,7 @@ private:
     std::ptrdiff_t row_, slice_;
     float last_[3];
     Vector3 per_voxel_[3];
+    float per_mm_[3];
 };
 
 }  // namespace vicon::viewer

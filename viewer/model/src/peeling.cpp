@@ -13,9 +13,7 @@
 namespace vicon::viewer {
 namespace {
 
-constexpr double kFarthest_mm = 500;        // longer than any colon is wide: no ray needs more to meet a wall
-constexpr float kLightThatCounts = 0.002F;  // half a grey level
-constexpr float kOpacityThatIsShaded = 0.004F;
+constexpr double kFarthest_mm = 500;  // longer than any colon is wide: no ray needs more to meet a wall
 constexpr double kMostPixels = 4096;
 constexpr int kTile = 8;  // pixels that are cast together: a beam through them finds what is free for all
 // As the lamp of the surface's picture (scene/surface_scene.cpp), so that the two fit together.
@@ -29,9 +27,10 @@ struct Light {
 
 class Caster {
 public:
-    Caster(const HuView& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
+    Caster(const DensityBricks& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
            const TransferFunction& colours, const PeelingOptions& options)
-        : densities_(volume),
+        : bricks_(volume),
+          densities_(volume.volume()),
           walls_(lumen, pose.eye_mm),
           eye_(densities_.indexAt(pose.eye_mm)),
           pose_(pose),
@@ -72,41 +71,75 @@ private:
         const auto first = std::size_t(std::ceil(std::max(0.0, begin) / options_.step_mm));
         const auto last = std::min(std::size_t(std::max(0.0, end) / options_.step_mm), fade_.size() - 1);
         const DensitySampler::Place unit = densities_.indexStep(direction);
-        for (std::size_t n = first; n <= last && light.left >= kLightThatCounts; ++n) {
+        Brick brick;
+        for (std::size_t n = first; n <= last && light.left >= float(options_.least_light); ++n) {
             const float t = float(n) * float(options_.step_mm);
-            add(light, {eye_.x + unit.x * t, eye_.y + unit.y * t, eye_.z + unit.z * t}, fade_[n], direction);
+            const DensitySampler::Place p{eye_.x + unit.x * t, eye_.y + unit.y * t, eye_.z + unit.z * t};
+            if (!densities_.holds(p))
+                continue;
+            enter(brick, p);
+            if (brick.shows)
+                add(light, p, fade_[n], unit, brick.padding);
+            else
+                n = std::max(n, lastWithin(p, unit));
         }
         return light;
     }
 
-    void add(Light& light, DensitySampler::Place p, float fade, Vector3 direction) const
+    /// The brick that a ray is in.
+    struct Brick {
+        std::size_t number = SIZE_MAX;
+        bool shows = false, padding = false;
+    };
+    void enter(Brick& brick, DensitySampler::Place p) const
+    {
+        const std::size_t number = bricks_.brickOf(int(p.x), int(p.y), int(p.z));
+        if (number == brick.number)
+            return;
+        const DensityBricks::Range range = bricks_.around(number);
+        brick = {number, colours_.shows(range.lowest, range.highest), range.padding};
+    }
+
+    // Number of the last sample in the brick of `p`, or one that rounding puts just behind it: its range covers that.
+    std::size_t lastWithin(DensitySampler::Place p, DensitySampler::Place unit) const
+    {
+        const auto reach = [](float at, float eye, float step) {
+            constexpr float kFar = 1e9F, kEdge = DensityBricks::kEdge;
+            const float side = std::floor(at / kEdge) * kEdge + (step > 0 ? kEdge : 0);
+            return step == 0 ? kFar : (side - eye) / step;
+        };
+        const float t = std::min({reach(p.x, eye_.x, unit.x), reach(p.y, eye_.y, unit.y), reach(p.z, eye_.z, unit.z)});
+        return std::size_t(std::max(0.F, t / float(options_.step_mm)));
+    }
+
+    void add(Light& light, DensitySampler::Place p, float fade, DensitySampler::Place unit, bool padding) const
     {
         float density_hu = 0;
-        if (!densities_.sample(p, density_hu))
+        if (!densities_.sample(p, padding, density_hu))
             return;
         const TransferTable::Entry& entry = colours_.at(density_hu);
         if (entry.opacity <= 0)
             return;
         const float weight = light.left * entry.opacity;
-        const bool lit = options_.shaded && weight > kOpacityThatIsShaded;
-        const float strength = weight * fade * (lit ? facing(p, direction) : 1);
+        const bool lit = options_.shaded && weight > float(options_.shaded_from);
+        const float strength = weight * fade * (lit ? facing(p, unit, padding) : 1);
         for (std::size_t c = 0; c < 3; ++c)
             light.colour[c] += strength * entry.colour[c];
         light.left -= weight;
     }
 
-    float facing(DensitySampler::Place p, Vector3 direction) const
+    float facing(DensitySampler::Place p, DensitySampler::Place unit, bool padding) const
     {
-        const Vector3 gradient = densities_.gradient(p);
-        const auto steep = float(length(gradient));
+        const DensitySampler::Slope slope = densities_.slope(p, unit, padding);
         // A border between densities shines when it faces the lamp; inside even tissue there is none to face it.
-        const float cosine = steep > 0 ? float(std::abs(dot(gradient, direction))) / steep : 1;
-        const float edge = steep / (steep + kEvenTissue_hu);
+        const float cosine = slope.steep > 0 ? std::abs(slope.along) / slope.steep : 1;
+        const float edge = slope.steep / (slope.steep + kEvenTissue_hu);
         return kLeastLight + kFacingLight * (1 + edge * (cosine - 1));
     }
 
     static constexpr float kEvenTissue_hu = 60;  // three times the noise of a colonography at 50 mAs
 
+    const DensityBricks& bricks_;
     DensitySampler densities_;
     WallRays walls_;
     DensitySampler::Place eye_;
@@ -138,7 +171,7 @@ std::optional<double> distanceToWall_mm(const Lumen& lumen, Point3 from, Vector3
     return WallRays(lumen, from).along(direction, 0, reach_mm);
 }
 
-PeeledPicture peel(const HuView& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
+PeeledPicture peel(const DensityBricks& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
                    const TransferFunction& colours, const PeelingOptions& options,
                    const std::optional<PictureCircle>& only)
 {

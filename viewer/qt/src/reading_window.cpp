@@ -278,7 +278,10 @@ void ReadingWindow::drawEndoscopic(bool still)
     wish.count_seen = endoscopic_->isVisible();
     peeling_->fill(wish.request);
     wish.request.peel_circle_at = lens_at_;
-    wish.request.peel_coarse = still ? 1 : kPeelCoarse;
+    if (!still) {
+        wish.request.peel_coarse = kPeelCoarse;
+        wish.request.peeling = wish.request.peeling.whileMoving();
+    }
     studio_.drawEndoscopic(session_.sharedScan(), wish);
 }
 

@@ -74,7 +74,7 @@ void layPeelingOver(Picture& picture, const PreparedScan& scan, const SnapshotRe
     if (only)
         only = PictureCircle{{only->centre.x / coarse, only->centre.y / coarse}, only->radius_px / coarse};
     const PeeledPicture peeled =
-        peel(scan.volume(), scan.lumen(), pose, few, transferFunction(request.peel), request.peeling, only);
+        peel(scan.bricks(), scan.lumen(), pose, few, transferFunction(request.peel), request.peeling, only);
     blendOver(picture.rgb, coarse == 1 ? peeled : enlarged(peeled, coarse, lens.width, lens.height));
 }
 

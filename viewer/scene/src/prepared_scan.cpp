@@ -57,6 +57,7 @@ struct PreparedScan::Files {
     Lazy<artefact::Projection> coronal;
     Lazy<PathFrames> frames;
     Lazy<ColonPartRanges> parts;
+    Lazy<std::unique_ptr<const DensityBricks>> bricks;
 
     fs::path at(const char* name) const
     {
@@ -158,6 +159,11 @@ const ColonPartRanges& PreparedScan::parts() const
             throw Error(ErrorCode::bad_input, "is not the description of a scan", file.string(), "run 'vicon work'");
         return colonPartsFromJson(scan.value("parts", nlohmann::json::array()));
     });
+}
+
+const DensityBricks& PreparedScan::bricks() const
+{
+    return *files_->bricks.get([&] { return std::make_unique<const DensityBricks>(volume()); });
 }
 
 Lumen PreparedScan::lumen() const

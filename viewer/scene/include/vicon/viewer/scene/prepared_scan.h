@@ -9,6 +9,7 @@
 #include "vicon/core/colon_parts.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume_view.h"
+#include "vicon/viewer/model/density_bricks.h"
 #include "vicon/viewer/model/lumen.h"
 #include "vicon/viewer/model/path_frames.h"
 
@@ -39,6 +40,7 @@ public:
     const artefact::Projection& coronalProjection() const;  ///< of projections/
     const PathFrames& frames() const;                       ///< of the skeleton
     const ColonPartRanges& parts() const;                   ///< of scan.json; empty where it knows none
+    const DensityBricks& bricks() const;                    ///< of the volume
     Lumen lumen() const;  ///< of inside and wallDistance; valid while this object lives
 
 private:
