@@ -160,7 +160,7 @@ const std::vector<Step>& stepTable()
         {"resample", 2, 0, 0.3, {}, always({"volume.mha"}), parametersFrom<ResampleOptions>, runResample},
         {"segment", 7, 0.3, 0.55, {"resample"}, segmentFiles, parametersFrom<SegmentOptions>, runSegment},
         {"skeleton",
-         4,
+         5,
          0.55,
          0.65,
          {"segment"},

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "skeleton_detour.h"
+#include "skeleton_join.h"
 #include "skeleton_path.h"
 #include "skeleton_smooth.h"
 #include "vicon/steps/wall_distance.h"
@@ -16,8 +17,6 @@ namespace {
 constexpr int kBlock = 2;        // half resolution: as exact after recentring as full, and four times faster
 constexpr double kLeast_mm = 0;  // narrow lumens are kept; the cost keeps the path away from corners of the wall
 
-constexpr double kClosing_mm = 12;        // before a collapsed part the lumen closes, often to one side
-constexpr double kRunUp_mm = 15;          // of the curves, smoothed together with the bridge
 constexpr double kTubeReach_mm = 150;     // from the rectal end: a rectal tube lies no higher
 constexpr double kTubeSection_mm2 = 200;  // of a tube of up to 12 mm, cut obliquely
 
@@ -82,51 +81,6 @@ void append(Skeleton& skeleton, const Polyline& line, bool bridge, const Distanc
     skeleton.pieces.push_back(std::move(piece));
 }
 
-/// Cuts off the end of a curve beyond the place where the bridge leaves the lumen, and the stretch before it in which
-/// the lumen closes: there the curve follows the corners of the wall.
-void cutBack(Polyline& curve, Point3 leave)
-{
-    const auto near = std::min_element(curve.begin(), curve.end(),
-                                       [&](Point3 a, Point3 b) { return distance(a, leave) < distance(b, leave); });
-    const auto least = curve.begin() + std::ptrdiff_t(curve.size() * 3 / 4);
-    auto end = std::max(near, least);
-    while (end > least && distance(*end, leave) < kClosing_mm)
-        --end;
-    curve.erase(end + 1, curve.end());
-}
-
-/// Joins two curves over a collapsed part along the bridge's way, smoothed as the curves are. What of that lies in the
-/// lumen belongs to the curves, the rest is the bridge, which is returned.
-Polyline join(Polyline& before, const Bridge& bridge, Polyline& after, const DistanceProbe& open,
-              const SkeletonOptions& options)
-{
-    cutBack(before, bridge.from_mm);
-    std::reverse(after.begin(), after.end());
-    cutBack(after, bridge.to_mm);
-    std::reverse(after.begin(), after.end());
-    // A run-up on both sides makes the smoothed line leave the curves in their direction.
-    const auto run = [&](const Polyline& curve) {
-        return std::ptrdiff_t(std::min(curve.size(), std::size_t(kRunUp_mm / options.step_mm)));
-    };
-    Polyline line(before.end() - run(before), before.end());
-    line.insert(line.end(), bridge.path_mm.begin(), bridge.path_mm.end());
-    line.insert(line.end(), after.begin(), after.begin() + run(after));
-    before.erase(before.end() - run(before) + 1, before.end());
-    after.erase(after.begin(), after.begin() + run(after) - 1);
-    line = smoothed(resampled(line, options.step_mm), options.smoothing_mm, options.step_mm);
-    line.front() = before.back();
-    line.back() = after.front();
-    std::size_t from = 0, to = line.size() - 1;
-    while (from + 2 < to && open.inside(line[from + 1]))
-        ++from;
-    while (to > from + 1 && open.inside(line[to - 1]))
-        --to;
-    const auto begin = line.begin();
-    before.insert(before.end(), begin + 1, begin + std::ptrdiff_t(from) + 1);
-    after.insert(after.begin(), begin + std::ptrdiff_t(to), line.end() - 1);
-    return {begin + std::ptrdiff_t(from), begin + std::ptrdiff_t(to) + 1};
-}
-
 }  // namespace
 
 SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, const SkeletonOptions& options,
@@ -157,7 +111,7 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
     }
     std::vector<Polyline> bridges;
     for (std::size_t n = 0; n + 1 < curves.size(); ++n)
-        bridges.push_back(join(curves[n], plan.bridges.at(n), curves[n + 1], open, options));
+        bridges.push_back(joined(curves[n], plan.bridges.at(n).path_mm, curves[n + 1], open, options.step_mm));
     const DistanceProbe wall(wall_mm);
     for (std::size_t n = 0; n < curves.size(); ++n) {
         append(result.curve, besideTube(curves[n], wall, options.step_mm), false, open);

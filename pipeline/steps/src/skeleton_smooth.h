@@ -37,8 +37,8 @@ Polyline resampled(const Polyline& line, double step_mm);
 /// sampled every `step_mm`; its ends stay.
 Polyline smoothed(const Polyline& line, double sigma_mm, double step_mm);
 
-/// Cuts both ends of a path off about one local radius before its tips.
-Polyline withoutTips(const Polyline& path, const DistanceProbe& wall);
+/// The point itself, or as near to it as the lumen allows on the way from a point inside.
+Point3 keptInside(Point3 wanted, Point3 inside, const DistanceProbe& wall);
 
 /// The smooth curve in the middle of the lumen that follows the path.
 Polyline centredCurve(const Polyline& path, const DistanceProbe& wall, const SkeletonOptions& options);
