@@ -1,5 +1,5 @@
 // Frames a second of the look below the surface, on a flight through prepared scans.
-//   vicon_peeling_bench [--side PX] [--step MM] [--sample MM] [--unshaded] [--preset NAME] FOLDER...
+//   vicon_peeling_bench [--side PX] [--step MM] [--sample MM] [--moving] [--unshaded] [--preset NAME] FOLDER...
 // FOLDER is a scan's folder, or a store's: then every prepared scan in it.
 #include <algorithm>
 #include <cstdio>
@@ -12,6 +12,7 @@
 
 #include "vicon/viewer/model/flight_plan.h"
 #include "vicon/viewer/model/peeling.h"
+#include "vicon/viewer/model/peeling_pace.h"
 #include "vicon/viewer/scene/prepared_scan.h"
 
 namespace fs = std::filesystem;
@@ -24,6 +25,7 @@ struct Settings {
     int side = 256;
     double step_mm = 50;
     PeelingOptions peeling;
+    bool moving = false;  ///< as while the eye moves: as coarse as ten a second ask for
     std::vector<std::string> presets;
     std::vector<fs::path> folders;
 };
@@ -48,16 +50,22 @@ void measure(const PreparedScan& scan, const std::string& preset, const Settings
     const Lumen lumen = scan.lumen();
     const DensityBricks& volume = scan.bricks();
     const Lens lens{90, settings.side, settings.side};
-    std::vector<double> wall, cpu;
+    std::vector<double> wall, cpu, coarseness;
+    PeelingPace pace;
     for (const ViewPose& view : planFlight(scan.frames(), lumen, settings.step_mm, Heading::caecum)) {
         const double begin = secondsOn(CLOCK_MONOTONIC), cpu_begin = secondsOn(CLOCK_PROCESS_CPUTIME_ID);
-        peel(volume, lumen, view.pose, lens, transferFunction(preset), settings.peeling);
+        const int coarse = settings.moving ? pace.coarseFor(settings.side, settings.side) : 1;
+        const int rays = (settings.side + coarse - 1) / coarse;
+        peel(volume, lumen, view.pose, {lens.view_angle_deg, rays, rays}, transferFunction(preset), settings.peeling);
         wall.push_back(secondsOn(CLOCK_MONOTONIC) - begin);
         cpu.push_back(secondsOn(CLOCK_PROCESS_CPUTIME_ID) - cpu_begin);
+        coarseness.push_back(coarse);
+        pace.tell(settings.side, settings.side, coarse, wall.back());
     }
-    std::printf("| %s | %s | %d | %zu | %.1f / %.1f | %.1f | %.1f / %.1f |\n", scan.folder().filename().c_str(),
-                preset.c_str(), settings.side, wall.size(), 1e3 * quantile(wall, 0.5), 1e3 * quantile(wall, 0.95),
-                1 / quantile(wall, 0.5), 1e3 * quantile(cpu, 0.5), 1e3 * quantile(cpu, 0.95));
+    std::printf("| %s | %s | %d | %.0f | %zu | %.1f / %.1f | %.1f | %.1f / %.1f |\n", scan.folder().filename().c_str(),
+                preset.c_str(), settings.side, quantile(coarseness, 0.5), wall.size(), 1e3 * quantile(wall, 0.5),
+                1e3 * quantile(wall, 0.95), 1 / quantile(wall, 0.5), 1e3 * quantile(cpu, 0.5),
+                1e3 * quantile(cpu, 0.95));
 }
 
 Settings settingsFrom(int argc, char** argv)
@@ -71,9 +79,10 @@ Settings settingsFrom(int argc, char** argv)
             settings.step_mm = std::atof(argv[++n]);
         else if (word == "--sample" && n + 1 < argc)
             settings.peeling.step_mm = std::atof(argv[++n]);
-        else if (word == "--moving")
+        else if (word == "--moving") {
+            settings.moving = true;
             settings.peeling = settings.peeling.whileMoving();
-        else if (word == "--unshaded")
+        } else if (word == "--unshaded")
             settings.peeling.shaded = false;
         else if (word == "--preset" && n + 1 < argc)
             settings.presets.emplace_back(argv[++n]);
@@ -96,8 +105,9 @@ int main(int argc, char** argv)
 try {
     const Settings settings = settingsFrom(argc, argv);
     std::printf(
-        "| scan | preset | pixels a side | frames | ms a frame, median / 95 %% | frames a second | CPU ms, median / "
-        "95 %% |\n|---|---|---|---|---|---|---|\n");
+        "| scan | preset | pixels a side | a ray for pixels a side | frames | ms a frame, median / 95 %% | frames a "
+        "second | CPU ms, median / "
+        "95 %% |\n|---|---|---|---|---|---|---|---|\n");
     for (const fs::path& folder : settings.folders) {
         const auto scan = PreparedScan::open(folder);
         for (const std::string& preset : settings.presets)

@@ -4,6 +4,7 @@
 
 #include "test_colon.h"
 #include "vicon/core/error.h"
+#include "vicon/viewer/model/peeling_pace.h"
 #include "vicon/viewer/model/view_pose.h"
 
 namespace vicon::viewer {
@@ -124,6 +125,27 @@ TEST(Peeling, WhileMovingShowsNearlyTheSame)
             sum += std::abs(int(slow.rgba[n]) - int(quick.rgba[n]));
         EXPECT_GT(sum, 0) << "they are not the same picture";
         EXPECT_LT(sum / double(slow.rgba.size()), 8) << name;
+    }
+}
+
+TEST(PeelingPace, KeepsTenPicturesASecondOnAnyMachine)
+{
+    for (const double ray_s : {1e-7, 1e-6, 4e-6, 2e-5}) {
+        PeelingPace pace;
+        int coarse = 0;
+        double seconds = 0;
+        for (int n = 0; n < 12; ++n) {
+            coarse = pace.coarseFor(900, 700);
+            seconds = std::ceil(900.0 / coarse) * std::ceil(700.0 / coarse) * ray_s;
+            pace.tell(900, 700, coarse, seconds);
+        }
+        if (coarse < PeelingPace::kCoarsest) {
+            EXPECT_LT(seconds, 0.1) << ray_s;
+        }
+        if (coarse > 1) {
+            EXPECT_GT(seconds * coarse * coarse / ((coarse - 1) * (coarse - 1)), 0.07)
+                << "needlessly coarse, " << ray_s;
+        }
     }
 }
 

@@ -18,7 +18,6 @@ namespace {
 constexpr int kFrame_ms = 16;
 constexpr int kStill_ms = 150;  // after the last movement the picture is drawn smoothly
 constexpr int kPoll_ms = 2000;  // how often other readers' changes are looked for
-constexpr int kPeelCoarse = 3;  // while moving: a ray for 3 x 3 pixels
 }  // namespace
 
 ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistRow& row)
@@ -278,10 +277,6 @@ void ReadingWindow::drawEndoscopic(bool still)
     wish.count_seen = endoscopic_->isVisible();
     peeling_->fill(wish.request);
     wish.request.peel_circle_at = lens_at_;
-    if (!still) {
-        wish.request.peel_coarse = kPeelCoarse;
-        wish.request.peeling = wish.request.peeling.whileMoving();
-    }
     studio_.drawEndoscopic(session_.sharedScan(), wish);
 }
 

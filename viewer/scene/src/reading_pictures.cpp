@@ -1,9 +1,11 @@
 #include "vicon/viewer/scene/reading_pictures.h"
 
+#include <chrono>
 #include <optional>
 
 #include "pictures.h"
 #include "vicon/viewer/model/annotate.h"
+#include "vicon/viewer/model/peeling_pace.h"
 #include "vicon/viewer/scene/cell_visibility.h"
 #include "vicon/viewer/scene/seen_wall.h"
 
@@ -23,6 +25,7 @@ struct ReadingPictures::Parts {
         bool told = false;  ///< seen_wall has looked at it
     };
     std::optional<Shown> shown;
+    PeelingPace pace;
     bool cells_colored = false;
     double lamp_reach_mm = kUsualLampReach_mm;
     std::optional<SeenWall> seen_wall;  // made when it is first asked for
@@ -35,6 +38,16 @@ struct ReadingPictures::Parts {
             seen_wall->look(shown->parts, shown->pose, shown->lens);
         shown->told = true;
         return *seen_wall;
+    }
+
+    void finishMoving(Picture& picture, SnapshotRequest request, const SnapshotResult& place)
+    {
+        request.peeling = request.peeling.whileMoving();
+        request.peel_coarse = pace.coarseFor(request.width, request.height);
+        const auto begin = std::chrono::steady_clock::now();
+        finishEndoscopic(picture, scan, request, place);
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+        pace.tell(request.width, request.height, request.peel_coarse, took.count());
     }
 
     void setLook(bool color_cells, double reach_mm)
@@ -108,10 +121,15 @@ Picture ReadingPictures::endoscopic(const SnapshotRequest& request, const Snapsh
     p.setLook(look.structure, look.lamp_reach_mm);
     p.scene.showSeen(p.shown->parts);
     p.scene.lookFrom(place.pose, request.view_angle_deg);
-    Picture picture = p.offscreen.render(request.width, request.height, still ? 2 : 1);
-    if (look.earlier)
+    const bool only_peeled = !request.peel.empty() && !request.peel_middle_only;  // then nothing of the surface is left
+    Picture picture = only_peeled ? Picture(request.width, request.height)
+                                  : p.offscreen.render(request.width, request.height, still ? 2 : 1);
+    if (look.earlier && !only_peeled)
         p.seenWall().tint(picture, look.earlier->earlier());
-    finishEndoscopic(picture, p.scan, request, place);
+    if (still || request.peel.empty())
+        finishEndoscopic(picture, p.scan, request, place);
+    else
+        p.finishMoving(picture, request, place);
     if (look.structure)
         paint(picture, structureOverlay(*p.visibility, p.scene, place.pose, lens));
     if (!request.peel.empty())

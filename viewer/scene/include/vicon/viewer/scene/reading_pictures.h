@@ -44,7 +44,7 @@ public:
     ~ReadingPictures();
 
     /// The endoscopic view from `place`, only cells that may be seen drawn; the request's width and height must be set.
-    /// @param still smoothed; while the eye moves: not
+    /// @param still smoothed; while the eye moves not, and peeled as coarsely as ten pictures a second ask for
     Picture endoscopic(const SnapshotRequest& request, const SnapshotResult& place, bool still,
                        const EndoscopicLook& look = {});
     /// From now on `visibility`, of the same scan, chooses what is drawn; the pictures stay the same, but take less
