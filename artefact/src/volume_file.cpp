@@ -3,10 +3,12 @@
 #include <itkMetaImageIO.h>
 
 #include <fstream>
+#include <mutex>
 #include <new>
 
 #include "mapped_file.h"
 #include "meta_header.h"
+#include "streamed_file.h"
 #include "vicon/artefact/stored_volume.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
@@ -29,11 +31,19 @@ constexpr itk::IOComponentEnum kComponent<float> = itk::IOComponentEnum::FLOAT;
 
 constexpr int kZlibLevel = 1;  // labels: level 1 is four times as fast as 6 for files a fifth larger
 
+/// ITK registers its factories when the first object is made, which threads must not do at once.
+itk::MetaImageIO::Pointer newImageIO()
+{
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
+    return itk::MetaImageIO::New();
+}
+
 itk::MetaImageIO::Pointer openHeader(const fs::path& file)
 {
     if (!fs::exists(file))
         throw Error(ErrorCode::not_found, "no such file", file.string(), "run 'vicon work' to make it");
-    auto io = itk::MetaImageIO::New();
+    auto io = newImageIO();
     try {
         io->SetFileName(file.string());
         io->ReadImageInformation();
@@ -71,17 +81,19 @@ constexpr const char* kTypeName<float> = "MET_FLOAT";
 
 // By hand, not by ITK: voxels that ITK writes begin anywhere, and could not be mapped.
 template <class T>
-void writeRaw(const fs::path& file, const Volume<T>& volume)
+void writeRaw(const fs::path& temporary, const fs::path& file, const Volume<T>& volume)
 {
-    std::ofstream out(file, std::ios::binary);
-    out << rawHeader(volume.grid, kTypeName<T>);
-    out.write(reinterpret_cast<const char*>(volume.voxels.data()), std::streamsize(volume.voxels.size() * sizeof(T)));
+    const std::string header = rawHeader(volume.grid, kTypeName<T>);
+    StreamedFile out(temporary, file);
+    out.write(header.data(), header.size());
+    out.write(volume.voxels.data(), volume.voxels.size() * sizeof(T));
+    out.finish();
 }
 
 template <class T>
 void writePacked(const fs::path& file, const Volume<T>& volume)
 {
-    auto io = itk::MetaImageIO::New();
+    auto io = newImageIO();
     io->SetNumberOfDimensions(3);
     io->SetNumberOfComponents(1);
     io->SetPixelType(itk::IOPixelEnum::SCALAR);
@@ -141,7 +153,7 @@ void writeVolume(const fs::path& file, const Volume<T>& volume, Packing packing)
     replaceFile(file, [&](const fs::path& temporary) {
         try {
             if (packing == Packing::raw)
-                writeRaw(temporary, volume);
+                writeRaw(temporary, file, volume);
             else
                 writePacked(temporary, volume);
         } catch (const itk::ExceptionObject&) {

@@ -52,6 +52,20 @@ TEST(VolumeFile, GivesBackVoxelsAndPlaceOfEveryType)
     }
 }
 
+TEST(VolumeFile, GivesBackWhatIsLargerThanAnyBufferAndEndsAnywhere)
+{
+    // 4 MB are written at once; one file ends within them, one with them, one after them.
+    for (const int columns : {1000, 1024, 1031}) {
+        const support::TemporaryFolder folder;
+        Volume<std::int16_t> volume(Grid{.size = {columns, 64, 64}});
+        std::iota(volume.voxels.begin(), volume.voxels.end(), std::int16_t(-1024));
+        writeVolume(folder / "v.mha", volume, Packing::raw);
+        EXPECT_TRUE(readVolume<std::int16_t>(folder / "v.mha").voxels == volume.voxels) << columns;
+        const auto header = readFile(folder / "v.mha").find("LOCAL\n") + 6;
+        EXPECT_EQ(std::filesystem::file_size(folder / "v.mha"), header + volume.voxels.size() * 2) << columns;
+    }
+}
+
 TEST(VolumeFile, StatesItsAxesAsTheMetaImageFormatDefinesThem)
 {
     // The header read as text: TransformMatrix lists the axes one by one.
