@@ -1,7 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "vicon/artefact/skeleton_file.h"
 #include "vicon/artefact/subdivision_file.h"
@@ -12,7 +18,8 @@
 namespace vicon::pipeline {
 
 /// The artefacts of a scan as the steps hand them on: kept in memory when they were just made, read when they were made
-/// by an earlier run.
+/// by an earlier run. Steps that run at the same time share it. Volumes are written in the background, so that the
+/// next step need not wait for the disk; finish() does.
 class ScanArtefacts {
 public:
     explicit ScanArtefacts(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -24,27 +31,70 @@ public:
     const SegmentVolume& segments() { return get(segments_, "segments.mha"); }
     const Skeleton& skeleton()
     {
+        const std::lock_guard lock(mutex_);
         if (!skeleton_)
             skeleton_ = artefact::readSkeleton(folder_ / "skeleton.vtp");
         return *skeleton_;
     }
 
-    /// Writes the file and keeps the object.
+    /// Keeps the object and begins to write the file.
     void put(HuVolume v) { put(volume_, std::move(v), "volume.mha", artefact::Packing::raw); }
     void put(InsideVolume v) { put(inside_, std::move(v), "inside.mha", artefact::Packing::zlib); }
     void put(SegmentVolume v) { put(segments_, std::move(v), "segments.mha", artefact::Packing::zlib); }
     void put(Skeleton s)
     {
         artefact::writeSkeleton(folder_ / "skeleton.vtp", s);
+        const std::lock_guard lock(mutex_);
         skeleton_ = std::move(s);
     }
-    /// Gives memory back that no later step needs.
-    void dropVolume() { volume_.reset(); }
+    /// Begins to write a field that no other step needs.
+    void write(const std::string& file, FieldVolume field)
+    {
+        begin(file, [path = folder_ / file, kept = std::make_shared<const FieldVolume>(std::move(field))] {
+            artefact::writeVolume(path, *kept, artefact::Packing::raw);
+        });
+    }
+
+    /// Distance from boundary, when an earlier step made it on its way; it is given away.
+    std::optional<FieldVolume> takeWallDistance()
+    {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(wall_distance_, std::nullopt);
+    }
+    void keepWallDistance(FieldVolume field)
+    {
+        const std::lock_guard lock(mutex_);
+        wall_distance_ = std::move(field);
+    }
+
+    /// Waits until these files are on the disk, whichever of them were begun. Throws what their writing threw.
+    void finish(const std::vector<std::string>& files)
+    {
+        for (const std::string& file : files) {
+            std::future<void> writing;
+            {
+                const std::lock_guard lock(mutex_);
+                if (const auto at = writing_.find(file); at != writing_.end()) {
+                    writing = std::move(at->second);
+                    writing_.erase(at);
+                }
+            }
+            if (writing.valid())
+                writing.get();
+        }
+    }
+    /// Gives memory back that no later step needs. The volume must be written, and no step at work on it.
+    void dropVolume()
+    {
+        const std::lock_guard lock(mutex_);
+        volume_.reset();
+    }
 
 private:
     template <class T>
     const Volume<T>& get(std::optional<Volume<T>>& kept, const char* file)
     {
+        const std::lock_guard lock(mutex_);
         if (!kept)
             kept = artefact::readVolume<T>(folder_ / file);
         return *kept;
@@ -52,15 +102,28 @@ private:
     template <class T>
     void put(std::optional<Volume<T>>& kept, Volume<T> made, const char* file, artefact::Packing packing)
     {
-        artefact::writeVolume(folder_ / file, made, packing);
-        kept = std::move(made);
+        {
+            const std::lock_guard lock(mutex_);
+            kept = std::move(made);
+        }
+        begin(file, [path = folder_ / file, &kept, packing] { artefact::writeVolume(path, *kept, packing); });
+    }
+    template <class Write>
+    void begin(const std::string& file, Write write)
+    {
+        auto writing = std::async(std::launch::async, std::move(write));
+        const std::lock_guard lock(mutex_);
+        writing_[file] = std::move(writing);
     }
 
     std::filesystem::path folder_;
+    std::mutex mutex_;
     std::optional<HuVolume> volume_;
     std::optional<InsideVolume> inside_;
     std::optional<SegmentVolume> segments_;
+    std::optional<FieldVolume> wall_distance_;
     std::optional<Skeleton> skeleton_;
+    std::map<std::string, std::future<void>> writing_;  // last: what is written must outlive it
 };
 
 }  // namespace vicon::pipeline

@@ -1,8 +1,7 @@
 #include "vicon/pipeline/scan_work.h"
 
-#include <chrono>
-
 #include "scan_artefacts.h"
+#include "step_runner.h"
 #include "step_table.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
@@ -94,32 +93,37 @@ public:
         removeTemporaries(folder_);
         makePrivateFolder(folder_ / "projections");
         removeTemporaries(folder_ / "projections");
-        for (const Step& step : stepTable()) {
-            context_.check();
-            doStep(step);
-            if (endsHere(records_[step.name])) {
+        StepRunner(stepTable(),
+                   {.is_due = [this](const Step& step) { return isDue(step); },
+                    .made = [this](const Step& step, json result) { records_[step.name].result = std::move(result); },
+                    .ends = [this](const Step& step) { return endsHere(records_[step.name]); },
+                    .written = [this](const Step& step, double seconds) { record(step, seconds); }},
+                   inputs_, artefacts_, records_, context_, inputs_.config.get<StepOptions>().at_once)
+            .run();
+        for (const Step& step : stepTable())
+            if (endsHere(records_[step.name]))
                 removeFilesAfter(step);
-                break;
-            }
-        }
         store_.writeScanFile(scan_.case_id, scan_.id);
     }
 
 private:
-    void doStep(const Step& step)
+    bool isDue(const Step& step)
     {
         const json parameters = parametersOf(step, inputs_.config, loader_parameters_);
         const std::string digest = digestOf(step, parameters, records_, instances_);
         StepRecord& record = records_[step.name];
         if (isCurrent(record, digest, folder_))
-            return;
+            return false;
+        record = {step.name, step.version, digest, parameters, json::object(), 0, {}};
+        return true;
+    }
 
-        context_.enterStep(step.name, step.from, step.to);
-        const auto start = std::chrono::steady_clock::now();
-        json result = step.run(inputs_, artefacts_, records_, context_);
-        result["files"] = sizesOf(folder_, step.outputs(result));
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        record = {step.name, step.version, digest, parameters, std::move(result), seconds, nowUtc()};
+    void record(const Step& step, double seconds)
+    {
+        StepRecord& record = records_[step.name];
+        record.result["files"] = sizesOf(folder_, step.outputs(record.result));
+        record.seconds = seconds;
+        record.finished = nowUtc();
         context_.commitStep(record);
         store_.writeScanFile(scan_.case_id, scan_.id);
     }

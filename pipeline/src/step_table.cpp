@@ -97,6 +97,7 @@ json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepR
     result["length_mm"] = found.curve.length_mm();
     artefact::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
     artefacts.put(std::move(found.curve));
+    artefacts.keepWallDistance(std::move(found.wall_mm));
     return result;
 }
 
@@ -124,7 +125,6 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
     artefacts.put(std::move(divided.segments));
     const artefact::CellSurface surface = steps::extractCells(
         artefacts.volume(), artefacts.inside(), artefacts.segments(), inputs.config.get<steps::CellOptions>(), contour);
-    artefacts.dropVolume();
     steps::countTriangles(surface, divided.description);
     artefact::writeCells(artefacts.folder() / "cells.vtp", surface);
     artefact::writeProjections(artefacts.folder() / "projections",
@@ -138,16 +138,19 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
 
 json runPotential(const StepInputs&, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
 {
-    PartOfProgress exit(progress, 0, 0.6), wall(progress, 0.6, 1);
+    PartOfProgress wall(progress, 0, 0.3), exit(progress, 0.3, 1);
+    const auto largest = [](const FieldVolume& field) {
+        return *std::max_element(field.voxels.begin(), field.voxels.end());
+    };
     json result;
-    {
-        const FieldVolume field = steps::exitDistance(artefacts.inside(), artefacts.skeleton(), exit);
-        result["largest_exit_distance_mm"] = *std::max_element(field.voxels.begin(), field.voxels.end());
-        artefact::writeVolume(artefacts.folder() / "exit_distance.mha", field, artefact::Packing::raw);
-    }
-    const FieldVolume field = steps::wallDistance(artefacts.inside(), wall);
-    result["largest_wall_distance_mm"] = *std::max_element(field.voxels.begin(), field.voxels.end());
-    artefact::writeVolume(artefacts.folder() / "wall_distance.mha", field, artefact::Packing::raw);
+    std::optional<FieldVolume> from_wall_mm = artefacts.takeWallDistance();
+    if (!from_wall_mm)
+        from_wall_mm = steps::wallDistance(artefacts.inside(), wall);
+    result["largest_wall_distance_mm"] = largest(*from_wall_mm);
+    artefacts.write("wall_distance.mha", *std::move(from_wall_mm));
+    FieldVolume from_exit_mm = steps::exitDistance(artefacts.inside(), artefacts.skeleton(), exit);
+    result["largest_exit_distance_mm"] = largest(from_exit_mm);
+    artefacts.write("exit_distance.mha", std::move(from_exit_mm));
     return result;
 }
 
@@ -200,6 +203,7 @@ std::vector<OptionSpec> stepOptionSpecs()
 {
     std::vector<OptionSpec> all;
     const auto add = [&](std::vector<OptionSpec> specs) { all.insert(all.end(), specs.begin(), specs.end()); };
+    add(specsOf<StepOptions>());
     add(specsOf<steps::ResampleOptions>());
     add(specsOf<steps::SegmentOptions>());
     add(specsOf<steps::SkeletonOptions>());

@@ -90,31 +90,42 @@ public:
     const Job& job() const override { return job_; }
     void enterStep(const std::string& step, double from, double to) override
     {
-        step_ = step;
-        from_ = from;
-        to_ = to;
-        queue_.renew(job_, step, from);  // a step that kills its worker is known by name
-        report(0, "");
+        double whole = 0;
+        {
+            const std::lock_guard lock(mutex_);
+            step_ = step;
+            from_ = from;
+            to_ = to;
+            whole = whole_ = std::max(whole_, from);
+        }
+        queue_.renew(job_, step, whole);  // a step that kills its worker is known by name
+        const std::lock_guard lock(mutex_);
+        tell(whole_, "");
     }
     void report(double fraction, std::string_view what) override
     {
-        const double whole = from_ + (to_ - from_) * std::clamp(fraction, 0.0, 1.0);
-        heartbeat_.show(step_, whole);
-        const std::lock_guard lock(events_mutex_);
-        events_.progress(job_, whole, what.empty() ? step_ : step_ + ": " + std::string(what));
+        const std::lock_guard lock(mutex_);
+        whole_ = from_ + (to_ - from_) * std::clamp(fraction, 0.0, 1.0);
+        tell(whole_, what);
     }
     bool cancelled() const override { return stop_ || heartbeat_.leaseLost(); }
     void commitStep(const StepRecord& step) override { queue_.commitStep(job_, step); }
 
 private:
+    void tell(double whole, std::string_view what)
+    {
+        heartbeat_.show(step_, whole);
+        events_.progress(job_, whole, what.empty() ? step_ : step_ + ": " + std::string(what));
+    }
+
     const Job& job_;
     JobQueue& queue_;
     Heartbeat& heartbeat_;
     const WorkerEvents& events_;
     const std::atomic<bool>& stop_;
-    std::mutex events_mutex_;
+    std::mutex mutex_;  // of all below, and of the events
     std::string step_;
-    double from_ = 0, to_ = 1;
+    double from_ = 0, to_ = 1, whole_ = 0;
 };
 
 /// Whether trying again could end otherwise.

@@ -88,9 +88,12 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
 {
     SkeletonResult result;
     result.measures["pieces"] = nlohmann::json::array();
-    if (plan.pieces.empty())
+    if (plan.pieces.empty()) {
+        result.wall_mm = wallDistance(inside, progress);
         return result;
-    const FieldVolume wall_mm = wallDistance(inside, progress);
+    }
+    result.wall_mm = wallDistance(inside, progress);
+    const FieldVolume& wall_mm = result.wall_mm;
     progress.report(0.3, "skeleton");
     const FieldVolume open_mm = wallDistance(withoutRectalTube(inside, plan.pieces.front().rectal_end_mm), progress);
     const DistanceProbe open(open_mm);

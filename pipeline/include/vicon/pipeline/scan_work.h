@@ -13,6 +13,18 @@ namespace vicon::pipeline {
 /// Decodes a scan's dicom/ folder into HU. `app` gives it, because this room does not know DICOM.
 using AcquiredVolumeLoader = std::function<HuVolume(const std::filesystem::path& dicom_folder, Progress&)>;
 
+struct StepOptions {
+    int at_once = 3;
+
+    template <class Visitor>
+    void visit(Visitor&& v)
+    {
+        v("work.steps_at_once", at_once, "",
+          "Steps of a scan that may run, or be written to the disk, at the same time; 1 needs the least memory.",
+          {1, 16});
+    }
+};
+
 /// All options of the steps, for Config::declare().
 std::vector<OptionSpec> stepOptionSpecs();
 

@@ -1,0 +1,210 @@
+#include "step_runner.h"
+
+#include <gmock/gmock.h>
+
+#include <latch>
+
+#include "vicon/core/error.h"
+#include "vicon/support/support.h"
+
+namespace vicon::pipeline {
+namespace {
+
+using nlohmann::json;
+using Run = std::function<json(Progress&)>;
+
+class FakeContext : public JobContext {
+public:
+    const Job& job() const override { return job_; }
+    void enterStep(const std::string& step, double, double) override { entered.push_back(step); }
+    void commitStep(const StepRecord&) override {}
+    void report(double fraction, std::string_view) override
+    {
+        EXPECT_GE(fraction, last_);
+        last_ = fraction;
+    }
+    bool cancelled() const override { return stop; }
+
+    std::vector<std::string> entered;
+    std::atomic<bool> stop = false;
+
+private:
+    Job job_;
+    double last_ = 0;
+};
+
+/// A table of fake steps, and what was told of them.
+struct Bench {
+    void add(const std::string& name, std::vector<std::string> inputs, Run run = [](Progress&) { return json{}; })
+    {
+        const double from = double(table.size()) / 10;
+        table.push_back({name, 1, from, from + 0.1, std::move(inputs), [](const json&) { return std::vector<std::string>{}; },
+                         [](const Config&) { return json::object(); },
+                         [run](const StepInputs&, ScanArtefacts&, const StepRecords&, Progress& progress) {
+                             progress.report(0.5, "half");
+                             return run(progress);
+                         }});
+    }
+    void run(int at_once = 3)
+    {
+        const support::TemporaryFolder folder;
+        ScanArtefacts artefacts(folder.path());
+        StepRunner(table,
+                   {.is_due = [&](const Step& step) { return !current.contains(step.name); },
+                    .made = [&](const Step& step, const json&) { made.push_back(step.name); },
+                    .ends = [&](const Step& step) { return step.name == last; },
+                    .written = [&](const Step& step, double) { recorded.push_back(step.name); }},
+                   inputs, artefacts, records, context, at_once)
+            .run();
+    }
+
+    std::vector<Step> table;
+    std::set<std::string> current;  ///< steps that need not run
+    std::string last;               ///< the step after which none starts
+    StepInputs inputs;
+    StepRecords records;
+    FakeContext context;
+    std::vector<std::string> made, recorded;
+};
+
+TEST(StepRunner, RunsStepsTogetherWhenNeitherReadsTheOther)
+{
+    Bench bench;
+    std::latch both(2);
+    const auto meet = [&](Progress&) {
+        both.arrive_and_wait();  // for ever, if one ran after the other
+        return json{};
+    };
+    bench.add("first", {});
+    bench.add("left", {"first"}, meet);
+    bench.add("right", {"first"}, meet);
+    bench.add("last", {"left", "right"});
+    bench.run();
+    EXPECT_THAT(bench.recorded, testing::UnorderedElementsAre("first", "left", "right", "last"));
+    EXPECT_EQ(bench.recorded.front(), "first");
+    EXPECT_EQ(bench.recorded.back(), "last");
+    EXPECT_THAT(bench.context.entered, testing::Contains("left, right"));
+}
+
+TEST(StepRunner, RunsOneAtATimeInTheTablesOrderWhenTold)
+{
+    Bench bench;
+    std::atomic<int> at_work = 0, most = 0;
+    const auto count = [&](Progress&) {
+        most = std::max(most.load(), ++at_work);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        --at_work;
+        return json{};
+    };
+    for (const char* name : {"a", "b", "c", "d"})
+        bench.add(name, {}, count);
+    bench.run(1);
+    EXPECT_EQ(most, 1);
+    EXPECT_THAT(bench.recorded, testing::ElementsAre("a", "b", "c", "d"));
+}
+
+TEST(StepRunner, TellsAStepsResultBeforeWhatReadsItStarts)
+{
+    Bench bench;
+    bool told = false;
+    bench.add("a", {});
+    bench.add("b", {"a"}, [&](Progress&) {
+        told = !bench.made.empty() && bench.made.front() == "a";
+        return json{};
+    });
+    bench.run();
+    EXPECT_TRUE(told);
+}
+
+TEST(StepRunner, LeavesOutWhatIsCurrentAndWhatFollowsTheLastStep)
+{
+    Bench bench;
+    bench.add("a", {});
+    bench.add("b", {"a"});
+    bench.add("c", {"b"});
+    bench.add("d", {});
+    bench.current = {"a"};
+    bench.last = "b";
+    bench.run(1);
+    EXPECT_THAT(bench.recorded, testing::ElementsAre("b"));
+}
+
+TEST(StepRunner, StopsTheOthersWhenOneFailsAndThrowsWhatItThrew)
+{
+    Bench bench;
+    std::latch started(2);
+    bench.add("fails", {}, [&](Progress&) -> json {
+        started.arrive_and_wait();
+        throw Error(ErrorCode::bad_input, "broken");
+    });
+    bench.add("waits", {}, [&](Progress& progress) -> json {
+        started.arrive_and_wait();
+        for (;;) {
+            progress.check();
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    });
+    bench.add("after", {"waits"});
+    try {
+        bench.run();
+        FAIL() << "nothing was thrown";
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ErrorCode::bad_input);
+    }
+    EXPECT_TRUE(bench.recorded.empty());
+}
+
+TEST(StepRunner, RecordsWhatOthersFinishedAlthoughOneFails)
+{
+    Bench bench;
+    std::latch started(2);
+    std::atomic<bool> failing = false;
+    bench.add("fails", {}, [&](Progress&) -> json {
+        started.arrive_and_wait();
+        failing = true;
+        throw Error(ErrorCode::store, "disk full");
+    });
+    bench.add("finishes", {}, [&](Progress&) {
+        started.arrive_and_wait();
+        while (!failing)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return json{};
+    });
+    EXPECT_THROW(bench.run(), Error);
+    EXPECT_THAT(bench.recorded, testing::ElementsAre("finishes"));
+}
+
+TEST(StepRunner, StopsWhenTheJobIsCancelled)
+{
+    Bench bench;
+    bench.add("a", {}, [&](Progress& progress) -> json {
+        bench.context.stop = true;
+        progress.check();
+        return {};
+    });
+    try {
+        bench.run();
+        FAIL() << "nothing was thrown";
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ErrorCode::cancelled);
+    }
+}
+
+TEST(ScanArtefacts, HandOnWhatIsStillBeingWrittenAndSayWhenItCannotBe)
+{
+    const support::TemporaryFolder folder;
+    ScanArtefacts artefacts(folder.path());
+    HuVolume volume(Grid{.size = {40, 30, 20}}, 7);
+    artefacts.put(std::move(volume));
+    EXPECT_EQ(artefacts.volume().voxels.front(), 7);
+    artefacts.finish({"volume.mha", "never-begun.mha"});
+    artefacts.dropVolume();
+    EXPECT_EQ(artefacts.volume().voxels.back(), 7) << "read back from its file";
+
+    ScanArtefacts nowhere(folder / "missing");
+    nowhere.put(HuVolume(Grid{.size = {4, 3, 2}}));
+    EXPECT_THROW(nowhere.finish({"volume.mha"}), Error);
+}
+
+}  // namespace
+}  // namespace vicon::pipeline
