@@ -16,8 +16,8 @@ private:
     Task& task_;
 };
 
-StepRunner::StepRunner(const std::vector<Step>& table, Hooks hooks, const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords& records,
-                       JobContext& context, int at_once)
+StepRunner::StepRunner(const std::vector<Step>& table, Hooks hooks, const StepInputs& inputs, ScanArtefacts& artefacts,
+                       const StepRecords& records, JobContext& context, int at_once)
     : inputs_(inputs),
       artefacts_(artefacts),
       records_(records),
@@ -183,18 +183,16 @@ double StepRunner::whole() const
 {
     double sum = 0;
     for (const Task& task : tasks_)
-        sum += (task.step->to - task.step->from) *
-               (task.state == State::waiting   ? 0
-                : task.state == State::running ? task.fraction
-                                               : 1);
+        sum += (task.step->to - task.step->from) * (task.state == State::waiting   ? 0
+                                                    : task.state == State::running ? task.fraction
+                                                                                   : 1);
     return sum;
 }
 
 bool StepRunner::isOver() const
 {
-    return std::all_of(tasks_.begin(), tasks_.end(), [](const Task& task) {
-        return task.state == State::recorded || task.state == State::skipped;
-    });
+    return std::all_of(tasks_.begin(), tasks_.end(),
+                       [](const Task& task) { return task.state == State::recorded || task.state == State::skipped; });
 }
 
 /// The densities are the largest thing of all.

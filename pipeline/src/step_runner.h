@@ -34,8 +34,8 @@ public:
 
     /// @param table the steps, each after those it reads
     /// @param at_once steps that may be at work or being written at the same time, at least 1
-    StepRunner(const std::vector<Step>& table, Hooks hooks, const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords& records,
-               JobContext& context, int at_once);
+    StepRunner(const std::vector<Step>& table, Hooks hooks, const StepInputs& inputs, ScanArtefacts& artefacts,
+               const StepRecords& records, JobContext& context, int at_once);
     /// Waits for the steps that are at work.
     ~StepRunner();
     StepRunner(const StepRunner&) = delete;

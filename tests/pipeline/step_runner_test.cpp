@@ -35,10 +35,12 @@ private:
 
 /// A table of fake steps, and what was told of them.
 struct Bench {
-    void add(const std::string& name, std::vector<std::string> inputs, Run run = [](Progress&) { return json{}; })
+    void add(
+        const std::string& name, std::vector<std::string> inputs, Run run = [](Progress&) { return json{}; })
     {
         const double from = double(table.size()) / 10;
-        table.push_back({name, 1, from, from + 0.1, std::move(inputs), [](const json&) { return std::vector<std::string>{}; },
+        table.push_back({name, 1, from, from + 0.1, std::move(inputs),
+                         [](const json&) { return std::vector<std::string>{}; },
                          [](const Config&) { return json::object(); },
                          [run](const StepInputs&, ScanArtefacts&, const StepRecords&, Progress& progress) {
                              progress.report(0.5, "half");

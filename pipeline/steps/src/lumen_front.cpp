@@ -19,14 +19,14 @@ constexpr float kBucketWidth = 0.5F;
 /// Corrections below this part of a voxel are not passed on; they are rounding.
 constexpr float kTolerance = 1e-4F;
 
-/// An upwind neighbour along one axis: the earlier of the two, and the square of the spacing.
-struct Upwind {
-    float time;
-    float square;
-};
+/// How many voxels ahead of the one at work memory is asked for. Fronts from a whole skeleton run all over the lumen at
+/// once, so nothing of what comes next is in a cache. Chosen on the 512 x 512 x 430 phantom; 4 to 16 are as good.
+constexpr std::size_t kAhead = 8;
+
+}  // namespace
 
 /// The time t >= all used times with sum ((t - time)/spacing)^2 = 1, over as many neighbours as are earlier than it.
-float solveEikonal(std::array<Upwind, 3> up)
+float LumenFront::solveEikonal(std::array<Upwind, 3> up) const
 {
     if (up[1].time < up[0].time)
         std::swap(up[0], up[1]);
@@ -36,10 +36,10 @@ float solveEikonal(std::array<Upwind, 3> up)
         std::swap(up[0], up[1]);
     // Times relative to the earliest: floats keep their precision 2 m from the exit.
     const float base = up[0].time;
-    float t = std::sqrt(up[0].square);
-    float a = 1 / up[0].square, b = 0, c = -1;
+    float t = spacing_[up[0].axis];
+    float a = per_square_[up[0].axis], b = 0, c = -1;
     for (std::size_t n = 1; n < 3 && up[n].time < base + t; ++n) {
-        const float w = 1 / up[n].square, x = up[n].time - base;
+        const float w = per_square_[up[n].axis], x = up[n].time - base;
         a += w;
         b += w * x;
         c += w * x * x;
@@ -51,14 +51,15 @@ float solveEikonal(std::array<Upwind, 3> up)
     return base + t;
 }
 
-}  // namespace
-
 LumenFront::LumenFront(const InsideVolume& inside) : time(makeVolume<float>(inside.grid)), inside_(inside)
 {
     if (inside.voxels.size() >= std::numeric_limits<std::uint32_t>::max())
         throw Error(ErrorCode::no_memory, "the colon's box has more than 4294967295 voxels");
-    for (std::size_t d = 0; d < 3; ++d)
-        square_[d] = float(inside.grid.spacing_mm[d] * inside.grid.spacing_mm[d]);
+    for (std::size_t d = 0; d < 3; ++d) {
+        const auto square = float(inside.grid.spacing_mm[d] * inside.grid.spacing_mm[d]);
+        spacing_[d] = std::sqrt(square);
+        per_square_[d] = 1 / square;
+    }
     const double smallest_mm = *std::min_element(inside.grid.spacing_mm.begin(), inside.grid.spacing_mm.end());
     tolerance_mm_ = kTolerance * float(smallest_mm);
     per_bucket_ = 1 / (kBucketWidth * float(smallest_mm));
@@ -118,7 +119,7 @@ void LumenFront::relax(std::uint32_t voxel, int i, int j, int k, std::size_t buc
     std::uint32_t from = voxel;
     float earliest = kUnreached;
     for (std::size_t d = 0; d < 3; ++d) {
-        up[d] = {kUnreached, square_[d]};
+        up[d] = {kUnreached, std::uint32_t(d)};
         const auto consider = [&](std::uint32_t neighbour) {
             const float t = time.voxels[neighbour];
             if (t < 0 || t >= up[d].time)
@@ -147,6 +148,17 @@ void LumenFront::relax(std::uint32_t voxel, int i, int j, int k, std::size_t buc
     push(voxel, t, bucket);
 }
 
+/// Asks for the rows of times that relaxing a voxel's neighbours looks at.
+void LumenFront::fetch(std::uint32_t voxel) const
+{
+    const auto row = std::ptrdiff_t(inside_.grid.size[0]), slice = row * inside_.grid.size[1];
+    const auto count = std::ptrdiff_t(time.voxels.size());
+    for (const std::ptrdiff_t step : {std::ptrdiff_t(0), row, -row, slice, -slice, 2 * row, -2 * row, 2 * slice,
+                                      -2 * slice, row + slice, row - slice, slice - row, -row - slice})
+        if (const std::ptrdiff_t n = std::ptrdiff_t(voxel) + step; n >= 0 && n < count)
+            __builtin_prefetch(&time.voxels[std::size_t(n)]);
+}
+
 template <LumenFront::Labels labels>
 void LumenFront::drain()
 {
@@ -158,7 +170,10 @@ void LumenFront::drain()
         while (!buckets_[bucket].empty()) {
             current.clear();
             std::swap(current, buckets_[bucket]);
-            for (const std::uint32_t voxel : current) {
+            for (std::size_t n = 0; n < current.size(); ++n) {
+                const std::uint32_t voxel = current[n];
+                if (n + kAhead < current.size())
+                    fetch(current[n + kAhead]);
                 const float t = time.voxels[voxel];
                 if (bucketOf(t) < bucket)
                     continue;

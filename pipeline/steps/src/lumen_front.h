@@ -48,6 +48,13 @@ public:
     std::vector<std::uint16_t> label;  ///< of every voxel, kNoLabel where none was given; empty before the first
 
 private:
+    /// An upwind neighbour along one axis: the earlier of the two.
+    struct Upwind {
+        float time;
+        std::uint32_t axis;
+    };
+    float solveEikonal(std::array<Upwind, 3> up) const;
+    void fetch(std::uint32_t voxel) const;
     template <Labels labels>
     void drain();
     template <Labels labels>
@@ -61,7 +68,8 @@ private:
     std::size_t bucketOf(float time_mm) const { return std::size_t(time_mm * per_bucket_); }
 
     const InsideVolume& inside_;
-    std::array<float, 3> square_;  ///< of the spacings, mm^2
+    std::array<float, 3> spacing_;     ///< mm
+    std::array<float, 3> per_square_;  ///< 1 over the spacing's square, 1/mm^2
     float tolerance_mm_;
     float per_bucket_;
     std::vector<std::vector<std::uint32_t>> buckets_;
