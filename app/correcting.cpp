@@ -49,14 +49,33 @@ bool same(const nlohmann::json& a, const nlohmann::json& b)
     return near("from_mm") && near("to_mm");
 }
 
+bool isPoint(const nlohmann::json& review, const char* key)
+{
+    const auto point = review.find(key);
+    return point != review.end() && point->is_array() && point->size() == 3 &&
+           std::all_of(point->begin(), point->end(), [](const auto& number) { return number.is_number(); });
+}
+
+bool isReview(const nlohmann::json& review)
+{
+    if (!review.is_object() || !isPoint(review, "from_mm") || !isPoint(review, "to_mm"))
+        return false;
+    for (const char* key : {"verdict", "by", "at"})
+        if (const auto text = review.find(key); text == review.end() || !text->is_string())
+            return false;
+    return true;
+}
+
 nlohmann::json readReviews(const std::filesystem::path& scan_folder)
 {
     const auto file = scan_folder / kReviews;
     if (!std::filesystem::exists(file))
         return nlohmann::json::array();
     const auto all = nlohmann::json::parse(readFile(file), nullptr, false);
-    if (!all.is_object() || !all.contains("bridges") || !all["bridges"].is_array())
-        throw Error(ErrorCode::bad_input, "is not a file of bridges' reviews", file.string());
+    if (!all.is_object() || !all.contains("bridges") || !all["bridges"].is_array() ||
+        !std::all_of(all["bridges"].begin(), all["bridges"].end(), isReview))
+        throw Error(ErrorCode::bad_input, "is not a file of bridges' reviews", file.string(),
+                    "mend it, or delete it: the bridges are then unjudged again");
     return all["bridges"];
 }
 

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <sstream>
 
+#include "text_table.h"
 #include "vicon/artefact/skeleton_file.h"
 #include "vicon/artefact/subdivision_file.h"
 #include "vicon/artefact/volume_file.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/viewer/model/biopsy.h"
 
 namespace fs = std::filesystem;
 
@@ -51,6 +53,31 @@ bool isPrepared(const fs::path& folder)
 {
     return fs::exists(folder / "skeleton.vtp") && fs::exists(folder / "segments.mha") &&
            fs::exists(folder / "subdivision.json");
+}
+
+/// A density or a size belongs to a marker this near to where it was taken, as the reading room has it.
+constexpr double kMeasureNear_mm = 10;
+
+bool isNear(const Marker& marker, const nlohmann::json& measure, const char* key)
+{
+    const auto at = measure.is_object() ? measure.find(key) : measure.end();
+    if (at == measure.end() || !at->is_array() || at->size() != 3)
+        return false;
+    for (const auto& number : *at)
+        if (!number.is_number())
+            return false;
+    return distance(marker.position_mm, {(*at)[0], (*at)[1], (*at)[2]}) <= kMeasureNear_mm;
+}
+
+/// What was measured at another place is not this one's.
+void forgetMeasuresElsewhere(Marker& marker)
+{
+    const auto density = marker.extra.find("density");
+    if (density != marker.extra.end() && !isNear(marker, *density, "position_mm"))
+        marker.extra.erase("density");
+    const auto size = marker.extra.find("size");
+    if (size != marker.extra.end() && !isNear(marker, *size, "from_mm") && !isNear(marker, *size, "to_mm"))
+        marker.extra.erase("size");
 }
 
 std::string formatPoint(Point3 p)
@@ -130,6 +157,7 @@ Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::stri
     marker.station_mm = place.station_mm;
     marker.from_caecum_mm = place.length_mm - place.station_mm;
     marker.fraction = place.length_mm > 0 ? place.station_mm / place.length_mm : 0;
+    forgetMeasuresElsewhere(marker);
     marker.extra.erase("part");
     if (const std::string part = partNameAt(partsOf(store, store.requireScan(case_id, scan_id)), place.station_mm);
         !part.empty())
@@ -152,6 +180,20 @@ std::vector<MarkerEdit> importOf(CaseStore& store, const MarkOptions& options, c
         edits.push_back({before == known.end() ? std::nullopt : std::optional(*before), placed});
     }
     return edits;
+}
+
+void addDensity(CaseStore& store, const std::string& case_id, Marker& marker, double radius_mm)
+{
+    const fs::path folder = store.scanFolder(case_id, marker.scan_id);
+    const auto volume = artefact::readVolume<std::int16_t>(folder / "volume.mha");
+    const auto inside = artefact::readVolume<std::uint8_t>(folder / "inside.mha");
+    const viewer::Biopsy biopsy = viewer::takeBiopsy(volume, inside, marker.position_mm, radius_mm);
+    if (biopsy.voxels == 0)
+        throw Error(ErrorCode::wrong_use,
+                    "too little tissue lies within " + formatNumber(radius_mm, 1) +
+                        " mm of the point and far enough from gas and fluid to measure its density",
+                    case_id, "mark a point on the wall or within the finding, or choose a larger ball");
+    marker.extra["density"] = viewer::toJson(biopsy);
 }
 
 ScanRecord requirePreparedScan(CaseStore& store, const std::string& case_id, const std::string& scan_id)

@@ -48,6 +48,11 @@ Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::stri
 std::vector<MarkerEdit> importOf(CaseStore& store, const MarkOptions& options, const std::string& case_id,
                                  const std::filesystem::path& file);
 
+/// Fills in the density of the tissue around a placed marker as `extra["density"]`: mean, spread and histogram with the
+/// ball that they were taken from. Throws Error{wrong_use} where the radius is out of range or the ball holds no
+/// tissue.
+void addDensity(CaseStore& store, const std::string& case_id, Marker& marker, double radius_mm);
+
 /// The first scan of the case that has been through the pipeline; the named one when `scan_id` is not empty.
 /// Throws Error{not_ready} or Error{not_found}.
 ScanRecord requirePreparedScan(CaseStore& store, const std::string& case_id, const std::string& scan_id);

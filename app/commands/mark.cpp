@@ -14,7 +14,15 @@ namespace {
 
 struct MarkArguments {
     std::string case_id, scan_id, at, color = "red", note;
+    double biopsy_mm = 0;  // 0: none
 };
+
+/// "-" where it is not known, or another program wrote something else there.
+std::string partOf(const Marker& marker)
+{
+    const auto part = marker.extra.find("part");
+    return part != marker.extra.end() && part->is_string() ? part->get<std::string>() : "-";
+}
 
 void printMarkers(const std::vector<Marker>& markers)
 {
@@ -24,7 +32,7 @@ void printMarkers(const std::vector<Marker>& markers)
                         formatNumber(m.position_mm.x, 1) + ", " + formatNumber(m.position_mm.y, 1) + ", " +
                             formatNumber(m.position_mm.z, 1),
                         formatNumber(m.station_mm, 0), formatNumber(m.from_caecum_mm, 0),
-                        formatNumber(m.fraction * 100, 0) + " %", m.extra.value("part", "-"), m.note});
+                        formatNumber(m.fraction * 100, 0) + " %", partOf(m), m.note});
     std::printf("%s", formatTable({"ID", "SCAN", "COLOR", "LPS MM", "FROM RECTUM MM", "FROM CAECUM MM", "FRACTION",
                                    "PART", "NOTE"},
                                   rows)
@@ -56,7 +64,10 @@ int mark(Context& context, const MarkArguments& arguments)
     marker.position_mm = pointFrom(arguments.at, "--at");
     marker.color = markerColorFrom(arguments.color);
     marker.note = arguments.note;
-    marker = store.saveMarker(case_id, placeMarker(store, context.config().get<MarkOptions>(), case_id, marker));
+    marker = placeMarker(store, context.config().get<MarkOptions>(), case_id, marker);
+    if (arguments.biopsy_mm > 0)
+        addDensity(store, case_id, marker, arguments.biopsy_mm);
+    marker = store.saveMarker(case_id, marker);
     tellOfCopy(store);
     if (context.json)
         std::printf("%s\n", toJson(marker).dump(2).c_str());
@@ -130,6 +141,11 @@ Subcommand markCommand()
                 command.add_option("--at", arguments->at, "Position in LPS mm")->required()->type_name("X,Y,Z");
                 command.add_option("--color", arguments->color, "red, yellow or green")->capture_default_str();
                 command.add_option("--note", arguments->note, "What is seen there")->type_name("TEXT");
+                command
+                    .add_option("--biopsy", arguments->biopsy_mm,
+                                "Keep mean density and histogram of the tissue within this many mm of the point")
+                    ->type_name("MM")
+                    ->check(CLI::Range(0.5, 25.0));
                 return [arguments](Context& context) { return mark(context, *arguments); };
             }};
 }

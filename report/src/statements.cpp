@@ -96,6 +96,22 @@ std::string bridgeWords(const json& bridges)
     return std::to_string(bridges.size()) + (bridges.size() == 1 ? " collapsed part: " : " collapsed parts:\n") + out;
 }
 
+/// Of a virtual biopsy; nothing where another program wrote something else there.
+std::string densityWords(const json& density)
+{
+    const auto given = [&](const char* key) { return density.contains(key) && density[key].is_number(); };
+    if (!density.is_object() || !given("mean_hu") || !given("sd_hu") || !given("radius_mm") || !given("voxels"))
+        return {};
+    std::string words = number(numberAt(density, "mean_hu"), "%.0f") + " \u00b1 " +
+                        number(numberAt(density, "sd_hu"), "%.0f") + " HU, of " +
+                        number(numberAt(density, "voxels"), "%.0f") + " voxels within " +
+                        millimetres(numberAt(density, "radius_mm"), 1);
+    constexpr double kWorthSaying = 0.2;
+    if (const double fat = numberAt(density, "fat_fraction"); fat >= kWorthSaying)
+        words += "; " + percent(fat, 0) + " of them are as light as fat";
+    return words;
+}
+
 /// What the reader measured; nothing where that was not done.
 std::string sizeWords(const json& size)
 {
@@ -171,6 +187,7 @@ std::vector<Statement> markerStatements(const MarkerEntry& entry)
     out.push_back(
         {"Fraction", percent(marker.fraction) + " of the whole, " + millimetres(length_mm) + ", from the rectal end"});
     addGiven(out, "Size", sizeWords(marker.extra.value("size", json())));
+    addGiven(out, "Density", densityWords(marker.extra.value("density", json())));
     addGiven(out, "Same finding", pairOf(marker));
     out.push_back({"By endoscope", "estimated: " + endoscopeEstimate(marker.station_mm, entry.part_name)});
     return out;

@@ -175,6 +175,38 @@ TEST_F(Study, PutsMarkersAtTheStationOfTheTruthAndRefusesPointsOutside)
     EXPECT_TRUE(nlohmann::json::parse(std::ifstream(scan_.folder / "markers.json"))["markers"] == back);
 }
 
+TEST_F(Study, KeepsTheDensityOfAVirtualBiopsyWithTheMarkerUntilItIsMovedAway)
+{
+    // Polyps of 5 to 8 mm are too thin for voxels of 2.4 mm, which is said; around them are wall and fat.
+    const std::string place = at(truth_["polyps"][0]["position_mm"]);
+    const auto thin = runVicon("mark " + scan_.case_id + place + " --biopsy 2 --store " + store().string());
+    EXPECT_EQ(thin.exit_code, 2);
+    EXPECT_THAT(thin.output, HasSubstr("too little tissue"));
+    const auto marker = viconJson(store(), "mark " + scan_.case_id + place + " --biopsy 12");
+    const auto& density = marker["density"];
+    EXPECT_GT(density["mean_hu"].get<double>(), -115) << "of fat -98 HU, of soft tissue 40: no gas is in it";
+    EXPECT_LT(density["mean_hu"].get<double>(), 60);
+    EXPECT_GE(density["voxels"].get<int>(), 20);
+    std::size_t counted = 0;
+    for (const auto& count : density["histogram"]["counts"])
+        counted += count.get<std::size_t>();
+    EXPECT_EQ(counted, density["voxels"].get<std::size_t>());
+    const std::string id = marker["id"];
+    const auto kept = [&] {
+        const auto markers = viconJson(store(), "markers " + scan_.case_id)["markers"];
+        for (const auto& m : markers)
+            if (m["id"] == id)
+                return m.contains("density");
+        return false;
+    };
+    viconOn(store(), "markers " + scan_.case_id + " --change " + id + " --note changed");
+    EXPECT_TRUE(kept());
+    viconOn(store(), "markers " + scan_.case_id + " --change " + id + at(truth_["polyps"][1]["position_mm"]));
+    EXPECT_FALSE(kept()) << "it was another place's";
+    viconOn(store(), "markers " + scan_.case_id + " --remove " + id);
+    EXPECT_EQ(runVicon("mark " + scan_.case_id + place + " --biopsy 0 --store " + store().string()).exit_code, 2);
+}
+
 TEST_F(Study, NamesThePartOfTheColonInShowMarkersAndReport)
 {
     const auto scan = viconJson(store(), "show " + scan_.case_id)["scans"][0];

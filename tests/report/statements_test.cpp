@@ -163,5 +163,21 @@ TEST(Statements, AMarkerGivesTheMeasuredDistanceFirstAndTheEstimateLast)
     EXPECT_THAT(said(markerStatements(entry), "By endoscope"), HasSubstr("24 to 32 cm"));
 }
 
+TEST(Statements, AMarkerGivesTheDensityOfItsBiopsy)
+{
+    MarkerEntry entry;
+    nlohmann::json& density = entry.marker.extra["density"];
+    density = {{"radius_mm", 4}, {"mean_hu", 41.6}, {"sd_hu", 18.2}, {"voxels", 31}, {"fat_fraction", 0.1}};
+    EXPECT_EQ(said(markerStatements(entry), "Density"), "42 \u00b1 18 HU, of 31 voxels within 4.0 mm");
+    density["fat_fraction"] = 0.45;
+    EXPECT_EQ(said(markerStatements(entry), "Density"),
+              "42 \u00b1 18 HU, of 31 voxels within 4.0 mm; 45 % of them are as light as fat");
+    for (const nlohmann::json& foreign :
+         {nlohmann::json("41 HU"), nlohmann::json{{"mean_hu", 40}}, nlohmann::json{{"mean_hu", "40"}, {"sd_hu", 1}}}) {
+        density = foreign;
+        EXPECT_EQ(said(markerStatements(entry), "Density"), "(nothing)") << foreign;
+    }
+}
+
 }  // namespace
 }  // namespace vicon::report

@@ -1,0 +1,223 @@
+#include "vicon/viewer/model/biopsy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "vicon/core/error.h"
+
+namespace vicon::viewer {
+namespace {
+
+/// Even tissue to the left of x = 0, gas or tagged fluid to the right, blurred with a sigma of 0.8 mm as by a soft
+/// kernel; not square voxels.
+struct Wall {
+    static constexpr double kBlur_mm = 0.8;
+    HuVolume volume;
+    InsideVolume inside;
+
+    explicit Wall(double tissue_hu, double lumen_hu = -1000)
+    {
+        Grid grid;
+        grid.size = {61, 41, 31};
+        grid.spacing_mm = {0.5, 0.75, 1};
+        grid.origin_mm = {-14.75, -15, -15};
+        volume = HuVolume(grid);
+        inside = InsideVolume(grid, kOutside);
+        for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
+            const double x = grid.pointAt(grid.indexOf(n)).x;
+            const double lumen = 0.5 * (1 + std::erf(x / kBlur_mm / std::numbers::sqrt2));
+            volume.voxels[n] = std::int16_t(std::lround(tissue_hu + lumen * (lumen_hu - tissue_hu)));
+            inside.voxels[n] = x > 0 ? kGas : kOutside;
+        }
+    }
+};
+
+/// A sessile polyp, half a ball or more on a wall of 1.6 mm before fat, as the phantom makes them; the picture's blur
+/// is made of the scene itself.
+struct Polyp {
+    HuVolume volume;
+    InsideVolume inside;
+
+    Polyp(double diameter_mm, double tissue_hu, double spacing_mm, double blur_mm)
+    {
+        constexpr double kWall_mm = 1.6, kFat_hu = -98, kHalf_mm = 12;
+        const double fine_mm = spacing_mm / 2;
+        Grid grid;
+        const int n = 2 * int(kHalf_mm / spacing_mm) + 1;
+        grid.size = {n, n, n};
+        grid.spacing_mm = {spacing_mm, spacing_mm, spacing_mm};
+        const double first = -(n - 1) / 2.0 * spacing_mm;
+        grid.origin_mm = {first, first, first};
+        Grid fine = grid;
+        fine.size = {2 * n, 2 * n, 2 * n};
+        fine.spacing_mm = {fine_mm, fine_mm, fine_mm};
+        Volume<float> scene(fine);
+        for (std::size_t v = 0; v < scene.voxels.size(); ++v) {
+            const Point3 p = fine.pointAt(fine.indexOf(v));
+            const bool in_ball = distance(p, {}) < diameter_mm / 2;
+            scene.voxels[v] = float(in_ball ? tissue_hu : p.x > 0 ? -1000 : p.x > -kWall_mm ? 42 : kFat_hu);
+        }
+        for (int axis = 0; axis < 3; ++axis)
+            blur(scene, axis, blur_mm / fine_mm);
+        volume = HuVolume(grid);
+        inside = InsideVolume(grid, kOutside);
+        for (std::size_t v = 0; v < volume.voxels.size(); ++v) {
+            const Index3 at = grid.indexOf(v);
+            volume.voxels[v] = std::int16_t(std::lround(scene.at({2 * at.i, 2 * at.j, 2 * at.k})));
+            inside.voxels[v] = volume.voxels[v] < (tissue_hu - 1000) / 2 ? kGas : kOutside;
+        }
+    }
+
+private:
+    static void blur(Volume<float>& scene, int axis, double sigma)
+    {
+        const int reach = int(3.5 * sigma) + 1, n = scene.grid.size[0];
+        std::vector<double> weights;
+        for (int d = -reach; d <= reach; ++d)
+            weights.push_back(std::exp(-d * d / (2 * sigma * sigma)));
+        const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+        std::vector<float> row;
+        for (int a = 0; a < n; ++a)
+            for (int b = 0; b < n; ++b) {
+                const auto at = [&](int c) -> float& {
+                    return scene.at(axis == 0 ? Index3{c, a, b} : axis == 1 ? Index3{a, c, b} : Index3{a, b, c});
+                };
+                row.clear();
+                for (int c = 0; c < n; ++c) {
+                    double value = 0;
+                    for (int d = -reach; d <= reach; ++d)
+                        value += weights[std::size_t(d + reach)] * at(std::clamp(c + d, 0, n - 1));
+                    row.push_back(float(value / sum));
+                }
+                for (int c = 0; c < n; ++c)
+                    at(c) = row[std::size_t(c)];
+            }
+    }
+};
+
+TEST(VirtualBiopsy, OfABallInTissueHasItsVolumeAndDensity)
+{
+    const Wall wall(40);
+    const Biopsy biopsy = takeBiopsy(wall.volume, wall.inside, {-9, 0, 0}, 5);
+    EXPECT_NEAR(double(biopsy.voxels) * 0.5 * 0.75, 4.0 / 3 * std::numbers::pi * 125, 15);
+    EXPECT_DOUBLE_EQ(biopsy.mean_hu, 40);
+    EXPECT_NEAR(biopsy.sd_hu, 0, 1e-6);
+    EXPECT_EQ(biopsy.fat_fraction, 0);
+    EXPECT_EQ(biopsy.from_hu, 25);
+    EXPECT_EQ(biopsy.counts, std::vector<std::size_t>{biopsy.voxels});
+}
+
+TEST(VirtualBiopsy, AtTheWallIsNotMixedWithTheGasOrTaggedFluidBesideIt)
+{
+    for (const double lumen_hu : {-1000.0, 400.0, 1200.0})
+        for (const double tissue_hu : {-100.0, 40.0, 90.0}) {
+            const Wall wall(tissue_hu, lumen_hu);
+            const Biopsy biopsy = takeBiopsy(wall.volume, wall.inside, {0, 0, 0}, 6);
+            EXPECT_NEAR(biopsy.mean_hu, tissue_hu, 2) << lumen_hu;
+            EXPECT_LT(biopsy.sd_hu, 4) << lumen_hu;
+            // Half a ball, less a plate of two millimetres.
+            const double part = std::numbers::pi * 16 * (3 * 6 - 4) / 3;
+            EXPECT_NEAR(double(biopsy.voxels) * 0.5 * 0.75, part, 0.2 * part);
+            EXPECT_EQ(biopsy.margin_mm, 2);
+        }
+}
+
+TEST(VirtualBiopsy, OfAPolypIsThePolypsDensityWhereverInItTheReaderPoints)
+{
+    struct Case {
+        double diameter_mm, tissue_hu, spacing_mm, blur_mm, within_hu;
+    };
+    // Half of each ball lies in the wall and the fat behind it: seen from its middle some fat is mixed in.
+    for (const Case& c : {Case{10, 40, 0.74, 0.8, 22}, Case{8, 40, 0.74, 0.65, 22}, Case{6, 40, 0.74, 0.65, 30},
+                          Case{10, -100, 0.74, 0.8, 22}, Case{8, -100, 0.9, 0.8, 22}, Case{10, 300, 0.74, 0.8, 60}}) {
+        const Polyp polyp(c.diameter_mm, c.tissue_hu, c.spacing_mm, c.blur_mm);
+        const double radius = c.diameter_mm / 2, half = radius / 2;
+        for (const Point3 at : {Point3{half, 0, 0}, Point3{0.7 * half, 0.7 * half, 0}, Point3{0, 0, 0}}) {
+            const Biopsy biopsy = takeBiopsy(polyp.volume, polyp.inside, at, radius);
+            ASSERT_GE(biopsy.voxels, Biopsy::kLeastVoxels) << c.diameter_mm << " mm at " << at.x;
+            EXPECT_NEAR(biopsy.mean_hu, c.tissue_hu, c.within_hu) << c.diameter_mm << " mm at " << at.x << ", " << at.y;
+        }
+    }
+}
+
+TEST(VirtualBiopsy, OfALargePolypIsItsDensityFromItsTipAsWell)
+{
+    const Polyp polyp(10, 40, 0.74, 0.8);
+    const Biopsy biopsy = takeBiopsy(polyp.volume, polyp.inside, {5, 0, 0}, 5);
+    EXPECT_NEAR(biopsy.mean_hu, 40, 12);
+}
+
+TEST(VirtualBiopsy, OfWhatIsTooThinForTheVoxelsSaysNothingRatherThanSomethingWrong)
+{
+    const Polyp polyp(6, 40, 2.4, 0.8);
+    EXPECT_EQ(takeBiopsy(polyp.volume, polyp.inside, {0, 0, 0}, 3).voxels, 0U);
+}
+
+TEST(VirtualBiopsy, SaysHowMuchOfItIsFat)
+{
+    const Polyp polyp(6, 40, 0.74, 0.65);
+    const Biopsy fitting = takeBiopsy(polyp.volume, polyp.inside, {3, 0, 0}, 3);
+    const Biopsy large = takeBiopsy(polyp.volume, polyp.inside, {0, 0, 0}, 9);
+    EXPECT_LT(fitting.fat_fraction, 0.2);
+    EXPECT_GT(large.fat_fraction, 0.5);
+}
+
+TEST(VirtualBiopsy, IsTheSameWithTheInsideVoxelsOfAPartOfTheScan)
+{
+    const Wall wall(40);
+    Grid part = wall.inside.grid;
+    part.size = {20, 30, 25};
+    part.origin_mm = part.pointAt(Index3{25, 5, 3});
+    InsideVolume inside(part, kOutside);
+    for (std::size_t n = 0; n < inside.voxels.size(); ++n)
+        inside.voxels[n] = wall.inside.at(wall.inside.grid.indexAt(part.pointAt(part.indexOf(n))));
+    const Biopsy whole = takeBiopsy(wall.volume, wall.inside, {-1, 0, 0}, 4);
+    const Biopsy cropped = takeBiopsy(wall.volume, inside, {-1, 0, 0}, 4);
+    EXPECT_EQ(cropped.voxels, whole.voxels);
+    EXPECT_EQ(cropped.counts, whole.counts);
+    EXPECT_LT(whole.voxels, takeBiopsy(wall.volume, wall.inside, {-8, 0, 0}, 4).voxels) << "the lumen counts";
+}
+
+TEST(VirtualBiopsy, HistogramHoldsEveryVoxelWithinItsBin)
+{
+    Wall wall(0);
+    for (std::size_t n = 0; n < wall.volume.voxels.size(); ++n)
+        if (wall.inside.voxels[n] == kOutside)
+            wall.volume.voxels[n] = n % 2 == 0 ? -30 : 70;
+    const Biopsy biopsy = takeBiopsy(wall.volume, wall.inside, {-8, 0, 0}, 5);
+    ASSERT_EQ(biopsy.from_hu, -50);
+    ASSERT_EQ(biopsy.counts.size(), 5U);  // -50, -25, 0, 25, 50
+    EXPECT_EQ(std::accumulate(biopsy.counts.begin(), biopsy.counts.end(), std::size_t{0}), biopsy.voxels);
+    EXPECT_EQ(biopsy.counts[1] + biopsy.counts[2] + biopsy.counts[3], 0U);
+    const double high = double(biopsy.counts[4]) / double(biopsy.voxels);
+    EXPECT_NEAR(biopsy.mean_hu, -30 + 100 * high, 1e-9);
+    EXPECT_NEAR(biopsy.sd_hu, 100 * std::sqrt(high * (1 - high)), 1e-9);
+    EXPECT_NEAR(biopsy.fat_fraction, 1 - high, 1e-9);
+}
+
+TEST(VirtualBiopsy, IsReadBackAsItWasKeptAndNothingFromWhatAnotherProgramWrote)
+{
+    const Wall wall(40);
+    const Biopsy biopsy = takeBiopsy(wall.volume, wall.inside, {0, 1, 2}, 6);
+    const Biopsy back = biopsyFromJson(toJson(biopsy));
+    EXPECT_EQ(toJson(back), toJson(biopsy));
+    EXPECT_EQ(back.counts, biopsy.counts);
+    for (const nlohmann::json& foreign :
+         {nlohmann::json(), nlohmann::json("41 HU"), nlohmann::json{{"mean_hu", 40}}, nlohmann::json::array({1})})
+        EXPECT_EQ(biopsyFromJson(foreign).voxels, 0U) << foreign;
+}
+
+TEST(VirtualBiopsy, InGasOrOutsideTheScanHasNoTissueAndOddRadiiAreRefused)
+{
+    const Wall wall(40);
+    EXPECT_EQ(takeBiopsy(wall.volume, wall.inside, {8, 0, 0}, 4).voxels, 0U);
+    EXPECT_EQ(takeBiopsy(wall.volume, wall.inside, {500, 0, 0}, 4).voxels, 0U);
+    EXPECT_THROW(takeBiopsy(wall.volume, wall.inside, {0, 0, 0}, 0), Error);
+    EXPECT_THROW(takeBiopsy(wall.volume, wall.inside, {0, 0, 0}, 26), Error);
+}
+
+}  // namespace
+}  // namespace vicon::viewer
