@@ -102,17 +102,28 @@ void shareOut(OwnRun& run)
     }
 }
 
-OwnRun runOwn(const std::string& vicon, const fs::path& series, const fs::path& folder)
+/// Import and work in a fresh store, with further options of `vicon work`.
+void prepare(OwnRun& run, const std::string& vicon, const fs::path& series, const fs::path& folder,
+             const std::vector<std::string>& options)
 {
     const std::string store = (folder / "store").string(), out = (folder / "output.txt").string();
     fs::remove_all(store);
-    OwnRun run;
     run.import = bench::runToEnd({vicon, "import", series.string(), "--store", store}, out);
-    run.work = bench::runToEnd({vicon, "work", "--until-idle", "--store", store}, out);
+    std::vector<std::string> work{vicon, "work", "--until-idle", "--store", store};
+    work.insert(work.end(), options.begin(), options.end());
+    run.work = bench::runToEnd(work, out);
     if (run.import.exit_code != 0 || run.work.exit_code != 0) {
         std::fprintf(stderr, "vicon failed:\n%s\n", contentOf(out).c_str());
         std::exit(1);
     }
+}
+
+/// What each step uses is seen in a run of one step at a time, what the whole uses in a run as users have it.
+OwnRun runOwn(const std::string& vicon, const fs::path& series, const fs::path& folder)
+{
+    const std::string store = (folder / "store").string();
+    OwnRun run;
+    prepare(run, vicon, series, folder, {"--set", "work.steps_at_once=1"});
     for (const auto& entry : fs::recursive_directory_iterator(store)) {
         if (entry.path().filename() == "scan.json") {
             const auto scan = nlohmann::json::parse(contentOf(entry.path()));
@@ -125,6 +136,7 @@ OwnRun runOwn(const std::string& vicon, const fs::path& series, const fs::path& 
         }
     }
     shareOut(run);
+    prepare(run, vicon, series, folder, {});
     fs::remove_all(store);
     return run;
 }
