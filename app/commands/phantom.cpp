@@ -70,6 +70,7 @@ Subcommand phantomCommand()
             command.add_flag("--catheter,!--no-catheter", options.catheter, "A rectal tube (default: yes)");
             command.add_flag("--thin-walls", options.thin_walls, "Loops with 1 mm of wall between them");
             command.add_flag("--self-contact", options.self_contact, "Two loops run into one another once");
+            command.add_flag("--ileum", options.ileum, "A terminal ileum filled through the ileocaecal valve");
             command.add_flag("--low-dose", options.low_dose, "Noise of 50 to 80 HU");
             command.add_option("--seed", options.seed, "Number that the study is drawn from")->capture_default_str();
             command.add_option("--size", arguments->size, "Voxels (default: 512x512x430)")

@@ -74,6 +74,8 @@ public:
           up_(-scene.down),
           organs_(boxed(grid, scene.organs)),
           bones_(boxed(grid, scene.bones)),
+          ileum_wall_(boxed(grid, scene.ileum_wall)),
+          ileum_lumen_(boxed(grid, scene.ileum_lumen)),
           tube_(boxed(grid, scene.tube)),
           voxel_mm_(std::cbrt(grid.voxelVolume_mm3())),
           hu_(grid)
@@ -87,7 +89,9 @@ public:
         solids(organs_, k, out);
         trunk_.lungs(grid_, k, out);
         solids(bones_, k, out);
+        solids(ileum_wall_, k, out);
         colon(k, out);
+        solids(ileum_lumen_, k, out);
         solids(tube_, k, out);
         trunk_.beyondCircle(grid_, out);
     }
@@ -148,7 +152,7 @@ private:
     const std::vector<FluidPool>& pools_;
     TrunkPainter trunk_;
     Vector3 up_;
-    std::vector<BoxedSolid> organs_, bones_, tube_;
+    std::vector<BoxedSolid> organs_, bones_, ileum_wall_, ileum_lumen_, tube_;
     double voxel_mm_;
     HuVolume hu_;
 };

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "grid.h"
+#include "ileum.h"
 #include "imaging.h"
 #include "lumen_field.h"
 #include "paint.h"
@@ -196,7 +197,13 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
         scan.truth.pools = drawPools(options.seed, course.course, wall, placement.position);
 
     progress.report(0.1, "lumen");
-    const Scene scene = drawScene(options.seed, course, placement.position, options.catheter);
+    Scene scene = drawScene(options.seed, course, placement.position, options.catheter);
+    if (options.ileum) {
+        Ileum ileum = drawIleum(options.seed, course, wall, scan.truth.pools, placement.position);
+        scene.ileum_wall = std::move(ileum.wall);
+        scene.ileum_lumen = std::move(ileum.lumen);
+        scan.truth.ileum = ileum.truth;
+    }
     LumenField field = rasterise(grid, course.course, wall, scan.truth.pools, progress);
     scan.truth.euler_number = int(wall.gaps.size()) + 1 - (options.self_contact ? 1 : 0);
     scan.truth.inside = soundLumen(grid, scene, field, scan.truth, progress);

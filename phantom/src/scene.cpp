@@ -111,22 +111,9 @@ double clearOfColon(const Course& course, Point3 p)
     return least - 2;
 }
 
-Vector3 anyDirection(Random& random)
-{
-    return normalized({random.normal(), random.normal(), random.normal()});
-}
-
 Point3 anywhereInBelly(Random& random)
 {
     return {random.uniform(-95, 95), random.uniform(-80, 30), random.uniform(120, 300)};
-}
-
-bool inBelly(const Trunk& trunk, Point3 p, double radius)
-{
-    Oval room = trunk.cavity(p.z);
-    room.half_x_mm -= radius + 2;
-    room.half_y_mm -= radius + 2;
-    return room.value(p.x, p.y) < 1;
 }
 
 /// Loops of small bowel between those of the colon; some hold gas, all of it narrower than 8 mm in radius.
@@ -199,6 +186,19 @@ std::vector<Solid> rectalTube(const Course& course)
 }
 
 }  // namespace
+
+Vector3 anyDirection(Random& random)
+{
+    return normalized({random.normal(), random.normal(), random.normal()});
+}
+
+bool inBelly(const Trunk& trunk, Point3 p, double radius)
+{
+    Oval room = trunk.cavity(p.z);
+    room.half_x_mm -= radius + 2;
+    room.half_y_mm -= radius + 2;
+    return room.value(p.x, p.y) < 1;
+}
 
 double distanceTo(const Solid& solid, Point3 p)
 {

@@ -4,6 +4,7 @@
 
 #include "anatomy.h"
 #include "course.h"
+#include "random.h"
 
 namespace vicon::phantom {
 
@@ -21,6 +22,12 @@ struct Solid {
 /// Distance to a solid's surface to first order, below 0 inside.
 double distanceTo(const Solid& solid, Point3 p);
 
+/// A direction drawn evenly from all.
+Vector3 anyDirection(Random& random);
+
+/// Whether a ball lies in the room for gut, 2 mm from its wall.
+bool inBelly(const Trunk& trunk, Point3 p, double radius_mm);
+
 /// All that surrounds the colon.
 struct Scene {
     Trunk trunk;
@@ -28,6 +35,8 @@ struct Scene {
     double table_mm = 0;        ///< depth of the table's top in the middle
     std::vector<Solid> organs;  ///< painted in this order, before the lungs
     std::vector<Solid> bones;   ///< painted after the lungs, with vessels and gut
+    std::vector<Solid> ileum_wall;   ///< terminal ileum, painted before the colon; empty without
+    std::vector<Solid> ileum_lumen;  ///< and what it holds, painted after the colon
     std::vector<Solid> tube;    ///< rectal catheter; empty without. Its hollow follows its wall
 };
 

@@ -19,7 +19,8 @@ struct Candidate {
     double max_radius_mm = 0;
     double length_mm = 0;  ///< between its tips, along the middle
     Point3 tip_mm[2];      ///< its two ends; of the piece with the rectum the first is the rectal one
-    Point3 lower_mm;       ///< bounding box
+    double tip_radius_mm[2] = {0, 0};  ///< widest radius within 60 mm of each tip
+    Point3 lower_mm;                   ///< bounding box
     Point3 upper_mm;
     double colon_likeness = 1;  ///< 0 to 1, from shape and place
     std::string kind = "colon";

@@ -10,6 +10,7 @@
 #include "field_of_view.h"
 #include "fluid.h"
 #include "fluid_rim.h"
+#include "ileum_cut.h"
 #include "lumen.h"
 #include "lumen_pieces.h"
 #include "ordering.h"
@@ -28,6 +29,7 @@ constexpr double kLeak_mm = 3;
 constexpr double kSameFluid_hu = 60;
 constexpr int kMostCandidates = 10;  // the exact ordering takes 2^n steps
 constexpr int kMargin_voxels = 2;
+constexpr double kSameEnd_mm = 15;
 
 struct Corrections {
     std::vector<Point3> add, cut, drop;
@@ -127,6 +129,32 @@ nlohmann::json describe(const std::vector<Candidate>& candidates, const Ordering
     return out;
 }
 
+/// The way ends in the colon where the lumen runs on as a narrow tube.
+void endBeforeIleum(const std::vector<IleumCut>& ilea, LumenPiece& last)
+{
+    for (const IleumCut& ileum : ilea)
+        if (ileum.shorter_mm > 0 && distance(ileum.end_mm, last.caecal_end_mm) < kSameEnd_mm) {
+            last.caecal_end_mm = ileum.moved_end_mm;
+            last.length_mm -= ileum.shorter_mm;
+            return;
+        }
+}
+
+/// What a person must know of the ends where ileum was sought.
+void describeIlea(const std::vector<IleumCut>& ilea, Segmentation& result)
+{
+    const Point3 end = result.plan.pieces.empty() ? Point3{} : result.plan.pieces.back().caecal_end_mm;
+    for (const IleumCut& ileum : ilea)
+        if (ileum.cut || distance(ileum.end_mm, end) < kSameEnd_mm || distance(ileum.moved_end_mm, end) < kSameEnd_mm)
+            note(result, ileum.reason);
+    nlohmann::json& list = result.measures["ileum"] = nlohmann::json::array();
+    for (const IleumCut& ileum : ilea)
+        if (ileum.cut)
+            list.push_back({{"valve_mm", {ileum.valve_mm.x, ileum.valve_mm.y, ileum.valve_mm.z}},
+                            {"neck_radius_mm", ileum.neck_mm},
+                            {"removed_ml", ileum.removed_ml}});
+}
+
 Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const SegmentOptions& options,
                                   Progress& progress)
 {
@@ -145,7 +173,15 @@ Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const
         around_cuts.push_back(cutAt(labels, p));
     const int layers = rimLayers(labels.grid, kLeak_mm);
     markFluidRim(labels, layers);
-    const RunLabels lumen = labelLumen(labels, Neighbours::faces);
+    RunLabels lumen = labelLumen(labels, Neighbours::faces);
+    const auto candidatesIn = [&](const std::vector<int>& always) {
+        return findCandidates(labels, lumen, body, options.smallest_piece_ml, kMostCandidates, always, progress);
+    };
+    std::vector<Candidate> candidates = candidatesIn(componentsAt(lumen, labels.grid, corrections.add));
+    const std::vector<IleumCut> ilea = cutIlea(labels, candidates, layers, body, progress);
+    const bool cut = std::any_of(ilea.begin(), ilea.end(), [](const IleumCut& ileum) { return ileum.cut; });
+    if (cut)
+        lumen = labelLumen(labels, Neighbours::faces);
     std::set<int> dropped = separated(lumen, around_cuts);
     for (const int n : componentsAt(lumen, labels.grid, corrections.drop))
         dropped.insert(n);
@@ -153,8 +189,8 @@ Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const
     std::vector<Point3> unmet;
     std::copy_if(corrections.add.begin(), corrections.add.end(), std::back_inserter(unmet),
                  [&](Point3 p) { return componentsAt(lumen, labels.grid, {p}).empty(); });
-    std::vector<Candidate> candidates =
-        findCandidates(labels, lumen, body, options.smallest_piece_ml, kMostCandidates, added, progress);
+    if (cut)
+        candidates = candidatesIn(added);
     std::erase_if(candidates, [&](const Candidate& c) { return dropped.contains(int(c.label)); });
     const int rectum = findRectum(candidates, labels, lumen, body, options.catheter_radius_mm, progress);
     if (rectum < 0)
@@ -173,6 +209,7 @@ Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const
         result.plan.pieces.push_back(pieceFor(c, p.reversed));
     }
     result.plan.bridges = ordering.bridges;
+    endBeforeIleum(ilea, result.plan.pieces.back());
     result.inside = cropTo(labels, lumen, chosen, kMargin_voxels + layers);
     restoreFluidRim(result.inside, layers);
     if (result.measures["fluid_faintest_hu"] < result.measures["fluid_brightest_hu"].get<double>() - kSameFluid_hu)
@@ -180,6 +217,7 @@ Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const
     followCords(volume, result.inside, options.longest_sure_bridge_mm, result.plan, progress);
     result.measures["candidates"] = describe(candidates, ordering);
     judgeSegmentation(result, body, lumenCut_mm2(volume, result.inside));
+    describeIlea(ilea, result);
     for (const Point3 p : unmet)
         note(result, "there is no gas or fluid at the seed " + textOf(p));
     return result;

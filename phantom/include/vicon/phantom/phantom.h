@@ -32,6 +32,7 @@ struct PhantomOptions {
     bool catheter = true;       ///< rectal tube
     bool thin_walls = false;    ///< three places where loops lie 1.5 voxels of wall apart
     bool self_contact = false;  ///< two loops that run into one another once: the lumen's Euler number is 0
+    bool ileum = false;         ///< a valve of 3 to 5 mm that gas or fluid has gone through into the terminal ileum
     double noise_hu = -1;       ///< standard deviation in soft tissue; below 0: drawn from 15 to 40
     bool low_dose = false;      ///< noise drawn from 50 to 80 HU when noise_hu is below 0
     double blur_mm = 0;         ///< sigma of the point spread; 0: drawn from 0.5 to 0.8
@@ -60,6 +61,7 @@ struct PhantomOptions {
         v("phantom.catheter", catheter, "", "A rectal tube.");
         v("phantom.thin_walls", thin_walls, "", "Loops with 1.5 voxels of wall between them, in three places.");
         v("phantom.self_contact", self_contact, "", "Two loops run into one another once.");
+        v("phantom.ileum", ileum, "", "A terminal ileum that is filled through the ileocaecal valve.");
         v("phantom.noise_hu", noise_hu, "HU", "Noise; below 0: drawn from 15 to 40 HU.", {-1, 500});
         v("phantom.low_dose", low_dose, "", "Noise drawn from 50 to 80 HU.");
         v("phantom.blur_mm", blur_mm, "mm", "Sigma of the point spread; 0: drawn from 0.5 to 0.8 mm.", {0, 3});
@@ -89,6 +91,16 @@ struct FluidPool {
     double density_hu = 0;
 };
 
+/// The end of the small bowel, filled from the colon; no part of the colon's lumen.
+struct TerminalIleum {
+    Point3 valve_mm;  ///< on the colon's inner surface
+    double station_mm = 0;
+    double neck_radius_mm = 0;
+    double radius_mm = 0;        ///< of the tube behind the valve
+    double length_mm = 0;        ///< 0: there is none
+    bool through_fluid = false;  ///< the valve lies under fluid
+};
+
 /// What a scan shows, exactly.
 struct PhantomTruth {
     std::vector<SkeletonPoint>
@@ -96,6 +108,7 @@ struct PhantomTruth {
     std::vector<Polyp> polyps;       ///< in order of station
     std::vector<CollapsedGap> gaps;  ///< in order of station
     std::vector<FluidPool> pools;    ///< in order of station
+    TerminalIleum ileum;
     ColonPartRanges parts;           ///< all eight, by where they are fixed, not by the shape of the curve
     Vector3 gravity;                 ///< unit vector
     double length_mm = 0;            ///< of the curve

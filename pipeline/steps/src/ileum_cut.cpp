@@ -1,0 +1,395 @@
+#include "ileum_cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "fluid_rim.h"
+#include "segment_points.h"
+#include "skeleton_tree.h"
+#include "vicon/steps/wall_distance.h"
+
+namespace vicon::steps {
+namespace {
+
+// Sizes of the ileocaecal valve and of gas-filled ileum: phantom seeds 1 to 8 with `ileum`, the prone scan of the
+// reference data.
+constexpr double kZone_mm = 450;     // along the voxels' faces: 260 mm or more of lumen back from the far end
+constexpr double kWidestNeck_mm = 6;  // radius
+constexpr double kNeckShare = 0.65;   // of the radius behind it
+constexpr double kColonShare = 0.4;   // of the colon's radius before it
+constexpr double kLeast_ml = 1.5, kMost_ml = 100;
+constexpr double kShortest_mm = 20;
+constexpr double kNarrowest_mm = 3, kWidest_mm = 12;  // radius of the ileum; an appendix is narrower
+constexpr double kPouch_mm = 12;                      // from the way to the neck to the caecum's end
+constexpr double kNearEnd_mm = 130;                   // a valve lies at most so far from there
+constexpr double kMargin_mm = 1.5;                    // of the cut beyond the neck's own radius
+constexpr double kLeastColon_ml = 50;                 // of a piece that ends in a caecum
+constexpr double kTipOff_mm = 6;
+// A tail behind the caecum; the prone scan of the reference data (70 mm of small bowel, 8 mm wide, behind 22 mm).
+constexpr double kTailShare = 0.45, kShortestTail_mm = 30, kWideColon_mm = 15;
+constexpr int kBlock = 2, kMostTries = 12;
+
+bool isLumen(const InsideVolume& labels, Index3 v)
+{
+    const std::uint8_t label = labels.valueOr(v, kOutside);
+    return label == kGas || label == kFluid;
+}
+
+/// Whether a place is where a caecum lies: on the patient's right, in the lower half.
+bool liesLowRight(Point3 p, const Body& body)
+{
+    const Point3 middle = interpolate(body.lower_mm, body.upper_mm, 0.5);
+    return p.x < middle.x && p.z < middle.z;
+}
+
+/// The voxel of lumen nearest to a point; none farther away than a tip may lie in the rim of fluid.
+std::optional<Index3> nearestLumen(const InsideVolume& labels, Point3 p)
+{
+    const Index3 c = labels.grid.indexAt(p);
+    const int reach = int(std::ceil(kTipOff_mm / labels.grid.spacing_mm[0]));
+    std::optional<Index3> best;
+    double least = kTipOff_mm;
+    for (int k = c.k - reach; k <= c.k + reach; ++k)
+        for (int j = c.j - reach; j <= c.j + reach; ++j)
+            for (int i = c.i - reach; i <= c.i + reach; ++i) {
+                const double d = distance(labels.grid.pointAt(Index3{i, j, k}), p);
+                if (d <= least && isLumen(labels, {i, j, k})) {
+                    least = d;
+                    best = Index3{i, j, k};
+                }
+            }
+    return best;
+}
+
+/// The lumen around the far end, as a volume of its own.
+struct Zone {
+    InsideVolume mask;
+    Index3 offset;        ///< of its first voxel in the lumen
+    Point3 root_mm;       ///< where the colon goes on to the rectum
+};
+
+/// Voxels that lie within kZone_mm of a place, and the one of them from which the rest of the lumen hangs.
+std::optional<Zone> zoneAt(const InsideVolume& inside, Point3 end_mm, Point3 start_mm, int rim_layers)
+{
+    const Grid& grid = inside.grid;
+    const std::optional<Index3> found = nearestLumen(inside, end_mm);
+    if (!found)
+        return std::nullopt;
+    const Index3 seed = *found;
+    std::vector<std::uint8_t> seen(grid.voxelCount(), 0);
+    std::vector<std::size_t> front{grid.offset(seed)}, next, all;
+    seen[front[0]] = 1;
+    const int steps = int(kZone_mm / grid.spacing_mm[0]);
+    Index3 lower = seed, upper = seed;
+    for (int step = 0; step < steps && !front.empty(); ++step) {
+        next.clear();
+        for (const std::size_t n : front) {
+            all.push_back(n);
+            const Index3 v = grid.indexOf(n);
+            lower = {std::min(lower.i, v.i), std::min(lower.j, v.j), std::min(lower.k, v.k)};
+            upper = {std::max(upper.i, v.i), std::max(upper.j, v.j), std::max(upper.k, v.k)};
+            for (const Index3 w : {Index3{v.i - 1, v.j, v.k}, Index3{v.i + 1, v.j, v.k}, Index3{v.i, v.j - 1, v.k},
+                                   Index3{v.i, v.j + 1, v.k}, Index3{v.i, v.j, v.k - 1}, Index3{v.i, v.j, v.k + 1}})
+                if (isLumen(inside, w) && !seen[grid.offset(w)]) {
+                    seen[grid.offset(w)] = 1;
+                    next.push_back(grid.offset(w));
+                }
+        }
+        front.swap(next);
+    }
+    Zone zone;
+    zone.root_mm = front.empty() ? start_mm : grid.pointAt(grid.indexOf(front[front.size() / 2]));
+    const int margin = rim_layers + 2;
+    zone.offset = {std::max(0, lower.i - margin), std::max(0, lower.j - margin), std::max(0, lower.k - margin)};
+    Grid crop = grid;
+    crop.size = {std::min(grid.size[0], upper.i + margin + 1) - zone.offset.i,
+                 std::min(grid.size[1], upper.j + margin + 1) - zone.offset.j,
+                 std::min(grid.size[2], upper.k + margin + 1) - zone.offset.k};
+    crop.origin_mm = grid.pointAt(zone.offset);
+    zone.mask = InsideVolume(crop);
+    for (const std::size_t n : all) {
+        const Index3 v = grid.indexOf(n);
+        zone.mask.at({v.i - zone.offset.i, v.j - zone.offset.j, v.k - zone.offset.k}) = kGas;
+    }
+    // The rim that the lumen will get back: without it a passage through fluid looks narrower than it is.
+    for (int k = 0; k < crop.size[2]; ++k)
+        for (int j = 0; j < crop.size[1]; ++j)
+            for (int i = 0; i < crop.size[0]; ++i)
+                if (inside.at({i + zone.offset.i, j + zone.offset.j, k + zone.offset.k}) == kRim)
+                    zone.mask.at({i, j, k}) = kRim;
+    restoreFluidRim(zone.mask, rim_layers);
+    return zone;
+}
+
+/// A narrow place of the tree and what lies behind it.
+struct Neck {
+    std::int32_t node = -1;
+    std::int32_t beyond = -1;  ///< the next node, on the far side
+    double behind_ml = 0;
+};
+
+/// Places of the tree that are narrow, narrowest of their surroundings, and lead on to enough: most first.
+std::vector<Neck> necksOf(const LumenGraph& graph, const LumenTree& tree)
+{
+    const double node_ml = graph.grid.voxelVolume_mm3() * std::pow(graph.block, 3) / 1000;
+    std::vector<std::int32_t> order(graph.count());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+        const float ca = tree.cost[std::size_t(a)], cb = tree.cost[std::size_t(b)];
+        return ca != cb ? ca > cb : a > b;
+    });
+    std::vector<float> behind(graph.count(), float(node_ml));
+    std::vector<std::int32_t> heaviest(graph.count(), -1);
+    for (const std::int32_t n : order) {
+        const std::int32_t parent = tree.parent[std::size_t(n)];
+        if (parent < 0)
+            continue;
+        behind[std::size_t(parent)] += behind[std::size_t(n)];
+        std::int32_t& heavy = heaviest[std::size_t(parent)];
+        if (heavy < 0 || behind[std::size_t(n)] > behind[std::size_t(heavy)])
+            heavy = n;
+    }
+    std::vector<Neck> necks;
+    for (const std::int32_t n : order) {
+        const std::int32_t parent = tree.parent[std::size_t(n)], heavy = heaviest[std::size_t(n)];
+        const float own = graph.node(n).wall_mm;
+        if (parent < 0 || heavy < 0 || own > kWidestNeck_mm || behind[std::size_t(n)] < kLeast_ml ||
+            behind[std::size_t(n)] > kMost_ml)
+            continue;
+        if (graph.node(parent).wall_mm >= own && graph.node(heavy).wall_mm > own)
+            necks.push_back({n, heavy, behind[std::size_t(n)]});
+    }
+    std::stable_sort(necks.begin(), necks.end(), [](const Neck& a, const Neck& b) { return a.behind_ml > b.behind_ml; });
+    return necks;
+}
+
+/// What lies on the far side of a neck, and how the colon goes on without it.
+struct Branch {
+    std::vector<std::uint8_t> beyond;  ///< of every node: 1 on the far side
+    double widest_mm = 0;              ///< radius
+    double length_mm = 0;
+    std::int32_t end = -1;       ///< of the colon without the branch
+    std::int32_t junction = -1;  ///< where the ways to the neck and to that end part
+    double pouch_mm = 0;         ///< from there to the end
+    double pouch_radius_mm = 0;  ///< widest on that way, half of the pouch beyond the junction
+    double colon_radius_mm = 0;  ///< widest before the junction
+};
+
+std::optional<Branch> branchAt(const LumenGraph& graph, const LumenTree& tree, const Neck& neck, Progress& progress)
+{
+    const Point3 centre = graph.point(neck.node);
+    // Wide enough that no edge of the graph leaps over it.
+    const double radius =
+        graph.node(neck.node).wall_mm + kMargin_mm + 0.87 * graph.block * graph.grid.spacing_mm[0];
+    std::vector<std::uint8_t> blocked(graph.count(), 0), rest(graph.count(), 0);
+    for (std::size_t n = 0; n < graph.count(); ++n) {
+        blocked[n] = distance(graph.point(std::int32_t(n)), centre) <= radius ? 1 : 0;
+        rest[n] = blocked[n] || !tree.reaches(std::int32_t(n)) ? 0 : 1;
+    }
+    if (blocked[std::size_t(tree.root)])
+        return std::nullopt;
+    const LumenTree without = centralTree(graph, tree.root, blocked, progress);
+    Branch branch;
+    branch.beyond.assign(graph.count(), 0);
+    for (std::size_t n = 0; n < graph.count(); ++n)
+        if (rest[n] && !without.reaches(std::int32_t(n))) {
+            branch.beyond[n] = 1;
+            branch.widest_mm = std::max(branch.widest_mm, double(graph.nodes[n].wall_mm));
+            branch.length_mm =
+                std::max(branch.length_mm, double(tree.length_mm[n] - tree.length_mm[std::size_t(neck.node)]));
+        }
+    branch.end = farthestNode(without);
+    const std::vector<std::int32_t> to_end = without.pathTo(branch.end), to_neck = tree.pathTo(neck.node);
+    std::size_t common = 0;
+    while (common + 1 < std::min(to_end.size(), to_neck.size()) && to_end[common + 1] == to_neck[common + 1])
+        ++common;
+    branch.junction = to_end[common];
+    const auto along = [&](std::int32_t n) { return double(without.length_mm[std::size_t(n)]); };
+    branch.pouch_mm = along(branch.end) - along(branch.junction);
+    for (const std::int32_t n : to_end) {
+        const double after = along(n) - along(branch.junction);
+        if (after <= 0 && after > -60)
+            branch.colon_radius_mm = std::max(branch.colon_radius_mm, double(graph.node(n).wall_mm));
+        if (after >= branch.pouch_mm / 4)
+            branch.pouch_radius_mm = std::max(branch.pouch_radius_mm, double(graph.node(n).wall_mm));
+    }
+    return branch;
+}
+
+bool looksLikeBowel(const LumenGraph& graph, const Neck& neck, const Branch& branch)
+{
+    const double node_ml = graph.grid.voxelVolume_mm3() * std::pow(graph.block, 3) / 1000;
+    const double ml = node_ml * double(std::count(branch.beyond.begin(), branch.beyond.end(), 1));
+    return ml >= kLeast_ml && ml <= kMost_ml && branch.length_mm >= kShortest_mm && branch.widest_mm >= kNarrowest_mm &&
+           branch.widest_mm <= kWidest_mm && graph.node(neck.node).wall_mm <= kNeckShare * branch.widest_mm;
+}
+
+/// Why a branch that may be ileum is left where it is; empty when it is ileum.
+std::string doubtAbout(const LumenGraph& graph, const Neck& neck, const Branch& branch, const Body& body)
+{
+    const double wide_mm = std::max(branch.colon_radius_mm, branch.pouch_radius_mm);
+    if (graph.node(neck.node).wall_mm > kColonShare * wide_mm || branch.widest_mm > wide_mm / 1.3)
+        return "the colon before it is hardly wider";
+    if (branch.pouch_mm < kPouch_mm || branch.pouch_radius_mm < std::max(branch.widest_mm, wide_mm / 3))
+        return "no blind end of the colon lies beside it";
+    if (branch.pouch_mm > kNearEnd_mm)
+        return "it lies far from the colon's end";
+    if (graph.point(neck.node).x > (body.lower_mm.x + body.upper_mm.x) / 2)
+        return "it lies on the patient's left";
+    return {};
+}
+
+/// The way from where the passage begins, as narrow as the neck from there on, to the neck.
+std::vector<std::int32_t> passageTo(const LumenGraph& graph, const LumenTree& tree, const Neck& neck)
+{
+    const double narrow = graph.node(neck.node).wall_mm + 0.6 * graph.grid.spacing_mm[0];
+    std::vector<std::int32_t> passage{neck.node};
+    for (std::int32_t n = tree.parent[std::size_t(neck.node)]; n >= 0 && graph.node(n).wall_mm <= narrow;
+         n = tree.parent[std::size_t(n)])
+        passage.push_back(n);
+    std::reverse(passage.begin(), passage.end());
+    return passage;
+}
+
+/// Takes out what lies behind a plane across the way to the branch, as far as it hangs together there. Returns the
+/// volume, or 0 and leaves the lumen as it is where that is more than the branch.
+double takeOut(InsideVolume& inside, const Zone& zone, const LumenGraph& graph, std::int32_t mouth, const Neck& neck,
+               const Branch& branch, double most_ml)
+{
+    const Point3 at = graph.point(mouth);
+    const Vector3 outward = normalized(graph.point(neck.beyond) - at);
+    const double radius = graph.node(mouth).wall_mm + graph.node(neck.node).wall_mm + kMargin_mm;
+    const double voxel_ml = inside.grid.voxelVolume_mm3() / 1000;
+    const auto most = std::size_t(most_ml / voxel_ml);
+    std::vector<std::pair<std::size_t, std::uint8_t>> taken;  // with the labels they had
+    const auto take = [&](Index3 v) {
+        if (!isLumen(inside, v))
+            return;
+        const Vector3 d = inside.grid.pointAt(v) - at;
+        if (dot(d, outward) < 0 && length(d) <= radius)
+            return;  // the colon's side of the mouth
+        const std::size_t n = inside.grid.offset(v);
+        taken.emplace_back(n, std::exchange(inside.voxels[n], std::uint8_t(kOutside)));
+    };
+    for (std::size_t n = 0; n < graph.count(); ++n) {
+        const Index3 v = graph.nodes[n].voxel;
+        if (branch.beyond[n])
+            take({v.i + zone.offset.i, v.j + zone.offset.j, v.k + zone.offset.k});
+    }
+    for (std::size_t n = 0; n < taken.size() && taken.size() <= most; ++n) {
+        const Index3 v = inside.grid.indexOf(taken[n].first);
+        for (const Index3 w : {Index3{v.i - 1, v.j, v.k}, Index3{v.i + 1, v.j, v.k}, Index3{v.i, v.j - 1, v.k},
+                               Index3{v.i, v.j + 1, v.k}, Index3{v.i, v.j, v.k - 1}, Index3{v.i, v.j, v.k + 1}})
+            take(w);
+    }
+    if (taken.size() <= most)
+        return double(taken.size()) * voxel_ml;
+    for (const auto& [n, label] : taken)
+        inside.voxels[n] = label;
+    return 0;
+}
+
+/// Where the lumen runs on from the wide end of the colon as a narrow tube, with no bottleneck to cut: the end goes back
+/// to the wide part's, and the lumen stays.
+void endBeforeTail(const LumenGraph& graph, const LumenTree& tree, std::int32_t end, const Body& body, IleumCut& result)
+{
+    if (!tree.reaches(end) || !liesLowRight(graph.point(end), body))
+        return;
+    const auto along = [&](std::int32_t n) { return double(tree.length_mm[std::size_t(n)]); };
+    const std::vector<std::int32_t> way = tree.pathTo(end);
+    double wide_mm = 0;
+    for (const std::int32_t n : way)
+        wide_mm = std::max(wide_mm, double(graph.node(n).wall_mm));
+    const double narrow = std::min(kWidest_mm, wide_mm * kTailShare);
+    auto first = way.end();
+    while (first != way.begin() && graph.node(*(first - 1)).wall_mm <= narrow)
+        --first;
+    if (first == way.end() || first == way.begin() || wide_mm < kWideColon_mm)
+        return;
+    const double tail_mm = along(end) - along(*first);
+    if (tail_mm < kShortestTail_mm)
+        return;
+    std::int32_t last = *first;
+    for (std::size_t n = 0; n < graph.count(); ++n)
+        if (tree.reaches(std::int32_t(n)) && graph.nodes[n].wall_mm > narrow && tree.length_mm[n] > along(last))
+            last = std::int32_t(n);
+    result.moved_end_mm = graph.point(last);
+    result.shorter_mm = along(end) - along(last);
+    result.reason = "from " + textOf(graph.point(*first)) + " on the lumen is a tube of at most " +
+                    std::to_string(std::lround(2 * narrow)) + " mm, ileum or appendix: it was kept, the curve ends before it";
+}
+
+/// Looks for ileum at one end of a candidate.
+IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, Point3 other_mm, int rim_layers, const Body& body,
+                  Progress& progress)
+{
+    IleumCut result;
+    result.end_mm = end_mm;
+    const std::optional<Zone> zone = zoneAt(labels, end_mm, other_mm, rim_layers);
+    if (!zone)
+        return result;
+    const FieldVolume wall_mm = wallDistance(zone->mask, progress);
+    LumenGraph graph = makeGraph(wall_mm, kBlock, 0);
+    std::int32_t root = graph.nearest(zone->root_mm), end = graph.nearest(end_mm);
+    LumenTree tree = centralTree(graph, root, {}, progress);
+    if (!tree.reaches(end)) {  // through a passage narrower than the blocks
+        graph = makeGraph(wall_mm, 1, 0);
+        root = graph.nearest(zone->root_mm);
+        end = graph.nearest(end_mm);
+        tree = centralTree(graph, root, {}, progress);
+    }
+    int tries = 0;
+    for (const Neck& neck : necksOf(graph, tree)) {
+        if (++tries > kMostTries)
+            break;
+        const std::optional<Branch> branch = branchAt(graph, tree, neck, progress);
+        if (!branch || !looksLikeBowel(graph, neck, *branch))
+            continue;
+        const std::vector<std::int32_t> passage = passageTo(graph, tree, neck);
+        result.valve_mm = graph.point(passage.front());
+        result.neck_mm = graph.node(neck.node).wall_mm;
+        const std::string where = " behind a passage of " + std::to_string(std::lround(2 * result.neck_mm)) + " mm at " +
+                                  textOf(result.valve_mm);
+        std::string doubt = doubtAbout(graph, neck, *branch, body);
+        if (doubt.empty()) {
+            // Where the passage opens into a fold's corner a plane right at its mouth would cut the colon too.
+            for (std::size_t n = 0; n < passage.size() && result.removed_ml == 0; ++n)
+                result.removed_ml = takeOut(labels, *zone, graph, passage[n], neck, *branch, 1.3 * neck.behind_ml + 2);
+            if (result.removed_ml == 0)
+                doubt = "it comes round to the colon again";
+        }
+        result.cut = result.removed_ml > 0;
+        if (result.cut)
+            result.reason = "terminal ileum" + where + " was cut off";
+        else if (branch->beyond[std::size_t(end)])
+            result.reason = "the lumen" + where + " may be terminal ileum and was kept: " + doubt;
+        if (result.cut)
+            return result;
+    }
+    endBeforeTail(graph, tree, end, body, result);
+    return result;
+}
+
+}  // namespace
+
+std::vector<IleumCut> cutIlea(InsideVolume& labels, const std::vector<Candidate>& candidates, int rim_layers,
+                              const Body& body, Progress& progress)
+{
+    std::vector<IleumCut> found;
+    for (const Candidate& c : candidates)
+        for (const int tip : {0, 1}) {
+            const Point3 end = c.tip_mm[tip];
+            if (c.volume_ml < kLeastColon_ml || !(liesLowRight(end, body) || c.tip_radius_mm[tip] < kWidest_mm))
+                continue;
+            found.push_back(cutAtEnd(labels, end, c.tip_mm[1 - tip], rim_layers, body, progress));
+            if (found.back().reason.empty())
+                found.pop_back();
+            progress.check();
+        }
+    return found;
+}
+
+}  // namespace vicon::steps
