@@ -31,13 +31,13 @@ bool inBelly(const Trunk& trunk, Point3 p, double radius_mm);
 /// All that surrounds the colon.
 struct Scene {
     Trunk trunk;
-    Vector3 down;               ///< gravity
-    double table_mm = 0;        ///< depth of the table's top in the middle
-    std::vector<Solid> organs;  ///< painted in this order, before the lungs
-    std::vector<Solid> bones;   ///< painted after the lungs, with vessels and gut
+    Vector3 down;                    ///< gravity
+    double table_mm = 0;             ///< depth of the table's top in the middle
+    std::vector<Solid> organs;       ///< painted in this order, before the lungs
+    std::vector<Solid> bones;        ///< painted after the lungs, with vessels and gut
     std::vector<Solid> ileum_wall;   ///< terminal ileum, painted before the colon; empty without
     std::vector<Solid> ileum_lumen;  ///< and what it holds, painted after the colon
-    std::vector<Solid> tube;    ///< rectal catheter; empty without. Its hollow follows its wall
+    std::vector<Solid> tube;         ///< rectal catheter; empty without. Its hollow follows its wall
 };
 
 Scene drawScene(std::uint64_t seed, const DrawnCourse& drawn, Position position, bool catheter);

@@ -66,12 +66,9 @@ nlohmann::json describeTruth(const PhantomTruth& truth)
         {"noise_hu", truth.noise_hu},   {"blur_mm", truth.blur_mm},
         {"parts", toJson(truth.parts)}, {"gravity", {truth.gravity.x, truth.gravity.y, truth.gravity.z}}};
     if (truth.ileum.length_mm > 0)
-        out["ileum"] = {{"valve_mm", triple(truth.ileum.valve_mm)},
-                        {"station_mm", truth.ileum.station_mm},
-                        {"neck_radius_mm", truth.ileum.neck_radius_mm},
-                        {"radius_mm", truth.ileum.radius_mm},
-                        {"length_mm", truth.ileum.length_mm},
-                        {"through_fluid", truth.ileum.through_fluid}};
+        out["ileum"] = {{"valve_mm", triple(truth.ileum.valve_mm)},     {"station_mm", truth.ileum.station_mm},
+                        {"neck_radius_mm", truth.ileum.neck_radius_mm}, {"radius_mm", truth.ileum.radius_mm},
+                        {"length_mm", truth.ileum.length_mm},           {"through_fluid", truth.ileum.through_fluid}};
     for (const char* list : {"curve_mm", "station_mm", "radius_mm", "polyps", "gaps", "pools"})
         out[list] = nlohmann::json::array();
     for (const SkeletonPoint& point : truth.curve) {

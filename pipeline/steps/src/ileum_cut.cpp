@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "fluid_rim.h"
 #include "segment_points.h"
+#include "side_branch.h"
 #include "skeleton_tree.h"
 #include "vicon/steps/wall_distance.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 // Sizes of the ileocaecal valve and of gas-filled ileum: phantom seeds 1 to 8 with `ileum`, the prone scan of the
 // reference data.
-constexpr double kZone_mm = 450;     // along the voxels' faces: 260 mm or more of lumen back from the far end
+constexpr double kZone_mm = 450;      // along the voxels' faces: 260 mm or more of lumen back from the far end
 constexpr double kWidestNeck_mm = 6;  // radius
 constexpr double kNeckShare = 0.65;   // of the radius behind it
 constexpr double kColonShare = 0.4;   // of the colon's radius before it
@@ -24,12 +24,13 @@ constexpr double kLeast_ml = 1.5, kMost_ml = 100;
 constexpr double kShortest_mm = 20;
 constexpr double kNarrowest_mm = 3, kWidest_mm = 12;  // radius of the ileum; an appendix is narrower
 constexpr double kPouch_mm = 12;                      // from the way to the neck to the caecum's end
-constexpr double kNearEnd_mm = 130;                   // a valve lies at most so far from there
+constexpr double kNearEnd_mm = 160;                   // a valve lies at most so far from there
 constexpr double kMargin_mm = 1.5;                    // of the cut beyond the neck's own radius
 constexpr double kLeastColon_ml = 50;                 // of a piece that ends in a caecum
 constexpr double kTipOff_mm = 6;
 // A tail behind the caecum; the prone scan of the reference data (70 mm of small bowel, 8 mm wide, behind 22 mm).
-constexpr double kTailShare = 0.45, kShortestTail_mm = 30, kWideColon_mm = 15;
+constexpr double kTailShare = 0.45, kShortestTail_mm = 30, kWideColon_mm = 15, kTailStart_mm = 15;
+constexpr std::size_t kBehindNeck = 4;  // nodes of the graph
 constexpr int kBlock = 2, kMostTries = 12;
 
 bool isLumen(const InsideVolume& labels, Index3 v)
@@ -67,8 +68,8 @@ std::optional<Index3> nearestLumen(const InsideVolume& labels, Point3 p)
 /// The lumen around the far end, as a volume of its own.
 struct Zone {
     InsideVolume mask;
-    Index3 offset;        ///< of its first voxel in the lumen
-    Point3 root_mm;       ///< where the colon goes on to the rectum
+    Index3 offset;   ///< of its first voxel in the lumen
+    Point3 root_mm;  ///< where the colon goes on to the rectum
 };
 
 /// Voxels that lie within kZone_mm of a place, and the one of them from which the rest of the lumen hangs.
@@ -124,101 +125,6 @@ std::optional<Zone> zoneAt(const InsideVolume& inside, Point3 end_mm, Point3 sta
     return zone;
 }
 
-/// A narrow place of the tree and what lies behind it.
-struct Neck {
-    std::int32_t node = -1;
-    std::int32_t beyond = -1;  ///< the next node, on the far side
-    double behind_ml = 0;
-};
-
-/// Places of the tree that are narrow, narrowest of their surroundings, and lead on to enough: most first.
-std::vector<Neck> necksOf(const LumenGraph& graph, const LumenTree& tree)
-{
-    const double node_ml = graph.grid.voxelVolume_mm3() * std::pow(graph.block, 3) / 1000;
-    std::vector<std::int32_t> order(graph.count());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-        const float ca = tree.cost[std::size_t(a)], cb = tree.cost[std::size_t(b)];
-        return ca != cb ? ca > cb : a > b;
-    });
-    std::vector<float> behind(graph.count(), float(node_ml));
-    std::vector<std::int32_t> heaviest(graph.count(), -1);
-    for (const std::int32_t n : order) {
-        const std::int32_t parent = tree.parent[std::size_t(n)];
-        if (parent < 0)
-            continue;
-        behind[std::size_t(parent)] += behind[std::size_t(n)];
-        std::int32_t& heavy = heaviest[std::size_t(parent)];
-        if (heavy < 0 || behind[std::size_t(n)] > behind[std::size_t(heavy)])
-            heavy = n;
-    }
-    std::vector<Neck> necks;
-    for (const std::int32_t n : order) {
-        const std::int32_t parent = tree.parent[std::size_t(n)], heavy = heaviest[std::size_t(n)];
-        const float own = graph.node(n).wall_mm;
-        if (parent < 0 || heavy < 0 || own > kWidestNeck_mm || behind[std::size_t(n)] < kLeast_ml ||
-            behind[std::size_t(n)] > kMost_ml)
-            continue;
-        if (graph.node(parent).wall_mm >= own && graph.node(heavy).wall_mm > own)
-            necks.push_back({n, heavy, behind[std::size_t(n)]});
-    }
-    std::stable_sort(necks.begin(), necks.end(), [](const Neck& a, const Neck& b) { return a.behind_ml > b.behind_ml; });
-    return necks;
-}
-
-/// What lies on the far side of a neck, and how the colon goes on without it.
-struct Branch {
-    std::vector<std::uint8_t> beyond;  ///< of every node: 1 on the far side
-    double widest_mm = 0;              ///< radius
-    double length_mm = 0;
-    std::int32_t end = -1;       ///< of the colon without the branch
-    std::int32_t junction = -1;  ///< where the ways to the neck and to that end part
-    double pouch_mm = 0;         ///< from there to the end
-    double pouch_radius_mm = 0;  ///< widest on that way, half of the pouch beyond the junction
-    double colon_radius_mm = 0;  ///< widest before the junction
-};
-
-std::optional<Branch> branchAt(const LumenGraph& graph, const LumenTree& tree, const Neck& neck, Progress& progress)
-{
-    const Point3 centre = graph.point(neck.node);
-    // Wide enough that no edge of the graph leaps over it.
-    const double radius =
-        graph.node(neck.node).wall_mm + kMargin_mm + 0.87 * graph.block * graph.grid.spacing_mm[0];
-    std::vector<std::uint8_t> blocked(graph.count(), 0), rest(graph.count(), 0);
-    for (std::size_t n = 0; n < graph.count(); ++n) {
-        blocked[n] = distance(graph.point(std::int32_t(n)), centre) <= radius ? 1 : 0;
-        rest[n] = blocked[n] || !tree.reaches(std::int32_t(n)) ? 0 : 1;
-    }
-    if (blocked[std::size_t(tree.root)])
-        return std::nullopt;
-    const LumenTree without = centralTree(graph, tree.root, blocked, progress);
-    Branch branch;
-    branch.beyond.assign(graph.count(), 0);
-    for (std::size_t n = 0; n < graph.count(); ++n)
-        if (rest[n] && !without.reaches(std::int32_t(n))) {
-            branch.beyond[n] = 1;
-            branch.widest_mm = std::max(branch.widest_mm, double(graph.nodes[n].wall_mm));
-            branch.length_mm =
-                std::max(branch.length_mm, double(tree.length_mm[n] - tree.length_mm[std::size_t(neck.node)]));
-        }
-    branch.end = farthestNode(without);
-    const std::vector<std::int32_t> to_end = without.pathTo(branch.end), to_neck = tree.pathTo(neck.node);
-    std::size_t common = 0;
-    while (common + 1 < std::min(to_end.size(), to_neck.size()) && to_end[common + 1] == to_neck[common + 1])
-        ++common;
-    branch.junction = to_end[common];
-    const auto along = [&](std::int32_t n) { return double(without.length_mm[std::size_t(n)]); };
-    branch.pouch_mm = along(branch.end) - along(branch.junction);
-    for (const std::int32_t n : to_end) {
-        const double after = along(n) - along(branch.junction);
-        if (after <= 0 && after > -60)
-            branch.colon_radius_mm = std::max(branch.colon_radius_mm, double(graph.node(n).wall_mm));
-        if (after >= branch.pouch_mm / 4)
-            branch.pouch_radius_mm = std::max(branch.pouch_radius_mm, double(graph.node(n).wall_mm));
-    }
-    return branch;
-}
-
 bool looksLikeBowel(const LumenGraph& graph, const Neck& neck, const Branch& branch)
 {
     const double node_ml = graph.grid.voxelVolume_mm3() * std::pow(graph.block, 3) / 1000;
@@ -242,34 +148,45 @@ std::string doubtAbout(const LumenGraph& graph, const Neck& neck, const Branch& 
     return {};
 }
 
-/// The way from where the passage begins, as narrow as the neck from there on, to the neck.
-std::vector<std::int32_t> passageTo(const LumenGraph& graph, const LumenTree& tree, const Neck& neck)
+/// A place on the way through a neck, and the way's direction there.
+struct Gate {
+    Point3 at_mm;
+    Vector3 outward;
+    double radius_mm = 0;
+};
+
+/// The places of the way from where the passage begins, as narrow as the neck from there on, to a little behind the
+/// neck.
+std::vector<Gate> passageThrough(const LumenGraph& graph, const LumenTree& tree, const Neck& neck, const Branch& branch)
 {
     const double narrow = graph.node(neck.node).wall_mm + 0.6 * graph.grid.spacing_mm[0];
-    std::vector<std::int32_t> passage{neck.node};
-    for (std::int32_t n = tree.parent[std::size_t(neck.node)]; n >= 0 && graph.node(n).wall_mm <= narrow;
-         n = tree.parent[std::size_t(n)])
-        passage.push_back(n);
-    std::reverse(passage.begin(), passage.end());
-    return passage;
+    const std::vector<std::int32_t> way = tree.pathTo(branch.farthest);
+    const auto at = std::size_t(std::find(way.begin(), way.end(), neck.node) - way.begin());
+    std::size_t first = at;
+    while (first > 0 && graph.node(way[first - 1]).wall_mm <= narrow)
+        --first;
+    std::vector<Gate> gates;
+    for (std::size_t n = first; n <= at + kBehindNeck && n + 1 < way.size(); ++n) {
+        const Point3 here = graph.point(way[n]), ahead = graph.point(way[std::min(n + 3, way.size() - 1)]);
+        gates.push_back({here, normalized(ahead - here), double(graph.node(way[n]).wall_mm)});
+    }
+    return gates;
 }
 
 /// Takes out what lies behind a plane across the way to the branch, as far as it hangs together there. Returns the
 /// volume, or 0 and leaves the lumen as it is where that is more than the branch.
-double takeOut(InsideVolume& inside, const Zone& zone, const LumenGraph& graph, std::int32_t mouth, const Neck& neck,
-               const Branch& branch, double most_ml)
+double takeOut(InsideVolume& inside, const Zone& zone, const LumenGraph& graph, const Gate& gate, const Branch& branch,
+               double most_ml)
 {
-    const Point3 at = graph.point(mouth);
-    const Vector3 outward = normalized(graph.point(neck.beyond) - at);
-    const double radius = graph.node(mouth).wall_mm + graph.node(neck.node).wall_mm + kMargin_mm;
+    const double radius = 2 * gate.radius_mm + kMargin_mm;
     const double voxel_ml = inside.grid.voxelVolume_mm3() / 1000;
     const auto most = std::size_t(most_ml / voxel_ml);
     std::vector<std::pair<std::size_t, std::uint8_t>> taken;  // with the labels they had
     const auto take = [&](Index3 v) {
         if (!isLumen(inside, v))
             return;
-        const Vector3 d = inside.grid.pointAt(v) - at;
-        if (dot(d, outward) < 0 && length(d) <= radius)
+        const Vector3 d = inside.grid.pointAt(v) - gate.at_mm;
+        if (dot(d, gate.outward) < 0 && length(d) <= radius)
             return;  // the colon's side of the mouth
         const std::size_t n = inside.grid.offset(v);
         taken.emplace_back(n, std::exchange(inside.voxels[n], std::uint8_t(kOutside)));
@@ -292,8 +209,8 @@ double takeOut(InsideVolume& inside, const Zone& zone, const LumenGraph& graph, 
     return 0;
 }
 
-/// Where the lumen runs on from the wide end of the colon as a narrow tube, with no bottleneck to cut: the end goes back
-/// to the wide part's, and the lumen stays.
+/// Where the lumen runs on from the wide end of the colon as a narrow tube, with no bottleneck to cut: the end goes
+/// back to the wide part's, and the lumen stays.
 void endBeforeTail(const LumenGraph& graph, const LumenTree& tree, std::int32_t end, const Body& body, IleumCut& result)
 {
     if (!tree.reaches(end) || !liesLowRight(graph.point(end), body))
@@ -312,14 +229,18 @@ void endBeforeTail(const LumenGraph& graph, const LumenTree& tree, std::int32_t 
     const double tail_mm = along(end) - along(*first);
     if (tail_mm < kShortestTail_mm)
         return;
+    float widest = 0;  // of the tube: what is wider than that is colon
+    for (auto n = first; n != way.end(); ++n)
+        widest = std::max(widest, along(*n) > along(*first) + kTailStart_mm ? graph.node(*n).wall_mm : 0);
     std::int32_t last = *first;
     for (std::size_t n = 0; n < graph.count(); ++n)
-        if (tree.reaches(std::int32_t(n)) && graph.nodes[n].wall_mm > narrow && tree.length_mm[n] > along(last))
+        if (tree.reaches(std::int32_t(n)) && graph.nodes[n].wall_mm > widest + 0.5F && tree.length_mm[n] > along(last))
             last = std::int32_t(n);
     result.moved_end_mm = graph.point(last);
     result.shorter_mm = along(end) - along(last);
     result.reason = "from " + textOf(graph.point(*first)) + " on the lumen is a tube of at most " +
-                    std::to_string(std::lround(2 * narrow)) + " mm, ileum or appendix: it was kept, the curve ends before it";
+                    std::to_string(std::lround(2 * widest)) +
+                    " mm, ileum or appendix: it was kept, the curve ends before it";
 }
 
 /// Looks for ileum at one end of a candidate.
@@ -342,22 +263,24 @@ IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, Point3 other_mm, int rim_
         tree = centralTree(graph, root, {}, progress);
     }
     int tries = 0;
-    for (const Neck& neck : necksOf(graph, tree)) {
+    for (const Neck& neck : necksOf(graph, tree, kWidestNeck_mm, kLeast_ml, kMost_ml)) {
         if (++tries > kMostTries)
             break;
         const std::optional<Branch> branch = branchAt(graph, tree, neck, progress);
         if (!branch || !looksLikeBowel(graph, neck, *branch))
             continue;
-        const std::vector<std::int32_t> passage = passageTo(graph, tree, neck);
-        result.valve_mm = graph.point(passage.front());
+        const std::vector<Gate> gates = passageThrough(graph, tree, neck, *branch);
+        if (gates.empty())
+            continue;
+        result.valve_mm = gates.front().at_mm;
         result.neck_mm = graph.node(neck.node).wall_mm;
-        const std::string where = " behind a passage of " + std::to_string(std::lround(2 * result.neck_mm)) + " mm at " +
-                                  textOf(result.valve_mm);
+        const std::string where = " behind a passage of " + std::to_string(std::lround(2 * result.neck_mm)) +
+                                  " mm at " + textOf(result.valve_mm);
         std::string doubt = doubtAbout(graph, neck, *branch, body);
         if (doubt.empty()) {
             // Where the passage opens into a fold's corner a plane right at its mouth would cut the colon too.
-            for (std::size_t n = 0; n < passage.size() && result.removed_ml == 0; ++n)
-                result.removed_ml = takeOut(labels, *zone, graph, passage[n], neck, *branch, 1.3 * neck.behind_ml + 2);
+            for (std::size_t n = 0; n < gates.size() && result.removed_ml == 0; ++n)
+                result.removed_ml = takeOut(labels, *zone, graph, gates[n], *branch, 1.3 * neck.behind_ml + 2);
             if (result.removed_ml == 0)
                 doubt = "it comes round to the colon again";
         }
@@ -365,11 +288,13 @@ IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, Point3 other_mm, int rim_
         if (result.cut)
             result.reason = "terminal ileum" + where + " was cut off";
         else if (branch->beyond[std::size_t(end)])
-            result.reason = "the lumen" + where + " may be terminal ileum and was kept: " + doubt;
+            result.reason =
+                std::string("the lumen").append(where).append(" may be terminal ileum and was kept: ") + doubt;
         if (result.cut)
             return result;
     }
-    endBeforeTail(graph, tree, end, body, result);
+    if (result.reason.empty())
+        endBeforeTail(graph, tree, end, body, result);
     return result;
 }
 

@@ -15,7 +15,7 @@ constexpr double kRectumRadius_mm = 5;         // a rectal tube is narrower, a r
 constexpr double kSmallBowelRadius_mm = 8;     // gas-filled small bowel is rarely wider than 16 mm across
 constexpr std::size_t kLarge_voxels = 400000;  // at half resolution small pieces are cheap, large ones wide
 constexpr int kRimReach = 4;                   // voxels by which a component grows when it gets its rim back
-constexpr double kTipReach_mm = 60;             // of the lumen beside a tip that tells whether it is a narrow tube
+constexpr double kTipReach_mm = 40;            // of the lumen beside a tip that tells whether it is a narrow tube
 constexpr double kMidline_mm = 45;             // the rectum's lower end lies nearer to the body's middle plane
 
 Point3 lowerCorner(Point3 a, Point3 b)
@@ -56,7 +56,8 @@ Candidate describe(const InsideVolume& labels, const RunLabels& lumen, std::uint
         const double from_one = tree.length_mm[std::size_t(n)];
         for (const int tip : {0, 1})
             if ((tip == 0 ? from_one : candidate.length_mm - from_one) < kTipReach_mm)
-                candidate.tip_radius_mm[tip] = std::max(candidate.tip_radius_mm[tip], double(half.graph.node(n).wall_mm));
+                candidate.tip_radius_mm[tip] =
+                    std::max(candidate.tip_radius_mm[tip], double(half.graph.node(n).wall_mm));
     }
     return candidate;
 }

@@ -17,9 +17,9 @@ struct Candidate {
     double volume_ml = 0;
     double fluid_ml = 0;
     double max_radius_mm = 0;
-    double length_mm = 0;  ///< between its tips, along the middle
-    Point3 tip_mm[2];      ///< its two ends; of the piece with the rectum the first is the rectal one
-    double tip_radius_mm[2] = {0, 0};  ///< widest radius within 60 mm of each tip
+    double length_mm = 0;              ///< between its tips, along the middle
+    Point3 tip_mm[2];                  ///< its two ends; of the piece with the rectum the first is the rectal one
+    double tip_radius_mm[2] = {0, 0};  ///< widest radius within 40 mm of each tip
     Point3 lower_mm;                   ///< bounding box
     Point3 upper_mm;
     double colon_likeness = 1;  ///< 0 to 1, from shape and place

@@ -109,10 +109,10 @@ struct PhantomTruth {
     std::vector<CollapsedGap> gaps;  ///< in order of station
     std::vector<FluidPool> pools;    ///< in order of station
     TerminalIleum ileum;
-    ColonPartRanges parts;           ///< all eight, by where they are fixed, not by the shape of the curve
-    Vector3 gravity;                 ///< unit vector
-    double length_mm = 0;            ///< of the curve
-    double volume_ml = 0;            ///< of the lumen, gas and fluid
+    ColonPartRanges parts;  ///< all eight, by where they are fixed, not by the shape of the curve
+    Vector3 gravity;        ///< unit vector
+    double length_mm = 0;   ///< of the curve
+    double volume_ml = 0;   ///< of the lumen, gas and fluid
     double fluid_ml = 0;
     double noise_hu = 0;
     double blur_mm = 0;
