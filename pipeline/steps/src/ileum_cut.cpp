@@ -232,10 +232,7 @@ void endBeforeTail(const LumenGraph& graph, const LumenTree& tree, std::int32_t 
     float widest = 0;  // of the tube: what is wider than that is colon
     for (auto n = first; n != way.end(); ++n)
         widest = std::max(widest, along(*n) > along(*first) + kTailStart_mm ? graph.node(*n).wall_mm : 0);
-    std::int32_t last = *first;
-    for (std::size_t n = 0; n < graph.count(); ++n)
-        if (tree.reaches(std::int32_t(n)) && graph.nodes[n].wall_mm > widest + 0.5F && tree.length_mm[n] > along(last))
-            last = std::int32_t(n);
+    const std::int32_t last = *(first - 1);  // on the way itself: another end would bend the curve back
     result.moved_end_mm = graph.point(last);
     result.shorter_mm = along(end) - along(last);
     result.reason = "from " + textOf(graph.point(*first)) + " on the lumen is a tube of at most " +
