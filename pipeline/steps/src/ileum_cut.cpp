@@ -28,6 +28,7 @@ constexpr double kNearEnd_mm = 160;                   // a valve lies at most so
 constexpr double kMargin_mm = 1.5;                    // of the cut beyond the neck's own radius
 constexpr double kLeastColon_ml = 50;                 // of a piece that ends in a caecum
 constexpr double kTipOff_mm = 6;
+constexpr double kSeedCatch_mm = 3;
 // A tail behind the caecum; the prone scan of the reference data (70 mm of small bowel, 8 mm wide, behind 22 mm).
 constexpr double kTailShare = 0.45, kShortestTail_mm = 30, kWideColon_mm = 15, kTailStart_mm = 15;
 constexpr std::size_t kBehindNeck = 4;  // nodes of the graph
@@ -174,9 +175,9 @@ std::vector<Gate> passageThrough(const LumenGraph& graph, const LumenTree& tree,
 }
 
 /// Takes out what lies behind a plane across the way to the branch, as far as it hangs together there. Returns the
-/// volume, or 0 and leaves the lumen as it is where that is more than the branch.
+/// volume, or 0 and leaves the lumen as it is where that is more than the branch or holds a place to keep.
 double takeOut(InsideVolume& inside, const Zone& zone, const LumenGraph& graph, const Gate& gate, const Branch& branch,
-               double most_ml)
+               const std::vector<Point3>& keep, double most_ml)
 {
     const double radius = 2 * gate.radius_mm + kMargin_mm;
     const double voxel_ml = inside.grid.voxelVolume_mm3() / 1000;
@@ -202,7 +203,11 @@ double takeOut(InsideVolume& inside, const Zone& zone, const LumenGraph& graph, 
                                Index3{v.i, v.j + 1, v.k}, Index3{v.i, v.j, v.k - 1}, Index3{v.i, v.j, v.k + 1}})
             take(w);
     }
-    if (taken.size() <= most)
+    const bool wanted = std::any_of(taken.begin(), taken.end(), [&](const auto& voxel) {
+        const Point3 p = inside.grid.pointAt(inside.grid.indexOf(voxel.first));
+        return std::any_of(keep.begin(), keep.end(), [&](Point3 q) { return distance(p, q) < kSeedCatch_mm; });
+    });
+    if (taken.size() <= most && !wanted)
         return double(taken.size()) * voxel_ml;
     for (const auto& [n, label] : taken)
         inside.voxels[n] = label;
@@ -241,8 +246,8 @@ void endBeforeTail(const LumenGraph& graph, const LumenTree& tree, std::int32_t 
 }
 
 /// Looks for ileum at one end of a candidate.
-IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, Point3 other_mm, int rim_layers, const Body& body,
-                  Progress& progress)
+IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, Point3 other_mm, int rim_layers, const std::vector<Point3>& keep,
+                  const Body& body, Progress& progress)
 {
     IleumCut result;
     result.end_mm = end_mm;
@@ -277,9 +282,9 @@ IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, Point3 other_mm, int rim_
         if (doubt.empty()) {
             // Where the passage opens into a fold's corner a plane right at its mouth would cut the colon too.
             for (std::size_t n = 0; n < gates.size() && result.removed_ml == 0; ++n)
-                result.removed_ml = takeOut(labels, *zone, graph, gates[n], *branch, 1.3 * neck.behind_ml + 2);
+                result.removed_ml = takeOut(labels, *zone, graph, gates[n], *branch, keep, 1.3 * neck.behind_ml + 2);
             if (result.removed_ml == 0)
-                doubt = "it comes round to the colon again";
+                doubt = "it comes round to the colon again, or holds a seed";
         }
         result.cut = result.removed_ml > 0;
         if (result.cut)
@@ -298,7 +303,7 @@ IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, Point3 other_mm, int rim_
 }  // namespace
 
 std::vector<IleumCut> cutIlea(InsideVolume& labels, const std::vector<Candidate>& candidates, int rim_layers,
-                              const Body& body, Progress& progress)
+                              const std::vector<Point3>& keep, const Body& body, Progress& progress)
 {
     std::vector<IleumCut> found;
     for (const Candidate& c : candidates)
@@ -306,7 +311,7 @@ std::vector<IleumCut> cutIlea(InsideVolume& labels, const std::vector<Candidate>
             const Point3 end = c.tip_mm[tip];
             if (c.volume_ml < kLeastColon_ml || !(liesLowRight(end, body) || c.tip_radius_mm[tip] < kWidest_mm))
                 continue;
-            found.push_back(cutAtEnd(labels, end, c.tip_mm[1 - tip], rim_layers, body, progress));
+            found.push_back(cutAtEnd(labels, end, c.tip_mm[1 - tip], rim_layers, keep, body, progress));
             if (found.back().reason.empty())
                 found.pop_back();
             progress.check();

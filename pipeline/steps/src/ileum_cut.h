@@ -27,8 +27,9 @@ struct IleumCut {
 /// beside it, so it is no such bottleneck. Where only some of this holds the lumen stays, and the reason says so.
 /// Sought at the candidates' tips that lie on the patient's right and low, or in a narrow tube.
 /// @param labels gas and fluid of the whole scan; what is cut off becomes kOutside
+/// @param keep a person's points whose lumen belongs to the colon: nothing that holds one is cut off
 /// @param rim_layers how deep fluid was set aside beside the wall, see markFluidRim()
 std::vector<IleumCut> cutIlea(InsideVolume& labels, const std::vector<Candidate>& candidates, int rim_layers,
-                              const Body& body, Progress& progress);
+                              const std::vector<Point3>& keep, const Body& body, Progress& progress);
 
 }  // namespace vicon::steps

@@ -145,7 +145,8 @@ void describeIlea(const std::vector<IleumCut>& ilea, Segmentation& result)
 {
     const Point3 end = result.plan.pieces.empty() ? Point3{} : result.plan.pieces.back().caecal_end_mm;
     for (const IleumCut& ileum : ilea)
-        if (ileum.cut || distance(ileum.end_mm, end) < kSameEnd_mm || distance(ileum.moved_end_mm, end) < kSameEnd_mm)
+        if (ileum.cut || distance(ileum.end_mm, end) < kSameEnd_mm ||
+            (ileum.shorter_mm > 0 && distance(ileum.moved_end_mm, end) < kSameEnd_mm))
             note(result, ileum.reason);
     nlohmann::json& list = result.measures["ileum"] = nlohmann::json::array();
     for (const IleumCut& ileum : ilea)
@@ -178,7 +179,7 @@ Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const
         return findCandidates(labels, lumen, body, options.smallest_piece_ml, kMostCandidates, always, progress);
     };
     std::vector<Candidate> candidates = candidatesIn(componentsAt(lumen, labels.grid, corrections.add));
-    const std::vector<IleumCut> ilea = cutIlea(labels, candidates, layers, body, progress);
+    const std::vector<IleumCut> ilea = cutIlea(labels, candidates, layers, corrections.add, body, progress);
     const bool cut = std::any_of(ilea.begin(), ilea.end(), [](const IleumCut& ileum) { return ileum.cut; });
     if (cut)
         lumen = labelLumen(labels, Neighbours::faces);
