@@ -7,6 +7,7 @@
 #include "marking.h"
 #include "vicon/core/error.h"
 #include "vicon/viewer/scene/display.h"
+#include "vicon/viewer/scene/measures_picture.h"
 #include "vicon/viewer/scene/snapshot.h"
 
 namespace fs = std::filesystem;
@@ -17,6 +18,7 @@ namespace {
 
 constexpr int kEndoscopicSide = 900;
 constexpr int kSlicesWidth = 1200, kSlicesHeight = 900;
+constexpr int kMeasuresSide = 600;
 constexpr int kOverviewWidth = 900, kOverviewHeight = 1100;
 
 std::vector<Marker> markersOf(CaseStore& store, const ScanRecord& scan)
@@ -136,6 +138,11 @@ std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const CaseRecord&
                 draw(SnapshotRequest::View::endo, kEndoscopicSide, kEndoscopicSide, marker.id + "-endo.png");
             entry.slices_picture =
                 draw(SnapshotRequest::View::slices, kSlicesWidth, kSlicesHeight, marker.id + "-slices.png");
+            if (const auto measures =
+                    viewer::measuresPicture(prepared, marker, viewer::captionFor(record, scan), kMeasuresSide)) {
+                entry.measures_picture = pictures / (marker.id + "-measures.png");
+                viewer::writePng(entry.measures_picture, *measures);
+            }
             entries.push_back(std::move(entry));
         }
     }

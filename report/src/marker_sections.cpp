@@ -10,6 +10,7 @@ namespace {
 
 // Of a marker's pictures, in points: as high as lets two entries fill a page, within these.
 constexpr double kSmallestPictures = 165, kTallestPictures = 200;
+constexpr double kMeasuresHeight = 150;
 constexpr double kPictureGap = 12;
 constexpr double kDiscRadius = 4;
 
@@ -149,7 +150,8 @@ void Sections::drawMarker(const MarkerEntry& entry)
     const double caption = leadingOf(look::kSmall) + 4;
     const double pictures_height =
         std::clamp((flow_.wholePage() - look::kGap) / 2 - text - caption, kSmallestPictures, kTallestPictures);
-    const double whole = text + pictures_height + caption;
+    const double measures = entry.measures_picture.empty() ? 0 : kMeasuresHeight + caption + look::kGap;
+    const double whole = text + pictures_height + caption + measures;
     flow_.need(whole <= flow_.wholePage() ? whole : head + table.height() + 3 * leading);
 
     fillPageOf(entry);
@@ -159,6 +161,18 @@ void Sections::drawMarker(const MarkerEntry& entry)
     drawNote(marker, note);
     flow_.skip(5);
     drawMarkerPictures(endoscopic, slices, pictures_height);
+    drawMeasuresPicture(entry, mark);
+}
+
+void Sections::drawMeasuresPicture(const MarkerEntry& entry, const std::string& mark)
+{
+    if (entry.measures_picture.empty())
+        return;
+    const FramedPicture measures = framed(entry.measures_picture, flow_.width(),
+                                          "Measured at " + entry.marker.id + ": best plane, densities" + mark,
+                                          "measures", "marker " + entry.marker.id);
+    flow_.need(kMeasuresHeight + leadingOf(look::kSmall) + 4);
+    flow_.skip(measures.draw(flow_, flow_.left(), flow_.y(), flow_.width(), kMeasuresHeight) + look::kGap);
 }
 
 void Sections::drawNote(const Marker& marker, const std::vector<TextLine>& note)

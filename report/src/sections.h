@@ -35,6 +35,7 @@ private:
     void drawNote(const Marker& marker, const std::vector<TextLine>& note);
     void drawMarkerHead(const MarkerEntry& entry);
     void drawMarkerPictures(const FramedPicture& endoscopic, const FramedPicture& slices, double height);
+    void drawMeasuresPicture(const MarkerEntry& entry, const std::string& mark);
     FramedPicture framed(const std::filesystem::path& file, double print_width, const std::string& caption,
                          const std::string& kind, const std::string& of);
 

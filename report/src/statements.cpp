@@ -120,6 +120,8 @@ std::string sizeWords(const json& size)
     std::string words = millimetres(size["straight_mm"].get<double>(), 1) + " straight";
     if (size.contains("along_mm") && size["along_mm"].is_number())
         words += ", " + millimetres(size["along_mm"].get<double>(), 1) + " along the wall";
+    if (const json plane = size.value("plane", json()); numberAt(plane, "diameter_mm") > 0)
+        words += ", " + millimetres(numberAt(plane, "diameter_mm"), 1) + " largest in the best plane";
     return words;
 }
 

@@ -348,9 +348,64 @@ TEST_F(Reading, ASizeIsMeasuredBetweenTwoClicksAndKeptWithTheMarkerBesideIt)
     EXPECT_GT(size["straight_mm"].get<double>(), 1);
     EXPECT_GE(size["along_mm"].get<double>(), size["straight_mm"].get<double>() - 1e-9);
     EXPECT_EQ(cell(0, 5), QString::number(size["straight_mm"].get<double>(), 'f', 1));
+    if (size.contains("plane")) {
+        EXPECT_GE(size["plane"]["diameter_mm"].get<double>(), size["straight_mm"].get<double>() - 0.5);
+    }
     screenshot("measured");
     press(window(), "undo");
     ASSERT_TRUE(eventually([&] { return !stored()[0].extra.contains("size"); }));
+}
+
+TEST_F(Reading, AnAreaThatIsCircledIsPeeledAloneAndItsDensityKeptWithTheMarkerUntilUndone)
+{
+    openCase();
+    const QPoint at = middle("endoscopic") + QPoint(80, 50);
+    click("endoscopic", at, Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    settle();
+    auto* view = the<QWidget>("endoscopic");
+    const QImage plain = view->grab().toImage();
+    QTest::keyClick(window(), Qt::Key_T);
+    QTest::mousePress(view, Qt::LeftButton, {}, at);
+    for (int n = 1; n <= 5; ++n)
+        QTest::mouseMove(view, at + QPoint(22 * n, 0));
+    screenshot("circling");
+    QTest::mouseRelease(view, Qt::LeftButton, {}, at + QPoint(110, 0));
+    ASSERT_TRUE(eventually([&] { return stored()[0].extra.contains("density") && settled(); }))
+        << the<QLabel>("warning")->text().toStdString();
+    const auto density = stored()[0].extra["density"];
+    EXPECT_GE(density["voxels"].get<int>(), 20);
+    EXPECT_GT(density["mean_hu"].get<double>(), -90) << "a wall of 40 HU before fat of -90";
+    EXPECT_LT(density["mean_hu"].get<double>(), 45);
+    EXPECT_TRUE(the<QLabel>("histogram")->isVisible());
+    settle();
+    screenshot("biopsy");
+    // Far from the circle the wall is drawn as it was; in its middle something else is.
+    ASSERT_TRUE(
+        eventually([&] { return view->grab().toImage().pixel(at + QPoint(6, 6)) != plain.pixel(at + QPoint(6, 6)); }));
+    const QImage peeled = view->grab().toImage();
+    const QPoint far = middle("endoscopic") + QPoint(-80, -60);
+    constexpr int kSmoothing = 12;  // grey levels: one picture may have been drawn while the eye moved
+    EXPECT_NEAR(qRed(peeled.pixel(far)), qRed(plain.pixel(far)), kSmoothing);
+    EXPECT_NEAR(qGreen(peeled.pixel(far)), qGreen(plain.pixel(far)), kSmoothing);
+    EXPECT_NEAR(qBlue(peeled.pixel(far)), qBlue(plain.pixel(far)), kSmoothing);
+    QTest::mouseClick(markers()->viewport(), Qt::LeftButton, {},
+                      markers()->visualItemRect(markers()->item(0, 0)).center());
+    QTest::keyClick(window(), Qt::Key_I);
+    auto* box = the<QMessageBox>("markerInformation");
+    EXPECT_TRUE(box->text().contains("HU, of "));
+    EXPECT_TRUE(eventually([&] { return box->findChild<QLabel*>("measures") != nullptr; }));
+    settle();
+    box->grab().save(VICON_SCREENSHOTS "/biopsy_information.png");
+    box->close();
+    press(window(), "undo");
+    ASSERT_TRUE(eventually([&] { return !stored()[0].extra.contains("density") && settled(); }));
+    press(window(), "redo");
+    ASSERT_TRUE(eventually([&] { return stored()[0].extra.contains("density") && settled(); }));
+    window()->activateWindow();
+    ASSERT_TRUE(eventually([] { return window()->isActiveWindow(); }));
+    QTest::keyClick(window(), Qt::Key_Escape);
+    EXPECT_TRUE(eventually([] { return !the<QLabel>("histogram")->isVisible(); }));
 }
 
 TEST_F(Reading, AMarkerThatAnotherReaderChangedIsNotOverwritten)

@@ -6,7 +6,6 @@
 #include "seen_keeper.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
-#include "vicon/viewer/scene/canvas.h"
 
 namespace vicon::viewer {
 namespace {
@@ -284,22 +283,6 @@ void CaseSession::savePicture(const QImage& picture)
         writePng(file, out);
         store().audit("picture saved", row_.record.id, "", file.filename().string());
         return [this, name = QString::fromStdString(file.string())] { emit saved(tr("Picture saved: %1").arg(name)); };
-    });
-}
-
-void CaseSession::measure(Point3 from, Point3 to)
-{
-    loader_.post("measure", [this, scan = scan_, from, to]() -> Worker::Work {
-        const auto& cells = scan->files.cells();
-        const auto size = distanceOverWall(cells.points_mm, cells.triangles, from, to);
-        return [this, scan, size] {
-            if (scan != scan_)
-                return;
-            if (size)
-                emit measured(*size);
-            else
-                emit warned(tr("No way over the wall joins the two points; measure them straight, in a slice."));
-        };
     });
 }
 

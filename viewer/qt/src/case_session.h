@@ -6,11 +6,14 @@
 #include <memory>
 #include <optional>
 
+#include "vicon/viewer/model/biopsy.h"
 #include "vicon/viewer/model/marker_history.h"
 #include "vicon/viewer/model/navigator.h"
+#include "vicon/viewer/model/plane_size.h"
 #include "vicon/viewer/model/seen_so_far.h"
 #include "vicon/viewer/model/wall_distance.h"
 #include "vicon/viewer/qt/reading_room.h"
+#include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/prepared_scan.h"
 #include "vicon/viewer/scene/snapshot.h"
 #include "worker.h"
@@ -77,8 +80,12 @@ public:
     /// Looks whether another reader changed something.
     void refresh();
     void writeReport();
-    /// Between two points of the open scan's wall; measured() follows, or warned().
-    void measure(Point3 from, Point3 to);
+    /// Between two points of the open scan's wall, seen from `eye`; measured() follows, or warned().
+    void measure(Point3 from, Point3 to, Point3 eye);
+    /// Of the open scan's tissue around a point; biopsied() follows, or warned().
+    void takeBiopsy(Point3 centre, double radius_mm);
+    /// What was measured of a marker of a scan that is open, as a picture; measuresDrawn() follows where there is any.
+    void drawMeasures(const Marker& marker, int side_px);
     /// Keeps a picture in the case's folder, "pictures/1.png" and on.
     void savePicture(const QImage& picture);
     /// A name for a film beside the pictures; filmNamed() follows.
@@ -92,7 +99,9 @@ signals:
     void busyChanged(bool busy);
     void saved(const QString& what);
     void warned(const QString& message);
-    void measured(const vicon::viewer::WallDistance& size);
+    void measured(const vicon::viewer::WallDistance& size, const std::optional<vicon::viewer::PlaneSize>& plane);
+    void biopsied(const vicon::viewer::Biopsy& biopsy);
+    void measuresDrawn(const QString& marker, const vicon::viewer::Picture& picture);
     void filmNamed(const QString& file);
     void reportWritten(const QString& file);
 

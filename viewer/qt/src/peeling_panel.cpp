@@ -6,6 +6,8 @@
 #include <QLabel>
 #include <QSlider>
 
+#include "vicon/viewer/scene/measures_picture.h"
+
 namespace vicon::viewer {
 namespace {
 constexpr double kTick_mm = 0.1;
@@ -36,6 +38,12 @@ PeelingPanel::PeelingPanel(QWidget* parent) : QWidget(parent)
     grid->addWidget(circle_, 0, 1);
     grid->addWidget(offset_, 1, 0);
     grid->addWidget(offset_text_, 1, 1);
+    histogram_ = new QLabel(this);
+    histogram_->setObjectName("histogram");
+    histogram_->setAccessibleName(tr("Densities of the virtual biopsy"));
+    histogram_->setAlignment(Qt::AlignCenter);
+    histogram_->hide();
+    grid->addWidget(histogram_, 2, 0, 1, 2);
     const auto tell = [this] {
         offset_->setEnabled(on());
         circle_->setEnabled(on());
@@ -56,6 +64,19 @@ bool PeelingPanel::on() const
 bool PeelingPanel::circleOnly() const
 {
     return circle_->isChecked();
+}
+
+void PeelingPanel::showHistogram(const Biopsy& biopsy)
+{
+    histogram_->setVisible(biopsy.voxels > 0);
+    if (biopsy.voxels == 0)
+        return;
+    constexpr int kWidth = 400, kHeight = 220;
+    const double ratio = devicePixelRatioF();
+    const Picture drawn = histogramPicture(biopsy, int(kWidth * ratio), int(kHeight * ratio));
+    QImage image(drawn.rgb.data(), drawn.width, drawn.height, 3 * drawn.width, QImage::Format_RGB888);
+    image.setDevicePixelRatio(ratio);
+    histogram_->setPixmap(QPixmap::fromImage(image));
 }
 
 void PeelingPanel::fill(SnapshotRequest& request) const

@@ -2,6 +2,7 @@
 
 #include <QWidget>
 
+#include "vicon/viewer/model/biopsy.h"
 #include "vicon/viewer/scene/snapshot.h"
 
 class QCheckBox;
@@ -20,6 +21,8 @@ public:
     bool circleOnly() const;
     /// Puts the choice into a request for an endoscopic picture.
     void fill(SnapshotRequest& request) const;
+    /// Of the biopsy that was taken last; one without voxels: none is shown.
+    void showHistogram(const Biopsy& biopsy);
 
 signals:
     void changed();
@@ -29,6 +32,7 @@ private:
     QSlider* offset_;
     QLabel* offset_text_;
     QCheckBox* circle_;
+    QLabel* histogram_;
 };
 
 }  // namespace vicon::viewer

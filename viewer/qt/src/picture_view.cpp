@@ -4,6 +4,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWheelEvent>
+#include <cmath>
 
 #include "vicon/viewer/scene/snapshot.h"
 
@@ -23,6 +24,18 @@ void PictureView::showPicture(const Picture& picture)
     image_ = QImage(picture.rgb.data(), picture.width, picture.height, 3 * picture.width, QImage::Format_RGB888).copy();
     image_.setDevicePixelRatio(devicePixelRatioF());
     update();
+}
+
+void PictureView::setCircling(bool on)
+{
+    circling_ = on;
+    update();
+}
+
+double PictureView::circleRadius() const
+{
+    const QPoint by = last_ - pressed_;
+    return std::hypot(by.x(), by.y());
 }
 
 void PictureView::setLines(const QVector<QLineF>& lines)
@@ -61,6 +74,11 @@ void PictureView::paintEvent(QPaintEvent*)
     if (QSizeF(pictureSize()) / devicePixelRatioF() == drawn || image_.isNull()) {
         painter.drawImage(0, 0, image_);
         drawLines(painter);
+        if (circling_ && dragging_) {
+            painter.resetTransform();
+            painter.setPen(QPen(Qt::white, 2));
+            painter.drawEllipse(QPointF(pressed_), circleRadius(), circleRadius());
+        }
         return;
     }
     // The view has another size by now, and its picture is still to come.
@@ -90,6 +108,11 @@ void PictureView::mouseMoveEvent(QMouseEvent* event)
     dragging_ = dragging_ || (event->pos() - pressed_).manhattanLength() >= QApplication::startDragDistance();
     if (!dragging_)
         return;
+    if (circling_) {
+        last_ = event->pos();
+        update();
+        return;
+    }
     emit dragged(QPointF(event->pos() - last_) * devicePixelRatioF(), button_);
     last_ = event->pos();
 }
@@ -97,11 +120,13 @@ void PictureView::mouseMoveEvent(QMouseEvent* event)
 void PictureView::mouseReleaseEvent(QMouseEvent* event)
 {
     const bool was_click = !dragging_ && button_ == Qt::LeftButton && event->button() == Qt::LeftButton;
-    if (dragging_)
+    const double ratio = devicePixelRatioF();
+    if (dragging_ && circling_)
+        emit circled({(pressed_.x() + 0.5) * ratio, (pressed_.y() + 0.5) * ratio}, circleRadius() * ratio);
+    else if (dragging_)
         emit dragEnded();
     button_ = Qt::NoButton;
     dragging_ = false;
-    const double ratio = devicePixelRatioF();
     if (was_click && !image_.isNull())
         emit clicked({(event->pos().x() + 0.5) * ratio, (event->pos().y() + 0.5) * ratio}, event->modifiers());
 }

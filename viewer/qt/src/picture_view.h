@@ -18,6 +18,8 @@ class PictureView : public QWidget {
 public:
     explicit PictureView(const QString& name, QWidget* parent = nullptr);
 
+    /// The next drag with the left button draws a circle around where it begins; circled() follows.
+    void setCircling(bool on);
     /// Drawn over the picture; in its pixels.
     void setLines(const QVector<QLineF>& lines);
     void showPicture(const Picture& picture);
@@ -35,6 +37,7 @@ signals:
     void dragEnded();
     void turned(int steps, Qt::KeyboardModifiers modifiers);
     void resized();
+    void circled(vicon::viewer::Pixel centre, double radius_px);  ///< in the picture's pixels
 
 protected:
     void paintEvent(QPaintEvent* event) override;
@@ -47,12 +50,15 @@ protected:
 
 private:
     void drawLines(QPainter& painter) const;
+    /// Of the circle that is being drawn, in widget pixels.
+    double circleRadius() const;
 
     QImage image_;
     QVector<QLineF> lines_;
     QPoint pressed_, last_;
     Qt::MouseButton button_ = Qt::NoButton;
     bool dragging_ = false;
+    bool circling_ = false;
     int wheel_ = 0;  // eighths of a degree not yet reported
 };
 

@@ -1,4 +1,6 @@
 #include <QFileDialog>
+#include <QGridLayout>
+#include <QLabel>
 #include <QMessageBox>
 #include <QStatusBar>
 
@@ -44,8 +46,26 @@ QString sizeWords(const Marker& marker)
     if (size == marker.extra.end() || !size->is_object() || numberAt(*size, "straight_mm") <= 0)
         return {};
     const double along = numberAt(*size, "along_mm");
-    const QString straight = QObject::tr("%1 straight").arg(mm(numberAt(*size, "straight_mm")));
-    return along > 0 ? QObject::tr("%1, %2 along the wall").arg(straight, mm(along)) : straight;
+    QString text = QObject::tr("%1 straight").arg(mm(numberAt(*size, "straight_mm")));
+    if (along > 0)
+        text += QObject::tr(", %1 along the wall").arg(mm(along));
+    const auto plane = size->find("plane");
+    if (plane != size->end() && plane->is_object() && numberAt(*plane, "diameter_mm") > 0)
+        text += QObject::tr(", %1 largest in the best plane").arg(mm(numberAt(*plane, "diameter_mm")));
+    return text;
+}
+
+QString densityWords(const Marker& marker)
+{
+    const auto density = marker.extra.find("density");
+    const Biopsy biopsy = density == marker.extra.end() ? Biopsy{} : biopsyFromJson(*density);
+    if (biopsy.voxels == 0)
+        return {};
+    return QObject::tr("%1 \u00b1 %2 HU, of %3 voxels within %4")
+        .arg(biopsy.mean_hu, 0, 'f', 0)
+        .arg(biopsy.sd_hu, 0, 'f', 0)
+        .arg(biopsy.voxels)
+        .arg(mm(biopsy.radius_mm));
 }
 
 QString informationOf(const Marker& marker, const QString& scan)
@@ -57,9 +77,10 @@ QString informationOf(const Marker& marker, const QString& scan)
            row(QObject::tr("From the caecum"), mm(marker.from_caecum_mm)) +
            row(QObject::tr("LPS"),
                QObject::tr("%1, %2, %3 mm").arg(p.x, 0, 'f', 1).arg(p.y, 0, 'f', 1).arg(p.z, 0, 'f', 1)) +
-           row(QObject::tr("Size"), sizeWords(marker)) + row(QObject::tr("Same finding"), words(pairOf(marker))) +
-           row(QObject::tr("Note"), words(marker.note)) + row(QObject::tr("Placed"), words(marker.created)) +
-           row(QObject::tr("Changed"), words(marker.changed)) + "</table>";
+           row(QObject::tr("Size"), sizeWords(marker)) + row(QObject::tr("Density"), densityWords(marker)) +
+           row(QObject::tr("Same finding"), words(pairOf(marker))) + row(QObject::tr("Note"), words(marker.note)) +
+           row(QObject::tr("Placed"), words(marker.created)) + row(QObject::tr("Changed"), words(marker.changed)) +
+           "</table>";
 }
 
 }  // namespace
@@ -99,6 +120,20 @@ void ReadingWindow::showMarkerInformation()
     box->setObjectName("markerInformation");
     box->setAttribute(Qt::WA_DeleteOnClose);
     box->open();
+    const QString id = words(marker->id);
+    connect(&session_, &CaseSession::measuresDrawn, box, [box, id](const QString& of, const Picture& drawn) {
+        if (of != id || box->findChild<QLabel*>("measures"))
+            return;
+        const QImage image(drawn.rgb.data(), drawn.width, drawn.height, 3 * drawn.width, QImage::Format_RGB888);
+        auto* label = new QLabel(box);
+        label->setObjectName("measures");
+        label->setAccessibleName(tr("Best plane and densities"));
+        label->setPixmap(QPixmap::fromImage(image));
+        auto* grid = qobject_cast<QGridLayout*>(box->layout());
+        grid->addWidget(label, grid->rowCount(), 0, 1, grid->columnCount());
+    });
+    constexpr int kSide_px = 320;
+    session_.drawMeasures(*marker, kSide_px);
 }
 
 void ReadingWindow::connectFilm()

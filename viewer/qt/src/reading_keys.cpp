@@ -162,6 +162,7 @@ void ReadingWindow::arm(std::optional<MarkerColor> color)
     }
     correcting_.reset();
     stopMeasuring();
+    forgetCircle();
     setPickCursor(color.has_value());
     tell(color ? tr("Click where the %1 marker shall be").arg(QString::fromStdString(nameOf(*color))) : QString());
 }

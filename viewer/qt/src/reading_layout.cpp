@@ -182,6 +182,7 @@ void ReadingWindow::addActions()
     add(edit, tr("Green marker at the next click"), QKeySequence("3"), [this] { arm(MarkerColor::green); });
     add(edit, tr("No marker after all"), QKeySequence("Esc"), [this] { arm({}); });
     add(edit, tr("Measure between two clicks"), QKeySequence("M"), [this] { startMeasuring(); });
+    add(edit, tr("Virtual biopsy: circle a finding"), QKeySequence("T"), [this] { startCircling(); });
     add(edit, tr("Marker information"), QKeySequence("I"), [this] { showMarkerInformation(); });
     add(edit, tr("Delete marker"), QKeySequence("Del"), [this] {
         if (const auto marker = table_->selected(); marker && table_->isEnabled())

@@ -49,9 +49,9 @@ bool ReadingWindow::measuredAt(Point3 point, bool on_wall)
     setPickCursor(false);
     if (done.on_wall) {
         tell(tr("Measuring ..."));
-        session_.measure(done.ends[0], done.ends[1]);
+        session_.measure(done.ends[0], done.ends[1], navigator()->state().pose.eye_mm);
     } else {
-        showMeasured({distance(done.ends[0], done.ends[1]), 0, done.ends});
+        showMeasured({distance(done.ends[0], done.ends[1]), 0, done.ends}, {});
     }
     return true;
 }
@@ -69,13 +69,15 @@ std::optional<Marker> ReadingWindow::markerBeside(const std::vector<Point3>& way
     return beside;
 }
 
-void ReadingWindow::showMeasured(const WallDistance& size)
+void ReadingWindow::showMeasured(const WallDistance& size, const std::optional<PlaneSize>& plane)
 {
     measured_way_ = size.way_mm;
     drawMeasured();
     QString text = tr("%1 straight").arg(mm(size.straight_mm));
     if (size.along_mm > 0)
         text += tr(", %1 along the wall").arg(mm(size.along_mm));
+    if (plane)
+        text += tr(", %1 largest in the best plane").arg(mm(plane->diameter_mm));
     const auto marker = markerBeside(size.way_mm);
     if (!marker) {
         tell(text + tr("; no marker beside it to keep it with"));
@@ -87,6 +89,8 @@ void ReadingWindow::showMeasured(const WallDistance& size)
                            {"to_mm", jsonOf(size.way_mm.back())}};
     if (size.along_mm > 0)
         after.extra["size"]["along_mm"] = size.along_mm;
+    if (plane)
+        after.extra["size"]["plane"] = toJson(*plane);
     session_.changeMarker(*marker, after, false, tr("%1; kept with %2").arg(text, QString::fromStdString(marker->id)));
 }
 

@@ -140,6 +140,7 @@ void ReadingWindow::connectAll()
 
     connectCoverage();
     connectBeside();
+    connectBiopsy();
     connectCorrections();
     connectFilm();
     timer_.setTimerType(Qt::PreciseTimer);
@@ -173,6 +174,7 @@ void ReadingWindow::scanOpened()
     beside_place_.reset();
     overview_shown_ = false;
     measured_way_.clear();
+    circle_.reset();
     focus_.reset();
     warning_->clear();
     tell({});
@@ -277,6 +279,7 @@ void ReadingWindow::drawEndoscopic(bool still)
     wish.count_seen = endoscopic_->isVisible();
     peeling_->fill(wish.request);
     wish.request.peel_circle_at = lens_at_;
+    fillCircle(wish.request, wish.place.pose);
     studio_.drawEndoscopic(session_.sharedScan(), wish);
 }
 

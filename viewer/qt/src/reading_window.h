@@ -98,9 +98,18 @@ private:
     void startMeasuring();
     void stopMeasuring();
     bool measuredAt(Point3 point, bool on_wall);
-    void showMeasured(const WallDistance& size);
+    void showMeasured(const WallDistance& size, const std::optional<PlaneSize>& plane);
     void drawMeasured();
     std::optional<Marker> markerBeside(const std::vector<Point3>& way) const;
+
+    // reading_biopsy.cpp
+    void connectBiopsy();
+    void startCircling();
+    void forgetCircle();
+    void circledAt(Pixel centre, double radius_px);
+    void showBiopsy(const Biopsy& biopsy);
+    /// Peels where the circle is, in a picture from this eye.
+    void fillCircle(SnapshotRequest& request, const Pose& pose) const;
 
     // reading_coverage.cpp
     void connectCoverage();
@@ -178,6 +187,13 @@ private:
     };
     std::optional<Measuring> measuring_;
     std::vector<Point3> measured_way_;
+    /// What was circled on the wall; it stays there while the eye moves.
+    struct Circle {
+        Point3 centre_mm;
+        double radius_mm = 0;
+    };
+    std::optional<Circle> circle_;
+    bool circling_ = false;
     std::set<int> keys_;
     QPointF mouse_steering_;
     std::shared_ptr<OpenScan> came_from_;  // when the scan is changed, with the station there

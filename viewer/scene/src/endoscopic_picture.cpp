@@ -38,7 +38,8 @@ void addMarkers(Overlay& overlay, const PreparedScan& scan, const SnapshotReques
 PictureCircle circleOf(const SnapshotRequest& request)
 {
     const Pixel middle{request.width / 2.0, request.height / 2.0};
-    return {request.peel_circle_at.value_or(middle), 0.3 * std::min(request.width, request.height)};
+    const double usual_px = 0.3 * std::min(request.width, request.height);
+    return {request.peel_circle_at.value_or(middle), request.peel_circle_px > 0 ? request.peel_circle_px : usual_px};
 }
 
 std::string peelingText(const SnapshotRequest& request)

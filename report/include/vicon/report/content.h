@@ -29,6 +29,7 @@ struct MarkerEntry {
     std::string part_name;   ///< of the colon: "sigmoid", ...; empty: not known
     std::filesystem::path endoscopic_picture;
     std::filesystem::path slices_picture;
+    std::filesystem::path measures_picture;  ///< best plane and histogram; empty: nothing was measured so
 };
 
 /// All that a report says. Patient, study, series and markers are the case's own records, never typed in anew; what an

@@ -44,6 +44,7 @@ struct SnapshotRequest {
     int peel_coarse = 1;            ///< one ray for a square of so many pixels a side: quicker, while the eye moves
     bool peel_middle_only = false;  ///< only within a circle; the surface stays around it
     std::optional<Pixel> peel_circle_at;  ///< its centre; nothing: the middle of the picture
+    double peel_circle_px = 0;            ///< its radius; 0: three tenths of the picture's smaller side
 
     static constexpr int kLeastSide = 200;
     static constexpr int kMostSide = 4096;

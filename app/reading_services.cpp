@@ -1,0 +1,147 @@
+#include "reading_services.h"
+
+#include <filesystem>
+
+#include "correcting.h"
+#include "marking.h"
+#include "report_writing.h"
+#include "scan_work.h"
+#include "text_table.h"
+#include "vicon/pipeline/queue.h"
+#include "vicon/pipeline/worker.h"
+#include "worklist.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::app {
+namespace {
+
+int reportsOf(CaseStore& store, const std::string& case_id)
+{
+    std::error_code none;
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(store.caseFolder(case_id) / "report", none))
+        count += entry.path().extension() == ".pdf" ? 1 : 0;
+    return count;
+}
+
+/// What a radiologist asks first: is it distended, is there fluid, is anything collapsed.
+void addQuality(CaseStore& store, viewer::WorklistScanRow& row)
+{
+    for (const StepRecord& step : store.steps(row.record.case_id, row.record.id)) {
+        if (step.step != "quality" || !step.result.contains("quality"))
+            continue;
+        const nlohmann::json& quality = step.result["quality"];
+        row.adequate = quality.value("adequate", true);
+        row.quality = "radius " + formatNumber(quality.value("median_radius_mm", 0.0), 0) + " mm, fluid " +
+                      formatNumber(100 * quality.value("fluid_fraction", 0.0), 0) + " %";
+        const std::string reason = quality.value("reason", "");
+        row.quality += reason.empty() ? ", nothing collapsed" : ", " + reason;
+    }
+}
+
+viewer::WorklistRow rowOf(CaseStore& store, const WorklistCase& from)
+{
+    viewer::WorklistRow row{from.record, from.state, from.reason, 0, from.markers, reportsOf(store, from.record.id),
+                            {}};
+    int jobs = 0;
+    for (const WorklistScan& scan : from.scans) {
+        row.scans.push_back({scan.record, scan.state, scan.step, scan.progress, scan.reason, scan.folder, {}});
+        addQuality(store, row.scans.back());
+        if (scan.state == "kept")
+            continue;
+        row.progress += scan.progress;
+        ++jobs;
+    }
+    if (jobs > 0)
+        row.progress /= jobs;
+    return row;
+}
+
+Point3 pointOf(const nlohmann::json& json)
+{
+    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+std::vector<viewer::BridgeRow> bridgesOf(CaseStore& store, const ScanRecord& scan)
+{
+    std::vector<viewer::BridgeRow> rows;
+    for (const nlohmann::json& bridge : reviewedBridges(store, scan)) {
+        const nlohmann::json review = bridge.value("review", nlohmann::json::object());
+        rows.push_back({pointOf(bridge.at("from_mm")), pointOf(bridge.at("to_mm")), bridge.value("length_mm", 0.0),
+                        bridge.value("confidence", 0.0), bridge.value("certain", true), bridge.value("reason", ""),
+                        review.value("verdict", ""), review.value("by", ""), review.value("at", "")});
+    }
+    return rows;
+}
+
+void correct(CaseStore& store, const Config& config, const ScanRecord& scan, viewer::Correction kind, Point3 point)
+{
+    pipeline::Corrections more;
+    (kind == viewer::Correction::add ? more.add : kind == viewer::Correction::cut ? more.cut : more.drop) = {point};
+    correctScan(store, config, scan, more);
+    requeueOutdated(store, config);
+}
+
+/// What is corrected while the queue runs is out of date when its job is done: then it runs again.
+void runQueue(CaseStore& store, const Config& config, const std::atomic<bool>& stop)
+{
+    auto options = config.get<pipeline::WorkOptions>();
+    options.until_idle = true;
+    pipeline::WorkSummary summary;
+    do {
+        requeueOutdated(store, config);
+        summary = pipeline::runWorker(store, config.get<pipeline::QueueOptions>(), options, scanWork(store, config), {},
+                                      stop);
+    } while (!stop && summary.done > 0);
+}
+
+void addCorrections(viewer::ReadingServices& services, const Config& config)
+{
+    services.correct = [&config](CaseStore& store, const ScanRecord& scan, viewer::Correction kind, Point3 point) {
+        correct(store, config, scan, kind, point);
+    };
+    services.forget_corrections = [&config](CaseStore& store, const ScanRecord& scan) {
+        correctScan(store, config, scan, {}, true);
+        requeueOutdated(store, config);
+    };
+    services.bridges = bridgesOf;
+    services.review_bridge = [](CaseStore& store, const ScanRecord& scan, const viewer::BridgeRow& bridge, bool yes) {
+        reviewBridge(store, scan, bridge.from_mm, bridge.to_mm, yes);
+    };
+    services.work = [&config](CaseStore& store, const std::atomic<bool>& stop) { runQueue(store, config, stop); };
+}
+
+}  // namespace
+
+viewer::ReadingServices readingServices(const fs::path& store, const Config& config)
+{
+    viewer::ReadingServices services;
+    services.store = store;
+    services.worklist = [&config](CaseStore& store) {
+        std::vector<viewer::WorklistRow> rows;
+        for (const WorklistCase& a_case : makeWorklist(store, config))
+            rows.push_back(rowOf(store, a_case));
+        return rows;
+    };
+    services.retry = [&config](CaseStore& store, const std::string& case_id) {
+        pipeline::JobQueue queue(store.database(), config.get<pipeline::QueueOptions>());
+        for (const ScanRecord& scan : store.scans(case_id))
+            if (const auto job = queue.find(case_id, scan.id); job && job->state == pipeline::JobState::failed)
+                queue.retry(case_id, scan.id);
+    };
+    services.place = [&config](CaseStore& store, const std::string& case_id, Marker marker) {
+        return placeMarker(store, config.get<MarkOptions>(), case_id, std::move(marker));
+    };
+    services.import_markers = [&config](CaseStore& store, const std::string& case_id, const fs::path& file) {
+        return importOf(store, config.get<MarkOptions>(), case_id, file);
+    };
+    addCorrections(services, config);
+    services.report = [&config](CaseStore& store, const std::string& case_id) {
+        NoProgress progress;
+        return writeReport(store, config, case_id, {}, progress).file;
+    };
+    return services;
+}
+
+}  // namespace vicon::app

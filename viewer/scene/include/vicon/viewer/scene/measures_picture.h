@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include "vicon/core/records.h"
+#include "vicon/viewer/model/biopsy.h"
+#include "vicon/viewer/model/plane_size.h"
+#include "vicon/viewer/scene/canvas.h"
+#include "vicon/viewer/scene/prepared_scan.h"
+#include "vicon/viewer/scene/snapshot.h"
+
+namespace vicon::viewer {
+
+/// How many voxels of a biopsy have which density, with the mean and its spread; air, fat, soft tissue and tagging are
+/// named where the axis shows them. Needs no display.
+Picture histogramPicture(const Biopsy& biopsy, int width, int height);
+
+/// The slice in which a finding is measured, with the diameter drawn in. Needs no display. Throws as PreparedScan does.
+Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Caption& caption, int width, int height);
+
+/// What was measured of a marker: its best plane and its histogram beside each other, each square with this side; one
+/// of them where the other was not taken, nothing where neither was.
+std::optional<Picture> measuresPicture(const PreparedScan& scan, const Marker& marker, const Caption& caption,
+                                       int side);
+
+}  // namespace vicon::viewer
