@@ -124,8 +124,9 @@ void expectInside(const InsideVolume& inside, const SkeletonResult& result)
     for (const auto& path : result.voxels)
         for (std::size_t n = 0; n < path.size(); ++n) {
             EXPECT_NE(inside.valueOr(inside.grid.indexAt(path[n]), kOutside), kOutside);
-            if (n > 0)
+            if (n > 0) {
                 EXPECT_TRUE(areNeighbours(inside.grid, path[n - 1], path[n]));
+            }
         }
 }
 

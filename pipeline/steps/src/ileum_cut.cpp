@@ -14,8 +14,8 @@
 namespace vicon::steps {
 namespace {
 
-// Sizes of the ileocaecal valve and of gas-filled ileum: phantom seeds 1 to 8 with `ileum`, the prone scan of the
-// reference data.
+// Sizes of the ileocaecal valve and of gas-filled ileum: phantom seeds 1 to 8, 101, 103 and 106 with `ileum`, the prone
+// scan of the reference data.
 constexpr double kZone_mm = 450;      // along the voxels' faces: 260 mm or more of lumen back from the far end
 constexpr double kWidestNeck_mm = 6;  // radius
 constexpr double kNeckShare = 0.65;   // of the radius behind it
