@@ -108,7 +108,7 @@ private:
         using TwoLong = std::uint64_t __attribute__((vector_size(16)));
         const auto voxels = reinterpret_cast<Eight>(TwoLong{four(v - 1), 0});
         // Each twice, so that the upper half of a word is the voxel; a plain conversion is made one by one.
-        const Eight twice = __builtin_shuffle(voxels, Eight{0, 0, 1, 1, 2, 2, 3, 3});
+        const Eight twice = __builtin_shufflevector(voxels, voxels, 0, 0, 1, 1, 2, 2, 3, 3);
         return __builtin_convertvector(reinterpret_cast<FourWords>(twice) >> 16, Four);
     }
     template <class T>

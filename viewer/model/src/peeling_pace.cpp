@@ -8,7 +8,8 @@ constexpr double kNews = 0.4;      // weight of the last picture: some take twic
 
 double raysOf(int width, int height, int coarse)
 {
-    return double((width + coarse - 1) / coarse) * double((height + coarse - 1) / coarse);
+    const int across = (width + coarse - 1) / coarse, down = (height + coarse - 1) / coarse;
+    return double(across) * down;
 }
 
 }  // namespace
