@@ -268,12 +268,13 @@ IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, Point3 other_mm, int rim_
     for (const Neck& neck : necksOf(graph, tree, kWidestNeck_mm, kLeast_ml, kMost_ml)) {
         if (++tries > kMostTries)
             break;
-        const std::optional<Branch> branch = branchAt(graph, tree, neck, progress);
+        std::optional<Branch> branch = branchAt(graph, tree, neck);
         if (!branch || !looksLikeBowel(graph, neck, *branch))
             continue;
         const std::vector<Gate> gates = passageThrough(graph, tree, neck, *branch);
         if (gates.empty())
             continue;
+        findColonBeside(*branch, graph, tree, neck, progress);
         result.valve_mm = gates.front().at_mm;
         result.neck_mm = graph.node(neck.node).wall_mm;
         const std::string where = " behind a passage of " + std::to_string(std::lround(2 * result.neck_mm)) +

@@ -9,6 +9,17 @@ namespace {
 
 constexpr double kMargin_mm = 1.5;  // by which a neck is closed beyond its own radius
 
+/// 1 for nodes in a ball that closes a neck: wide enough that no edge of the graph leaps over it.
+std::vector<std::uint8_t> closedAt(const LumenGraph& graph, const Neck& neck)
+{
+    const Point3 centre = graph.point(neck.node);
+    const double radius = graph.node(neck.node).wall_mm + kMargin_mm + 0.87 * graph.block * graph.grid.spacing_mm[0];
+    std::vector<std::uint8_t> closed(graph.count(), 0);
+    for (std::size_t n = 0; n < graph.count(); ++n)
+        closed[n] = distance(graph.point(std::int32_t(n)), centre) <= radius ? 1 : 0;
+    return closed;
+}
+
 }  // namespace
 
 std::vector<Neck> necksOf(const LumenGraph& graph, const LumenTree& tree, double widest_mm, double least_ml,
@@ -47,24 +58,23 @@ std::vector<Neck> necksOf(const LumenGraph& graph, const LumenTree& tree, double
     return necks;
 }
 
-std::optional<Branch> branchAt(const LumenGraph& graph, const LumenTree& tree, const Neck& neck, Progress& progress)
+std::optional<Branch> branchAt(const LumenGraph& graph, const LumenTree& tree, const Neck& neck)
 {
-    const Point3 centre = graph.point(neck.node);
-    // Wide enough that no edge of the graph leaps over it.
-    const double radius = graph.node(neck.node).wall_mm + kMargin_mm + 0.87 * graph.block * graph.grid.spacing_mm[0];
-    std::vector<std::uint8_t> blocked(graph.count(), 0), rest(graph.count(), 0);
-    for (std::size_t n = 0; n < graph.count(); ++n) {
-        blocked[n] = distance(graph.point(std::int32_t(n)), centre) <= radius ? 1 : 0;
-        rest[n] = blocked[n] || !tree.reaches(std::int32_t(n)) ? 0 : 1;
-    }
-    if (blocked[std::size_t(tree.root)])
+    std::vector<std::uint8_t> open = closedAt(graph, neck);
+    if (open[std::size_t(tree.root)])
         return std::nullopt;
-    const LumenTree without = centralTree(graph, tree.root, blocked, progress);
+    for (std::size_t n = 0; n < open.size(); ++n)
+        open[n] = open[n] || !tree.reaches(std::int32_t(n)) ? 0 : 1;
     Branch branch;
     branch.beyond.assign(graph.count(), 0);
+    for (const std::vector<std::int32_t>& set : connectedSets(graph, open)) {
+        if (std::find(set.begin(), set.end(), tree.root) != set.end())
+            continue;
+        for (const std::int32_t n : set)
+            branch.beyond[std::size_t(n)] = 1;
+    }
     for (std::size_t n = 0; n < graph.count(); ++n)
-        if (rest[n] && !without.reaches(std::int32_t(n))) {
-            branch.beyond[n] = 1;
+        if (branch.beyond[n]) {
             branch.widest_mm = std::max(branch.widest_mm, double(graph.nodes[n].wall_mm));
             const double length = tree.length_mm[n] - tree.length_mm[std::size_t(neck.node)];
             if (branch.farthest < 0 || length > branch.length_mm) {
@@ -72,6 +82,13 @@ std::optional<Branch> branchAt(const LumenGraph& graph, const LumenTree& tree, c
                 branch.farthest = std::int32_t(n);
             }
         }
+    return branch;
+}
+
+void findColonBeside(Branch& branch, const LumenGraph& graph, const LumenTree& tree, const Neck& neck,
+                     Progress& progress)
+{
+    const LumenTree without = centralTree(graph, tree.root, closedAt(graph, neck), progress);
     branch.end = farthestNode(without);
     const std::vector<std::int32_t> to_end = without.pathTo(branch.end), to_neck = tree.pathTo(neck.node);
     std::size_t common = 0;
@@ -87,7 +104,6 @@ std::optional<Branch> branchAt(const LumenGraph& graph, const LumenTree& tree, c
         if (after >= branch.pouch_mm / 4)
             branch.pouch_radius_mm = std::max(branch.pouch_radius_mm, double(graph.node(n).wall_mm));
     }
-    return branch;
 }
 
 }  // namespace vicon::steps

@@ -33,7 +33,12 @@ struct Branch {
     double colon_radius_mm = 0;  ///< widest before the junction
 };
 
-/// The branch behind a neck, found by closing the neck; without value where the tree's root lies in it.
-std::optional<Branch> branchAt(const LumenGraph& graph, const LumenTree& tree, const Neck& neck, Progress& progress);
+/// The branch behind a neck, found by closing the neck; without value where the tree's root lies in it. How the colon
+/// goes on is left open.
+std::optional<Branch> branchAt(const LumenGraph& graph, const LumenTree& tree, const Neck& neck);
+
+/// Fills in how the colon goes on without a branch. Costs a tree of the whole graph.
+void findColonBeside(Branch& branch, const LumenGraph& graph, const LumenTree& tree, const Neck& neck,
+                     Progress& progress);
 
 }  // namespace vicon::steps
