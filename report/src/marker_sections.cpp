@@ -168,9 +168,9 @@ void Sections::drawMeasuresPicture(const MarkerEntry& entry, const std::string& 
 {
     if (entry.measures_picture.empty())
         return;
-    const FramedPicture measures = framed(entry.measures_picture, flow_.width(),
-                                          "Measured at " + entry.marker.id + ": best plane, densities" + mark,
-                                          "measures", "marker " + entry.marker.id);
+    const FramedPicture measures =
+        framed(entry.measures_picture, flow_.width(), "Measured at " + entry.marker.id + mark, "measures",
+               "marker " + entry.marker.id);
     flow_.need(kMeasuresHeight + leadingOf(look::kSmall) + 4);
     flow_.skip(measures.draw(flow_, flow_.left(), flow_.y(), flow_.width(), kMeasuresHeight) + look::kGap);
 }

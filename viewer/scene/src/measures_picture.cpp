@@ -71,8 +71,9 @@ void addBars(Overlay& overlay, const Biopsy& biopsy, const Axes& axes)
         if (biopsy.counts[n] == 0)
             continue;
         const double x = axes.x(biopsy.from_hu + Biopsy::kBin_hu * (double(n) + 0.5));
-        const double top = axes.y(double(biopsy.counts[n])), end = std::min(bar_px, axes.area.bottom() - top) / 2;
-        overlay.lines.push_back({{{x, axes.area.bottom() - end}, {x, top + end}}, kBarColor, bar_px, 0});
+        // Its ends are round, and end at the axis and at the count.
+        const double top = axes.y(double(biopsy.counts[n])), wide = std::min(bar_px, axes.area.bottom() - top);
+        overlay.lines.push_back({{{x, axes.area.bottom() - wide / 2}, {x, top + wide / 2}}, kBarColor, wide, 0});
     }
 }
 
