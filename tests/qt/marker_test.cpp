@@ -1,0 +1,220 @@
+#include <QComboBox>
+#include <QFileDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QTableWidget>
+
+#include "reading.h"
+#include "vicon/core/file.h"
+
+namespace vicon::viewer {
+namespace {
+
+using test::Reading;
+
+TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
+{
+    openCase();
+    key(Qt::Key_2);
+    click("endoscopic", middle("endoscopic") + QPoint(90, 60));
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1; }));
+    ASSERT_EQ(stored().size(), 1U);
+    EXPECT_EQ(stored()[0].color, MarkerColor::yellow);
+    EXPECT_TRUE(stored()[0].extra.contains("view"));
+    EXPECT_EQ(stored()[0].scan_id, test::kSupine);
+    screenshot("marker");
+
+    // From the other end back to the view that was saved with it.
+    const double seen_from = station();
+    key(Qt::Key_End);
+    ASSERT_TRUE(eventually([] { return length() - station() < 2; }));
+    clickRow(markers(), 0);
+    ASSERT_TRUE(eventually([&] { return std::abs(station() - seen_from) < 2; })) << "at " << station();
+    key(Qt::Key_R);  // on towards the caecum
+
+    // A note, written in its cell.
+    const auto* note = markers()->item(0, 6);
+    QTest::mouseClick(markers()->viewport(), Qt::LeftButton, {}, markers()->visualItemRect(note).center());
+    QTest::mouseDClick(markers()->viewport(), Qt::LeftButton, {}, markers()->visualItemRect(note).center());
+    auto* editor = markers()->findChild<QLineEdit*>();
+    ASSERT_NE(editor, nullptr);
+    QTest::keyClicks(editor, "6 mm, sessile");
+    QTest::keyClick(editor, Qt::Key_Return);
+    ASSERT_TRUE(eventually([&] { return stored()[0].note == "6 mm, sessile" && settled(); }));
+
+    // Its colour, by the keyboard of the list of colours.
+    auto* color = the<QComboBox>("markerColor");
+    color->setFocus();
+    QTest::keyClick(color, Qt::Key_Up);
+    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::red && settled(); }));
+
+    ASSERT_TRUE(eventually([] { return the<QPushButton>("undo")->isEnabled(); }));
+    press(window(), "undo");
+    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::yellow && settled(); }));
+    ASSERT_TRUE(eventually([] { return the<QPushButton>("redo")->isEnabled(); }));
+    press(window(), "redo");
+    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::red && settled(); }));
+
+    // The same finding in the other scan, and the pair.
+    auto* scan = the<QComboBox>("scan");
+    the<QLabel>("where")->clear();
+    scan->setFocus();
+    QTest::keyClick(scan, Qt::Key_Down);
+    waitForScan();
+    click("endoscopic", middle("endoscopic") + QPoint(90, 60), Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 2; }));
+    EXPECT_EQ(cell(1, 1), "prone");
+    const auto choose = [](int row) { clickRow(markers(), row); };
+    choose(1);
+    press(window(), "markerPair");
+    choose(0);
+    ASSERT_TRUE(eventually([&] { return stored()[0].extra.value("pair", "") == stored()[1].id; }));
+    EXPECT_TRUE(eventually([&] { return stored()[1].extra.value("pair", "") == stored()[0].id && settled(); }));
+    // Both at once: what is chosen in one is shown in both, and they move together.
+    key(Qt::Key_C);
+    const bool both = eventually([] { return drawn("besideEndoscopic") && drawn("besideTransverse"); });
+    screenshot("beside");
+    ASSERT_TRUE(both);
+    const auto beside = [] { return pictureOf("besideEndoscopic"); };
+    settle();
+    const QImage first_shown = beside();
+    press(window(), "stepOn");
+    ASSERT_TRUE(eventually([&] { return beside() != first_shown; })) << "it moves with the other";
+    settle();
+    const QImage along_the_path = beside();
+    choose(1);
+    ASSERT_TRUE(eventually([&] { return beside() != along_the_path; }));
+    screenshot("paired");
+    // A click reads on in the other scan, at the same place: the two are the same colon.
+    const double place = station();
+    click("besideEndoscopic", middle("besideEndoscopic"));
+    ASSERT_TRUE(eventually([] { return the<QComboBox>("scan")->currentText().startsWith("supine"); }));
+    EXPECT_NEAR(station(), place, 1);
+
+    closeCase();
+    openCase();
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 2; }));
+    EXPECT_EQ(cell(0, 6), "6 mm, sessile");
+    EXPECT_EQ(cell(0, 4), cell(1, 0));
+    EXPECT_TRUE(the<QWidget>("besideEndoscopic")->isVisible()) << "side by side as it was left";
+    // A marker of the other scan takes the reader there.
+    ASSERT_TRUE(eventually([] { return drawn("besideEndoscopic"); }));
+    choose(1);
+    EXPECT_TRUE(eventually([] { return the<QComboBox>("scan")->currentText().startsWith("prone"); }));
+    press(window(), "markerRemove");
+    ASSERT_TRUE(eventually([&] { return stored().size() == 1; }));
+}
+
+TEST_F(Reading, ASizeIsMeasuredBetweenTwoClicksAndKeptWithTheMarkerBesideIt)
+{
+    openCase();
+    const QPoint first = middle("endoscopic") + QPoint(90, 60), second = first + QPoint(30, 30);
+    click("endoscopic", first, Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    key(Qt::Key_M);
+    click("endoscopic", first);
+    click("endoscopic", second);
+    ASSERT_TRUE(eventually([&] { return stored()[0].extra.contains("size") && settled(); }));
+    const auto size = stored()[0].extra["size"];
+    EXPECT_GT(size["straight_mm"].get<double>(), 1);
+    EXPECT_GE(size["along_mm"].get<double>(), size["straight_mm"].get<double>() - 1e-9);
+    EXPECT_EQ(cell(0, 5), QString::number(size["straight_mm"].get<double>(), 'f', 1));
+    if (size.contains("plane")) {
+        EXPECT_GE(size["plane"]["diameter_mm"].get<double>(), size["straight_mm"].get<double>() - 0.5);
+    }
+    screenshot("measured");
+    press(window(), "undo");
+    ASSERT_TRUE(eventually([&] { return !stored()[0].extra.contains("size"); }));
+}
+
+TEST_F(Reading, AnAreaThatIsCircledIsPeeledAloneAndItsDensityKeptWithTheMarkerUntilUndone)
+{
+    openCase();
+    const QPoint at = middle("endoscopic") + QPoint(80, 50);
+    click("endoscopic", at, Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    settle();
+    auto* view = the<QWidget>("endoscopic");
+    const QImage plain = view->grab().toImage();
+    key(Qt::Key_T);
+    QTest::mousePress(view, Qt::LeftButton, {}, at);
+    for (int n = 1; n <= 5; ++n)
+        QTest::mouseMove(view, at + QPoint(22 * n, 0));
+    screenshot("circling");
+    QTest::mouseRelease(view, Qt::LeftButton, {}, at + QPoint(110, 0));
+    ASSERT_TRUE(eventually([&] { return stored()[0].extra.contains("density") && settled(); })) << warning();
+    const auto density = stored()[0].extra["density"];
+    EXPECT_GE(density["voxels"].get<int>(), 20);
+    EXPECT_GT(density["mean_hu"].get<double>(), -90) << "a wall of 40 HU before fat of -90";
+    EXPECT_LT(density["mean_hu"].get<double>(), 45);
+    EXPECT_TRUE(the<QLabel>("histogram")->isVisible());
+    settle();
+    screenshot("biopsy");
+    // Far from the circle the wall is drawn as it was; in its middle something else is.
+    ASSERT_TRUE(
+        eventually([&] { return view->grab().toImage().pixel(at + QPoint(6, 6)) != plain.pixel(at + QPoint(6, 6)); }));
+    const QImage peeled = view->grab().toImage();
+    const QPoint far = middle("endoscopic") + QPoint(-80, -60);
+    constexpr int kSmoothing = 12;  // grey levels: one picture may have been drawn while the eye moved
+    EXPECT_NEAR(qRed(peeled.pixel(far)), qRed(plain.pixel(far)), kSmoothing);
+    EXPECT_NEAR(qGreen(peeled.pixel(far)), qGreen(plain.pixel(far)), kSmoothing);
+    EXPECT_NEAR(qBlue(peeled.pixel(far)), qBlue(plain.pixel(far)), kSmoothing);
+    clickRow(markers(), 0);
+    key(Qt::Key_I);
+    auto* box = the<QMessageBox>("markerInformation");
+    EXPECT_TRUE(box->text().contains("HU, of "));
+    EXPECT_TRUE(eventually([&] { return box->findChild<QLabel*>("measures") != nullptr; }));
+    settle();
+    box->grab().save(VICON_SCREENSHOTS "/biopsy_information.png");
+    box->close();
+    press(window(), "undo");
+    ASSERT_TRUE(eventually([&] { return !stored()[0].extra.contains("density") && settled(); }));
+    press(window(), "redo");
+    ASSERT_TRUE(eventually([&] { return stored()[0].extra.contains("density") && settled(); }));
+    window()->activateWindow();
+    ASSERT_TRUE(eventually([] { return window()->isActiveWindow(); }));
+    key(Qt::Key_Escape);
+    EXPECT_TRUE(eventually([] { return !the<QLabel>("histogram")->isVisible(); }));
+}
+
+TEST_F(Reading, MarkersOfAFileAreLoadedInOneStepAndSaved)
+{
+    openCase();
+    for (const QPoint by : {QPoint(90, 60), QPoint(-60, 60)}) {
+        const int before = markers()->rowCount();
+        click("endoscopic", middle("endoscopic") + by, Qt::ShiftModifier);
+        ASSERT_TRUE(eventually([&] { return markers()->rowCount() == before + 1 && settled(); }));
+    }
+    const auto choose = [](const char* name, const QString& file) {
+        auto* dialog = the<QFileDialog>(name);
+        emit dialog->fileSelected(file);  // how Qt's own dialog is used is Qt's business
+        dialog->reject();
+    };
+    const std::filesystem::path file = store_ / "list.json";
+    key(Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
+    choose("saveMarkers", file.c_str());
+    ASSERT_TRUE(eventually([&] { return std::filesystem::exists(file); }));
+    auto list = nlohmann::json::parse(readFile(file));
+    ASSERT_EQ(list["markers"].size(), 2U);
+    for (auto& marker : list["markers"])
+        marker["note"] = "from the file";
+    replaceFile(file, list.dump());
+    key(Qt::Key_O, Qt::ControlModifier);
+    choose("loadMarkers", file.c_str());
+    const auto notes = [&](const char* note) { return cell(0, 6) == note && cell(1, 6) == note && settled(); };
+    ASSERT_TRUE(eventually([&] { return notes("from the file"); })) << warning();
+    EXPECT_EQ(stored()[1].note, "from the file");
+    clickRow(markers(), 1);
+    key(Qt::Key_I);
+    auto* box = the<QMessageBox>("markerInformation");
+    EXPECT_TRUE(box->text().contains("from the file") && box->text().contains("supine"));
+    screenshot("information");
+    box->close();
+    press(window(), "undo");
+    EXPECT_TRUE(eventually([&] { return notes(""); })) << "one undo takes both back";
+}
+
+}  // namespace
+}  // namespace vicon::viewer

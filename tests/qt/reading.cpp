@@ -1,0 +1,188 @@
+#include "reading.h"
+
+#include <QLabel>
+#include <QPushButton>
+#include <QSettings>
+#include <QTabBar>
+#include <QTabWidget>
+#include <QTableWidget>
+#include <algorithm>
+
+namespace vicon::viewer::test {
+
+std::unique_ptr<Display> Reader::display_;
+std::unique_ptr<support::TemporaryFolder> Reader::folder_;
+std::unique_ptr<QApplication> Reader::application_;
+
+void Reader::SetUpTestSuite()
+{
+    display_ = std::make_unique<Display>();
+    folder_ = std::make_unique<support::TemporaryFolder>();
+    qputenv("XDG_CONFIG_HOME", (*folder_ / "config").c_str());
+    static int argc = 1;
+    static char name[] = "reading_test";
+    static char* argv[] = {name, nullptr};
+    application_ = std::make_unique<QApplication>(argc, argv);
+    QCoreApplication::setOrganizationName("vicon");
+    std::filesystem::create_directories(VICON_SCREENSHOTS);
+}
+
+void Reader::TearDownTestSuite()
+{
+    application_.reset();
+    folder_.reset();
+    display_.reset();
+}
+
+void Reading::SetUp()
+{
+    store_ = *folder_ / testing::UnitTest::GetInstance()->current_test_info()->name();
+    QSettings().clear();
+    makeStore(store_);
+    openRoom(servicesFor(store_));
+}
+
+void Reader::openRoom(const ReadingServices& services, const std::string& case_id)
+{
+    room_ = makeReadingRoom(services, case_id);
+    room_->show();
+    ASSERT_TRUE(eventually([&] { return cases()->rowCount() > 0; }));
+}
+
+QTableWidget* Reader::cases() const
+{
+    return room_->findChild<QTableWidget*>("cases");
+}
+
+QMainWindow* Reader::window()
+{
+    for (QWidget* widget : QApplication::topLevelWidgets())
+        if (widget->objectName() == "reading")
+            return qobject_cast<QMainWindow*>(widget);
+    return nullptr;
+}
+
+void Reader::press(QWidget* in, const char* name)
+{
+    auto* button = in->findChild<QPushButton*>(name);
+    ASSERT_NE(button, nullptr) << name;
+    ASSERT_TRUE(button->isEnabled()) << name;
+    QTest::mouseClick(button, Qt::LeftButton);
+}
+
+void Reader::click(const char* view, QPoint at, Qt::KeyboardModifiers modifiers)
+{
+    QTest::mouseClick(the<QWidget>(view), Qt::LeftButton, modifiers, at);
+}
+
+void Reader::key(int which, Qt::KeyboardModifiers modifiers)
+{
+    QTest::keyClick(window(), Qt::Key(which), modifiers);
+}
+
+QPoint Reader::middle(const char* view)
+{
+    return the<QWidget>(view)->rect().center();
+}
+
+void Reader::showList(int which)
+{
+    QTabBar* bar = the<QTabWidget>("lists")->tabBar();
+    QTest::mouseClick(bar, Qt::LeftButton, {}, bar->tabRect(which).center());
+}
+
+QTableWidget* Reader::markers()
+{
+    return the<QTableWidget>("markers");
+}
+
+void Reader::clickRow(QTableWidget* table, int row, int column)
+{
+    QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, table->visualItemRect(table->item(row, column)).center());
+}
+
+bool Reader::settled()
+{
+    return the<QWidget>("markerTable")->isEnabled();
+}
+
+QString Reader::cell(int row, int column)
+{
+    return markers()->item(row, column)->text();
+}
+
+std::string Reader::warning()
+{
+    return the<QLabel>("warning")->text().toStdString();
+}
+
+void Reader::startOpening(const char* patient_id)
+{
+    constexpr int kIdColumn = 1;
+    for (int row = 0; row < cases()->rowCount(); ++row)
+        if (cases()->item(row, kIdColumn)->text() == patient_id)
+            clickRow(cases(), row);
+    press(room_.get(), "open");
+    ASSERT_NE(window(), nullptr);
+}
+
+void Reader::openCase(const char* patient_id)
+{
+    startOpening(patient_id);
+    waitForScan();
+}
+
+void Reader::waitForScan()
+{
+    ASSERT_TRUE(eventually([] { return !the<QLabel>("where")->text().isEmpty(); })) << warning();
+    ASSERT_TRUE(eventually([] { return drawn("endoscopic") && drawn("overview") && drawn("coronal"); })) << warning();
+    window()->activateWindow();
+    settle();
+}
+
+void Reader::closeCase()
+{
+    window()->close();
+    ASSERT_TRUE(eventually([] { return window() == nullptr; }));
+}
+
+QImage Reader::pictureOf(const char* view)
+{
+    return the<QWidget>(view)->grab().toImage();
+}
+
+bool Reader::drawn(const char* view)
+{
+    const QImage image = pictureOf(view);
+    const int x = image.width() / 2, y = image.height() / 2;
+    for (int n = 1; n < std::min(x, y) / 2; ++n)
+        if (image.pixel(x + n, y) != image.pixel(x, y))
+            return true;
+    return false;
+}
+
+double Reader::station()
+{
+    return the<QLabel>("where")->text().section(' ', 0, 0).toDouble();
+}
+
+double Reader::length()
+{
+    const QString text = the<QLabel>("where")->text();
+    return station() + text.section(", ", 1).section(' ', 0, 0).toDouble();
+}
+
+void Reader::screenshot(const char* name) const
+{
+    settle();
+    QWidget* of = window() ? static_cast<QWidget*>(window()) : room_.get();
+    of->grab().save(QString(VICON_SCREENSHOTS "/%1.png").arg(name));
+}
+
+std::vector<Marker> Reader::stored(const char* case_id) const
+{
+    CaseStore store(store_);
+    return store.markers(case_id);
+}
+
+}  // namespace vicon::viewer::test

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QMainWindow>
+#include <QtTest/QTest>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reading_store.h"
+#include "vicon/support/support.h"
+#include "vicon/viewer/scene/display.h"
+
+class QTableWidget;
+
+namespace vicon::viewer::test {
+
+/// One reader at the screen: looks for controls by name, presses, waits until what must follow is there. The screen is
+/// shared by the tests of a program; pictures of each step stay in the build tree.
+class Reader : public testing::Test {
+protected:
+    static void SetUpTestSuite();
+    static void TearDownTestSuite();
+    void TearDown() override { room_.reset(); }
+
+    void openRoom(const ReadingServices& services, const std::string& case_id = {});
+    /// Chooses a line of the worklist by the patient's ID and opens it; waits until its pictures are there.
+    void openCase(const char* patient_id = "PH-1");
+    /// Presses Open for that patient, and waits for nothing.
+    void startOpening(const char* patient_id = "PH-1");
+    static void waitForScan();
+    /// Until its window is gone.
+    static void closeCase();
+
+    template <class Condition>
+    static bool eventually(Condition condition)
+    {
+        return QTest::qWaitFor(condition, kPatience_ms);
+    }
+    /// For the screenshots: the smooth picture comes after the last movement.
+    static void settle() { QTest::qWait(kSettle_ms); }
+
+    QTableWidget* cases() const;
+    static QMainWindow* window();
+    template <class T>
+    static T* the(const char* name)
+    {
+        T* found = window()->findChild<T*>(name);
+        EXPECT_NE(found, nullptr) << name;
+        return found;
+    }
+    static void press(QWidget* in, const char* name);
+    static void click(const char* view, QPoint at, Qt::KeyboardModifiers modifiers = {});
+    static void key(int which, Qt::KeyboardModifiers modifiers = {});
+    static QPoint middle(const char* view);
+    /// The list of markers, of what was not seen, of the bridges: 0, 1, 2.
+    static void showList(int which);
+    static QTableWidget* markers();
+    static void clickRow(QTableWidget* table, int row, int column = 0);
+    /// Nothing is on its way to the database.
+    static bool settled();
+    static QString cell(int row, int column);
+    static std::string warning();
+
+    /// More than text: the colours of its middle differ.
+    static bool drawn(const char* view);
+    static QImage pictureOf(const char* view);
+    static double station();
+    static double length();
+    void screenshot(const char* name) const;
+    std::vector<Marker> stored(const char* case_id = kCase) const;
+
+    static constexpr int kPatience_ms =
+        60000;  // a still peeled picture takes 20 s under the sanitizers, on a busy machine
+    static constexpr int kSettle_ms = 400;
+    static std::unique_ptr<Display> display_;
+    static std::unique_ptr<support::TemporaryFolder> folder_;
+    static std::unique_ptr<QApplication> application_;
+    std::filesystem::path store_;
+    std::unique_ptr<QWidget> room_;
+};
+
+/// With the worklist open on a store of its own: a case of two scans of a colon of closed form, and one that failed.
+class Reading : public Reader {
+protected:
+    void SetUp() override;
+};
+
+}  // namespace vicon::viewer::test

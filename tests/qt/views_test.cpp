@@ -1,0 +1,115 @@
+#include <QComboBox>
+#include <QLabel>
+#include <QTableWidget>
+
+#include "reading.h"
+
+namespace vicon::viewer {
+namespace {
+
+using test::Reading;
+
+TEST_F(Reading, SlicesProjectionAndPeelingFollowTheMouse)
+{
+    openCase();
+    auto* overview = the<QWidget>("overview");
+    const double before = station();
+    click("overview", QPoint(overview->width() * 2 / 3, overview->height() / 2));
+    ASSERT_TRUE(eventually([&] { return std::abs(station() - before) > 50; }));
+    screenshot("jumped");
+    auto* window_choice = the<QComboBox>("window");
+    window_choice->setFocus();
+    QTest::keyClick(window_choice, Qt::Key_Down);
+    EXPECT_EQ(window_choice->currentText(), "soft-tissue");
+    const double width = the<QWidget>("coronal")->width();
+    QTest::mouseDClick(the<QWidget>("coronal"), Qt::LeftButton, {}, middle("coronal"));
+    EXPECT_FALSE(the<QWidget>("endoscopic")->isVisible());
+    ASSERT_TRUE(eventually([&] { return the<QWidget>("coronal")->width() > 2 * width; }));
+    screenshot("enlarged");
+    QTest::mouseDClick(the<QWidget>("coronal"), Qt::LeftButton, {}, middle("coronal"));
+    EXPECT_TRUE(the<QWidget>("endoscopic")->isVisible());
+    const QImage plain = pictureOf("endoscopic");
+    auto* peel = the<QComboBox>("peel");
+    peel->setFocus();
+    QTest::keyClick(peel, Qt::Key_Down);
+    ASSERT_TRUE(eventually([&] { return pictureOf("endoscopic") != plain; }));
+    screenshot("peeled");
+    QTest::mouseClick(the<QWidget>("peelCircle"), Qt::LeftButton, {},
+                      QPoint(8, the<QWidget>("peelCircle")->height() / 2));
+    const auto hover = [](QPoint at) { QTest::mouseMove(the<QWidget>("endoscopic"), at); };
+    // The ring around the circle is the same light grey at its left and right end.
+    const auto circleIsAt = [](QPoint at) {
+        const QImage image = pictureOf("endoscopic");
+        const int radius = int(0.3 * std::min(image.width(), image.height()));
+        for (const int side : {-1, 1}) {
+            bool ring = false;
+            for (int n = -2; n <= 2; ++n)
+                ring = ring || qGray(image.pixel(at.x() + side * radius + n, at.y())) > 200;
+            if (!ring)
+                return false;
+        }
+        return true;
+    };
+    for (const QPoint by : {QPoint(-80, -80), QPoint(80, 80)}) {
+        const QPoint at = middle("endoscopic") + by;
+        hover(at);
+        EXPECT_TRUE(eventually([&] { return circleIsAt(at); })) << at.x() << ", " << at.y();
+    }
+    screenshot("lens");
+}
+
+TEST_F(Reading, WhatWasSeenIsCountedPaintedListedAndKept)
+{
+    const auto seen = [] { return the<QLabel>("seen")->text().section(' ', 0, 0).toDouble(); };
+    const auto picture = [] { return pictureOf("endoscopic"); };
+    openCase();
+    ASSERT_TRUE(eventually([&] { return seen() > 0; }));
+    for (int n = 0; n < 30; ++n)
+        key(Qt::Key_Plus);
+    const double before = seen();
+    press(window(), "forward");
+    ASSERT_TRUE(eventually([] { return station() > 250; }));
+    press(window(), "stop");
+    ASSERT_TRUE(eventually([&] { return seen() > before + 10; }));
+    settle();
+    // Ahead nothing was seen earlier; behind the wall was, and is painted.
+    key(Qt::Key_V);
+    settle();
+    key(Qt::Key_R);
+    settle();
+    const auto green = [&] {
+        const QImage image = picture();
+        int count = 0;
+        for (int y = 0; y < image.height(); y += 4)
+            for (int x = 0; x < image.width(); x += 4) {
+                const QColor c = image.pixelColor(x, y);
+                count += c.green() > 40 && c.green() > c.red() * 5 / 4 ? 1 : 0;
+            }
+        return double(count) * 16 / (image.width() * image.height());
+    };
+    EXPECT_TRUE(eventually([&] { return green() > 0.2; })) << green();
+    screenshot("seen");
+    key(Qt::Key_V);
+    EXPECT_TRUE(eventually([&] { return green() < 0.02; })) << green();
+
+    showList(1);
+    auto* list = the<QTableWidget>("unseen");
+    ASSERT_TRUE(eventually([&] { return list->rowCount() > 0; }));
+    for (int row = 1; row < list->rowCount(); ++row)
+        EXPECT_LE(list->item(row - 1, 0)->text().toDouble(), list->item(row, 0)->text().toDouble());
+    const int last = list->rowCount() - 1;
+    const double there = list->item(last, 0)->text().toDouble();
+    clickRow(list, last);
+    EXPECT_TRUE(eventually([&] { return std::abs(station() - there) < 40; })) << station() << " for " << there;
+    screenshot("unseen");
+    settle();
+    const double kept = seen();
+    closeCase();
+    openCase();
+    EXPECT_TRUE(eventually([&] { return seen() >= kept; })) << seen() << " after " << kept;
+    press(window(), "forgetSeen");
+    EXPECT_TRUE(eventually([&] { return seen() < before + 1; })) << seen();
+}
+
+}  // namespace
+}  // namespace vicon::viewer

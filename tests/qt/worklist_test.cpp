@@ -1,0 +1,41 @@
+#include <QComboBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTableWidget>
+
+#include "reading.h"
+
+namespace vicon::viewer {
+namespace {
+
+using test::Reading;
+
+TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
+{
+    const auto shown = [&] {
+        int count = 0;
+        for (int row = 0; row < cases()->rowCount(); ++row)
+            count += cases()->isRowHidden(row) ? 0 : 1;
+        return count;
+    };
+    QTest::keyClicks(room_->findChild<QLineEdit*>("search"), "bert");
+    EXPECT_EQ(shown(), 1);
+    room_->findChild<QLineEdit*>("search")->clear();
+    auto* state = room_->findChild<QComboBox*>("state");
+    state->setCurrentIndex(state->findData("failed"));
+    ASSERT_EQ(shown(), 1);
+    const int failed = cases()->isRowHidden(0) ? 1 : 0;
+    clickRow(cases(), failed);
+    EXPECT_EQ(room_->findChild<QLabel*>("reason")->text(), "the series has a gap of 40 mm");
+    EXPECT_FALSE(room_->findChild<QPushButton*>("open")->isEnabled());
+    screenshot("worklist");
+    EXPECT_EQ(cases()->item(1 - failed, 6)->text(), "poor: prone");
+    EXPECT_TRUE(cases()->item(1 - failed, 6)->toolTip().contains("collapsed over 38 mm"));
+    press(room_.get(), "retry");
+    EXPECT_TRUE(eventually([&] { return cases()->item(failed, 4)->text() == "queued"; }));
+    EXPECT_EQ(shown(), 0) << "it is no longer failed";
+}
+
+}  // namespace
+}  // namespace vicon::viewer
