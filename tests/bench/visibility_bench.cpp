@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "other_views.h"
 #include "vicon/viewer/model/flight_plan.h"
 #include "vicon/viewer/scene/cell_visibility.h"
 #include "vicon/viewer/scene/display.h"
@@ -64,6 +65,7 @@ struct Flight {
     double cells = 0, triangles = 0;  // drawn
     double seen_cells = 0, seen_cells_triangles = 0, seen = 0;
     std::vector<double> culled_s, all_s, choice_s, culled_cpu_s, all_cpu_s;
+    std::vector<double> views_culled_s, views_all_s;  // slices and overview with it
 };
 
 std::vector<ViewPose> posesOf(const PreparedScan& scan, double step_mm)
@@ -88,6 +90,7 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
     const CellVisibility visibility(scan);
     const Lens lens{settings.angle_deg, settings.side, settings.side};
     SightAhead ahead(visibility);
+    OtherViews others(scan);
     Flight flight;
     const std::vector<ViewPose> poses = posesOf(scan, settings.step_mm);
     for (std::size_t n = 0; n < poses.size(); ++n) {
@@ -110,6 +113,19 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
         const double cpu_all_begin = cpuSeconds();
         picture.draw(settings.side, settings.side);
         const double all = picture.seconds(), cpu_all = cpuSeconds() - cpu_all_begin;
+        const auto allViews = [&](bool choose) {
+            return secondsOf([&] {
+                others.begin(view);
+                if (choose)
+                    ahead.prepare(poses[(n + 1) % poses.size()].pose, lens);
+                picture.draw(settings.side, settings.side);
+                others.end(view);
+                ahead.wait();
+            });
+        };
+        const double views_all = allViews(false);
+        scene.showSeen(shown);
+        const double views_culled = allViews(true);
         ids.lookFrom(view.pose, settings.angle_deg);
         const auto seen = IdScene::trianglesIn(id_picture.render(settings.side, settings.side));
         std::set<int> seen_cells;
@@ -129,6 +145,8 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
             flight.choice_s.push_back(choice);
             flight.culled_cpu_s.push_back(cpu_culled);
             flight.all_cpu_s.push_back(cpu_all);
+            flight.views_culled_s.push_back(views_culled);
+            flight.views_all_s.push_back(views_all);
         }
     }
     return flight;
@@ -159,6 +177,10 @@ void print(const PreparedScan& scan, const Flight& f)
         "  %zu frames; seen a frame: %.0f triangles (%.3f of all), %.1f cells (%.3f of all triangles); seen but "
         "not drawn: %zu\n",
         f.frames, f.seen / n, f.seen / n / all, f.seen_cells / n, f.seen_cells_triangles / n / all, f.missing);
+    const double views = quantile(f.views_culled_s, 0.5), views_all = quantile(f.views_all_s, 0.5);
+    std::printf("  all views together: %.1f / %.1f ms a frame (median / 95 %%), all drawn %.1f / %.1f, ratio %.2f\n",
+                1e3 * views, 1e3 * quantile(f.views_culled_s, 0.95), 1e3 * views_all,
+                1e3 * quantile(f.views_all_s, 0.95), views / views_all);
 }
 
 std::vector<fs::path> scansIn(const fs::path& folder)

@@ -248,7 +248,8 @@ void WorklistWindow::open(const WorklistRow& row)
     made_.emplace_back(window);
     connect(window, &ReadingWindow::closed, this, [this, id] { windows_.erase(id); });
     window->resize(1500, 900);
-    window->show();
+    // Making and laying out take some 15 ms each: as two events, so that none blocks for long.
+    QTimer::singleShot(0, window, &QWidget::show);
 }
 
 void WorklistWindow::retry()
