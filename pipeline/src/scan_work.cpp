@@ -1,11 +1,17 @@
 #include "vicon/pipeline/scan_work.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "memory_room.h"
 #include "scan_artefacts.h"
 #include "step_runner.h"
 #include "step_table.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/pipeline/corrections.h"
+#include "vicon/steps/resample.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -59,7 +65,24 @@ bool isCurrent(const StepRecord& record, const std::string& digest, const fs::pa
 
 bool endsHere(const StepRecord& record)
 {
-    return record.result.value("verdict", "") == "no colon";
+    return record.result.is_object() && record.result.value("verdict", "") == "no colon";
+}
+
+/// Voxels of the scan once it is isotropic; 0 when import did not say how large it is.
+double isotropicVoxels(const json& ingest, const Config& config)
+{
+    const json geometry = ingest.value("geometry", json::object());
+    if (!geometry.is_object() || !geometry.contains("size") || !geometry.contains("spacing_mm"))
+        return 0;
+    const auto size = geometry.at("size").get<std::array<double, 3>>();
+    const auto spacing_mm = geometry.at("spacing_mm").get<std::array<double, 3>>();
+    double edge_mm = config.get<steps::ResampleOptions>().spacing_mm;
+    if (edge_mm <= 0)
+        edge_mm = *std::min_element(spacing_mm.begin(), spacing_mm.end());
+    double voxels = 1;
+    for (std::size_t a = 0; a < 3; ++a)
+        voxels *= size[a] * spacing_mm[a] / edge_mm;
+    return std::isfinite(voxels) ? voxels : 0;
 }
 
 StepRecords recordsOf(CaseStore& store, const ScanRecord& scan)
@@ -114,6 +137,9 @@ private:
         StepRecord& record = records_[step.name];
         if (isCurrent(record, digest, folder_))
             return false;
+        const double voxels = isotropicVoxels(scan_.ingest, inputs_.config);
+        if (voxels > 0)
+            requireMemory(voxels, inputs_.config.get<StepOptions>().memory_mb);
         record = {step.name, step.version, digest, parameters, json::object(), 0, {}};
         return true;
     }

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <new>
+#include <system_error>
 #include <thread>
 
 #include "vicon/core/error.h"
@@ -13,6 +14,8 @@ namespace vicon::pipeline {
 namespace {
 
 constexpr double kIdlePoll_s = 0.5;
+constexpr const char* kNoMemory =
+    "not enough memory, or too many threads; close other programs, then 'vicon work --retry'";
 
 /// Renews a job's lease from a thread and a connection of its own until it is destroyed or the lease is lost.
 class Heartbeat {
@@ -160,7 +163,10 @@ Outcome doWork(const JobWork& work, Context& context)
             return {Outcome::Kind::stopped, e.what()};
         return {Outcome::Kind::failed, e.what(), isPermanent(e.code())};
     } catch (const std::bad_alloc&) {
-        return {Outcome::Kind::failed, "not enough memory; close other programs, then 'vicon work --retry'"};
+        return {Outcome::Kind::failed, kNoMemory};
+    } catch (const std::system_error& e) {
+        const bool no_thread = e.code() == std::errc::resource_unavailable_try_again;
+        return {Outcome::Kind::failed, no_thread ? kNoMemory : e.what()};
     } catch (const std::exception& e) {
         return {Outcome::Kind::failed, e.what()};
     }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "body_shapes.h"
 #include "segment_shapes.h"
 #include "vicon/core/error.h"
 #include "vicon/phantom/phantom.h"
@@ -13,7 +14,6 @@ namespace {
 
 using test::blurred;
 using test::centredGrid;
-using test::tubeDistance;
 using test::TubeScan;
 using testing::HasSubstr;
 
@@ -25,68 +25,24 @@ Segmentation segment(const HuVolume& volume, const SegmentOptions& options = {})
     return segmentColon(volume, {0, 1, 0}, options, progress);
 }
 
-/// Signed distance to an ellipsoid, about right near it.
-double ellipsoid(Point3 p, Point3 centre, Vector3 radii)
-{
-    const Vector3 d = p - centre;
-    const double r =
-        std::sqrt(d.x * d.x / (radii.x * radii.x) + d.y * d.y / (radii.y * radii.y) + d.z * d.z / (radii.z * radii.z));
-    return (r - 1) * std::min({radii.x, radii.y, radii.z});
-}
-
-/// A body's cross-section of soft tissue, and in it what `paint` makes of a density.
-template <class Paint>
-HuVolume drawBody(Paint paint)
+HuVolume drawn(double (*density)(Point3))
 {
     HuVolume volume(kGrid, -1000);
-    for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
-        const Point3 p = kGrid.pointAt(kGrid.indexOf(n));
-        const double skin_mm = (1 - std::hypot(p.x / 72, p.y / 50)) * 50;
-        volume.voxels[n] = std::int16_t(std::lround(paint(p, -1000 + 1040 * blurred(skin_mm, 0.7))));
-    }
+    for (std::size_t n = 0; n < volume.voxels.size(); ++n)
+        volume.voxels[n] = std::int16_t(std::lround(density(kGrid.pointAt(kGrid.indexOf(n)))));
     return volume;
-}
-
-/// Two lungs with vessels, a trachea; they leave the scan at its upper end.
-HuVolume chest()
-{
-    return drawBody([](Point3 p, double hu) {
-        for (const double side : {-1.0, 1.0}) {
-            const double lung_mm = ellipsoid(p, {side * 34, 0, 60}, {26, 38, 110});
-            const double vessels = std::sin(p.x / 3) * std::sin(p.y / 4) * std::sin(p.z / 5) > 0.6 ? 300 : 0;
-            hu += (-870 + vessels - hu) * (1 - blurred(lung_mm, 0.7));
-        }
-        const double trachea_mm = tubeDistance({{0, -5, 20}, {0, -5, 120}}, 8, p);
-        return hu + (-1000 - hu) * (1 - blurred(trachea_mm, 0.7));
-    });
-}
-
-/// A skull with air in its sinuses and ears.
-HuVolume head()
-{
-    return drawBody([](Point3 p, double hu) {
-        const double skull_mm = std::abs(ellipsoid(p, {0, 0, 20}, {58, 40, 60})) - 3;
-        hu += (1100 - hu) * (1 - blurred(skull_mm, 0.7));
-        double air_mm = 1e9;
-        for (const double side : {-1.0, 1.0}) {
-            air_mm = std::min(air_mm, ellipsoid(p, {side * 18, -28, -25}, {10, 7, 13}));
-            air_mm = std::min(air_mm, tubeDistance({{side * 50, 5, -10}, {side * 64, 5, -12}}, 3.5, p));
-        }
-        air_mm = std::min(air_mm, tubeDistance({{0, -34, -20}, {0, -15, -30}, {0, -8, -89}}, 6, p));
-        return hu + (-1000 - hu) * (1 - blurred(air_mm, 0.7));
-    });
 }
 
 TEST(Verdict, ChestHasNoColon)
 {
-    const Segmentation result = segment(chest());
+    const Segmentation result = segment(drawn(test::chestHu));
     EXPECT_EQ(result.verdict, "no colon") << result.reason;
     EXPECT_FALSE(result.reason.empty());
 }
 
 TEST(Verdict, HeadHasNoColon)
 {
-    const Segmentation result = segment(head());
+    const Segmentation result = segment(drawn(test::headHu));
     EXPECT_EQ(result.verdict, "no colon") << result.reason;
     EXPECT_FALSE(result.reason.empty());
 }
@@ -97,6 +53,15 @@ TEST(Verdict, AColonThatTheEndOfTheScanCutsIsUnsureAndSaysSo)
     const Segmentation result = segment(scan.draw(kGrid));
     EXPECT_EQ(result.verdict, "unsure");
     EXPECT_LT(result.confidence, 0.5);
+    EXPECT_THAT(result.reason, HasSubstr("beyond the end of the scan"));
+}
+
+TEST(Verdict, AStumpOfAColonIsTooLittleAndTheReasonSaysThatTheScanCutsIt)
+{
+    TubeScan scan{.line = {{-30, 0, 60}, {-30, 0, 100}}, .second_line = {{30, 10, 50}, {30, 10, 100}}};
+    const Segmentation result = segment(scan.draw(kGrid));
+    EXPECT_EQ(result.verdict, "no colon");
+    EXPECT_LT(result.confidence, 0.6);
     EXPECT_THAT(result.reason, HasSubstr("beyond the end of the scan"));
 }
 

@@ -15,7 +15,8 @@ constexpr double kUsual_mm = 900;
 constexpr double kLongest_mm = 3000;
 constexpr double kLeast_ml = 20;
 constexpr double kNarrowest_mm = 6;
-constexpr double kLargestCut_mm2 = 30;  // of lumen at the end of the scan: a lumen of 6 mm
+constexpr double kLargestCut_mm2 = 30;    // of lumen at the end of the scan: a lumen of 6 mm
+constexpr double kStumpConfidence = 0.5;  // that there is no colon where gas leaves the scan
 constexpr double kLowestStart = 0.4;  // of the body's height in the scan: a rectum lies at the lower end of an abdomen
 
 void doubt(Segmentation& result, double factor, const std::string& reason)
@@ -60,6 +61,11 @@ void judgeSegmentation(Segmentation& result, const Body& body, double lumen_cut_
     if (length < kShortest_mm || volume < kLeast_ml || widest < kNarrowest_mm) {
         result = noColon("the longest run of gas in the body is " + round(length) + " mm long, holds " + round(volume) +
                          " ml and is at most " + round(2 * widest) + " mm wide: too little for a colon");
+        if (lumen_cut_mm2 > kLargestCut_mm2) {
+            result.confidence = kStumpConfidence;
+            note(result, "but it goes on beyond the end of the scan, over " + round(lumen_cut_mm2) +
+                             " mm2: a colon may be cut off");
+        }
         return;
     }
     result.confidence = 1;

@@ -15,6 +15,7 @@ using AcquiredVolumeLoader = std::function<HuVolume(const std::filesystem::path&
 
 struct StepOptions {
     int at_once = 3;
+    double memory_mb = 0;
 
     template <class Visitor>
     void visit(Visitor&& v)
@@ -22,6 +23,9 @@ struct StepOptions {
         v("work.steps_at_once", at_once, "",
           "Steps of a scan that may run, or be written to the disk, at the same time; 1 needs the least memory.",
           {1, 16});
+        v("work.memory_mb", memory_mb, "MB",
+          "A scan that needs more memory than this is not begun; 0: as much as the machine and the process may have.",
+          {0, 1e9});
     }
 };
 
