@@ -15,22 +15,48 @@ std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t n)
 
 }  // namespace
 
-Components::Components(const Grid& grid, const std::vector<std::uint16_t>& label) : size_(grid.size)
+template <class AddRow>
+void Components::addRows(AddRow addRow)
 {
     row_start_.reserve(std::size_t(size_[1]) * std::size_t(size_[2]) + 1);
     row_start_.push_back(0);
     for (int k = 0; k < size_[2]; ++k)
         for (int j = 0; j < size_[1]; ++j) {
-            const std::uint16_t* row = label.data() + grid.offset({0, j, k});
-            for (int i = 0; i < size_[0];) {
-                const int begin = i;
-                while (i < size_[0] && row[i] == row[begin])
-                    ++i;
-                if (row[begin])
-                    runs_.push_back({begin, i, j, k, row[begin], 0});
-            }
+            addRow(j, k);
             row_start_.push_back(std::uint32_t(runs_.size()));
         }
+    numberComponents();
+}
+
+Components::Components(const Grid& grid, const std::vector<std::uint16_t>& label) : size_(grid.size)
+{
+    addRows([&](int j, int k) {
+        const std::uint16_t* row = label.data() + grid.offset({0, j, k});
+        for (int i = 0; i < size_[0];) {
+            const int begin = i;
+            while (i < size_[0] && row[i] == row[begin])
+                ++i;
+            if (row[begin])
+                runs_.push_back({begin, i, j, k, row[begin], 0});
+        }
+    });
+}
+
+Components::Components(const InsideVolume& labels, std::uint8_t wanted) : size_(labels.grid.size)
+{
+    addRows([&](int j, int k) {
+        const std::uint8_t* row = labels.voxels.data() + labels.grid.offset({0, j, k});
+        const std::uint8_t* const end = row + size_[0];
+        for (const std::uint8_t* at = std::find(row, end, wanted); at != end; at = std::find(at, end, wanted)) {
+            const std::uint8_t* const begin = at;
+            at = std::find_if(at, end, [wanted](std::uint8_t label) { return label != wanted; });
+            runs_.push_back({int(begin - row), int(at - row), j, k, 1, 0});
+        }
+    });
+}
+
+void Components::numberComponents()
+{
     std::vector<std::uint32_t> parent(runs_.size());
     std::iota(parent.begin(), parent.end(), 0);
     forTouchingRuns([&](const Run& a, const Run& b) {

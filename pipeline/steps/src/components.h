@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "vicon/core/geometry.h"
+#include "vicon/core/volume.h"
 
 namespace vicon::steps {
 
@@ -20,6 +20,8 @@ class Components {
 public:
     /// @param label of every voxel of `grid`; 0 is background
     Components(const Grid& grid, const std::vector<std::uint16_t>& label);
+    /// Of the voxels labelled `wanted` alone, with the label 1.
+    Components(const InsideVolume& labels, std::uint8_t wanted);
 
     std::uint32_t count() const { return count_; }
     const std::vector<Run>& runs() const { return runs_; }
@@ -71,6 +73,10 @@ private:
                 visit(runs_[n], runs_[m]);
         }
     }
+
+    template <class AddRow>
+    void addRows(AddRow addRow);
+    void numberComponents();
 
     std::array<int, 3> size_;
     std::vector<Run> runs_;

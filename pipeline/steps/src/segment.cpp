@@ -18,6 +18,7 @@
 #include "segment_points.h"
 #include "segment_verdict.h"
 #include "settle_wall.h"
+#include "thin_folds.h"
 
 namespace vicon::steps {
 namespace {
@@ -213,8 +214,10 @@ Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const
     endBeforeIleum(ilea, result.plan.pieces.back());
     result.inside = cropTo(labels, lumen, chosen, kMargin_voxels + layers);
     restoreFluidRim(result.inside, layers);
+    const WallField::Levels levels{options.wall_hu, options.tissue_hu};
     if (result.measures["fluid_faintest_hu"] < result.measures["fluid_brightest_hu"].get<double>() - kSameFluid_hu)
-        settleFluidWall(volume, {options.wall_hu, options.tissue_hu}, int(chosen.size()), result.inside);
+        settleFluidWall(volume, levels, int(chosen.size()), result.inside);
+    keepThinFolds(volume, levels, int(chosen.size()), result.inside);
     followCords(volume, result.inside, options.longest_sure_bridge_mm, result.plan, progress);
     result.measures["candidates"] = describe(candidates, ordering);
     judgeSegmentation(result, body, lumenCut_mm2(volume, result.inside));

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "lumen.h"
+#include "trim_lumen.h"
 
 namespace vicon::steps {
 namespace {
@@ -16,8 +16,6 @@ constexpr int kMostLayers = 2;
 constexpr double kBright_hu = 400;
 /// Where a pool is fainter than the rest of it, its density is the highest this near.
 constexpr int kNear_voxels = 2;
-/// Crumbs are smaller than the smallest component of gas that is taken for lumen.
-constexpr double kCrumb_ml = 0.05;
 
 double brightestNear(const WallField& wall, const InsideVolume& inside, Index3 v)
 {
@@ -85,19 +83,6 @@ std::vector<std::size_t> tooFaintBeside(const std::vector<std::size_t>& taken, c
     return beside;
 }
 
-bool isCrumb(const RunComponent& part, const Grid& grid)
-{
-    return double(part.voxels) * grid.voxelVolume_mm3() / 1000 < kCrumb_ml;
-}
-
-void clearCrumbs(const RunLabels& lumen, InsideVolume& inside)
-{
-    lumen.forEachRun([&](const VoxelRun& run, int j, int k) {
-        if (isCrumb(lumen.components[run.label], inside.grid))
-            std::fill_n(&inside.at({run.begin, j, k}), run.end - run.begin, std::uint8_t(kOutside));
-    });
-}
-
 }  // namespace
 
 void settleFluidWall(const HuVolume& volume, WallField::Levels levels, int pieces, InsideVolume& inside)
@@ -114,16 +99,7 @@ void settleFluidWall(const HuVolume& volume, WallField::Levels levels, int piece
             last = faint;
         }
     }
-    if (taken.empty())
-        return;
-    const RunLabels lumen = labelLumen(inside, Neighbours::faces);
-    const auto parts = std::count_if(lumen.components.begin(), lumen.components.end(),
-                                     [&](const RunComponent& part) { return !isCrumb(part, inside.grid); });
-    if (parts > pieces)  // a neck gave way: better a wall half a voxel too far out than a colon in two
-        for (const std::size_t n : taken)
-            inside.voxels[n] = kFluid;
-    else
-        clearCrumbs(lumen, inside);
+    trimLumen(taken, pieces, inside);
 }
 
 }  // namespace vicon::steps

@@ -13,14 +13,6 @@ constexpr double kLeastContrast_hu = 50;
 
 constexpr int kFaces[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
 
-std::vector<std::uint16_t> fluidOnly(const InsideVolume& inside)
-{
-    std::vector<std::uint16_t> fluid(inside.voxels.size());
-    std::transform(inside.voxels.begin(), inside.voxels.end(), fluid.begin(),
-                   [](std::uint8_t label) { return std::uint16_t(label == kFluid); });
-    return fluid;
-}
-
 }  // namespace
 
 RowsNearLumen::RowsNearLumen(const InsideVolume& inside)
@@ -60,7 +52,7 @@ WallField::WallField(const HuVolume& hu, const InsideVolume& inside, Levels leve
       inside_(inside),
       levels_(levels),
       offset_(latticeOffset(inside.grid, hu.grid)),
-      pools_(inside.grid, fluidOnly(inside)),
+      pools_(inside, kFluid),
       meniscus_(inside)
 {
     measurePools();
@@ -83,9 +75,13 @@ void WallField::measurePools()
         }
     for (std::size_t n = 0; n < all.size(); ++n) {
         auto& values = deep[n].empty() ? all[n] : deep[n];
+        constexpr std::size_t kOneSigma_percent = 84;
         const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
         std::nth_element(values.begin(), middle, values.end());
         pool_hu_.push_back(*middle);
+        const auto above = values.begin() + std::ptrdiff_t(values.size() * kOneSigma_percent / 100);
+        std::nth_element(middle, above, values.end());
+        pool_noise_hu_.push_back(*above - pool_hu_.back());
     }
 }
 
@@ -116,7 +112,9 @@ double WallField::valueBeside(Index3 labelled, std::uint8_t label, double densit
 float WallField::fromDensities(Index3 v) const
 {
     if (const std::uint8_t own = inside_.valueOr(v, kOutside)) {
-        const double density = hu(v, own == kGas ? -1000 : pool_hu_[pools_.at(v)]);
+        double density = hu(v, own == kGas ? -1000 : pool_hu_[pools_.at(v)]);
+        if (own == kFluid && besideThinFold(v))
+            density = asThickFold(v, v, density);
         return std::clamp(float(valueBeside(v, own, density)), -1.0F, -kLeast);
     }
     double sum = 0;
@@ -125,11 +123,37 @@ float WallField::fromDensities(Index3 v) const
     for (const auto& f : kFaces) {
         const Index3 n{v.i + f[0], v.j + f[1], v.k + f[2]};
         if (const std::uint8_t label = inside_.valueOr(n, kOutside)) {
-            sum += valueBeside(n, label, density);
+            sum += valueBeside(n, label, label == kFluid ? asThickFold(v, n, density) : density);
             ++count;
         }
     }
     return count == 0 ? 1.0F : std::clamp(float(sum / count), kLeast, 1.0F);
+}
+
+/// Whether fluid lies beside a voxel of wall that is brighter than half-way.
+bool WallField::besideThinFold(Index3 fluid) const
+{
+    const double half_hu = (levels_.tissue_hu + pool_hu_[pools_.at(fluid)]) / 2;
+    return std::any_of(std::begin(kFaces), std::end(kFaces), [&](const int* f) {
+        const Index3 n{fluid.i + f[0], fluid.j + f[1], fluid.k + f[2]};
+        return inside_.valueOr(n, kOutside) == kOutside && hu(n, levels_.tissue_hu) > half_hu;
+    });
+}
+
+/// A wall so thin that blur lifts its densities above half-way: as much lower as its bottom is above tissue, in
+/// proportion, so that its surface too lies half-way between bottom and fluid.
+double WallField::asThickFold(Index3 v, Index3 fluid, double density) const
+{
+    constexpr int kBottom_voxels = 2;
+    const double fluid_hu = pool_hu_[pools_.at(fluid)];
+    if (density <= (levels_.tissue_hu + fluid_hu) / 2)
+        return density;
+    double bottom = density;
+    for (int k = v.k - kBottom_voxels; k <= v.k + kBottom_voxels; ++k)
+        for (int j = v.j - kBottom_voxels; j <= v.j + kBottom_voxels; ++j)
+            for (int i = v.i - kBottom_voxels; i <= v.i + kBottom_voxels; ++i)
+                bottom = std::min(bottom, hu({i, j, k}, density));
+    return density - (std::max(bottom, levels_.tissue_hu) - levels_.tissue_hu) / 2;
 }
 
 /// The binomial mean around a voxel where gas, fluid and wall meet: of the mask there, of the densities' values beyond.

@@ -49,6 +49,11 @@ public:
 
     /// The density of the pool that a voxel belonged to, as fluid, when the field was made, in HU.
     double poolDensity(Index3 fluid) const { return pool_hu_[pools_.at(fluid)]; }
+    double poolDensity(const Run& of_fluid) const { return pool_hu_[of_fluid.component]; }
+    /// The standard deviation of a pool's densities without what partial volume makes darker, in HU.
+    double poolNoise(const Run& of_fluid) const { return pool_noise_hu_[of_fluid.component]; }
+    /// The runs of fluid when the field was made.
+    const std::vector<Run>& fluidRuns() const { return pools_.runs(); }
 
     /// The density, or `otherwise` where none was measured.
     double hu(Index3 v, double otherwise) const;
@@ -60,6 +65,8 @@ public:
 
 private:
     double valueBeside(Index3 labelled, std::uint8_t label, double density) const;
+    bool besideThinFold(Index3 fluid) const;
+    double asThickFold(Index3 v, Index3 fluid, double density) const;
     float fromDensities(Index3 v) const;
     float smoothed(Index3 v) const;
     void measurePools();
@@ -70,7 +77,7 @@ private:
     Index3 offset_;
     Components pools_;
     Meniscus meniscus_;
-    std::vector<double> pool_hu_;
+    std::vector<double> pool_hu_, pool_noise_hu_;
 };
 
 }  // namespace vicon::steps
