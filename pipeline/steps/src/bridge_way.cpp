@@ -5,6 +5,7 @@
 #include <limits>
 #include <queue>
 
+#include "cord_middle.h"
 #include "skeleton_smooth.h"
 #include "vicon/steps/wall_distance.h"
 
@@ -19,8 +20,9 @@ constexpr double kMargin_mm = 25;     // of that grid around the two tips
 constexpr double kReach_mm = 40;      // lumen farther from the tips is no part of the way
 constexpr double kCordRadius_mm = 8;  // no collapsed bowel is thicker: larger organs are no better than it
 constexpr double kFatCost = 64;  // per millimetre; soft tissue of 8 mm and more costs 1: fat is crossed only in need
-constexpr double kBarredCost = 256;  // bone, air
-constexpr double kSmoothing_mm = 3;  // of the chain of voxels
+constexpr double kBarredCost = 256;   // bone, air
+constexpr double kSmoothing_mm = 3;   // of the chain of voxels
+constexpr std::ptrdiff_t kLead = 15;  // mm of the chain in the lumen on either side, centred with what joins them
 
 enum Cell : std::uint8_t { kFat = 0, kSoft = 1, kBarred = 2, kBefore = 3, kAfter = 4 };
 
@@ -187,7 +189,26 @@ struct Crossing {
     double soft_share = 0;
 };
 
-Crossing crossing(const Cord& cord, const std::vector<std::size_t>& chain)
+/// The longest stretch of the line outside the lumen, with the last points inside on both sides.
+Polyline outsideLumen(const Polyline& line, const InsideVolume& inside)
+{
+    const auto in = [&](Point3 p) { return inside.valueOr(inside.grid.indexAt(p), kOutside) != kOutside; };
+    auto best = line.begin(), best_end = line.begin();
+    for (auto from = line.begin(); from != line.end();) {
+        from = std::find_if_not(from, line.end(), in);
+        const auto to = std::find_if(from, line.end(), in);
+        // A stretch that touches an end of the line lies between no two lumens.
+        if (from != line.begin() && to != line.end() && to - from > best_end - best) {
+            best = from;
+            best_end = to;
+        }
+        from = to;
+    }
+    return best == best_end ? Polyline{} : Polyline{best - 1, best_end + 1};
+}
+
+Crossing crossing(const Cord& cord, const std::vector<std::size_t>& chain, const HuVolume& volume,
+                  const InsideVolume& inside, Progress& progress)
 {
     std::size_t first = 0, last = chain.size() - 1;
     for (std::size_t n = 0; n < chain.size(); ++n)
@@ -212,7 +233,12 @@ Crossing crossing(const Cord& cord, const std::vector<std::size_t>& chain)
     auto begin = near(leave), end = near(enter);
     if (begin > end)
         std::swap(begin, end);
-    Crossing out{{begin, end + 1}, double(soft) / double(last - first + 1)};
+    const auto lead = std::min(kLead, begin - smooth.begin()), tail = std::min(kLead, smooth.end() - 1 - end);
+    const double share = double(soft) / double(last - first + 1);
+    const Polyline centred = middleOfCord(volume, inside, {begin - lead, end + tail + 1}, progress);
+    if (Polyline way = outsideLumen(centred, inside); way.size() > 1)
+        return {std::move(way), share};
+    Crossing out{{begin, end + 1}, share};
     if (out.path_mm.size() < 2)
         out.path_mm = {leave, enter};
     return out;
@@ -234,7 +260,8 @@ void followCords(const HuVolume& volume, const InsideVolume& inside, double long
 {
     for (Bridge& bridge : plan.bridges) {
         const Cord cord = cordBetween(volume, inside, bridge.from_mm, bridge.to_mm, progress);
-        const Crossing way = crossing(cord, cheapest(cord, bridge.from_mm, bridge.to_mm, progress));
+        const Crossing way =
+            crossing(cord, cheapest(cord, bridge.from_mm, bridge.to_mm, progress), volume, inside, progress);
         bridge.path_mm = way.path_mm;
         bridge.from_mm = way.path_mm.front();
         bridge.to_mm = way.path_mm.back();

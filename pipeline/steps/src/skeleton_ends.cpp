@@ -10,9 +10,12 @@ namespace vicon::steps {
 namespace {
 
 // Chosen on phantoms 1 (supine) and 3 (supine), full size.
-constexpr double kTipWindow_mm = 20;      // how far ahead the lumen is looked at to tell a tip from the lumen
-constexpr double kTipRadiusOver_mm = 12;  // of the curve, for the radius at its end
-constexpr double kMostMoved_mm = 10;      // of an end of the curve, when the lumen's tip is measured from it
+constexpr double kTipWindow_mm = 20;   // how far ahead the lumen is looked at to tell a tip from the lumen
+constexpr double kTipStretch_mm = 4;   // of the curve, two of them for the radius at its end
+constexpr double kMostWidening = 0.3;  // mm of radius per mm: more is not the tip
+constexpr int kTipRounds = 4;
+constexpr double kSettled_mm = 0.1;
+constexpr double kMostMoved_mm = 10;  // of an end of the curve, when the lumen's tip is measured from it
 
 Polyline withoutFirstTip(const Polyline& path, const DistanceProbe& wall)
 {
@@ -46,11 +49,18 @@ double ballAhead(const Polyline& line, const DistanceProbe& wall, double step_mm
     const auto across = [&](int n) {
         return u * std::cos(std::numbers::pi * n / 8) + v * std::sin(std::numbers::pi * n / 8);
     };
-    std::vector<double> radii, ahead;
-    for (std::size_t m = 0; m < line.size() && distance(line[m], line.front()) <= kTipRadiusOver_mm; ++m)
-        for (int n = 0; n < 16; ++n)
-            radii.push_back(reach(wall, line[m], across(n), kTipWindow_mm * 2));
-    const double radius_mm = medianOf(radii);
+    const auto radiusOver = [&](double from_mm, double to_mm) {
+        std::vector<double> radii;
+        for (auto m = std::size_t(from_mm / step_mm); m < line.size() && m <= std::size_t(to_mm / step_mm); ++m)
+            for (int n = 0; n < 16; ++n)
+                radii.push_back(reach(wall, line[m], across(n), kTipWindow_mm * 2));
+        return radii.empty() ? 0 : medianOf(radii);
+    };
+    // The lumen mostly widens away from its tip: from two stretches to the first point.
+    const double near_mm = radiusOver(0, kTipStretch_mm), next_mm = radiusOver(kTipStretch_mm, 2 * kTipStretch_mm);
+    const double widens = std::clamp((next_mm - near_mm) / kTipStretch_mm, -kMostWidening, kMostWidening);
+    const double radius_mm = near_mm - widens * kTipStretch_mm / 2;
+    std::vector<double> ahead;
     for (const double slope : {0.3, 0.6, 0.9})
         for (int n = 0; n < 16; ++n) {
             const double far = reach(wall, line.front(), normalized(along + across(n) * slope), 3 * radius_mm);
@@ -60,18 +70,41 @@ double ballAhead(const Polyline& line, const DistanceProbe& wall, double step_mm
     return medianOf(ahead);
 }
 
+/// The line, longer by so much in its first direction, or shorter where that is below 0.
+void moveStart(Polyline& line, double by_mm, Vector3 along, const DistanceProbe& wall, double step_mm)
+{
+    const Point3 first = line.front();
+    for (double s = std::min(step_mm, by_mm); s > 0; s = s < by_mm ? std::min(s + step_mm, by_mm) : 0) {
+        if (!wall.inside(first + along * s))
+            return;
+        line.insert(line.begin(), first + along * s);
+    }
+    double left_mm = std::max(0.0, -by_mm);
+    std::size_t whole = 0;
+    while (whole + 2 < line.size() && whole < line.size() / 4 && distance(line[whole], line[whole + 1]) <= left_mm) {
+        left_mm -= distance(line[whole], line[whole + 1]);
+        ++whole;
+    }
+    line.erase(line.begin(), line.begin() + std::ptrdiff_t(whole));
+    if (left_mm > 0)
+        line.front() = interpolate(line[0], line[1], std::min(1.0, left_mm / distance(line[0], line[1])) * 0.999);
+}
+
 /// Lengthens or shortens the line so that it begins one local radius inside the lumen's tip: the path from which it was
-/// made may run beside the middle there, and so take the local radius for smaller.
+/// made may run beside the middle there, and so take the local radius for smaller. The radius is that at the start,
+/// so once moved it is looked at again.
 void beginOneRadiusIn(Polyline& line, const DistanceProbe& wall, double step_mm)
 {
-    const std::size_t back = std::min(line.size() - 1, std::size_t(8 / step_mm));
-    const double move_mm = std::clamp(ballAhead(line, wall, step_mm), -kMostMoved_mm, kMostMoved_mm);
-    const Vector3 along = normalized(line.front() - line[back]);
-    const Point3 first = line.front();
-    for (double s = step_mm; s <= move_mm && wall.inside(first + along * s); s += step_mm)
-        line.insert(line.begin(), first + along * s);
-    const auto cut = std::min(line.size() / 4, std::size_t(std::lround(std::max(0.0, -move_mm) / step_mm)));
-    line.erase(line.begin(), line.begin() + std::ptrdiff_t(cut));
+    double moved_mm = 0;
+    for (int round = 0; round < kTipRounds; ++round) {
+        const std::size_t back = std::min(line.size() - 1, std::size_t(8 / step_mm));
+        const Vector3 along = normalized(line.front() - line[back]);
+        const double to_mm = std::clamp(moved_mm + ballAhead(line, wall, step_mm), -kMostMoved_mm, kMostMoved_mm);
+        moveStart(line, to_mm - moved_mm, along, wall, step_mm);
+        if (std::abs(to_mm - moved_mm) < kSettled_mm)
+            return;
+        moved_mm = to_mm;
+    }
 }
 
 }  // namespace

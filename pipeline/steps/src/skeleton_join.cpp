@@ -10,7 +10,7 @@ namespace {
 // Chosen on phantoms 1, 301, 302, 304 and 305, full size.
 constexpr double kClosing_mm = 8;     // before a collapsed part the lumen closes, often to one side
 constexpr double kRunUp_mm = 25;      // of the curves, evened together with what joins them
-constexpr double kUnsure_mm = 8;      // at either end of the way through the cord: it leaves the lumen in a corner
+constexpr double kUnsure_mm = 2;      // at either end of the way through the cord: it leaves the lumen in a corner
 constexpr double kLeastSure = 0.2;    // of the way, in its middle, that is followed however short it is
 constexpr double kCurveScale_mm = 4;  // of the curves and
 constexpr double kCordScale_mm = 6;   // of the way: what is shorter is evened out

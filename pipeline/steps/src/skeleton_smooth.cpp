@@ -14,6 +14,7 @@ namespace {
 
 // Chosen on phantoms 1 and 3 (supine), full size.
 constexpr double kBaseSmoothing_mm = 8;  // of the line from which rays start: about a third of a haustrum
+constexpr int kFitted = 5;               // of the recentrings, the last so many take the fitted middle
 constexpr int kOwnBase = 4;              // of the recentrings, the last so many start from the line itself
 
 Vector3 tangentAt(const Polyline& line, std::size_t n, std::size_t reach)
@@ -76,6 +77,21 @@ Polyline gaussian(const Polyline& line, double sigma_mm, double step_mm)
     return out;
 }
 
+/// A point of the smooth curve through the points: a cubic between two, whose tangents are those of their neighbours.
+Point3 between(const Polyline& line, std::size_t n, double t)
+{
+    const Point3 a = line[n], b = line[n + 1];
+    const double whole = distance(a, b);
+    // Tangents in millimetres per millimetre, so that unequal neighbours do not make the curve overshoot.
+    const auto tangent = [&](std::size_t at) {
+        const Point3 p = line[at > 0 ? at - 1 : 0], q = line[std::min(at + 1, line.size() - 1)];
+        return normalized(q - p) * whole;
+    };
+    const double u = 1 - t;
+    return Point3{} + (a - Point3{}) * (u * u * (1 + 2 * t)) + (b - Point3{}) * (t * t * (1 + 2 * u)) +
+           tangent(n) * (t * u * u) - tangent(n + 1) * (t * t * u);
+}
+
 }  // namespace
 
 Point3 keptInside(Point3 wanted, Point3 inside, const DistanceProbe& wall)
@@ -134,7 +150,7 @@ Polyline resampled(const Polyline& line, double step_mm)
             ++n;
         }
         const double piece = distance(line[n - 1], line[n]);
-        out.push_back(interpolate(line[n - 1], line[n], piece > 0 ? (wanted - walked) / piece : 0));
+        out.push_back(between(line, n - 1, piece > 0 ? (wanted - walked) / piece : 0));
     }
     out.push_back(line.back());
     return out;
@@ -143,13 +159,15 @@ Polyline resampled(const Polyline& line, double step_mm)
 Polyline smoothed(const Polyline& line, double sigma_mm, double step_mm)
 {
     // A Gaussian alone pulls a bend of radius R inwards by sigma^2 / 2R, 0.6 mm at 5 and 20 mm: adding the smoothed
-    // remainder takes that back and leaves the higher frequencies smoothed.
+    // remainder, twice, takes that back and leaves the higher frequencies smoothed.
     Polyline out = gaussian(line, sigma_mm, step_mm), rest(line.size());
-    for (std::size_t n = 0; n < line.size(); ++n)
-        rest[n] = Point3{} + (line[n] - out[n]);
-    rest = gaussian(rest, sigma_mm, step_mm);
-    for (std::size_t n = 0; n < line.size(); ++n)
-        out[n] += rest[n] - Point3{};
+    for (int round = 0; round < 2; ++round) {
+        for (std::size_t n = 0; n < line.size(); ++n)
+            rest[n] = Point3{} + (line[n] - out[n]);
+        rest = gaussian(rest, sigma_mm, step_mm);
+        for (std::size_t n = 0; n < line.size(); ++n)
+            out[n] += rest[n] - Point3{};
+    }
     return out;
 }
 
@@ -165,8 +183,9 @@ Polyline centredCurve(const Polyline& path, const DistanceProbe& wall, const Ske
         const Polyline base =
             last ? line
                  : resampledInside(smoothedInside(line, kBaseSmoothing_mm, wall, options), wall, options.step_mm);
-        line =
-            smoothedInside(recentred(base, wall, options.step_mm, options.rays), options.smoothing_mm, wall, options);
+        line = smoothedInside(recentred(base, wall, options.step_mm, options.rays,
+                                        n + kFitted >= options.recentrings ? Middle::fitted : Middle::median),
+                              options.smoothing_mm, wall, options);
         line = resampledInside(line, wall, options.step_mm);
     }
     return resampledInside(endsOneRadiusIn(line, wall, options.step_mm), wall, options.step_mm);
