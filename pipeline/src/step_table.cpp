@@ -161,9 +161,9 @@ const std::vector<Step>& stepTable()
     using namespace steps;
     static const std::vector<Step> kTable = {
         {"resample", 2, 0, 0.3, {}, always({"volume.mha"}), parametersFrom<ResampleOptions>, runResample},
-        {"segment", 9, 0.3, 0.55, {"resample"}, segmentFiles, parametersFrom<SegmentOptions>, runSegment},
+        {"segment", 10, 0.3, 0.55, {"resample"}, segmentFiles, parametersFrom<SegmentOptions>, runSegment},
         {"skeleton",
-         5,
+         6,
          0.55,
          0.65,
          {"segment"},
