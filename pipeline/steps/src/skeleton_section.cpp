@@ -103,7 +103,7 @@ double trustSoNear(double end_mm)
     return std::clamp(2 * end_mm / kEnd_mm - 1, 0.0, 1.0);
 }
 
-/// The fitted middle and how much of it to take; of the median the rest.
+/// A middle beside the line and how much of it is the fitted one; of the median's the rest.
 struct Fitted {
     Shift middle_mm{};
     double trust = 0;
@@ -123,12 +123,13 @@ Shift mixed(Shift a, Shift b, double t)
     return {std::lerp(a[0], b[0], t), std::lerp(a[1], b[1], t)};
 }
 
-/// Where the middle of each section lies beside the line.
-std::vector<Shift> middles(const Radii& radii, double step_mm, Middle middle)
+/// Where the middle of each section lies beside the line, and how much of that is the fitted one.
+std::vector<Fitted> middles(const Radii& radii, double step_mm, Middle middle)
 {
     const std::size_t count = (radii.size() + kSparse - 1) / kSparse;
-    std::vector<Shift> out(radii.size());
-    tbb::parallel_for(std::size_t(0), out.size(), [&](std::size_t n) { out[n] = medianMiddle(n, radii, step_mm); });
+    std::vector<Fitted> out(radii.size());
+    tbb::parallel_for(std::size_t(0), out.size(),
+                      [&](std::size_t n) { out[n].middle_mm = medianMiddle(n, radii, step_mm); });
     if (middle == Middle::median)
         return out;
     std::vector<Fitted> fits(count);
@@ -136,7 +137,8 @@ std::vector<Shift> middles(const Radii& radii, double step_mm, Middle middle)
     for (std::size_t n = 0; n < out.size(); ++n) {
         const Fitted &low = fits[n / kSparse], &high = fits[std::min(n / kSparse + 1, count - 1)];
         const double t = double(n % kSparse) / double(kSparse);
-        out[n] = mixed(out[n], mixed(low.middle_mm, high.middle_mm, t), std::lerp(low.trust, high.trust, t));
+        out[n].trust = std::lerp(low.trust, high.trust, t);
+        out[n].middle_mm = mixed(out[n].middle_mm, mixed(low.middle_mm, high.middle_mm, t), out[n].trust);
     }
     return out;
 }
@@ -145,6 +147,7 @@ std::vector<Shift> middles(const Radii& radii, double step_mm, Middle middle)
 /// deviation s moves the place of half-way density towards a surface's centre of curvature by s^2 / 2 times the sum of
 /// its curvatures: outwards-bent wall on the outer side of the bend, a saddle on the inner. Of a torus, with a = radius
 /// x curvature of the line, the first harmonic of that is s^2 / 2 x curvature x 2 / a^2 (1 / sqrt(1 - a^2) - 1).
+/// Holds for a tube, so only where the fit does.
 Vector3 blurInward(const Polyline& line, std::size_t n, const DistanceProbe& wall, double step_mm)
 {
     const auto off = std::size_t(kBend_mm / step_mm);
@@ -174,11 +177,12 @@ double reach(const DistanceProbe& wall, Point3 from, Vector3 along, double limit
 Polyline recentred(const Polyline& line, const DistanceProbe& wall, double step_mm, int rays, Middle middle)
 {
     const auto frames = framesAlong(line, std::size_t(std::max(1.0, kTangent_mm / step_mm)));
-    const auto shift = middles(sampleRadii(line, frames, wall, rays), step_mm, middle);
+    const auto found = middles(sampleRadii(line, frames, wall, rays), step_mm, middle);
     Polyline out(line.size());
     for (std::size_t n = 0; n < line.size(); ++n) {
-        const Vector3 move = frames[n].u * shift[n][0] + frames[n].v * shift[n][1];
-        out[n] = keptInside(line[n] + move - blurInward(line, n, wall, step_mm), line[n], wall);
+        const auto& [x_mm, y_mm] = found[n].middle_mm;
+        const Vector3 blur = blurInward(line, n, wall, step_mm) * found[n].trust;
+        out[n] = keptInside(line[n] + frames[n].u * x_mm + frames[n].v * y_mm - blur, line[n], wall);
     }
     return out;
 }

@@ -34,9 +34,10 @@ Polyline smoothedInside(const Polyline& line, double sigma_mm, const DistancePro
 }
 
 /// Resampling may cut a corner: such points go to the nearest of the line, which is inside.
-Polyline resampledInside(const Polyline& line, const DistanceProbe& wall, double step_mm)
+Polyline resampledInside(const Polyline& line, const DistanceProbe& wall, double step_mm,
+                         Between between = Between::lines)
 {
-    Polyline out = resampled(line, step_mm);
+    Polyline out = resampled(line, step_mm, between);
     for (Point3& p : out)
         if (!wall.inside(p))
             p = *std::min_element(line.begin(), line.end(),
@@ -78,7 +79,7 @@ Polyline gaussian(const Polyline& line, double sigma_mm, double step_mm)
 }
 
 /// A point of the smooth curve through the points: a cubic between two, whose tangents are those of their neighbours.
-Point3 between(const Polyline& line, std::size_t n, double t)
+Point3 onCurve(const Polyline& line, std::size_t n, double t)
 {
     const Point3 a = line[n], b = line[n + 1];
     const double whole = distance(a, b);
@@ -134,7 +135,7 @@ double DistanceProbe::smallestSpacing_mm() const
     return std::min({spacing[0], spacing[1], spacing[2]});
 }
 
-Polyline resampled(const Polyline& line, double step_mm)
+Polyline resampled(const Polyline& line, double step_mm, Between between)
 {
     double total = 0;
     for (std::size_t n = 1; n < line.size(); ++n)
@@ -150,7 +151,8 @@ Polyline resampled(const Polyline& line, double step_mm)
             ++n;
         }
         const double piece = distance(line[n - 1], line[n]);
-        out.push_back(between(line, n - 1, piece > 0 ? (wanted - walked) / piece : 0));
+        const double t = piece > 0 ? (wanted - walked) / piece : 0;
+        out.push_back(between == Between::lines ? interpolate(line[n - 1], line[n], t) : onCurve(line, n - 1, t));
     }
     out.push_back(line.back());
     return out;
@@ -159,15 +161,13 @@ Polyline resampled(const Polyline& line, double step_mm)
 Polyline smoothed(const Polyline& line, double sigma_mm, double step_mm)
 {
     // A Gaussian alone pulls a bend of radius R inwards by sigma^2 / 2R, 0.6 mm at 5 and 20 mm: adding the smoothed
-    // remainder, twice, takes that back and leaves the higher frequencies smoothed.
+    // remainder takes that back and leaves the higher frequencies smoothed.
     Polyline out = gaussian(line, sigma_mm, step_mm), rest(line.size());
-    for (int round = 0; round < 2; ++round) {
-        for (std::size_t n = 0; n < line.size(); ++n)
-            rest[n] = Point3{} + (line[n] - out[n]);
-        rest = gaussian(rest, sigma_mm, step_mm);
-        for (std::size_t n = 0; n < line.size(); ++n)
-            out[n] += rest[n] - Point3{};
-    }
+    for (std::size_t n = 0; n < line.size(); ++n)
+        rest[n] = Point3{} + (line[n] - out[n]);
+    rest = gaussian(rest, sigma_mm, step_mm);
+    for (std::size_t n = 0; n < line.size(); ++n)
+        out[n] += rest[n] - Point3{};
     return out;
 }
 
@@ -186,9 +186,11 @@ Polyline centredCurve(const Polyline& path, const DistanceProbe& wall, const Ske
         line = smoothedInside(recentred(base, wall, options.step_mm, options.rays,
                                         n + kFitted >= options.recentrings ? Middle::fitted : Middle::median),
                               options.smoothing_mm, wall, options);
-        line = resampledInside(line, wall, options.step_mm);
+        if (n + 1 < options.recentrings)
+            line = resampledInside(line, wall, options.step_mm);
     }
-    return resampledInside(endsOneRadiusIn(line, wall, options.step_mm), wall, options.step_mm);
+    // Straight lines between the points would cut every bend a little, 0.2 mm of a colon's length.
+    return resampledInside(endsOneRadiusIn(line, wall, options.step_mm), wall, options.step_mm, Between::curves);
 }
 
 }  // namespace vicon::steps

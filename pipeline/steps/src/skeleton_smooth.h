@@ -30,8 +30,11 @@ struct Frame {
 /// Frames for all points; a tangent is taken over `reach` points on both sides.
 std::vector<Frame> framesAlong(const Polyline& line, std::size_t reach);
 
+/// What joins two points of a line: a straight line, or a cubic that goes on in the direction of their neighbours.
+enum class Between { lines, curves };
+
 /// Points at equal distances of about `step_mm`, ends kept.
-Polyline resampled(const Polyline& line, double step_mm);
+Polyline resampled(const Polyline& line, double step_mm, Between between = Between::lines);
 
 /// The line without what is shorter than about sigma: a Gaussian that keeps bends where they are. The line must be
 /// sampled every `step_mm`; its ends stay.
