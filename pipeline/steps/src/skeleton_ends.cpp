@@ -9,7 +9,7 @@
 namespace vicon::steps {
 namespace {
 
-// Chosen on phantoms 1 (supine) and 3 (supine), full size.
+// Chosen on phantoms 1, 3 and 301 to 305, full size.
 constexpr double kTipWindow_mm = 20;   // how far ahead the lumen is looked at to tell a tip from the lumen
 constexpr double kTipStretch_mm = 4;   // of the curve, two of them for the radius at its end
 constexpr double kMostWidening = 0.3;  // mm of radius per mm: more is not the tip
