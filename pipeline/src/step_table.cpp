@@ -1,6 +1,7 @@
 #include "step_table.h"
 
 #include <algorithm>
+#include <future>
 
 #include "vicon/artefact/cells_file.h"
 #include "vicon/steps/cells.h"
@@ -117,14 +118,19 @@ json runQuality(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRe
 
 json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
 {
-    PartOfProgress divide(progress, 0, 0.4), contour(progress, 0.4, 0.9), project(progress, 0.9, 1);
-    steps::Subdivided divided =
-        steps::subdivide(artefacts.inside(), artefacts.skeleton(),
-                         artefact::readSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp"),
-                         inputs.config.get<steps::SubdivideOptions>(), divide);
+    PartOfProgress divide(progress, 0, 0.6), tell(progress, 0.6, 0.9), project(progress, 0.9, 1);
+    NoProgress quiet;
+    const HuVolume& volume = artefacts.volume();
+    const InsideVolume& inside = artefacts.inside();
+    // Dividing keeps one core busy, and the surface does not depend on it.
+    auto contour = std::async(std::launch::async, [&] {
+        return steps::LumenSurface(volume, inside, inputs.config.get<steps::CellOptions>(), quiet);
+    });
+    steps::Subdivided divided = steps::subdivide(
+        inside, artefacts.skeleton(), artefact::readSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp"),
+        inputs.config.get<steps::SubdivideOptions>(), divide);
     artefacts.put(std::move(divided.segments));
-    const artefact::CellSurface surface = steps::extractCells(
-        artefacts.volume(), artefacts.inside(), artefacts.segments(), inputs.config.get<steps::CellOptions>(), contour);
+    const artefact::CellSurface surface = contour.get().cellsOf(artefacts.segments(), tell);
     steps::countTriangles(surface, divided.description);
     artefact::writeCells(artefacts.folder() / "cells.vtp", surface);
     artefact::writeProjections(artefacts.folder() / "projections",

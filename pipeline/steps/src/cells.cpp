@@ -253,25 +253,52 @@ void setNormals(artefact::CellSurface& surface, const Contour& contour, const st
 
 }  // namespace
 
-artefact::CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const SegmentVolume& segments,
-                                   const CellOptions& options, Progress& progress)
+struct LumenSurface::Parts {
+    Parts(const HuVolume& hu, const InsideVolume& mask, const CellOptions& options)
+        : inside(mask), field(hu, inside, {options.gas_wall_hu, options.tissue_hu})
+    {
+    }
+    const InsideVolume& inside;
+    WallField field;
+    Contour contour;
+};
+
+LumenSurface::LumenSurface(const HuVolume& hu, const InsideVolume& inside, const CellOptions& options,
+                           Progress& progress)
 {
+    progress.report(0, "surface");
+    auto parts = std::make_unique<Parts>(hu, inside, options);
+    parts->contour = contour(paddedField(parts->field, inside));
+    parts_ = std::move(parts);
+    progress.check();
+    progress.report(1, "surface");
+}
+
+LumenSurface::~LumenSurface() = default;
+LumenSurface::LumenSurface(LumenSurface&&) noexcept = default;
+LumenSurface& LumenSurface::operator=(LumenSurface&&) noexcept = default;
+
+artefact::CellSurface LumenSurface::cellsOf(const SegmentVolume& segments, Progress& progress) const
+{
+    const InsideVolume& inside = parts_->inside;
     if (segments.grid != inside.grid)
         throw Error(ErrorCode::bad_input, "the segments do not lie on the grid of the labels", {},
                     "run 'vicon work' to make them anew");
     progress.report(0, "surface");
-    const WallField field(hu, inside, {options.gas_wall_hu, options.tissue_hu});
-    const Contour found = contour(paddedField(field, inside));
-    progress.check();
-    progress.report(0.5, "surface");
-    const auto tags = tagTriangles(found, inside, segments);
+    const auto tags = tagTriangles(parts_->contour, inside, segments);
     std::vector<std::uint32_t> point_source;
-    artefact::CellSurface surface = arrange(found, tags, inside.grid, point_source);
+    artefact::CellSurface surface = arrange(parts_->contour, tags, inside.grid, point_source);
     progress.check();
-    progress.report(0.8, "surface");
-    setNormals(surface, found, point_source, field, inside);
+    progress.report(0.6, "surface");
+    setNormals(surface, parts_->contour, point_source, parts_->field, inside);
     progress.report(1, "surface");
     return surface;
+}
+
+artefact::CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const SegmentVolume& segments,
+                                   const CellOptions& options, Progress& progress)
+{
+    return LumenSurface(hu, inside, options, progress).cellsOf(segments, progress);
 }
 
 void countTriangles(const artefact::CellSurface& surface, artefact::Subdivision& description)

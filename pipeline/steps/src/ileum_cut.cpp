@@ -1,5 +1,7 @@
 #include "ileum_cut.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -81,9 +83,9 @@ std::optional<Zone> zoneAt(const InsideVolume& inside, Point3 end_mm, Point3 sta
     if (!found)
         return std::nullopt;
     const Index3 seed = *found;
-    std::vector<std::uint8_t> seen(grid.voxelCount(), 0);
+    std::vector<bool> seen(grid.voxelCount());
     std::vector<std::size_t> front{grid.offset(seed)}, next, all;
-    seen[front[0]] = 1;
+    seen[front[0]] = true;
     const int steps = int(kZone_mm / grid.spacing_mm[0]);
     Index3 lower = seed, upper = seed;
     for (int step = 0; step < steps && !front.empty(); ++step) {
@@ -96,7 +98,7 @@ std::optional<Zone> zoneAt(const InsideVolume& inside, Point3 end_mm, Point3 sta
             for (const Index3 w : {Index3{v.i - 1, v.j, v.k}, Index3{v.i + 1, v.j, v.k}, Index3{v.i, v.j - 1, v.k},
                                    Index3{v.i, v.j + 1, v.k}, Index3{v.i, v.j, v.k - 1}, Index3{v.i, v.j, v.k + 1}})
                 if (isLumen(inside, w) && !seen[grid.offset(w)]) {
-                    seen[grid.offset(w)] = 1;
+                    seen[grid.offset(w)] = true;
                     next.push_back(grid.offset(w));
                 }
         }
@@ -117,11 +119,14 @@ std::optional<Zone> zoneAt(const InsideVolume& inside, Point3 end_mm, Point3 sta
         zone.mask.at({v.i - zone.offset.i, v.j - zone.offset.j, v.k - zone.offset.k}) = kGas;
     }
     // The rim that the lumen will get back: without it a passage through fluid looks narrower than it is.
-    for (int k = 0; k < crop.size[2]; ++k)
-        for (int j = 0; j < crop.size[1]; ++j)
+    tbb::parallel_for(0, crop.size[2], [&](int k) {
+        for (int j = 0; j < crop.size[1]; ++j) {
+            const std::uint8_t* from = &inside.at({zone.offset.i, j + zone.offset.j, k + zone.offset.k});
+            std::uint8_t* to = &zone.mask.at({0, j, k});
             for (int i = 0; i < crop.size[0]; ++i)
-                if (inside.at({i + zone.offset.i, j + zone.offset.j, k + zone.offset.k}) == kRim)
-                    zone.mask.at({i, j, k}) = kRim;
+                to[i] = from[i] == kRim ? std::uint8_t(kRim) : to[i];
+        }
+    });
     restoreFluidRim(zone.mask, rim_layers);
     return zone;
 }

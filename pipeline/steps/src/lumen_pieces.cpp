@@ -27,41 +27,6 @@ Point3 upperCorner(Point3 a, Point3 b)
     return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
 
-Candidate describe(const InsideVolume& labels, const RunLabels& lumen, std::uint32_t label, Progress& progress)
-{
-    const Grid& grid = labels.grid;
-    const RunComponent& component = lumen.components[label];
-    const double voxel_ml = grid.voxelVolume_mm3() / 1000;
-    Candidate candidate;
-    candidate.label = label;
-    candidate.volume_ml = double(component.voxels) * voxel_ml;
-    candidate.fluid_ml = component.sum * voxel_ml;
-    const Point3 a = grid.pointAt(component.lower), b = grid.pointAt(component.upper);
-    candidate.lower_mm = lowerCorner(a, b);
-    candidate.upper_mm = upperCorner(a, b);
-    const HalfPiece half = halfPiece(labels, lumen, label, progress);
-    if (half.graph.count() == 0)
-        return candidate;
-    const auto widest = std::max_element(half.graph.nodes.begin(), half.graph.nodes.end(),
-                                         [](const auto& a, const auto& b) { return a.wall_mm < b.wall_mm; });
-    candidate.max_radius_mm = widest->wall_mm;
-    const auto start = std::int32_t(widest - half.graph.nodes.begin());
-    const std::int32_t one = farthestNode(centralTree(half.graph, start, {}, progress));
-    const LumenTree tree = centralTree(half.graph, one, {}, progress);
-    const std::int32_t other = farthestNode(tree);
-    candidate.length_mm = tree.length_mm[std::size_t(other)];
-    candidate.tip_mm[0] = half.graph.point(one);
-    candidate.tip_mm[1] = half.graph.point(other);
-    for (const std::int32_t n : tree.pathTo(other)) {
-        const double from_one = tree.length_mm[std::size_t(n)];
-        for (const int tip : {0, 1})
-            if ((tip == 0 ? from_one : candidate.length_mm - from_one) < kTipReach_mm)
-                candidate.tip_radius_mm[tip] =
-                    std::max(candidate.tip_radius_mm[tip], double(half.graph.node(n).wall_mm));
-    }
-    return candidate;
-}
-
 /// What a piece looks like, from its width, its length and its place in the body.
 void judge(Candidate& c, const Body& body)
 {
@@ -107,9 +72,8 @@ void takeRim(InsideVolume& mask)
     }
 }
 
-}  // namespace
-
-HalfPiece halfPiece(const InsideVolume& labels, const RunLabels& lumen, std::uint32_t label, Progress& progress)
+/// The graph of a component, with the rim of fluid that belongs to it, at half resolution.
+LumenGraph halfGraph(const InsideVolume& labels, const RunLabels& lumen, std::uint32_t label, Progress& progress)
 {
     const Grid& grid = labels.grid;
     const RunComponent& component = lumen.components[label];
@@ -138,11 +102,43 @@ HalfPiece halfPiece(const InsideVolume& labels, const RunLabels& lumen, std::uin
             }
     });
     takeRim(mask);
-    HalfPiece piece;
-    piece.wall_mm = wallDistance(mask, progress);
-    piece.graph = makeWholeGraph(piece.wall_mm, component.voxels > kLarge_voxels ? 2 : 1, progress);
-    return piece;
+    return makeWholeGraph(wallDistance(mask, progress), component.voxels > kLarge_voxels ? 2 : 1, progress);
 }
+
+Candidate describe(const InsideVolume& labels, const RunLabels& lumen, std::uint32_t label, Progress& progress)
+{
+    const Grid& grid = labels.grid;
+    const RunComponent& component = lumen.components[label];
+    const double voxel_ml = grid.voxelVolume_mm3() / 1000;
+    Candidate candidate;
+    candidate.label = label;
+    candidate.volume_ml = double(component.voxels) * voxel_ml;
+    candidate.fluid_ml = component.sum * voxel_ml;
+    const Point3 a = grid.pointAt(component.lower), b = grid.pointAt(component.upper);
+    candidate.lower_mm = lowerCorner(a, b);
+    candidate.upper_mm = upperCorner(a, b);
+    candidate.graph = halfGraph(labels, lumen, label, progress);
+    const LumenGraph& graph = candidate.graph;
+    if (graph.count() == 0)
+        return candidate;
+    const std::int32_t widest = widestNode(graph);
+    candidate.max_radius_mm = graph.node(widest).wall_mm;
+    const std::int32_t one = farthestNode(centralTree(graph, widest, {}, progress));
+    const LumenTree tree = centralTree(graph, one, {}, progress);
+    const std::int32_t other = farthestNode(tree);
+    candidate.length_mm = tree.length_mm[std::size_t(other)];
+    candidate.tip_mm[0] = graph.point(one);
+    candidate.tip_mm[1] = graph.point(other);
+    for (const std::int32_t n : tree.pathTo(other)) {
+        const double from_one = tree.length_mm[std::size_t(n)];
+        for (const int tip : {0, 1})
+            if ((tip == 0 ? from_one : candidate.length_mm - from_one) < kTipReach_mm)
+                candidate.tip_radius_mm[tip] = std::max(candidate.tip_radius_mm[tip], double(graph.node(n).wall_mm));
+    }
+    return candidate;
+}
+
+}  // namespace
 
 std::vector<Candidate> findCandidates(const InsideVolume& labels, const RunLabels& lumen, const Body& body,
                                       double smallest_ml, int most, const std::vector<int>& always, Progress& progress)
@@ -159,32 +155,29 @@ std::vector<Candidate> findCandidates(const InsideVolume& labels, const RunLabel
         return isAsked(a) != isAsked(b) ? isAsked(a) : lumen.components[a].voxels > lumen.components[b].voxels;
     });
     large.resize(std::min(large.size(), std::size_t(most)));
-    std::vector<Candidate> candidates;
-    for (const std::uint32_t label : large) {
-        candidates.push_back(describe(labels, lumen, label, progress));
-        judge(candidates.back(), body);
-        progress.check();
-    }
+    std::vector<Candidate> candidates(large.size());
+    tbb::parallel_for(std::size_t(0), large.size(), [&](std::size_t n) {
+        candidates[n] = describe(labels, lumen, large[n], progress);
+        judge(candidates[n], body);
+    });
+    progress.check();
     return candidates;
 }
 
-int findRectum(std::vector<Candidate>& candidates, const InsideVolume& labels, const RunLabels& lumen, const Body& body,
-               double catheter_radius_mm, Progress& progress)
+int findRectum(std::vector<Candidate>& candidates, const Body& body, double catheter_radius_mm, Progress& progress)
 {
     const double middle_x = (body.lower_mm.x + body.upper_mm.x) / 2;
     int best = -1;
     double lowest = 1e300;
     std::int32_t end = -1;
-    HalfPiece piece;
     for (std::size_t n = 0; n < candidates.size(); ++n) {
-        Candidate& c = candidates[n];
+        const Candidate& c = candidates[n];
         if (c.max_radius_mm < kRectumRadius_mm || c.lower_mm.z > lowest)
             continue;
-        HalfPiece half = halfPiece(labels, lumen, c.label, progress);
-        for (std::size_t node = 0; node < half.graph.count(); ++node) {
-            if (half.graph.nodes[node].wall_mm < std::max(catheter_radius_mm, kRectumRadius_mm))
+        for (std::size_t node = 0; node < c.graph.count(); ++node) {
+            if (c.graph.nodes[node].wall_mm < std::max(catheter_radius_mm, kRectumRadius_mm))
                 continue;
-            const Point3 p = half.graph.point(std::int32_t(node));
+            const Point3 p = c.graph.point(std::int32_t(node));
             const double score = p.z + 2 * std::max(0.0, std::abs(p.x - middle_x) - kMidline_mm);
             if (score < lowest) {
                 lowest = score;
@@ -192,16 +185,14 @@ int findRectum(std::vector<Candidate>& candidates, const InsideVolume& labels, c
                 end = std::int32_t(node);
             }
         }
-        if (best == int(n))
-            piece = std::move(half);
     }
     if (best < 0)
         return best;
     Candidate& rectum = candidates[std::size_t(best)];
-    const LumenTree tree = centralTree(piece.graph, end, {}, progress);
+    const LumenTree tree = centralTree(rectum.graph, end, {}, progress);
     const std::int32_t far = farthestNode(tree);
-    rectum.tip_mm[0] = piece.graph.point(end);
-    rectum.tip_mm[1] = piece.graph.point(far);
+    rectum.tip_mm[0] = rectum.graph.point(end);
+    rectum.tip_mm[1] = rectum.graph.point(far);
     rectum.length_mm = tree.length_mm[std::size_t(far)];
     return best;
 }

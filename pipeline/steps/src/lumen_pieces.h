@@ -24,14 +24,9 @@ struct Candidate {
     Point3 upper_mm;
     double colon_likeness = 1;  ///< 0 to 1, from shape and place
     std::string kind = "colon";
-};
-
-/// A component, with the rim of fluid that belongs to it, at half resolution, with its wall distances and its graph.
-struct HalfPiece {
-    FieldVolume wall_mm;
+    /// Of the component with the rim of fluid that belongs to it, at half resolution.
     LumenGraph graph;
 };
-HalfPiece halfPiece(const InsideVolume& labels, const RunLabels& lumen, std::uint32_t label, Progress& progress);
 
 /// Measures the components that are large enough to matter, largest first, at most `most` of them; those in `always`
 /// come before all others, whatever their size.
@@ -40,7 +35,6 @@ std::vector<Candidate> findCandidates(const InsideVolume& labels, const RunLabel
 
 /// The candidate that holds the rectum: low, near the midline, and wide; -1 when there is none. Its first tip becomes
 /// the rectal end, above what is narrower than a rectal catheter; the second tip the farthest point from there.
-int findRectum(std::vector<Candidate>& candidates, const InsideVolume& labels, const RunLabels& lumen, const Body& body,
-               double catheter_radius_mm, Progress& progress);
+int findRectum(std::vector<Candidate>& candidates, const Body& body, double catheter_radius_mm, Progress& progress);
 
 }  // namespace vicon::steps

@@ -1,5 +1,7 @@
 #include "ordering.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,9 +27,9 @@ Ways allWays(const std::vector<Candidate>& candidates, const Body& body, const I
     std::vector<Point3> tips;
     for (const Candidate& c : candidates)
         tips.insert(tips.end(), {c.tip_mm[0], c.tip_mm[1]});
-    Ways ways;
-    for (const Point3 tip : tips)
-        ways.from_tip.push_back(waysFrom(costs, tip, tips, progress));
+    Ways ways{std::vector<std::vector<TissueWay>>(tips.size())};
+    tbb::parallel_for(std::size_t(0), tips.size(),
+                      [&](std::size_t n) { ways.from_tip[n] = waysFrom(costs, tips[n], tips, progress); });
     return ways;
 }
 

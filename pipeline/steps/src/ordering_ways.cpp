@@ -1,9 +1,13 @@
 #include "ordering_ways.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
+#include <vector>
+
+#include "cheapest_first.h"
 
 namespace vicon::steps {
 namespace {
@@ -14,6 +18,27 @@ constexpr double kLungHu = -400;  // below, and not lumen: lung, or gas that is 
 constexpr float kLumenCost = 0.8F, kTissueCost = 1, kFatCost = 2, kGasCost = 4;
 constexpr double kHorizon = 150;  // beyond, a way is not looked for but guessed as straight
 constexpr double kGuess = 2;      // cost per millimetre of a guessed way
+
+/// To one of the 26 voxels around.
+struct Step {
+    Index3 by;
+    std::ptrdiff_t offset;
+    float length_mm;
+};
+
+std::vector<Step> stepsOf(const Grid& grid)
+{
+    const std::ptrdiff_t row = grid.size[0], slice = row * grid.size[1];
+    std::vector<Step> steps;
+    for (int k = -1; k <= 1; ++k)
+        for (int j = -1; j <= 1; ++j)
+            for (int i = -1; i <= 1; ++i)
+                if (i || j || k)
+                    steps.push_back({{i, j, k},
+                                     i + j * row + k * slice,
+                                     float(std::sqrt(double(i * i + j * j + k * k)) * grid.spacing_mm[0])});
+    return steps;
+}
 
 /// What a straight way costs; infinite where it cannot be gone.
 double straightCost(const Volume<float>& costs, Point3 a, Point3 b)
@@ -54,14 +79,16 @@ Volume<float> tissueCosts(const Body& body, const InsideVolume& labels)
 {
     Volume<float> costs(body.inside.grid, 0);
     std::vector<std::uint8_t> lumen(costs.voxels.size(), 0);
-    for (int k = 0; k < labels.grid.size[2]; ++k)
-        for (int j = 0; j < labels.grid.size[1]; ++j) {
-            const std::uint8_t* row = &labels.voxels[labels.grid.offset({0, j, k})];
-            std::uint8_t* out = &lumen[costs.grid.offset({0, j / body.factor, k / body.factor})];
-            for (int i = 0; i < labels.grid.size[0]; ++i)
-                if (row[i])
-                    out[i / body.factor] = 1;
-        }
+    tbb::parallel_for(0, costs.grid.size[2], [&](int ck) {
+        for (int k = ck * body.factor; k < std::min(labels.grid.size[2], (ck + 1) * body.factor); ++k)
+            for (int j = 0; j < labels.grid.size[1]; ++j) {
+                const std::uint8_t* row = &labels.voxels[labels.grid.offset({0, j, k})];
+                std::uint8_t* out = &lumen[costs.grid.offset({0, j / body.factor, ck})];
+                for (int i = 0; i < labels.grid.size[0]; ++i)
+                    if (row[i])
+                        out[i / body.factor] = 1;
+            }
+    });
     for (std::size_t n = 0; n < costs.voxels.size(); ++n) {
         const double hu = body.mean_hu.voxels[n];
         if (lumen[n])
@@ -83,52 +110,52 @@ std::vector<TissueWay> waysFrom(const Volume<float>& costs, Point3 from, const s
         return Index3{std::clamp(v.i, 0, grid.size[0] - 1), std::clamp(v.j, 0, grid.size[1] - 1),
                       std::clamp(v.k, 0, grid.size[2] - 1)};
     };
-    std::vector<float> cost(costs.voxels.size(), std::numeric_limits<float>::infinity());
-    std::vector<std::int32_t> parent(costs.voxels.size(), -1);
-    std::priority_queue<std::pair<float, std::size_t>, std::vector<std::pair<float, std::size_t>>, std::greater<>>
-        queue;
+    struct Site {
+        float cost = std::numeric_limits<float>::infinity();
+        std::int32_t parent = -1;
+    };
+    std::vector<Site> sites(costs.voxels.size());
+    CheapestFirst queue;
     const std::size_t start = grid.offset(clamped(from));
-    cost[start] = 0;
-    queue.push({0, start});
+    sites[start].cost = 0;
+    queue.push(0, std::uint32_t(start));
     std::vector<std::size_t> goals;
     for (const Point3 p : to)
         goals.push_back(grid.offset(clamped(p)));
+    const std::vector<Step> steps = stepsOf(grid);
     for (std::size_t count = 0; !queue.empty(); ++count) {
         if (count % 65536 == 0)
             progress.check();
-        const auto [so_far, n] = queue.top();
-        queue.pop();
-        if (so_far > cost[n])
+        const auto [so_far, n] = queue.pop();
+        if (so_far > sites[n].cost)
             continue;
         if (so_far > kHorizon)
             break;
         const Index3 v = grid.indexOf(n);
-        for (int k = -1; k <= 1; ++k)
-            for (int j = -1; j <= 1; ++j)
-                for (int i = -1; i <= 1; ++i) {
-                    const Index3 w{v.i + i, v.j + j, v.k + k};
-                    if ((!i && !j && !k) || !grid.contains(w))
-                        continue;
-                    const std::size_t m = grid.offset(w);
-                    if (costs.voxels[m] <= 0 || cost[m] <= so_far)
-                        continue;
-                    const auto step = float(std::sqrt(double(i * i + j * j + k * k)) * grid.spacing_mm[0]);
-                    const float reached = so_far + step * 0.5F * (std::max(costs.voxels[n], 0.1F) + costs.voxels[m]);
-                    if (reached < cost[m]) {
-                        cost[m] = reached;
-                        parent[m] = std::int32_t(n);
-                        queue.push({reached, m});
-                    }
-                }
+        const bool within =
+            v.i > 0 && v.j > 0 && v.k > 0 && v.i + 1 < grid.size[0] && v.j + 1 < grid.size[1] && v.k + 1 < grid.size[2];
+        for (const Step& step : steps) {
+            if (!within && !grid.contains({v.i + step.by.i, v.j + step.by.j, v.k + step.by.k}))
+                continue;
+            const std::size_t m = std::size_t(std::ptrdiff_t(n) + step.offset);
+            Site& there = sites[m];
+            if (costs.voxels[m] <= 0 || there.cost <= so_far)
+                continue;
+            const float reached = so_far + step.length_mm * 0.5F * (std::max(costs.voxels[n], 0.1F) + costs.voxels[m]);
+            if (reached < there.cost) {
+                there = {reached, std::int32_t(n)};
+                queue.push(reached, std::uint32_t(m));
+            }
+        }
     }
     std::vector<TissueWay> ways(to.size());
     for (std::size_t g = 0; g < goals.size(); ++g) {
-        if (cost[goals[g]] > kHorizon) {
+        if (sites[goals[g]].cost > kHorizon) {
             ways[g] = {std::max(kHorizon, kGuess * distance(from, to[g])), {from, to[g]}};
             continue;
         }
-        ways[g].cost = cost[goals[g]];
-        for (auto n = std::int32_t(goals[g]); n >= 0; n = parent[std::size_t(n)])
+        ways[g].cost = sites[goals[g]].cost;
+        for (auto n = std::int32_t(goals[g]); n >= 0; n = sites[std::size_t(n)].parent)
             ways[g].path_mm.push_back(grid.pointAt(grid.indexOf(std::size_t(n))));
         std::reverse(ways[g].path_mm.begin(), ways[g].path_mm.end());
         ways[g].path_mm.front() = from;

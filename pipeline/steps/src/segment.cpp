@@ -194,7 +194,7 @@ Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const
     if (cut)
         candidates = candidatesIn(added);
     std::erase_if(candidates, [&](const Candidate& c) { return dropped.contains(int(c.label)); });
-    const int rectum = findRectum(candidates, labels, lumen, body, options.catheter_radius_mm, progress);
+    const int rectum = findRectum(candidates, body, options.catheter_radius_mm, progress);
     if (rectum < 0)
         return noColon("there is no gas in the body that is wide enough for a rectum");
     std::vector<int> required;

@@ -1,6 +1,7 @@
 #include "vicon/steps/skeleton.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -95,13 +96,21 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
     result.wall_mm = wallDistance(inside, progress);
     const FieldVolume& wall_mm = result.wall_mm;
     progress.report(0.3, "skeleton");
-    const FieldVolume open_mm = wallDistance(withoutRectalTube(inside, plan.pieces.front().rectal_end_mm), progress);
+    FieldVolume open_mm;
+    std::vector<LumenPath> paths(plan.pieces.size());
+    tbb::parallel_invoke(
+        [&] {
+            const LumenGraph graph = makeGraph(wall_mm, kBlock, kLeast_mm);
+            tbb::parallel_for(std::size_t(0), paths.size(), [&](std::size_t n) {
+                const LumenPiece& piece = plan.pieces[n];
+                paths[n] = findPath(wall_mm, graph, piece.rectal_end_mm, piece.caecal_end_mm, options, progress);
+            });
+        },
+        [&] { open_mm = wallDistance(withoutRectalTube(inside, plan.pieces.front().rectal_end_mm), progress); });
     const DistanceProbe open(open_mm);
-    const LumenGraph graph = makeGraph(wall_mm, kBlock, kLeast_mm);
     std::vector<Polyline> curves;
     for (std::size_t n = 0; n < plan.pieces.size(); ++n) {
-        const LumenPath path =
-            findPath(wall_mm, graph, plan.pieces[n].rectal_end_mm, plan.pieces[n].caecal_end_mm, options, progress);
+        const LumenPath& path = paths[n];
         Polyline voxels;
         for (const Index3 v : path.voxels)
             voxels.push_back(inside.grid.pointAt(v));

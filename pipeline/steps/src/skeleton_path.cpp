@@ -114,7 +114,7 @@ bool improve(const LumenGraph& graph, std::int32_t from, std::int32_t to, const 
         tried.push_back(graph.point(narrow));
         std::vector<std::uint8_t> with_cut = blocked;
         block(graph, narrow, with_cut);
-        const LumenTree tree = centralTree(graph, from, with_cut, progress);
+        const LumenTree tree = centralTree(graph, from, with_cut, progress, to);
         if (!tree.reaches(to))
             continue;
         NodePath path = tree.pathTo(to);
@@ -135,7 +135,7 @@ CoarsePath coarsePath(const LumenGraph& graph, std::int32_t from, std::int32_t t
 {
     std::vector<std::uint8_t> blocked(graph.count(), 0);
     CoarsePath best;
-    const LumenTree whole = centralTree(graph, from, blocked, progress);
+    const LumenTree whole = centralTree(graph, from, blocked, progress, to);
     if (!whole.reaches(to))
         return best;
     best.nodes = whole.pathTo(to);

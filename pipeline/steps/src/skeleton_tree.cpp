@@ -3,10 +3,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <queue>
+
+#include "cheapest_first.h"
 
 namespace vicon::steps {
 namespace {
@@ -15,28 +17,54 @@ constexpr double kReference_mm = 5;  // only scales the cost
 constexpr double kWhole = 0.97;      // of the blocks: the rest are specks in corners of the wall
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-/// Cheapest first; of equal costs the smaller node, so that the order is always the same.
-using Queue =
-    std::priority_queue<std::pair<float, std::int32_t>, std::vector<std::pair<float, std::int32_t>>, std::greater<>>;
+/// What a front has to know of a node it may step to lies together: each such look is a cache line that is not there.
+struct Place {
+    std::array<std::uint8_t, 3> in_block{};  ///< of the node's voxel
+};
 
-/// Calls use(neighbour, length_mm) for every node joined to `n` whose value in `known` is above `limit`.
+/// Calls use(neighbour, direction) for every node joined to `n`.
 template <class Use>
-void forEachNeighbour(const LumenGraph& graph, std::int32_t n, const std::vector<float>& known, float limit, Use use)
+void forEachJoined(const LumenGraph& graph, std::int32_t n, Use use)
 {
     const LumenGraph::Node& own = graph.node(n);
     const std::int32_t* here = &graph.node_of[own.cell];
-    const auto sx = float(graph.grid.spacing_mm[0]), sy = float(graph.grid.spacing_mm[1]),
-               sz = float(graph.grid.spacing_mm[2]);
     for (std::uint32_t bits = own.joined; bits; bits &= bits - 1) {
-        const std::int32_t m = here[graph.neighbour[std::size_t(std::countr_zero(bits))]];
-        if (known[std::size_t(m)] <= limit)
-            continue;
-        const LumenGraph::Node& other = graph.node(m);
-        const float x = float(other.voxel.i - own.voxel.i) * sx, y = float(other.voxel.j - own.voxel.j) * sy,
-                    z = float(other.voxel.k - own.voxel.k) * sz;
-        use(m, std::sqrt(x * x + y * y + z * z));
+        const auto direction = std::size_t(std::countr_zero(bits));
+        use(std::size_t(here[graph.neighbour[direction]]), direction);
     }
 }
+
+/// Lengths of the graph's edges, mm.
+class EdgeLengths {
+public:
+    explicit EdgeLengths(const LumenGraph& graph)
+    {
+        for (std::size_t d = 0; d < 3; ++d)
+            spacing_[d] = float(graph.grid.spacing_mm[d]);
+        std::size_t n = 0;
+        for (int k = -1; k <= 1; ++k)
+            for (int j = -1; j <= 1; ++j)
+                for (int i = -1; i <= 1; ++i)
+                    if (i || j || k)
+                        step_[n++] = {i * graph.block, j * graph.block, k * graph.block};
+    }
+    static Place placeOf(const LumenGraph& graph, std::size_t n)
+    {
+        const Index3 v = graph.nodes[n].voxel;
+        return {{std::uint8_t(v.i % graph.block), std::uint8_t(v.j % graph.block), std::uint8_t(v.k % graph.block)}};
+    }
+    float of(std::size_t direction, const Place& from, const Place& to) const
+    {
+        std::array<float, 3> apart;
+        for (std::size_t d = 0; d < 3; ++d)
+            apart[d] = float(step_[direction][d] + to.in_block[d] - from.in_block[d]) * spacing_[d];
+        return std::sqrt(apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2]);
+    }
+
+private:
+    std::array<float, 3> spacing_{};
+    std::array<std::array<int, 3>, 26> step_{};  ///< voxels between two blocks, in the order of LumenGraph::neighbour
+};
 
 float weight(float wall_mm)
 {
@@ -189,61 +217,91 @@ std::vector<std::int32_t> LumenTree::pathTo(std::int32_t node) const
 }
 
 LumenTree centralTree(const LumenGraph& graph, std::int32_t root, const std::vector<std::uint8_t>& blocked,
-                      Progress& progress)
+                      Progress& progress, std::int32_t goal)
 {
-    LumenTree tree{root, std::vector<std::int32_t>(graph.count(), -1), std::vector<float>(graph.count(), kInfinite),
-                   std::vector<float>(graph.count(), 0)};
-    std::vector<float> weights(graph.count());
-    for (std::size_t n = 0; n < weights.size(); ++n)
-        weights[n] = weight(graph.nodes[n].wall_mm);
-    Queue queue;
-    tree.cost[std::size_t(root)] = 0;
-    queue.push({0, root});
+    struct Site : Place {
+        float cost = kInfinite, weight = 0, length_mm = 0;
+        std::int32_t parent = -1;
+    };
+    std::vector<Site> sites(graph.count());
+    for (std::size_t n = 0; n < sites.size(); ++n) {
+        static_cast<Place&>(sites[n]) = EdgeLengths::placeOf(graph, n);
+        sites[n].weight = weight(graph.nodes[n].wall_mm);
+    }
+    const EdgeLengths lengths(graph);
+    CheapestFirst queue;
+    sites[std::size_t(root)].cost = 0;
+    queue.push(0, std::uint32_t(root));
     for (std::size_t count = 0; !queue.empty(); ++count) {
         if (count % 65536 == 0)
             progress.check();
-        const auto [cost, node] = queue.top();
-        queue.pop();
-        if (cost > tree.cost[std::size_t(node)])
+        const auto [cost, node] = queue.pop();
+        const Site own = sites[node];
+        if (cost > own.cost)
             continue;
-        const float own_weight = weights[std::size_t(node)], so_far = cost;
-        forEachNeighbour(graph, node, tree.cost, cost, [&, n = node](std::int32_t other, float apart) {
-            const auto m = std::size_t(other);
-            const float to = so_far + apart * 0.5F * (own_weight + weights[m]);
-            if (to < tree.cost[m] && (blocked.empty() || !blocked[m])) {
-                tree.cost[m] = to;
-                tree.parent[m] = n;
-                tree.length_mm[m] = tree.length_mm[std::size_t(n)] + apart;
-                queue.push({to, other});
+        if (std::int32_t(node) == goal)
+            break;
+        forEachJoined(graph, std::int32_t(node), [&, so_far = cost, n = node](std::size_t m, std::size_t direction) {
+            Site& other = sites[m];
+            if (other.cost <= so_far)
+                return;
+            const float apart = lengths.of(direction, own, other);
+            const float to = so_far + apart * 0.5F * (own.weight + other.weight);
+            if (to < other.cost && (blocked.empty() || !blocked[m])) {
+                other.cost = to;
+                other.parent = std::int32_t(n);
+                other.length_mm = own.length_mm + apart;
+                queue.push(to, std::uint32_t(m));
             }
         });
+    }
+    LumenTree tree{root, std::vector<std::int32_t>(sites.size()), std::vector<float>(sites.size()),
+                   std::vector<float>(sites.size())};
+    for (std::size_t n = 0; n < sites.size(); ++n) {
+        tree.parent[n] = sites[n].parent;
+        tree.cost[n] = sites[n].cost;
+        tree.length_mm[n] = sites[n].length_mm;
     }
     return tree;
 }
 
 LumenFeet feetOn(const LumenGraph& graph, const std::vector<std::int32_t>& sources)
 {
-    LumenFeet feet{std::vector<float>(graph.count(), kInfinite), std::vector<std::int32_t>(graph.count(), -1)};
-    Queue queue;
+    struct Site : Place {
+        float distance_mm = kInfinite;
+        std::int32_t foot = -1;
+    };
+    std::vector<Site> sites(graph.count());
+    for (std::size_t n = 0; n < sites.size(); ++n)
+        static_cast<Place&>(sites[n]) = EdgeLengths::placeOf(graph, n);
+    const EdgeLengths lengths(graph);
+    CheapestFirst queue;
     for (std::size_t s = 0; s < sources.size(); ++s) {
-        feet.distance_mm[std::size_t(sources[s])] = 0;
-        feet.foot[std::size_t(sources[s])] = std::int32_t(s);
-        queue.push({0, sources[s]});
+        sites[std::size_t(sources[s])].distance_mm = 0;
+        sites[std::size_t(sources[s])].foot = std::int32_t(s);
+        queue.push(0, std::uint32_t(sources[s]));
     }
     while (!queue.empty()) {
-        const auto [so_far, node] = queue.top();
-        queue.pop();
-        if (so_far > feet.distance_mm[std::size_t(node)])
+        const auto [so_far, node] = queue.pop();
+        const Site own = sites[node];
+        if (so_far > own.distance_mm)
             continue;
-        const float here = so_far;
-        forEachNeighbour(graph, node, feet.distance_mm, so_far, [&, n = node](std::int32_t other, float apart) {
-            const auto m = std::size_t(other);
-            if (here + apart < feet.distance_mm[m]) {
-                feet.distance_mm[m] = here + apart;
-                feet.foot[m] = feet.foot[std::size_t(n)];
-                queue.push({here + apart, other});
+        forEachJoined(graph, std::int32_t(node), [&, here = so_far](std::size_t m, std::size_t direction) {
+            Site& other = sites[m];
+            if (other.distance_mm <= here)
+                return;
+            const float to = here + lengths.of(direction, own, other);
+            if (to < other.distance_mm) {
+                other.distance_mm = to;
+                other.foot = own.foot;
+                queue.push(to, std::uint32_t(m));
             }
         });
+    }
+    LumenFeet feet{std::vector<float>(sites.size()), std::vector<std::int32_t>(sites.size())};
+    for (std::size_t n = 0; n < sites.size(); ++n) {
+        feet.distance_mm[n] = sites[n].distance_mm;
+        feet.foot[n] = sites[n].foot;
     }
     return feet;
 }
@@ -251,17 +309,16 @@ LumenFeet feetOn(const LumenGraph& graph, const std::vector<std::int32_t>& sourc
 std::vector<std::vector<std::int32_t>> connectedSets(const LumenGraph& graph, std::vector<std::uint8_t> chosen)
 {
     std::vector<std::vector<std::int32_t>> sets;
-    const std::vector<float> all(graph.count(), kInfinite);
     for (std::size_t first = 0; first < chosen.size(); ++first) {
         if (!chosen[first])
             continue;
         chosen[first] = 0;
         std::vector<std::int32_t> set{std::int32_t(first)};
         for (std::size_t n = 0; n < set.size(); ++n)
-            forEachNeighbour(graph, set[n], all, 0, [&](std::int32_t other, float) {
-                if (chosen[std::size_t(other)]) {
-                    chosen[std::size_t(other)] = 0;
-                    set.push_back(other);
+            forEachJoined(graph, set[n], [&](std::size_t other, std::size_t) {
+                if (chosen[other]) {
+                    chosen[other] = 0;
+                    set.push_back(std::int32_t(other));
                 }
             });
         sets.push_back(std::move(set));

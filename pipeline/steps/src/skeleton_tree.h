@@ -57,8 +57,9 @@ struct LumenTree {
 /// Dijkstra with an edge cost of length x (5 mm / wall distance)^4: the tree keeps to the middle and avoids contacts
 /// between loops, which are narrow.
 /// @param blocked nodes that must not be used; empty: none
+/// @param goal a node at which the search may end: then only the way to it is whole; -1: none
 LumenTree centralTree(const LumenGraph& graph, std::int32_t root, const std::vector<std::uint8_t>& blocked,
-                      Progress& progress);
+                      Progress& progress, std::int32_t goal = -1);
 
 /// Geodesic distance of every node from a set of nodes, and which of them is nearest.
 struct LumenFeet {

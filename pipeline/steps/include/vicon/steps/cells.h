@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "vicon/artefact/cells_file.h"
 #include "vicon/artefact/subdivision_file.h"
 #include "vicon/core/options.h"
@@ -33,6 +35,23 @@ struct CellOptions {
 /// The result does not depend on the number of threads. Throws Error{bad_input} when the grids do not fit together.
 artefact::CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const SegmentVolume& segments,
                                    const CellOptions& options, Progress& progress);
+
+/// The same in two parts: the contour needs no segments and can be made while the lumen is divided.
+class LumenSurface {
+public:
+    /// `hu` and `inside` must outlive the surface. Throws Error{bad_input} when their grids do not fit together.
+    LumenSurface(const HuVolume& hu, const InsideVolume& inside, const CellOptions& options, Progress& progress);
+    ~LumenSurface();
+    LumenSurface(LumenSurface&&) noexcept;
+    LumenSurface& operator=(LumenSurface&&) noexcept;
+
+    /// Throws Error{bad_input} when the segments do not lie on the grid of the labels.
+    artefact::CellSurface cellsOf(const SegmentVolume& segments, Progress& progress) const;
+
+private:
+    struct Parts;
+    std::unique_ptr<const Parts> parts_;
+};
 
 /// Fills in the triangle counts of the description and the statistics of the thesis' Table 2: "triangles",
 /// "triangles_average", "triangles_largest", "triangles_smallest", "triangles_standard_deviation".
