@@ -10,7 +10,8 @@
 namespace vicon::steps {
 
 /// A queue of numbers that wait with a cost: cheapest first, of equal costs the smaller number, so that the order is
-/// always the same. A heap of four children a node: flatter than std::priority_queue's, and siblings share a cache line.
+/// always the same. A heap of four children a node: flatter than std::priority_queue's, and siblings share a cache
+/// line.
 class CheapestFirst {
 public:
     /// @param cost at least 0; so its bits order as it does
@@ -37,6 +38,13 @@ public:
     bool empty() const { return keys_.empty(); }
     /// The number that comes next, if nothing cheaper is pushed before.
     std::uint32_t next() const { return std::uint32_t(keys_.front()); }
+    /// Calls use(number) for those of which one comes after that.
+    template <class Use>
+    void forEachBehindNext(Use use) const
+    {
+        for (std::size_t n = 1; n < std::min(keys_.size(), 1 + kChildren); ++n)
+            use(std::uint32_t(keys_[n]));
+    }
 
 private:
     static constexpr std::size_t kChildren = 4;

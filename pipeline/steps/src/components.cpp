@@ -1,5 +1,7 @@
 #include "components.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -18,39 +20,47 @@ std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t n)
 template <class AddRow>
 void Components::addRows(AddRow addRow)
 {
-    row_start_.reserve(std::size_t(size_[1]) * std::size_t(size_[2]) + 1);
-    row_start_.push_back(0);
-    for (int k = 0; k < size_[2]; ++k)
-        for (int j = 0; j < size_[1]; ++j) {
-            addRow(j, k);
-            row_start_.push_back(std::uint32_t(runs_.size()));
+    const int ny = size_[1];
+    std::vector<std::vector<Run>> slices(std::size_t(size_[2]), std::vector<Run>{});
+    row_start_.assign(std::size_t(ny) * std::size_t(size_[2]) + 1, 0);
+    tbb::parallel_for(0, size_[2], [&](int k) {
+        auto& runs = slices[std::size_t(k)];
+        for (int j = 0; j < ny; ++j) {
+            const std::size_t before = runs.size();
+            addRow(j, k, runs);
+            row_start_[std::size_t(j) + std::size_t(ny) * std::size_t(k) + 1] = std::uint32_t(runs.size() - before);
         }
+    });
+    std::partial_sum(row_start_.begin(), row_start_.end(), row_start_.begin());
+    runs_.reserve(row_start_.back());
+    for (const auto& runs : slices)
+        runs_.insert(runs_.end(), runs.begin(), runs.end());
     numberComponents();
 }
 
 Components::Components(const Grid& grid, const std::vector<std::uint16_t>& label) : size_(grid.size)
 {
-    addRows([&](int j, int k) {
+    addRows([&](int j, int k, std::vector<Run>& runs) {
         const std::uint16_t* row = label.data() + grid.offset({0, j, k});
         for (int i = 0; i < size_[0];) {
             const int begin = i;
             while (i < size_[0] && row[i] == row[begin])
                 ++i;
             if (row[begin])
-                runs_.push_back({begin, i, j, k, row[begin], 0});
+                runs.push_back({begin, i, j, k, row[begin], 0});
         }
     });
 }
 
 Components::Components(const InsideVolume& labels, std::uint8_t wanted) : size_(labels.grid.size)
 {
-    addRows([&](int j, int k) {
+    addRows([&](int j, int k, std::vector<Run>& runs) {
         const std::uint8_t* row = labels.voxels.data() + labels.grid.offset({0, j, k});
         const std::uint8_t* const end = row + size_[0];
         for (const std::uint8_t* at = std::find(row, end, wanted); at != end; at = std::find(at, end, wanted)) {
             const std::uint8_t* const begin = at;
             at = std::find_if(at, end, [wanted](std::uint8_t label) { return label != wanted; });
-            runs_.push_back({int(begin - row), int(at - row), j, k, 1, 0});
+            runs.push_back({int(begin - row), int(at - row), j, k, 1, 0});
         }
     });
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "check_only.h"
 #include "fluid_rim.h"
 #include "segment_points.h"
 #include "side_branch.h"
@@ -181,7 +182,7 @@ std::vector<Gate> passageThrough(const LumenGraph& graph, const LumenTree& tree,
 
 /// Takes out what lies behind a plane across the way to the branch, as far as it hangs together there. Returns the
 /// volume, or 0 and leaves the lumen as it is where that is more than the branch or holds a place to keep.
-double takeOut(InsideVolume& inside, const Zone& zone, const LumenGraph& graph, const Gate& gate, const Branch& branch,
+double takeOut(InsideVolume& inside, Index3 offset, const LumenGraph& graph, const Gate& gate, const Branch& branch,
                const std::vector<Point3>& keep, double most_ml)
 {
     const double radius = 2 * gate.radius_mm + kMargin_mm;
@@ -200,7 +201,7 @@ double takeOut(InsideVolume& inside, const Zone& zone, const LumenGraph& graph, 
     for (std::size_t n = 0; n < graph.count(); ++n) {
         const Index3 v = graph.nodes[n].voxel;
         if (branch.beyond[n])
-            take({v.i + zone.offset.i, v.j + zone.offset.j, v.k + zone.offset.k});
+            take({v.i + offset.i, v.j + offset.j, v.k + offset.k});
     }
     for (std::size_t n = 0; n < taken.size() && taken.size() <= most; ++n) {
         const Index3 v = inside.grid.indexOf(taken[n].first);
@@ -250,25 +251,39 @@ void endBeforeTail(const LumenGraph& graph, const LumenTree& tree, std::int32_t 
                     " mm, ileum or appendix: it was kept, the curve ends before it";
 }
 
-/// Looks for ileum at one end of a candidate.
-IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, Point3 other_mm, int rim_layers, const std::vector<Point3>& keep,
-                  const Body& body, Progress& progress)
+/// The lumen around an end, and the ways there.
+struct Surroundings {
+    Index3 offset;  ///< of the graph's first voxel in the lumen
+    LumenGraph graph;
+    LumenTree tree;  ///< from where the colon goes on to the rectum
+    std::int32_t end = -1;
+};
+
+std::optional<Surroundings> surroundingsOf(const InsideVolume& labels, Point3 end_mm, Point3 other_mm, int rim_layers,
+                                           Progress& progress)
 {
-    IleumCut result;
-    result.end_mm = end_mm;
     const std::optional<Zone> zone = zoneAt(labels, end_mm, other_mm, rim_layers);
     if (!zone)
-        return result;
+        return std::nullopt;
     const FieldVolume wall_mm = wallDistance(zone->mask, progress);
-    LumenGraph graph = makeGraph(wall_mm, kBlock, 0);
-    std::int32_t root = graph.nearest(zone->root_mm), end = graph.nearest(end_mm);
-    LumenTree tree = centralTree(graph, root, {}, progress);
-    if (!tree.reaches(end)) {  // through a passage narrower than the blocks
-        graph = makeGraph(wall_mm, 1, 0);
-        root = graph.nearest(zone->root_mm);
-        end = graph.nearest(end_mm);
-        tree = centralTree(graph, root, {}, progress);
+    Surroundings found{zone->offset, {}, {}};
+    for (const int block : {kBlock, 1}) {  // 1: through a passage narrower than the blocks
+        found.graph = makeGraph(wall_mm, block, 0);
+        found.end = found.graph.nearest(end_mm);
+        found.tree = centralTree(found.graph, found.graph.nearest(zone->root_mm), {}, progress);
+        if (found.tree.reaches(found.end))
+            break;
     }
+    return found;
+}
+
+/// Looks for ileum at one end of a candidate.
+IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, const Surroundings& around, const std::vector<Point3>& keep,
+                  const Body& body, Progress& progress)
+{
+    const auto& [offset, graph, tree, end] = around;
+    IleumCut result;
+    result.end_mm = end_mm;
     int tries = 0;
     for (const Neck& neck : necksOf(graph, tree, kWidestNeck_mm, kLeast_ml, kMost_ml)) {
         if (++tries > kMostTries)
@@ -288,7 +303,7 @@ IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, Point3 other_mm, int rim_
         if (doubt.empty()) {
             // Where the passage opens into a fold's corner a plane right at its mouth would cut the colon too.
             for (std::size_t n = 0; n < gates.size() && result.removed_ml == 0; ++n)
-                result.removed_ml = takeOut(labels, *zone, graph, gates[n], *branch, keep, 1.3 * neck.behind_ml + 2);
+                result.removed_ml = takeOut(labels, offset, graph, gates[n], *branch, keep, 1.3 * neck.behind_ml + 2);
             if (result.removed_ml == 0)
                 doubt = "it comes round to the colon again, or holds a seed";
         }
@@ -311,17 +326,35 @@ IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, Point3 other_mm, int rim_
 std::vector<IleumCut> cutIlea(InsideVolume& labels, const std::vector<Candidate>& candidates, int rim_layers,
                               const std::vector<Point3>& keep, const Body& body, Progress& progress)
 {
-    std::vector<IleumCut> found;
+    struct End {
+        Point3 at_mm, other_mm;
+        std::optional<Surroundings> around;
+    };
+    std::vector<End> ends;
     for (const Candidate& c : candidates)
-        for (const int tip : {0, 1}) {
-            const Point3 end = c.tip_mm[tip];
-            if (c.volume_ml < kLeastColon_ml || !(liesLowRight(end, body) || c.tip_radius_mm[tip] < kWidest_mm))
-                continue;
-            found.push_back(cutAtEnd(labels, end, c.tip_mm[1 - tip], rim_layers, keep, body, progress));
-            if (found.back().reason.empty())
-                found.pop_back();
-            progress.check();
-        }
+        for (const int tip : {0, 1})
+            if (c.volume_ml >= kLeastColon_ml &&
+                (liesLowRight(c.tip_mm[tip], body) || c.tip_radius_mm[tip] < kWidest_mm))
+                ends.push_back({c.tip_mm[tip], c.tip_mm[1 - tip], {}});
+    const auto look = [&](End& end) {
+        CheckOnly check(progress);
+        end.around = surroundingsOf(labels, end.at_mm, end.other_mm, rim_layers, check);
+    };
+    tbb::parallel_for(std::size_t(0), ends.size(), [&](std::size_t n) { look(ends[n]); });
+    std::vector<IleumCut> found;
+    bool cut = false;
+    for (End& end : ends) {
+        if (cut)
+            look(end);  // another end's cut may have changed what lies around this one
+        if (!end.around)
+            continue;
+        IleumCut ileum = cutAtEnd(labels, end.at_mm, *end.around, keep, body, progress);
+        end.around.reset();
+        cut = cut || ileum.cut;
+        if (!ileum.reason.empty())
+            found.push_back(std::move(ileum));
+        progress.check();
+    }
     return found;
 }
 

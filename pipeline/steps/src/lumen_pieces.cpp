@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "check_only.h"
 #include "fluid_rim.h"
 #include "vicon/steps/wall_distance.h"
 
@@ -157,7 +158,8 @@ std::vector<Candidate> findCandidates(const InsideVolume& labels, const RunLabel
     large.resize(std::min(large.size(), std::size_t(most)));
     std::vector<Candidate> candidates(large.size());
     tbb::parallel_for(std::size_t(0), large.size(), [&](std::size_t n) {
-        candidates[n] = describe(labels, lumen, large[n], progress);
+        CheckOnly check(progress);
+        candidates[n] = describe(labels, lumen, large[n], check);
         judge(candidates[n], body);
     });
     progress.check();

@@ -1,5 +1,6 @@
 #include "portals.h"
 
+#include <tbb/parallel_for.h>
 #include <vtkMath.h>
 
 #include <algorithm>
@@ -207,12 +208,17 @@ bool followAlongSkeleton(const LabelledPiece& a, const LabelledPiece& b)
 
 std::vector<artefact::Portal> findPortals(const NumberedSegments& numbered)
 {
-    std::vector<artefact::Portal> portals;
-    for (const auto& [between, contact] : findContacts(numbered.segments)) {
-        portals.push_back(portalOf(between, contact, numbered.segments.grid));
-        portals.back().along_skeleton = followAlongSkeleton(numbered.pieces[std::size_t(between.first) - 1],
-                                                            numbered.pieces[std::size_t(between.second) - 1]);
-    }
+    const Contacts found = findContacts(numbered.segments);
+    std::vector<Contacts::const_pointer> contacts;
+    for (const auto& contact : found)
+        contacts.push_back(&contact);
+    std::vector<artefact::Portal> portals(contacts.size());
+    tbb::parallel_for(std::size_t(0), contacts.size(), [&](std::size_t n) {
+        const auto& [between, contact] = *contacts[n];
+        portals[n] = portalOf(between, contact, numbered.segments.grid);
+        portals[n].along_skeleton = followAlongSkeleton(numbered.pieces[std::size_t(between.first) - 1],
+                                                        numbered.pieces[std::size_t(between.second) - 1]);
+    });
     return portals;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "check_only.h"
 #include "skeleton_detour.h"
 #include "skeleton_join.h"
 #include "skeleton_path.h"
@@ -97,16 +98,17 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
     const FieldVolume& wall_mm = result.wall_mm;
     progress.report(0.3, "skeleton");
     FieldVolume open_mm;
+    CheckOnly check(progress);
     std::vector<LumenPath> paths(plan.pieces.size());
     tbb::parallel_invoke(
         [&] {
             const LumenGraph graph = makeGraph(wall_mm, kBlock, kLeast_mm);
             tbb::parallel_for(std::size_t(0), paths.size(), [&](std::size_t n) {
                 const LumenPiece& piece = plan.pieces[n];
-                paths[n] = findPath(wall_mm, graph, piece.rectal_end_mm, piece.caecal_end_mm, options, progress);
+                paths[n] = findPath(wall_mm, graph, piece.rectal_end_mm, piece.caecal_end_mm, options, check);
             });
         },
-        [&] { open_mm = wallDistance(withoutRectalTube(inside, plan.pieces.front().rectal_end_mm), progress); });
+        [&] { open_mm = wallDistance(withoutRectalTube(inside, plan.pieces.front().rectal_end_mm), check); });
     const DistanceProbe open(open_mm);
     std::vector<Polyline> curves;
     for (std::size_t n = 0; n < plan.pieces.size(); ++n) {

@@ -1,10 +1,6 @@
 #include "skeleton_tree.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -14,7 +10,6 @@ namespace vicon::steps {
 namespace {
 
 constexpr double kReference_mm = 5;  // only scales the cost
-constexpr double kWhole = 0.97;      // of the blocks: the rest are specks in corners of the wall
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 /// What a front has to know of a node it may step to lies together: each such look is a cache line that is not there.
@@ -22,16 +17,36 @@ struct Place {
     std::array<std::uint8_t, 3> in_block{};  ///< of the node's voxel
 };
 
-/// Calls use(neighbour, direction) for every node joined to `n`.
+/// Calls use(neighbour, which) for every node joined to the one with these links, `which` of the 27 blocks around.
 template <class Use>
-void forEachJoined(const LumenGraph& graph, std::int32_t n, Use use)
+void forEachJoined(const LumenGraph::Links& links, Use use)
 {
-    const LumenGraph::Node& own = graph.node(n);
-    const std::int32_t* here = &graph.node_of[own.cell];
-    for (std::uint32_t bits = own.joined; bits; bits &= bits - 1) {
-        const auto direction = std::size_t(std::countr_zero(bits));
-        use(std::size_t(here[graph.neighbour[direction]]), direction);
+    for (std::size_t row = 0; row < links.first.size(); ++row) {
+        const std::uint32_t there = links.there >> 3 * row, joined = links.joined >> 3 * row;
+        std::size_t n = links.first[row];
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (joined >> i & 1)
+                use(n, 3 * row + i);
+            n += there >> i & 1;
+        }
     }
+}
+
+/// Asks for the memory that is looked at when the nodes come out of the queue that wait at its head: they lie anywhere
+/// in the lumen, so nothing of them is in a cache.
+template <class Site>
+void fetchAhead(const LumenGraph& graph, const CheapestFirst& queue, const std::vector<Site>& sites)
+{
+    if (queue.empty())
+        return;
+    for (const std::uint32_t first : graph.links[queue.next()].first) {
+        __builtin_prefetch(&sites[first]);
+        __builtin_prefetch(&sites[first] + 2);
+    }
+    queue.forEachBehindNext([&](std::uint32_t n) {
+        __builtin_prefetch(&graph.links[n]);
+        __builtin_prefetch(&graph.links[n].joined);
+    });
 }
 
 /// Lengths of the graph's edges, mm.
@@ -45,25 +60,24 @@ public:
         for (int k = -1; k <= 1; ++k)
             for (int j = -1; j <= 1; ++j)
                 for (int i = -1; i <= 1; ++i)
-                    if (i || j || k)
-                        step_[n++] = {i * graph.block, j * graph.block, k * graph.block};
+                    step_[n++] = {i * graph.block, j * graph.block, k * graph.block};
     }
     static Place placeOf(const LumenGraph& graph, std::size_t n)
     {
         const Index3 v = graph.nodes[n].voxel;
         return {{std::uint8_t(v.i % graph.block), std::uint8_t(v.j % graph.block), std::uint8_t(v.k % graph.block)}};
     }
-    float of(std::size_t direction, const Place& from, const Place& to) const
+    float of(std::size_t which, const Place& from, const Place& to) const
     {
         std::array<float, 3> apart;
         for (std::size_t d = 0; d < 3; ++d)
-            apart[d] = float(step_[direction][d] + to.in_block[d] - from.in_block[d]) * spacing_[d];
+            apart[d] = float(step_[which][d] + to.in_block[d] - from.in_block[d]) * spacing_[d];
         return std::sqrt(apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2]);
     }
 
 private:
     std::array<float, 3> spacing_{};
-    std::array<std::array<int, 3>, 26> step_{};  ///< voxels between two blocks, in the order of LumenGraph::neighbour
+    std::array<std::array<int, 3>, 27> step_{};  ///< voxels from a block to those around
 };
 
 float weight(float wall_mm)
@@ -72,140 +86,7 @@ float weight(float wall_mm)
     return ratio * ratio * ratio * ratio;
 }
 
-/// Offset in `wall_mm` of each block's voxel farthest from the wall, kNone where the block is left out.
-constexpr auto kNone = ~std::uint32_t(0);
-std::vector<std::uint32_t> farthestOfBlocks(const FieldVolume& wall_mm, int block, double least_mm,
-                                            const std::array<int, 3>& blocks)
-{
-    const auto& size = wall_mm.grid.size;
-    const auto sx = std::size_t(blocks[0]), sy = std::size_t(blocks[1]);
-    std::vector<std::uint32_t> best(sx * sy * std::size_t(blocks[2]), kNone);
-    tbb::parallel_for(0, blocks[2], [&](int bk) {
-        for (int k = bk * block; k < std::min(size[2], (bk + 1) * block); ++k)
-            for (int j = 0; j < size[1]; ++j) {
-                const std::size_t row = wall_mm.grid.offset({0, j, k});
-                std::uint32_t* out = &best[sx * (std::size_t(j / block) + sy * std::size_t(bk))];
-                for (int i = 0; i < size[0]; ++i) {
-                    const float d = wall_mm.voxels[row + std::size_t(i)];
-                    if (d <= 0 || d < least_mm)
-                        continue;
-                    std::uint32_t& own = out[i / block];
-                    if (own == kNone || wall_mm.voxels[own] < d)
-                        own = std::uint32_t(row) + std::uint32_t(i);
-                }
-            }
-    });
-    return best;
-}
-
-/// Whether every voxel of the digital line between two voxels is inside.
-bool lineInside(const FieldVolume& wall_mm, Index3 a, Index3 b)
-{
-    const int steps = std::max({std::abs(b.i - a.i), std::abs(b.j - a.j), std::abs(b.k - a.k)});
-    for (int n = 1; n < steps; ++n) {
-        const auto at = [&](int from, int to) { return from + int(std::floor(double(to - from) * n / steps + 0.5)); };
-        if (wall_mm.at({at(a.i, b.i), at(a.j, b.j), at(a.k, b.k)}) <= 0)
-            return false;
-    }
-    return true;
-}
-
-void joinNodes(LumenGraph& graph, const FieldVolume& wall_mm)
-{
-    const auto chunk = std::size_t(4096);
-    tbb::parallel_for(std::size_t(0), graph.count() / chunk + 1, [&](std::size_t c) {
-        for (std::size_t n = c * chunk; n < std::min(graph.count(), (c + 1) * chunk); ++n) {
-            LumenGraph::Node& own = graph.nodes[n];
-            for (std::size_t d = 0; d < graph.neighbour.size(); ++d) {
-                const std::int32_t m = graph.node_of[std::size_t(std::ptrdiff_t(own.cell) + graph.neighbour[d])];
-                if (m < 0)
-                    continue;
-                const LumenGraph::Node& other = graph.node(m);
-                const double apart = distance(graph.grid.pointAt(own.voxel), graph.grid.pointAt(other.voxel));
-                // The smaller voxel first, so that both ends of an edge see the same line.
-                const bool first = n < std::size_t(m);
-                if (graph.block == 1 || apart < own.wall_mm + other.wall_mm ||
-                    lineInside(wall_mm, first ? own.voxel : other.voxel, first ? other.voxel : own.voxel))
-                    own.joined |= 1U << d;
-            }
-        }
-    });
-}
-
 }  // namespace
-
-std::int32_t LumenGraph::nearest(Point3 p) const
-{
-    std::int32_t best = -1;
-    double least = 1e300;
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-        const double d = distance(point(std::int32_t(n)), p);
-        if (d < least) {
-            least = d;
-            best = std::int32_t(n);
-        }
-    }
-    return best;
-}
-
-LumenGraph makeGraph(const FieldVolume& wall_mm, int block, double least_mm)
-{
-    LumenGraph graph;
-    graph.grid = wall_mm.grid;
-    graph.block = block;
-    std::array<int, 3> blocks{};
-    for (std::size_t a = 0; a < 3; ++a)
-        blocks[a] = (wall_mm.grid.size[a] + block - 1) / block;
-    const std::vector<std::uint32_t> best = farthestOfBlocks(wall_mm, block, least_mm, blocks);
-    const auto nx = std::ptrdiff_t(blocks[0]) + 2, ny = std::ptrdiff_t(blocks[1]) + 2,
-               nz = std::ptrdiff_t(blocks[2]) + 2;
-    graph.node_of.assign(std::size_t(nx * ny * nz), -1);
-    std::size_t b = 0;
-    for (int k = 0; k < blocks[2]; ++k)
-        for (int j = 0; j < blocks[1]; ++j)
-            for (int i = 0; i < blocks[0]; ++i, ++b) {
-                if (best[b] == kNone)
-                    continue;
-                const auto cell = std::uint32_t(i + 1 + nx * (j + 1 + ny * (k + 1)));
-                graph.node_of[cell] = std::int32_t(graph.nodes.size());
-                graph.nodes.push_back({graph.grid.indexOf(best[b]), cell, wall_mm.voxels[best[b]], 0});
-            }
-    std::size_t n = 0;
-    for (int k = -1; k <= 1; ++k)
-        for (int j = -1; j <= 1; ++j)
-            for (int i = -1; i <= 1; ++i)
-                if (i || j || k)
-                    graph.neighbour[n++] = i + nx * (j + ny * k);
-    joinNodes(graph, wall_mm);
-    return graph;
-}
-
-std::int32_t widestNode(const LumenGraph& graph)
-{
-    const auto widest = std::max_element(graph.nodes.begin(), graph.nodes.end(),
-                                         [](const auto& a, const auto& b) { return a.wall_mm < b.wall_mm; });
-    return widest == graph.nodes.end() ? -1 : std::int32_t(widest - graph.nodes.begin());
-}
-
-LumenGraph makeWholeGraph(const FieldVolume& wall_mm, int coarsest, Progress& progress)
-{
-    LumenGraph graph;
-    for (int block = coarsest; block >= 1; block /= 2) {
-        graph = makeGraph(wall_mm, block, 0);
-        progress.check();
-        if (block == 1 || graph.count() == 0)
-            break;
-        const auto sets = connectedSets(graph, std::vector<std::uint8_t>(graph.count(), 1));
-        const std::int32_t widest = widestNode(graph);
-        const bool whole = std::any_of(sets.begin(), sets.end(), [&](const std::vector<std::int32_t>& set) {
-            return double(set.size()) > kWhole * double(graph.count()) &&
-                   std::find(set.begin(), set.end(), widest) != set.end();
-        });
-        if (whole)
-            break;
-    }
-    return graph;
-}
 
 std::vector<std::int32_t> LumenTree::pathTo(std::int32_t node) const
 {
@@ -241,11 +122,12 @@ LumenTree centralTree(const LumenGraph& graph, std::int32_t root, const std::vec
             continue;
         if (std::int32_t(node) == goal)
             break;
-        forEachJoined(graph, std::int32_t(node), [&, so_far = cost, n = node](std::size_t m, std::size_t direction) {
+        fetchAhead(graph, queue, sites);
+        forEachJoined(graph.links[node], [&, so_far = cost, n = node](std::size_t m, std::size_t which) {
             Site& other = sites[m];
             if (other.cost <= so_far)
                 return;
-            const float apart = lengths.of(direction, own, other);
+            const float apart = lengths.of(which, own, other);
             const float to = so_far + apart * 0.5F * (own.weight + other.weight);
             if (to < other.cost && (blocked.empty() || !blocked[m])) {
                 other.cost = to;
@@ -286,11 +168,12 @@ LumenFeet feetOn(const LumenGraph& graph, const std::vector<std::int32_t>& sourc
         const Site own = sites[node];
         if (so_far > own.distance_mm)
             continue;
-        forEachJoined(graph, std::int32_t(node), [&, here = so_far](std::size_t m, std::size_t direction) {
+        fetchAhead(graph, queue, sites);
+        forEachJoined(graph.links[node], [&, here = so_far](std::size_t m, std::size_t which) {
             Site& other = sites[m];
             if (other.distance_mm <= here)
                 return;
-            const float to = here + lengths.of(direction, own, other);
+            const float to = here + lengths.of(which, own, other);
             if (to < other.distance_mm) {
                 other.distance_mm = to;
                 other.foot = own.foot;
@@ -315,7 +198,7 @@ std::vector<std::vector<std::int32_t>> connectedSets(const LumenGraph& graph, st
         chosen[first] = 0;
         std::vector<std::int32_t> set{std::int32_t(first)};
         for (std::size_t n = 0; n < set.size(); ++n)
-            forEachJoined(graph, set[n], [&](std::size_t other, std::size_t) {
+            forEachJoined(graph.links[std::size_t(set[n])], [&](std::size_t other, std::size_t) {
                 if (chosen[other]) {
                     chosen[other] = 0;
                     set.push_back(std::int32_t(other));
