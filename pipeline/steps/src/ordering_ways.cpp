@@ -79,14 +79,15 @@ Volume<float> tissueCosts(const Body& body, const InsideVolume& labels)
 {
     Volume<float> costs(body.inside.grid, 0);
     std::vector<std::uint8_t> lumen(costs.voxels.size(), 0);
-    tbb::parallel_for(0, costs.grid.size[2], [&](int ck) {
-        for (int k = ck * body.factor; k < std::min(labels.grid.size[2], (ck + 1) * body.factor); ++k)
-            for (int j = 0; j < labels.grid.size[1]; ++j) {
+    const auto [nx, ny, nz] = labels.grid.size;
+    tbb::parallel_for(0, costs.grid.size[2], [&, nx = nx, ny = ny, nz = nz, factor = body.factor](int ck) {
+        for (int k = ck * factor; k < std::min(nz, (ck + 1) * factor); ++k)
+            for (int j = 0; j < ny; ++j) {
                 const std::uint8_t* row = &labels.voxels[labels.grid.offset({0, j, k})];
-                std::uint8_t* out = &lumen[costs.grid.offset({0, j / body.factor, ck})];
-                for (int i = 0; i < labels.grid.size[0]; ++i)
-                    if (row[i])
-                        out[i / body.factor] = 1;
+                std::uint8_t* out = &lumen[costs.grid.offset({0, j / factor, ck})];
+                for (int i = 0; i < nx; ++out)
+                    for (const int end = std::min(nx, i + factor); i < end; ++i)
+                        *out |= row[i];
             }
     });
     for (std::size_t n = 0; n < costs.voxels.size(); ++n) {
