@@ -1,5 +1,4 @@
 #include <QComboBox>
-#include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMessageBox>
@@ -187,14 +186,9 @@ TEST_F(Reading, MarkersOfAFileAreLoadedInOneStepAndSaved)
         click("endoscopic", middle("endoscopic") + by, Qt::ShiftModifier);
         ASSERT_TRUE(eventually([&] { return markers()->rowCount() == before + 1 && settled(); }));
     }
-    const auto choose = [](const char* name, const QString& file) {
-        auto* dialog = the<QFileDialog>(name);
-        emit dialog->fileSelected(file);  // how Qt's own dialog is used is Qt's business
-        dialog->reject();
-    };
     const std::filesystem::path file = store_ / "list.json";
     key(Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
-    choose("saveMarkers", file.c_str());
+    typeFileName("saveMarkers", file.c_str());
     ASSERT_TRUE(eventually([&] { return std::filesystem::exists(file); }));
     auto list = nlohmann::json::parse(readFile(file));
     ASSERT_EQ(list["markers"].size(), 2U);
@@ -202,7 +196,7 @@ TEST_F(Reading, MarkersOfAFileAreLoadedInOneStepAndSaved)
         marker["note"] = "from the file";
     replaceFile(file, list.dump());
     key(Qt::Key_O, Qt::ControlModifier);
-    choose("loadMarkers", file.c_str());
+    typeFileName("loadMarkers", file.c_str());
     const auto notes = [&](const char* note) { return cell(0, 6) == note && cell(1, 6) == note && settled(); };
     ASSERT_TRUE(eventually([&] { return notes("from the file"); })) << warning();
     EXPECT_EQ(stored()[1].note, "from the file");

@@ -1,6 +1,8 @@
 #include "reading.h"
 
+#include <QFileDialog>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QSettings>
 #include <QTabBar>
@@ -114,6 +116,19 @@ QString Reader::cell(int row, int column)
 std::string Reader::warning()
 {
     return the<QLabel>("warning")->text().toStdString();
+}
+
+void Reader::typeFileName(const char* dialog, const QString& file)
+{
+    auto* asked = the<QFileDialog>(dialog);
+    ASSERT_TRUE(eventually([&] { return asked->isVisible(); }));
+    auto* name = asked->findChild<QLineEdit*>("fileNameEdit");
+    ASSERT_NE(name, nullptr);
+    name->selectAll();
+    QTest::keyClicks(name, file);
+    QTest::keyClick(name, Qt::Key_Return);
+    ASSERT_TRUE(eventually([&] { return window()->findChild<QFileDialog*>(dialog) == nullptr; }));
+    window()->activateWindow();
 }
 
 void Reader::startOpening(const char* patient_id)

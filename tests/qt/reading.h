@@ -64,6 +64,8 @@ protected:
     static bool settled();
     static QString cell(int row, int column);
     static std::string warning();
+    /// Writes a name into a dialog for files and presses Return.
+    static void typeFileName(const char* dialog, const QString& file);
 
     /// More than text: the colours of its middle differ.
     static bool drawn(const char* view);

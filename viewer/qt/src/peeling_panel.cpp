@@ -5,6 +5,9 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QSlider>
+#include <QTimer>
+#include <algorithm>
+#include <cmath>
 
 #include "vicon/viewer/scene/measures_picture.h"
 
@@ -61,6 +64,23 @@ bool PeelingPanel::on() const
     return !preset_->currentData().toString().isEmpty();
 }
 
+QString PeelingPanel::preset() const
+{
+    return preset_->currentData().toString();
+}
+
+double PeelingPanel::offset_mm() const
+{
+    return offset_->value() * kTick_mm;
+}
+
+void PeelingPanel::choose(const QString& preset, double offset_mm, bool circle_only)
+{
+    preset_->setCurrentIndex(std::max(0, preset_->findData(preset)));
+    offset_->setValue(int(std::lround(offset_mm / kTick_mm)));
+    circle_->setChecked(circle_only);
+}
+
 bool PeelingPanel::circleOnly() const
 {
     return circle_->isChecked();
@@ -71,12 +91,13 @@ void PeelingPanel::showHistogram(const Biopsy& biopsy)
     histogram_->setVisible(biopsy.voxels > 0);
     if (biopsy.voxels == 0)
         return;
-    constexpr int kWidth = 400, kHeight = 220;
+    constexpr int kWidth = 380, kHeight = 200;
     const double ratio = devicePixelRatioF();
     const Picture drawn = histogramPicture(biopsy, int(kWidth * ratio), int(kHeight * ratio));
     QImage image(drawn.rgb.data(), drawn.width, drawn.height, 3 * drawn.width, QImage::Format_RGB888);
     image.setDevicePixelRatio(ratio);
     histogram_->setPixmap(QPixmap::fromImage(image));
+    QTimer::singleShot(0, this, [this] { emit histogramShown(histogram_); });
 }
 
 void PeelingPanel::fill(SnapshotRequest& request) const

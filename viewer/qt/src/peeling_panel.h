@@ -19,6 +19,10 @@ public:
     explicit PeelingPanel(QWidget* parent = nullptr);
     bool on() const;
     bool circleOnly() const;
+    QString preset() const;  ///< empty: none
+    double offset_mm() const;
+    /// What is not known any more is none.
+    void choose(const QString& preset, double offset_mm, bool circle_only);
     /// Puts the choice into a request for an endoscopic picture.
     void fill(SnapshotRequest& request) const;
     /// Of the biopsy that was taken last; one without voxels: none is shown.
@@ -26,6 +30,8 @@ public:
 
 signals:
     void changed();
+    /// Room is made for it by then.
+    void histogramShown(QWidget* histogram);
 
 private:
     QComboBox* preset_;

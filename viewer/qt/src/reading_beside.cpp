@@ -28,9 +28,8 @@ void ReadingWindow::connectBeside()
         tell({});
         drawBeside(true);
     });
-    connect(&studio_, &Studio::besideDrawn, this, [this](const Picture& picture, const Pose& pose, const Lens& lens) {
-        beside_pose_ = pose;
-        beside_lens_ = lens;
+    connect(&studio_, &Studio::besideDrawn, this, [this](const Picture& picture, const Studio::Shown& shown) {
+        beside_shown_ = shown;
         beside_->endoscopic()->showPicture(picture);
     });
     connect(beside_->endoscopic(), &PictureView::resized, this, [this] { drawBeside(true); });
@@ -40,7 +39,7 @@ void ReadingWindow::connectBeside()
     connect(beside_->slice(), &SliceView::failed, this, &ReadingWindow::warn);
     connect(beside_->slice(), &SliceView::pointClicked, this, [this](Point3 point, Qt::KeyboardModifiers modifiers) {
         if (session_.beside())
-            placed(*session_.beside(), besidePlace(), point, modifiers);
+            placed(*session_.beside(), beside_shown_.place, point, modifiers);
     });
     connect(window_choice_, &QComboBox::currentTextChanged, beside_->slice(),
             [this](const QString& name) { beside_->slice()->setWindow(windowPreset(name.toStdString())); });
@@ -93,10 +92,10 @@ void ReadingWindow::drawBeside(bool still)
 
 void ReadingWindow::clickedBeside(Pixel at, Qt::KeyboardModifiers modifiers)
 {
-    if (!session_.beside() || beside_lens_.width == 0)
+    if (!session_.beside() || !beside_shown_.isOf(session_.sharedBeside()))
         return;
-    if (const auto point = wallAt(*session_.beside(), beside_pose_, beside_lens_, at);
-        point && placed(*session_.beside(), besidePlace(), *point, modifiers, true))
+    if (const auto point = wallAt(*session_.beside(), beside_shown_, at);
+        point && placed(*session_.beside(), beside_shown_.place, *point, modifiers, true))
         return;
     changeScan(session_.beside()->record.id);
 }

@@ -45,20 +45,20 @@ void ReadingWindow::circledAt(Pixel centre, double radius_px)
     circling_ = false;
     endoscopic_->setCircling(false);
     setPickCursor(false);
-    if (!navigator() || shown_lens_.width == 0)
+    if (!navigator() || !shown_.isOf(session_.sharedScan()))
         return;
-    const auto point = wallAt(*session_.scan(), shown_pose_, shown_lens_, centre);
+    const auto point = wallAt(*session_.scan(), shown_, centre);
     if (!point) {
         tell(tr("There is no wall in the middle of the circle."));
         return;
     }
-    const double depth_mm = project(shown_pose_, shown_lens_, *point).depth_mm;
-    const double radius_mm = std::clamp(radius_px * depth_mm / shown_lens_.focal_px(), kLeast_mm, kMost_mm);
+    const double depth_mm = project(shown_.place.pose, shown_.lens, *point).depth_mm;
+    const double radius_mm = std::clamp(radius_px * depth_mm / shown_.lens.focal_px(), kLeast_mm, kMost_mm);
     circle_ = Circle{*point, radius_mm};
     drawEndoscopic(true);
     tell(tr("Taking the biopsy ..."));
     // Half of a finding's height below its top, which is as far as half of its radius where it stands as half a ball.
-    const Vector3 inwards = rayThrough(shown_pose_, shown_lens_, centre);
+    const Vector3 inwards = rayThrough(shown_.place.pose, shown_.lens, centre);
     session_.takeBiopsy(*point + inwards * (radius_mm / 2), radius_mm);
 }
 

@@ -57,7 +57,7 @@ void ReadingWindow::flyTo(const Marker& marker)
     moved(true);
 }
 
-bool ReadingWindow::placed(const OpenScan& scan, const NavigationState& from, Point3 point,
+bool ReadingWindow::placed(const OpenScan& scan, const SnapshotResult& from, Point3 point,
                            Qt::KeyboardModifiers modifiers, bool on_wall)
 {
     if (measuring_ && &scan != session_.scan()) {
@@ -94,21 +94,22 @@ bool ReadingWindow::placed(const OpenScan& scan, const NavigationState& from, Po
     return true;
 }
 
-std::optional<Point3> ReadingWindow::wallAt(const OpenScan& scan, const Pose& pose, const Lens& lens, Pixel at)
+std::optional<Point3> ReadingWindow::wallAt(const OpenScan& scan, const Studio::Shown& shown, Pixel at)
 {
-    const Vector3 ray = rayThrough(pose, lens, at);
-    const auto far = distanceToWall_mm(scan.lumen, pose.eye_mm, ray, kReach_mm);
-    return far ? std::optional(pose.eye_mm + ray * *far) : std::nullopt;
+    const Point3 eye_mm = shown.place.pose.eye_mm;
+    const Vector3 ray = rayThrough(shown.place.pose, shown.lens, at);
+    const auto far = distanceToWall_mm(scan.lumen, eye_mm, ray, kReach_mm);
+    return far ? std::optional(eye_mm + ray * *far) : std::nullopt;
 }
 
 void ReadingWindow::clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers)
 {
-    if (!navigator() || shown_lens_.width == 0)
+    if (!navigator() || !shown_.isOf(session_.sharedScan()))
         return;
-    const auto point = wallAt(*session_.scan(), shown_pose_, shown_lens_, at);
+    const auto point = wallAt(*session_.scan(), shown_, at);
     if (!point)
         return;
-    placed(*session_.scan(), navigator()->state(), *point, modifiers, true);
+    placed(*session_.scan(), shown_.place, *point, modifiers, true);
     focus_ = point;
     showPlace();
 }
@@ -117,7 +118,7 @@ void ReadingWindow::clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers)
 {
     if (!navigator())
         return;
-    if (placed(*session_.scan(), navigator()->state(), point, modifiers)) {
+    if (placed(*session_.scan(), place(), point, modifiers)) {
         focus_ = point;
         showPlace();
     } else {
@@ -138,7 +139,7 @@ void ReadingWindow::clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers)
             station = s;
         }
     }
-    if (placed(*session_.scan(), navigator()->state(), path.at(station).position_mm, modifiers))
+    if (placed(*session_.scan(), place(), path.at(station).position_mm, modifiers))
         return;
     emit navigation_->jumpWanted(station);
 }

@@ -13,6 +13,7 @@
 
 #include "beside_view.h"
 #include "colon_panel.h"
+#include "controls_area.h"
 #include "coverage_panel.h"
 #include "reading_window.h"
 #include "vicon/viewer/model/window_level.h"
@@ -71,28 +72,34 @@ QWidget* ReadingWindow::buildSide()
     navigation_ = new NavigationPanel;
     peeling_ = new PeelingPanel;
     coverage_ = new CoveragePanel;
-    auto* lists = new QTabWidget;
-    lists->setObjectName("lists");
-    lists->addTab(table_, tr("&Markers"));
-    lists->addTab(coverage_, tr("&Unseen"));
+    lists_ = new QTabWidget;
+    lists_->setObjectName("lists");
+    lists_->addTab(table_, tr("&Markers"));
+    lists_->addTab(coverage_, tr("&Unseen"));
     colon_ = new ColonPanel;
-    lists->addTab(colon_, tr("C&olon"));
-    connect(lists, &QTabWidget::currentChanged, this, [this, lists] {
-        if (lists->currentWidget() == coverage_)
+    lists_->addTab(colon_, tr("C&olon"));
+    connect(lists_, &QTabWidget::currentChanged, this, [this] {
+        if (lists_->currentWidget() == coverage_)
             listUnseen();
     });
     seen_text_ = new QLabel;
     seen_text_->setObjectName("seenText");
     seen_text_->setToolTip(tr("Part of the wall seen so far"));
     statusBar()->addPermanentWidget(seen_text_);
+    auto* controls = new QWidget;
+    auto* stack = new QVBoxLayout(controls);
+    stack->setContentsMargins(0, 0, 0, 0);
+    stack->addWidget(group(tr("Flight"), navigation_));
+    stack->addWidget(lists_, 1);
+    stack->addWidget(group(tr("Below the wall"), peeling_));
+    auto* area = new ControlsArea(controls);
+    connect(peeling_, &PeelingPanel::histogramShown, area, [area](QWidget* it) { area->ensureWidgetVisible(it); });
     auto* side = new QWidget;
     side->setMaximumWidth(kSideWidth * 5 / 4);
     auto* column = new QVBoxLayout(side);
     column->setContentsMargins(0, 0, 0, 0);
-    column->addWidget(overview_, 3);
-    column->addWidget(group(tr("Flight"), navigation_));
-    column->addWidget(lists, 2);
-    column->addWidget(group(tr("Below the wall"), peeling_));
+    column->addWidget(overview_);
+    column->addWidget(area);
     return side;
 }
 
@@ -114,29 +121,29 @@ void ReadingWindow::buildViews()
     coronal_->setObjectName("coronal");
     sagittal_->setObjectName("sagittal");
 
-    auto* slices = new QSplitter(Qt::Vertical);
+    slices_ = new QSplitter(Qt::Vertical);
     for (SliceView* slice : {transverse_, coronal_, sagittal_})
-        slices->addWidget(slice);
-    slices->setObjectName("slices");
+        slices_->addWidget(slice);
+    slices_->setObjectName("slices");
     side_ = buildSide();
-    auto* columns = new QSplitter(Qt::Horizontal);
-    columns->addWidget(endoscopic_);
+    columns_ = new QSplitter(Qt::Horizontal);
+    columns_->addWidget(endoscopic_);
     beside_ = new BesideView;
     beside_->hide();
-    columns->addWidget(beside_);
-    columns->addWidget(slices);
-    columns->addWidget(side_);
-    columns->setStretchFactor(0, 5);
-    columns->setStretchFactor(1, 4);
-    columns->setStretchFactor(2, 3);
-    columns->setStretchFactor(3, 0);
-    columns->setSizes({5 * kPart, 4 * kPart, 3 * kPart, kSideWidth});
+    columns_->addWidget(beside_);
+    columns_->addWidget(slices_);
+    columns_->addWidget(side_);
+    columns_->setStretchFactor(0, 5);
+    columns_->setStretchFactor(1, 4);
+    columns_->setStretchFactor(2, 3);
+    columns_->setStretchFactor(3, 0);
+    columns_->setSizes({5 * kPart, 4 * kPart, 3 * kPart, kSideWidth});
     auto* all = new QWidget(this);
     auto* layout = new QVBoxLayout(all);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addWidget(buildTop());
-    layout->addWidget(columns, 1);
+    layout->addWidget(columns_, 1);
     setCentralWidget(all);
 }
 

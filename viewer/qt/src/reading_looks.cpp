@@ -18,14 +18,15 @@ void ReadingWindow::addLooks(QMenu* menu)
     structure_->setCheckable(true);
     structure_->setShortcut(QKeySequence("O"));
     connect(structure_, &QAction::toggled, this, [this] { moved(true); });
-    auto* light = new QActionGroup(this);
+    lights_ = new QActionGroup(this);
     for (const auto& [title, reach_mm] :
          {std::pair(tr("Light: near, depth stands out"), kNear_mm), std::pair(tr("Light: usual"), kUsualLampReach_mm),
           std::pair(tr("Light: far"), kFar_mm)}) {
         QAction* action = menu->addAction(title);
         action->setCheckable(true);
         action->setChecked(reach_mm == lamp_reach_mm_);
-        light->addAction(action);
+        action->setData(reach_mm);
+        lights_->addAction(action);
         connect(action, &QAction::triggered, this, [this, reach = reach_mm] {
             lamp_reach_mm_ = reach;
             moved(true);

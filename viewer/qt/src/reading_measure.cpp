@@ -49,7 +49,7 @@ bool ReadingWindow::measuredAt(Point3 point, bool on_wall)
     setPickCursor(false);
     if (done.on_wall) {
         tell(tr("Measuring ..."));
-        session_.measure(done.ends[0], done.ends[1], navigator()->state().pose.eye_mm);
+        session_.measure(done.ends[0], done.ends[1], shown_.place.pose.eye_mm);
     } else {
         showMeasured({distance(done.ends[0], done.ends[1]), 0, done.ends}, {});
     }
@@ -98,8 +98,8 @@ void ReadingWindow::drawMeasured()
 {
     QVector<QLineF> lines;
     for (std::size_t n = 1; n < measured_way_.size(); ++n) {
-        const Projected a = project(shown_pose_, shown_lens_, measured_way_[n - 1]);
-        const Projected b = project(shown_pose_, shown_lens_, measured_way_[n]);
+        const Projected a = project(shown_.place.pose, shown_.lens, measured_way_[n - 1]);
+        const Projected b = project(shown_.place.pose, shown_.lens, measured_way_[n]);
         if (a.depth_mm > 0 && b.depth_mm > 0)
             lines << QLineF(a.at.x, a.at.y, b.at.x, b.at.y);
     }

@@ -40,6 +40,7 @@ ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistRow&
     const int known =
         scan_choice_->findData(settings.value("place/" + QString::fromStdString(row.record.id) + "/scan"));
     scan_choice_->setCurrentIndex(std::max(0, known));
+    restoreLooks();
     tell(tr("Reading the scan ..."));
     session_.open(scan_choice_->currentData().toString().toStdString());
 }
@@ -58,13 +59,11 @@ void ReadingWindow::connectAll()
     connect(&session_, &CaseSession::reportWritten, this,
             [this](const QString& file) { tell(tr("Report written: %1").arg(file)); });
     connect(&studio_, &Studio::failed, this, &ReadingWindow::warn);
-    connect(&studio_, &Studio::endoscopicDrawn, this,
-            [this](const Picture& picture, const Pose& pose, const Lens& lens) {
-                shown_pose_ = pose;
-                shown_lens_ = lens;
-                endoscopic_->showPicture(picture);
-                drawMeasured();
-            });
+    connect(&studio_, &Studio::endoscopicDrawn, this, [this](const Picture& picture, const Studio::Shown& shown) {
+        shown_ = shown;
+        endoscopic_->showPicture(picture);
+        drawMeasured();
+    });
     connect(&studio_, &Studio::overviewDrawn, this, [this](const Picture& picture, const PlaneView& view) {
         shown_overview_ = view;
         overview_shown_ = true;
@@ -193,38 +192,6 @@ void ReadingWindow::scanOpened()
     fly_to_when_open_.reset();
 }
 
-void ReadingWindow::restorePlace()
-{
-    if (came_from_) {
-        navigator()->setHeading(came_from_->navigator.heading());
-        const bool same = came_from_->record.id == session_.scan()->record.id;  // done again: where the eye was
-        const Point3 eye = came_from_->navigator.state().pose.eye_mm;
-        navigator()->jumpTo(same ? session_.scan()->files.skeleton().nearest(eye).station_mm
-                                 : corresponding_mm(*came_from_, came_from_mm_, *session_.scan()));
-        came_from_.reset();
-        return;
-    }
-    QSettings settings;
-    settings.beginGroup("place/" + QString::fromStdString(session_.record().id));
-    compare_->setChecked(settings.value("beside").toBool());
-    setAngle(settings.value("angle_deg", view_angle_deg_).toDouble());
-    navigator()->setHeading(settings.value("to_rectum").toBool() ? Heading::rectum : Heading::caecum);
-    navigator()->jumpTo(settings.value(QString::fromStdString(session_.scan()->record.id), 0).toDouble());
-}
-
-void ReadingWindow::savePlace()
-{
-    if (!navigator())
-        return;
-    QSettings settings;
-    settings.beginGroup("place/" + QString::fromStdString(session_.record().id));
-    settings.setValue("scan", QString::fromStdString(session_.scan()->record.id));
-    settings.setValue("angle_deg", view_angle_deg_);
-    settings.setValue("beside", compare_->isChecked());
-    settings.setValue("to_rectum", navigator()->heading() == Heading::rectum);
-    settings.setValue(QString::fromStdString(session_.scan()->record.id), navigator()->state().station_mm);
-}
-
 void ReadingWindow::tick()
 {
     const double seconds = double(clock_.nsecsElapsed()) * 1e-9;
@@ -350,6 +317,7 @@ void ReadingWindow::closeEvent(QCloseEvent* event)
 {
     timer_.stop();
     savePlace();
+    saveLooks();
     keepSeen();
     poll_.stop();
     keep_seen_.stop();

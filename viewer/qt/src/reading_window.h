@@ -17,9 +17,12 @@
 #include "studio.h"
 
 class QAction;
+class QActionGroup;
 class QComboBox;
 class QLabel;
 class QMenu;
+class QSplitter;
+class QTabWidget;
 
 namespace vicon::viewer {
 
@@ -61,8 +64,6 @@ private:
     // reading_window.cpp
     void connectAll();
     void scanOpened();
-    void restorePlace();
-    void savePlace();
     void tick();
     void moved(bool still);
     void drawEndoscopic(bool still);
@@ -72,6 +73,12 @@ private:
     void tell(const QString& message);
     void warn(const QString& message);
 
+    // reading_place.cpp
+    void savePlace();
+    void restorePlace();
+    void saveLooks();
+    void restoreLooks();
+
     // reading_keys.cpp
     void lookAt(Point3 point);
     void flyTo(const Marker& marker);
@@ -79,10 +86,10 @@ private:
     void clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers);
     void clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers);
     /// @param from the view in which the point was chosen
-    bool placed(const OpenScan& scan, const NavigationState& from, Point3 point, Qt::KeyboardModifiers modifiers,
+    bool placed(const OpenScan& scan, const SnapshotResult& from, Point3 point, Qt::KeyboardModifiers modifiers,
                 bool on_wall = false);
     /// What lies on the wall at a pixel of an endoscopic picture.
-    static std::optional<Point3> wallAt(const OpenScan& scan, const Pose& pose, const Lens& lens, Pixel at);
+    static std::optional<Point3> wallAt(const OpenScan& scan, const Studio::Shown& shown, Pixel at);
     void setPickCursor(bool on);
     void pair(const Marker& marker);
     void arm(std::optional<MarkerColor> color);
@@ -157,6 +164,9 @@ private:
     Corrector corrector_;
     PictureView *endoscopic_, *overview_;
     SliceView *transverse_, *coronal_, *sagittal_;
+    QSplitter *columns_ = nullptr, *slices_ = nullptr;
+    QTabWidget* lists_ = nullptr;
+    QActionGroup* lights_ = nullptr;
     QWidget* side_ = nullptr;
     QWidget* enlarged_ = nullptr;
     MarkerTable* table_;
@@ -171,8 +181,7 @@ private:
     QLabel *warning_, *notice_, *seen_text_;
     QTimer timer_, still_, poll_, keep_seen_;
     QElapsedTimer clock_;
-    Pose shown_pose_;
-    Lens shown_lens_;
+    Studio::Shown shown_;
     PlaneView shown_overview_;
     bool overview_shown_ = false;
     std::optional<Point3> focus_;  // what was clicked; else the place on the path
@@ -202,8 +211,7 @@ private:
     std::optional<ViewPose> beside_place_;         // the partner of the marker that is shown; else what corresponds
     std::optional<Point3> beside_focus_;           // that partner
     bool fresh_ = false;                           // the scan was done again; its files are read anew
-    Pose beside_pose_;
-    Lens beside_lens_;
+    Studio::Shown beside_shown_;
     std::vector<Worker*> workers_;  // once the window is closed
     double view_angle_deg_ = 90;
     double lamp_reach_mm_ = kUsualLampReach_mm;

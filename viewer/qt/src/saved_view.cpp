@@ -15,12 +15,12 @@ Vector3 vectorFrom(const nlohmann::json& json)
 
 }  // namespace
 
-nlohmann::json viewOf(const NavigationState& state)
+nlohmann::json viewOf(const SnapshotResult& place)
 {
-    return {{"eye_mm", jsonOf(state.pose.eye_mm - Point3{})},
-            {"forward", jsonOf(state.pose.forward)},
-            {"up", jsonOf(state.pose.up)},
-            {"station_mm", state.station_mm}};
+    return {{"eye_mm", jsonOf(place.pose.eye_mm - Point3{})},
+            {"forward", jsonOf(place.pose.forward)},
+            {"up", jsonOf(place.pose.up)},
+            {"station_mm", place.station_mm}};
 }
 
 std::optional<SavedView> savedView(const Marker& marker)

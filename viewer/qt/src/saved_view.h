@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "vicon/core/records.h"
-#include "vicon/viewer/model/navigator.h"
+#include "vicon/viewer/scene/snapshot.h"
 
 namespace vicon::viewer {
 
@@ -15,7 +15,7 @@ struct SavedView {
 };
 
 /// What is kept as the marker's "view".
-nlohmann::json viewOf(const NavigationState& state);
+nlohmann::json viewOf(const SnapshotResult& place);
 
 /// Nothing where there is none or it makes no sense.
 std::optional<SavedView> savedView(const Marker& marker);

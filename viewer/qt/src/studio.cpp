@@ -80,7 +80,7 @@ void Studio::draw(Which which, std::shared_ptr<OpenScan> scan, const Wish& wish)
                          });
         const Lens lens{request.view_angle_deg, request.width, request.height};
         const auto signal = which == Which::leading ? &Studio::endoscopicDrawn : &Studio::besideDrawn;
-        return [this, picture, signal, pose = wish.place.pose, lens] { emit(this->*signal)(*picture, pose, lens); };
+        return [this, picture, signal, shown = Shown{scan, wish.place, lens}] { emit(this->*signal)(*picture, shown); };
     });
 }
 

@@ -40,12 +40,19 @@ public:
     /// @param last the film is finished with it
     void film(std::shared_ptr<OpenScan> scan, const Wish& wish, Heading heading, std::shared_ptr<Film> film, bool last);
 
+    /// What a picture that is shown was made of: a click into it means that place, wherever the eye is by then.
+    struct Shown {
+        std::weak_ptr<OpenScan> scan;
+        SnapshotResult place;
+        Lens lens;
+
+        bool isOf(const std::shared_ptr<OpenScan>& which) const { return which && scan.lock() == which; }
+    };
+
 signals:
     void filmed(const std::shared_ptr<vicon::viewer::Film>& film, bool finished);
-    void endoscopicDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::Pose& pose,
-                         const vicon::viewer::Lens& lens);
-    void besideDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::Pose& pose,
-                     const vicon::viewer::Lens& lens);
+    void endoscopicDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::Studio::Shown& shown);
+    void besideDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::Studio::Shown& shown);
     void overviewDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::PlaneView& view);
     void seenChanged();
     void failed(const QString& message);
