@@ -182,6 +182,21 @@ std::vector<MarkerEdit> importOf(CaseStore& store, const MarkOptions& options, c
     return edits;
 }
 
+void renewPlaces(CaseStore& store, const MarkOptions& options, const std::string& case_id, const std::string& scan_id)
+{
+    for (const Marker& marker : store.markers(case_id)) {
+        if (marker.scan_id != scan_id)
+            continue;
+        try {
+            if (const Marker placed = placeMarker(store, options, case_id, marker); toJson(placed) != toJson(marker))
+                store.editMarkers(case_id, {{marker, placed}});
+        } catch (const Error& e) {
+            if (e.code() != ErrorCode::bad_input && e.code() != ErrorCode::not_ready)
+                throw;
+        }
+    }
+}
+
 void addDensity(CaseStore& store, const std::string& case_id, Marker& marker, double radius_mm)
 {
     const fs::path folder = store.scanFolder(case_id, marker.scan_id);

@@ -48,6 +48,10 @@ Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::stri
 std::vector<MarkerEdit> importOf(CaseStore& store, const MarkOptions& options, const std::string& case_id,
                                  const std::filesystem::path& file);
 
+/// Places the markers of a scan anew, after its skeleton was made again. One that no longer lies in the colon, and what
+/// somebody changes at the same time, stays as it is.
+void renewPlaces(CaseStore& store, const MarkOptions& options, const std::string& case_id, const std::string& scan_id);
+
 /// Fills in the density of the tissue around a placed marker as `extra["density"]`: mean, spread and histogram with the
 /// ball that they were taken from. Throws Error{wrong_use} where the radius is out of range or the ball holds no
 /// tissue.

@@ -1,5 +1,6 @@
 #include "scan_work.h"
 
+#include "marking.h"
 #include "vicon/ingest/load_scan.h"
 
 namespace vicon::app {
@@ -7,12 +8,17 @@ namespace vicon::app {
 pipeline::JobWork scanWork(CaseStore& store, const Config& config)
 {
     const auto options = config.get<ingest::ImportOptions>();
-    return pipeline::makeScanWork(
+    auto work = pipeline::makeScanWork(
         store, config,
         [options](const std::filesystem::path& folder, Progress& progress) {
             return ingest::loadScan(folder, options, progress);
         },
         toJson(options));
+    // A new skeleton gives the markers of its scan new stations.
+    return [&store, mark = config.get<MarkOptions>(), work = std::move(work)](pipeline::JobContext& job_context) {
+        work(job_context);
+        renewPlaces(store, mark, job_context.job().case_id, job_context.job().scan_id);
+    };
 }
 
 void requeueOutdated(CaseStore& store, const Config& config)

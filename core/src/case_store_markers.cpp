@@ -17,15 +17,38 @@ namespace {
 /// taken away when the file is written, so that neither a full disk nor a kill between the two leaves it old for good.
 const std::string kFileIsOld = "markers.json ";
 
-/// When a marker was last written does not make it another one.
+/// What follows from where a marker lies and from the scan's skeleton. Whoever makes the skeleton anew renews it.
+constexpr const char* kFromSkeleton[] = {"station_mm", "from_caecum_mm", "fraction", "part"};
+
+/// Neither when a marker was last written nor a new skeleton makes it another one.
 bool same(const std::optional<Marker>& a, const std::optional<Marker>& b)
 {
     if (!a || !b)
         return !a && !b;
     json x = toJson(*a), y = toJson(*b);
-    x.erase("changed");
-    y.erase("changed");
+    for (json* marker : {&x, &y}) {
+        marker->erase("changed");
+        for (const char* key : kFromSkeleton)
+            marker->erase(key);
+    }
     return x == y;
+}
+
+/// What the writer saw of the old skeleton and did not change stays as it is stored.
+void keepRenewedPlace(const Marker& stored, MarkerEdit& edit)
+{
+    const json seen = toJson(*edit.before), now = toJson(stored);
+    json wanted = toJson(*edit.after);
+    const auto at = [](const json& marker, const char* key) { return marker.value(key, json()); };
+    if (edit.after->position_mm == stored.position_mm && edit.after->scan_id == stored.scan_id)
+        for (const char* key : kFromSkeleton) {
+            if (at(wanted, key) != at(seen, key))
+                continue;
+            wanted.erase(key);
+            if (now.contains(key))
+                wanted[key] = now[key];
+        }
+    edit.after = markerFromJson(wanted);
 }
 
 /// The markers of one case, within a transaction.
@@ -172,6 +195,8 @@ std::vector<MarkerEdit> CaseStore::editMarkers(const std::string& case_id, std::
         MarkerRows rows(sql, case_id);
         for (MarkerEdit& edit : edits) {
             requireAsSeen(rows, edit);
+            if (edit.before && edit.after)
+                keepRenewedPlace(*rows.find(edit.before->id), edit);
             rows.apply(edit);
         }
         for (std::size_t n = 0, asked = edits.size(); n < asked; ++n)

@@ -26,6 +26,8 @@ TEST_F(Reading, CorrectionsGoToThePipelineAndTheNewResultIsTakenOver)
     settle();
     press(window(), "correctCut");
     click("coronal", middle("coronal"));
+    EXPECT_TRUE(eventually([] { return warning().starts_with("There is no lumen"); })) << "between the two limbs";
+    click("overview", {the<QWidget>("overview")->width() / 2, the<QWidget>("overview")->height() / 5});
     ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); }));
     screenshot("corrected");
     ASSERT_TRUE(eventually([] { return !the<QProgressBar>("redo")->isVisible(); }));
@@ -42,6 +44,37 @@ TEST_F(Reading, CorrectionsGoToThePipelineAndTheNewResultIsTakenOver)
     EXPECT_LT(length() - station(), 10) << "the eye is where it was";
     closeCase();
     EXPECT_NE(surface(), before);
+}
+
+TEST_F(Reading, MarkersGetTheirStationsOnTheNewPathAndEarlierStepsCanStillBeUndone)
+{
+    openCase();
+    click("endoscopic", middle("endoscopic") + QPoint(60, 90), Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    const double there = stored()[0].station_mm;
+    {  // as if the path had begun elsewhere so far
+        CaseStore other(store_);
+        Marker marker = other.markers(test::kCase).front();
+        marker.station_mm = there + 70;
+        other.saveMarker(test::kCase, marker);
+    }
+    ASSERT_TRUE(eventually([&] { return std::abs(cell(0, 2).toDouble() - there - 70) < 1; }));
+    EXPECT_EQ(warning(), "") << "nobody but the pipeline changed it";
+    showList(2);
+    press(window(), "correctCut");
+    click("overview", {the<QWidget>("overview")->width() / 2, the<QWidget>("overview")->height() / 5});
+    ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); })) << warning();
+    ASSERT_TRUE(eventually([] { return !the<QProgressBar>("redo")->isVisible(); }));
+    waitForScan();
+    EXPECT_TRUE(eventually([&] { return std::abs(stored()[0].station_mm - there) < 3 && settled(); }))
+        << stored()[0].station_mm << " for " << there;
+    EXPECT_EQ(warning(), "");
+    showList(0);
+    press(window(), "undo");
+    EXPECT_TRUE(eventually([&] { return stored().empty() && settled(); })) << warning();
+    press(window(), "redo");
+    ASSERT_TRUE(eventually([&] { return stored().size() == 1 && settled(); })) << warning();
+    EXPECT_NEAR(stored()[0].station_mm, there, 3);
 }
 
 }  // namespace

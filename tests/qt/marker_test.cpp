@@ -188,7 +188,7 @@ TEST_F(Reading, MarkersOfAFileAreLoadedInOneStepAndSaved)
     }
     const std::filesystem::path file = store_ / "list.json";
     key(Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
-    typeFileName("saveMarkers", file.c_str());
+    chooseFile("saveMarkers", file.c_str());
     ASSERT_TRUE(eventually([&] { return std::filesystem::exists(file); }));
     auto list = nlohmann::json::parse(readFile(file));
     ASSERT_EQ(list["markers"].size(), 2U);
@@ -196,7 +196,7 @@ TEST_F(Reading, MarkersOfAFileAreLoadedInOneStepAndSaved)
         marker["note"] = "from the file";
     replaceFile(file, list.dump());
     key(Qt::Key_O, Qt::ControlModifier);
-    typeFileName("loadMarkers", file.c_str());
+    chooseFile("loadMarkers", file.c_str());
     const auto notes = [&](const char* note) { return cell(0, 6) == note && cell(1, 6) == note && settled(); };
     ASSERT_TRUE(eventually([&] { return notes("from the file"); })) << warning();
     EXPECT_EQ(stored()[1].note, "from the file");

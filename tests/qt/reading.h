@@ -64,12 +64,15 @@ protected:
     static bool settled();
     static QString cell(int row, int column);
     static std::string warning();
-    /// Writes a name into a dialog for files and presses Return.
-    static void typeFileName(const char* dialog, const QString& file);
+    /// Answers a dialog for files.
+    static void chooseFile(const char* dialog, const QString& file);
 
     /// More than text: the colours of its middle differ.
     static bool drawn(const char* view);
     static QImage pictureOf(const char* view);
+    /// The endoscopic picture is that of the place where the eye is: a click means what the picture shows.
+    static bool pictureIsThere();
+    static double pictureStation();
     static double station();
     static double length();
     void screenshot(const char* name) const;

@@ -111,5 +111,34 @@ TEST_F(Reading, WhatWasSeenIsCountedPaintedListedAndKept)
     EXPECT_TRUE(eventually([&] { return seen() < before + 1; })) << seen();
 }
 
+TEST_F(Reading, SlicesAndProjectionMoveToASecondWindowThatHasTheKeysAndIsRemembered)
+{
+    openCase();
+    QWidget* mine = window();
+    key(Qt::Key_F2);
+    ASSERT_TRUE(eventually([&] { return the<QWidget>("coronal")->window() != mine; }));
+    auto* second = the<QWidget>("second");
+    ASSERT_TRUE(eventually([] { return drawn("coronal") && drawn("overview") && drawn("endoscopic"); }));
+    settle();
+    second->grab().save(VICON_SCREENSHOTS "/second_window.png");
+    screenshot("first_of_two");
+    EXPECT_EQ(the<QWidget>("endoscopic")->window(), mine);
+    EXPECT_EQ(the<QWidget>("markers")->window(), mine);
+    QTest::keyClick(second, Qt::Key_End);
+    EXPECT_TRUE(eventually([] { return length() - station() < 2; }));
+    QTest::mouseDClick(the<QWidget>("coronal"), Qt::LeftButton, {}, middle("coronal"));
+    EXPECT_TRUE(the<QWidget>("endoscopic")->isVisible()) << "the other window stays as it is";
+    EXPECT_FALSE(the<QWidget>("sagittal")->isVisible());
+    EXPECT_FALSE(the<QWidget>("overview")->isVisible());
+    QTest::mouseDClick(the<QWidget>("coronal"), Qt::LeftButton, {}, middle("coronal"));
+    EXPECT_TRUE(the<QWidget>("overview")->isVisible());
+    closeCase();
+    openCase();
+    EXPECT_NE(the<QWidget>("coronal")->window(), window()) << "remembered";
+    the<QWidget>("second")->close();
+    EXPECT_TRUE(eventually([] { return the<QWidget>("coronal")->window() == window(); }));
+    EXPECT_TRUE(eventually([] { return the<QWidget>("overview")->isVisible(); }));
+}
+
 }  // namespace
 }  // namespace vicon::viewer

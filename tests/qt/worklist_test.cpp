@@ -37,5 +37,26 @@ TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
     EXPECT_EQ(shown(), 0) << "it is no longer failed";
 }
 
+TEST_F(Reading, OpeningCanBeCancelledAndTheScanThatIsOpenStays)
+{
+    startOpening();
+    ASSERT_TRUE(eventually([] { return the<QWidget>("opening")->isVisible(); }));
+    press(window(), "openingCancel");
+    EXPECT_TRUE(eventually([] { return window() == nullptr; })) << "nothing was open in it";
+    openCase();
+    EXPECT_FALSE(the<QWidget>("opening")->isVisible());
+    auto* scan = the<QComboBox>("scan");
+    const QString open = scan->currentText();
+    scan->setFocus();
+    QTest::keyClick(scan, Qt::Key_Down);
+    ASSERT_TRUE(the<QWidget>("opening")->isVisible());
+    press(window(), "openingCancel");
+    EXPECT_EQ(scan->currentText(), open);
+    settle();
+    EXPECT_EQ(scan->currentText(), open) << "what was read meanwhile is not shown";
+    key(Qt::Key_End);
+    EXPECT_TRUE(eventually([] { return length() - station() < 2; }));
+}
+
 }  // namespace
 }  // namespace vicon::viewer

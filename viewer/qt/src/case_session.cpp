@@ -1,9 +1,7 @@
 #include "case_session.h"
 
-#include <QThreadPool>
 #include <algorithm>
 
-#include "seen_keeper.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
@@ -18,10 +16,14 @@ nlohmann::json jsonOf(const std::vector<Marker>& markers)
     return list;
 }
 
-/// Giving back a scan's memory takes long enough to be felt, whoever lets it go last.
-void letGo(OpenScan* scan)
+/// What a reader makes of markers; where they lie along the path follows from the scan.
+nlohmann::json withoutPlaces(const std::vector<Marker>& markers)
 {
-    QThreadPool::globalInstance()->start([scan] { delete scan; });
+    nlohmann::json list = jsonOf(markers);
+    for (nlohmann::json& marker : list)
+        for (const char* key : {"station_mm", "from_caecum_mm", "fraction", "part", "changed"})
+            marker.erase(key);
+    return list;
 }
 
 QString caseIsGone()
@@ -33,16 +35,6 @@ QString caseIsGone()
 }
 
 }  // namespace
-
-OpenScan::OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case)
-    : files(std::move(prepared)),
-      record(scan),
-      caption(captionFor(a_case, scan)),
-      lumen(files.lumen()),
-      navigator(files.frames(), lumen, files.exitDistance()),
-      seen(triangleAreas_mm2(files.cells().points_mm, files.cells().triangles))
-{
-}
 
 CaseSession::CaseSession(const ReadingServices& services, const WorklistRow& row)
     : services_(services), row_(row), history_(row.record.id)
@@ -81,56 +73,6 @@ std::optional<Marker> CaseSession::marker(const std::string& id) const
 {
     const auto found = std::find_if(markers_.begin(), markers_.end(), [&](const Marker& m) { return m.id == id; });
     return found == markers_.end() ? std::nullopt : std::optional(*found);
-}
-
-void CaseSession::open(const std::string& scan_id, bool fresh)
-{
-    wanted_scan_ = scan_id;
-    if (!fresh && beside_ && beside_->record.id == scan_id) {
-        std::swap(scan_, beside_);
-        wanted_beside_ = beside_ ? beside_->record.id : "";
-        emit opened();
-        emit besideOpened();
-        return;
-    }
-    load("open", scan_id, [this](std::shared_ptr<OpenScan> made) {
-        if (made->record.id != wanted_scan_)
-            return;
-        scan_ = std::move(made);
-        emit opened();
-    });
-}
-
-void CaseSession::openBeside(const std::string& scan_id)
-{
-    wanted_beside_ = scan_id;
-    load("open beside", scan_id, [this](std::shared_ptr<OpenScan> made) {
-        if (made->record.id != wanted_beside_)
-            return;
-        beside_ = std::move(made);
-        emit besideOpened();
-    });
-}
-
-void CaseSession::closeBeside()
-{
-    wanted_beside_.clear();
-    beside_.reset();
-}
-
-void CaseSession::load(const std::string& work, const std::string& scan_id, Opened then)
-{
-    const auto row = std::find_if(row_.scans.begin(), row_.scans.end(),
-                                  [&](const WorklistScanRow& scan) { return scan.record.id == scan_id; });
-    if (row == row_.scans.end())
-        return;
-    loader_.post(work, [this, folder = row->folder, scan = row->record, then = std::move(then)]() -> Worker::Work {
-        auto files = PreparedScan::open(folder);
-        files.readForFlight();
-        const std::shared_ptr<OpenScan> made(new OpenScan(files, scan, row_.record), letGo);
-        SeenKeeper::restore(made->seen, folder);
-        return [made, then] { then(made); };
-    });
 }
 
 void CaseSession::edit(const QString& what, Edit work)
@@ -230,12 +172,48 @@ void CaseSession::saveMarkers(const std::filesystem::path& file)
 
 void CaseSession::undo()
 {
-    edit(tr("Undone"), [](CaseStore& store, MarkerHistory& history) { history.undo(store); });
+    edit(tr("Undone"), [this](CaseStore& store, MarkerHistory& history) {
+        history.undo(store);
+        if (skeleton_is_new_)
+            renewPlaces(store);
+    });
 }
 
 void CaseSession::redo()
 {
-    edit(tr("Done again"), [](CaseStore& store, MarkerHistory& history) { history.redo(store); });
+    edit(tr("Done again"), [this](CaseStore& store, MarkerHistory& history) {
+        history.redo(store);
+        if (skeleton_is_new_)
+            renewPlaces(store);
+    });
+}
+
+std::string CaseSession::renewPlaces(CaseStore& store)
+{
+    std::string lost;
+    for (const Marker& marker : store.markers(row_.record.id)) {
+        try {
+            if (const Marker placed = services_.place(store, row_.record.id, marker); toJson(placed) != toJson(marker))
+                store.editMarkers(row_.record.id, {{marker, placed}});
+        } catch (const Error& e) {
+            if (e.code() != ErrorCode::bad_input)
+                throw;
+            lost += (lost.empty() ? "" : ", ") + marker.id;
+        }
+    }
+    return lost;
+}
+
+void CaseSession::placeAnew()
+{
+    edit(tr("The corrected scan is shown; its markers have their distances on the new path."),
+         [this](CaseStore& store, MarkerHistory&) {
+             skeleton_is_new_ = true;
+             const std::string lost = renewPlaces(store);
+             if (!lost.empty())
+                 throw Error(ErrorCode::wrong_use, "no longer in the colon; distances and part stay as they were", lost,
+                             "move or delete them");
+         });
 }
 
 void CaseSession::refresh()
@@ -246,7 +224,7 @@ void CaseSession::refresh()
         return [this, markers = store().markers(row_.record.id)] {
             if (markers_known_ && jsonOf(markers) == jsonOf(markers_))
                 return;
-            const bool by_other = markers_known_;
+            const bool by_other = markers_known_ && withoutPlaces(markers) != withoutPlaces(markers_);
             markers_known_ = true;
             markers_ = markers;
             emit markersChanged();

@@ -2,6 +2,7 @@
 
 #include <QImage>
 #include <QObject>
+#include <atomic>
 #include <map>
 #include <memory>
 #include <optional>
@@ -54,6 +55,8 @@ public:
     /// Reads a scan's files; opened() follows, or warned(). The scan beside changes places with the one being read.
     /// @param fresh reads it again, after its files were made anew
     void open(const std::string& scan_id, bool fresh = false);
+    /// What is being read is given up; the scan that is open stays.
+    void cancelOpening();
     /// Reads another scan to be shown beside the one being read; besideOpened() follows.
     void openBeside(const std::string& scan_id);
     void closeBeside();
@@ -79,6 +82,9 @@ public:
     bool canRedo() const { return can_redo_; }
     /// Looks whether another reader changed something.
     void refresh();
+    /// The scan's skeleton was made anew: its markers get their stations on it, now and after an undo. What cannot be
+    /// placed any more is warned of, and stays as it is.
+    void placeAnew();
     void writeReport();
     /// Between two points of the open scan's wall, seen from `eye`; measured() follows, or warned().
     void measure(Point3 from, Point3 to, Point3 eye);
@@ -93,6 +99,9 @@ public:
 
 signals:
     void opened();
+    /// How far open() is.
+    void opening(int done, int of);
+    void openingFailed();
     void besideOpened();
     void markersChanged();
     /// A change is on its way to the database; until then the markers shown may be old ones.
@@ -109,9 +118,12 @@ private:
     using Edit = std::function<void(CaseStore&, MarkerHistory&)>;
     void edit(const QString& what, Edit work);
     void edited();
+    /// Names of the markers that no longer lie in the colon.
+    std::string renewPlaces(CaseStore& store);  // on the worker's thread
     using Opened = std::function<void(std::shared_ptr<OpenScan>)>;
     /// Reads a scan's files on the loader's thread.
-    void load(const std::string& work, const std::string& scan_id, Opened then);
+    void load(const std::string& work, const std::string& scan_id, Opened then,
+              const std::shared_ptr<const std::atomic<bool>>& stop = {});
     CaseStore& store();                                              // on the worker's thread
     std::filesystem::path newPicture(const std::string& extension);  // on the worker's thread
     std::string wordsFor(const Error& error);                        // on the worker's thread
@@ -123,10 +135,12 @@ private:
     std::shared_ptr<OpenScan> scan_;
     std::shared_ptr<OpenScan> beside_;
     std::string wanted_scan_, wanted_beside_;
+    std::shared_ptr<std::atomic<bool>> stop_opening_;
     bool can_undo_ = false, can_redo_ = false;
     bool markers_known_ = false;
     int edits_under_way_ = 0;
     MarkerHistory history_;             // the worker's
+    bool skeleton_is_new_ = false;      // the worker's: what history_ remembers has stations of an older one
     std::unique_ptr<CaseStore> store_;  // the worker's
     Worker loader_{this};
     Worker worker_{this};  // last: it ends first

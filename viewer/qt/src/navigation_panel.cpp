@@ -47,7 +47,6 @@ NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
     station_->setKeyboardTracking(false);
     go_ = button(tr("Jump"), "jump", tr("Jump to this distance from the rectum"), tr("Jump there"));
     where_ = named(new QLabel(this), "where", tr("Place"), tr("Where the eye is"));
-    where_->setWordWrap(true);
 
     grid->addWidget(mode_, 0, 0);
     grid->addWidget(back_, 0, 1);

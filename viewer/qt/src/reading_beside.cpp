@@ -14,6 +14,15 @@ ColonScale scaleOf(const OpenScan& scan)
     return {scan.files.frames().length_mm(), scan.files.parts()};
 }
 
+/// The saved one, unless the path was made anew meanwhile and runs elsewhere there.
+double stationOf(const OpenScan& scan, const SavedView& view)
+{
+    constexpr double kOtherPath_mm = 20;  // a colon's radius; a piece of it that was added or dropped is longer
+    const SkeletonFoot nearest = scan.files.skeleton().nearest(view.pose.eye_mm);
+    const double off_mm = distance(scan.files.frames().at(view.station_mm).position_mm, view.pose.eye_mm);
+    return off_mm > nearest.distance_mm + kOtherPath_mm ? nearest.station_mm : view.station_mm;
+}
+
 }  // namespace
 
 double ReadingWindow::corresponding_mm(const OpenScan& from, double station_mm, const OpenScan& to)
@@ -113,7 +122,7 @@ void ReadingWindow::showPairOf(const Marker& marker)
 ViewPose ReadingWindow::viewFor(const OpenScan& scan, const Marker& marker)
 {
     if (const auto saved = savedView(marker); saved && scan.lumen.inside(saved->pose.eye_mm))
-        return {saved->pose, saved->station_mm, scan.lumen.clearance_mm(saved->pose.eye_mm), true};
+        return {saved->pose, stationOf(scan, *saved), scan.lumen.clearance_mm(saved->pose.eye_mm), true};
     return poseForPoint(scan.files.skeleton(), scan.files.frames(), scan.lumen, marker.position_mm);
 }
 

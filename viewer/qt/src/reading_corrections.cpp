@@ -15,9 +15,11 @@ void ReadingWindow::connectCorrections()
                     colon_->show(bridges, session_.scan()->files.skeleton());
             });
     connect(&corrector_, &Corrector::redone, this, [this](const QString& scan_id) {
-        if (!session_.scan() || session_.scan()->record.id != scan_id.toStdString())
+        if (!session_.scan() || session_.scan()->record.id != scan_id.toStdString()) {
+            session_.placeAnew();
             return;
-        fresh_ = true;
+        }
+        fresh_ = redone_ = true;
         changeScan(scan_id.toStdString());
     });
     connect(colon_, &ColonPanel::stopWanted, &corrector_, &Corrector::stop);
@@ -52,6 +54,10 @@ bool ReadingWindow::correctedAt(const OpenScan& scan, Point3 point)
     if (!correcting_)
         return false;
     const Correction kind = *correcting_;
+    if (kind != Correction::add && !scan.lumen.inside(point)) {
+        warn(tr("There is no lumen at this point; click into the gas or fluid that is to be cut or dropped."));
+        return true;
+    }
     correcting_.reset();
     setPickCursor(false);
     corrector_.correct(scan.record, kind, point);

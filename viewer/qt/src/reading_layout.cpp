@@ -150,7 +150,12 @@ void ReadingWindow::buildViews()
 void ReadingWindow::enlarge(QWidget* view)
 {
     enlarged_ = enlarged_ == view ? nullptr : view;
-    const auto shown = [&](QWidget* widget) { return !enlarged_ || enlarged_ == widget; };
+    // Of two windows, only the one that holds the view gives up its other views.
+    const auto shown = [&](QWidget* widget) {
+        const bool elsewhere = second_ && (widget == endoscopic_) != (enlarged_ == endoscopic_);
+        return !enlarged_ || enlarged_ == widget || elsewhere;
+    };
+    overview_->setVisible(!second_ || !enlarged_ || enlarged_ == endoscopic_);
     bool any_slice = false;
     for (QWidget* slice :
          {static_cast<QWidget*>(transverse_), static_cast<QWidget*>(coronal_), static_cast<QWidget*>(sagittal_)}) {
@@ -159,7 +164,7 @@ void ReadingWindow::enlarge(QWidget* view)
     }
     transverse_->parentWidget()->setVisible(any_slice);
     endoscopic_->setVisible(shown(endoscopic_));
-    beside_->setVisible(compare_->isChecked() && !enlarged_);
+    beside_->setVisible(compare_->isChecked() && (!enlarged_ || (second_ && enlarged_ != endoscopic_)));
     drawBeside(true);
 }
 
@@ -226,6 +231,7 @@ void ReadingWindow::addActions()
     compare_->setShortcut(QKeySequence("C"));
     connect(compare_, &QAction::triggered, this, &ReadingWindow::setBeside);
     addLooks(view);
+    addScreens(view);
     add(view, tr("Other scan"), QKeySequence("X"), [this] {
         if (scan_choice_->count() < 2)
             return;

@@ -64,8 +64,12 @@ void ReadingWindow::saveLooks()
     QSettings settings;
     // The screen and the hands are the reader's, whatever the case.
     settings.setValue("window/geometry", saveGeometry());
-    settings.setValue("window/columns", columns_->saveState());
-    settings.setValue("window/slices", slices_->saveState());
+    if (!second_) {
+        settings.setValue("window/columns", columns_->saveState());
+        settings.setValue("window/slices", slices_->saveState());
+    }
+    settings.setValue("window/two", two_screens_->isChecked());
+    saveSecondWindow();
     settings.beginGroup(groupOf(session_.record()));
     settings.setValue("window_level", window_choice_->currentText());
     settings.setValue("peel", peeling_->preset());
@@ -83,6 +87,7 @@ void ReadingWindow::restoreLooks()
     columns_->restoreState(settings.value("window/columns").toByteArray());
     slices_->restoreState(settings.value("window/slices").toByteArray());
     beside_->hide();  // shown when its scan is there
+    two_screens_->setChecked(settings.value("window/two").toBool());
     settings.beginGroup(groupOf(session_.record()));
     const int level = window_choice_->findText(settings.value("window_level").toString());
     if (level >= 0)

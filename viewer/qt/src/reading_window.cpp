@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "second_window.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/window_level.h"
 
@@ -41,8 +42,7 @@ ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistRow&
         scan_choice_->findData(settings.value("place/" + QString::fromStdString(row.record.id) + "/scan"));
     scan_choice_->setCurrentIndex(std::max(0, known));
     restoreLooks();
-    tell(tr("Reading the scan ..."));
-    session_.open(scan_choice_->currentData().toString().toStdString());
+    openScan(scan_choice_->currentData().toString().toStdString(), false);
 }
 
 ReadingWindow::~ReadingWindow() = default;
@@ -58,10 +58,14 @@ void ReadingWindow::connectAll()
     connect(&session_, &CaseSession::measured, this, &ReadingWindow::showMeasured);
     connect(&session_, &CaseSession::reportWritten, this,
             [this](const QString& file) { tell(tr("Report written: %1").arg(file)); });
-    connect(&studio_, &Studio::failed, this, &ReadingWindow::warn);
+    connect(&studio_, &Studio::failed, this, [this](const QString& message) {
+        shown_ = {};  // a flight without pictures does not wait for one
+        warn(message);
+    });
     connect(&studio_, &Studio::endoscopicDrawn, this, [this](const Picture& picture, const Studio::Shown& shown) {
         shown_ = shown;
         endoscopic_->showPicture(picture);
+        endoscopic_->setAccessibleDescription(tr("%1 mm from the rectum").arg(shown.place.station_mm, 0, 'f', 0));
         drawMeasured();
     });
     connect(&studio_, &Studio::overviewDrawn, this, [this](const Picture& picture, const PlaneView& view) {
@@ -142,6 +146,7 @@ void ReadingWindow::connectAll()
     connectBiopsy();
     connectCorrections();
     connectFilm();
+    connectOpening();
     timer_.setTimerType(Qt::PreciseTimer);
     timer_.setInterval(kFrame_ms);
     connect(&timer_, &QTimer::timeout, this, &ReadingWindow::tick);
@@ -156,48 +161,14 @@ void ReadingWindow::connectAll()
     poll_.start();
 }
 
-void ReadingWindow::changeScan(const std::string& scan_id)
-{
-    savePlace();
-    keepSeen();
-    came_from_ = session_.sharedScan();
-    if (navigator())
-        came_from_mm_ = navigator()->state().station_mm;
-    tell(tr("Reading the scan ..."));
-    session_.open(scan_id, std::exchange(fresh_, false));
-}
-
-void ReadingWindow::scanOpened()
-{
-    scan_choice_->setCurrentIndex(scan_choice_->findData(QString::fromStdString(session_.scan()->record.id)));
-    beside_place_.reset();
-    overview_shown_ = false;
-    measured_way_.clear();
-    circle_.reset();
-    focus_.reset();
-    warning_->clear();
-    tell({});
-    restorePlace();
-    markersChanged();
-    clock_.start();
-    timer_.start();
-    moved(true);
-    showSeen();
-    listUnseen();
-    corrector_.findBridges(session_.scan()->record);
-    if (compare_->isChecked())
-        setBeside(true);
-    if (const auto marker = session_.marker(fly_to_when_open_.value_or("")))
-        flyTo(*marker);
-    fly_to_when_open_.reset();
-}
-
 void ReadingWindow::tick()
 {
     const double seconds = double(clock_.nsecsElapsed()) * 1e-9;
     clock_.restart();
     constexpr double kMost_s = 0.25;  // after a pause of the whole machine the flight does not leap
     const Pose before = navigator()->state().pose;
+    if (waitsForPicture())
+        return;
     navigator()->advance(std::min(seconds, kMost_s));
     const NavigationState now = navigator()->state();
     if (now.at_end && navigator()->direction() > 0)
@@ -207,6 +178,14 @@ void ReadingWindow::tick()
         beside_place_.reset();
         moved(false);
     }
+}
+
+// On a machine that draws slowly the flight is slower; wall that flies past unshown would be wall unread.
+bool ReadingWindow::waitsForPicture() const
+{
+    constexpr double kMostAhead_mm = 20;  // of the eye before the picture; 0.2 s of the fastest flight
+    return shown_.isOf(session_.sharedScan()) && endoscopic_->isVisible() &&
+           distance(shown_.place.pose.eye_mm, navigator()->state().pose.eye_mm) > kMostAhead_mm;
 }
 
 void ReadingWindow::moved(bool still)
@@ -318,6 +297,8 @@ void ReadingWindow::closeEvent(QCloseEvent* event)
     timer_.stop();
     savePlace();
     saveLooks();
+    if (second_)
+        second_->hide();
     keepSeen();
     poll_.stop();
     keep_seen_.stop();

@@ -30,6 +30,7 @@ class BesideView;
 class ColonPanel;
 class CoveragePanel;
 class FilmMaker;
+class SecondWindow;
 
 /// A case in reading: the endoscopic view, three slices and the colon's projection, all at one place, with the
 /// controls of flight, the markers and the look below the wall.
@@ -63,8 +64,8 @@ private:
 
     // reading_window.cpp
     void connectAll();
-    void scanOpened();
     void tick();
+    bool waitsForPicture() const;
     void moved(bool still);
     void drawEndoscopic(bool still);
     void drawOverview();
@@ -72,6 +73,15 @@ private:
     void markersChanged();
     void tell(const QString& message);
     void warn(const QString& message);
+
+    // reading_opening.cpp
+    void connectOpening();
+    /// The other scan is read on from the place that corresponds.
+    void changeScan(const std::string& scan_id);
+    void openScan(const std::string& scan_id, bool fresh);
+    void scanOpened();
+    void cancelOpening();
+    void stayWhereOneIs();
 
     // reading_place.cpp
     void savePlace();
@@ -136,6 +146,12 @@ private:
     void connectFilm();
     void film();
 
+    // reading_screens.cpp
+    void addScreens(QMenu* menu);
+    void setTwoScreens(bool on);
+    void placeSecondWindow();
+    void saveSecondWindow() const;
+
     // reading_looks.cpp
     void addLooks(QMenu* menu);
     void setAngle(double angle_deg);
@@ -152,8 +168,6 @@ private:
     static ViewPose viewFor(const OpenScan& scan, const Marker& marker);
     static double corresponding_mm(const OpenScan& from, double station_mm, const OpenScan& to);
 
-    /// The other scan is read on from the place that corresponds.
-    void changeScan(const std::string& scan_id);
     SnapshotRequest request(const OpenScan& scan, const QSize& size) const;
     SnapshotResult place() const;
     Navigator* navigator() const { return session_.scan() ? &session_.scan()->navigator : nullptr; }
@@ -168,6 +182,8 @@ private:
     QTabWidget* lists_ = nullptr;
     QActionGroup* lights_ = nullptr;
     QWidget* side_ = nullptr;
+    QWidget* opening_ = nullptr;
+    SecondWindow* second_ = nullptr;  // the slices and the projection are in it
     QWidget* enlarged_ = nullptr;
     MarkerTable* table_;
     NavigationPanel* navigation_;
@@ -176,7 +192,7 @@ private:
     ColonPanel* colon_;
     FilmMaker* film_maker_ = nullptr;
     BesideView* beside_;
-    QAction *compare_ = nullptr, *structure_ = nullptr;
+    QAction *compare_ = nullptr, *structure_ = nullptr, *two_screens_ = nullptr;
     QComboBox *scan_choice_, *window_choice_;
     QLabel *warning_, *notice_, *seen_text_;
     QTimer timer_, still_, poll_, keep_seen_;
@@ -210,6 +226,7 @@ private:
     std::optional<std::string> fly_to_when_open_;  // a marker
     std::optional<ViewPose> beside_place_;         // the partner of the marker that is shown; else what corresponds
     std::optional<Point3> beside_focus_;           // that partner
+    bool redone_ = false;                          // the scan that is being opened has a new skeleton
     bool fresh_ = false;                           // the scan was done again; its files are read anew
     Studio::Shown beside_shown_;
     std::vector<Worker*> workers_;  // once the window is closed

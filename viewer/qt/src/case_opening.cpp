@@ -1,0 +1,115 @@
+// The part of CaseSession that reads scans, on the loader's thread.
+#include <QThreadPool>
+#include <algorithm>
+
+#include "case_session.h"
+#include "seen_keeper.h"
+
+namespace vicon::viewer {
+namespace {
+
+/// Giving back a scan's memory takes long enough to be felt, whoever lets it go last.
+void letGo(OpenScan* scan)
+{
+    QThreadPool::globalInstance()->start([scan] { delete scan; });
+}
+
+}  // namespace
+
+OpenScan::OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case)
+    : files(std::move(prepared)),
+      record(scan),
+      caption(captionFor(a_case, scan)),
+      lumen(files.lumen()),
+      navigator(files.frames(), lumen, files.exitDistance()),
+      seen(triangleAreas_mm2(files.cells().points_mm, files.cells().triangles))
+{
+}
+
+void CaseSession::open(const std::string& scan_id, bool fresh)
+{
+    wanted_scan_ = scan_id;
+    if (!fresh && beside_ && beside_->record.id == scan_id) {
+        std::swap(scan_, beside_);
+        wanted_beside_ = beside_ ? beside_->record.id : "";
+        emit opened();
+        emit besideOpened();
+        return;
+    }
+    if (stop_opening_)
+        *stop_opening_ = true;  // of an earlier wish
+    stop_opening_ = std::make_shared<std::atomic<bool>>(false);
+    const auto take = [this](std::shared_ptr<OpenScan> made) {
+        if (made->record.id != wanted_scan_)
+            return;
+        scan_ = std::move(made);
+        emit opened();
+    };
+    load("open", scan_id, take, stop_opening_);
+}
+
+void CaseSession::cancelOpening()
+{
+    if (stop_opening_)
+        *stop_opening_ = true;
+    wanted_scan_ = scan_ ? scan_->record.id : "";
+}
+
+void CaseSession::openBeside(const std::string& scan_id)
+{
+    wanted_beside_ = scan_id;
+    load("open beside", scan_id, [this](std::shared_ptr<OpenScan> made) {
+        if (made->record.id != wanted_beside_)
+            return;
+        beside_ = std::move(made);
+        emit besideOpened();
+    });
+}
+
+void CaseSession::closeBeside()
+{
+    wanted_beside_.clear();
+    beside_.reset();
+}
+
+void CaseSession::load(const std::string& work, const std::string& scan_id, Opened then,
+                       const std::shared_ptr<const std::atomic<bool>>& stop)
+{
+    const auto row = std::find_if(row_.scans.begin(), row_.scans.end(),
+                                  [&](const WorklistScanRow& scan) { return scan.record.id == scan_id; });
+    if (row == row_.scans.end())
+        return;
+    constexpr int kStages = 3;
+    const auto at = [this, stop](int stage) {
+        if (stop && !*stop)
+            QMetaObject::invokeMethod(
+                this, [this, stage] { emit opening(stage, kStages); }, Qt::QueuedConnection);
+        return !stop || !*stop;
+    };
+    loader_.post(work,
+                 [this, folder = row->folder, scan = row->record, then = std::move(then), at, stop]() -> Worker::Work {
+                     try {
+                         if (!at(0))
+                             return {};
+                         auto files = PreparedScan::open(folder);
+                         files.readForFlight();
+                         if (!at(1))
+                             return {};
+                         const std::shared_ptr<OpenScan> made(new OpenScan(files, scan, row_.record), letGo);
+                         if (!at(2))
+                             return {};
+                         SeenKeeper::restore(made->seen, folder);
+                         return [made, then, stop] {
+                             if (!stop || !*stop)
+                                 then(made);
+                         };
+                     } catch (...) {
+                         if (at(0))
+                             QMetaObject::invokeMethod(
+                                 this, [this] { emit openingFailed(); }, Qt::QueuedConnection);
+                         throw;
+                     }
+                 });
+}
+
+}  // namespace vicon::viewer

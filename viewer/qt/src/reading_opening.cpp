@@ -1,0 +1,106 @@
+#include <QAction>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QStatusBar>
+#include <utility>
+
+#include "reading_window.h"
+
+namespace vicon::viewer {
+
+void ReadingWindow::connectOpening()
+{
+    opening_ = new QWidget;
+    opening_->setObjectName("opening");
+    auto* bar = new QProgressBar(opening_);
+    bar->setObjectName("openingBar");
+    bar->setAccessibleName(tr("Progress of opening the scan"));
+    auto* cancel = new QPushButton(tr("Cancel"), opening_);
+    cancel->setObjectName("openingCancel");
+    cancel->setToolTip(tr("Do not open this scan; where none is open yet, the window closes"));
+    auto* row = new QHBoxLayout(opening_);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->addWidget(bar);
+    row->addWidget(cancel);
+    statusBar()->addPermanentWidget(opening_);
+    opening_->hide();
+    connect(cancel, &QPushButton::clicked, this, &ReadingWindow::cancelOpening);
+    connect(&session_, &CaseSession::opening, bar, [bar](int done, int of) {
+        bar->setMaximum(of);
+        bar->setValue(done);
+    });
+    connect(&session_, &CaseSession::openingFailed, this, [this] {
+        opening_->hide();
+        stayWhereOneIs();
+    });
+}
+
+void ReadingWindow::openScan(const std::string& scan_id, bool fresh)
+{
+    tell(tr("Reading the scan ..."));
+    opening_->show();
+    session_.open(scan_id, fresh);
+}
+
+void ReadingWindow::stayWhereOneIs()
+{
+    came_from_.reset();
+    fly_to_when_open_.reset();
+    if (session_.scan())
+        scan_choice_->setCurrentIndex(scan_choice_->findData(QString::fromStdString(session_.scan()->record.id)));
+}
+
+void ReadingWindow::cancelOpening()
+{
+    session_.cancelOpening();
+    opening_->hide();
+    if (!session_.scan()) {
+        close();
+        return;
+    }
+    stayWhereOneIs();
+    tell(tr("Not opened; you read on in the scan that was open."));
+}
+
+void ReadingWindow::changeScan(const std::string& scan_id)
+{
+    savePlace();
+    keepSeen();
+    came_from_ = session_.sharedScan();
+    if (navigator())
+        came_from_mm_ = navigator()->state().station_mm;
+    openScan(scan_id, std::exchange(fresh_, false));
+}
+
+void ReadingWindow::scanOpened()
+{
+    opening_->hide();
+    scan_choice_->setCurrentIndex(scan_choice_->findData(QString::fromStdString(session_.scan()->record.id)));
+    beside_place_.reset();
+    overview_shown_ = false;
+    measured_way_.clear();
+    circle_.reset();
+    focus_.reset();
+    warning_->clear();
+    tell({});
+    restorePlace();
+    markersChanged();
+    clock_.start();
+    timer_.start();
+    moved(true);
+    showSeen();
+    listUnseen();
+    corrector_.findBridges(session_.scan()->record);
+    if (compare_->isChecked())
+        setBeside(true);
+    if (const auto marker = session_.marker(fly_to_when_open_.value_or("")))
+        flyTo(*marker);
+    fly_to_when_open_.reset();
+    if (std::exchange(redone_, false))
+        session_.placeAnew();
+}
+
+}  // namespace vicon::viewer

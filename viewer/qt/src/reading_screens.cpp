@@ -1,0 +1,81 @@
+// One screen or two: the slices and the colon's projection beside the main view, or in a window of their own.
+#include <QAction>
+#include <QGuiApplication>
+#include <QMenu>
+#include <QMenuBar>
+#include <QScreen>
+#include <QSettings>
+#include <QVBoxLayout>
+
+#include "reading_window.h"
+#include "second_window.h"
+
+namespace vicon::viewer {
+namespace {
+constexpr const char* kGeometry = "window/second_geometry";
+constexpr int kSlicesColumn = 2;
+}  // namespace
+
+void ReadingWindow::addScreens(QMenu* menu)
+{
+    two_screens_ = menu->addAction(tr("Slices and projection in a second window"));
+    two_screens_->setCheckable(true);
+    two_screens_->setShortcut(QKeySequence("F2"));
+    connect(two_screens_, &QAction::toggled, this, &ReadingWindow::setTwoScreens);
+}
+
+void ReadingWindow::setTwoScreens(bool on)
+{
+    if (on == (second_ != nullptr))
+        return;
+    if (enlarged_)
+        enlarge(enlarged_);
+    if (!on) {
+        saveSecondWindow();
+        slices_->setOrientation(Qt::Vertical);
+        columns_->insertWidget(kSlicesColumn, slices_);
+        qobject_cast<QVBoxLayout*>(side_->layout())->insertWidget(0, overview_);
+        second_->hide();
+        second_->deleteLater();
+        second_ = nullptr;
+        return;
+    }
+    second_ = new SecondWindow(this);
+    second_->setObjectName("second");
+    second_->setWindowTitle(windowTitle());
+    second_->addWidget(overview_);
+    slices_->setOrientation(Qt::Horizontal);
+    second_->addWidget(slices_);
+    for (const QMenu* of : menuBar()->findChildren<QMenu*>())
+        second_->addActions(of->actions());
+    connect(second_, &SecondWindow::closed, this, [this] { two_screens_->setChecked(false); });
+    connect(second_, &SecondWindow::keyPressed, this, &ReadingWindow::keyPressEvent);
+    connect(second_, &SecondWindow::keyReleased, this, &ReadingWindow::keyReleaseEvent);
+    connect(second_, &SecondWindow::left, this, [this] {
+        keys_.clear();
+        updateSteering();
+    });
+    placeSecondWindow();
+    second_->show();
+}
+
+/// Where it was, else on the screen that the main window is not on.
+void ReadingWindow::placeSecondWindow()
+{
+    if (second_->restoreGeometry(QSettings().value(kGeometry).toByteArray()))
+        return;
+    second_->resize(size());
+    for (const QScreen* other : QGuiApplication::screens())
+        if (other != screen()) {
+            second_->setGeometry(other->availableGeometry());
+            return;
+        }
+}
+
+void ReadingWindow::saveSecondWindow() const
+{
+    if (second_)
+        QSettings().setValue(kGeometry, second_->saveGeometry());
+}
+
+}  // namespace vicon::viewer
