@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "organs.h"
 #include "vicon/artefact/volume_file.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
@@ -92,6 +93,9 @@ void correctScan(CaseStore& store, const Config& config, const ScanRecord& scan,
                  bool forget)
 {
     const auto folder = store.scanFolder(scan.case_id, scan.id);
+    if (const std::string organ = organOf(store, scan); organ != "colon")
+        throw Error(ErrorCode::wrong_use, "corrections are made to a colon; this scan shows the " + organ, scan.id,
+                    "set organ.seed to a point inside it instead");
     requireInside(folder, more.add, "--seed");
     requireInside(folder, more.cut, "--cut");
     requireInside(folder, more.drop, "--drop");

@@ -101,6 +101,28 @@ Point3 pointFrom(const std::string& text, const char* option)
     return p;
 }
 
+namespace {
+
+/// The skeleton; of a tree the way from the root that passes nearest to the point.
+Skeleton wayThrough(const fs::path& file, Point3 point)
+{
+    const SkeletonTree tree = artefact::readSkeletonTree(file);
+    if (tree.empty())
+        return artefact::readSkeleton(file);
+    Skeleton best;
+    double least_mm = 1e300;
+    for (const int tip : tree.tips()) {
+        Skeleton way = tree.pathTo(tip);
+        if (const double away_mm = way.nearest(point).distance_mm; away_mm < least_mm) {
+            least_mm = away_mm;
+            best = std::move(way);
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
 std::optional<SnappedPoint> snapToSkeleton(const fs::path& folder, Point3 point, double within_mm)
 {
     if (!isPrepared(folder))
@@ -110,7 +132,7 @@ std::optional<SnappedPoint> snapToSkeleton(const fs::path& folder, Point3 point,
     const NearestVoxel voxel = nearestInside(segments, point, within_mm);
     if (voxel.segment == 0 || voxel.distance_mm > within_mm)
         return std::nullopt;
-    const Skeleton skeleton = artefact::readSkeleton(folder / "skeleton.vtp");
+    const Skeleton skeleton = wayThrough(folder / "skeleton.vtp", point);
     const auto subdivision = artefact::readSubdivision(folder / "subdivision.json");
     const auto& info = subdivision.segments.at(std::size_t(voxel.segment) - 1);
     const SkeletonFoot foot =

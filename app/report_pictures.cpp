@@ -5,6 +5,7 @@
 
 #include "correcting.h"
 #include "marking.h"
+#include "organs.h"
 #include "vicon/core/error.h"
 #include "vicon/viewer/scene/display.h"
 #include "vicon/viewer/scene/measures_picture.h"
@@ -96,7 +97,11 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const CaseRecord& rec
         progress.report(0, "overview of " + scan.id);
         report::ScanEntry entry = describeScan(store, scan);
         const fs::path folder = store.scanFolder(record.id, scan.id);
-        if (hasColon(folder)) {
+        if (const std::string organ = organOf(store, scan); organ != "colon") {
+            entry.verdict = organ;
+            entry.reason = "not a colon, and no part of this report";
+            entry.skeleton_length_mm = 0;
+        } else if (hasColon(folder)) {
             auto request = requestFor(SnapshotRequest::View::overview, record, scan, kOverviewWidth, kOverviewHeight);
             request.markers = markersOf(store, scan);
             entry.overview_picture = pictures / (scan.id + "-overview.png");

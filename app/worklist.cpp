@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "organs.h"
 #include "vicon/pipeline/queue.h"
 
 namespace vicon::app {
@@ -20,8 +21,8 @@ WorklistScan makeScan(CaseStore& store, pipeline::JobQueue& queue, const ScanRec
     }
     if (scan.reason.empty())
         for (const StepRecord& step : store.steps(record.case_id, record.id))
-            if (step.result.contains("verdict") && step.result["verdict"] != "colon")
-                scan.reason = step.result["verdict"].get<std::string>() + ": " + step.result.value("reason", "");
+            if (std::string warning = verdictWarning(step); !warning.empty())
+                scan.reason = std::move(warning);
     return scan;
 }
 

@@ -13,19 +13,20 @@ namespace {
 
 struct FlyArguments {
     std::string case_id, scan_id, direction = "caecum", out;
+    int branch = -1;
     viewer::FlightRequest request;
 };
 
 viewer::FlightRequest::Direction directionFrom(const std::string& name)
 {
     using Direction = viewer::FlightRequest::Direction;
-    if (name == "caecum")
+    if (name == "caecum" || name == "tip")
         return Direction::to_caecum;
-    if (name == "rectum")
+    if (name == "rectum" || name == "root")
         return Direction::to_rectum;
     if (name == "both")
         return Direction::both;
-    throw Error(ErrorCode::wrong_use, "must be caecum, rectum or both", "--to");
+    throw Error(ErrorCode::wrong_use, "must be caecum, rectum or both; of a tree tip, root or both", "--to");
 }
 
 constexpr std::size_t kMostListed = 10;
@@ -59,7 +60,7 @@ int fly(Context& context, const FlyArguments& arguments)
     for (Marker& marker : store.markers(record.id))
         if (marker.scan_id == scan.id)
             request.markers.push_back(std::move(marker));
-    const auto prepared = viewer::PreparedScan::open(store.scanFolder(record.id, scan.id));
+    const auto prepared = viewer::PreparedScan::open(store.scanFolder(record.id, scan.id), arguments.branch);
     ProgressLine progress("fly");
     const viewer::FlightReport report = viewer::fly(prepared, request, progress);
     progress.clear();
@@ -89,7 +90,14 @@ Subcommand flyCommand()
             command.add_option("CASE", arguments->case_id, "The case's id")->required();
             command.add_option("--scan", arguments->scan_id, "The scan (default: the first prepared one)")
                 ->type_name("SCAN");
-            command.add_option("--to", arguments->direction, "Where to: caecum, rectum or both")->capture_default_str();
+            command
+                .add_option("--to", arguments->direction, "Where to: caecum (of a tree: tip), rectum (root) or both")
+                ->capture_default_str();
+            command
+                .add_option("--branch", arguments->branch,
+                            "Of an organ that branches: fly from its root to the end of this branch (default: to the "
+                            "farthest tip)")
+                ->check(CLI::Range(0, 65535));
             command.add_option("--step", request.step_mm, "Distance between frames, mm")
                 ->check(CLI::Range(0.1, 1000.0))
                 ->capture_default_str();

@@ -5,12 +5,13 @@
 #include "../command.h"
 #include "../progress_line.h"
 #include "vicon/core/error.h"
+#include "vicon/phantom/organ_phantom.h"
 
 namespace vicon::app {
 namespace {
 
 struct PhantomArguments {
-    std::string out, size;
+    std::string out, size, organ = "colon";
     bool supine = false, prone = false;
     phantom::PhantomOptions options;
 };
@@ -36,7 +37,14 @@ int makePhantom(const PhantomArguments& arguments)
         options.prone = arguments.prone;
     }
     ProgressLine progress("phantom");
-    phantom::writeStudy(arguments.out, options, progress);
+    if (arguments.organ == "colon") {
+        phantom::writeStudy(arguments.out, options, progress);
+    } else {
+        phantom::OrganPhantomOptions other{.organ = arguments.organ, .seed = options.seed};
+        if (!arguments.size.empty())
+            other.size = options.size;
+        phantom::writeOrganStudy(arguments.out, other, progress);
+    }
     progress.clear();
     std::printf("%s\n", arguments.out.c_str());
     return 0;
@@ -51,6 +59,11 @@ Subcommand phantomCommand()
             auto arguments = std::make_shared<PhantomArguments>();
             phantom::PhantomOptions& options = arguments->options;
             command.add_option("OUT", arguments->out, "Folder to write to; made, and must be empty")->required();
+            command
+                .add_option("--organ", arguments->organ,
+                            "Which organ; an airway and an aorta take --seed and --size alone")
+                ->check(CLI::IsMember({"colon", "airway", "aorta"}))
+                ->capture_default_str();
             command.add_flag("--supine", arguments->supine, "Make the supine scan (default: supine and prone)");
             command.add_flag("--prone", arguments->prone, "Make the prone scan");
             command.add_option("--decubitus", options.decubitus, "One scan more, lying on this side")

@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "../command.h"
+#include "../organs.h"
 #include "../text_table.h"
 #include "../worklist.h"
 #include "vicon/artefact/subdivision_file.h"
@@ -78,6 +79,8 @@ void printScan(CaseStore& store, const WorklistScan& scan)
     }
     if (!rows.empty())
         std::printf("%s", formatTable({"  STEP", "TIME", "MEASURES"}, rows).c_str());
+    if (const std::string organ = organOf(store, r); organ != "colon")
+        std::printf("  organ: %s\n%s", organ.c_str(), branchTable(scan.folder).c_str());
     printCorrections(scan.folder);
     printQuality(store.describeScan(r.case_id, r.id));
     for (const char* list : {"repairs", "refused", "set_aside"})

@@ -19,6 +19,7 @@ struct SnapshotArguments {
     std::string peel;
     double peel_offset_mm = 0;
     bool peel_middle = false;
+    int branch = -1;
 };
 
 int snapshot(Context& context, const SnapshotArguments& arguments)
@@ -50,7 +51,7 @@ int snapshot(Context& context, const SnapshotArguments& arguments)
     request.peel = arguments.peel;
     request.peeling.offset_mm = arguments.peel_offset_mm;
     request.peel_middle_only = arguments.peel_middle;
-    const auto prepared = viewer::PreparedScan::open(store.scanFolder(record.id, scan.id));
+    const auto prepared = viewer::PreparedScan::open(store.scanFolder(record.id, scan.id), arguments.branch);
     const auto result = viewer::renderSnapshot(prepared, request, arguments.out);
     if (!result.sees_target)
         std::fprintf(
@@ -76,6 +77,11 @@ Subcommand snapshotCommand()
         "snapshot", "Write a picture of a scan to a PNG file, without a window", [](CLI::App& command) {
             auto arguments = std::make_shared<SnapshotArguments>();
             command.add_option("CASE", arguments->case_id, "The case's id")->required();
+            command
+                .add_option("--branch", arguments->branch,
+                            "Of an organ that branches: stations on the way to the end of this branch (default: to the "
+                            "farthest tip)")
+                ->check(CLI::Range(0, 65535));
             command
                 .add_option("--scan", arguments->scan_id,
                             "The scan (default: the marker's, else the first prepared one)")

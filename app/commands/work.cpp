@@ -3,6 +3,7 @@
 #include "../command.h"
 #include "../correcting.h"
 #include "../marking.h"
+#include "../organs.h"
 #include "../progress_line.h"
 #include "../scan_work.h"
 #include "vicon/core/error.h"
@@ -14,7 +15,7 @@ namespace {
 struct WorkArguments {
     bool until_idle = false;
     bool retry = false;
-    std::string case_id, scan_id;
+    std::string case_id, scan_id, organ;
     std::vector<std::string> seed, cut, drop;
     bool undo_corrections = false;
 
@@ -40,12 +41,12 @@ void correct(Context& context, CaseStore& store, const WorkArguments& arguments)
     correctScan(store, context.config(), scan, more, arguments.undo_corrections);
 }
 
-/// What the pipeline says of a scan whose colon it is not sure of.
+/// What the pipeline says of a scan whose organ it is not sure of.
 std::string warningOf(CaseStore& store, const pipeline::Job& job)
 {
     for (const StepRecord& step : store.steps(job.case_id, job.scan_id))
-        if (step.step == "segment" && step.result.value("verdict", "colon") != "colon")
-            return step.result.value("verdict", "") + ": " + step.result.value("reason", "");
+        if (step.step == "segment")
+            return verdictWarning(step);
     return {};
 }
 
@@ -63,6 +64,8 @@ int work(Context& context, const WorkArguments& arguments)
     const auto queue_options = context.config().get<pipeline::QueueOptions>();
     if (arguments.retry)
         retryFailed(store, queue_options);
+    if (!arguments.organ.empty())
+        setOrgan(store, context.config(), arguments.organ, arguments.case_id, arguments.scan_id);
     if (arguments.correct())
         correct(context, store, arguments);
     requeueOutdated(store, context.config());
@@ -98,28 +101,34 @@ int work(Context& context, const WorkArguments& arguments)
 
 Subcommand workCommand()
 {
-    return {
-        "work", "Run the queue: resample, segment, skeleton, subdivide and potential of every waiting scan",
-        [](CLI::App& command) {
-            auto arguments = std::make_shared<WorkArguments>();
-            command.add_flag("--until-idle", arguments->until_idle, "Stop when the queue is empty");
-            command.add_flag("--retry", arguments->retry, "Put failed jobs back into the queue first");
-            command.add_option("--case", arguments->case_id, "The case whose lumen is corrected")->type_name("CASE");
-            command.add_option("--scan", arguments->scan_id, "Its scan; needed where the case has several")
-                ->type_name("SCAN");
-            command.add_option("--seed", arguments->seed, "The gas or fluid here (LPS mm) belongs to the colon")
-                ->type_name("X,Y,Z")
-                ->allow_extra_args(false);
-            command.add_option("--cut", arguments->cut, "Cut the lumen here; the smaller part is dropped")
-                ->type_name("X,Y,Z")
-                ->allow_extra_args(false);
-            command.add_option("--drop", arguments->drop, "The piece here does not belong to the colon")
-                ->type_name("X,Y,Z")
-                ->allow_extra_args(false);
-            command.add_flag("--undo-corrections", arguments->undo_corrections,
-                             "Forget the scan's earlier seeds, cuts and drops");
-            return [arguments](Context& context) { return work(context, *arguments); };
-        }};
+    return {"work", "Run the queue: resample, segment, skeleton, subdivide and potential of every waiting scan",
+            [](CLI::App& command) {
+                auto arguments = std::make_shared<WorkArguments>();
+                command.add_flag("--until-idle", arguments->until_idle, "Stop when the queue is empty");
+                command.add_flag("--retry", arguments->retry, "Put failed jobs back into the queue first");
+                command
+                    .add_option(
+                        "--organ", arguments->organ,
+                        "What the scans of --case show, without it all that no step was done on: colon, airway or "
+                        "aorta")
+                    ->type_name("NAME");
+                command.add_option("--case", arguments->case_id, "The case that --organ and corrections speak of")
+                    ->type_name("CASE");
+                command.add_option("--scan", arguments->scan_id, "Its scan; needed where the case has several")
+                    ->type_name("SCAN");
+                command.add_option("--seed", arguments->seed, "The gas or fluid here (LPS mm) belongs to the colon")
+                    ->type_name("X,Y,Z")
+                    ->allow_extra_args(false);
+                command.add_option("--cut", arguments->cut, "Cut the lumen here; the smaller part is dropped")
+                    ->type_name("X,Y,Z")
+                    ->allow_extra_args(false);
+                command.add_option("--drop", arguments->drop, "The piece here does not belong to the colon")
+                    ->type_name("X,Y,Z")
+                    ->allow_extra_args(false);
+                command.add_flag("--undo-corrections", arguments->undo_corrections,
+                                 "Forget the scan's earlier seeds, cuts and drops");
+                return [arguments](Context& context) { return work(context, *arguments); };
+            }};
 }
 
 }  // namespace vicon::app

@@ -4,6 +4,7 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdList.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -39,9 +40,7 @@ Point3 pointOf(vtkPolyData* data, vtkIdType id)
     return {p[0], p[1], p[2]};
 }
 
-}  // namespace
-
-void writeSkeleton(const fs::path& file, const Skeleton& skeleton)
+void writeLines(const fs::path& file, const Skeleton& skeleton, const SkeletonTree& tree)
 {
     const auto points = doublePoints();
     vtkNew<vtkCellArray> lines;
@@ -65,18 +64,39 @@ void writeSkeleton(const fs::path& file, const Skeleton& skeleton)
     data->GetPointData()->AddArray(station);
     data->GetPointData()->AddArray(radius);
     data->GetCellData()->AddArray(bridge);
+    if (!tree.empty()) {
+        vtkNew<vtkIntArray> branch, parent, generation;
+        branch->SetName("branch");
+        parent->SetName("parent");
+        generation->SetName("generation");
+        for (std::size_t n = 0; n < tree.branches.size(); ++n) {
+            branch->InsertNextValue(int(n));
+            parent->InsertNextValue(tree.branches[n].parent);
+            generation->InsertNextValue(tree.branches[n].generation);
+        }
+        for (vtkIntArray* array : {branch.Get(), parent.Get(), generation.Get()})
+            data->GetCellData()->AddArray(array);
+    }
     writePolyData(file, data);
 }
 
-Skeleton readSkeleton(const fs::path& file)
+/// The lines of a file, and what of them is a tree.
+struct ReadLines {
+    Skeleton skeleton;
+    SkeletonTree tree;
+};
+
+ReadLines readLines(const fs::path& file)
 {
     const auto data = readPolyData(file);
     auto* station = data->GetPointData()->GetArray("station_mm");
     auto* radius = data->GetPointData()->GetArray("radius_mm");
     auto* bridge = data->GetCellData()->GetArray("bridge");
-    if (!station || !radius || !bridge || data->GetNumberOfLines() == 0)
+    auto* parent = data->GetCellData()->GetArray("parent");
+    auto* generation = data->GetCellData()->GetArray("generation");
+    if (!station || !radius || !bridge || data->GetNumberOfLines() == 0 || !parent != !generation)
         throw Error(ErrorCode::bad_input, "is not a skeleton", file.string(), "run 'vicon work' to make it anew");
-    Skeleton skeleton;
+    ReadLines out;
     vtkNew<vtkIdList> ids;
     for (vtkIdType line = 0; line < data->GetNumberOfLines(); ++line) {
         data->GetLines()->GetCellAtId(line, ids);
@@ -88,9 +108,37 @@ Skeleton readSkeleton(const fs::path& file)
         }
         if (piece.points.size() < 2)
             throw Error(ErrorCode::bad_input, "has a piece of fewer than two points", file.string());
-        skeleton.pieces.push_back(std::move(piece));
+        if (parent) {
+            if (parent->GetTuple1(line) >= double(line))
+                throw Error(ErrorCode::bad_input, "has a branch that comes before its parent", file.string());
+            out.tree.branches.push_back({int(parent->GetTuple1(line)), int(generation->GetTuple1(line)), piece.points});
+        }
+        out.skeleton.pieces.push_back(std::move(piece));
     }
-    return skeleton;
+    return out;
+}
+
+}  // namespace
+
+void writeSkeleton(const fs::path& file, const Skeleton& skeleton)
+{
+    writeLines(file, skeleton, {});
+}
+
+void writeSkeletonTree(const fs::path& file, const SkeletonTree& tree)
+{
+    writeLines(file, tree.allBranches(), tree);
+}
+
+Skeleton readSkeleton(const fs::path& file)
+{
+    ReadLines read = readLines(file);
+    return read.tree.empty() ? std::move(read.skeleton) : read.tree.pathTo(read.tree.tips().front());
+}
+
+SkeletonTree readSkeletonTree(const fs::path& file)
+{
+    return readLines(file).tree;
 }
 
 void writeSkeletonVoxels(const fs::path& file, const SkeletonVoxels& paths)

@@ -208,7 +208,7 @@ json CaseStore::describeScan(const std::string& case_id, const std::string& scan
         done[step.step] = {{"version", step.version}, {"digest", step.digest},   {"parameters", step.parameters},
                            {"result", step.result},   {"seconds", step.seconds}, {"finished", step.finished}};
         // What readers of a scan ask for first stands at the top level, under the contract's names.
-        for (const char* key : {"bridges", "parts", "quality", "verdict", "confidence"})
+        for (const char* key : {"bridges", "parts", "quality", "verdict", "confidence", "organ"})
             if (step.result.contains(key))
                 out[key] = step.result[key];
     }

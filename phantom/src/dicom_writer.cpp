@@ -93,13 +93,13 @@ void setStudy(Dataset& d, const StudyHeader& study, const SeriesHeader& series)
     d.set(DCM_ManufacturerModelName, "Phantom");
     d.set(DCM_SoftwareVersions, "1");
     d.set(DCM_ReferringPhysicianName, "");
-    d.set(DCM_StudyDescription, "CT COLONOGRAPHY");
+    d.set(DCM_StudyDescription, study.description);
     d.set(DCM_SeriesDescription, series.description);
     d.set(DCM_PatientName, study.patient_name);
     d.set(DCM_PatientID, study.patient_id);
     d.set(DCM_PatientBirthDate, study.birth_date);
     d.set(DCM_PatientSex, study.sex);
-    d.set(DCM_BodyPartExamined, "COLON");
+    d.set(DCM_BodyPartExamined, study.body_part);
     d.set(DCM_StudyInstanceUID, study.study_uid);
     d.set(DCM_SeriesInstanceUID, series.uid);
     d.set(DCM_StudyID, study.study_id);
@@ -125,7 +125,7 @@ void setCt(Dataset& d, const StudyHeader& study, const SeriesHeader& series)
     d.set(DCM_KVP, "120");
     d.set(DCM_XRayTubeCurrent, "60");
     d.set(DCM_GantryDetectorTilt, "0");
-    d.set(DCM_ProtocolName, "COLONOGRAPHY");
+    d.set(DCM_ProtocolName, study.protocol);
     d.set(DCM_RescaleIntercept, std::to_string(kIntercept));
     d.set(DCM_RescaleSlope, "1");
 }

@@ -15,6 +15,7 @@ struct StudyHeader {
     std::string study_uid;
     std::string patient_name, patient_id, birth_date, sex;
     std::string date, accession_number, study_id;
+    std::string description = "CT COLONOGRAPHY", body_part = "COLON", protocol = "COLONOGRAPHY";
 };
 
 struct SeriesHeader {

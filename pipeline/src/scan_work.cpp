@@ -11,6 +11,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/pipeline/corrections.h"
+#include "vicon/pipeline/organs.h"
 #include "vicon/steps/resample.h"
 
 namespace fs = std::filesystem;
@@ -65,7 +66,7 @@ bool isCurrent(const StepRecord& record, const std::string& digest, const fs::pa
 
 bool endsHere(const StepRecord& record)
 {
-    return record.result.is_object() && record.result.value("verdict", "") == "no colon";
+    return record.result.is_object() && record.result.value("verdict", "").starts_with("no ");
 }
 
 /// Voxels of the scan once it is isotropic; 0 when import did not say how large it is.
@@ -85,6 +86,12 @@ double isotropicVoxels(const json& ingest, const Config& config)
     return std::isfinite(voxels) ? voxels : 0;
 }
 
+/// The configuration for one scan: of its organ, and with what a person said about its lumen.
+Config configFor(const Config& config, const fs::path& scan_folder)
+{
+    return withOrgan(withCorrections(config, readCorrections(scan_folder)), readOrgan(scan_folder));
+}
+
 StepRecords recordsOf(CaseStore& store, const ScanRecord& scan)
 {
     StepRecords records;
@@ -102,8 +109,7 @@ public:
           context_(context),
           scan_(store.requireScan(context.job().case_id, context.job().scan_id)),
           folder_(store.scanFolder(scan_.case_id, scan_.id)),
-          inputs_{withCorrections(config, readCorrections(folder_)), loader, gravityFor(scan_.series.patient_position),
-                  folder_ / "dicom"},
+          inputs_{configFor(config, folder_), loader, gravityFor(scan_.series.patient_position), folder_ / "dicom"},
           artefacts_(folder_),
           loader_parameters_(loader_parameters),
           instances_(store.instances(scan_.case_id, scan_.id)),
@@ -154,15 +160,18 @@ private:
         store_.writeScanFile(scan_.case_id, scan_.id);
     }
 
-    /// What an earlier run, with other parameters, had made of a scan that has no colon now.
+    /// What an earlier run, with other parameters, had made of a scan whose organ is not found now.
     void removeFilesAfter(const Step& last)
     {
         bool after = false;
+        const json kept = records_[last.name].result.value("files", json::object());
         for (const Step& step : stepTable()) {
-            if (after)
+            const bool ends = step.name == last.name;
+            if (after || ends)
                 for (const std::string& file : step.outputs(json::object()))
-                    fs::remove(folder_ / file);
-            after = after || step.name == last.name;
+                    if (!ends || !kept.contains(file))
+                        fs::remove(folder_ / file);
+            after = after || ends;
         }
     }
 
@@ -185,7 +194,7 @@ bool isOutdated(CaseStore& store, const Config& config, const json& loader_param
     const ScanRecord scan = store.requireScan(case_id, scan_id);
     const auto instances = store.instances(case_id, scan_id);
     StepRecords records = recordsOf(store, scan);
-    const Config corrected = withCorrections(config, readCorrections(store.scanFolder(case_id, scan_id)));
+    const Config corrected = configFor(config, store.scanFolder(case_id, scan_id));
     for (const Step& step : stepTable()) {
         const auto record = records.find(step.name);
         if (record == records.end() ||

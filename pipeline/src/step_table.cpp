@@ -7,6 +7,7 @@
 #include "vicon/steps/cells.h"
 #include "vicon/steps/colon_parts.h"
 #include "vicon/steps/exit_distance.h"
+#include "vicon/steps/organ.h"
 #include "vicon/steps/projections.h"
 #include "vicon/steps/quality.h"
 #include "vicon/steps/resample.h"
@@ -26,6 +27,21 @@ json parametersFrom(const Config& config)
 {
     json all = json::object();
     (all.update(toJson(config.get<Options>())), ...);
+    return all;
+}
+
+bool isColon(const Config& config)
+{
+    return config.get<steps::OrganOptions>().isColon();
+}
+
+/// Parameters of a step that other organs go through too; the colon's do not depend on options of other organs.
+template <class OfColon, class OfOthers>
+json parametersByOrgan(const Config& config)
+{
+    json all = isColon(config) ? parametersFrom<OfColon>(config) : parametersFrom<OfOthers>(config);
+    if (!isColon(config))
+        all.update(parametersFrom<steps::OrganOptions>(config));
     return all;
 }
 
@@ -62,8 +78,11 @@ json runResample(const StepInputs& inputs, ScanArtefacts& artefacts, const StepR
 
 json runSegment(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
 {
-    steps::Segmentation found =
-        steps::segmentColon(artefacts.volume(), inputs.gravity, inputs.config.get<steps::SegmentOptions>(), progress);
+    const auto organ = inputs.config.get<steps::OrganOptions>();
+    steps::Segmentation found = organ.isColon()
+                                    ? steps::segmentColon(artefacts.volume(), inputs.gravity,
+                                                          inputs.config.get<steps::SegmentOptions>(), progress)
+                                    : steps::segmentOrgan(artefacts.volume(), organ, progress);
     json result = found.measures;
     result["verdict"] = found.verdict;
     result["confidence"] = found.confidence;
@@ -77,21 +96,40 @@ json runSegment(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRe
                            {"confidence", bridge.confidence},
                            {"certain", bridge.certain},
                            {"reason", bridge.reason}});
-    if (found.verdict != "no colon")
+    if (!found.verdict.starts_with("no "))
         artefacts.put(std::move(found.inside));
     return result;
 }
 
 std::vector<std::string> segmentFiles(const json& result)
 {
-    if (result.value("verdict", "") == "no colon")
+    if (result.value("verdict", "").starts_with("no "))
         return {};
     return {"inside.mha"};
+}
+
+/// The skeleton of an organ that branches.
+json runTree(const steps::LumenPlan& plan, const StepInputs& inputs, ScanArtefacts& artefacts, Progress& progress)
+{
+    steps::TreeResult found = steps::findTree(artefacts.inside(), plan.pieces.at(0).rectal_end_mm,
+                                              inputs.config.get<steps::OrganOptions>().branch_mm,
+                                              inputs.config.get<steps::SkeletonOptions>(), progress);
+    const std::vector<int> tips = found.tree.tips();
+    json result = {{"branches", found.tree.branches.size()},
+                   {"tips", tips.size()},
+                   {"length_mm", found.tree.pathTo(tips.front()).length_mm()},
+                   {"total_length_mm", found.tree.totalLength_mm()}};
+    artefact::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
+    artefact::writeSkeletonTree(artefacts.folder() / "skeleton.vtp", found.tree);
+    artefacts.keepWallDistance(std::move(found.wall_mm));
+    return result;
 }
 
 json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords& records, Progress& progress)
 {
     const steps::LumenPlan plan = steps::lumenPlanFromJson(records.at("segment").result.at("plan"));
+    if (!isColon(inputs.config))
+        return runTree(plan, inputs, artefacts, progress);
     steps::SkeletonResult found =
         steps::findSkeleton(artefacts.inside(), plan, inputs.config.get<steps::SkeletonOptions>(), progress);
     json result = found.measures;
@@ -104,6 +142,8 @@ json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepR
 
 json runQuality(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
 {
+    if (!isColon(inputs.config))
+        return {{"not_measured", "parts and quality are those of a colon"}};
     const auto options = inputs.config.get<steps::QualityOptions>();
     const steps::FoundParts found = steps::findColonParts(artefacts.skeleton());
     json result = {{"parts", toJson(found.ranges)}};
@@ -126,9 +166,13 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
     auto contour = std::async(std::launch::async, [&] {
         return steps::LumenSurface(volume, inside, inputs.config.get<steps::CellOptions>(), quiet);
     });
-    steps::Subdivided divided = steps::subdivide(
-        inside, artefacts.skeleton(), artefact::readSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp"),
-        inputs.config.get<steps::SubdivideOptions>(), divide);
+    auto options = inputs.config.get<steps::SubdivideOptions>();
+    const SkeletonTree tree = artefact::readSkeletonTree(artefacts.folder() / "skeleton.vtp");
+    if (!tree.empty())
+        options.method = "flood";  // planes across one path do not part branches
+    steps::Subdivided divided =
+        steps::subdivide(inside, tree.empty() ? artefacts.skeleton() : tree.allBranches(),
+                         artefact::readSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp"), options, divide);
     artefacts.put(std::move(divided.segments));
     const artefact::CellSurface surface = contour.get().cellsOf(artefacts.segments(), tell);
     steps::countTriangles(surface, divided.description);
@@ -154,7 +198,9 @@ json runPotential(const StepInputs&, ScanArtefacts& artefacts, const StepRecords
         from_wall_mm = steps::wallDistance(artefacts.inside(), wall);
     result["largest_wall_distance_mm"] = largest(*from_wall_mm);
     artefacts.write("wall_distance.mha", *std::move(from_wall_mm));
-    FieldVolume from_exit_mm = steps::exitDistance(artefacts.inside(), artefacts.skeleton(), exit);
+    const SkeletonTree tree = artefact::readSkeletonTree(artefacts.folder() / "skeleton.vtp");
+    FieldVolume from_exit_mm = tree.empty() ? steps::exitDistance(artefacts.inside(), artefacts.skeleton(), exit)
+                                            : steps::exitDistance(artefacts.inside(), tree, exit);
     result["largest_exit_distance_mm"] = largest(from_exit_mm);
     artefacts.write("exit_distance.mha", std::move(from_exit_mm));
     return result;
@@ -167,14 +213,21 @@ const std::vector<Step>& stepTable()
     using namespace steps;
     static const std::vector<Step> kTable = {
         {"resample", 2, 0, 0.3, {}, always({"volume.mha"}), parametersFrom<ResampleOptions>, runResample},
-        {"segment", 10, 0.3, 0.55, {"resample"}, segmentFiles, parametersFrom<SegmentOptions>, runSegment},
+        {"segment",
+         10,
+         0.3,
+         0.55,
+         {"resample"},
+         segmentFiles,
+         parametersByOrgan<SegmentOptions, OrganOptions>,
+         runSegment},
         {"skeleton",
          6,
          0.55,
          0.65,
          {"segment"},
          always({"skeleton.vtp", "skeleton_voxels.vtp"}),
-         parametersFrom<SkeletonOptions>,
+         parametersByOrgan<SkeletonOptions, SkeletonOptions>,
          runSkeleton},
         {"quality",
          1,
@@ -212,6 +265,7 @@ std::vector<OptionSpec> stepOptionSpecs()
     add(specsOf<StepOptions>());
     add(specsOf<steps::ResampleOptions>());
     add(specsOf<steps::SegmentOptions>());
+    add(specsOf<steps::OrganOptions>());
     add(specsOf<steps::SkeletonOptions>());
     add(specsOf<steps::QualityOptions>());
     add(specsOf<steps::SubdivideOptions>());

@@ -77,7 +77,10 @@ TEST(VerdictOfTheCommand, AScanWithoutAColonIsAFinishedJobWithAReason)
         {"air", [](Point3) { return -1000.0; }, "no body in the scan"},
         {"water", [](Point3) { return 0.0; }, "no gas in the body"},
         {"nothing measured", [](Point3) { return -2000.0; }, "no body in the scan"},
-        {"noise", [](Point3 p) { return std::fmod(std::abs(std::sin(p.x * 12.9 + p.y * 78.2 + p.z * 37.7) * 43758.5), 1) * 100 - 1000; },
+        {"noise",
+         [](Point3 p) {
+             return std::fmod(std::abs(std::sin(p.x * 12.9 + p.y * 78.2 + p.z * 37.7) * 43758.5), 1) * 100 - 1000;
+         },
          "no body in the scan"},
         {"chest", steps::test::chestHu, "colon"},
         {"head", steps::test::headHu, "colon"},

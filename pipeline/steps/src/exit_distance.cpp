@@ -170,4 +170,15 @@ FieldVolume exitDistance(const InsideVolume& inside, const Skeleton& skeleton, P
     return std::move(front.time);
 }
 
+FieldVolume exitDistance(const InsideVolume& inside, const SkeletonTree& tree, Progress& progress)
+{
+    if (tree.empty())
+        throw Error(ErrorCode::bad_input, "the skeleton is empty");
+    progress.report(0, "exit distance");
+    LumenFront front(inside);
+    march(front, inside, tree.allBranches(), Labels::ignore);
+    progress.report(1, "exit distance");
+    return std::move(front.time);
+}
+
 }  // namespace vicon::steps

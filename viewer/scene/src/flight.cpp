@@ -186,16 +186,17 @@ nlohmann::json toJson(const FlightReport& report)
     nlohmann::json frames = nlohmann::json::array();
     for (const FlightFrame& f : report.frames) {
         const Pose& p = f.pose;
-        frames.push_back({{"eye_mm", triple(p.eye_mm.x, p.eye_mm.y, p.eye_mm.z)},
-                          {"forward", triple(p.forward.x, p.forward.y, p.forward.z)},
-                          {"up", triple(p.up.x, p.up.y, p.up.z)},
-                          {"station_mm", f.station_mm},
-                          {"clearance_mm", f.clearance_mm},
-                          {"towards", f.towards_caecum ? "caecum" : "rectum"},
-                          {"cells_drawn", f.cells_drawn},
-                          {"triangles_drawn", f.triangles_drawn},
-                          {"triangles_seen", f.triangles_seen},
-                          {"seconds", f.seconds}});
+        frames.push_back(
+            {{"eye_mm", triple(p.eye_mm.x, p.eye_mm.y, p.eye_mm.z)},
+             {"forward", triple(p.forward.x, p.forward.y, p.forward.z)},
+             {"up", triple(p.up.x, p.up.y, p.up.z)},
+             {"station_mm", f.station_mm},
+             {"clearance_mm", f.clearance_mm},
+             {"towards", f.towards_caecum ? (report.tree ? "tip" : "caecum") : (report.tree ? "root" : "rectum")},
+             {"cells_drawn", f.cells_drawn},
+             {"triangles_drawn", f.triangles_drawn},
+             {"triangles_seen", f.triangles_seen},
+             {"seconds", f.seconds}});
     }
     return {{"length_mm", report.length_mm},
             {"cells", report.cells},
@@ -218,6 +219,7 @@ FlightReport fly(const PreparedScan& scan, const FlightRequest& request, Progres
     const std::vector<Leg> legs = legsOf(scan, request);
     FlightReport report;
     report.length_mm = scan.frames().length_mm();
+    report.tree = !scan.tree().empty();
     report.cells = studio.scene.cellCount();
     report.triangles = studio.scene.triangleCount();
     std::size_t all = 0;

@@ -78,11 +78,12 @@ Picture drawn(const artefact::Projection& from, const PlaneView& view)
     return picture;
 }
 
-void addTips(Overlay& overlay, const Skeleton& skeleton, const PlaneView& view, double text_px)
+void addTips(Overlay& overlay, const Skeleton& skeleton, bool tree, const PlaneView& view, double text_px)
 {
-    const Pixel rectum = view.toPixel(skeleton.at(0).position_mm);
-    const Pixel caecum = view.toPixel(skeleton.at(skeleton.length_mm()).position_mm);
-    for (const auto& [at, name] : {std::pair{rectum, "rectum"}, std::pair{caecum, "caecum"}}) {
+    const Pixel first = view.toPixel(skeleton.at(0).position_mm);
+    const Pixel last = view.toPixel(skeleton.at(skeleton.length_mm()).position_mm);
+    for (const auto& [at, name] :
+         {std::pair{first, tree ? "root" : "rectum"}, std::pair{last, tree ? "tip" : "caecum"}}) {
         overlay.discs.push_back({at, 0.25 * text_px, kPathColor, 0});
         overlay.texts.push_back(
             {{at.x, at.y + 0.4 * text_px}, name, 0.9 * text_px, kPathColor, Across::centre, Along::top, 1e9});
@@ -139,12 +140,13 @@ Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, con
 {
     const PlaneView& view = ground.view;
     const double text_px = std::max(textHeightFor(request.width, request.height), 12.0);
-    const auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm());
+    const auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), !scan.tree().empty());
     Picture picture = ground.picture;
     Overlay overlay;
     const Area area{0, 0, double(request.width), double(request.height)};
-    addSkeleton(overlay, scan.skeleton(), view, std::max(1.5, text_px / 9));
-    addTips(overlay, scan.skeleton(), view, text_px);
+    const bool tree = !scan.tree().empty();
+    addSkeleton(overlay, tree ? scan.tree().allBranches() : scan.skeleton(), view, std::max(1.5, text_px / 9));
+    addTips(overlay, scan.skeleton(), tree, view, text_px);
     addParts(overlay, scan.parts(), scan.skeleton(), view, text_px);
     addMarkers(overlay, request.markers, view, text_px);
     addHere(overlay, view, place.pose, 0.8 * text_px);

@@ -13,7 +13,8 @@ namespace vicon::viewer {
 SnapshotResult placeOf(const PreparedScan& scan, const SnapshotRequest& request);
 
 /// The lines that every caption has: name, id and birth date, position and date, station, warnings.
-std::vector<OverlayText> captionLines(const Caption& caption, double station_mm, double length_mm);
+/// @param tree stations are of a tree: from its root and to the tip
+std::vector<OverlayText> captionLines(const Caption& caption, double station_mm, double length_mm, bool tree = false);
 
 /// What is written over an endoscopic picture; used by snapshots and flights alike.
 Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);

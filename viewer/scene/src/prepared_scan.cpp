@@ -51,7 +51,9 @@ struct PreparedScan::Files {
     Lazy<artefact::StoredVolume<std::uint8_t>> inside;
     Lazy<artefact::StoredVolume<float>> wall_distance, exit_distance;
     Lazy<artefact::StoredVolume<std::uint16_t>> segments;
+    int branch = -1;
     Lazy<Skeleton> skeleton;
+    Lazy<SkeletonTree> tree;
     Lazy<artefact::CellSurface> cells;
     Lazy<artefact::Subdivision> subdivision;
     Lazy<artefact::Projection> coronal;
@@ -68,7 +70,7 @@ struct PreparedScan::Files {
 
 PreparedScan::PreparedScan(std::shared_ptr<Files> files) : files_(std::move(files)) {}
 
-PreparedScan PreparedScan::open(const fs::path& scan_folder)
+PreparedScan PreparedScan::open(const fs::path& scan_folder, int branch)
 {
     if (!fs::is_directory(scan_folder))
         throw Error(ErrorCode::not_found, "no such scan folder", scan_folder.string(), "see 'vicon cases'");
@@ -76,6 +78,7 @@ PreparedScan PreparedScan::open(const fs::path& scan_folder)
         mustExist(scan_folder / name);
     auto files = std::make_shared<Files>();
     files->folder = scan_folder;
+    files->branch = branch;
     return PreparedScan(std::move(files));
 }
 
@@ -125,7 +128,18 @@ const SegmentView& PreparedScan::segments() const
 
 const Skeleton& PreparedScan::skeleton() const
 {
-    return files_->skeleton.get([&] { return artefact::readSkeleton(files_->at("skeleton.vtp")); });
+    return files_->skeleton.get([&] {
+        if (files_->branch < 0)
+            return artefact::readSkeleton(files_->at("skeleton.vtp"));
+        if (tree().empty())
+            throw Error(ErrorCode::wrong_use, "the scan's organ has no branches", files_->folder.filename().string());
+        return tree().pathTo(files_->branch);
+    });
+}
+
+const SkeletonTree& PreparedScan::tree() const
+{
+    return files_->tree.get([&] { return artefact::readSkeletonTree(files_->at("skeleton.vtp")); });
 }
 
 const artefact::CellSurface& PreparedScan::cells() const

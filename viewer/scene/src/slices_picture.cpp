@@ -70,7 +70,7 @@ Picture captionPanel(const PreparedScan& scan, const SnapshotRequest& request, c
 {
     Picture picture(width, height, {10, 12, 16});
     Overlay overlay;
-    auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm());
+    auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), !scan.tree().empty());
     const WindowLevel window = windowPreset(request.window);
     OverlayText line;
     line.color = kTextColor;

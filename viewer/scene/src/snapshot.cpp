@@ -1,5 +1,8 @@
 #include "vicon/viewer/scene/snapshot.h"
 
+#include <array>
+#include <cmath>
+
 #include "pictures.h"
 #include "vicon/core/error.h"
 #include "vicon/viewer/model/annotate.h"
@@ -75,7 +78,7 @@ SnapshotResult placeOf(const PreparedScan& scan, const SnapshotRequest& request)
     return {view.pose, station, view.clearance_mm, view.sees_target};
 }
 
-std::vector<OverlayText> captionLines(const Caption& caption, double station_mm, double length_mm)
+std::vector<OverlayText> captionLines(const Caption& caption, double station_mm, double length_mm, bool tree)
 {
     std::vector<OverlayText> lines;
     const auto add = [&](const std::string& words, Rgb color) {
@@ -94,7 +97,10 @@ std::vector<OverlayText> captionLines(const Caption& caption, double station_mm,
     add(personName(caption.patient_name), kTextColor);
     add(joined(id, born), kTextColor);
     add(joined(caption.position, dateText(caption.study_date)), kTextColor);
-    for (const std::string& words : stationTexts(station_mm, length_mm))
+    const auto whole = [](double mm) { return std::to_string(std::lround(mm)); };
+    const std::array<std::string, 2> of_tree{whole(station_mm) + " mm from the root",
+                                             whole(length_mm - station_mm) + " mm from the tip"};
+    for (const std::string& words : tree ? of_tree : stationTexts(station_mm, length_mm))
         add(words, kTextColor);
     if (caption.lossy)
         add("LOSSY COMPRESSION", kWarningColor);

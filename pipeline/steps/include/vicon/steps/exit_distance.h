@@ -2,6 +2,7 @@
 
 #include "vicon/core/progress.h"
 #include "vicon/core/skeleton.h"
+#include "vicon/core/skeleton_tree.h"
 #include "vicon/core/volume.h"
 
 namespace vicon::steps {
@@ -17,5 +18,8 @@ namespace vicon::steps {
 /// Same grid as `inside`. The result does not depend on the number of threads.
 /// Throws Error{bad_input} when the skeleton is empty or the grid holds no inside voxel.
 FieldVolume exitDistance(const InsideVolume& inside, const Skeleton& skeleton, Progress& progress);
+
+/// The same from the root of a tree. Its branches are taken not to touch: a contact is a short cut.
+FieldVolume exitDistance(const InsideVolume& inside, const SkeletonTree& tree, Progress& progress);
 
 }  // namespace vicon::steps

@@ -44,6 +44,7 @@ struct FlightFrame {
 struct FlightReport {
     std::vector<FlightFrame> frames;
     double length_mm = 0;
+    bool tree = false;  ///< the organ branches: "to the caecum" is to the tip, "to the rectum" to the root
     std::size_t cells = 0, triangles = 0;  ///< of the whole surface
     double coverage = 0;  ///< part of the surface's area that was seen, 0 to 1; 0 where it is not measured
     double seen_mm2 = 0, whole_mm2 = 0;

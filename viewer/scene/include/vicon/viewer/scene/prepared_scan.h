@@ -8,6 +8,7 @@
 #include "vicon/artefact/subdivision_file.h"
 #include "vicon/core/colon_parts.h"
 #include "vicon/core/skeleton.h"
+#include "vicon/core/skeleton_tree.h"
 #include "vicon/core/volume_view.h"
 #include "vicon/viewer/model/density_bricks.h"
 #include "vicon/viewer/model/lumen.h"
@@ -21,7 +22,9 @@ class PreparedScan {
 public:
     /// Throws Error{not_found} when there is no such folder, Error{not_ready} naming the first file that a picture
     /// needs and that the pipeline has not made yet.
-    static PreparedScan open(const std::filesystem::path& scan_folder);
+    /// @param branch of an organ that branches: what skeleton() and frames() follow from the root; below 0: the way to
+    ///        the tip that lies farthest from it
+    static PreparedScan open(const std::filesystem::path& scan_folder, int branch = -1);
 
     const std::filesystem::path& folder() const;
 
@@ -34,7 +37,8 @@ public:
     const FieldView& wallDistance() const;                  ///< wall_distance.mha
     const FieldView& exitDistance() const;                  ///< exit_distance.mha
     const SegmentView& segments() const;                    ///< segments.mha
-    const Skeleton& skeleton() const;                       ///< skeleton.vtp
+    const Skeleton& skeleton() const;                       ///< skeleton.vtp; of a tree one way from the root
+    const SkeletonTree& tree() const;                       ///< skeleton.vtp; no branches where the organ is one path
     const artefact::CellSurface& cells() const;             ///< cells.vtp
     const artefact::Subdivision& subdivision() const;       ///< subdivision.json
     const artefact::Projection& coronalProjection() const;  ///< of projections/

@@ -1,0 +1,79 @@
+#include "organs.h"
+
+#include "text_table.h"
+#include "vicon/artefact/skeleton_file.h"
+#include "vicon/core/error.h"
+#include "vicon/pipeline/organs.h"
+#include "vicon/pipeline/queue.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::app {
+namespace {
+
+constexpr std::size_t kMostListed = 80;
+
+double meanRadius_mm(const SkeletonBranch& branch)
+{
+    double sum = 0;
+    for (const SkeletonPoint& p : branch.points)
+        sum += p.radius_mm;
+    return sum / double(branch.points.size());
+}
+
+}  // namespace
+
+std::string organOf(CaseStore& store, const ScanRecord& scan)
+{
+    return store.describeScan(scan.case_id, scan.id).value("organ", "colon");
+}
+
+std::string verdictWarning(const StepRecord& step)
+{
+    const std::string verdict = step.result.value("verdict", "");
+    if (verdict != "unsure" && !verdict.starts_with("no "))
+        return {};
+    return verdict + ": " + step.result.value("reason", "");
+}
+
+void setOrgan(CaseStore& store, const Config& config, const std::string& organ, const std::string& case_id,
+              const std::string& scan_id)
+{
+    (void)pipeline::withOrgan(config, organ);
+    const auto say = [&](const ScanRecord& scan) {
+        pipeline::writeOrgan(store.scanFolder(scan.case_id, scan.id), organ);
+        store.audit("organ", scan.case_id, scan.id, organ);
+    };
+    if (!scan_id.empty() && case_id.empty())
+        throw Error(ErrorCode::wrong_use, "a scan is named without its case", "--scan", "name it with --case");
+    if (!scan_id.empty()) {
+        say(store.requireScan(store.requireCase(case_id).id, scan_id));
+        return;
+    }
+    for (const CaseRecord& record : case_id.empty() ? store.cases() : std::vector{store.requireCase(case_id)})
+        for (const ScanRecord& scan : store.scans(record.id))
+            if (scan.role == "scan" && (!case_id.empty() || store.steps(record.id, scan.id).empty()))
+                say(scan);
+}
+
+std::string branchTable(const fs::path& scan_folder)
+{
+    if (!fs::exists(scan_folder / "skeleton.vtp"))
+        return {};
+    const SkeletonTree tree = artefact::readSkeletonTree(scan_folder / "skeleton.vtp");
+    if (tree.empty())
+        return {};
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t n = 0; n < std::min(kMostListed, tree.branches.size()); ++n) {
+        const SkeletonBranch& branch = tree.branches[n];
+        rows.push_back({"  " + std::to_string(n), branch.parent < 0 ? "-" : std::to_string(branch.parent),
+                        std::to_string(branch.generation), formatNumber(branch.points.front().station_mm, 0),
+                        formatNumber(branch.points.back().station_mm, 0), formatNumber(meanRadius_mm(branch), 1)});
+    }
+    std::string out = formatTable({"  BRANCH", "PARENT", "GENERATION", "FROM MM", "TO MM", "MEAN RADIUS MM"}, rows);
+    if (tree.branches.size() > kMostListed)
+        out += "  ... " + std::to_string(tree.branches.size() - kMostListed) + " more in skeleton.vtp\n";
+    return out;
+}
+
+}  // namespace vicon::app

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "vicon/core/progress.h"
+#include "vicon/core/skeleton_tree.h"
+#include "vicon/core/volume.h"
+
+namespace vicon::phantom {
+
+/// A chest with an airway tree, or a trunk with an aorta; see docs/organs.md. The same options give the same study.
+struct OrganPhantomOptions {
+    std::string organ = "airway";  ///< "airway" or "aorta"
+    std::uint64_t seed = 1;
+    std::array<int, 3> size{256, 256, 256};  ///< columns, rows, slices, over 300 x 300 x 280 mm (aorta: 400 high)
+    double noise_hu = 20;
+};
+
+/// What an organ's scan shows, exactly.
+struct OrganTruth {
+    SkeletonTree tree;    ///< axes as straight stretches with the tube's radius; a child begins at its parent's end
+    InsideVolume inside;  ///< on the grid of the scan
+};
+
+struct OrganScan {
+    HuVolume hu;  ///< supine, head first
+    OrganTruth truth;
+};
+
+/// Throws Error{wrong_use} for another organ.
+OrganScan makeOrganScan(const OrganPhantomOptions& options, Progress& progress);
+
+/// Writes a study into the folder `out`, which is made and must be empty: a folder of DICOM files, and beside it
+/// truth-ORGAN.json and truth-ORGAN-inside.mha. Throws also Error{store}.
+void writeOrganStudy(const std::filesystem::path& out, const OrganPhantomOptions& options, Progress& progress);
+
+}  // namespace vicon::phantom

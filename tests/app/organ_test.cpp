@@ -1,0 +1,82 @@
+// Organs that are no colon, through the command.
+#include <gmock/gmock.h>
+
+#include "study.h"
+
+namespace vicon::support {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A store with a phantom of that organ that has been worked on.
+void prepare(const TemporaryFolder& folder, const std::string& organ, const std::string& size)
+{
+    const auto made =
+        runVicon("phantom " + (folder / "study").string() + " --organ " + organ + " --seed 21 --size " + size);
+    ASSERT_EQ(made.exit_code, 0) << made.output;
+    EXPECT_TRUE(std::filesystem::exists(folder / "study" / ("truth-" + organ + ".json")));
+    viconOn(folder / "store", "import " + (folder / "study").string());
+    EXPECT_THAT(viconOn(folder / "store", "work --until-idle --organ " + organ),
+                HasSubstr("1 done, 0 failed, 0 waiting"));
+}
+
+TEST(OrganOfTheCommand, AnAirwayGoesThroughTheStepsAndIsFlownThrough)
+{
+    const TemporaryFolder folder;
+    const auto store = folder / "store";
+    prepare(folder, "airway", "128x128x128");
+    const ListedScan scan = listedScans(store).at(0);
+    for (const char* file : {"inside.mha", "skeleton.vtp", "skeleton_voxels.vtp", "segments.mha", "cells.vtp",
+                             "exit_distance.mha", "wall_distance.mha", "projections/coronal.png"})
+        EXPECT_TRUE(std::filesystem::exists(scan.folder / file)) << file;
+    const std::string shown = viconOn(store, "show " + scan.case_id);
+    EXPECT_THAT(shown, HasSubstr("organ: airway"));
+    EXPECT_THAT(shown, HasSubstr("GENERATION"));
+    EXPECT_THAT(shown, Not(HasSubstr("rectum")));
+    EXPECT_THAT(viconOn(store, "cases"), Not(HasSubstr("unsure")));
+    EXPECT_THAT(viconOn(store, "fly " + scan.case_id + " --frames 3 --width 200 --height 200"),
+                HasSubstr("frames over"));
+    EXPECT_THAT(viconOn(store, "fly " + scan.case_id + " --branch 1 --frames 2 --width 200 --height 200"),
+                HasSubstr("frames over"));
+    for (const char* view : {"endo", "slices", "overview"}) {
+        const auto picture = folder / (std::string(view) + ".png");
+        viconOn(store, "snapshot " + scan.case_id + " --view " + view + " --station 60 --out " + picture.string());
+        EXPECT_TRUE(std::filesystem::exists(picture)) << view;
+    }
+    const auto report = runVicon("report " + scan.case_id + " --store " + store.string());
+    EXPECT_EQ(report.exit_code, 1);
+    EXPECT_THAT(report.output, HasSubstr("a report tells of a colon; the scans of this case show the airway"));
+    const auto wrong = runVicon("fly " + scan.case_id + " --branch 900 --store " + store.string());
+    EXPECT_EQ(wrong.exit_code, 2) << wrong.output;
+    // The scan stays what it was said to be; said to be another, it is worked on anew.
+    EXPECT_THAT(viconOn(store, "work --until-idle"), HasSubstr("0 done, 0 failed, 0 waiting"));
+    EXPECT_THAT(viconOn(store, "work --until-idle --organ aorta --case " + scan.case_id), HasSubstr("no aorta"));
+    EXPECT_FALSE(std::filesystem::exists(scan.folder / "skeleton.vtp"));
+}
+
+TEST(OrganOfTheCommand, AnAortaIsMarkedOnTheBranchWhereTheMarkerLies)
+{
+    const TemporaryFolder folder;
+    const auto store = folder / "store";
+    prepare(folder, "aorta", "112x112x112");
+    const ListedScan scan = listedScans(store).at(0);
+    EXPECT_EQ(viconJson(store, "show " + scan.case_id)["scans"][0].value("organ", ""), "aorta");
+    viconOn(store, "snapshot " + scan.case_id + " --view endo --station 200 --out " + (folder / "endo.png").string());
+    EXPECT_EQ(runVicon("work --organ spleen --store " + store.string()).exit_code, 2);
+    EXPECT_EQ(
+        runVicon("work --until-idle --case " + scan.case_id + " --drop 0,0,0 --store " + store.string()).exit_code, 2);
+}
+
+TEST(OrganOfTheCommand, ARealChestOfCoarseVoxelsEndsInAVerdict)
+{
+    VICON_NEEDS_DATA("dicom/ct64");
+    const TemporaryFolder folder;
+    const auto store = folder / "store";
+    viconOn(store, "import " + sharedData("dicom/ct64").string());
+    viconOn(store, "work --until-idle --organ airway");
+    EXPECT_THAT(viconOn(store, "show " + listedScans(store).at(0).case_id), HasSubstr("airway tree"));
+}
+
+}  // namespace
+}  // namespace vicon::support
