@@ -241,6 +241,9 @@ Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, P
     LumenPiece piece = endsOf(result.inside, options, seeds.front(), progress);
     piece.volume_ml = ml;
     result.plan.pieces = {piece};
+    if (isBright(options))  // the surface then lies half-way between tissue and the contrast's own density
+        std::replace(result.inside.voxels.begin(), result.inside.voxels.end(), std::uint8_t(kGas),
+                     std::uint8_t(kFluid));
     result.confidence = 1;
     result.verdict = options.title;
     if (ml > options.largest_ml) {
