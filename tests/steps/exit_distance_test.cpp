@@ -176,8 +176,8 @@ TEST(ExitDistance, OfARealColonGrowsAllAlongItsCentreline)
 TEST(ExitDistance, RefusesAnEmptySkeletonAndAnEmptyMask)
 {
     const InsideVolume empty(Grid{.size = {5, 5, 5}});
-    EXPECT_THROW(exitDistance(empty, {}, quiet), Error);
-    EXPECT_THROW(exitDistance(empty, {{pieceThrough({{1, 1, 1}, {3, 3, 3}}, 1)}}, quiet), Error);
+    EXPECT_THROW(exitDistance(empty, Skeleton{}, quiet), Error);
+    EXPECT_THROW(exitDistance(empty, Skeleton{{pieceThrough({{1, 1, 1}, {3, 3, 3}}, 1)}}, quiet), Error);
 }
 
 }  // namespace
