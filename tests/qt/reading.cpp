@@ -145,6 +145,7 @@ void Reader::waitForScan()
 {
     ASSERT_TRUE(eventually([] { return !the<QLabel>("where")->text().isEmpty(); })) << warning();
     ASSERT_TRUE(eventually([] { return drawn("endoscopic") && drawn("overview") && drawn("coronal"); })) << warning();
+    ASSERT_TRUE(eventually([] { return pictureIsThere(); })) << warning();
     window()->activateWindow();
     settle();
 }
@@ -178,7 +179,8 @@ double Reader::pictureStation()
 bool Reader::pictureIsThere()
 {
     constexpr double kRounding_mm = 1.5;
-    return std::abs(pictureStation() - station()) < kRounding_mm;
+    return !the<QWidget>("endoscopic")->accessibleDescription().isEmpty() &&
+           std::abs(pictureStation() - station()) < kRounding_mm;
 }
 
 double Reader::station()

@@ -104,8 +104,12 @@ std::optional<Point3> ReadingWindow::wallAt(const OpenScan& scan, const Studio::
 
 void ReadingWindow::clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers)
 {
-    if (!navigator() || !shown_.isOf(session_.sharedScan()))
+    if (!navigator())
         return;
+    if (!shown_.isOf(session_.sharedScan())) {
+        tell(tr("The picture of this scan is still to come; click again when it is there."));
+        return;
+    }
     const auto point = wallAt(*session_.scan(), shown_, at);
     if (!point)
         return;

@@ -78,6 +78,7 @@ void ReadingWindow::changeScan(const std::string& scan_id)
 void ReadingWindow::scanOpened()
 {
     opening_->hide();
+    endoscopic_->setAccessibleDescription({});  // its picture is still to come
     scan_choice_->setCurrentIndex(scan_choice_->findData(QString::fromStdString(session_.scan()->record.id)));
     beside_place_.reset();
     overview_shown_ = false;

@@ -65,7 +65,8 @@ void ReadingWindow::connectAll()
     connect(&studio_, &Studio::endoscopicDrawn, this, [this](const Picture& picture, const Studio::Shown& shown) {
         shown_ = shown;
         endoscopic_->showPicture(picture);
-        endoscopic_->setAccessibleDescription(tr("%1 mm from the rectum").arg(shown.place.station_mm, 0, 'f', 0));
+        if (shown.isOf(session_.sharedScan()))
+            endoscopic_->setAccessibleDescription(tr("%1 mm from the rectum").arg(shown.place.station_mm, 0, 'f', 0));
         drawMeasured();
     });
     connect(&studio_, &Studio::overviewDrawn, this, [this](const Picture& picture, const PlaneView& view) {
