@@ -65,6 +65,7 @@ struct Flight {
     double cells = 0, triangles = 0;  // drawn
     double seen_cells = 0, seen_cells_triangles = 0, seen = 0;
     std::vector<double> culled_s, all_s, choice_s, culled_cpu_s, all_cpu_s;
+    std::vector<double> perfect_s;                // drawing nothing but the triangles that are seen
     std::vector<double> views_culled_s, views_all_s;  // slices and overview with it
 };
 
@@ -75,6 +76,31 @@ std::vector<ViewPose> posesOf(const PreparedScan& scan, double step_mm)
     const auto back = planFlight(scan.frames(), lumen, step_mm, Heading::rectum);
     poses.insert(poses.end(), back.begin(), back.end());
     return poses;
+}
+
+artefact::CellSurface onlyThese(const artefact::CellSurface& surface, const std::vector<std::uint32_t>& triangles)
+{
+    artefact::CellSurface some;
+    some.points_mm = surface.points_mm;
+    some.normals = surface.normals;
+    for (const std::uint32_t t : triangles) {
+        some.segment.push_back(surface.segment[t]);
+        for (std::size_t n = 0; n < 3; ++n)
+            some.triangles.push_back(surface.triangles[3 * std::size_t(t) + n]);
+    }
+    return some;
+}
+
+// The floor of every choice: what is left to do when each triangle drawn is seen. The first picture fills the driver's
+// buffers.
+double secondsToDraw(const artefact::CellSurface& surface, const Pose& pose, const Settings& settings)
+{
+    SurfaceScene scene(surface);
+    Offscreen picture(scene.renderer());
+    scene.lookFrom(pose, settings.angle_deg);
+    picture.draw(settings.side, settings.side);
+    picture.draw(settings.side, settings.side);
+    return picture.seconds();
 }
 
 Flight flyThrough(const PreparedScan& scan, const Settings& settings)
@@ -142,6 +168,7 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
         if (flight.frames++ > 0) {  // the first frame of each scene fills the driver's buffers
             flight.culled_s.push_back(culled);
             flight.all_s.push_back(all);
+            flight.perfect_s.push_back(secondsToDraw(onlyThese(surface, seen), view.pose, settings));
             flight.choice_s.push_back(choice);
             flight.culled_cpu_s.push_back(cpu_culled);
             flight.all_cpu_s.push_back(cpu_all);
@@ -177,6 +204,9 @@ void print(const PreparedScan& scan, const Flight& f)
         "  %zu frames; seen a frame: %.0f triangles (%.3f of all), %.1f cells (%.3f of all triangles); seen but "
         "not drawn: %zu\n",
         f.frames, f.seen / n, f.seen / n / all, f.seen_cells / n, f.seen_cells_triangles / n / all, f.missing);
+    const double perfect = quantile(f.perfect_s, 0.5);
+    std::printf("  nothing but what is seen: %.1f / %.1f ms a frame (median / 95 %%), ratio %.2f to everything drawn\n",
+                1e3 * perfect, 1e3 * quantile(f.perfect_s, 0.95), perfect / everything);
     const double views = quantile(f.views_culled_s, 0.5), views_all = quantile(f.views_all_s, 0.5);
     std::printf("  all views together: %.1f / %.1f ms a frame (median / 95 %%), all drawn %.1f / %.1f, ratio %.2f\n",
                 1e3 * views, 1e3 * quantile(f.views_culled_s, 0.95), 1e3 * views_all,

@@ -94,13 +94,13 @@ void Picture::set(int x, int y, Rgb color)
 
 void paint(Picture& picture, const Overlay& overlay)
 {
-    Mask mask(picture.width, picture.height);
+    Mask mask(picture.width, picture.height), rim(picture.width, picture.height);
     for (const OverlayLine& line : overlay.lines)
         paintLine(picture, mask, line);
     for (const OverlayDisc& disc : overlay.discs)
         paintDisc(picture, mask, disc);
     for (const OverlayText& text : overlay.texts)
-        paintText(picture, text);
+        paintText(picture, text, mask, rim);
 }
 
 TextSize textSize(const OverlayText& text)

@@ -4,6 +4,15 @@
 #include <cmath>
 
 namespace vicon::viewer {
+namespace {
+
+// std::hypot guards against overflow, which pixels cannot reach, and takes several times as long.
+double lengthOf(double x, double y)
+{
+    return std::sqrt(x * x + y * y);
+}
+
+}  // namespace
 
 Mask::Mask(int width, int height)
     : width_(width),
@@ -55,14 +64,14 @@ void Mask::addSegment(Pixel a, Pixel b, double width_px)
     addShape(std::min(a.x, b.x) - r, std::min(a.y, b.y) - r, std::max(a.x, b.x) + r, std::max(a.y, b.y) + r,
              [&](double x, double y) {
                  const double t = l2 > 0 ? std::clamp(((x - a.x) * dx + (y - a.y) * dy) / l2, 0.0, 1.0) : 0;
-                 return r + 0.5 - std::hypot(x - a.x - t * dx, y - a.y - t * dy);
+                 return r + 0.5 - lengthOf(x - a.x - t * dx, y - a.y - t * dy);
              });
 }
 
 void Mask::addRing(Pixel c, double inner_px, double outer_px)
 {
     addShape(c.x - outer_px, c.y - outer_px, c.x + outer_px, c.y + outer_px, [&](double x, double y) {
-        const double d = std::hypot(x - c.x, y - c.y);
+        const double d = lengthOf(x - c.x, y - c.y);
         return std::min(outer_px + 0.5 - d, inner_px < 0 ? 1.0 : d - inner_px + 0.5);
     });
 }
@@ -83,22 +92,23 @@ void Mask::blendInto(Picture& picture, Rgb color, double strength) const
         }
 }
 
-Mask Mask::grown(double radius_px) const
+void Mask::growInto(Mask& out, double radius_px) const
 {
-    Mask out(width_, height_);
+    struct Near {
+        int dx, dy;
+        double weight;
+    };
+    std::vector<Near> near;
     const int reach = int(std::ceil(radius_px));
+    for (int dy = -reach; dy <= reach; ++dy)
+        for (int dx = -reach; dx <= reach; ++dx)
+            if (const double weight = std::clamp(radius_px + 0.5 - lengthOf(dx, dy), 0.0, 1.0); weight > 0)
+                near.push_back({dx, dy, weight});
     for (int y = y0_; y < y1_; ++y)
-        for (int x = x0_; x < x1_; ++x) {
-            const int here = cover_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
-            if (here == 0)
-                continue;
-            for (int dy = -reach; dy <= reach; ++dy)
-                for (int dx = -reach; dx <= reach; ++dx) {
-                    const double weight = std::clamp(radius_px + 0.5 - std::hypot(dx, dy), 0.0, 1.0);
-                    out.add(x + dx, y + dy, int(here * weight));
-                }
-        }
-    return out;
+        for (int x = x0_; x < x1_; ++x)
+            if (const int here = cover_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]; here > 0)
+                for (const Near& n : near)
+                    out.add(x + n.dx, y + n.dy, int(here * n.weight));
 }
 
 }  // namespace vicon::viewer

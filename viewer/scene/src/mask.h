@@ -18,8 +18,8 @@ public:
     /// Sets a pixel to at least this cover, 0 to 255; outside the picture: nothing.
     void add(int x, int y, int cover);
     void blendInto(Picture& picture, Rgb color, double strength) const;
-    /// The cover of everything within `radius_px` of what is covered.
-    Mask grown(double radius_px) const;
+    /// Adds to `out`, a mask of the same size, everything within `radius_px` of what is covered here.
+    void growInto(Mask& out, double radius_px) const;
 
 private:
     template <class Cover>

@@ -18,6 +18,11 @@ double captionHeight(double text_px)
     return std::max(0.8 * text_px, kLeast_px);
 }
 
+double wordsHeight(const SnapshotRequest& request)
+{
+    return std::max(textHeightFor(request.width, request.height), 12.0);
+}
+
 /// The whole projection with the caption's room above it and a margin for letters.
 PlaneView viewOfAll(const artefact::Projection& projection, int width, int height, double header_px, double margin_px)
 {
@@ -132,6 +137,14 @@ OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& r
         double(captionLines(request.caption, 0, 0).size()) * 1.35 * captionHeight(text_px) + 0.48 * text_px;
     ground.view = viewOfAll(projection, request.width, request.height, ground.header_px, 2.2 * text_px);
     ground.picture = drawn(projection, ground.view);
+    Overlay overlay;
+    const bool tree = !scan.tree().empty();
+    const double words_px = wordsHeight(request);
+    addSkeleton(overlay, tree ? scan.tree().allBranches() : scan.skeleton(), ground.view,
+                std::max(1.5, words_px / 9));
+    addTips(overlay, scan.skeleton(), tree, ground.view, words_px);
+    addParts(overlay, scan.parts(), scan.skeleton(), ground.view, words_px);
+    paint(ground.picture, overlay);
     return ground;
 }
 
@@ -139,15 +152,11 @@ Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, con
                      const SnapshotResult& place)
 {
     const PlaneView& view = ground.view;
-    const double text_px = std::max(textHeightFor(request.width, request.height), 12.0);
+    const double text_px = wordsHeight(request);
     const auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), !scan.tree().empty());
     Picture picture = ground.picture;
     Overlay overlay;
     const Area area{0, 0, double(request.width), double(request.height)};
-    const bool tree = !scan.tree().empty();
-    addSkeleton(overlay, tree ? scan.tree().allBranches() : scan.skeleton(), view, std::max(1.5, text_px / 9));
-    addTips(overlay, scan.skeleton(), tree, view, text_px);
-    addParts(overlay, scan.parts(), scan.skeleton(), view, text_px);
     addMarkers(overlay, request.markers, view, text_px);
     addHere(overlay, view, place.pose, 0.8 * text_px);
     addLetters(overlay, area, view.right, view.down, text_px);

@@ -156,16 +156,18 @@ void draw(Mask& mask, const Placed& placed, Pixel begin, double size_px)
 
 }  // namespace
 
-void paintText(Picture& picture, const OverlayText& text)
+void paintText(Picture& picture, const OverlayText& text, Mask& letters, Mask& rim)
 {
     const std::lock_guard lock(library().mutex);
     const Line line = fitted(library().fonts, text);
     const Pixel begin = beginOf(text, line);
-    Mask mask(picture.width, picture.height);
+    letters.clear();
     for (const Placed& placed : line.glyphs)
-        draw(mask, placed, begin, line.size);
-    mask.grown(std::max(1.0, kRimShare * line.size)).blendInto(picture, {0, 0, 0}, kRimStrength);
-    mask.blendInto(picture, text.color, 1);
+        draw(letters, placed, begin, line.size);
+    rim.clear();
+    letters.growInto(rim, std::max(1.0, kRimShare * line.size));
+    rim.blendInto(picture, {0, 0, 0}, kRimStrength);
+    letters.blendInto(picture, text.color, 1);
 }
 
 TextSize measureText(const OverlayText& text)
