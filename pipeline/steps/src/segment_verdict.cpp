@@ -86,8 +86,8 @@ void judgeSegmentation(Segmentation& result, const Body& body, double lumen_cut_
         note(result, "the field of view cuts the body");
     result.verdict = result.confidence >= 0.5 ? "colon" : "unsure";
     if (result.reason.empty())
-        result.reason =
-            "one run of gas and fluid from the rectum to the patient's right, " + round(length) + " mm long";
+        // Without a length: these are ways through voxels, longer than the skeleton's, which readers are shown.
+        result.reason = "one run of gas and fluid from the rectum to the patient's right";
 }
 
 }  // namespace vicon::steps
