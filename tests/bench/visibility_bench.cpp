@@ -65,7 +65,7 @@ struct Flight {
     double cells = 0, triangles = 0;  // drawn
     double seen_cells = 0, seen_cells_triangles = 0, seen = 0;
     std::vector<double> culled_s, all_s, choice_s, culled_cpu_s, all_cpu_s;
-    std::vector<double> perfect_s;                // drawing nothing but the triangles that are seen
+    std::vector<double> perfect_s;                    // drawing nothing but the triangles that are seen
     std::vector<double> views_culled_s, views_all_s;  // slices and overview with it
 };
 

@@ -60,7 +60,7 @@ TransferFunction transferFunctionFrom(const toml::table& entry)
 std::uint8_t WindowLevel::greyOf(double density_hu) const
 {
     const double share = (density_hu - level_hu) / width_hu + 0.5;
-    return std::uint8_t(std::clamp(share, 0.0, 1.0) * 255 + 0.5);
+    return std::uint8_t(std::lround(std::clamp(share, 0.0, 1.0) * 255));
 }
 
 const std::vector<WindowLevel>& windowPresets()

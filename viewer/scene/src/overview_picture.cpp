@@ -140,8 +140,7 @@ OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& r
     Overlay overlay;
     const bool tree = !scan.tree().empty();
     const double words_px = wordsHeight(request);
-    addSkeleton(overlay, tree ? scan.tree().allBranches() : scan.skeleton(), ground.view,
-                std::max(1.5, words_px / 9));
+    addSkeleton(overlay, tree ? scan.tree().allBranches() : scan.skeleton(), ground.view, std::max(1.5, words_px / 9));
     addTips(overlay, scan.skeleton(), tree, ground.view, words_px);
     addParts(overlay, scan.parts(), scan.skeleton(), ground.view, words_px);
     paint(ground.picture, overlay);
