@@ -183,6 +183,26 @@ std::vector<std::size_t> cheapest(const Cord& cord, Point3 from, Point3 to, Prog
     return chain;
 }
 
+/// The cells of the chain that lie between the two lumens, with one of each.
+struct Stretch {
+    std::size_t first = 0, last = 0;
+    std::size_t soft = 0;  ///< how many of them are soft tissue or lumen
+};
+
+Stretch betweenLumens(const Cord& cord, const std::vector<std::size_t>& chain)
+{
+    Stretch s{0, chain.size() - 1};
+    for (std::size_t n = 0; n < chain.size(); ++n)
+        if (cord.cells[chain[n]] == kBefore)
+            s.first = n;
+    for (std::size_t n = chain.size(); n-- > s.first;)
+        if (cord.cells[chain[n]] == kAfter)
+            s.last = n;
+    for (std::size_t n = s.first; n <= s.last; ++n)
+        s.soft += cord.cells[chain[n]] == kFat || cord.cells[chain[n]] == kBarred ? 0 : 1;
+    return s;
+}
+
 /// The stretch of the chain between the two lumens, and the share of it in soft tissue.
 struct Crossing {
     std::vector<Point3> path_mm;
@@ -210,19 +230,11 @@ Polyline outsideLumen(const Polyline& line, const InsideVolume& inside)
 Crossing crossing(const Cord& cord, const std::vector<std::size_t>& chain, const HuVolume& volume,
                   const InsideVolume& inside, Progress& progress)
 {
-    std::size_t first = 0, last = chain.size() - 1;
-    for (std::size_t n = 0; n < chain.size(); ++n)
-        if (cord.cells[chain[n]] == kBefore)
-            first = n;
-    for (std::size_t n = chain.size(); n-- > first;)
-        if (cord.cells[chain[n]] == kAfter)
-            last = n;
+    const auto [first, last, soft] = betweenLumens(cord, chain);
     std::vector<Point3> line;
-    std::size_t soft = 0;
-    for (std::size_t n = 0; n < chain.size(); ++n)
-        line.push_back(cord.grid.pointAt(cord.grid.indexOf(chain[n])));
-    for (std::size_t n = first; n <= last; ++n)
-        soft += cord.cells[chain[n]] == kFat || cord.cells[chain[n]] == kBarred ? 0 : 1;
+    line.reserve(chain.size());
+    for (const std::size_t n : chain)
+        line.push_back(cord.grid.pointAt(cord.grid.indexOf(n)));
     // Smoothed with what lies in the lumen on both sides, so that the ends keep their direction; then cut.
     const Point3 leave = line[first], enter = line[last];
     const Polyline smooth = smoothed(resampled(line, 1), kSmoothing_mm, 1);
@@ -253,6 +265,21 @@ void judgeBridge(Bridge& bridge, double soft_share, double longest_sure_mm)
     bridge.reason = bridge.length_mm > longest_sure_mm ? "the gap is long"
                     : soft_share <= 0.5                ? "the way between the pieces leads through fat"
                                                        : "a short gap through soft tissue";
+}
+
+double fatBetween_mm(const HuVolume& volume, const InsideVolume& inside, Point3 from, Point3 to, Progress& progress)
+{
+    const Cord cord = cordBetween(volume, inside, from, to, progress);
+    const std::vector<std::size_t> chain = cheapest(cord, from, to, progress);
+    const Stretch stretch = betweenLumens(cord, chain);
+    double fat_mm = 0;
+    const auto fat = [&](std::size_t n) { return cord.cells[n] == kFat || cord.cells[n] == kBarred ? 0.5 : 0.0; };
+    for (std::size_t n = stretch.first + 1; n <= stretch.last; ++n) {
+        const std::size_t a = chain[n - 1], b = chain[n];
+        fat_mm += (fat(a) + fat(b)) *
+                  distance(cord.grid.pointAt(cord.grid.indexOf(a)), cord.grid.pointAt(cord.grid.indexOf(b)));
+    }
+    return fat_mm;
 }
 
 void followCords(const HuVolume& volume, const InsideVolume& inside, double longest_sure_mm, LumenPlan& plan,

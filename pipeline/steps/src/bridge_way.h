@@ -14,6 +14,10 @@ namespace vicon::steps {
 void followCords(const HuVolume& volume, const InsideVolume& inside, double longest_sure_mm, LumenPlan& plan,
                  Progress& progress);
 
+/// How many millimetres of the way between two tips, from lumen to lumen, are no collapsed bowel: fat, bone, gas of
+/// neither piece. The way is sought as by followCords(); `inside` may hold more than the two pieces.
+double fatBetween_mm(const HuVolume& volume, const InsideVolume& inside, Point3 from, Point3 to, Progress& progress);
+
 /// How likely a way of that length is the collapsed bowel when this share of it lies in soft tissue; fills confidence,
 /// certain and reason.
 void judgeBridge(Bridge& bridge, double soft_share, double longest_sure_mm);

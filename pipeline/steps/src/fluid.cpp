@@ -12,11 +12,6 @@
 namespace vicon::steps {
 namespace {
 
-/// Half-way density less than this many standard deviations below a pool's own: one voxel in 160 is a hole. A pool of
-/// 300 HU at a noise of 60 HU, low dose, has 2.2; the prone scan of the reference data, 28 HU, has at least 2.8 in any
-/// pool.
-constexpr double kNoisy = 2.5;
-
 Index3 below(Index3 v, Down down, int steps)
 {
     (down.axis == 0 ? v.i : down.axis == 1 ? v.j : v.k) += down.sign * steps;
@@ -53,7 +48,7 @@ FluidResult addTaggedFluid(const HuVolume& volume, Vector3 gravity, const FluidD
                            InsideVolume& labels, Progress& progress)
 {
     const Down down = downFor(labels.grid, gravity);
-    std::vector<ContactPatch> patches = findFluidLevels(volume, down, densities, labels);
+    std::vector<ContactPatch> patches = findFluidLevels(volume, down, densities, softTissueNoise(volume), labels);
     progress.check();
     // Lowest threshold first: what a higher one would reach from a voxel already taken has then been taken too, so each
     // voxel is visited once and the order of the levels does not matter.
@@ -83,7 +78,7 @@ FluidResult addTaggedFluid(const HuVolume& volume, Vector3 gravity, const FluidD
     }
     closeFluidLayer(volume, down, patches, densities.tissue_hu, labels);
     // Where noise cannot have made them, holes are what is left of a wall between two pools, and keep them apart.
-    if (!patches.empty() && (patches.front().density_hu - densities.tissue_hu) / 2 < kNoisy * softTissueNoise(volume))
+    if (std::any_of(patches.begin(), patches.end(), [](const ContactPatch& patch) { return patch.noisy; }))
         fillFluidSpecks(labels);
     smoothAtMeniscus(labels);
     result.voxels = std::size_t(std::count(labels.voxels.begin(), labels.voxels.end(), std::uint8_t(kFluid)));

@@ -18,6 +18,10 @@ constexpr double kThickestStep_mm =
 constexpr double kFlatWithin_voxels = 1;
 constexpr double kFlatShare = 0.7;
 constexpr double kSmallestLevel_mm2 = 20;
+/// Half-way density less than this many standard deviations below a pool's own: one voxel in 160 is a hole. A pool of
+/// 300 HU at a noise of 60 HU, low dose, has 2.2; the prone scan of the reference data, 28 HU, has at least 2.7 in any
+/// pool.
+constexpr double kNoisy = 2.5;
 
 int& along(Index3& v, int axis)
 {
@@ -150,9 +154,24 @@ double medianOf(const std::vector<Contact>& contacts, Value value)
     return *middle;
 }
 
-/// Keeps what lies at the level of the most, and says whether that is a fluid's surface.
-bool isLevel(ContactPatch& patch, double face_mm2)
+/// The density of the fluid under a level, whatever the noise: the highest of the medians over all columns at each
+/// depth.
+double densityBelow(const HuVolume& volume, Down down, const std::vector<Contact>& contacts)
 {
+    const int deepest = std::max(1, int(std::lround(kDeepest_mm / volume.grid.spacing_mm[std::size_t(down.axis)])));
+    double density_hu = kPaddingHu;
+    for (int n = 1; n <= deepest; ++n)
+        density_hu = std::max(density_hu, medianOf(contacts, [&](const Contact& c) {
+                                  const int steps = int(std::lround(c.below_voxels)) + n;
+                                  return float(volume.valueOr(moved(c.gas, down, steps), kPaddingHu));
+                              }));
+    return density_hu;
+}
+
+/// Keeps what lies at the level of the most, and says whether that is a fluid's surface.
+bool isLevel(ContactPatch& patch, const HuVolume& volume, Down down)
+{
+    const double face_mm2 = volume.grid.voxelVolume_mm3() / volume.grid.spacing_mm[std::size_t(down.axis)];
     if (double(patch.contacts.size()) * face_mm2 < kSmallestLevel_mm2)
         return false;
     const double level = medianOf(patch.contacts, [](const Contact& c) { return c.level_voxels; });
@@ -161,8 +180,18 @@ bool isLevel(ContactPatch& patch, double face_mm2)
     if (double(count) < kFlatShare * double(patch.contacts.size()))
         return false;
     std::erase_if(patch.contacts, [&](const Contact& c) { return !flat(c); });
-    patch.density_hu = medianOf(patch.contacts, [](const Contact& c) { return c.density_hu; });
     return true;
+}
+
+/// Sets the density of a level. The highest of each column is more than a standard deviation above the fluid's own:
+/// that keeps pools apart (without it the prone scan of the reference data has 17 ml more of small bowel), but where
+/// the noise is strong for the fluid it makes the pool fall to pieces (phantoms 205, 210).
+void measureDensity(ContactPatch& patch, const HuVolume& volume, Down down, double tissue_hu, double noise_hu)
+{
+    const double highest_hu = medianOf(patch.contacts, [](const Contact& c) { return c.density_hu; });
+    const double own_hu = densityBelow(volume, down, patch.contacts);
+    patch.noisy = own_hu - (highest_hu + tissue_hu) / 2 < kNoisy * noise_hu;
+    patch.density_hu = patch.noisy ? own_hu : highest_hu;
 }
 
 }  // namespace
@@ -182,7 +211,7 @@ Down downFor(const Grid& grid, Vector3 gravity)
 }
 
 std::vector<ContactPatch> findFluidLevels(const HuVolume& volume, Down down, const FluidDensities& densities,
-                                          const InsideVolume& labels)
+                                          double noise_hu, const InsideVolume& labels)
 {
     const std::vector<Contact> contacts = findContacts(volume, down, densities, labels);
     const std::vector<std::uint32_t> root = joinContacts(contacts, labels.grid, down);
@@ -194,9 +223,9 @@ std::vector<ContactPatch> findFluidLevels(const HuVolume& volume, Down down, con
             patches.emplace_back();
         patches[entry->second].contacts.push_back(contacts[n]);
     }
-    const auto& spacing = labels.grid.spacing_mm;
-    const double face_mm2 = labels.grid.voxelVolume_mm3() / spacing[std::size_t(down.axis)];
-    std::erase_if(patches, [&](ContactPatch& patch) { return !isLevel(patch, face_mm2); });
+    std::erase_if(patches, [&](ContactPatch& patch) { return !isLevel(patch, volume, down); });
+    for (ContactPatch& patch : patches)
+        measureDensity(patch, volume, down, densities.tissue_hu, noise_hu);
     return patches;
 }
 

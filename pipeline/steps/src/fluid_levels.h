@@ -19,6 +19,7 @@ struct Contact {
 struct ContactPatch {
     std::vector<Contact> contacts;
     double density_hu = 0;
+    bool noisy = false;  ///< half-way to tissue lies so near to the fluid's own density that noise makes holes in it
 };
 
 /// Gravity, the voxel axis nearest to it, and its direction along that axis. On an oblique scan the two differ: columns
@@ -31,7 +32,8 @@ struct Down {
 Down downFor(const Grid& grid, Vector3 gravity);
 
 /// Finds the flat levels between gas and fluid.
+/// @param noise_hu standard deviation of the noise in soft tissue
 std::vector<ContactPatch> findFluidLevels(const HuVolume& volume, Down down, const FluidDensities& densities,
-                                          const InsideVolume& labels);
+                                          double noise_hu, const InsideVolume& labels);
 
 }  // namespace vicon::steps

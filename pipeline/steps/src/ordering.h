@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "body.h"
@@ -20,11 +21,15 @@ struct Ordering {
     std::vector<Bridge> bridges;
 };
 
+/// How many millimetres of the best way between two tips are no bowel: fat, bone, gas that belongs to neither piece.
+using FatBetween = std::function<double(Point3, Point3)>;
+
 /// The order and direction in which the colon runs through the candidates, starting at the rectal tip of `rectum`.
-/// Exact: a dynamic programme over subsets, whose cost is the cheapest way through the CT from tip to tip, what is left
-/// out (length x likeness), and a last end that is not where a caecum lies.
-/// `required` candidates must be part of it.
+/// Exact: a dynamic programme over subsets, whose cost is the cheapest way through the CT from tip to tip, the fat on
+/// that way when looked at closely, what is left out (length x likeness), and a last end that is not where a caecum
+/// lies. `required` candidates must be part of it.
 Ordering orderPieces(const std::vector<Candidate>& candidates, int rectum, const std::vector<int>& required,
-                     const Body& body, const InsideVolume& labels, double longest_sure_mm, Progress& progress);
+                     const Body& body, const InsideVolume& labels, const FatBetween& fat_mm, double longest_sure_mm,
+                     Progress& progress);
 
 }  // namespace vicon::steps

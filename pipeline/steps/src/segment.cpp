@@ -202,8 +202,10 @@ Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const
         if (std::find(added.begin(), added.end(), int(candidates[n].label)) != added.end())
             required.push_back(int(n));
     progress.report(0.8, "order of the pieces");
-    const Ordering ordering =
-        orderPieces(candidates, rectum, required, body, labels, options.longest_sure_bridge_mm, progress);
+    const Ordering ordering = orderPieces(
+        candidates, rectum, required, body, labels,
+        [&](Point3 from, Point3 to) { return fatBetween_mm(volume, labels, from, to, progress); },
+        options.longest_sure_bridge_mm, progress);
     std::set<int> chosen;
     for (const OrderedPiece& p : ordering.pieces) {
         const Candidate& c = candidates[std::size_t(p.candidate)];
