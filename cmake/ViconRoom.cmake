@@ -29,14 +29,20 @@ function(vicon_room NAME)
   target_link_libraries(vicon_${NAME} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE} vicon_warnings)
 endfunction()
 
-# vicon_test(NAME SOURCES a_test.cpp ... LINK targets ... [LABELS long])
-# makes one GoogleTest program; every TEST becomes one CTest test.
+# vicon_test(NAME SOURCES a_test.cpp ... LINK targets ... [LABELS long] [TIMEOUT s] [TOGETHER])
+# makes one GoogleTest program; every TEST becomes one CTest test. TOGETHER: the program is one CTest test, because its TESTs
+# share what takes seconds to make, and each process would make it anew. scripts/test-summary counts its TESTs one by one.
 function(vicon_test NAME)
-  cmake_parse_arguments(TEST "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(TEST "TOGETHER" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   add_executable(${NAME} ${TEST_SOURCES})
   target_link_libraries(${NAME} PRIVATE ${TEST_LINK} vicon_test_support GTest::gmock_main vicon_warnings)
   if(NOT TEST_TIMEOUT)
     set(TEST_TIMEOUT 300)
+  endif()
+  if(TEST_TOGETHER)
+    add_test(NAME ${NAME}.together COMMAND ${NAME})
+    set_tests_properties(${NAME}.together PROPERTIES TIMEOUT ${TEST_TIMEOUT} LABELS "${TEST_LABELS}")
+    return()
   endif()
   # Without the values of parameters: of a plain struct they are bytes, and a name must stay the same from run to run.
   gtest_discover_tests(${NAME} TEST_PREFIX ${NAME}. NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60

@@ -1,6 +1,8 @@
 #include "vicon/artefact/projections_file.h"
 
+#include <future>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "png_file.h"
 #include "vicon/core/error.h"
@@ -54,11 +56,16 @@ void writeProjections(const fs::path& folder, std::span<const Projection> projec
 {
     makePrivateFolder(folder);
     nlohmann::json mapping = {{"projections", nlohmann::json::array()}};
+    std::vector<std::future<void>> pictures;  // packing keeps a core busy
     for (const Projection& p : projections) {
         const nlohmann::json one = mappingOf(p);
-        writePng(folder / (p.name + ".png"), p.width, p.height, p.rgba, "vicon:mapping", one.dump());
+        pictures.push_back(std::async(std::launch::async, [&folder, &p, text = one.dump()] {
+            writePng(folder / (p.name + ".png"), p.width, p.height, p.rgba, "vicon:mapping", text);
+        }));
         mapping["projections"].push_back(one);
     }
+    for (auto& picture : pictures)
+        picture.get();
     replaceFile(folder / "projections.json", mapping.dump(1) + "\n");
 }
 

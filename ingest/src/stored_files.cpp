@@ -3,7 +3,9 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -19,6 +21,9 @@ namespace fs = std::filesystem;
 
 namespace vicon::ingest {
 namespace {
+
+/// Files that are copied at once, whatever the number of cores: each waits for the disk until it is flushed.
+constexpr int kAtOnce = 8;
 
 [[noreturn]] void failed(const std::string& what, const fs::path& where, int number)
 {
@@ -66,13 +71,17 @@ void copyDurably(const fs::path& folder, const std::vector<FileCopy>& copies, Pr
     makePrivateFolder(folder);
     removeTemporaries(folder);
     std::mutex telling;
+    const tbb::global_control more(tbb::global_control::max_allowed_parallelism, kAtOnce);
+    tbb::task_arena waiting(kAtOnce);
     try {
-        tbb::parallel_for(std::size_t(0), copies.size(), [&](std::size_t n) {
-            {
-                const std::lock_guard lock(telling);
-                progress.check();
-            }
-            copyPrivately(copies[n].from, temporaryFor(folder, copies[n].name));
+        waiting.execute([&] {
+            tbb::parallel_for(std::size_t(0), copies.size(), [&](std::size_t n) {
+                {
+                    const std::lock_guard lock(telling);
+                    progress.check();
+                }
+                copyPrivately(copies[n].from, temporaryFor(folder, copies[n].name));
+            });
         });
         for (const FileCopy& copy : copies)
             if (::rename(temporaryFor(folder, copy.name).c_str(), (folder / copy.name).c_str()) != 0)

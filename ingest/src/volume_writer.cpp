@@ -5,6 +5,7 @@
 #include <new>
 
 #include "vicon/core/error.h"
+#include "vicon/core/fresh_memory.h"
 
 namespace vicon::ingest {
 
@@ -12,7 +13,8 @@ VolumeWriter::VolumeWriter(const StackPlan& plan) : size_(plan.grid.size)
 {
     const NearestToPatient nearest = nearestToPatient(plan.grid);
     try {
-        volume_ = HuVolume(nearest.grid, kPaddingHu);
+        volume_.grid = nearest.grid;
+        fillFresh(volume_.voxels, nearest.grid.voxelCount(), kPaddingHu);
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::no_memory,
                     "the scan's densities need " + std::to_string(plan.grid.voxelCount() * 2 / 1000000) + " MB", {},

@@ -14,6 +14,7 @@
 #include "vicon/artefact/volume_file.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume.h"
+#include "vicon/steps/subdivide.h"
 
 namespace vicon::pipeline {
 
@@ -65,6 +66,22 @@ public:
     {
         const std::lock_guard lock(mutex_);
         wall_distance_ = std::move(field);
+    }
+
+    /// The lumen flooded from the skeleton's paths, when an earlier step began it; it is given away.
+    std::optional<steps::PathFlood> takeFlood()
+    {
+        std::future<steps::PathFlood> flood;
+        {
+            const std::lock_guard lock(mutex_);
+            flood = std::move(flood_);
+        }
+        return flood.valid() ? std::optional(flood.get()) : std::nullopt;
+    }
+    void keepFlood(std::future<steps::PathFlood> flood)
+    {
+        const std::lock_guard lock(mutex_);
+        flood_ = std::move(flood);
     }
 
     /// Waits until these files are on the disk, whichever of them were begun. Throws what their writing threw.
@@ -123,6 +140,7 @@ private:
     std::optional<SegmentVolume> segments_;
     std::optional<FieldVolume> wall_distance_;
     std::optional<Skeleton> skeleton_;
+    std::future<steps::PathFlood> flood_;                // reads inside_
     std::map<std::string, std::future<void>> writing_;  // last: what is written must outlive it
 };
 

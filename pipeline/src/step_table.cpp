@@ -130,8 +130,15 @@ json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepR
     const steps::LumenPlan plan = steps::lumenPlanFromJson(records.at("segment").result.at("plan"));
     if (!isColon(inputs.config))
         return runTree(plan, inputs, artefacts, progress);
+    // The lumen is flooded while the curve is fitted: the flood keeps one core busy, and the next step waits for it.
+    const auto flood = [&](const std::vector<std::vector<Index3>>& paths) {
+        if (inputs.config.get<steps::SubdivideOptions>().method == "flood")
+            artefacts.keepFlood(std::async(std::launch::async, [&inside = artefacts.inside(), paths] {
+                return steps::floodFromPaths(inside, paths);
+            }));
+    };
     steps::SkeletonResult found =
-        steps::findSkeleton(artefacts.inside(), plan, inputs.config.get<steps::SkeletonOptions>(), progress);
+        steps::findSkeleton(artefacts.inside(), plan, inputs.config.get<steps::SkeletonOptions>(), progress, flood);
     json result = found.measures;
     result["length_mm"] = found.curve.length_mm();
     artefact::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
@@ -172,14 +179,17 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
         options.method = "flood";  // planes across one path do not part branches
     steps::Subdivided divided =
         steps::subdivide(inside, tree.empty() ? artefacts.skeleton() : tree.allBranches(),
-                         artefact::readSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp"), options, divide);
+                         artefact::readSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp"), options, divide,
+                         artefacts.takeFlood());
     artefacts.put(std::move(divided.segments));
     const artefact::CellSurface surface = contour.get().cellsOf(artefacts.segments(), tell);
     steps::countTriangles(surface, divided.description);
-    artefact::writeCells(artefacts.folder() / "cells.vtp", surface);
+    auto cells = std::async(std::launch::async,
+                            [&] { artefact::writeCells(artefacts.folder() / "cells.vtp", surface); });
     artefact::writeProjections(artefacts.folder() / "projections",
                                steps::project(surface, inputs.config.get<steps::ProjectionOptions>(), project));
     artefact::writeSubdivision(artefacts.folder() / "subdivision.json", divided.description);
+    cells.get();
     json result = divided.description.statistics;
     result["method"] = divided.description.method;
     result["triangles"] = surface.triangleCount();

@@ -109,6 +109,36 @@ TEST(Subdivide, HoldsOnRealColons)
     EXPECT_NEAR(double(divided.description.segments.size()), lumen.skeleton.length_mm() / 30, 5);
 }
 
+/// Voxels of each piece's path, as the skeleton step knows them before there is a curve.
+std::vector<std::vector<Index3>> voxelPathsOf(const Lumen& lumen)
+{
+    std::vector<std::vector<Index3>> paths;
+    for (const auto& points : voxelsAlong(lumen.skeleton, lumen.inside)) {
+        std::vector<Index3>& path = paths.emplace_back();
+        for (const Point3 p : points)
+            path.push_back(lumen.inside.grid.indexAt(p));
+    }
+    return paths;
+}
+
+TEST(Subdivide, AFloodMadeAheadChangesNothingWhicheverPathsItIsOf)
+{
+    NoProgress quiet;
+    for (Lumen lumen : {bentTube(), bridgedTubes()}) {
+        lumen.inside.at({2, 2, 2}) = lumen.inside.at({3, 3, 3}) = kFluid;  // that no path reaches
+        const Subdivided plain = divide(lumen);
+        std::vector<std::vector<Index3>> others = voxelPathsOf(lumen);
+        others.front().resize(5);
+        for (const auto& paths : {voxelPathsOf(lumen), others}) {
+            const Subdivided divided =
+                subdivide(lumen.inside, lumen.skeleton, voxelsAlong(lumen.skeleton, lumen.inside), {}, quiet,
+                          floodFromPaths(lumen.inside, paths));
+            EXPECT_EQ(divided.segments.voxels, plain.segments.voxels);
+            EXPECT_EQ(divided.description.segments.size(), plain.description.segments.size());
+        }
+    }
+}
+
 TEST(Subdivide, RefusesAnEmptySkeleton)
 {
     NoProgress quiet;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "vicon/core/error.h"
+#include "vicon/core/fresh_memory.h"
 #include "vicon/core/volume.h"
 
 namespace vicon::steps {
@@ -19,8 +20,12 @@ Volume<T> makeVolume(const Grid& grid, T fill = T{})
     const double bytes = double(grid.size[0]) * double(grid.size[1]) * double(grid.size[2]) * double(sizeof(T));
     const double machine = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
     try {
-        if (bytes < machine)
-            return Volume<T>(grid, fill);
+        if (bytes < machine) {
+            Volume<T> volume;
+            volume.grid = grid;
+            fillFresh(volume.voxels, grid.voxelCount(), fill);
+            return volume;
+        }
     } catch (const std::bad_alloc&) {
     } catch (const std::length_error&) {
     }

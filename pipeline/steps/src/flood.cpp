@@ -1,5 +1,8 @@
 #include "flood.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -39,7 +42,9 @@ Path pathAlong(const InsideVolume& inside, const Skeleton& skeleton, int piece, 
     return path;
 }
 
-void seedPath(LumenFront& front, Labelling& labelling, const Skeleton& skeleton, const Path& path, double length_mm)
+/// Cuts a path into pieces of about `length_mm`, and appends the label of each of its voxels.
+void cutPath(std::vector<std::uint16_t>& label_of, Labelling& labelling, const Skeleton& skeleton, const Path& path,
+             double length_mm)
 {
     const auto& curve = skeleton.pieces[std::size_t(path.piece)].points;
     const double from = curve.front().station_mm, length = curve.back().station_mm - from;
@@ -51,8 +56,37 @@ void seedPath(LumenFront& front, Labelling& labelling, const Skeleton& skeleton,
     }
     for (const PathVoxel& v : path.voxels) {
         const int n = std::clamp(int(cuts * (v.station_mm - from) / std::max(length, 1e-9)), 0, cuts - 1);
-        front.seed(v.voxel, 0, std::uint16_t(first + n));
+        label_of.push_back(std::uint16_t(first + n));
     }
+}
+
+/// The flood from these voxels, each of which has its place in the order as label.
+PathFlood floodFrom(const InsideVolume& inside, std::vector<std::uint32_t> seeds)
+{
+    PathFlood flood{std::move(seeds), {}, {}};
+    const auto next = [&] {
+        const std::size_t label = flood.seeds.size() + flood.loose.size();
+        if (label > std::numeric_limits<std::uint16_t>::max())
+            throw Error(ErrorCode::bad_input, "the lumen's path and loose parts are more than 65535", {},
+                        "raise resample.spacing_mm, or look at the segmentation");
+        return std::uint16_t(label);
+    };
+    next();
+    LumenFront front(inside);
+    for (std::size_t n = 0; n < flood.seeds.size(); ++n)
+        front.seed(flood.seeds[n], 0, std::uint16_t(n + 1));
+    front.run(Labels::adopt);
+    front.runOverCorners(Labels::adopt);
+    for (const std::uint32_t voxel : front.unreached()) {
+        if (front.time.voxels[voxel] < LumenFront::kUnreached)
+            continue;
+        flood.loose.push_back(voxel);
+        const std::uint16_t label = next();
+        for (const std::uint32_t v : front.componentOf(voxel))
+            front.seed(v, 0, label);
+    }
+    flood.label = std::move(front.label);
+    return flood;
 }
 
 }  // namespace
@@ -72,24 +106,37 @@ std::vector<Path> pathsOf(const InsideVolume& inside, const Skeleton& skeleton, 
     return paths;
 }
 
-Labelling floodPieces(const InsideVolume& inside, const Skeleton& skeleton, const std::vector<Path>& paths,
-                      double length_mm)
+PathFlood floodFromPaths(const InsideVolume& inside, const std::vector<std::vector<Index3>>& paths)
 {
-    LumenFront front(inside);
-    Labelling labelling;
+    std::vector<std::uint32_t> seeds;
+    for (const std::vector<Index3>& path : paths)
+        for (const Index3 v : path)
+            seeds.push_back(std::uint32_t(inside.grid.offset(v)));
+    return floodFrom(inside, std::move(seeds));
+}
+
+Labelling floodPieces(const InsideVolume& inside, const Skeleton& skeleton, const std::vector<Path>& paths,
+                      double length_mm, std::optional<PathFlood> ahead)
+{
+    std::vector<std::uint32_t> seeds;
     for (const Path& path : paths)
-        seedPath(front, labelling, skeleton, path, length_mm);
-    front.run(Labels::adopt);
-    front.runOverCorners(Labels::adopt);
-    for (const std::uint32_t voxel : front.unreached()) {
-        if (front.time.voxels[voxel] < LumenFront::kUnreached)
-            continue;
+        for (const PathVoxel& v : path.voxels)
+            seeds.push_back(std::uint32_t(v.voxel));
+    if (!ahead || ahead->seeds != seeds || ahead->label.size() != inside.voxels.size())
+        ahead = floodFrom(inside, std::move(seeds));
+    Labelling labelling;
+    std::vector<std::uint16_t> label_of{LumenFront::kNoLabel};
+    for (const Path& path : paths)
+        cutPath(label_of, labelling, skeleton, path, length_mm);
+    for (const std::uint32_t voxel : ahead->loose) {
         const double station = skeleton.nearest(inside.grid.pointAt(inside.grid.indexOf(voxel))).station_mm;
-        const std::uint16_t label = newLabel(labelling, {station, station, -1});
-        for (const std::uint32_t v : front.componentOf(voxel))
-            front.seed(v, 0, label);
+        label_of.push_back(newLabel(labelling, {station, station, -1}));
     }
-    labelling.label = std::move(front.label);
+    labelling.label = std::move(ahead->label);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, labelling.label.size(), 1 << 16), [&](const auto& range) {
+        for (std::size_t n = range.begin(); n < range.end(); ++n)
+            labelling.label[n] = label_of[labelling.label[n]];
+    });
     return labelling;
 }
 

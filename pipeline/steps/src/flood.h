@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "segments.h"
 #include "vicon/artefact/skeleton_file.h"
 #include "vicon/core/skeleton.h"
+#include "vicon/steps/subdivide.h"
 
 namespace vicon::steps {
 
@@ -31,7 +33,8 @@ struct Labelling {
 
 /// Cuts each path into pieces of about `length_mm` and floods all of them at once inside the lumen: each voxel takes
 /// the label of the front that reaches it first. Parts of the lumen that no path reaches get labels of their own.
+/// @param ahead what floodFrom() made of paths found earlier; made anew when it is of other paths
 Labelling floodPieces(const InsideVolume& inside, const Skeleton& skeleton, const std::vector<Path>& paths,
-                      double length_mm);
+                      double length_mm, std::optional<PathFlood> ahead);
 
 }  // namespace vicon::steps

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "allocate.h"
+
 namespace vicon::steps {
 namespace {
 
@@ -51,7 +53,7 @@ bool isLung(const RunComponent& gas, const Grid& grid)
 
 InsideVolume labelGas(const HuVolume& volume, const RunLabels& gas, const std::vector<int>& always)
 {
-    InsideVolume labels(volume.grid);
+    auto labels = makeVolume<std::uint8_t>(volume.grid);
     const double voxel_ml = volume.grid.voxelVolume_mm3() / 1000;
     std::vector<std::uint8_t> taken;
     for (const RunComponent& c : gas.components)

@@ -103,7 +103,8 @@ void LumenFront::seed(std::size_t voxel, float time_mm, std::uint16_t a_label)
 {
     if (!inside_.voxels[voxel] || time.voxels[voxel] <= time_mm)
         return;
-    label.resize(time.voxels.size(), kNoLabel);
+    if (label.empty())
+        fillFresh(label, time.voxels.size(), kNoLabel);
     label[voxel] = a_label;
     seed(voxel, time_mm);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "allocate.h"
 #include "body.h"
 #include "bridge_way.h"
 #include "field_of_view.h"
@@ -91,7 +92,7 @@ InsideVolume cropTo(const InsideVolume& labels, const RunLabels& lumen, const st
                  std::min(labels.grid.size[1], upper.j + margin + 1) - lower.j,
                  std::min(labels.grid.size[2], upper.k + margin + 1) - lower.k};
     grid.origin_mm = labels.grid.pointAt(lower);
-    InsideVolume out(grid);
+    auto out = makeVolume<std::uint8_t>(grid);
     tbb::parallel_for(0, grid.size[2], [&](int k) {
         for (int j = 0; j < grid.size[1]; ++j)
             for (int i = 0; i < grid.size[0]; ++i)

@@ -86,7 +86,8 @@ void append(Skeleton& skeleton, const Polyline& line, bool bridge, const Distanc
 }  // namespace
 
 SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, const SkeletonOptions& options,
-                            Progress& progress)
+                            Progress& progress,
+                            const std::function<void(const std::vector<std::vector<Index3>>&)>& on_paths)
 {
     SkeletonResult result;
     result.measures["pieces"] = nlohmann::json::array();
@@ -109,6 +110,12 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
             });
         },
         [&] { open_mm = wallDistance(withoutRectalTube(inside, plan.pieces.front().rectal_end_mm), check); });
+    if (on_paths) {
+        std::vector<std::vector<Index3>> found;
+        for (const LumenPath& path : paths)
+            found.push_back(path.voxels);
+        on_paths(found);
+    }
     const DistanceProbe open(open_mm);
     std::vector<Polyline> curves;
     for (std::size_t n = 0; n < plan.pieces.size(); ++n) {

@@ -44,7 +44,7 @@ nlohmann::json statisticsOf(const Subdivided& result, int specified)
 }  // namespace
 
 Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const artefact::SkeletonVoxels& voxels,
-                     const SubdivideOptions& options, Progress& progress)
+                     const SubdivideOptions& options, Progress& progress, std::optional<PathFlood> flood)
 {
     if (skeleton.empty())
         throw Error(ErrorCode::bad_input, "the skeleton is empty");
@@ -56,7 +56,7 @@ Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const
     const std::vector<Path> paths = pathsOf(inside, skeleton, voxels);
     const Labelling labelling = options.method == "thesis"
                                     ? thesisPieces(inside, skeleton, paths, options, specified, progress)
-                                    : floodPieces(inside, skeleton, paths, length_mm);
+                                    : floodPieces(inside, skeleton, paths, length_mm, std::move(flood));
     progress.check();
     progress.report(0.6, "subdividing");
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "vicon/artefact/skeleton_file.h"
 #include "vicon/artefact/subdivision_file.h"
@@ -50,6 +53,18 @@ struct Subdivided {
     artefact::Subdivision description;
 };
 
+/// Which voxel of the skeleton's paths is nearest to each inside voxel, measured inside the lumen.
+struct PathFlood {
+    std::vector<std::uint32_t> seeds;  ///< offsets of the paths' voxels, one path after the other
+    std::vector<std::uint32_t> loose;  ///< offsets of one voxel of each part that no path reaches
+    std::vector<std::uint16_t> label;  ///< of every voxel: 1.. for the seeds, then for the loose parts; 0 outside
+};
+
+/// The larger part of method "flood", which needs the paths only: it can be made while the curve is still being fitted.
+/// @param paths the voxel path of each connected piece, inside
+/// Throws Error{bad_input} when paths and loose parts are more than 65535, and Error{no_memory}.
+PathFlood floodFromPaths(const InsideVolume& inside, const std::vector<std::vector<Index3>>& paths);
+
 /// Divides the inside voxels into segments. Every inside voxel lies in exactly one segment, each segment is one
 /// 26-connected set, none spans a bridge, numbers follow the station, and pieces of a cut that are not connected have
 /// numbers of their own. Two segments that touch share exactly one portal; its gate and box enclose everything that
@@ -59,9 +74,10 @@ struct Subdivided {
 /// lumen, and each voxel takes the piece whose front reaches it first.
 /// method "thesis": Algorithm 3.1 of the thesis with its criteria, and its variants.
 ///
+/// @param flood of the same paths when it was made ahead; otherwise method "flood" makes it
 /// The triangle counts of the description are 0 until countTriangles() (cells.h) fills them in.
 /// Throws Error{bad_input} when nothing is inside or the skeleton is empty, or when more segments than 65535 result.
 Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const artefact::SkeletonVoxels& voxels,
-                     const SubdivideOptions& options, Progress& progress);
+                     const SubdivideOptions& options, Progress& progress, std::optional<PathFlood> flood = {});
 
 }  // namespace vicon::steps
