@@ -60,9 +60,9 @@ void retryFailed(CaseStore& store, const pipeline::QueueOptions& options)
             queue.retry(job.case_id, job.scan_id);
 }
 
-/// Steps take and give back hundreds of megabytes at a time. What goes back to the system comes again page by page, each
-/// cleared by the kernel, which was a tenth of all the work; so it is kept while a scan is at work. One arena: what one
-/// thread gave back another takes.
+/// Steps take and give back hundreds of megabytes at a time. What goes back to the system comes again page by page,
+/// each cleared by the kernel, which was a tenth of all the work; so it is kept while a scan is at work. One arena:
+/// what one thread gave back another takes.
 void keepMemory()
 {
     constexpr int kNever = -1;

@@ -14,6 +14,7 @@
 #include "vicon/artefact/volume_file.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume.h"
+#include "vicon/steps/cells.h"
 #include "vicon/steps/subdivide.h"
 
 namespace vicon::pipeline {
@@ -68,6 +69,23 @@ public:
         wall_distance_ = std::move(field);
     }
 
+    /// Begins to contour the lumen, when the densities are in memory anyway.
+    void beginSurface(const steps::CellOptions& options)
+    {
+        const std::lock_guard lock(mutex_);
+        if (volume_ && inside_ && !surface_.valid())
+            surface_ = std::async(std::launch::async, [&volume = *volume_, &inside = *inside_, options] {
+                NoProgress quiet;
+                return steps::LumenSurface(volume, inside, options, quiet);
+            });
+    }
+    /// The lumen's surface, when an earlier step began it; it is given away.
+    std::future<steps::LumenSurface> takeSurface()
+    {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(surface_, {});
+    }
+
     /// The lumen flooded from the skeleton's paths, when an earlier step began it; it is given away.
     std::optional<steps::PathFlood> takeFlood()
     {
@@ -104,6 +122,7 @@ public:
     void dropVolume()
     {
         const std::lock_guard lock(mutex_);
+        surface_ = {};  // waits, when it was begun and nobody wanted it
         volume_.reset();
     }
 
@@ -140,7 +159,8 @@ private:
     std::optional<SegmentVolume> segments_;
     std::optional<FieldVolume> wall_distance_;
     std::optional<Skeleton> skeleton_;
-    std::future<steps::PathFlood> flood_;                // reads inside_
+    std::future<steps::LumenSurface> surface_;          // reads volume_ and inside_
+    std::future<steps::PathFlood> flood_;               // reads inside_
     std::map<std::string, std::future<void>> writing_;  // last: what is written must outlive it
 };
 

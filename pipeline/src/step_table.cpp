@@ -130,15 +130,18 @@ json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepR
     const steps::LumenPlan plan = steps::lumenPlanFromJson(records.at("segment").result.at("plan"));
     if (!isColon(inputs.config))
         return runTree(plan, inputs, artefacts, progress);
-    // The lumen is flooded while the curve is fitted: the flood keeps one core busy, and the next step waits for it.
-    const auto flood = [&](const std::vector<std::vector<Index3>>& paths) {
-        if (inputs.config.get<steps::SubdivideOptions>().method == "flood")
-            artefacts.keepFlood(std::async(std::launch::async, [&inside = artefacts.inside(), paths] {
-                return steps::floodFromPaths(inside, paths);
-            }));
-    };
+    // Two thirds of dividing the lumen need no curve, and cores are free here.
+    const steps::SkeletonHooks hooks{
+        .core_free = [&] { artefacts.beginSurface(inputs.config.get<steps::CellOptions>()); },
+        .paths_found =
+            [&](const std::vector<std::vector<Index3>>& paths) {
+                if (inputs.config.get<steps::SubdivideOptions>().method == "flood")
+                    artefacts.keepFlood(std::async(std::launch::async, [&inside = artefacts.inside(), paths] {
+                        return steps::floodFromPaths(inside, paths);
+                    }));
+            }};
     steps::SkeletonResult found =
-        steps::findSkeleton(artefacts.inside(), plan, inputs.config.get<steps::SkeletonOptions>(), progress, flood);
+        steps::findSkeleton(artefacts.inside(), plan, inputs.config.get<steps::SkeletonOptions>(), progress, hooks);
     json result = found.measures;
     result["length_mm"] = found.curve.length_mm();
     artefact::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
@@ -166,13 +169,10 @@ json runQuality(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRe
 json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
 {
     PartOfProgress divide(progress, 0, 0.6), tell(progress, 0.6, 0.9), project(progress, 0.9, 1);
-    NoProgress quiet;
-    const HuVolume& volume = artefacts.volume();
     const InsideVolume& inside = artefacts.inside();
-    // Dividing keeps one core busy, and the surface does not depend on it.
-    auto contour = std::async(std::launch::async, [&] {
-        return steps::LumenSurface(volume, inside, inputs.config.get<steps::CellOptions>(), quiet);
-    });
+    artefacts.volume();  // reads it where an earlier run made it
+    artefacts.beginSurface(inputs.config.get<steps::CellOptions>());
+    auto contour = artefacts.takeSurface();
     auto options = inputs.config.get<steps::SubdivideOptions>();
     const SkeletonTree tree = artefact::readSkeletonTree(artefacts.folder() / "skeleton.vtp");
     if (!tree.empty())
@@ -184,8 +184,8 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
     artefacts.put(std::move(divided.segments));
     const artefact::CellSurface surface = contour.get().cellsOf(artefacts.segments(), tell);
     steps::countTriangles(surface, divided.description);
-    auto cells = std::async(std::launch::async,
-                            [&] { artefact::writeCells(artefacts.folder() / "cells.vtp", surface); });
+    auto cells =
+        std::async(std::launch::async, [&] { artefact::writeCells(artefacts.folder() / "cells.vtp", surface); });
     artefact::writeProjections(artefacts.folder() / "projections",
                                steps::project(surface, inputs.config.get<steps::ProjectionOptions>(), project));
     artefact::writeSubdivision(artefacts.folder() / "subdivision.json", divided.description);

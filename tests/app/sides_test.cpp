@@ -71,7 +71,7 @@ TEST_P(Sides, AMarkerOnThePatientsLeftIsOnTheRightOfOverviewAndReport)
     const TemporaryFolder folder;
     const fs::path study = folder / "study", store = folder / "store";
     const auto made =
-        runVicon("phantom " + study.string() + " --size 160x160x134 --no-folds --gap 0 --seed 5 " + c.arguments);
+        runVicon("phantom " + study.string() + " --size 128x128x108 --no-folds --gap 0 --seed 5 " + c.arguments);
     ASSERT_EQ(made.exit_code, 0) << made.output;
     viconOn(store, "import " + study.string());
     viconOn(store, "work --until-idle");

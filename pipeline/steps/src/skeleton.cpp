@@ -86,8 +86,7 @@ void append(Skeleton& skeleton, const Polyline& line, bool bridge, const Distanc
 }  // namespace
 
 SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, const SkeletonOptions& options,
-                            Progress& progress,
-                            const std::function<void(const std::vector<std::vector<Index3>>&)>& on_paths)
+                            Progress& progress, const SkeletonHooks& hooks)
 {
     SkeletonResult result;
     result.measures["pieces"] = nlohmann::json::array();
@@ -109,12 +108,16 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
                 paths[n] = findPath(wall_mm, graph, piece.rectal_end_mm, piece.caecal_end_mm, options, check);
             });
         },
-        [&] { open_mm = wallDistance(withoutRectalTube(inside, plan.pieces.front().rectal_end_mm), check); });
-    if (on_paths) {
+        [&] {
+            open_mm = wallDistance(withoutRectalTube(inside, plan.pieces.front().rectal_end_mm), check);
+            if (hooks.core_free)
+                hooks.core_free();
+        });
+    if (hooks.paths_found) {
         std::vector<std::vector<Index3>> found;
         for (const LumenPath& path : paths)
             found.push_back(path.voxels);
-        on_paths(found);
+        hooks.paths_found(found);
     }
     const DistanceProbe open(open_mm);
     std::vector<Polyline> curves;

@@ -1,5 +1,7 @@
 #include "skeleton_path.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -217,11 +219,14 @@ std::vector<Index3> refine(const FieldVolume& wall_mm, const std::unordered_set<
 
 std::vector<Index3> refineAll(const FieldVolume& wall_mm, const LumenGraph& graph, const NodePath& nodes)
 {
+    std::vector<std::vector<Index3>> parts((nodes.size() + kChunk - 2) / kChunk);
+    tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t p) {
+        const std::size_t from = p * kChunk, to = std::min(nodes.size() - 1, from + kChunk);
+        const auto room = roomAround(graph, wall_mm, &nodes[from], &nodes[to] + 1);
+        parts[p] = refine(wall_mm, room, graph.node(nodes[from]).voxel, graph.node(nodes[to]).voxel);
+    });
     std::vector<Index3> voxels{graph.node(nodes.front()).voxel};
-    for (std::size_t n = 0; n + 1 < nodes.size(); n += kChunk) {
-        const std::size_t end = std::min(nodes.size() - 1, n + kChunk);
-        const auto room = roomAround(graph, wall_mm, &nodes[n], &nodes[end] + 1);
-        const std::vector<Index3> part = refine(wall_mm, room, voxels.back(), graph.node(nodes[end]).voxel);
+    for (const std::vector<Index3>& part : parts) {
         if (part.empty())
             return {};
         voxels.insert(voxels.end(), part.begin(), part.end());

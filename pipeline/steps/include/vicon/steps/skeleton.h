@@ -46,14 +46,18 @@ struct SkeletonResult {
     nlohmann::json measures = nlohmann::json::object();
 };
 
+/// What a caller may begin while the skeleton is being found; called on any thread.
+struct SkeletonHooks {
+    std::function<void()> core_free;  ///< one core has nothing to do from here until the path is found
+    /// With the voxel path of each piece, before the curve is fitted to them.
+    std::function<void(const std::vector<std::vector<Index3>>&)> paths_found;
+};
+
 /// Finds the centred curve of the lumen from rectum to caecum. Empty for a plan without pieces.
 /// Method: Dijkstra's shortest path with a cost of length x (5 mm / wall distance)^4, which is drawn to the middle and
 /// away from contacts between loops; the smooth curve is the path's, moved ten times to the middle of its
-/// cross-sections.
-/// @param on_paths called with the voxel path of each piece before the curve is fitted to them, which takes a while
-/// Throws Error{bad_input} when an end of a piece does not lie in the lumen, and Error{cancelled}.
+/// cross-sections. Throws Error{bad_input} when an end of a piece does not lie in the lumen, and Error{cancelled}.
 SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, const SkeletonOptions& options,
-                            Progress& progress,
-                            const std::function<void(const std::vector<std::vector<Index3>>&)>& on_paths = {});
+                            Progress& progress, const SkeletonHooks& hooks = {});
 
 }  // namespace vicon::steps
