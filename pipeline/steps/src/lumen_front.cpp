@@ -149,8 +149,7 @@ void LumenFront::relax(std::uint32_t voxel, int i, int j, int k, std::size_t buc
     push(voxel, t, bucket);
 }
 
-/// Asks for the rows of times that relaxing a voxel's neighbours looks at, and for the labels that it may change.
-template <LumenFront::Labels labels>
+/// Asks for the rows of times that relaxing a voxel's neighbours looks at.
 void LumenFront::fetch(std::uint32_t voxel) const
 {
     const auto row = std::ptrdiff_t(inside_.grid.size[0]), slice = row * inside_.grid.size[1];
@@ -159,10 +158,6 @@ void LumenFront::fetch(std::uint32_t voxel) const
                                       -2 * slice, row + slice, row - slice, slice - row, -row - slice})
         if (const std::ptrdiff_t n = std::ptrdiff_t(voxel) + step; n >= 0 && n < count)
             __builtin_prefetch(&time.voxels[std::size_t(n)]);
-    if constexpr (labels != Labels::ignore)
-        for (const std::ptrdiff_t step : {std::ptrdiff_t(0), row, -row, slice, -slice})
-            if (const std::ptrdiff_t n = std::ptrdiff_t(voxel) + step; n >= 0 && n < count)
-                __builtin_prefetch(&label[std::size_t(n)]);
 }
 
 template <LumenFront::Labels labels>
@@ -179,7 +174,7 @@ void LumenFront::drain()
             for (std::size_t n = 0; n < current.size(); ++n) {
                 const std::uint32_t voxel = current[n];
                 if (n + kAhead < current.size())
-                    fetch<labels>(current[n + kAhead]);
+                    fetch(current[n + kAhead]);
                 const float t = time.voxels[voxel];
                 if (bucketOf(t) < bucket)
                     continue;

@@ -54,7 +54,6 @@ private:
         std::uint32_t axis;
     };
     float solveEikonal(std::array<Upwind, 3> up) const;
-    template <Labels labels>
     void fetch(std::uint32_t voxel) const;
     template <Labels labels>
     void drain();
