@@ -157,8 +157,8 @@ TEST_P(Shapes, AreFollowedInTheLumenOverTheirWholeLengthTheRightWay)
     EXPECT_LT(overlap.back_mm, 10);
 }
 
-// The Edinburgh lines run on into the appendix. HuBMAPVHM_3D_00070 is folded on itself over more than the path's width
-// at 1015 to 1072 mm of its line: there the path still takes the short cut, and 0.98 is not reached.
+// The Edinburgh lines run on into the appendix. HuBMAPVHM_3D_00070 turns back on itself within less than its own width
+// at 1015 to 1072 mm of its line: there the path is right, but the curve winds itself up, and 0.98 is not reached.
 INSTANTIATE_TEST_SUITE_P(Colons, Shapes,
                          testing::Values(Shape{"EdinGCA_3D_00060", 0.98, 30, 25},
                                          Shape{"EdinGCA_3D_00090", 0.98, 30, 45},
