@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+
+#include "reading.h"
+#include "vicon/core/options.h"
+
+namespace vicon::viewer::test {
+
+/// A study that went through the pipeline, read with what the program itself gives the reading room.
+class StudyReader : public Reader {
+protected:
+    /// Opens the worklist on `store`.
+    /// @param name before the names of the screenshots
+    void openStore(const std::filesystem::path& store, const std::string& name);
+    void screenshot(const std::string& step) const { Reader::screenshot((name_ + "-" + step).c_str()); }
+    void fastest() const;
+    void jumpTo(double station_mm) const;
+    /// From the rectum to the caecum and back, along the path, at the greatest speed.
+    void flyThereAndBack() const;
+    /// A marker on the wall ahead.
+    /// @param by from the middle of the picture
+    void place(int color_key, QPoint by) const;
+    void writeNote(int row, const QString& note) const;
+    static std::vector<std::string> filesIn(const std::filesystem::path& folder);
+
+    std::string case_id_, patient_id_, name_;
+    std::filesystem::path case_folder_;
+    std::optional<Config> config_;
+};
+
+/// The steps of a reading that need one scan, in their order; each leaves its picture.
+class StudyWalk : public StudyReader {
+protected:
+    void markAndEdit();
+    void measure();
+    void lookBelowTheWall();
+    void circleAndTakeDensity();
+    void keepPictureAndMarkers();
+    void writeReport();
+    void closeAndReopen();
+};
+
+/// A prepared store that tests may change: a copy of what the build folder keeps, made by the built command on first
+/// use and brought up to date by `vicon work` later.
+/// @param source what is imported
+std::filesystem::path preparedStore(const std::string& name, const std::filesystem::path& source,
+                                    const std::filesystem::path& copy);
+
+}  // namespace vicon::viewer::test
