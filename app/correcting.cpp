@@ -124,23 +124,25 @@ nlohmann::json reviewedBridges(CaseStore& store, const ScanRecord& scan)
     return bridges;
 }
 
-void reviewBridge(CaseStore& store, const ScanRecord& scan, Point3 from, Point3 to, bool confirmed)
+void reviewBridge(CaseStore& store, const ScanRecord& scan, const BridgeReview& given)
 {
+    const Point3 from = given.from_mm, to = given.to_mm;
     nlohmann::json review = {{"from_mm", {from.x, from.y, from.z}}, {"to_mm", {to.x, to.y, to.z}}};
     const nlohmann::json bridges = reviewedBridges(store, scan);
     if (std::none_of(bridges.begin(), bridges.end(), [&](const auto& bridge) { return same(bridge, review); }))
         throw Error(ErrorCode::not_found, "the scan has no such bridge any more", scan.id);
-    review["verdict"] = confirmed ? "confirmed" : "rejected";
-    review["by"] = thisPerson();
-    review["at"] = nowUtc();
+    review["verdict"] = given.verdict;
+    review["by"] = given.by.empty() ? thisPerson() : given.by;
+    review["at"] = given.at.empty() ? nowUtc() : given.at;
     const auto folder = store.scanFolder(scan.case_id, scan.id);
     nlohmann::json kept = nlohmann::json::array();
     for (const nlohmann::json& earlier : readReviews(folder))
         if (!same(earlier, review))
             kept.push_back(earlier);
-    kept.push_back(review);
+    if (!given.verdict.empty())
+        kept.push_back(review);
     replaceFile(folder / kReviews, nlohmann::json{{"bridges", kept}}.dump(1) + "\n");
-    store.audit("bridge " + review["verdict"].get<std::string>(), scan.case_id, scan.id, review.dump());
+    store.audit("bridge " + (given.verdict.empty() ? "unjudged" : given.verdict), scan.case_id, scan.id, review.dump());
 }
 
 }  // namespace vicon::app

@@ -17,8 +17,15 @@ void correctScan(CaseStore& store, const Config& config, const ScanRecord& scan,
 /// {"review": {"verdict": "confirmed|rejected", "by", "at"}}.
 nlohmann::json reviewedBridges(CaseStore& store, const ScanRecord& scan);
 
-/// Keeps what a person says of a bridge, with who and when, as `bridge_reviews.json` in the scan's folder. A bridge is
-/// known by its two ends. Throws Error{not_found} when the scan has no such bridge.
-void reviewBridge(CaseStore& store, const ScanRecord& scan, Point3 from, Point3 to, bool confirmed);
+/// What a person says of a bridge, which is known by its two ends.
+struct BridgeReview {
+    Point3 from_mm, to_mm;
+    std::string verdict;  ///< "confirmed" or "rejected"; empty: nobody has judged it
+    std::string by, at;   ///< empty: who works here, now
+};
+
+/// Keeps a review as `bridge_reviews.json` in the scan's folder, in place of an earlier one. Throws Error{not_found}
+/// when the scan has no such bridge.
+void reviewBridge(CaseStore& store, const ScanRecord& scan, const BridgeReview& review);
 
 }  // namespace vicon::app

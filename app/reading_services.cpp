@@ -75,14 +75,6 @@ std::vector<viewer::BridgeRow> bridgesOf(CaseStore& store, const ScanRecord& sca
     return rows;
 }
 
-void correct(CaseStore& store, const Config& config, const ScanRecord& scan, viewer::Correction kind, Point3 point)
-{
-    pipeline::Corrections more;
-    (kind == viewer::Correction::add ? more.add : kind == viewer::Correction::cut ? more.cut : more.drop) = {point};
-    correctScan(store, config, scan, more);
-    requeueOutdated(store, config);
-}
-
 /// What is corrected while the queue runs is out of date when its job is done: then it runs again.
 void runQueue(CaseStore& store, const Config& config, const std::atomic<bool>& stop)
 {
@@ -98,16 +90,18 @@ void runQueue(CaseStore& store, const Config& config, const std::atomic<bool>& s
 
 void addCorrections(viewer::ReadingServices& services, const Config& config)
 {
-    services.correct = [&config](CaseStore& store, const ScanRecord& scan, viewer::Correction kind, Point3 point) {
-        correct(store, config, scan, kind, point);
+    services.corrections = [](CaseStore& store, const ScanRecord& scan) {
+        const auto known = pipeline::readCorrections(store.scanFolder(scan.case_id, scan.id));
+        return viewer::ScanCorrections{known.add, known.cut, known.drop};
     };
-    services.forget_corrections = [&config](CaseStore& store, const ScanRecord& scan) {
-        correctScan(store, config, scan, {}, true);
+    services.correct = [&config](CaseStore& store, const ScanRecord& scan, const viewer::ScanCorrections& all) {
+        constexpr bool kForget = true;  // what was said before: it is among them, or was taken back
+        correctScan(store, config, scan, {all.add, all.cut, all.drop}, kForget);
         requeueOutdated(store, config);
     };
     services.bridges = bridgesOf;
-    services.review_bridge = [](CaseStore& store, const ScanRecord& scan, const viewer::BridgeRow& bridge, bool yes) {
-        reviewBridge(store, scan, bridge.from_mm, bridge.to_mm, yes);
+    services.review_bridge = [](CaseStore& store, const ScanRecord& scan, const viewer::BridgeRow& bridge) {
+        reviewBridge(store, scan, {bridge.from_mm, bridge.to_mm, bridge.verdict, bridge.by, bridge.at});
     };
     services.work = [&config](CaseStore& store, const std::atomic<bool>& stop) { runQueue(store, config, stop); };
 }

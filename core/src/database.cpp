@@ -42,6 +42,26 @@ const std::vector<std::vector<const char*>> kMigrations = {
 };
 static_assert(Database::kSchemaVersion == 1, "add a migration for every version");
 
+/// In the reader's words where one can do something about it.
+Error refusal(const soci::soci_error& e)
+{
+    constexpr const char* kRemedy = "check the disk, then run again";
+    const auto* sqlite = dynamic_cast<const soci::sqlite3_soci_error*>(&e);
+    switch (sqlite ? sqlite->result() & 0xff : SQLITE_OK) {  // the rest of it tells kinds of the same trouble apart
+        case SQLITE_FULL:
+            return {ErrorCode::database, "the store's disk is full; nothing was saved", {},
+                    "free some space on it and try again"};
+        case SQLITE_IOERR:
+            return {ErrorCode::database, "the store's disk cannot be written; nothing was saved", {},
+                    "see whether it is full or at fault, then try again"};
+        case SQLITE_BUSY:
+            return {ErrorCode::database, "another program keeps the database busy; nothing was saved", {},
+                    "try again in a moment"};
+        default:
+            return {ErrorCode::database, std::string("the database refused (") + e.what() + ")", {}, kRemedy};
+    }
+}
+
 }  // namespace
 
 Database::Database(const std::filesystem::path& file)
@@ -97,8 +117,7 @@ void Database::write(const std::function<void(soci::session&)>& work)
             throw;
         }
     } catch (const soci::soci_error& e) {
-        throw Error(ErrorCode::database, std::string("the database refused (") + e.what() + ")", {},
-                    "check the disk, then run again");
+        throw refusal(e);
     }
 }
 

@@ -22,6 +22,12 @@ TEST_F(Reading, CorrectionsGoToThePipelineAndTheNewResultIsTakenOver)
     EXPECT_TRUE(eventually([&] { return judged() == "rejected, anna"; })) << judged().toStdString();
     press(window(), "confirmBridge");
     EXPECT_TRUE(eventually([&] { return judged() == "confirmed, anna"; }));
+    for (const char* before : {"rejected, anna", "no"}) {
+        key(Qt::Key_Z, Qt::ControlModifier);
+        EXPECT_TRUE(eventually([&] { return judged() == before; })) << judged().toStdString();
+    }
+    key(Qt::Key_Y, Qt::ControlModifier);
+    EXPECT_TRUE(eventually([&] { return judged() == "rejected, anna"; })) << judged().toStdString();
     key(Qt::Key_End);
     settle();
     press(window(), "correctCut");
@@ -69,12 +75,25 @@ TEST_F(Reading, MarkersGetTheirStationsOnTheNewPathAndEarlierStepsCanStillBeUndo
     EXPECT_TRUE(eventually([&] { return std::abs(stored()[0].station_mm - there) < 3 && settled(); }))
         << stored()[0].station_mm << " for " << there;
     EXPECT_EQ(warning(), "");
+    const auto corrections = [&] {
+        CaseStore store(store_);
+        return services_.corrections(store, store.requireScan(test::kCase, test::kSupine));
+    };
+    EXPECT_EQ(corrections().cut.size(), 1U);
+    key(Qt::Key_Z, Qt::ControlModifier);
+    ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); })) << warning();
+    EXPECT_EQ(corrections(), ScanCorrections{});
+    ASSERT_TRUE(eventually([] { return !the<QProgressBar>("redo")->isVisible(); }));
+    waitForScan();
     showList(0);
+    ASSERT_TRUE(eventually([] { return settled(); }));
     press(window(), "undo");
     EXPECT_TRUE(eventually([&] { return stored().empty() && settled(); })) << warning();
     press(window(), "redo");
     ASSERT_TRUE(eventually([&] { return stored().size() == 1 && settled(); })) << warning();
     EXPECT_NEAR(stored()[0].station_mm, there, 3);
+    press(window(), "redo");
+    EXPECT_TRUE(eventually([&] { return corrections().cut.size() == 1; })) << warning();
 }
 
 }  // namespace

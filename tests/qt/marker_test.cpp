@@ -71,6 +71,14 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     choose(0);
     ASSERT_TRUE(eventually([&] { return stored()[0].extra.value("pair", "") == stored()[1].id; }));
     EXPECT_TRUE(eventually([&] { return stored()[1].extra.value("pair", "") == stored()[0].id && settled(); }));
+    // One step: one undo parts both.
+    const auto paired = [&](bool both) {
+        return settled() && stored()[0].extra.contains("pair") == both && stored()[1].extra.contains("pair") == both;
+    };
+    press(window(), "undo");
+    ASSERT_TRUE(eventually([&] { return paired(false); }));
+    press(window(), "redo");
+    ASSERT_TRUE(eventually([&] { return paired(true); }));
     // Both at once: what is chosen in one is shown in both, and they move together.
     key(Qt::Key_C);
     const bool both = eventually([] { return drawn("besideEndoscopic") && drawn("besideTransverse"); });

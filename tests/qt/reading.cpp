@@ -40,7 +40,8 @@ void Reading::SetUp()
     store_ = *folder_ / testing::UnitTest::GetInstance()->current_test_info()->name();
     QSettings().clear();
     makeStore(store_);
-    openRoom(servicesFor(store_));
+    services_ = servicesFor(store_);
+    openRoom(services_);
 }
 
 void Reader::openRoom(const ReadingServices& services, const std::string& case_id)

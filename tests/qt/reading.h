@@ -38,7 +38,7 @@ protected:
     template <class Condition>
     static bool eventually(Condition condition)
     {
-        return QTest::qWaitFor(condition, kPatience_ms);
+        return QTest::qWaitFor(condition, patience_ms);
     }
     /// For the screenshots: the smooth picture comes after the last movement.
     static void settle() { QTest::qWait(kSettle_ms); }
@@ -78,8 +78,7 @@ protected:
     void screenshot(const char* name) const;
     std::vector<Marker> stored(const char* case_id = kCase) const;
 
-    static constexpr int kPatience_ms =
-        60000;  // a still peeled picture takes 20 s under the sanitizers, on a busy machine
+    static inline int patience_ms = 60000;  // a still peeled picture takes 20 s under the sanitizers, on a busy machine
     static constexpr int kSettle_ms = 400;
     static std::unique_ptr<Display> display_;
     static std::unique_ptr<support::TemporaryFolder> folder_;
@@ -92,6 +91,8 @@ protected:
 class Reading : public Reader {
 protected:
     void SetUp() override;
+
+    ReadingServices services_;
 };
 
 }  // namespace vicon::viewer::test

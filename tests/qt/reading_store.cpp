@@ -1,5 +1,6 @@
 #include "reading_store.h"
 
+#include <map>
 #include <memory>
 #include <mutex>
 
@@ -53,36 +54,45 @@ void addCorrections(ReadingServices& services)
     struct State {
         std::mutex mutex;
         std::string queued;  // the scan
-        std::string verdict;
+        std::map<std::string, ScanCorrections> corrections;
+        BridgeRow bridge;
     };
     const auto state = std::make_shared<State>();
-    const auto queue = [state](CaseStore&, const ScanRecord& scan) {
+    services.corrections = [state](CaseStore&, const ScanRecord& scan) {
         const std::lock_guard lock(state->mutex);
+        return state->corrections[scan.id];
+    };
+    services.correct = [state](CaseStore&, const ScanRecord& scan, const ScanCorrections& all) {
+        const std::lock_guard lock(state->mutex);
+        state->corrections[scan.id] = all;
         state->queued = scan.id;
     };
-    services.correct = [queue](CaseStore& store, const ScanRecord& scan, Correction kind, Point3 point) {
-        store.audit("corrections", scan.case_id, scan.id, std::to_string(int(kind)) + " " + std::to_string(point.x));
-        queue(store, scan);
-    };
-    services.forget_corrections = queue;
     services.bridges = [state](CaseStore& store, const ScanRecord& scan) {
         const Skeleton path = artefact::readSkeleton(store.scanFolder(scan.case_id, scan.id) / "skeleton.vtp");
         const std::lock_guard lock(state->mutex);
+        const BridgeRow& judged = state->bridge;
         return std::vector<BridgeRow>{{path.at(180).position_mm, path.at(200).position_mm, 20, 0.7, true, "a short gap",
-                                       state->verdict, state->verdict.empty() ? "" : "anna", "2026-01-03"}};
+                                       judged.verdict, judged.by, judged.at}};
     };
-    services.review_bridge = [state](CaseStore&, const ScanRecord&, const BridgeRow&, bool confirmed) {
+    services.review_bridge = [state](CaseStore&, const ScanRecord&, const BridgeRow& bridge) {
         const std::lock_guard lock(state->mutex);
-        state->verdict = confirmed ? "confirmed" : "rejected";
+        state->bridge = bridge;
+        if (bridge.by.empty() && !bridge.verdict.empty()) {
+            state->bridge.by = "anna";
+            state->bridge.at = "2026-01-03";
+        }
     };
     services.work = [state](CaseStore& store, const std::atomic<bool>&) {
         constexpr double kCoarser_mm = 3;
         std::string scan;
+        bool corrected = false;
         {
             const std::lock_guard lock(state->mutex);
             scan = state->queued;
+            corrected = state->corrections[scan] != ScanCorrections{};
         }
-        TestColon(storages().front(), kCoarser_mm).write(store.scanFolder(kCase, scan));
+        const TestColon colon = corrected ? TestColon(storages().front(), kCoarser_mm) : TestColon();
+        colon.write(store.scanFolder(kCase, scan));
         const std::lock_guard lock(state->mutex);
         state->queued.clear();
     };

@@ -8,6 +8,7 @@
 namespace vicon::viewer {
 namespace {
 
+constexpr double kSame_mm = 1e-6;
 constexpr double kSmoothing_mm = 8;  // sigma of the direction's smoothing: about a lumen's radius
 
 bool sameReach(const ViewPose& a, const ViewPose& b, double reach_mm)
@@ -49,9 +50,11 @@ std::vector<ViewPose> planFlight(const PathFrames& path, const Lumen& lumen, dou
         const double station = std::min(n * step_mm, length);
         const ViewPose view =
             poseAtStation(path, lumen, heading == Heading::caecum ? station : length - station, heading, options);
-        // A station that cannot be flown gets the pose of a neighbour, which has had its turn or will have it.
-        const bool moved = std::abs(view.station_mm - (heading == Heading::caecum ? station : length - station)) > 1e-6;
-        if (!moved)
+        // A station that cannot be flown gets the pose of a neighbour. Where that is nearer to the next station, it has
+        // had its turn or will have it.
+        const double moved_mm = std::abs(view.station_mm - (heading == Heading::caecum ? station : length - station));
+        const bool again = !poses.empty() && std::abs(poses.back().station_mm - view.station_mm) < kSame_mm;
+        if (moved_mm < kSame_mm || (moved_mm < step_mm / 2 && !again))
             poses.push_back(view);
     }
     if (poses.empty())

@@ -28,13 +28,23 @@ Marker named(Marker marker, const std::string& partner)
 
 }  // namespace
 
-const MarkerHistory::Step& MarkerHistory::take(CaseStore& store, const Step& step)
+const std::vector<MarkerEdit>& MarkerHistory::take(CaseStore& store, const std::vector<MarkerEdit>& edits)
 {
-    Step done = store.editMarkers(case_id_, step);
+    std::vector<MarkerEdit> done = store.editMarkers(case_id_, edits);
     steps_.resize(done_);
-    steps_.push_back(std::move(done));
+    steps_.push_back({std::move(done), nextStep()});
     ++done_;
-    return steps_.back();
+    return steps_.back().edits;
+}
+
+std::optional<StepNumber> MarkerHistory::toUndo() const
+{
+    return canUndo() ? std::optional(steps_[done_ - 1].number) : std::nullopt;
+}
+
+std::optional<StepNumber> MarkerHistory::toRedo() const
+{
+    return canRedo() ? std::optional(steps_[done_].number) : std::nullopt;
 }
 
 Marker MarkerHistory::add(CaseStore& store, const Marker& marker)
@@ -69,8 +79,8 @@ void MarkerHistory::undo(CaseStore& store)
 {
     if (!canUndo())
         return;
-    Step& step = steps_[done_ - 1];
-    step = inverse(store.editMarkers(case_id_, inverse(step)));
+    std::vector<MarkerEdit>& edits = steps_[done_ - 1].edits;
+    edits = inverse(store.editMarkers(case_id_, inverse(edits)));
     --done_;
 }
 
@@ -78,7 +88,8 @@ void MarkerHistory::redo(CaseStore& store)
 {
     if (!canRedo())
         return;
-    steps_[done_] = store.editMarkers(case_id_, steps_[done_]);
+    std::vector<MarkerEdit>& edits = steps_[done_].edits;
+    edits = store.editMarkers(case_id_, edits);
     ++done_;
 }
 

@@ -95,14 +95,14 @@ void CaseSession::edit(const QString& what, Edit work)
         } catch (const std::exception& e) {
             trouble = trouble.empty() ? e.what() : trouble;
         }
-        return [this, what, trouble, copy_trouble, markers = std::move(markers), undo = history_.canUndo(),
-                redo = history_.canRedo()] {
+        return [this, what, trouble, copy_trouble, markers = std::move(markers), undo = history_.toUndo(),
+                redo = history_.toRedo()] {
             if (markers)
                 markers_ = *markers;
             else
                 markers_known_ = false;  // what is read next is not another reader's doing
-            can_undo_ = undo;
-            can_redo_ = redo;
+            to_undo_ = undo;
+            to_redo_ = redo;
             edited();
             if (trouble.empty())
                 emit saved(what);

@@ -78,8 +78,8 @@ public:
     void saveMarkers(const std::filesystem::path& file);
     void undo();
     void redo();
-    bool canUndo() const { return can_undo_; }
-    bool canRedo() const { return can_redo_; }
+    std::optional<StepNumber> toUndo() const { return to_undo_; }
+    std::optional<StepNumber> toRedo() const { return to_redo_; }
     /// Looks whether another reader changed something.
     void refresh();
     /// The scan's skeleton was made anew: its markers get their stations on it, now and after an undo. What cannot be
@@ -136,7 +136,7 @@ private:
     std::shared_ptr<OpenScan> beside_;
     std::string wanted_scan_, wanted_beside_;
     std::shared_ptr<std::atomic<bool>> stop_opening_;
-    bool can_undo_ = false, can_redo_ = false;
+    std::optional<StepNumber> to_undo_, to_redo_;
     bool markers_known_ = false;
     int edits_under_way_ = 0;
     MarkerHistory history_;             // the worker's

@@ -7,10 +7,12 @@
 namespace vicon::viewer {
 
 /// The controls beside the views: as high as they want to be where there is room, else scrolled, so that a window
-/// never grows beyond its screen because of them.
+/// never grows beyond its screen because of them. What comes and goes among them is scrolled to; what lies beside the
+/// controls keeps its size.
 class ControlsArea : public QScrollArea {
 public:
-    explicit ControlsArea(QWidget* controls)
+    /// @param passing one of the controls, which is there for a while
+    ControlsArea(QWidget* controls, const QWidget* passing) : passing_(passing)
     {
         setFrameShape(QFrame::NoFrame);
         setWidgetResizable(true);
@@ -19,7 +21,11 @@ public:
         setWidget(controls);
     }
 
-    QSize sizeHint() const override { return {minimumSizeHint().width(), widget()->minimumSizeHint().height()}; }
+    QSize sizeHint() const override
+    {
+        const int extra = passing_->isVisibleTo(widget()) ? passing_->sizeHint().height() : 0;
+        return {minimumSizeHint().width(), widget()->minimumSizeHint().height() - extra};
+    }
     QSize minimumSizeHint() const override
     {
         constexpr int kLeastHeight = 150;
@@ -34,6 +40,9 @@ protected:
             updateGeometry();
         return QScrollArea::eventFilter(of, event);
     }
+
+private:
+    const QWidget* passing_;
 };
 
 }  // namespace vicon::viewer

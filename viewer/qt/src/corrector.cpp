@@ -8,7 +8,7 @@ constexpr int kWatch_ms = 500;
 }
 
 Corrector::Corrector(const ReadingServices& services, const std::string& case_id)
-    : services_(services), case_id_(case_id)
+    : services_(services), case_id_(case_id), history_(services)
 {
     connect(&worker_, &Worker::failed, this, &Corrector::failed);
     connect(&pipeline_, &Worker::failed, this, &Corrector::failed);
@@ -28,35 +28,63 @@ CaseStore& Corrector::store()
     return *store_;
 }
 
-void Corrector::redo(const ScanRecord& scan, const QString& said, Change change)
+void Corrector::change(const QString& said,
+                       std::function<CorrectionHistory::Step(CorrectionHistory&, CaseStore&)> what)
 {
-    worker_.postAlways([this, id = scan.id, said, change = std::move(change)]() -> Worker::Work {
-        change(store());
-        return [this, id, said] {
-            emit told(said);
-            watched_ = id;
-            watch_.start();
-            emit progressed(tr("waiting"), 0);
-            *stop_ = false;
-            pipeline_.post("work", [services = services_, stop = stop_]() -> Worker::Work {
-                CaseStore own(services.store);
-                services.work(own, *stop);
-                return {};
-            });
+    worker_.postAlways([this, said, what = std::move(what)]() -> Worker::Work {
+        std::optional<CorrectionHistory::Step> step;
+        QString trouble;
+        try {
+            step = what(history_, store());
+        } catch (const std::exception& e) {
+            trouble = e.what();
+        }
+        return [this, said, step, trouble, undo = history_.toUndo(), redo = history_.toRedo()] {
+            to_undo_ = undo;
+            to_redo_ = redo;
+            if (step)
+                take(*step, said);
+            else
+                emit failed(trouble);
+            emit historyChanged();
         };
+    });
+}
+
+void Corrector::take(CorrectionHistory::Step step, const QString& said)
+{
+    emit told(said);
+    if (step.ofBridge())
+        findBridges(step.scan);
+    else
+        doAgain(step.scan.id);
+}
+
+void Corrector::doAgain(const std::string& scan_id)
+{
+    watched_ = scan_id;
+    watch_.start();
+    emit progressed(tr("waiting"), 0);
+    *stop_ = false;
+    pipeline_.post("work", [services = services_, stop = stop_]() -> Worker::Work {
+        CaseStore own(services.store);
+        services.work(own, *stop);
+        return {};
     });
 }
 
 void Corrector::correct(const ScanRecord& scan, Correction kind, Point3 point)
 {
-    redo(scan, tr("Correction saved; the scan is done again."),
-         [services = services_, scan, kind, point](CaseStore& store) { services.correct(store, scan, kind, point); });
+    change(tr("Correction saved; the scan is done again."),
+           [scan, kind, point](CorrectionHistory& history, CaseStore& store) {
+               return history.correct(store, scan, kind, point);
+           });
 }
 
 void Corrector::forget(const ScanRecord& scan)
 {
-    redo(scan, tr("Corrections forgotten; the scan is done again."),
-         [services = services_, scan](CaseStore& store) { services.forget_corrections(store, scan); });
+    change(tr("Corrections forgotten; the scan is done again."),
+           [scan](CorrectionHistory& history, CaseStore& store) { return history.forget(store, scan); });
 }
 
 void Corrector::findBridges(const ScanRecord& scan)
@@ -70,14 +98,21 @@ void Corrector::findBridges(const ScanRecord& scan)
 
 void Corrector::review(const ScanRecord& scan, const BridgeRow& bridge, bool confirmed)
 {
-    worker_.postAlways([this, scan, bridge, confirmed]() -> Worker::Work {
-        services_.review_bridge(store(), scan, bridge, confirmed);
-        return [this, scan, confirmed] {
-            emit told(confirmed ? tr("Bridge confirmed; the report says so.")
-                                : tr("Bridge rejected; the report says so. Cut beside it to keep the parts asunder."));
-            findBridges(scan);
-        };
-    });
+    change(confirmed ? tr("Bridge confirmed; the report says so.")
+                     : tr("Bridge rejected; the report says so. Cut beside it to keep the parts asunder."),
+           [scan, bridge, confirmed](CorrectionHistory& history, CaseStore& store) {
+               return history.review(store, scan, bridge, confirmed);
+           });
+}
+
+void Corrector::undo()
+{
+    change(tr("Undone"), [](CorrectionHistory& history, CaseStore& store) { return history.undo(store); });
+}
+
+void Corrector::redo()
+{
+    change(tr("Done again"), [](CorrectionHistory& history, CaseStore& store) { return history.redo(store); });
 }
 
 void Corrector::stop()

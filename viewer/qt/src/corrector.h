@@ -5,6 +5,7 @@
 #include <atomic>
 #include <memory>
 
+#include "correction_history.h"
 #include "vicon/viewer/qt/reading_room.h"
 #include "worker.h"
 
@@ -23,6 +24,12 @@ public:
     /// bridgesFound() follows.
     void findBridges(const ScanRecord& scan);
     void review(const ScanRecord& scan, const BridgeRow& bridge, bool confirmed);
+    /// Corrections and verdicts of this reader, one by one. What another reader has changed meanwhile is left as it
+    /// is, and failed() says so.
+    void undo();
+    void redo();
+    std::optional<StepNumber> toUndo() const { return to_undo_; }
+    std::optional<StepNumber> toRedo() const { return to_redo_; }
     /// What runs is stopped; its job waits in the queue.
     void stop();
 
@@ -31,12 +38,14 @@ signals:
     /// @param fraction 0 to 1; below 0: nothing is under way
     void progressed(const QString& what, double fraction);
     void redone(const QString& scan_id);
+    void historyChanged();
     void told(const QString& message);
     void failed(const QString& message);
 
 private:
-    using Change = std::function<void(CaseStore&)>;
-    void redo(const ScanRecord& scan, const QString& said, Change change);
+    void take(CorrectionHistory::Step step, const QString& said);
+    void change(const QString& said, std::function<CorrectionHistory::Step(CorrectionHistory&, CaseStore&)> what);
+    void doAgain(const std::string& scan_id);
     void look();
     void show(const WorklistScanRow& row);
     CaseStore& store();  // on the worker's thread
@@ -44,9 +53,11 @@ private:
     ReadingServices services_;
     std::string case_id_;
     std::string watched_;  // the scan that is done again
+    std::optional<StepNumber> to_undo_, to_redo_;
     std::shared_ptr<std::atomic<bool>> stop_ = std::make_shared<std::atomic<bool>>(false);
     QTimer watch_;
     std::unique_ptr<CaseStore> store_;  // the worker's
+    CorrectionHistory history_;         // the worker's
     Worker worker_{this};
     Worker pipeline_{this};
 };

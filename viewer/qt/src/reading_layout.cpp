@@ -92,7 +92,7 @@ QWidget* ReadingWindow::buildSide()
     stack->addWidget(group(tr("Flight"), navigation_));
     stack->addWidget(lists_, 1);
     stack->addWidget(group(tr("Below the wall"), peeling_));
-    auto* area = new ControlsArea(controls);
+    auto* area = new ControlsArea(controls, peeling_->findChild<QWidget*>("histogram"));
     connect(peeling_, &PeelingPanel::histogramShown, area, [area](QWidget* it) { area->ensureWidgetVisible(it); });
     auto* side = new QWidget;
     side->setMaximumWidth(kSideWidth * 5 / 4);
@@ -187,8 +187,8 @@ void ReadingWindow::addActions()
     });
     add(a_case, tr("Close"), QKeySequence("Ctrl+W"), [this] { close(); });
     QMenu* edit = menuBar()->addMenu(tr("&Edit"));
-    add(edit, tr("Undo"), QKeySequence("Ctrl+Z"), [this] { session_.undo(); });
-    add(edit, tr("Redo"), QKeySequence("Ctrl+Y"), [this] { session_.redo(); });
+    add(edit, tr("Undo"), QKeySequence("Ctrl+Z"), [this] { undo(); });
+    add(edit, tr("Redo"), QKeySequence("Ctrl+Y"), [this] { redo(); });
     add(edit, tr("Red marker at the next click"), QKeySequence("1"), [this] { arm(MarkerColor::red); });
     add(edit, tr("Yellow marker at the next click"), QKeySequence("2"), [this] { arm(MarkerColor::yellow); });
     add(edit, tr("Green marker at the next click"), QKeySequence("3"), [this] { arm(MarkerColor::green); });

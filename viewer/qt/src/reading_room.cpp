@@ -17,10 +17,26 @@ std::unique_ptr<QWidget> makeReadingRoom(const ReadingServices& services, const 
     return std::make_unique<WorklistWindow>(services, case_id);
 }
 
+namespace {
+
+/// Where the screen has no OpenGL, pictures are made on a private display; the window, which is on the screen by now,
+/// stays there. Nothing where neither draws: the window says so.
+std::unique_ptr<Display> displayForPictures()
+{
+    try {
+        return std::make_unique<Display>();
+    } catch (const Error& e) {
+        if (e.code() != ErrorCode::no_display)
+            throw;
+        return nullptr;
+    }
+}
+
+}  // namespace
+
 int runReadingRoom(const ReadingServices& services, const std::string& case_id, const std::atomic<bool>& stop)
 {
-    const Display display;  // before any thread reads the environment
-    if (display.isPrivate())
+    if (!Display::hasScreen())
         throw Error(ErrorCode::no_display, "there is no screen to show a window on", "DISPLAY",
                     "start it from a desktop session, or set DISPLAY to one; 'vicon snapshot' needs none");
     // Pictures come from VTK's own context; Qt opens none that a broken driver could fail at.
@@ -32,6 +48,7 @@ int runReadingRoom(const ReadingServices& services, const std::string& case_id, 
     QApplication application(argc, argv);
     QCoreApplication::setOrganizationName("vicon");
     QCoreApplication::setApplicationName("vicon");
+    const auto pictures = displayForPictures();
     const auto room = makeReadingRoom(services, case_id);
     QTimer asked;
     QObject::connect(&asked, &QTimer::timeout, [&] {

@@ -62,6 +62,10 @@ void ReadingWindow::connectAll()
         shown_ = {};  // a flight without pictures does not wait for one
         warn(message);
     });
+    connect(&studio_, &Studio::withoutOpenGl, this, [this] {
+        warn(tr("OpenGL does not work here (its driver in Debian: libgl1-mesa-dri). The view from inside is cast "
+                "through the densities: slower, and what it shows is not counted as seen."));
+    });
     connect(&studio_, &Studio::endoscopicDrawn, this, [this](const Picture& picture, const Studio::Shown& shown) {
         shown_ = shown;
         endoscopic_->showPicture(picture);
@@ -121,8 +125,8 @@ void ReadingWindow::connectAll()
         moving_ = marker.id;
         tell(tr("Click on the new place of %1").arg(QString::fromStdString(marker.id)));
     });
-    connect(table_, &MarkerTable::undoWanted, &session_, &CaseSession::undo);
-    connect(table_, &MarkerTable::redoWanted, &session_, &CaseSession::redo);
+    connect(table_, &MarkerTable::undoWanted, this, &ReadingWindow::undo);
+    connect(table_, &MarkerTable::redoWanted, this, &ReadingWindow::redo);
 
     const auto steered = [this](auto what) {
         return [this, what](auto value) {
@@ -252,8 +256,30 @@ void ReadingWindow::markersChanged()
     for (const ScanRecord& scan : session_.scans())
         positions[scan.id] = positionName(scan.series.patient_position);
     table_->show(session_.markers(), positions);
-    table_->setUndo(session_.canUndo(), session_.canRedo());
+    showHistory();
     moved(true);
+}
+
+void ReadingWindow::showHistory()
+{
+    table_->setUndo(session_.toUndo() || corrector_.toUndo(), session_.toRedo() || corrector_.toRedo());
+}
+
+// Markers and corrections have histories of their own; what was done last of both goes first.
+void ReadingWindow::undo()
+{
+    if (undoneBefore(corrector_.toUndo(), session_.toUndo()))
+        corrector_.undo();
+    else
+        session_.undo();
+}
+
+void ReadingWindow::redo()
+{
+    if (redoneBefore(corrector_.toRedo(), session_.toRedo()))
+        corrector_.redo();
+    else
+        session_.redo();
 }
 
 void ReadingWindow::tell(const QString& message)

@@ -71,6 +71,9 @@ private:
     void drawOverview();
     void showPlace();
     void markersChanged();
+    void showHistory();
+    void undo();
+    void redo();
     void tell(const QString& message);
     void warn(const QString& message);
 

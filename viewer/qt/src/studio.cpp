@@ -33,6 +33,8 @@ ReadingPictures& Studio::picturesOf(const std::shared_ptr<OpenScan>& scan)
         if (some.of.lock() == scan)
             return *some.pictures;
     pictures_.push_back({scan, std::make_unique<ReadingPictures>(scan->files), {}});
+    if (!pictures_.back().pictures->hasOpenGl())
+        emit withoutOpenGl();  // from this thread: it arrives in the window's own
     findSightLines(scan);
     return *pictures_.back().pictures;
 }

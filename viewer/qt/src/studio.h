@@ -55,6 +55,8 @@ signals:
     void besideDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::Studio::Shown& shown);
     void overviewDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::PlaneView& view);
     void seenChanged();
+    /// The pictures of a scan that has just been opened are made without it.
+    void withoutOpenGl();
     void failed(const QString& message);
 
 private:

@@ -1,6 +1,5 @@
 #include "vicon/viewer/scene/display.h"
 
-#include <GL/glx.h>
 #include <X11/Xlib.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -20,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "opengl_probe.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
@@ -36,7 +36,7 @@ bool answersWithOpenGl(const char* name)
     ::Display* display = XOpenDisplay(name);
     if (!display)
         return false;
-    const bool has_gl = glXQueryExtension(display, nullptr, nullptr);
+    const bool has_gl = drawsWithOpenGl(display);
     XCloseDisplay(display);
     return has_gl;
 }
@@ -250,6 +250,19 @@ Display::~Display() = default;
 std::string Display::name() const
 {
     return server_->name;
+}
+
+bool Display::draws() const
+{
+    return answersWithOpenGl(server_->name.c_str());
+}
+
+bool Display::hasScreen()
+{
+    ::Display* display = XOpenDisplay(nullptr);
+    if (display)
+        XCloseDisplay(display);
+    return display != nullptr;
 }
 
 bool Display::isPrivate() const

@@ -44,7 +44,7 @@ Offscreen::Offscreen(vtkRenderer* renderer) : window_(std::make_unique<Window>()
     const DriverLeaks not_ours;
     window_->vtk->SetOffScreenRendering(1);
     window_->vtk->SetMultiSamples(0);
-    if (!window_->vtk->SupportsOpenGL())
+    if (!display_.draws() || !window_->vtk->SupportsOpenGL())
         throw Error(ErrorCode::no_display, "the display has no OpenGL 3.2", display_.name(),
                     "install the Debian package 'libgl1-mesa-dri', or unset DISPLAY to use a private display");
     window_->vtk->AddRenderer(renderer);

@@ -95,19 +95,74 @@ void addTips(Overlay& overlay, const Skeleton& skeleton, bool tree, const PlaneV
     }
 }
 
-/// The parts between rectum and caecum, whose names stand at the tips: each in its middle, a dot where one begins.
+Area areaOf(const OverlayText& text, const TextSize& size)
+{
+    const double left = text.across == Across::centre ? 0.5 : text.across == Across::right ? 1.0 : 0.0;
+    const double above = text.along == Along::middle ? 0.5 : text.along == Along::bottom ? 1.0 : 0.0;
+    return {text.at.x - left * size.width_px, text.at.y - above * size.height_px, size.width_px, size.height_px};
+}
+
+/// Where in a picture names are written already.
+class Names {
+public:
+    Names(const Overlay& overlay, const PlaneView& view) : picture_{0, 0, double(view.width), double(view.height)}
+    {
+        for (const OverlayText& text : overlay.texts)
+            taken_.push_back(areaOf(text, textSize(text)));
+    }
+
+    /// Above, below, on the right or on the left of a place; false where there is no room.
+    bool write(Overlay& overlay, OverlayText text, Pixel at, double aside_px)
+    {
+        const TextSize size = textSize(text);
+        for (const auto& [across, along] : {std::pair{Across::centre, Along::bottom}, {Across::centre, Along::top},
+                                            {Across::left, Along::middle}, {Across::right, Along::middle}}) {
+            text.across = across;
+            text.along = along;
+            const double by = across == Across::left ? aside_px : across == Across::right ? -aside_px : 0;
+            text.at = {at.x + by, at.y};
+            if (!free(areaOf(text, size)))
+                continue;
+            taken_.push_back(areaOf(text, size));
+            overlay.texts.push_back(text);
+            return true;
+        }
+        return false;
+    }
+
+private:
+    bool free(const Area& area) const
+    {
+        const bool inside =
+            area.x >= 0 && area.y >= 0 && area.right() <= picture_.right() && area.bottom() <= picture_.bottom();
+        return inside && std::none_of(taken_.begin(), taken_.end(), [&](const Area& other) {
+                   return area.x < other.right() && other.x < area.right() && area.y < other.bottom() &&
+                          other.y < area.bottom();
+               });
+    }
+
+    Area picture_;
+    std::vector<Area> taken_;
+};
+
+/// The parts between rectum and caecum, whose names stand at the tips: a dot where one begins, and the name at its
+/// middle, or as near to it as other names leave room; where none is left it is not written.
 void addParts(Overlay& overlay, const ColonPartRanges& parts, const Skeleton& skeleton, const PlaneView& view,
               double text_px)
 {
+    Names names(overlay, view);
     for (const ColonPartRange& range : parts) {
         if (range.part != ColonPart::rectum)
             overlay.discs.push_back(
                 {view.toPixel(skeleton.at(range.from_mm).position_mm), 0.2 * text_px, kPathColor, 0});
         if (range.part == ColonPart::rectum || range.part == ColonPart::caecum)
             continue;
-        const Pixel middle = view.toPixel(skeleton.at((range.from_mm + range.to_mm) / 2).position_mm);
-        overlay.texts.push_back(
-            {middle, nameOf(range.part), 0.9 * text_px, kPathColor, Across::centre, Along::bottom, 1e9});
+        const OverlayText name{{}, nameOf(range.part), 0.9 * text_px, kPathColor};
+        for (const double along : {0.5, 0.35, 0.65, 0.2, 0.8}) {
+            const double station = std::lerp(range.from_mm, range.to_mm, along);
+            if (names.write(overlay, name, view.toPixel(skeleton.at(station).position_mm), 0.5 * text_px))
+                break;
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "pictures.h"
+#include "vicon/core/error.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/peeling_pace.h"
 #include "vicon/viewer/scene/cell_visibility.h"
@@ -15,7 +16,7 @@ struct ReadingPictures::Parts {
     PreparedScan scan;
     std::shared_ptr<const CellVisibility> visibility;
     SurfaceScene scene;
-    Offscreen offscreen;
+    std::optional<Offscreen> offscreen;  // nothing: there is no OpenGL
     OverviewGround ground;
     /// What the last endoscopic picture showed.
     struct Shown {
@@ -63,9 +64,14 @@ struct ReadingPictures::Parts {
     explicit Parts(const PreparedScan& of)
         : scan(of),
           visibility(std::make_shared<CellVisibility>(of, CellVisibility::Means::gates)),
-          scene(of.cells()),
-          offscreen(scene.renderer())
+          scene(of.cells())
     {
+        try {
+            offscreen.emplace(scene.renderer());
+        } catch (const Error& e) {
+            if (e.code() != ErrorCode::no_display)
+                throw;
+        }
     }
 };
 
@@ -107,15 +113,32 @@ Overlay structureOverlay(const CellVisibility& visibility, const SurfaceScene& s
     return overlay;
 }
 
+/// The wall is where the densities of tissue begin.
+SnapshotRequest withoutSurface(SnapshotRequest request)
+{
+    if (request.peel.empty() || request.peel_middle_only) {
+        request.peel = "soft-tissue";
+        request.peeling.offset_mm = 0;
+    }
+    request.peel_middle_only = false;
+    return request;
+}
+
 }  // namespace
 
 ReadingPictures::ReadingPictures(const PreparedScan& scan) : parts_(std::make_unique<Parts>(scan)) {}
 ReadingPictures::~ReadingPictures() = default;
 
-Picture ReadingPictures::endoscopic(const SnapshotRequest& request, const SnapshotResult& place, bool still,
+bool ReadingPictures::hasOpenGl() const
+{
+    return parts_->offscreen.has_value();
+}
+
+Picture ReadingPictures::endoscopic(const SnapshotRequest& wanted, const SnapshotResult& place, bool still,
                                     const EndoscopicLook& look)
 {
     Parts& p = *parts_;
+    const SnapshotRequest request = p.offscreen ? wanted : withoutSurface(wanted);
     const Lens lens{request.view_angle_deg, request.width, request.height};
     p.shown = Parts::Shown{p.visibility->seenFrom(place.pose, lens), place.pose, lens};
     p.setLook(look.structure, look.lamp_reach_mm);
@@ -123,7 +146,7 @@ Picture ReadingPictures::endoscopic(const SnapshotRequest& request, const Snapsh
     p.scene.lookFrom(place.pose, request.view_angle_deg);
     const bool only_peeled = !request.peel.empty() && !request.peel_middle_only;  // then nothing of the surface is left
     Picture picture = only_peeled ? Picture(request.width, request.height)
-                                  : p.offscreen.render(request.width, request.height, still ? 2 : 1);
+                                  : p.offscreen->render(request.width, request.height, still ? 2 : 1);
     if (look.earlier && !only_peeled)
         p.seenWall().tint(picture, look.earlier->earlier());
     if (still || request.peel.empty())

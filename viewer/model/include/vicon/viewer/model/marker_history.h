@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vicon/core/case_store.h"
+#include "vicon/viewer/model/step_number.h"
 
 namespace vicon::viewer {
 
@@ -31,13 +32,19 @@ public:
 
     bool canUndo() const { return done_ > 0; }
     bool canRedo() const { return done_ < steps_.size(); }
+    /// When the step that undo() or redo() would take was made; nothing where there is none.
+    std::optional<StepNumber> toUndo() const;
+    std::optional<StepNumber> toRedo() const;
     /// Do nothing where there is nothing to undo or redo.
     void undo(CaseStore& store);
     void redo(CaseStore& store);
 
 private:
-    using Step = std::vector<MarkerEdit>;
-    const Step& take(CaseStore& store, const Step& step);
+    struct Step {
+        std::vector<MarkerEdit> edits;
+        StepNumber number = 0;
+    };
+    const std::vector<MarkerEdit>& take(CaseStore& store, const std::vector<MarkerEdit>& edits);
 
     std::string case_id_;
     std::vector<Step> steps_;

@@ -40,6 +40,17 @@ struct WorklistRow {
 /// belong to the colon.
 enum class Correction { add, cut, drop };
 
+/// All that was said about a scan's lumen, in LPS mm.
+struct ScanCorrections {
+    std::vector<Point3> add, cut, drop;
+
+    std::vector<Point3>& of(Correction kind)
+    {
+        return kind == Correction::add ? add : kind == Correction::cut ? cut : drop;
+    }
+    bool operator==(const ScanCorrections&) const = default;
+};
+
 /// A gap between two pieces of lumen that the pipeline joined.
 struct BridgeRow {
     Point3 from_mm, to_mm;
@@ -60,12 +71,12 @@ struct ReadingServices {
     std::function<Marker(CaseStore&, const std::string& case_id, Marker)> place;
     /// Writes a report and returns its file.
     std::function<std::filesystem::path(CaseStore&, const std::string& case_id)> report;
-    /// Keeps a correction of a scan and queues what has to be done again.
-    std::function<void(CaseStore&, const ScanRecord&, Correction, Point3)> correct;
-    /// Forgets a scan's corrections, and queues what has to be done again.
-    std::function<void(CaseStore&, const ScanRecord&)> forget_corrections;
+    std::function<ScanCorrections(CaseStore&, const ScanRecord&)> corrections;
+    /// Keeps these as all corrections of a scan, and queues what has to be done again.
+    std::function<void(CaseStore&, const ScanRecord&, const ScanCorrections&)> correct;
     std::function<std::vector<BridgeRow>(CaseStore&, const ScanRecord&)> bridges;
-    std::function<void(CaseStore&, const ScanRecord&, const BridgeRow&, bool confirmed)> review_bridge;
+    /// Keeps a bridge's verdict; who and when are filled in where they are empty. An empty verdict takes it back.
+    std::function<void(CaseStore&, const ScanRecord&, const BridgeRow&)> review_bridge;
     /// Runs the queue until it is empty or `stop` is set: what was under way then waits in the queue.
     std::function<void(CaseStore&, const std::atomic<bool>& stop)> work;
     /// The change that adds the markers of a file, placed.

@@ -22,6 +22,10 @@ public:
     std::string name() const;
     /// Whether a private server was started.
     bool isPrivate() const;
+    /// Whether this process can draw there now, with the OpenGL driver that it has.
+    bool draws() const;
+    /// Whether an X server answers at $DISPLAY, with or without OpenGL: a screen for a window.
+    static bool hasScreen();
 
 private:
     struct Server;

@@ -34,14 +34,16 @@ struct EndoscopicLook {
     double lamp_reach_mm = kUsualLampReach_mm;
 };
 
-/// The pictures of a scan that need OpenGL, one after the other from the same scene. To be made, used and destroyed on
-/// one thread.
+/// The pictures of a scan that move with the eye, one after the other from the same scene. To be made, used and
+/// destroyed on one thread.
 class ReadingPictures {
 public:
-    /// Chooses what to draw by gates alone, which are there at once. Throws Error{no_display}, and as PreparedScan
-    /// does.
+    /// Chooses what to draw by gates alone, which are there at once. Throws as PreparedScan does.
     explicit ReadingPictures(const PreparedScan& scan);
     ~ReadingPictures();
+
+    /// Without OpenGL the endoscopic view is cast through the densities, and what it shows does not count as seen.
+    bool hasOpenGl() const;
 
     /// The endoscopic view from `place`, only cells that may be seen drawn; the request's width and height must be set.
     /// @param still smoothed; while the eye moves not, and peeled as coarsely as ten pictures a second ask for
