@@ -86,7 +86,9 @@ void CorrectionHistory::apply(CaseStore& store, Step& step, bool back)
 
 CorrectionHistory::Step CorrectionHistory::undo(CaseStore& store)
 {
-    Step step = steps_.at(done_ - 1);
+    if (!toUndo())
+        throw Error(ErrorCode::wrong_use, "no correction is left to be undone");
+    Step step = steps_[done_ - 1];
     --done_;
     try {
         apply(store, step, true);
@@ -99,13 +101,15 @@ CorrectionHistory::Step CorrectionHistory::undo(CaseStore& store)
 
 CorrectionHistory::Step CorrectionHistory::redo(CaseStore& store)
 {
+    if (!toRedo())
+        throw Error(ErrorCode::wrong_use, "no correction is left to be done again");
     try {
-        apply(store, steps_.at(done_), false);
+        apply(store, steps_[done_], false);
     } catch (...) {
         steps_.erase(steps_.begin() + std::ptrdiff_t(done_));
         throw;
     }
-    return steps_.at(done_++);
+    return steps_[done_++];
 }
 
 std::optional<StepNumber> CorrectionHistory::toUndo() const

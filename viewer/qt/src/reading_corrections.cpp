@@ -8,7 +8,11 @@ void ReadingWindow::connectCorrections()
 {
     connect(&corrector_, &Corrector::told, this, &ReadingWindow::tell);
     connect(&corrector_, &Corrector::failed, this, &ReadingWindow::warn);
-    connect(&corrector_, &Corrector::historyChanged, this, &ReadingWindow::showHistory);
+    connect(&corrector_, &Corrector::historyChanged, this, [this] {
+        showHistory();
+        if (session_.scan())  // also after a refusal: then the list was out of date
+            corrector_.findBridges(session_.scan()->record);
+    });
     connect(&corrector_, &Corrector::progressed, colon_, &ColonPanel::showProgress);
     connect(&corrector_, &Corrector::bridgesFound, this,
             [this](const std::vector<BridgeRow>& bridges, const QString& scan_id) {

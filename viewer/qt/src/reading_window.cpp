@@ -268,6 +268,8 @@ void ReadingWindow::showHistory()
 // Markers and corrections have histories of their own; what was done last of both goes first.
 void ReadingWindow::undo()
 {
+    if (corrector_.toUndo() && !table_->isEnabled())
+        return;  // a marker's step is on its way: which of the two was last is not known yet
     if (undoneBefore(corrector_.toUndo(), session_.toUndo()))
         corrector_.undo();
     else
