@@ -49,13 +49,19 @@ Error refusal(const soci::soci_error& e)
     const auto* sqlite = dynamic_cast<const soci::sqlite3_soci_error*>(&e);
     switch (sqlite ? sqlite->result() & 0xff : SQLITE_OK) {  // the rest of it tells kinds of the same trouble apart
         case SQLITE_FULL:
-            return {ErrorCode::database, "the store's disk is full; nothing was saved", {},
+            return {ErrorCode::database,
+                    "the store's disk is full; nothing was saved",
+                    {},
                     "free some space on it and try again"};
         case SQLITE_IOERR:
-            return {ErrorCode::database, "the store's disk cannot be written; nothing was saved", {},
+            return {ErrorCode::database,
+                    "the store's disk cannot be written; nothing was saved",
+                    {},
                     "see whether it is full or at fault, then try again"};
         case SQLITE_BUSY:
-            return {ErrorCode::database, "another program keeps the database busy; nothing was saved", {},
+            return {ErrorCode::database,
+                    "another program keeps the database busy; nothing was saved",
+                    {},
                     "try again in a moment"};
         default:
             return {ErrorCode::database, std::string("the database refused (") + e.what() + ")", {}, kRemedy};

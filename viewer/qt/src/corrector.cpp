@@ -28,8 +28,7 @@ CaseStore& Corrector::store()
     return *store_;
 }
 
-void Corrector::change(const QString& said,
-                       std::function<CorrectionHistory::Step(CorrectionHistory&, CaseStore&)> what)
+void Corrector::change(const QString& said, std::function<CorrectionHistory::Step(CorrectionHistory&, CaseStore&)> what)
 {
     worker_.postAlways([this, said, what = std::move(what)]() -> Worker::Work {
         std::optional<CorrectionHistory::Step> step;

@@ -63,8 +63,9 @@ void ReadingWindow::connectAll()
         warn(message);
     });
     connect(&studio_, &Studio::withoutOpenGl, this, [this] {
-        warn(tr("OpenGL does not work here (its driver in Debian: libgl1-mesa-dri). The view from inside is cast "
-                "through the densities: slower, and what it shows is not counted as seen."));
+        warn(
+            tr("OpenGL does not work here (its driver in Debian: libgl1-mesa-dri). The view from inside is cast "
+               "through the densities: slower, and what it shows is not counted as seen."));
     });
     connect(&studio_, &Studio::endoscopicDrawn, this, [this](const Picture& picture, const Studio::Shown& shown) {
         shown_ = shown;

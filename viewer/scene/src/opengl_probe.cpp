@@ -16,10 +16,7 @@ namespace {
 class RefusalsIgnored {
 public:
     RefusalsIgnored() : lock_(only_), before_(XSetErrorHandler([](::Display*, XErrorEvent*) { return 0; })) {}
-    ~RefusalsIgnored()
-    {
-        XSetErrorHandler(before_);
-    }
+    ~RefusalsIgnored() { XSetErrorHandler(before_); }
     RefusalsIgnored(const RefusalsIgnored&) = delete;
     RefusalsIgnored& operator=(const RefusalsIgnored&) = delete;
 
@@ -55,8 +52,8 @@ bool drawsWithOpenGl(::Display* display)
     const RefusalsIgnored meanwhile;
     if (!glXQueryExtension(display, nullptr, nullptr))
         return false;
-    const int wanted[] = {GLX_DRAWABLE_TYPE, GLX_WINDOW_BIT | GLX_PBUFFER_BIT, GLX_RENDER_TYPE, GLX_RGBA_BIT,
-                          GLX_DEPTH_SIZE,    1,                                None};
+    const int wanted[] = {
+        GLX_DRAWABLE_TYPE, GLX_WINDOW_BIT | GLX_PBUFFER_BIT, GLX_RENDER_TYPE, GLX_RGBA_BIT, GLX_DEPTH_SIZE, 1, None};
     int count = 0;
     GLXFBConfig* configs = glXChooseFBConfig(display, DefaultScreen(display), wanted, &count);
     if (!configs)

@@ -115,8 +115,10 @@ public:
     bool write(Overlay& overlay, OverlayText text, Pixel at, double aside_px)
     {
         const TextSize size = textSize(text);
-        for (const auto& [across, along] : {std::pair{Across::centre, Along::bottom}, {Across::centre, Along::top},
-                                            {Across::left, Along::middle}, {Across::right, Along::middle}}) {
+        for (const auto& [across, along] : {std::pair{Across::centre, Along::bottom},
+                                            {Across::centre, Along::top},
+                                            {Across::left, Along::middle},
+                                            {Across::right, Along::middle}}) {
             text.across = across;
             text.along = along;
             const double by = across == Across::left ? aside_px : across == Across::right ? -aside_px : 0;

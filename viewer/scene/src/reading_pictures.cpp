@@ -62,9 +62,7 @@ struct ReadingPictures::Parts {
     }
 
     explicit Parts(const PreparedScan& of)
-        : scan(of),
-          visibility(std::make_shared<CellVisibility>(of, CellVisibility::Means::gates)),
-          scene(of.cells())
+        : scan(of), visibility(std::make_shared<CellVisibility>(of, CellVisibility::Means::gates)), scene(of.cells())
     {
         try {
             offscreen.emplace(scene.renderer());
