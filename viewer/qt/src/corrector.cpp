@@ -50,7 +50,7 @@ void Corrector::change(const QString& said, std::function<CorrectionHistory::Ste
     });
 }
 
-void Corrector::take(CorrectionHistory::Step step, const QString& said)
+void Corrector::take(const CorrectionHistory::Step& step, const QString& said)
 {
     emit told(said);
     if (step.ofBridge())

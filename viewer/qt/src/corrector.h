@@ -43,7 +43,7 @@ signals:
     void failed(const QString& message);
 
 private:
-    void take(CorrectionHistory::Step step, const QString& said);
+    void take(const CorrectionHistory::Step& step, const QString& said);
     void change(const QString& said, std::function<CorrectionHistory::Step(CorrectionHistory&, CaseStore&)> what);
     void doAgain(const std::string& scan_id);
     void look();
