@@ -8,6 +8,7 @@
 
 #include "skeleton_ends.h"
 #include "skeleton_section.h"
+#include "skeleton_unwind.h"
 
 namespace vicon::steps {
 namespace {
@@ -175,6 +176,7 @@ Polyline centredCurve(const Polyline& path, const DistanceProbe& wall, const Ske
 {
     Polyline line = resampledInside(withoutTips(path, wall), wall, options.step_mm);
     line = resampledInside(smoothedInside(line, options.path_smoothing_mm, wall, options), wall, options.step_mm);
+    const Polyline path_line = line;
     for (int n = 0; n < options.recentrings; ++n) {
         // The percentiles are those of a stretch, not of a point: what the line wriggles within such a stretch would
         // stay. So the rays start from a line without wriggles; at last from the line itself, because what was taken
@@ -183,9 +185,10 @@ Polyline centredCurve(const Polyline& path, const DistanceProbe& wall, const Ske
         const Polyline base =
             last ? line
                  : resampledInside(smoothedInside(line, kBaseSmoothing_mm, wall, options), wall, options.step_mm);
-        line = smoothedInside(recentred(base, wall, options.step_mm, options.rays,
-                                        n + kFitted >= options.recentrings ? Middle::fitted : Middle::median),
-                              options.smoothing_mm, wall, options);
+        const Middle middle = n + kFitted >= options.recentrings ? Middle::fitted : Middle::median;
+        line = unwound(base, recentred(base, wall, options.step_mm, options.rays, middle), path_line, wall,
+                       options.step_mm);
+        line = smoothedInside(line, options.smoothing_mm, wall, options);
         if (n + 1 < options.recentrings)
             line = resampledInside(line, wall, options.step_mm);
     }
