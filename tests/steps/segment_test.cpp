@@ -217,6 +217,19 @@ TEST(Segment, OrdersPiecesOverAGap)
     EXPECT_LT(result.plan.bridges[0].length_mm, 60);
 }
 
+/// The scan with its colon in fat: soft tissue is left as a wall of 2 mm and as a cord of 6 mm of radius.
+HuVolume drawnInFat(const TubeScan& scan, const std::vector<Point3>& cord)
+{
+    HuVolume volume = scan.draw(kGrid);
+    for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
+        const Point3 p = kGrid.pointAt(kGrid.indexOf(n));
+        const double outside_mm = std::min(scan.signedDistance(p) - 2, tubeDistance(cord, 6, p));
+        if (volume.voxels[n] > -100 && outside_mm > 0)
+            volume.voxels[n] = std::int16_t(40 - 140 * std::min(1.0, outside_mm));
+    }
+    return volume;
+}
+
 TEST(Segment, BridgeFollowsTheBendOfTheCollapsedBowelThroughFat)
 {
     TubeScan scan = smallColon();
@@ -225,13 +238,7 @@ TEST(Segment, BridgeFollowsTheBendOfTheCollapsedBowelThroughFat)
     // The lumens end 12 mm beyond the lines; the collapsed bowel goes up and round between them.
     const std::vector<Point3> cord{{45, 0, 42}, {43, 0, 50}, {36, 0, 57}, {26, 0, 58},
                                    {17, 0, 52}, {11, 0, 40}, {7, 0, 30}};
-    HuVolume volume = scan.draw(kGrid);
-    for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
-        const Point3 p = kGrid.pointAt(kGrid.indexOf(n));
-        const double outside_mm = std::min(scan.signedDistance(p) - 2, tubeDistance(cord, 6, p));
-        if (volume.voxels[n] > -100 && outside_mm > 0)
-            volume.voxels[n] = std::int16_t(40 - 140 * std::min(1.0, outside_mm));
-    }
+    const HuVolume volume = drawnInFat(scan, cord);
     const Segmentation result = segment(volume, scan.gravity);
     ASSERT_EQ(result.plan.bridges.size(), 1U) << result.reason;
     const Bridge& bridge = result.plan.bridges[0];
@@ -254,13 +261,7 @@ TEST(Segment, EntersAPieceWhereTheCollapsedBowelLeadsNotWhereOnlyFatIsNearer)
     // One end lies 12 mm from the end of the first piece; the collapsed bowel leads to the other one.
     scan.second_line = {{-8, 15, 15}, {-8, 15, -5}, {-45, 0, -5}, {-45, 0, 50}, {-14, 0, 50}};
     const std::vector<Point3> cord{{18, 4, 50}, {12, 14, 44}, {3, 18, 34}, {-7, 15, 24}};
-    HuVolume volume = scan.draw(kGrid);
-    for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
-        const Point3 p = kGrid.pointAt(kGrid.indexOf(n));
-        const double outside_mm = std::min(scan.signedDistance(p) - 2, tubeDistance(cord, 6, p));
-        if (volume.voxels[n] > -100 && outside_mm > 0)
-            volume.voxels[n] = std::int16_t(40 - 140 * std::min(1.0, outside_mm));
-    }
+    const HuVolume volume = drawnInFat(scan, cord);
     const Segmentation result = segment(volume, scan.gravity);
     ASSERT_EQ(result.plan.pieces.size(), 2U) << result.reason;
     EXPECT_LT(distance(result.plan.bridges[0].to_mm, {-8, 15, 25}), 8);
