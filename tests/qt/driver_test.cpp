@@ -5,6 +5,7 @@
 #include <QTableWidget>
 
 #include "reading.h"
+#include "vicon/viewer/scene/reading_pictures.h"
 
 namespace vicon::viewer {
 namespace {
@@ -34,6 +35,44 @@ TEST_F(WithoutOpenGl, TheWindowSaysSoAndTheCaseCanBeReadAndMarked)
     EXPECT_EQ(stored().size(), 1U);
     EXPECT_EQ(the<QLabel>("seenText")->text(), "0.0 % seen") << "what is cast does not count";
     closeCase();
+}
+
+TEST_F(WithoutOpenGl, OnlyWhatWasChosenIsPeeledAndSaidToBe)
+{
+    const auto scan = PreparedScan::open(store_ / "cases" / test::kCase / test::kSupine);
+    const ViewPose view = poseAtStation(scan.frames(), scan.lumen(), 100, Heading::caecum);
+    ReadingPictures pictures(scan);
+    ASSERT_FALSE(pictures.hasOpenGl());
+    SnapshotRequest request;
+    request.width = request.height = 400;
+    const auto picture = [&] {
+        return pictures.endoscopic(request, {view.pose, view.station_mm, view.clearance_mm, true}, true);
+    };
+    const Picture wall = picture();
+    const auto differs = [&](const Picture& other, int from_x, int to_x) {
+        int count = 0;
+        for (int y = 0; y < other.height; ++y)
+            for (int x = from_x; x < to_x; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    const std::size_t at = std::size_t(3 * (y * other.width + x) + c);
+                    count += wall.rgb[at] != other.rgb[at] ? 1 : 0;
+                }
+        return count;
+    };
+    // The same densities from the same depth: what differs is that the picture says it is peeled.
+    request.peel = "soft-tissue";
+    const Picture chosen = picture();
+    EXPECT_GT(differs(chosen, 0, 200), 0);
+    EXPECT_EQ(differs(chosen, 200, 400), 0);
+    // In a circle: what lies around it is the wall still.
+    request.peel = "fat";
+    request.peeling.offset_mm = 4;
+    request.peel_middle_only = true;
+    request.peel_circle_at = Pixel{300, 200};
+    request.peel_circle_px = 40;
+    const Picture circled = picture();
+    EXPECT_GT(differs(circled, 270, 330), 1000);
+    EXPECT_EQ(differs(circled, 345, 400), 0);
 }
 
 }  // namespace

@@ -127,6 +127,15 @@ Picture endoscopicPicture(const PreparedScan& scan, const SnapshotRequest& reque
     return picture;
 }
 
+void castWall(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose)
+{
+    SnapshotRequest cast = request;
+    cast.peel = "soft-tissue";
+    cast.peeling.offset_mm = 0;
+    cast.peel_middle_only = false;
+    layPeelingOver(picture, scan, cast, pose);
+}
+
 void finishEndoscopic(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request,
                       const SnapshotResult& place)
 {

@@ -19,6 +19,8 @@ std::vector<OverlayText> captionLines(const Caption& caption, double station_mm,
 /// What is written over an endoscopic picture; used by snapshots and flights alike.
 Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
 
+/// The wall where the densities of tissue begin, for want of OpenGL; as fine as the request says that it is peeled.
+void castWall(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose);
 Picture endoscopicPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
 /// Lays what the request asks to peel, and everything that is written, over a picture of the surface.
 void finishEndoscopic(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request,

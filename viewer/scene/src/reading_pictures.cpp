@@ -41,14 +41,30 @@ struct ReadingPictures::Parts {
         return *seen_wall;
     }
 
-    void finishMoving(Picture& picture, SnapshotRequest request, const SnapshotResult& place)
+    /// Casts rays; while the eye moves as coarsely as ten pictures a second ask for.
+    template <class Cast>
+    void cast(SnapshotRequest request, bool still, Cast how)
     {
+        if (still) {
+            how(request);
+            return;
+        }
         request.peeling = request.peeling.whileMoving();
         request.peel_coarse = pace.coarseFor(request.width, request.height);
         const auto begin = std::chrono::steady_clock::now();
-        finishEndoscopic(picture, scan, request, place);
+        how(request);
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
         pace.tell(request.width, request.height, request.peel_coarse, took.count());
+    }
+
+    /// What is peeled, and written on.
+    Picture wall(const SnapshotRequest& request, const Pose& pose, bool still)
+    {
+        if (offscreen)
+            return offscreen->render(request.width, request.height, still ? 2 : 1);
+        Picture picture(request.width, request.height);
+        cast(request, still, [&](const SnapshotRequest& as) { castWall(picture, scan, as, pose); });
+        return picture;
     }
 
     void setLook(bool color_cells, double reach_mm)
@@ -111,17 +127,6 @@ Overlay structureOverlay(const CellVisibility& visibility, const SurfaceScene& s
     return overlay;
 }
 
-/// The wall is where the densities of tissue begin.
-SnapshotRequest withoutSurface(SnapshotRequest request)
-{
-    if (request.peel.empty() || request.peel_middle_only) {
-        request.peel = "soft-tissue";
-        request.peeling.offset_mm = 0;
-    }
-    request.peel_middle_only = false;
-    return request;
-}
-
 }  // namespace
 
 ReadingPictures::ReadingPictures(const PreparedScan& scan) : parts_(std::make_unique<Parts>(scan)) {}
@@ -132,28 +137,24 @@ bool ReadingPictures::hasOpenGl() const
     return parts_->offscreen.has_value();
 }
 
-Picture ReadingPictures::endoscopic(const SnapshotRequest& wanted, const SnapshotResult& place, bool still,
+Picture ReadingPictures::endoscopic(const SnapshotRequest& request, const SnapshotResult& place, bool still,
                                     const EndoscopicLook& look)
 {
     Parts& p = *parts_;
-    const SnapshotRequest request = p.offscreen ? wanted : withoutSurface(wanted);
     const Lens lens{request.view_angle_deg, request.width, request.height};
     p.shown = Parts::Shown{p.visibility->seenFrom(place.pose, lens), place.pose, lens};
     p.setLook(look.structure, look.lamp_reach_mm);
     p.scene.showSeen(p.shown->parts);
     p.scene.lookFrom(place.pose, request.view_angle_deg);
-    const bool only_peeled = !request.peel.empty() && !request.peel_middle_only;  // then nothing of the surface is left
-    Picture picture = only_peeled ? Picture(request.width, request.height)
-                                  : p.offscreen->render(request.width, request.height, still ? 2 : 1);
-    if (look.earlier && !only_peeled)
+    const bool only_peeled = !request.peel.empty() && !request.peel_middle_only;  // then nothing of the wall is left
+    Picture picture = only_peeled ? Picture(request.width, request.height) : p.wall(request, place.pose, still);
+    if (look.earlier && !only_peeled && p.offscreen)
         p.seenWall().tint(picture, look.earlier->earlier());
-    if (still || request.peel.empty())
-        finishEndoscopic(picture, p.scan, request, place);
-    else
-        p.finishMoving(picture, request, place);
+    p.cast(request, still || request.peel.empty(),
+           [&](const SnapshotRequest& as) { finishEndoscopic(picture, p.scan, as, place); });
     if (look.structure)
         paint(picture, structureOverlay(*p.visibility, p.scene, place.pose, lens));
-    if (!request.peel.empty())
+    if (!request.peel.empty() || !p.offscreen)
         p.shown.reset();
     return picture;
 }
