@@ -142,6 +142,7 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
     };
     connect(table_, &QTableWidget::itemActivated, this, open_selected);
     connect(open_, &QPushButton::clicked, this, open_selected);
+    connect(search_, &QLineEdit::returnPressed, this, open_selected);
     connect(retry_, &QPushButton::clicked, this, &WorklistWindow::retry);
     connect(report_, &QPushButton::clicked, this, &WorklistWindow::report);
     connect(&worker_, &Worker::failed, message_, &QLabel::setText);
@@ -194,7 +195,6 @@ void WorklistWindow::show(const std::vector<WorklistRow>& rows)
         if (row.record.id == chosen_id || (chosen_id.empty() && n == 0))
             table_->selectRow(n);
     }
-    table_->resizeColumnsToContents();
     filter();
     updateButtons();
     const auto wanted = std::find_if(rows_.begin(), rows_.end(), [&](const WorklistRow& row) {
@@ -213,6 +213,12 @@ void WorklistWindow::filter()
                            table_->item(n, kId)->text().contains(words, Qt::CaseInsensitive);
         table_->setRowHidden(n, !found || (!state.isEmpty() && table_->item(n, kState)->text() != state));
     }
+    if (!selected())  // what was chosen is hidden: the first that was found is opened by Return
+        for (int n = 0; n < table_->rowCount(); ++n)
+            if (!table_->isRowHidden(n)) {
+                table_->selectRow(n);
+                break;
+            }
     updateButtons();
 }
 
