@@ -96,5 +96,51 @@ TEST_F(Reading, MarkersGetTheirStationsOnTheNewPathAndEarlierStepsCanStillBeUndo
     EXPECT_TRUE(eventually([&] { return corrections().cut.size() == 1; })) << warning();
 }
 
+TEST_F(Reading, ACorrectionThatAnotherReaderChangedIsNotTakenBack)
+{
+    openCase();
+    showList(2);
+    press(window(), "correctCut");
+    click("overview", {the<QWidget>("overview")->width() / 2, the<QWidget>("overview")->height() / 5});
+    ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); })) << warning();
+    ASSERT_TRUE(eventually([] { return !the<QProgressBar>("redo")->isVisible(); }));
+    waitForScan();
+    const auto corrections = [&](const ScanCorrections* set) {
+        CaseStore other(store_);
+        const ScanRecord scan = other.requireScan(test::kCase, test::kSupine);
+        if (set)
+            services_.correct(other, scan, *set);
+        return services_.corrections(other, scan);
+    };
+    ScanCorrections his = corrections(nullptr);
+    ASSERT_EQ(his.cut.size(), 1U);
+    his.drop.push_back({0, 0, 0});
+    corrections(&his);
+    key(Qt::Key_Z, Qt::ControlModifier);
+    EXPECT_TRUE(eventually([] { return warning().find("changed by another reader") != std::string::npos; }));
+    EXPECT_EQ(corrections(nullptr), his);
+    EXPECT_FALSE(the<QProgressBar>("redo")->isVisible()) << "nothing is done again";
+    screenshot("correction_conflict");
+    // A bridge's verdict likewise.
+    auto* bridges = the<QTableWidget>("bridges");
+    ASSERT_TRUE(eventually([&] { return bridges->rowCount() == 1; }));
+    clickRow(bridges, 0);
+    press(window(), "rejectBridge");
+    const auto judged = [&] { return bridges->item(0, 3)->text(); };
+    ASSERT_TRUE(eventually([&] { return judged() == "rejected, anna"; }));
+    {
+        CaseStore other(store_);
+        const ScanRecord scan = other.requireScan(test::kCase, test::kSupine);
+        BridgeRow bridge = services_.bridges(other, scan).front();
+        bridge.verdict = "confirmed";
+        bridge.by = "bert";
+        services_.review_bridge(other, scan, bridge);
+    }
+    key(Qt::Key_Z, Qt::ControlModifier);
+    EXPECT_TRUE(eventually([] { return warning().find("this bridge's verdict was changed") != std::string::npos; }))
+        << warning();
+    EXPECT_TRUE(eventually([&] { return judged() == "confirmed, bert"; })) << "the list shows it as it is now";
+}
+
 }  // namespace
 }  // namespace vicon::viewer

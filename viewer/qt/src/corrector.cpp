@@ -97,11 +97,13 @@ void Corrector::findBridges(const ScanRecord& scan)
 
 void Corrector::review(const ScanRecord& scan, const BridgeRow& bridge, bool confirmed)
 {
-    change(confirmed ? tr("Bridge confirmed; the report says so.")
-                     : tr("Bridge rejected; the report says so. Cut beside it to keep the parts asunder."),
-           [scan, bridge, confirmed](CorrectionHistory& history, CaseStore& store) {
-               return history.review(store, scan, bridge, confirmed);
-           });
+    change(
+        confirmed
+            ? tr("Bridge confirmed; the report says so.")
+            : tr("Bridge rejected; the report says so. To keep the parts asunder, drop the piece that is not colon."),
+        [scan, bridge, confirmed](CorrectionHistory& history, CaseStore& store) {
+            return history.review(store, scan, bridge, confirmed);
+        });
 }
 
 void Corrector::undo()
