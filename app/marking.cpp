@@ -165,14 +165,14 @@ Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::stri
         throw Error(ErrorCode::bad_input,
                     "the point " + formatPoint(marker.position_mm) + " lies more than " +
                         formatPoint({options.most_distance_mm, 0, 0}).substr(0, 4) +
-                        " mm outside the colon of every prepared scan",
+                        " mm outside the lumen of every prepared scan",
                     case_id, "give LPS millimetres inside the lumen; 'vicon show " + case_id + "' shows the scans");
     // A point in the lumen of one scan and merely near that of another belongs to the first.
     const auto inside = [](const auto& place) { return place.second.outside_mm == 0; };
     if (places.size() > 1 && std::count_if(places.begin(), places.end(), inside) == 1)
         places = {*std::find_if(places.begin(), places.end(), inside)};
     if (places.size() > 1)
-        throw Error(ErrorCode::wrong_use, "the point lies in the colon of several scans", case_id,
+        throw Error(ErrorCode::wrong_use, "the point lies in the lumen of several scans", case_id,
                     "name one with --scan; 'vicon show " + case_id + "' lists them");
     const auto& [scan_id, place] = places.front();
     marker.scan_id = scan_id;

@@ -136,7 +136,7 @@ Subcommand markCommand()
                 command.add_option("CASE", arguments->case_id, "The case's id")->required();
                 command
                     .add_option("--scan", arguments->scan_id,
-                                "The scan; needed where the point lies in the colon of several")
+                                "The scan; needed where the point lies in the lumen of several")
                     ->type_name("SCAN");
                 command.add_option("--at", arguments->at, "Position in LPS mm")->required()->type_name("X,Y,Z");
                 command.add_option("--color", arguments->color, "red, yellow or green")->capture_default_str();

@@ -160,7 +160,7 @@ TEST_F(Study, PutsMarkersAtTheStationOfTheTruthAndRefusesPointsOutside)
                 1e-9);
     const auto refused = runVicon("mark " + scan_.case_id + " --at 5000,0,0 --store " + store().string());
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.output, HasSubstr("outside the colon"));
+    EXPECT_THAT(refused.output, HasSubstr("outside the lumen"));
     EXPECT_EQ(runVicon("mark " + scan_.case_id + " --at 1,2 --store " + store().string()).exit_code, 2);
 
     viconOn(store(), "markers " + scan_.case_id + " --change m1 --color green --note changed");

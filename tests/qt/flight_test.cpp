@@ -27,10 +27,12 @@ TEST_F(Reading, FliesToTheCaecumAndBackAndIsWhereItWasAfterReopening)
     const double stopped = station();
     settle();
     EXPECT_NEAR(station(), stopped, 1);
+    key(Qt::Key_B);
     key(Qt::Key_End);
     ASSERT_TRUE(eventually([] { return length() - station() < 2; }));
     screenshot("caecum");
     EXPECT_EQ(the<QPushButton>("about")->text(), "To rectum") << "it looks into the colon, ready for the way back";
+    EXPECT_FALSE(the<QPushButton>("lookBack")->isChecked());
     key(Qt::Key_Space);
     ASSERT_TRUE(eventually([] { return length() - station() > 60; }));
     auto* spin = the<QDoubleSpinBox>("station");

@@ -1,4 +1,5 @@
 #include <QComboBox>
+#include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMessageBox>
@@ -120,6 +121,8 @@ TEST_F(Reading, ASizeIsMeasuredBetweenTwoClicksAndKeptWithTheMarkerBesideIt)
     const QPoint first = middle("endoscopic") + QPoint(90, 60), second = first + QPoint(30, 30);
     click("endoscopic", first, Qt::ShiftModifier);
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    settle();
+    const QImage without_line = pictureOf("endoscopic");
     key(Qt::Key_M);
     click("endoscopic", first);
     click("endoscopic", second);
@@ -132,6 +135,9 @@ TEST_F(Reading, ASizeIsMeasuredBetweenTwoClicksAndKeptWithTheMarkerBesideIt)
         EXPECT_GE(size["plane"]["diameter_mm"].get<double>(), size["straight_mm"].get<double>() - 0.5);
     }
     screenshot("measured");
+    EXPECT_NE(pictureOf("endoscopic"), without_line);
+    key(Qt::Key_Escape);
+    EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == without_line; }));
     press(window(), "undo");
     ASSERT_TRUE(eventually([&] { return !stored()[0].extra.contains("size"); }));
 }
@@ -200,6 +206,16 @@ TEST_F(Reading, MarkersOfAFileAreLoadedInOneStepAndSaved)
     ASSERT_TRUE(eventually([&] { return std::filesystem::exists(file); }));
     auto list = nlohmann::json::parse(readFile(file));
     ASSERT_EQ(list["markers"].size(), 2U);
+    // No list of completions opens over the buttons, where it would take the first click on them.
+    ASSERT_TRUE(eventually([] { return !window()->findChild<QFileDialog*>("saveMarkers"); }));
+    key(Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
+    auto* dialog = the<QFileDialog>("saveMarkers");
+    QTest::keyClicks(dialog->findChild<QLineEdit*>("fileNameEdit"), QString((store_ / "lis").c_str()));
+    constexpr int kLooked_ms = 1500;  // the folder is read on another thread
+    EXPECT_FALSE(QTest::qWaitFor([] { return QApplication::activePopupWidget() != nullptr; }, kLooked_ms));
+    dialog->reject();
+    window()->activateWindow();
+    ASSERT_TRUE(eventually([] { return window()->isActiveWindow(); }));
     for (auto& marker : list["markers"])
         marker["note"] = "from the file";
     replaceFile(file, list.dump());

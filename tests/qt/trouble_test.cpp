@@ -33,6 +33,8 @@ TEST_F(Reading, AMarkerThatAnotherReaderChangedIsNotOverwritten)
     EXPECT_EQ(stored()[0].note, "by the other reader");
     EXPECT_EQ(cell(0, 6), "by the other reader");
     screenshot("conflict");
+    key(Qt::Key_Escape);
+    EXPECT_EQ(warning(), "");
 }
 
 TEST_F(Reading, ACaseDeletedUnderItsReaderIsSaidSo)

@@ -56,6 +56,7 @@ TEST_F(Reading, SlicesProjectionAndPeelingFollowTheMouse)
         EXPECT_TRUE(eventually([&] { return circleIsAt(at); })) << at.x() << ", " << at.y();
     }
     screenshot("lens");
+    EXPECT_TRUE(the<QWidget>("endoscopic")->toolTip().isEmpty()) << "it would lie over what is peeled";
 }
 
 TEST_F(Reading, WhatWasSeenIsCountedPaintedListedAndKept)
@@ -115,6 +116,7 @@ TEST_F(Reading, SlicesAndProjectionMoveToASecondWindowThatHasTheKeysAndIsRemembe
 {
     openCase();
     QWidget* mine = window();
+    const int width = the<QWidget>("endoscopic")->width();
     key(Qt::Key_F2);
     ASSERT_TRUE(eventually([&] { return the<QWidget>("coronal")->window() != mine; }));
     auto* second = the<QWidget>("second");
@@ -138,6 +140,9 @@ TEST_F(Reading, SlicesAndProjectionMoveToASecondWindowThatHasTheKeysAndIsRemembe
     the<QWidget>("second")->close();
     EXPECT_TRUE(eventually([] { return the<QWidget>("coronal")->window() == window(); }));
     EXPECT_TRUE(eventually([] { return the<QWidget>("overview")->isVisible(); }));
+    constexpr int kHandles_px = 20;
+    EXPECT_TRUE(eventually([&] { return std::abs(the<QWidget>("endoscopic")->width() - width) < kHandles_px; }))
+        << the<QWidget>("endoscopic")->width() << " for " << width;
 }
 
 }  // namespace

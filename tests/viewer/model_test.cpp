@@ -174,8 +174,10 @@ TEST(Annotation, NamesAreWrittenAsPeopleWriteThem)
         EXPECT_EQ(personName(c.dicom), c.text);
     EXPECT_EQ(dateText("20261121"), "2026-11-21");
     EXPECT_EQ(dateText("about 1950"), "about 1950");
-    EXPECT_EQ(stationTexts(250, 1000)[0], "250 mm from the rectum (25 %)");
-    EXPECT_EQ(stationTexts(250, 1000)[1], "750 mm from the caecum");
+    EXPECT_EQ(stationTexts(250, 1000, wordsFor("colon"))[0], "250 mm from the rectum (25 %)");
+    EXPECT_EQ(stationTexts(250, 1000, wordsFor("colon"))[1], "750 mm from the caecum");
+    EXPECT_EQ(stationTexts(250, 1000, wordsFor("aorta"))[0], "250 mm from the root (25 %)");
+    EXPECT_EQ(stationTexts(250, 1000, wordsFor("aorta"))[1], "750 mm from the tip");
 }
 
 TEST(Annotation, LongTextIsCutBetweenWordsAndMarkedWhereItEnds)

@@ -7,7 +7,9 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/viewer/model/annotate.h"
+#include "vicon/viewer/model/slice_image.h"
 #include "vicon/viewer/scene/canvas.h"
+#include "vicon/viewer/scene/reading_pictures.h"
 
 namespace vicon::viewer {
 namespace {
@@ -186,6 +188,23 @@ TEST_F(Snapshots, CarryNameAndWarningOfLossyPixels)
     EXPECT_EQ(findColor(shoot(of, request), kWarningColor, caption, 30).count, 0);
     request.caption.lossy = true;
     EXPECT_GT(findColor(shoot(of, request), kWarningColor, caption, 30).count, 30);
+}
+
+TEST_F(Snapshots, ASliceOfAPatientOfWhomNothingIsKnownSaysNoDistance)
+{
+    const PreparedScan prepared = scan();
+    SliceRequest request;
+    request.view = sliceThrough(prepared.volume().grid, SlicePlane::transverse, colon.polyp_mm, 400, 400);
+    request.point_mm = colon.polyp_mm;
+    request.window = {"dark", 100, 10000};
+    // Under two lines, the place and the window.
+    const double line_px = 1.35 * 1.15 * textHeightFor(400, 400);
+    EXPECT_EQ(findColor(slicePicture(prepared, request), kTextColor, {0, 2.4 * line_px, 180, 3 * line_px}, 60).count,
+              0);
+    request.caption.patient_id = "PH-1";
+    request.caption.position = "supine";
+    EXPECT_GT(findColor(slicePicture(prepared, request), kTextColor, {0, 2.4 * line_px, 180, 3 * line_px}, 60).count,
+              0);
 }
 
 TEST_F(Snapshots, LookBelowTheWallInTheMiddleOnlyWhereAskedTo)

@@ -210,12 +210,12 @@ void addHere(Overlay& overlay, const PlaneView& view, const Pose& pose, double s
         {{{neck.x - uy * half, neck.y + ux * half}, tip, {neck.x + uy * half, neck.y - ux * half}}, kHereColor, 2, 0});
 }
 
-std::array<std::string, 2> stationTexts(double station_mm, double length_mm)
+std::array<std::string, 2> stationTexts(double station_mm, double length_mm, const OrganWords& words)
 {
     const auto whole = [](double mm) { return std::to_string(std::lround(mm)); };
     const double share = length_mm > 0 ? 100 * station_mm / length_mm : 0;
-    return {whole(station_mm) + " mm from the rectum (" + whole(share) + " %)",
-            whole(length_mm - station_mm) + " mm from the caecum"};
+    return {whole(station_mm) + " mm from the " + words.first_end + " (" + whole(share) + " %)",
+            whole(length_mm - station_mm) + " mm from the " + words.last_end};
 }
 
 std::vector<std::string> wrapped(const std::string& text, std::size_t most, std::size_t lines)

@@ -15,6 +15,7 @@ public:
     ControlsArea(QWidget* controls, const QWidget* passing) : passing_(passing)
     {
         setFrameShape(QFrame::NoFrame);
+        setFocusPolicy(Qt::NoFocus);  // a click between its controls leaves the keyboard where it is
         setWidgetResizable(true);
         setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
         setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Expanding);

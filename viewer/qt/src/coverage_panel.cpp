@@ -41,7 +41,6 @@ CoveragePanel::CoveragePanel(QWidget* parent) : QWidget(parent)
                     tr("Count from nothing, as before the first flight"));
     table_ = named(new QTableWidget(0, kColumns, this), "unseen", tr("Unseen patches"), tr("Click: fly there"));
     table_->setHorizontalHeaderLabels({tr("mm"), tr("Part"), tr("mm² unseen")});
-    table_->horizontalHeaderItem(kStation)->setToolTip(tr("Distance from the rectum along the colon"));
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -68,6 +67,11 @@ CoveragePanel::CoveragePanel(QWidget* parent) : QWidget(parent)
             emit flyWanted(patches_[std::size_t(row)]);
     });
     setSeen(0);
+}
+
+void CoveragePanel::setStationTip(const QString& tip)
+{
+    table_->horizontalHeaderItem(kStation)->setToolTip(tip);
 }
 
 void CoveragePanel::setSeen(double fraction)

@@ -20,6 +20,8 @@ class CoveragePanel : public QWidget {
 public:
     explicit CoveragePanel(QWidget* parent = nullptr);
 
+    /// What the column of distances means.
+    void setStationTip(const QString& tip);
     void setSeen(double fraction);
     /// In order of station, from the rectum.
     void show(std::vector<UnseenPatch> patches, const ColonPartRanges& parts);

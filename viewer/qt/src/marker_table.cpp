@@ -56,7 +56,6 @@ MarkerTable::MarkerTable(QWidget* parent) : QWidget(parent)
     table_->setHorizontalHeaderLabels({tr("ID"), tr("Scan"), tr("mm"), tr("Part"), tr("Pair"), tr("Size"), tr("Note")});
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
-    table_->horizontalHeaderItem(kStation)->setToolTip(tr("Distance from the rectum along the colon"));
     table_->horizontalHeaderItem(kSize)->setToolTip(tr("Straight between the two ends that were clicked, in mm (M)"));
     table_->verticalHeader()->hide();
     table_->horizontalHeader()->setStretchLastSection(true);
@@ -148,6 +147,11 @@ void MarkerTable::show(const std::vector<Marker>& markers, const std::map<std::s
     if (chosen)
         select(chosen->id);
     updateButtons();
+}
+
+void MarkerTable::setStationTip(const QString& tip)
+{
+    table_->horizontalHeaderItem(kStation)->setToolTip(tip);
 }
 
 void MarkerTable::setUndo(bool can_undo, bool can_redo)

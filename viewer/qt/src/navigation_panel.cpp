@@ -4,6 +4,7 @@
 #include <QDoubleSpinBox>
 #include <QGridLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QSlider>
 
@@ -33,7 +34,7 @@ NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
     back_ = button(tr("Back"), "back", tr("Fly back"), tr("Fly backwards"));
     stop_ = button(tr("Stop"), "stop", tr("Stop"), tr("Stop (Space)"));
     forward_ = button(tr("Fly"), "forward", tr("Fly on"), tr("Fly the way that is chosen (Space)"));
-    about_ = button(tr("To caecum"), "about", tr("Way of flight"), tr("Turn about (R)"));
+    about_ = button(tr("Turn about"), "about", tr("Way of flight"), tr("Turn about (R)"));
     look_back_ = button(tr("Look back"), "lookBack", tr("Look back"), tr("Look back while flying on (B)"));
     look_back_->setCheckable(true);
     step_back_ = button(tr("-1 cm"), "stepBack", tr("A centimetre back"), tr("A centimetre back (,)"));
@@ -41,11 +42,11 @@ NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
     speed_ = named(new QSlider(Qt::Horizontal, this), "speed", tr("Speed"), tr("Speed of flight (+, -)"));
     speed_->setRange(int(Navigator::kLeastSpeed_mm_s), int(Navigator::kMostSpeed_mm_s));
     speed_text_ = new QLabel(this);
-    station_ = named(new QDoubleSpinBox(this), "station", tr("Distance from the rectum"), tr("Where to jump to"));
+    station_ = named(new QDoubleSpinBox(this), "station", tr("Distance to jump to"), {});
     station_->setDecimals(0);
     station_->setSuffix(tr(" mm"));
     station_->setKeyboardTracking(false);
-    go_ = button(tr("Jump"), "jump", tr("Jump to this distance from the rectum"), tr("Jump there"));
+    go_ = button(tr("Jump"), "jump", tr("Jump to this distance"), {});
     where_ = named(new QLabel(this), "where", tr("Place"), tr("Where the eye is"));
 
     grid->addWidget(mode_, 0, 0);
@@ -79,10 +80,13 @@ NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
     connect(step_back_, &QPushButton::clicked, this, [this] { emit stepWanted(-kStep_mm); });
     connect(step_on_, &QPushButton::clicked, this, [this] { emit stepWanted(kStep_mm); });
     connect(speed_, &QSlider::valueChanged, this, [this](int mm_s) { emit speedWanted(mm_s); });
-    connect(go_, &QPushButton::clicked, this, [this] {
+    const auto jump = [this] {
+        station_->interpretText();  // a click on the button leaves the keyboard, and what was typed, in the field
         shown_station_mm_ = station_->value();
         emit jumpWanted(shown_station_mm_);
-    });
+    };
+    connect(go_, &QPushButton::clicked, this, jump);
+    connect(station_->findChild<QLineEdit*>(), &QLineEdit::returnPressed, this, jump);
 }
 
 void NavigationPanel::setAngle(double angle_deg)
@@ -92,14 +96,17 @@ void NavigationPanel::setAngle(double angle_deg)
     angle_text_->setText(tr("%1° wide").arg(angle_deg, 0, 'f', 0));
 }
 
-void NavigationPanel::show(const Navigator& navigator, double length_mm)
+void NavigationPanel::show(const Navigator& navigator, double length_mm, const OrganWords& words)
 {
     const NavigationState state = navigator.state();
     const bool planned = navigator.mode() == NavigationMode::planned;
     mode_->setCurrentIndex(int(navigator.mode()));
     look_back_->setEnabled(planned);
     look_back_->setChecked(navigator.looksBack());
-    about_->setText(navigator.heading() == Heading::caecum ? tr("To caecum") : tr("To rectum"));
+    const QString first = QString::fromStdString(words.first_end), last = QString::fromStdString(words.last_end);
+    about_->setText(tr("To %1").arg(navigator.heading() == Heading::caecum ? last : first));
+    for (QWidget* widget : std::initializer_list<QWidget*>{station_, go_})
+        widget->setToolTip(tr("Jump to this distance from the %1").arg(first));
     {
         const QSignalBlocker quiet(speed_);
         speed_->setValue(int(navigator.speed_mm_s()));
@@ -111,7 +118,7 @@ void NavigationPanel::show(const Navigator& navigator, double length_mm)
         station_->setValue(state.station_mm);
         shown_station_mm_ = station_->value();
     }
-    const auto texts = stationTexts(state.station_mm, length_mm);
+    const auto texts = stationTexts(state.station_mm, length_mm, words);
     where_->setText(QString::fromStdString(texts[0]) + ", " + QString::fromStdString(texts[1]));
 }
 

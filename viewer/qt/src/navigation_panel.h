@@ -3,6 +3,7 @@
 #include <QWidget>
 
 #include "vicon/viewer/model/navigator.h"
+#include "vicon/viewer/model/organ_words.h"
 
 class QComboBox;
 class QDoubleSpinBox;
@@ -17,7 +18,7 @@ class NavigationPanel : public QWidget {
     Q_OBJECT
 public:
     explicit NavigationPanel(QWidget* parent = nullptr);
-    void show(const Navigator& navigator, double length_mm);
+    void show(const Navigator& navigator, double length_mm, const OrganWords& words);
     void setAngle(double angle_deg);
 
 signals:

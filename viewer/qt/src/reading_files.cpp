@@ -1,6 +1,7 @@
 #include <QFileDialog>
 #include <QGridLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMessageBox>
 #include <QStatusBar>
 
@@ -68,13 +69,13 @@ QString densityWords(const Marker& marker)
         .arg(mm(biopsy.radius_mm));
 }
 
-QString informationOf(const Marker& marker, const QString& scan)
+QString informationOf(const Marker& marker, const QString& scan, const OrganWords& organ)
 {
     const Point3 p = marker.position_mm;
     return "<table>" + row(QObject::tr("Marker"), words(marker.id + ", " + nameOf(marker.color))) +
            row(QObject::tr("Scan"), scan) + row(QObject::tr("Part"), textAt(marker.extra, "part")) +
-           row(QObject::tr("From the rectum"), mm(marker.station_mm)) +
-           row(QObject::tr("From the caecum"), mm(marker.from_caecum_mm)) +
+           row(QObject::tr("From the %1").arg(words(organ.first_end)), mm(marker.station_mm)) +
+           row(QObject::tr("From the %1").arg(words(organ.last_end)), mm(marker.from_caecum_mm)) +
            row(QObject::tr("LPS"),
                QObject::tr("%1, %2, %3 mm").arg(p.x, 0, 'f', 1).arg(p.y, 0, 'f', 1).arg(p.z, 0, 'f', 1)) +
            row(QObject::tr("Size"), sizeWords(marker)) + row(QObject::tr("Density"), densityWords(marker)) +
@@ -95,6 +96,8 @@ void ReadingWindow::chooseMarkerFile(bool to_save)
     dialog->setFileMode(to_save ? QFileDialog::AnyFile : QFileDialog::ExistingFile);
     dialog->setNameFilter(tr("Markers (*.json)"));
     dialog->setDefaultSuffix("json");
+    // Its list of completions lies over the buttons, and takes the first click on them.
+    dialog->findChild<QLineEdit*>("fileNameEdit")->setCompleter(nullptr);
     connect(dialog, &QFileDialog::fileSelected, this, [this, to_save](const QString& file) {
         if (to_save)
             session_.saveMarkers(file.toStdString());
@@ -115,8 +118,8 @@ void ReadingWindow::showMarkerInformation()
     for (const ScanRecord& record : session_.scans())
         if (record.id == marker->scan_id)
             scan = words(positionName(record.series.patient_position));
-    auto* box = new QMessageBox(QMessageBox::NoIcon, tr("Marker information"), informationOf(*marker, scan),
-                                QMessageBox::Close, this);
+    auto* box = new QMessageBox(QMessageBox::NoIcon, tr("Marker information"),
+                                informationOf(*marker, scan, organWords()), QMessageBox::Close, this);
     box->setObjectName("markerInformation");
     box->setAttribute(Qt::WA_DeleteOnClose);
     box->open();

@@ -211,6 +211,7 @@ void ReadingWindow::goToEnd(Heading end)
     if (!navigator())
         return;
     navigator()->setHeading(end == Heading::caecum ? Heading::rectum : Heading::caecum);
+    navigator()->setLookBack(false);
     emit navigation_->jumpWanted(end == Heading::caecum ? session_.scan()->files.frames().length_mm() : 0);
 }
 

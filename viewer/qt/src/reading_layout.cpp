@@ -46,7 +46,7 @@ QWidget* ReadingWindow::buildTop()
     scan_choice_->setObjectName("scan");
     scan_choice_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     scan_choice_->setAccessibleName(tr("Scan"));
-    scan_choice_->setToolTip(tr("Supine or prone; the other one opens at the same part of the way (Tab)"));
+    scan_choice_->setToolTip(tr("Supine or prone; the other one opens at the same part of the way (X)"));
     window_choice_ = new QComboBox(top);
     window_choice_->setObjectName("window");
     window_choice_->setAccessibleName(tr("Window of the slices"));
@@ -108,10 +108,7 @@ void ReadingWindow::buildViews()
     endoscopic_ = new PictureView(tr("Endoscopic view"));
     endoscopic_->setObjectName("endoscopic");
     endoscopic_->setMouseTracking(true);
-    endoscopic_->setToolTip(
-        tr("Click: slices there. Drag: steer. Wheel: on and back. Double click: enlarge. "
-           "Shift and click: marker."));
-    overview_ = new PictureView(tr("Projection of the colon"));
+    overview_ = new PictureView({});
     overview_->setObjectName("overview");
     overview_->setToolTip(tr("Click: go there"));
     transverse_ = new SliceView(SlicePlane::transverse, tr("Transverse slice"));
@@ -166,6 +163,7 @@ void ReadingWindow::enlarge(QWidget* view)
     endoscopic_->setVisible(shown(endoscopic_));
     beside_->setVisible(compare_->isChecked() && (!enlarged_ || (second_ && enlarged_ != endoscopic_)));
     drawBeside(true);
+    view->setFocus();  // else the first list would get the keys of a view that is hidden now
 }
 
 void ReadingWindow::addActions()
@@ -174,6 +172,7 @@ void ReadingWindow::addActions()
         QAction* action = menu->addAction(title);
         action->setShortcut(key);
         connect(action, &QAction::triggered, this, what);
+        return action;
     };
     QMenu* a_case = menuBar()->addMenu(tr("&Case"));
     add(a_case, tr("Save picture to the case"), QKeySequence("Ctrl+S"), [this] { snapshot(false); });
@@ -192,7 +191,12 @@ void ReadingWindow::addActions()
     add(edit, tr("Red marker at the next click"), QKeySequence("1"), [this] { arm(MarkerColor::red); });
     add(edit, tr("Yellow marker at the next click"), QKeySequence("2"), [this] { arm(MarkerColor::yellow); });
     add(edit, tr("Green marker at the next click"), QKeySequence("3"), [this] { arm(MarkerColor::green); });
-    add(edit, tr("No marker after all"), QKeySequence("Esc"), [this] { arm({}); });
+    add(edit, tr("Not after all: no marker, line, circle or warning"), QKeySequence("Esc"), [this] {
+        arm({});
+        measured_way_.clear();
+        drawMeasured();
+        warn({});
+    });
     add(edit, tr("Measure between two clicks"), QKeySequence("M"), [this] { startMeasuring(); });
     add(edit, tr("Virtual biopsy: circle a finding"), QKeySequence("T"), [this] { startCircling(); });
     add(edit, tr("Marker information"), QKeySequence("I"), [this] { showMarkerInformation(); });
@@ -211,8 +215,8 @@ void ReadingWindow::addActions()
         [this] { emit navigation_->lookBackWanted(navigator() && !navigator()->looksBack()); });
     add(flight, tr("A centimetre on"), QKeySequence("."), [this] { emit navigation_->stepWanted(10); });
     add(flight, tr("A centimetre back"), QKeySequence(","), [this] { emit navigation_->stepWanted(-10); });
-    add(flight, tr("To the rectum"), QKeySequence("Home"), [this] { goToEnd(Heading::rectum); });
-    add(flight, tr("To the caecum"), QKeySequence("End"), [this] { goToEnd(Heading::caecum); });
+    to_first_end_ = add(flight, {}, QKeySequence("Home"), [this] { goToEnd(Heading::rectum); });
+    to_last_end_ = add(flight, {}, QKeySequence("End"), [this] { goToEnd(Heading::caecum); });
     add(flight, tr("Faster"), QKeySequence("+"), [this] {
         if (navigator())
             emit navigation_->speedWanted(navigator()->speed_mm_s() + 5);

@@ -87,6 +87,7 @@ void ReadingWindow::scanOpened()
     focus_.reset();
     warning_->clear();
     tell({});
+    useWords(organWords());
     restorePlace();
     markersChanged();
     clock_.start();

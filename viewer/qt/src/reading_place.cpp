@@ -64,10 +64,9 @@ void ReadingWindow::saveLooks()
     QSettings settings;
     // The screen and the hands are the reader's, whatever the case.
     settings.setValue("window/geometry", saveGeometry());
-    if (!second_) {
-        settings.setValue("window/columns", columns_->saveState());
+    settings.setValue(kColumns, second_ ? columns_on_one_ : columns_->saveState());
+    if (!second_)
         settings.setValue("window/slices", slices_->saveState());
-    }
     settings.setValue("window/two", two_screens_->isChecked());
     saveSecondWindow();
     settings.beginGroup(groupOf(session_.record()));
@@ -84,7 +83,7 @@ void ReadingWindow::restoreLooks()
 {
     QSettings settings;
     restoreGeometry(settings.value("window/geometry").toByteArray());
-    columns_->restoreState(settings.value("window/columns").toByteArray());
+    columns_->restoreState(settings.value(kColumns).toByteArray());
     slices_->restoreState(settings.value("window/slices").toByteArray());
     beside_->hide();  // shown when its scan is there
     two_screens_->setChecked(settings.value("window/two").toBool());

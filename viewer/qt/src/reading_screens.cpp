@@ -34,12 +34,15 @@ void ReadingWindow::setTwoScreens(bool on)
         saveSecondWindow();
         slices_->setOrientation(Qt::Vertical);
         columns_->insertWidget(kSlicesColumn, slices_);
+        columns_->restoreState(columns_on_one_);
         qobject_cast<QVBoxLayout*>(side_->layout())->insertWidget(0, overview_);
         second_->hide();
         second_->deleteLater();
         second_ = nullptr;
         return;
     }
+    // Before the window is laid out, its columns are as they were saved.
+    columns_on_one_ = isVisible() ? columns_->saveState() : QSettings().value(kColumns).toByteArray();
     second_ = new SecondWindow(this);
     second_->setObjectName("second");
     second_->setWindowTitle(windowTitle());

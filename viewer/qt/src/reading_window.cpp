@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "control_keys.h"
 #include "second_window.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/window_level.h"
@@ -28,7 +29,9 @@ ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistRow&
     setWindowTitle(tr("%1 - VICON").arg(QString::fromStdString(personName(row.record.patient.name))));
     buildViews();
     addActions();
+    useWords(wordsFor("colon"));  // until a scan is open
     connectAll();
+    new ControlKeys(this, endoscopic_);
     for (const ScanRecord& scan : session_.scans())
         scan_choice_->addItem(QString::fromStdString(positionName(scan.series.patient_position) + ", series " +
                                                      std::to_string(scan.series.number)),
@@ -71,7 +74,8 @@ void ReadingWindow::connectAll()
         shown_ = shown;
         endoscopic_->showPicture(picture);
         if (shown.isOf(session_.sharedScan()))
-            endoscopic_->setAccessibleDescription(tr("%1 mm from the rectum").arg(shown.place.station_mm, 0, 'f', 0));
+            endoscopic_->setAccessibleDescription(
+                tr("%1 mm from the %2").arg(shown.place.station_mm, 0, 'f', 0).arg(organWords().first_end.c_str()));
         drawMeasured();
     });
     connect(&studio_, &Studio::overviewDrawn, this, [this](const Picture& picture, const PlaneView& view) {
@@ -112,7 +116,9 @@ void ReadingWindow::connectAll()
     }
     connect(scan_choice_, qOverload<int>(&QComboBox::activated), this,
             [this](int) { changeScan(scan_choice_->currentData().toString().toStdString()); });
+    showPictureTip();
     connect(peeling_, &PeelingPanel::changed, this, [this] {
+        showPictureTip();
         drawEndoscopic(false);
         still_.start();
     });
@@ -146,6 +152,7 @@ void ReadingWindow::connectAll()
     connect(navigation_, &NavigationPanel::speedWanted, this, steered(&Navigator::setSpeed));
     connect(navigation_, &NavigationPanel::stepWanted, this, steered(&Navigator::step));
     connect(navigation_, &NavigationPanel::jumpWanted, this, steered(&Navigator::jumpTo));
+    connect(navigation_, &NavigationPanel::jumpWanted, endoscopic_, [this] { endoscopic_->setFocus(); });
 
     connectCoverage();
     connectBeside();
@@ -244,7 +251,7 @@ void ReadingWindow::drawOverview()
 void ReadingWindow::showPlace()
 {
     const NavigationState state = navigator()->state();
-    navigation_->show(*navigator(), session_.scan()->files.frames().length_mm());
+    navigation_->show(*navigator(), session_.scan()->files.frames().length_mm(), organWords());
     notice_->setText(state.carried ? tr("collapsed or narrow part: carried along the path") : QString());
     const auto markers = session_.markersOf(session_.scan()->record.id);
     for (SliceView* slice : {transverse_, coronal_, sagittal_})

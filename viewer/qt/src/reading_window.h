@@ -155,6 +155,12 @@ private:
     void placeSecondWindow();
     void saveSecondWindow() const;
 
+    // reading_words.cpp
+    /// For the organ of the open scan.
+    const OrganWords& organWords() const { return session_.scan()->files.words(); }
+    void useWords(const OrganWords& words);
+    void showPictureTip();
+
     // reading_looks.cpp
     void addLooks(QMenu* menu);
     void setAngle(double angle_deg);
@@ -182,6 +188,8 @@ private:
     PictureView *endoscopic_, *overview_;
     SliceView *transverse_, *coronal_, *sagittal_;
     QSplitter *columns_ = nullptr, *slices_ = nullptr;
+    QByteArray columns_on_one_;  // their widths, while two screens are used
+    static constexpr const char* kColumns = "window/columns";
     QTabWidget* lists_ = nullptr;
     QActionGroup* lights_ = nullptr;
     QWidget* side_ = nullptr;
@@ -196,6 +204,7 @@ private:
     FilmMaker* film_maker_ = nullptr;
     BesideView* beside_;
     QAction *compare_ = nullptr, *structure_ = nullptr, *two_screens_ = nullptr;
+    QAction *to_first_end_, *to_last_end_;
     QComboBox *scan_choice_, *window_choice_;
     QLabel *warning_, *notice_, *seen_text_;
     QTimer timer_, still_, poll_, keep_seen_;

@@ -95,7 +95,7 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
     addMarkers(overlay, scan, request, place.pose, lens, text_px);
     addLetters(overlay, area, place.pose.right(), -place.pose.up, text_px);
     addTriad(overlay, {4.2 * text_px, area.height - 4.2 * text_px}, 2.4 * text_px, place.pose, 0.9 * text_px);
-    auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), !scan.tree().empty());
+    auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), scan.words());
     OverlayText note;
     note.text = directionText(place.pose);
     if (request.look_at_mm)

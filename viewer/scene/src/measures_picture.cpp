@@ -154,9 +154,8 @@ Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Capt
     line.color = kMeanColor;
     line.text = text("%.1f mm", size.diameter_mm) + " in the best plane";
     std::vector<OverlayText> lines{line};
-    for (OverlayText& of : captionLines(caption, 0, 0))
-        if (lines.size() < 4)  // name, id and birth date, position and date
-            lines.push_back(of);
+    for (OverlayText& of : patientLines(caption))
+        lines.push_back(of);
     addLines(overlay, {0, 0, area.width * 0.46, area.height}, lines, text_px);
     paint(picture, overlay);
     return picture;

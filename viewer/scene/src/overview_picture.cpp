@@ -83,12 +83,11 @@ Picture drawn(const artefact::Projection& from, const PlaneView& view)
     return picture;
 }
 
-void addTips(Overlay& overlay, const Skeleton& skeleton, bool tree, const PlaneView& view, double text_px)
+void addTips(Overlay& overlay, const Skeleton& skeleton, const OrganWords& words, const PlaneView& view, double text_px)
 {
     const Pixel first = view.toPixel(skeleton.at(0).position_mm);
     const Pixel last = view.toPixel(skeleton.at(skeleton.length_mm()).position_mm);
-    for (const auto& [at, name] :
-         {std::pair{first, tree ? "root" : "rectum"}, std::pair{last, tree ? "tip" : "caecum"}}) {
+    for (const auto& [at, name] : {std::pair{first, words.first_end}, std::pair{last, words.last_end}}) {
         overlay.discs.push_back({at, 0.25 * text_px, kPathColor, 0});
         overlay.texts.push_back(
             {{at.x, at.y + 0.4 * text_px}, name, 0.9 * text_px, kPathColor, Across::centre, Along::top, 1e9});
@@ -191,14 +190,15 @@ OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& r
     const artefact::Projection& projection = scan.coronalProjection();
     OverviewGround ground;
     ground.header_px =
-        double(captionLines(request.caption, 0, 0).size()) * 1.35 * captionHeight(text_px) + 0.48 * text_px;
+        double(captionLines(request.caption, 0, 0, scan.words()).size()) * 1.35 * captionHeight(text_px) +
+        0.48 * text_px;
     ground.view = viewOfAll(projection, request.width, request.height, ground.header_px, 2.2 * text_px);
     ground.picture = drawn(projection, ground.view);
     Overlay overlay;
     const bool tree = !scan.tree().empty();
     const double words_px = wordsHeight(request);
     addSkeleton(overlay, tree ? scan.tree().allBranches() : scan.skeleton(), ground.view, std::max(1.5, words_px / 9));
-    addTips(overlay, scan.skeleton(), tree, ground.view, words_px);
+    addTips(overlay, scan.skeleton(), scan.words(), ground.view, words_px);
     addParts(overlay, scan.parts(), scan.skeleton(), ground.view, words_px);
     paint(ground.picture, overlay);
     return ground;
@@ -209,7 +209,7 @@ Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, con
 {
     const PlaneView& view = ground.view;
     const double text_px = wordsHeight(request);
-    const auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), !scan.tree().empty());
+    const auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), scan.words());
     Picture picture = ground.picture;
     Overlay overlay;
     const Area area{0, 0, double(request.width), double(request.height)};

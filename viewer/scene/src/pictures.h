@@ -12,9 +12,11 @@ namespace vicon::viewer {
 /// The place a request asks for and the eye for it.
 SnapshotResult placeOf(const PreparedScan& scan, const SnapshotRequest& request);
 
-/// The lines that every caption has: name, id and birth date, position and date, station, warnings.
-/// @param tree stations are of a tree: from its root and to the tip
-std::vector<OverlayText> captionLines(const Caption& caption, double station_mm, double length_mm, bool tree = false);
+/// Who is shown: name, id and birth date, position and date. What is not known has no line.
+std::vector<OverlayText> patientLines(const Caption& caption);
+/// The lines that every caption has: who is shown, station, warnings.
+std::vector<OverlayText> captionLines(const Caption& caption, double station_mm, double length_mm,
+                                      const OrganWords& words);
 
 /// What is written over an endoscopic picture; used by snapshots and flights alike.
 Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);

@@ -59,12 +59,25 @@ struct PreparedScan::Files {
     Lazy<artefact::Projection> coronal;
     Lazy<PathFrames> frames;
     Lazy<ColonPartRanges> parts;
+    Lazy<OrganWords> words;
     Lazy<std::unique_ptr<const DensityBricks>> bricks;
 
     fs::path at(const char* name) const
     {
         mustExist(folder / name);
         return folder / name;
+    }
+
+    /// scan.json; an empty object where there is none.
+    nlohmann::json description() const
+    {
+        const fs::path file = folder / "scan.json";
+        if (!fs::exists(file))
+            return nlohmann::json::object();
+        auto scan = nlohmann::json::parse(readFile(file), nullptr, false);
+        if (!scan.is_object())
+            throw Error(ErrorCode::bad_input, "is not the description of a scan", file.string(), "run 'vicon work'");
+        return scan;
     }
 };
 
@@ -164,15 +177,13 @@ const PathFrames& PreparedScan::frames() const
 
 const ColonPartRanges& PreparedScan::parts() const
 {
-    return files_->parts.get([&]() -> ColonPartRanges {
-        const fs::path file = folder() / "scan.json";
-        if (!fs::exists(file))
-            return {};
-        const auto scan = nlohmann::json::parse(readFile(file), nullptr, false);
-        if (!scan.is_object())
-            throw Error(ErrorCode::bad_input, "is not the description of a scan", file.string(), "run 'vicon work'");
-        return colonPartsFromJson(scan.value("parts", nlohmann::json::array()));
-    });
+    return files_->parts.get(
+        [&] { return colonPartsFromJson(files_->description().value("parts", nlohmann::json::array())); });
+}
+
+const OrganWords& PreparedScan::words() const
+{
+    return files_->words.get([&] { return wordsFor(files_->description().value("organ", "colon")); });
 }
 
 const DensityBricks& PreparedScan::bricks() const

@@ -117,7 +117,8 @@ Overlay structureOverlay(const CellVisibility& visibility, const SurfaceScene& s
                                              1.5,
                                              0});
     const double text_px = 0.8 * textHeightFor(lens.width, lens.height);
-    overlay.texts.push_back({{lens.width - text_px, lens.height - text_px},
+    constexpr double kAboveLetters = 2.6;  // in heights of the text
+    overlay.texts.push_back({{lens.width - text_px, lens.height - kAboveLetters * text_px},
                              drawnText(scene),
                              text_px,
                              kGateColor,

@@ -70,7 +70,7 @@ Picture captionPanel(const PreparedScan& scan, const SnapshotRequest& request, c
 {
     Picture picture(width, height, {10, 12, 16});
     Overlay overlay;
-    auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), !scan.tree().empty());
+    auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), scan.words());
     const WindowLevel window = windowPreset(request.window);
     OverlayText line;
     line.color = kTextColor;
@@ -115,9 +115,8 @@ Picture slicePicture(const PreparedScan& scan, const SliceRequest& request)
     line.color = kTextColor;
     line.text = titleOf(request.plane, view.centre_mm);
     std::vector<OverlayText> lines{line};
-    for (OverlayText& words : captionLines(request.caption, 0, 0))
-        if (lines.size() < 4)  // name, id and birth date, position and date
-            lines.push_back(words);
+    for (OverlayText& words : patientLines(request.caption))
+        lines.push_back(words);
     line.text = request.window.name + " " + std::to_string(std::lround(request.window.width_hu)) + " / " +
                 std::to_string(std::lround(request.window.level_hu)) + " HU";
     lines.push_back(line);

@@ -1,6 +1,5 @@
 #include "vicon/viewer/scene/snapshot.h"
 
-#include <array>
 #include <cmath>
 
 #include "pictures.h"
@@ -29,6 +28,14 @@ SnapshotRequest completed(SnapshotRequest request)
     if (!request.peel.empty())
         transferFunction(request.peel);
     return request;
+}
+
+OverlayText lineOf(const std::string& text, Rgb color)
+{
+    OverlayText line;
+    line.text = text;
+    line.color = color;
+    return line;
 }
 
 Picture pictureOf(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
@@ -78,32 +85,29 @@ SnapshotResult placeOf(const PreparedScan& scan, const SnapshotRequest& request)
     return {view.pose, station, view.clearance_mm, view.sees_target};
 }
 
-std::vector<OverlayText> captionLines(const Caption& caption, double station_mm, double length_mm, bool tree)
+std::vector<OverlayText> patientLines(const Caption& caption)
 {
     std::vector<OverlayText> lines;
-    const auto add = [&](const std::string& words, Rgb color) {
-        if (words.empty())
-            return;
-        OverlayText line;
-        line.text = words;
-        line.color = color;
-        lines.push_back(line);
-    };
     const auto joined = [](const std::string& a, const std::string& b) {
         return a.empty() || b.empty() ? a + b : a + "   " + b;
     };
     const std::string born = caption.birth_date.empty() ? "" : "born " + dateText(caption.birth_date);
     const std::string id = caption.patient_id.empty() ? "" : "ID " + caption.patient_id;
-    add(personName(caption.patient_name), kTextColor);
-    add(joined(id, born), kTextColor);
-    add(joined(caption.position, dateText(caption.study_date)), kTextColor);
-    const auto whole = [](double mm) { return std::to_string(std::lround(mm)); };
-    const std::array<std::string, 2> of_tree{whole(station_mm) + " mm from the root",
-                                             whole(length_mm - station_mm) + " mm from the tip"};
-    for (const std::string& words : tree ? of_tree : stationTexts(station_mm, length_mm))
-        add(words, kTextColor);
+    for (const std::string& text :
+         {personName(caption.patient_name), joined(id, born), joined(caption.position, dateText(caption.study_date))})
+        if (!text.empty())
+            lines.push_back(lineOf(text, kTextColor));
+    return lines;
+}
+
+std::vector<OverlayText> captionLines(const Caption& caption, double station_mm, double length_mm,
+                                      const OrganWords& words)
+{
+    std::vector<OverlayText> lines = patientLines(caption);
+    for (const std::string& text : stationTexts(station_mm, length_mm, words))
+        lines.push_back(lineOf(text, kTextColor));
     if (caption.lossy)
-        add("LOSSY COMPRESSION", kWarningColor);
+        lines.push_back(lineOf("LOSSY COMPRESSION", kWarningColor));
     return lines;
 }
 

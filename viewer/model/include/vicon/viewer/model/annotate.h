@@ -6,6 +6,7 @@
 
 #include "vicon/core/records.h"
 #include "vicon/core/skeleton.h"
+#include "vicon/viewer/model/organ_words.h"
 #include "vicon/viewer/model/overlay.h"
 
 namespace vicon::viewer {
@@ -47,7 +48,7 @@ void addSkeleton(Overlay& overlay, const Skeleton& skeleton, const PlaneView& vi
 void addHere(Overlay& overlay, const PlaneView& view, const Pose& pose, double size_px);
 
 /// "412 mm from the rectum (26 %)" and "1180 mm from the caecum".
-std::array<std::string, 2> stationTexts(double station_mm, double length_mm);
+std::array<std::string, 2> stationTexts(double station_mm, double length_mm, const OrganWords& words);
 
 /// Cuts UTF-8 text between words into lines of at most `most` characters; what does not fit into `lines` ends in "…".
 std::vector<std::string> wrapped(const std::string& text, std::size_t most, std::size_t lines);

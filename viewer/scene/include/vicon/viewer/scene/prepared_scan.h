@@ -12,6 +12,7 @@
 #include "vicon/core/volume_view.h"
 #include "vicon/viewer/model/density_bricks.h"
 #include "vicon/viewer/model/lumen.h"
+#include "vicon/viewer/model/organ_words.h"
 #include "vicon/viewer/model/path_frames.h"
 
 namespace vicon::viewer {
@@ -44,6 +45,7 @@ public:
     const artefact::Projection& coronalProjection() const;  ///< of projections/
     const PathFrames& frames() const;                       ///< of the skeleton
     const ColonPartRanges& parts() const;                   ///< of scan.json; empty where it knows none
+    const OrganWords& words() const;                        ///< for the organ that scan.json names
     const DensityBricks& bricks() const;                    ///< of the volume
     Lumen lumen() const;  ///< of inside and wallDistance; valid while this object lives
 

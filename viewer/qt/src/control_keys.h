@@ -1,0 +1,25 @@
+#pragma once
+
+#include <QObject>
+
+class QWidget;
+
+namespace vicon::viewer {
+
+/// Whose a key is, in a window where plain letters are commands. A control that got the keyboard by Tab keeps the keys
+/// that it understands; the mouse leaves the keyboard where it is, in the picture, and so does a number that was
+/// entered.
+class ControlKeys : public QObject {
+    Q_OBJECT
+public:
+    /// Of all controls that the window has by now. @param picture has the keyboard unless it is given to another
+    ControlKeys(QWidget* window, QWidget* picture);
+
+protected:
+    bool eventFilter(QObject* control, QEvent* event) override;
+
+private:
+    QWidget* picture_;
+};
+
+}  // namespace vicon::viewer
