@@ -112,7 +112,20 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     choose(1);
     EXPECT_TRUE(eventually([] { return the<QComboBox>("scan")->currentText().startsWith("prone"); }));
     press(window(), "markerRemove");
-    ASSERT_TRUE(eventually([&] { return stored().size() == 1; }));
+    ASSERT_TRUE(eventually([&] { return stored().size() == 1 && settled(); }));
+    // What is left moves into its row, and is not chosen by that.
+    choose(0);
+    ASSERT_TRUE(eventually([] { return the<QComboBox>("scan")->currentText().startsWith("supine") && settled(); }));
+    waitForScan();
+    click("endoscopic", middle("endoscopic") + QPoint(60, 90), Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([&] { return stored().size() == 2 && settled(); }));
+    choose(0);
+    key(Qt::Key_Delete);
+    ASSERT_TRUE(eventually([&] { return stored().size() == 1 && settled(); }));
+    EXPECT_FALSE(the<QPushButton>("markerRemove")->isEnabled());
+    key(Qt::Key_Delete);
+    settle();
+    EXPECT_EQ(stored().size(), 1U);
 }
 
 TEST_F(Reading, ASizeIsMeasuredBetweenTwoClicksAndKeptWithTheMarkerBesideIt)

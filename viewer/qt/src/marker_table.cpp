@@ -144,6 +144,7 @@ void MarkerTable::show(const std::vector<Marker>& markers, const std::map<std::s
     for (int column = 0; column < kNote; ++column)
         table_->resizeColumnToContents(column);
     filling_ = false;
+    table_->clearSelection();  // where the chosen marker is gone, the next one is in its row
     if (chosen)
         select(chosen->id);
     updateButtons();
