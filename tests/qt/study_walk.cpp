@@ -178,7 +178,7 @@ void StudyWalk::lookBelowTheWall()
     QTest::qWait(3 * kSettle_ms);  // the full picture takes longer than the first
     screenshot("peeled");
     peel->setFocus();
-    QTest::keyClick(peel, Qt::Key_Up);  // Home flies to the rectum
+    QTest::keyClick(peel, Qt::Key_Up);
     key(Qt::Key_Escape);
 }
 
