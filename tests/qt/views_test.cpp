@@ -1,3 +1,4 @@
+#include <QAction>
 #include <QComboBox>
 #include <QLabel>
 #include <QTableWidget>
@@ -56,6 +57,24 @@ TEST_F(Reading, SlicesProjectionAndPeelingFollowTheMouse)
         EXPECT_TRUE(eventually([&] { return circleIsAt(at); })) << at.x() << ", " << at.y();
     }
     screenshot("lens");
+}
+
+TEST_F(Reading, AmbientOcclusionChangesThePictureAndIsRemembered)
+{
+    openCase();
+    const QImage plain = pictureOf("endoscopic");
+    auto* occlusion = the<QAction>("ambientOcclusion");
+    EXPECT_FALSE(occlusion->isChecked());
+    occlusion->trigger();
+    ASSERT_TRUE(eventually([&] { return pictureOf("endoscopic") != plain; }));
+    screenshot("ambient_occlusion");
+    const QImage shaded = pictureOf("endoscopic");
+    closeCase();
+    openCase();
+    EXPECT_TRUE(the<QAction>("ambientOcclusion")->isChecked());
+    EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == shaded; }));
+    the<QAction>("ambientOcclusion")->trigger();
+    EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == plain; }));
 }
 
 TEST_F(Reading, WhatWasSeenIsCountedPaintedListedAndKept)

@@ -206,6 +206,32 @@ TEST_F(Snapshots, LookBelowTheWallInTheMiddleOnlyWhereAskedTo)
     EXPECT_THROW(shoot(scan(), request), Error);
 }
 
+TEST_F(Snapshots, WithAmbientOcclusionShadeWhatIsBesideAPolypAndLeaveItReadable)
+{
+    SnapshotRequest request;
+    request.look_at_mm = colon.polyp_mm;
+    request.width = request.height = 300;
+    const PreparedScan of = scan();
+    const Picture plain = shoot(of, request);
+    request.ambient_occlusion = true;
+    const Picture shaded = shoot(of, request);
+    int same = 0, darker = 0, too_dark = 0, brighter = 0, count = 0;
+    for (int y = 60; y < 240; ++y)  // between caption and indicator
+        for (int x = 60; x < 240; ++x) {
+            const int before = plain.at(x, y).red, after = shaded.at(x, y).red;
+            ++count;
+            brighter += after > before + 1 ? 1 : 0;
+            same += after > 0.95 * before ? 1 : 0;
+            darker += after < 0.85 * before ? 1 : 0;
+            too_dark += after < 0.33 * before - 2 ? 1 : 0;
+        }
+    EXPECT_EQ(brighter, 0);
+    EXPECT_EQ(too_dark, 0);
+    EXPECT_GT(darker, count / 50);
+    EXPECT_GT(same, count / 4);
+    EXPECT_GT(shaded.at(150, 150).red, 0.7 * plain.at(150, 150).red);  // the polyp's top
+}
+
 TEST_F(Snapshots, RefuseWhatCannotBeDrawn)
 {
     const PreparedScan of = scan();

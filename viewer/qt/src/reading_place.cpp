@@ -76,6 +76,7 @@ void ReadingWindow::saveLooks()
     settings.setValue("peel_mm", peeling_->offset_mm());
     settings.setValue("peel_circle", peeling_->circleOnly());
     settings.setValue("light_mm", lamp_reach_mm_);
+    settings.setValue("ambient_occlusion", occlusion_->isChecked());
     settings.setValue("paint", coverage_->paints());
     settings.setValue("list", lists_->currentIndex());
 }
@@ -100,6 +101,7 @@ void ReadingWindow::restoreLooks()
             light->setChecked(true);
             lamp_reach_mm_ = reach_mm;
         }
+    occlusion_->setChecked(settings.value("ambient_occlusion").toBool());
     coverage_->setPaints(settings.value("paint").toBool());
     lists_->setCurrentIndex(settings.value("list").toInt());
 }

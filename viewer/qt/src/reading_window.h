@@ -195,7 +195,7 @@ private:
     ColonPanel* colon_;
     FilmMaker* film_maker_ = nullptr;
     BesideView* beside_;
-    QAction *compare_ = nullptr, *structure_ = nullptr, *two_screens_ = nullptr;
+    QAction *compare_ = nullptr, *structure_ = nullptr, *occlusion_ = nullptr, *two_screens_ = nullptr;
     QComboBox *scan_choice_, *window_choice_;
     QLabel *warning_, *notice_, *seen_text_;
     QTimer timer_, still_, poll_, keep_seen_;
