@@ -7,7 +7,9 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/viewer/model/annotate.h"
+#include "vicon/viewer/model/slice_image.h"
 #include "vicon/viewer/scene/canvas.h"
+#include "vicon/viewer/scene/slice_pictures.h"
 
 namespace vicon::viewer {
 namespace {
@@ -230,6 +232,22 @@ TEST_F(Snapshots, WithAmbientOcclusionShadeWhatIsBesideAPolypAndLeaveItReadable)
     EXPECT_GT(darker, count / 50);
     EXPECT_GT(same, count / 4);
     EXPECT_GT(shaded.at(150, 150).red, 0.7 * plain.at(150, 150).red);  // the polyp's top
+}
+
+TEST_F(Snapshots, OfSlicesThatAreScrolledThroughAreThoseOfSingleSlices)
+{
+    const auto of = std::make_shared<const PreparedScan>(scan());
+    SlicePictures pictures;
+    SliceRequest request;
+    request.window = windowPreset("colon");
+    for (const SlicePlane plane : {SlicePlane::sagittal, SlicePlane::coronal})
+        for (const double x : {-40.0, -38.5, -37.0, -35.0, -33.0, 50.0, 49.0, 47.3, 20.0}) {  // scrolled, and jumps
+            request.plane = plane;
+            request.point_mm = {x, x / 2, 10};
+            request.view = sliceThrough(of->volume().grid, plane, request.point_mm, 220, 200);
+            EXPECT_EQ(differing(pictures.draw(of, request), slicePicture(of->volume(), request), 1), 0) << x;
+            pictures.readAhead();
+        }
 }
 
 TEST_F(Snapshots, RefuseWhatCannotBeDrawn)
