@@ -153,7 +153,7 @@ private:
     void addScreens(QMenu* menu);
     void setTwoScreens(bool on);
     void placeSecondWindow();
-    void saveSecondWindow() const;
+    void saveSecondWindow();
 
     // reading_looks.cpp
     void addLooks(QMenu* menu);
@@ -232,6 +232,7 @@ private:
     bool redone_ = false;                          // the scan that is being opened has a new skeleton
     bool fresh_ = false;                           // the scan was done again; its files are read anew
     Studio::Shown beside_shown_;
+    Worker settings_worker_{this};
     std::vector<Worker*> workers_;  // once the window is closed
     double view_angle_deg_ = 90;
     double lamp_reach_mm_ = kUsualLampReach_mm;
