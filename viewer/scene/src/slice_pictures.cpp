@@ -20,7 +20,8 @@ Picture SlicePictures::draw(const std::shared_ptr<const PreparedScan>& scan, con
 void SlicePictures::readAhead()
 {
     const auto scan = scan_.lock();
-    const bool scrolled = plane_ && earlier_plane_ && std::abs(*plane_ - *earlier_plane_) < SliceSlab::kPlanes / 2;
+    constexpr double kNear = SliceSlab::kPlanes / 2.0;  // a slab around the one holds the other
+    const bool scrolled = plane_ && earlier_plane_ && std::abs(*plane_ - *earlier_plane_) < kNear;
     if (scan && scrolled && !(slab_ && slab_->holds(*plane_)))
         slab_.emplace(scan->volume(), *plane_);
 }
