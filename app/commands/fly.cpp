@@ -108,6 +108,8 @@ Subcommand flyCommand()
             command.add_option("--angle", request.view_angle_deg, "Viewing angle, degrees")
                 ->check(CLI::Range(20, 150))
                 ->capture_default_str();
+            command.add_flag("--ambient-occlusion", request.ambient_occlusion,
+                             "Less light between folds and at the foot of what rises from the wall");
             command.add_flag("!--no-coverage", request.measure_coverage, "Do not measure what is seen (faster)");
             command.add_option("--unseen", request.least_unseen_mm2, "Least area of an unseen patch to be listed, mm2")
                 ->check(CLI::Range(0.0, 1e6))

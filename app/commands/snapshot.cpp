@@ -15,6 +15,7 @@ struct SnapshotArguments {
     bool at_station = false;
     int width = 0, height = 0;
     double angle_deg = 90;
+    bool ambient_occlusion = false;
     std::string window = "colon";
     std::string peel;
     double peel_offset_mm = 0;
@@ -47,6 +48,7 @@ int snapshot(Context& context, const SnapshotArguments& arguments)
     request.width = arguments.width;
     request.height = arguments.height;
     request.view_angle_deg = arguments.angle_deg;
+    request.ambient_occlusion = arguments.ambient_occlusion;
     request.window = arguments.window;
     request.peel = arguments.peel;
     request.peeling.offset_mm = arguments.peel_offset_mm;
@@ -102,6 +104,8 @@ Subcommand snapshotCommand()
             command.add_option("--angle", arguments->angle_deg, "Viewing angle of the endoscopic view, degrees")
                 ->check(CLI::Range(20, 150))
                 ->capture_default_str();
+            command.add_flag("--ambient-occlusion", arguments->ambient_occlusion,
+                             "Endoscopic view: less light between folds and at the foot of what rises from the wall");
             command.add_option("--window", arguments->window, "Window/level preset of the slices")
                 ->capture_default_str();
             auto* peel =

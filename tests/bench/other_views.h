@@ -21,7 +21,7 @@ public:
                 request.point_mm = view.pose.eye_mm;
                 request.pose = view.pose;
                 request.view = sliceThrough(scan_.volume().grid, plane, request.point_mm, kSide, kSide);
-                slicePicture(scan_, request);
+                slicePicture(scan_.volume(), request);
             }
         });
     }

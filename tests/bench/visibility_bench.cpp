@@ -67,6 +67,8 @@ struct Flight {
     std::vector<double> culled_s, all_s, choice_s, culled_cpu_s, all_cpu_s;
     std::vector<double> perfect_s;                    // drawing nothing but the triangles that are seen
     std::vector<double> views_culled_s, views_all_s;  // slices and overview with it
+    std::vector<double> even_cpu_s,
+        occluded_cpu_s;  // drawing the chosen part alone, without ambient occlusion and with
 };
 
 std::vector<ViewPose> posesOf(const PreparedScan& scan, double step_mm)
@@ -103,6 +105,16 @@ double secondsToDraw(const artefact::CellSurface& surface, const Pose& pose, con
     return picture.seconds();
 }
 
+double cpuSecondsToDraw(SurfaceScene& scene, Offscreen& picture, const Pose& pose, const SeenParts& shown,
+                        const Settings& settings)
+{
+    scene.lookFrom(pose, settings.angle_deg);
+    scene.showSeen(shown);
+    const double begin = cpuSeconds();
+    picture.draw(settings.side, settings.side);
+    return cpuSeconds() - begin;
+}
+
 Flight flyThrough(const PreparedScan& scan, const Settings& settings)
 {
     const artefact::CellSurface& surface = scan.cells();
@@ -111,6 +123,9 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
         ++triangles_of[s];
     SurfaceScene scene(surface);
     Offscreen picture(scene.renderer());
+    SurfaceScene occluded(surface);
+    occluded.shadeByOpenness(surface, scan.openness());
+    Offscreen occluded_picture(occluded.renderer());
     IdScene ids(surface);
     Offscreen id_picture(ids.renderer());
     const CellVisibility visibility(scan);
@@ -152,6 +167,8 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
         const double views_all = allViews(false);
         scene.showSeen(shown);
         const double views_culled = allViews(true);
+        const double even_cpu = cpuSecondsToDraw(scene, picture, view.pose, shown, settings);
+        const double occluded_cpu = cpuSecondsToDraw(occluded, occluded_picture, view.pose, shown, settings);
         ids.lookFrom(view.pose, settings.angle_deg);
         const auto seen = IdScene::trianglesIn(id_picture.render(settings.side, settings.side));
         std::set<int> seen_cells;
@@ -174,6 +191,8 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
             flight.all_cpu_s.push_back(cpu_all);
             flight.views_culled_s.push_back(views_culled);
             flight.views_all_s.push_back(views_all);
+            flight.even_cpu_s.push_back(even_cpu);
+            flight.occluded_cpu_s.push_back(occluded_cpu);
         }
     }
     return flight;
@@ -211,6 +230,8 @@ void print(const PreparedScan& scan, const Flight& f)
     std::printf("  all views together: %.1f / %.1f ms a frame (median / 95 %%), all drawn %.1f / %.1f, ratio %.2f\n",
                 1e3 * views, 1e3 * quantile(f.views_culled_s, 0.95), 1e3 * views_all,
                 1e3 * quantile(f.views_all_s, 0.95), views / views_all);
+    std::printf("  drawing alone: %.1f CPU ms a frame (median), with ambient occlusion %.1f\n",
+                1e3 * quantile(f.even_cpu_s, 0.5), 1e3 * quantile(f.occluded_cpu_s, 0.5));
 }
 
 std::vector<fs::path> scansIn(const fs::path& folder)

@@ -1,3 +1,4 @@
+#include <QAction>
 #include <QComboBox>
 #include <QLabel>
 #include <QTableWidget>
@@ -57,6 +58,24 @@ TEST_F(Reading, SlicesProjectionAndPeelingFollowTheMouse)
     }
     screenshot("lens");
     EXPECT_TRUE(the<QWidget>("endoscopic")->toolTip().isEmpty()) << "it would lie over what is peeled";
+}
+
+TEST_F(Reading, AmbientOcclusionChangesThePictureAndIsRemembered)
+{
+    openCase();
+    const QImage plain = pictureOf("endoscopic");
+    auto* occlusion = the<QAction>("ambientOcclusion");
+    EXPECT_FALSE(occlusion->isChecked());
+    occlusion->trigger();
+    ASSERT_TRUE(eventually([&] { return pictureOf("endoscopic") != plain; }));
+    screenshot("ambient_occlusion");
+    const QImage shaded = pictureOf("endoscopic");
+    closeCase();
+    openCase();
+    EXPECT_TRUE(the<QAction>("ambientOcclusion")->isChecked());
+    EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == shaded; }));
+    the<QAction>("ambientOcclusion")->trigger();
+    EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == plain; }));
 }
 
 TEST_F(Reading, WhatWasSeenIsCountedPaintedListedAndKept)

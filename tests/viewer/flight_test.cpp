@@ -60,6 +60,11 @@ TEST_F(Flights, CulledPicturesAreIdenticalToPicturesOfEverything)
     test::expectCulledPicturesIdentical(scan(), 25, 1);
 }
 
+TEST_F(Flights, CulledPicturesWithAmbientOcclusionAreIdenticalToPicturesOfEverything)
+{
+    test::expectCulledPicturesIdentical(scan(), 25, 1, 200, true);
+}
+
 TEST_F(Flights, ChoosingAheadGivesWhatChoosingAtOnceGives)
 {
     const PreparedScan of = scan();

@@ -10,9 +10,11 @@
 
 namespace vicon::viewer::test {
 
-void expectCulledPicturesIdentical(const PreparedScan& scan, int poses, unsigned seed, int side)
+void expectCulledPicturesIdentical(const PreparedScan& scan, int poses, unsigned seed, int side, bool ambient_occlusion)
 {
     SurfaceScene scene(scan.cells());
+    if (ambient_occlusion)
+        scene.shadeByOpenness(scan.cells(), scan.openness());
     Offscreen offscreen(scene.renderer());
     const CellVisibility visibility(scan);
     const InsideView& inside = scan.inside();

@@ -10,6 +10,7 @@
 #include "vicon/viewer/model/slice_image.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/reading_pictures.h"
+#include "vicon/viewer/scene/slice_pictures.h"
 
 namespace vicon::viewer {
 namespace {
@@ -223,6 +224,48 @@ TEST_F(Snapshots, LookBelowTheWallInTheMiddleOnlyWhereAskedTo)
     EXPECT_EQ(beyond, 0);
     request.peel = "no-such-preset";
     EXPECT_THROW(shoot(scan(), request), Error);
+}
+
+TEST_F(Snapshots, WithAmbientOcclusionShadeWhatIsBesideAPolypAndLeaveItReadable)
+{
+    SnapshotRequest request;
+    request.look_at_mm = colon.polyp_mm;
+    request.width = request.height = 300;
+    const PreparedScan of = scan();
+    const Picture plain = shoot(of, request);
+    request.ambient_occlusion = true;
+    const Picture shaded = shoot(of, request);
+    int same = 0, darker = 0, too_dark = 0, brighter = 0, count = 0;
+    for (int y = 60; y < 240; ++y)  // between caption and indicator
+        for (int x = 60; x < 240; ++x) {
+            const int before = plain.at(x, y).red, after = shaded.at(x, y).red;
+            ++count;
+            brighter += after > before + 1 ? 1 : 0;
+            same += after > 0.95 * before ? 1 : 0;
+            darker += after < 0.85 * before ? 1 : 0;
+            too_dark += after < 0.33 * before - 2 ? 1 : 0;
+        }
+    EXPECT_EQ(brighter, 0);
+    EXPECT_EQ(too_dark, 0);
+    EXPECT_GT(darker, count / 50);
+    EXPECT_GT(same, count / 4);
+    EXPECT_GT(shaded.at(150, 150).red, 0.7 * plain.at(150, 150).red);  // the polyp's top
+}
+
+TEST_F(Snapshots, OfSlicesThatAreScrolledThroughAreThoseOfSingleSlices)
+{
+    const auto of = std::make_shared<const PreparedScan>(scan());
+    SlicePictures pictures;
+    SliceRequest request;
+    request.window = windowPreset("colon");
+    for (const SlicePlane plane : {SlicePlane::sagittal, SlicePlane::coronal})
+        for (const double x : {-40.0, -38.5, -37.0, -35.0, -33.0, 50.0, 49.0, 47.3, 20.0}) {  // scrolled, and jumps
+            request.plane = plane;
+            request.point_mm = {x, x / 2, 10};
+            request.view = sliceThrough(of->volume().grid, plane, request.point_mm, 220, 200);
+            EXPECT_EQ(differing(pictures.draw(of, request), slicePicture(of->volume(), request), 1), 0) << x;
+            pictures.readAhead();
+        }
 }
 
 TEST_F(Snapshots, RefuseWhatCannotBeDrawn)

@@ -39,7 +39,10 @@ TEST(LongPrepared, AThousandCulledPicturesOfEachScanAreIdenticalToPicturesOfEver
 {
     VICON_NEEDS_DATA("ctc-prone");
     const Display display;
-    forEachPreparedScan([](const PreparedScan& scan) { test::expectCulledPicturesIdentical(scan, 1000, 7, 256); });
+    forEachPreparedScan([](const PreparedScan& scan) {
+        test::expectCulledPicturesIdentical(scan, 1000, 7, 256);
+        test::expectCulledPicturesIdentical(scan, 200, 8, 256, true);
+    });
 }
 
 // One test for all, as preparing the scans takes longer than the flights.

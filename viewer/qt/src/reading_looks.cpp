@@ -32,6 +32,10 @@ void ReadingWindow::addLooks(QMenu* menu)
             moved(true);
         });
     }
+    occlusion_ = menu->addAction(tr("Light: less between folds (ambient occlusion)"));
+    occlusion_->setObjectName("ambientOcclusion");
+    occlusion_->setCheckable(true);
+    connect(occlusion_, &QAction::toggled, this, [this] { moved(true); });
 }
 
 void ReadingWindow::setAngle(double angle_deg)
@@ -49,6 +53,7 @@ Studio::Wish ReadingWindow::wishFor(const OpenScan& scan, const NavigationState&
 {
     Studio::Wish wish;
     wish.request = request(scan, size);
+    wish.request.ambient_occlusion = occlusion_->isChecked();
     wish.place = {at.pose, at.station_mm, at.clearance_mm, true};
     wish.still = still;
     wish.paint_seen = paintsSeen();

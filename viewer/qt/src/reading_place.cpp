@@ -2,12 +2,12 @@
 #include <QAction>
 #include <QActionGroup>
 #include <QComboBox>
-#include <QSettings>
 #include <QSplitter>
 #include <QTabWidget>
 
 #include "beside_view.h"
 #include "coverage_panel.h"
+#include "kept_settings.h"
 #include "reading_window.h"
 
 namespace vicon::viewer {
@@ -24,15 +24,16 @@ void ReadingWindow::savePlace()
 {
     if (!navigator())
         return;
-    QSettings settings;
-    settings.beginGroup(groupOf(session_.record()));
-    settings.setValue("scan", QString::fromStdString(session_.scan()->record.id));
-    settings.setValue("angle_deg", view_angle_deg_);
-    settings.setValue("beside", compare_->isChecked());
-    settings.setValue("to_rectum", navigator()->heading() == Heading::rectum);
-    settings.setValue("speed_mm_s", navigator()->speed_mm_s());
-    settings.setValue("mode", int(navigator()->mode()));
-    settings.setValue(QString::fromStdString(session_.scan()->record.id), navigator()->state().station_mm);
+    const QString place = groupOf(session_.record()) + "/";
+    QVariantMap values;
+    values[place + "scan"] = QString::fromStdString(session_.scan()->record.id);
+    values[place + "angle_deg"] = view_angle_deg_;
+    values[place + "beside"] = compare_->isChecked();
+    values[place + "to_rectum"] = navigator()->heading() == Heading::rectum;
+    values[place + "speed_mm_s"] = navigator()->speed_mm_s();
+    values[place + "mode"] = int(navigator()->mode());
+    values[place + QString::fromStdString(session_.scan()->record.id)] = navigator()->state().station_mm;
+    keepSettings(settings_worker_, values);
 }
 
 void ReadingWindow::restorePlace()
@@ -47,60 +48,64 @@ void ReadingWindow::restorePlace()
         came_from_.reset();
         return;
     }
-    QSettings settings;
-    settings.beginGroup(groupOf(session_.record()));
-    compare_->setChecked(settings.value("beside").toBool());
-    setAngle(settings.value("angle_deg", view_angle_deg_).toDouble());
-    navigator()->setHeading(settings.value("to_rectum").toBool() ? Heading::rectum : Heading::caecum);
-    navigator()->setSpeed(settings.value("speed_mm_s", navigator()->speed_mm_s()).toDouble());
-    navigator()->jumpTo(settings.value(QString::fromStdString(session_.scan()->record.id), 0).toDouble());
-    const int mode = settings.value("mode").toInt();
+    const auto kept = [place = groupOf(session_.record()) + "/"](const QString& key, const QVariant& otherwise = {}) {
+        return keptSetting(place + key, otherwise);
+    };
+    compare_->setChecked(kept("beside").toBool());
+    setAngle(kept("angle_deg", view_angle_deg_).toDouble());
+    navigator()->setHeading(kept("to_rectum").toBool() ? Heading::rectum : Heading::caecum);
+    navigator()->setSpeed(kept("speed_mm_s", navigator()->speed_mm_s()).toDouble());
+    navigator()->jumpTo(kept(QString::fromStdString(session_.scan()->record.id), 0).toDouble());
+    const int mode = kept("mode").toInt();
     if (mode >= int(NavigationMode::planned) && mode <= int(NavigationMode::free))
         navigator()->setMode(NavigationMode(mode));
 }
 
 void ReadingWindow::saveLooks()
 {
-    QSettings settings;
+    QVariantMap values;
     // The screen and the hands are the reader's, whatever the case.
-    settings.setValue("window/geometry", saveGeometry());
-    settings.setValue(kColumns, second_ ? columns_on_one_ : columns_->saveState());
+    values["window/geometry"] = saveGeometry();
+    values[kColumns] = second_ ? columns_on_one_ : columns_->saveState();
     if (!second_)
-        settings.setValue("window/slices", slices_->saveState());
-    settings.setValue("window/two", two_screens_->isChecked());
+        values["window/slices"] = slices_->saveState();
+    values["window/two"] = two_screens_->isChecked();
     saveSecondWindow();
-    settings.beginGroup(groupOf(session_.record()));
-    settings.setValue("window_level", window_choice_->currentText());
-    settings.setValue("peel", peeling_->preset());
-    settings.setValue("peel_mm", peeling_->offset_mm());
-    settings.setValue("peel_circle", peeling_->circleOnly());
-    settings.setValue("light_mm", lamp_reach_mm_);
-    settings.setValue("paint", coverage_->paints());
-    settings.setValue("list", lists_->currentIndex());
+    const QString place = groupOf(session_.record()) + "/";
+    values[place + "window_level"] = window_choice_->currentText();
+    values[place + "peel"] = peeling_->preset();
+    values[place + "peel_mm"] = peeling_->offset_mm();
+    values[place + "peel_circle"] = peeling_->circleOnly();
+    values[place + "light_mm"] = lamp_reach_mm_;
+    values[place + "ambient_occlusion"] = occlusion_->isChecked();
+    values[place + "paint"] = coverage_->paints();
+    values[place + "list"] = lists_->currentIndex();
+    keepSettings(settings_worker_, values);
 }
 
 void ReadingWindow::restoreLooks()
 {
-    QSettings settings;
-    restoreGeometry(settings.value("window/geometry").toByteArray());
-    columns_->restoreState(settings.value(kColumns).toByteArray());
-    slices_->restoreState(settings.value("window/slices").toByteArray());
+    restoreGeometry(keptSetting("window/geometry").toByteArray());
+    columns_->restoreState(keptSetting(kColumns).toByteArray());
+    slices_->restoreState(keptSetting("window/slices").toByteArray());
     beside_->hide();  // shown when its scan is there
-    two_screens_->setChecked(settings.value("window/two").toBool());
-    settings.beginGroup(groupOf(session_.record()));
-    const int level = window_choice_->findText(settings.value("window_level").toString());
+    two_screens_->setChecked(keptSetting("window/two").toBool());
+    const auto kept = [place = groupOf(session_.record()) + "/"](const QString& key, const QVariant& otherwise = {}) {
+        return keptSetting(place + key, otherwise);
+    };
+    const int level = window_choice_->findText(kept("window_level").toString());
     if (level >= 0)
         window_choice_->setCurrentIndex(level);
-    peeling_->choose(settings.value("peel").toString(), settings.value("peel_mm").toDouble(),
-                     settings.value("peel_circle").toBool());
-    const double reach_mm = settings.value("light_mm", lamp_reach_mm_).toDouble();
+    peeling_->choose(kept("peel").toString(), kept("peel_mm").toDouble(), kept("peel_circle").toBool());
+    const double reach_mm = kept("light_mm", lamp_reach_mm_).toDouble();
     for (QAction* light : lights_->actions())
         if (light->data().toDouble() == reach_mm) {
             light->setChecked(true);
             lamp_reach_mm_ = reach_mm;
         }
-    coverage_->setPaints(settings.value("paint").toBool());
-    lists_->setCurrentIndex(settings.value("list").toInt());
+    occlusion_->setChecked(kept("ambient_occlusion").toBool());
+    coverage_->setPaints(kept("paint").toBool());
+    lists_->setCurrentIndex(kept("list").toInt());
 }
 
 }  // namespace vicon::viewer

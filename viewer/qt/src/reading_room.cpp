@@ -13,7 +13,7 @@ namespace vicon::viewer {
 
 std::unique_ptr<QWidget> makeReadingRoom(const ReadingServices& services, const std::string& case_id)
 {
-    applyTheme(*qobject_cast<QApplication*>(QCoreApplication::instance()));
+    applyTheme();
     return std::make_unique<WorklistWindow>(services, case_id);
 }
 

@@ -4,9 +4,9 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QScreen>
-#include <QSettings>
 #include <QVBoxLayout>
 
+#include "kept_settings.h"
 #include "reading_window.h"
 #include "second_window.h"
 
@@ -65,7 +65,7 @@ void ReadingWindow::setTwoScreens(bool on)
 /// Where it was, else on the screen that the main window is not on.
 void ReadingWindow::placeSecondWindow()
 {
-    if (second_->restoreGeometry(QSettings().value(kGeometry).toByteArray()))
+    if (second_->restoreGeometry(keptSetting(kGeometry).toByteArray()))
         return;
     second_->resize(size());
     for (const QScreen* other : QGuiApplication::screens())
@@ -75,10 +75,10 @@ void ReadingWindow::placeSecondWindow()
         }
 }
 
-void ReadingWindow::saveSecondWindow() const
+void ReadingWindow::saveSecondWindow()
 {
     if (second_)
-        QSettings().setValue(kGeometry, second_->saveGeometry());
+        keepSettings(settings_worker_, {{kGeometry, second_->saveGeometry()}});
 }
 
 }  // namespace vicon::viewer

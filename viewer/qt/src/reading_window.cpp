@@ -5,12 +5,12 @@
 #include <QComboBox>
 #include <QKeyEvent>
 #include <QLabel>
-#include <QSettings>
 #include <QStatusBar>
 #include <algorithm>
 #include <utility>
 
 #include "control_keys.h"
+#include "kept_settings.h"
 #include "second_window.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/window_level.h"
@@ -40,9 +40,7 @@ ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistRow&
         warn(tr("No scan of this case can be read yet."));
         return;
     }
-    QSettings settings;
-    const int known =
-        scan_choice_->findData(settings.value("place/" + QString::fromStdString(row.record.id) + "/scan"));
+    const int known = scan_choice_->findData(keptSetting("place/" + QString::fromStdString(row.record.id) + "/scan"));
     scan_choice_->setCurrentIndex(std::max(0, known));
     restoreLooks();
     openScan(scan_choice_->currentData().toString().toStdString(), false);

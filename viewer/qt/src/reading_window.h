@@ -153,7 +153,7 @@ private:
     void addScreens(QMenu* menu);
     void setTwoScreens(bool on);
     void placeSecondWindow();
-    void saveSecondWindow() const;
+    void saveSecondWindow();
 
     // reading_words.cpp
     /// For the organ of the open scan.
@@ -203,7 +203,7 @@ private:
     ColonPanel* colon_;
     FilmMaker* film_maker_ = nullptr;
     BesideView* beside_;
-    QAction *compare_ = nullptr, *structure_ = nullptr, *two_screens_ = nullptr;
+    QAction *compare_ = nullptr, *structure_ = nullptr, *occlusion_ = nullptr, *two_screens_ = nullptr;
     QAction *to_first_end_, *to_last_end_;
     QComboBox *scan_choice_, *window_choice_;
     QLabel *warning_, *notice_, *seen_text_;
@@ -241,6 +241,7 @@ private:
     bool redone_ = false;                          // the scan that is being opened has a new skeleton
     bool fresh_ = false;                           // the scan was done again; its files are read anew
     Studio::Shown beside_shown_;
+    Worker settings_worker_{this};
     std::vector<Worker*> workers_;  // once the window is closed
     double view_angle_deg_ = 90;
     double lamp_reach_mm_ = kUsualLampReach_mm;

@@ -80,7 +80,12 @@ void SliceView::draw()
     view.centre_mm += pan_mm_;
     shown_ = request_.view = view;
     worker_.post("slice", [this, scan = scan_, request = request_]() -> Worker::Work {
-        auto picture = std::make_shared<Picture>(slicePicture(scan->files, request));
+        const std::shared_ptr<const PreparedScan> files(scan, &scan->files);
+        auto picture = std::make_shared<Picture>(pictures_.draw(files, request));
+        worker_.post("next slices", [this]() -> Worker::Work {
+            pictures_.readAhead();
+            return {};
+        });
         return [this, picture] { showPicture(*picture); };
     });
 }

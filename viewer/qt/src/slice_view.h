@@ -4,7 +4,7 @@
 
 #include "case_session.h"
 #include "picture_view.h"
-#include "vicon/viewer/scene/reading_pictures.h"
+#include "vicon/viewer/scene/slice_pictures.h"
 #include "worker.h"
 
 namespace vicon::viewer {
@@ -37,6 +37,7 @@ private:
     Vector3 pan_mm_;  // of the picture's middle from the point, across the plane as well
     double zoom_ = 1;
     PlaneView shown_;
+    SlicePictures pictures_;  // the worker's
     Worker worker_{this};
 };
 

@@ -1,10 +1,8 @@
 #pragma once
 
-class QApplication;
-
 namespace vicon::viewer {
 
-/// Dark colours for a dim room.
-void applyTheme(QApplication& application);
+/// Dark colours for a dim room, for all windows of the application that runs.
+void applyTheme();
 
 }  // namespace vicon::viewer

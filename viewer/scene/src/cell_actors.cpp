@@ -1,6 +1,7 @@
 #include "cell_actors.h"
 
 #include <vtkCellArray.h>
+#include <vtkDataObject.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkOpenGLVertexBufferObject.h>
@@ -15,33 +16,45 @@ namespace {
 
 constexpr double kFar_mm = 2000;  // longer than any line of sight in a body
 
-vtkSmartPointer<vtkFloatArray> gathered(const std::vector<float>& values, const std::vector<std::uint32_t>& points)
+constexpr const char* kOpenness = "openness";
+
+vtkSmartPointer<vtkFloatArray> gathered(const std::vector<float>& values, const std::vector<std::uint32_t>& points,
+                                        std::size_t components = 3)
 {
     auto array = vtkSmartPointer<vtkFloatArray>::New();
-    array->SetNumberOfComponents(3);
+    array->SetNumberOfComponents(int(components));
     array->SetNumberOfTuples(vtkIdType(points.size()));
     float* out = array->GetPointer(0);
     for (const std::uint32_t p : points)
-        out = std::copy_n(values.data() + std::size_t(p) * 3, 3, out);
+        out = std::copy_n(values.data() + std::size_t(p) * components, components, out);
     return array;
 }
 
-vtkSmartPointer<vtkPolyData> cellData(const artefact::CellSurface& surface, const CellActor& cell,
-                                      std::vector<std::uint32_t>& number_of)
+/// The surface's points that a cell holds, in the order in which its triangles first name them.
+std::vector<std::uint32_t> pointsOf(const artefact::CellSurface& surface, const CellActor& cell,
+                                    std::vector<std::uint32_t>& number_of)
 {
     std::vector<std::uint32_t> points;
-    vtkNew<vtkTypeInt32Array> corners, offsets;
-    const auto triangles = vtkIdType(cell.triangles);
-    corners->SetNumberOfValues(triangles * 3);
-    offsets->SetNumberOfValues(triangles + 1);
     for (std::size_t n = 0; n < 3 * cell.triangles; ++n) {
         const std::uint32_t p = surface.triangles[3 * cell.first_triangle + n];
         if (number_of[p] >= points.size() || points[number_of[p]] != p) {
             number_of[p] = std::uint32_t(points.size());
             points.push_back(p);
         }
-        corners->SetValue(vtkIdType(n), int(number_of[p]));
     }
+    return points;
+}
+
+vtkSmartPointer<vtkPolyData> cellData(const artefact::CellSurface& surface, const CellActor& cell,
+                                      std::vector<std::uint32_t>& number_of)
+{
+    const std::vector<std::uint32_t> points = pointsOf(surface, cell, number_of);
+    vtkNew<vtkTypeInt32Array> corners, offsets;
+    const auto triangles = vtkIdType(cell.triangles);
+    corners->SetNumberOfValues(triangles * 3);
+    offsets->SetNumberOfValues(triangles + 1);
+    for (std::size_t n = 0; n < 3 * cell.triangles; ++n)
+        corners->SetValue(vtkIdType(n), int(number_of[surface.triangles[3 * cell.first_triangle + n]]));
     for (std::size_t n = 0; n <= cell.triangles; ++n)
         offsets->SetValue(vtkIdType(n), int(3 * n));
     auto data = vtkSmartPointer<vtkPolyData>::New();
@@ -118,6 +131,18 @@ void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patche
         }
         cell.actor->SetVisibility(!runs.empty());
         cell.mapper->drawOnly(std::move(runs));
+    }
+}
+
+void addOpenness(std::vector<CellActor>& cells, const artefact::CellSurface& surface,
+                 const std::vector<float>& openness)
+{
+    std::vector<std::uint32_t> number_of(surface.pointCount(), 0);
+    for (CellActor& cell : cells) {
+        const auto values = gathered(openness, pointsOf(surface, cell, number_of), 1);
+        values->SetName(kOpenness);
+        cell.data->GetPointData()->AddArray(values);
+        cell.mapper->MapDataArrayToVertexAttribute(kOpenness, kOpenness, vtkDataObject::FIELD_ASSOCIATION_POINTS);
     }
 }
 

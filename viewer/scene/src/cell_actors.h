@@ -37,6 +37,11 @@ void showOnly(std::vector<CellActor>& cells, const std::vector<int>& segments);
 void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patches,
                  const std::vector<std::uint8_t>& shown);
 
+/// Gives each corner of a triangle how open the wall is there, of opennessOf() for the same surface: the shader's
+/// attribute `openness`.
+void addOpenness(std::vector<CellActor>& cells, const artefact::CellSurface& surface,
+                 const std::vector<float>& openness);
+
 void placeCamera(vtkCamera* camera, const Pose& pose, double view_angle_deg);
 
 }  // namespace vicon::viewer

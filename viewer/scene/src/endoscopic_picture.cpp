@@ -121,6 +121,8 @@ Picture endoscopicPicture(const PreparedScan& scan, const SnapshotRequest& reque
 {
     SurfaceScene scene(scan.cells());
     scene.lookFrom(place.pose, request.view_angle_deg);
+    if (request.ambient_occlusion)
+        scene.shadeByOpenness(scan.cells(), scan.openness());
     Offscreen offscreen(scene.renderer());
     Picture picture = offscreen.render(request.width, request.height, kSmooth);
     finishEndoscopic(picture, scan, request, place);

@@ -58,6 +58,8 @@ struct Studio {
           offscreen(scene.renderer()),
           coverage(triangleAreas_mm2(s.cells().points_mm, s.cells().triangles))
     {
+        if (request.ambient_occlusion)
+            scene.shadeByOpenness(s.cells(), s.openness());
         if (request.measure_coverage) {
             ids.emplace(s.cells());
             ids_offscreen.emplace(ids->renderer());

@@ -9,6 +9,7 @@
 #include "vicon/artefact/stored_volume.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/viewer/model/openness.h"
 
 namespace fs = std::filesystem;
 
@@ -61,6 +62,7 @@ struct PreparedScan::Files {
     Lazy<ColonPartRanges> parts;
     Lazy<OrganWords> words;
     Lazy<std::unique_ptr<const DensityBricks>> bricks;
+    Lazy<std::vector<float>> openness;
 
     fs::path at(const char* name) const
     {
@@ -189,6 +191,11 @@ const OrganWords& PreparedScan::words() const
 const DensityBricks& PreparedScan::bricks() const
 {
     return *files_->bricks.get([&] { return std::make_unique<const DensityBricks>(volume()); });
+}
+
+const std::vector<float>& PreparedScan::openness() const
+{
+    return files_->openness.get([&] { return opennessOf(cells().points_mm, cells().normals, lumen()); });
 }
 
 Lumen PreparedScan::lumen() const

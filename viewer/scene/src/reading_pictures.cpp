@@ -27,7 +27,7 @@ struct ReadingPictures::Parts {
     };
     std::optional<Shown> shown;
     PeelingPace pace;
-    bool cells_colored = false;
+    bool cells_colored = false, occluded = false;
     double lamp_reach_mm = kUsualLampReach_mm;
     std::optional<SeenWall> seen_wall;  // made when it is first asked for
 
@@ -67,8 +67,13 @@ struct ReadingPictures::Parts {
         return picture;
     }
 
-    void setLook(bool color_cells, double reach_mm)
+    void setLook(bool color_cells, double reach_mm, bool ambient_occlusion)
     {
+        if (occluded != ambient_occlusion && ambient_occlusion)
+            scene.shadeByOpenness(scan.cells(), scan.openness());
+        else if (occluded != ambient_occlusion)
+            scene.shadeEvenly();
+        occluded = ambient_occlusion;
         if (cells_colored != color_cells)
             scene.colorCells(color_cells);
         if (lamp_reach_mm != reach_mm)
@@ -144,7 +149,7 @@ Picture ReadingPictures::endoscopic(const SnapshotRequest& request, const Snapsh
     Parts& p = *parts_;
     const Lens lens{request.view_angle_deg, request.width, request.height};
     p.shown = Parts::Shown{p.visibility->seenFrom(place.pose, lens), place.pose, lens};
-    p.setLook(look.structure, look.lamp_reach_mm);
+    p.setLook(look.structure, look.lamp_reach_mm, request.ambient_occlusion);
     p.scene.showSeen(p.shown->parts);
     p.scene.lookFrom(place.pose, request.view_angle_deg);
     const bool only_peeled = !request.peel.empty() && !request.peel_middle_only;  // then nothing of the wall is left

@@ -96,10 +96,10 @@ Picture captionPanel(const PreparedScan& scan, const SnapshotRequest& request, c
 
 }  // namespace
 
-Picture slicePicture(const PreparedScan& scan, const SliceRequest& request)
+Picture slicePicture(const HuView& volume, const SliceRequest& request)
 {
     const PlaneView& view = request.view;
-    Picture picture = greyPicture(scan.volume(), view, request.window);
+    Picture picture = greyPicture(volume, view, request.window);
     Overlay overlay;
     const Area area{0, 0, double(view.width), double(view.height)};
     const double text_px = textHeightFor(view.width, view.height) * 1.15;

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "cell_actors.h"
 
@@ -20,6 +21,10 @@ namespace {
 constexpr double kLampReach_mm = 45;
 constexpr std::array kMucosa{0.93, 0.66, 0.56};
 
+// What light is left where the wall is least open. Chosen by eye: clefts and the feet of folds and polyps stand out,
+// and nothing in them is too dark to read.
+constexpr double kClosedLight = 0.35;
+
 // A lamp at the eye. Light fades with the distance, so that depth is seen; a wall seen flat keeps some light, as from
 // the walls around it, so that the far side of a fold's edge is not a black rim. Written in place of VTK's light loop,
 // whose variables it uses: vertexVC and normalVCVSOutput are in the eye's frame.
@@ -30,8 +35,25 @@ constexpr const char* kLampShader = R"(
   float fade = 1.0 / (1.0 + lampDistance * lampDistance / (lampReach * lampReach));
   float shine = 0.10 * pow(facing, 40.0);
   vec3 lit = diffuseColor * (0.16 + 0.84 * facing) * fade * 1.12 + vec3(shine * fade);
-  gl_FragData[0] = vec4(lit, opacity);
+  gl_FragData[0] = vec4(lit * openLight, opacity);
 )";
+
+void replaceLamp(vtkShaderProperty* shader, bool by_openness)
+{
+    const auto keep = [](const std::string& place, const std::string& more) { return place + "\n" + more; };
+    const std::string names = "//VTK::PositionVC::Dec", values = "//VTK::PositionVC::Impl";
+    shader->ClearAllShaderReplacements();
+    std::string light = "1.0";
+    if (by_openness) {
+        light = "mix(" + std::to_string(kClosedLight) + ", 1.0, opennessVSOutput * opennessVSOutput)";
+        shader->AddVertexShaderReplacement(names, true, keep(names, "in float openness; out float opennessVSOutput;"),
+                                           false);
+        shader->AddVertexShaderReplacement(values, true, keep(values, "  opennessVSOutput = openness;"), false);
+        shader->AddFragmentShaderReplacement(names, true, keep(names, "in float opennessVSOutput;"), false);
+    }
+    shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, "  float openLight = " + light + ";" + kLampShader,
+                                         false);
+}
 
 std::array<double, 3> cellColor(int segment)
 {
@@ -49,7 +71,7 @@ struct SurfaceScene::Parts {
     vtkNew<vtkRenderer> renderer;
     vtkNew<vtkLight> lamp;
     double lamp_reach_mm = kLampReach_mm;
-    bool color_cells = false;
+    bool color_cells = false, has_openness = false, by_openness = false;
 
     void setMaterial() const
     {
@@ -68,8 +90,7 @@ struct SurfaceScene::Parts {
         lamp->SetLightTypeToHeadlight();
         for (const CellActor& cell : cells) {
             vtkShaderProperty* shader = cell.actor->GetShaderProperty();
-            shader->ClearAllFragmentShaderReplacements();
-            shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, kLampShader, false);
+            replaceLamp(shader, by_openness);
             shader->GetFragmentCustomUniforms()->SetUniformf("lampReach", float(lamp_reach_mm));
         }
     }
@@ -127,6 +148,20 @@ void SurfaceScene::colorCells(bool on)
 void SurfaceScene::setLampReach(double half_mm)
 {
     parts_->lamp_reach_mm = half_mm;
+    parts_->setLamp();
+}
+
+void SurfaceScene::shadeByOpenness(const artefact::CellSurface& surface, const std::vector<float>& openness)
+{
+    if (!parts_->has_openness)
+        addOpenness(parts_->cells, surface, openness);
+    parts_->has_openness = parts_->by_openness = true;
+    parts_->setLamp();
+}
+
+void SurfaceScene::shadeEvenly()
+{
+    parts_->by_openness = false;
     parts_->setLamp();
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "vicon/artefact/cells_file.h"
 #include "vicon/artefact/projections_file.h"
@@ -47,6 +48,7 @@ public:
     const ColonPartRanges& parts() const;                   ///< of scan.json; empty where it knows none
     const OrganWords& words() const;                        ///< for the organ that scan.json names
     const DensityBricks& bricks() const;                    ///< of the volume
+    const std::vector<float>& openness() const;             ///< of the points of cells(), see opennessOf()
     Lumen lumen() const;  ///< of inside and wallDistance; valid while this object lives
 
 private:

@@ -22,7 +22,7 @@ struct SliceRequest {
     Caption caption;
 };
 /// Needs no display.
-Picture slicePicture(const PreparedScan& scan, const SliceRequest& request);
+Picture slicePicture(const HuView& volume, const SliceRequest& request);
 
 /// How far the lamp at the eye reaches unless asked otherwise: where it has lost half of its strength.
 constexpr double kUsualLampReach_mm = 45;

@@ -35,6 +35,12 @@ public:
     void colorCells(bool on);
     /// How far the lamp reaches: the distance at which it has lost half of its strength.
     void setLampReach(double half_mm);
+    /// Ambient occlusion: the less open the lumen is before the wall, the less light. Costs a frame next to nothing.
+    /// @param surface that this scene was made from
+    /// @param openness of opennessOf() for it
+    void shadeByOpenness(const artefact::CellSurface& surface, const std::vector<float>& openness);
+    /// Without ambient occlusion, as at the beginning.
+    void shadeEvenly();
 
     std::size_t cellCount() const;
     std::size_t triangleCount() const;
