@@ -224,7 +224,7 @@ const std::vector<Step>& stepTable()
     static const std::vector<Step> kTable = {
         {"resample", 2, 0, 0.3, {}, always({"volume.mha"}), parametersFrom<ResampleOptions>, runResample},
         {"segment",
-         11,
+         12,
          0.3,
          0.55,
          {"resample"},
@@ -232,7 +232,7 @@ const std::vector<Step>& stepTable()
          parametersByOrgan<SegmentOptions, OrganOptions>,
          runSegment},
         {"skeleton",
-         7,
+         8,
          0.55,
          0.65,
          {"segment"},

@@ -18,7 +18,7 @@
 namespace vicon::test {
 namespace {
 
-constexpr std::uint64_t kFirstSeed = 201;
+constexpr std::uint64_t kFirstSeed = 231;
 constexpr int kStudies = 20;
 
 struct Figures {

@@ -20,7 +20,10 @@ constexpr double kMargin_mm = 25;     // of that grid around the two tips
 constexpr double kReach_mm = 40;      // lumen farther from the tips is no part of the way
 constexpr double kCordRadius_mm = 8;  // no collapsed bowel is thicker: larger organs are no better than it
 constexpr double kFatCost = 64;  // per millimetre; soft tissue of 8 mm and more costs 1: fat is crossed only in need
-constexpr double kBarredCost = 256;   // bone, air
+constexpr double kBarredCost = 256;  // bone, air
+// Of a way in the lumen that is to be left: it may be left anywhere, but not for a neighbour through thin walls. With 1
+// a tip beside the body's wall is joined along that wall's muscle (phantom 247, by up to 30 mm aside of the bowel).
+constexpr double kLumenShare = 0.5;
 constexpr double kSmoothing_mm = 3;   // of the chain of voxels
 constexpr std::ptrdiff_t kLead = 15;  // mm of the chain in the lumen on either side, centred with what joins them
 
@@ -131,7 +134,8 @@ double costOf(const Cord& cord, std::size_t n)
     if (cord.cells[n] == kBarred)
         return kBarredCost;
     const double depth = std::min(double(cord.depth_mm.voxels[n]), kCordRadius_mm);
-    return depth > 0 ? std::min(kFatCost, std::pow(kCordRadius_mm / depth, 2)) : kFatCost;
+    const double share = cord.cells[n] == kSoft ? 1 : kLumenShare;
+    return depth > 0 ? share * std::min(kFatCost, std::pow(kCordRadius_mm / depth, 2)) : kFatCost;
 }
 
 /// The cheapest chain of cells between two points.

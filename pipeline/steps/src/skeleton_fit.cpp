@@ -13,31 +13,69 @@ constexpr double kLeastSpread_mm = 0.5;  // of noise and haustra
 constexpr double kStartQuantile = 0.6;   // of the radii: of the wall between folds
 constexpr int kRounds = 6;
 
-constexpr std::size_t kTerms = 12;
+// Each term is a power of the station times a wave of the angle: 1, cos t, sin t, cos 2 t, sin 2 t, cos 3 t, sin 3 t.
+constexpr std::size_t kWaves = 7, kPowers = 5, kTerms = 15;
+using Waves = std::array<double, kWaves>;
 using Terms = std::array<double, kTerms>;
+using Matrix = std::array<Terms, kTerms>;
 
-struct Row {
-    Terms terms{};
-    double radius_mm = 0;
-    double share = 0;  ///< of the stretch's weight, which fades outwards
+struct Term {
+    std::size_t wave = 0, power = 0;
 };
+constexpr std::array<Term, kTerms> kTerm{{{0, 0},
+                                          {0, 1},
+                                          {0, 2},
+                                          {0, 3},
+                                          {0, 4},
+                                          {1, 0},
+                                          {1, 1},
+                                          {1, 2},
+                                          {2, 0},
+                                          {2, 1},
+                                          {2, 2},
+                                          {3, 0},
+                                          {4, 0},
+                                          {5, 0},
+                                          {6, 0}}};
 
-std::vector<Row> rowsOf(const std::vector<WallPoint>& wall)
+std::vector<Waves> wavesOf(std::size_t rays)
 {
-    std::vector<Row> rows;
-    rows.reserve(wall.size());
-    for (const WallPoint& p : wall) {
-        const double s = p.along, c = std::cos(p.angle), d = std::sin(p.angle);
-        rows.push_back({{1, s, c, s * c, s * s * c, d, s * d, s * s * d, c * c - d * d, 2 * c * d, c * (4 * c * c - 3),
-                         d * (3 - 4 * d * d)},
-                        p.radius_mm,
-                        std::pow(std::max(0.0, 1 - std::abs(s * s * s)), 3)});
+    std::vector<Waves> waves(rays);
+    for (std::size_t n = 0; n < rays; ++n) {
+        const double t = 2 * std::numbers::pi * double(n) / double(rays);
+        waves[n] = {1, std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t), std::cos(3 * t), std::sin(3 * t)};
     }
-    return rows;
+    return waves;
+}
+
+std::array<double, kPowers> powersOf(double along)
+{
+    std::array<double, kPowers> powers{1};
+    for (std::size_t n = 1; n < kPowers; ++n)
+        powers[n] = powers[n - 1] * along;
+    return powers;
+}
+
+/// What the fit says of one ring: the factor of each wave there.
+Waves onRing(const Terms& fit, double along)
+{
+    const auto powers = powersOf(along);
+    Waves waves{};
+    for (std::size_t n = 0; n < kTerms; ++n)
+        waves[kTerm[n].wave] += fit[n] * powers[kTerm[n].power];
+    return waves;
+}
+
+double dotOf(const Waves& a, const Waves& b)
+{
+    double sum = 0;
+    for (std::size_t n = 0; n < kWaves; ++n)
+        sum += a[n] * b[n];
+    return sum;
 }
 
 /// Solves the normal equations by Cholesky's method. The small ridge decides what the wall leaves open.
-Terms solved(std::array<Terms, kTerms>& m, Terms right)
+Terms solved(Matrix& m, Terms right)
 {
     double trace = 0;
     for (std::size_t n = 0; n < kTerms; ++n)
@@ -64,26 +102,31 @@ Terms solved(std::array<Terms, kTerms>& m, Terms right)
     return right;
 }
 
-double valueOf(const Terms& fit, const Terms& at)
+/// The least squares' fit. Waves are summed up ring by ring, as all of a ring's points have the same powers.
+Terms fitOnce(const std::vector<WallRing>& wall, const std::vector<Waves>& waves, const std::vector<double>& weights)
 {
-    double sum = 0;
-    for (std::size_t n = 0; n < kTerms; ++n)
-        sum += fit[n] * at[n];
-    return sum;
-}
-
-Terms fitOnce(const std::vector<Row>& wall, const std::vector<double>& weights)
-{
-    std::array<Terms, kTerms> matrix{};
+    Matrix matrix{};
     Terms right{};
     for (std::size_t n = 0; n < wall.size(); ++n) {
-        if (weights[n] <= 0)
-            continue;
-        for (std::size_t r = 0; r < kTerms; ++r) {
-            const double weighted = weights[n] * wall[n].terms[r];
-            right[r] += weighted * wall[n].radius_mm;
-            for (std::size_t c = 0; c <= r; ++c)
-                matrix[r][c] += weighted * wall[n].terms[c];
+        std::array<Waves, kWaves> of_waves{};
+        Waves of_radii{};
+        for (std::size_t r = 0; r < waves.size(); ++r) {
+            const double weight = weights[n * waves.size() + r];
+            if (weight <= 0)
+                continue;
+            for (std::size_t a = 0; a < kWaves; ++a) {
+                const double weighted = weight * waves[r][a];
+                of_radii[a] += weighted * wall[n].radii_mm[r];
+                for (std::size_t b = 0; b <= a; ++b)
+                    of_waves[a][b] += weighted * waves[r][b];
+            }
+        }
+        const auto powers = powersOf(wall[n].along);
+        for (std::size_t a = 0; a < kTerms; ++a) {
+            right[a] += powers[kTerm[a].power] * of_radii[kTerm[a].wave];
+            for (std::size_t b = 0; b <= a; ++b)
+                matrix[a][b] +=
+                    powers[kTerm[a].power] * powers[kTerm[b].power] * of_waves[kTerm[a].wave][kTerm[b].wave];
         }
     }
     return solved(matrix, right);
@@ -102,22 +145,29 @@ double quantile(std::vector<double> values, double share)
 }
 
 /// Tukey's biweight, from a circle on: folds and openings end up without weight.
-Robust fitted(const std::vector<Row>& wall)
+Robust fitted(const std::vector<WallRing>& wall)
 {
-    std::vector<double> residuals(wall.size()), weights(wall.size());
-    for (std::size_t n = 0; n < wall.size(); ++n)
-        residuals[n] = wall[n].radius_mm;
+    const std::vector<Waves> waves = wavesOf(wall.front().radii_mm.size());
+    std::vector<double> residuals, weights(wall.size() * waves.size());
+    for (const WallRing& ring : wall)
+        residuals.insert(residuals.end(), ring.radii_mm.begin(), ring.radii_mm.end());
     Robust out{.fit = {quantile(residuals, kStartQuantile)}};
     for (int round = 0; round < kRounds; ++round) {
-        for (std::size_t n = 0; n < wall.size(); ++n)
-            residuals[n] = std::abs(wall[n].radius_mm - valueOf(out.fit, wall[n].terms));
+        for (std::size_t n = 0; n < wall.size(); ++n) {
+            const Waves ring = onRing(out.fit, wall[n].along);
+            for (std::size_t r = 0; r < waves.size(); ++r)
+                residuals[n * waves.size() + r] = std::abs(wall[n].radii_mm[r] - dotOf(ring, waves[r]));
+        }
         out.spread_mm = 1.48 * quantile(residuals, 0.5);
         const double limit = kTight * std::max(kLeastSpread_mm, out.spread_mm);
         for (std::size_t n = 0; n < wall.size(); ++n) {
-            const double u = residuals[n] / limit;
-            weights[n] = u < 1 ? wall[n].share * (1 - u * u) * (1 - u * u) : 0;
+            const double fading = std::pow(std::max(0.0, 1 - std::pow(std::abs(wall[n].along), 3)), 3);
+            for (std::size_t r = 0; r < waves.size(); ++r) {
+                const double u = residuals[n * waves.size() + r] / limit;
+                weights[n * waves.size() + r] = u < 1 ? wall[n].certainty[r] * fading * (1 - u * u) * (1 - u * u) : 0;
+            }
         }
-        out.fit = fitOnce(wall, weights);
+        out.fit = fitOnce(wall, waves, weights);
     }
     return out;
 }
@@ -126,24 +176,23 @@ Robust fitted(const std::vector<Row>& wall)
 std::array<double, 2> centroid(const Terms& fit)
 {
     constexpr int kAngles = 64;
+    static const std::vector<Waves> kAll = wavesOf(kAngles);
+    const Waves ring = onRing(fit, 0);
     double area = 0, x = 0, y = 0;
-    for (int n = 0; n < kAngles; ++n) {
-        const double t = 2 * std::numbers::pi * n / kAngles;
-        const double r = fit[0] + fit[2] * std::cos(t) + fit[5] * std::sin(t) + fit[8] * std::cos(2 * t) +
-                         fit[9] * std::sin(2 * t) + fit[10] * std::cos(3 * t) + fit[11] * std::sin(3 * t);
-        const double d = std::max(r, 0.0);
+    for (const Waves& waves : kAll) {
+        const double d = std::max(dotOf(ring, waves), 0.0);
         area += d * d / 2;
-        x += d * d * d / 3 * std::cos(t);
-        y += d * d * d / 3 * std::sin(t);
+        x += d * d * d / 3 * waves[1];
+        y += d * d * d / 3 * waves[2];
     }
     return area > 0 ? std::array{x / area, y / area} : std::array{0.0, 0.0};
 }
 
 }  // namespace
 
-SectionFit fitSection(const std::vector<WallPoint>& wall)
+SectionFit fitSection(const std::vector<WallRing>& wall)
 {
-    const Robust robust = fitted(rowsOf(wall));
+    const Robust robust = fitted(wall);
     return {centroid(robust.fit), robust.fit[0], robust.spread_mm};
 }
 

@@ -1,16 +1,16 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace vicon::steps {
 
-/// A point of the wall, seen from the line: where along the stretch, in which direction, how far.
-struct WallPoint {
-    double along = 0;      ///< from -1 to 1 over the stretch, 0 at the section that is sought
-    double angle = 0;      ///< rad
-    double radius_mm = 0;  ///< from the line
+/// A section of the wall, seen from the line. Ray n of all looks 2 pi n / count about the line.
+struct WallRing {
+    double along = 0;                  ///< from -1 to 1 over the stretch, 0 at the section that is sought
+    std::span<const float> radii_mm;   ///< from the line, one for each ray
+    std::span<const float> certainty;  ///< of each radius, from 0 to 1
 };
 
 /// The lumen's cross-section in the middle of a stretch, fitted to the wall of the stretch.
@@ -20,9 +20,10 @@ struct SectionFit {
     double spread_mm = 0;  ///< of the wall about the fit, folds and openings left out
 };
 
-/// Fits r = r0 + r1 s + (a0 + a1 s + a2 s^2) cos t + (b0 + b1 s + b2 s^2) sin t + terms in 2 t and 3 t to the wall: the
-/// terms in t are how far the middle lies beside the line; those in 2 t and 3 t an oval's and three taeniae's. Tukey's
-/// biweight leaves out what is far from the others: folds, polyps, openings.
-SectionFit fitSection(const std::vector<WallPoint>& wall);
+/// Fits r = r0 + r1 s + r2 s^2 + r3 s^3 + r4 s^4 + (a0 + a1 s + a2 s^2) cos t + (b0 + b1 s + b2 s^2) sin t + terms in 2
+/// t and 3 t to the wall: those without t are the lumen's width, narrow at a ring and wide between two; those in t are
+/// how far the middle lies beside the line; those in 2 t and 3 t an oval's and three taeniae's. Tukey's biweight leaves
+/// out what is far from the others: folds, polyps, openings. All rings have the same number of rays.
+SectionFit fitSection(const std::vector<WallRing>& wall);
 
 }  // namespace vicon::steps

@@ -7,11 +7,11 @@ namespace vicon::steps {
 namespace {
 
 // Chosen on the four shapes of the reference data, of which HuBMAPVHM_3D_00070 needs it: all overlap by more than 0.98
-// with turns of 1.3 and 1.4 rad and 1.1 and 1.15 times the path's length. Nearer to the ends, or with 1.2 rad,
-// ctc_460's far end may fall to 0.973. On 23 phantoms (201 to 221, 225, 230) nothing is replaced.
+// with turns of 1.3 and 1.4 rad and 1.05 and 1.1 times the path's length, also with other stretches, smoothing and
+// weights of the fit; with 1.15 HuBMAPVHM_3D_00070 depends on those (0.952 to 0.984).
 constexpr double kLeastOn = 0.5;   // of a step along the line that must be left once its ends were moved
 constexpr double kMostTurn = 1.4;  // rad, within a radius on either side; a bend as sharp as the lumen is wide has 1
-constexpr double kWound = 1.15;    // times the path's length: what is longer than that has wound itself up
+constexpr double kWound = 1.1;     // times the path's length: what is longer than that has wound itself up
 constexpr double kFromEnds = 4;    // radii; nearer to an end too little tells how far aside of the path the line is
 constexpr double kSearch_mm = 40;  // ahead along the path, for the next point's foot on it
 
