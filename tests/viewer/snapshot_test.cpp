@@ -200,12 +200,14 @@ TEST_F(Snapshots, ASliceOfAPatientOfWhomNothingIsKnownSaysNoDistance)
     request.window = {"dark", 100, 10000};
     // Under two lines, the place and the window.
     const double line_px = 1.35 * 1.15 * textHeightFor(400, 400);
-    EXPECT_EQ(findColor(slicePicture(prepared, request), kTextColor, {0, 2.4 * line_px, 180, 3 * line_px}, 60).count,
-              0);
+    EXPECT_EQ(
+        findColor(slicePicture(prepared.volume(), request), kTextColor, {0, 2.4 * line_px, 180, 3 * line_px}, 60).count,
+        0);
     request.caption.patient_id = "PH-1";
     request.caption.position = "supine";
-    EXPECT_GT(findColor(slicePicture(prepared, request), kTextColor, {0, 2.4 * line_px, 180, 3 * line_px}, 60).count,
-              0);
+    EXPECT_GT(
+        findColor(slicePicture(prepared.volume(), request), kTextColor, {0, 2.4 * line_px, 180, 3 * line_px}, 60).count,
+        0);
 }
 
 TEST_F(Snapshots, LookBelowTheWallInTheMiddleOnlyWhereAskedTo)

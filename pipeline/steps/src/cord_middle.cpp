@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "skeleton_fit.h"
 #include "skeleton_section.h"
@@ -76,25 +77,27 @@ InsideVolume bowelAround(const HuVolume& volume, const InsideVolume& inside, con
 Polyline moved(const Polyline& line, const DistanceProbe& bowel)
 {
     const auto frames = framesAlong(line, 4);
-    std::vector<std::vector<double>> radii(line.size(), std::vector<double>(kRays));
+    std::vector<std::vector<float>> radii_mm(line.size(), std::vector<float>(kRays)), seen = radii_mm;
     tbb::parallel_for(std::size_t(0), line.size(), [&](std::size_t n) {
         for (int r = 0; r < kRays; ++r) {
             const double angle = 2 * std::numbers::pi * r / kRays;
-            radii[n][std::size_t(r)] =
+            const double d =
                 reach(bowel, line[n], frames[n].u * std::cos(angle) + frames[n].v * std::sin(angle), kReach_mm);
+            radii_mm[n][std::size_t(r)] = float(d);
+            seen[n][std::size_t(r)] = d > 0 && d < kReach_mm ? 1 : 0;
         }
     });
     Polyline out = line;
     tbb::parallel_for(std::size_t(0), line.size(), [&](std::size_t n) {
         const auto half = std::size_t(kStretch_mm);
         const std::size_t from = n > half ? n - half : 0, to = std::min(line.size() - 1, n + half);
-        std::vector<WallPoint> wall;
-        for (std::size_t m = from; m <= to; ++m)
-            for (int r = 0; r < kRays; ++r)
-                if (const double d = radii[m][std::size_t(r)]; d > 0 && d < kReach_mm)
-                    wall.push_back(
-                        {(double(m) - double(n)) / kStretch_mm, 2 * std::numbers::pi * r / double(kRays), d});
-        if (double(wall.size()) < kLeastSeen * double(to - from + 1) * kRays)
+        std::vector<WallRing> wall;
+        double count = 0;
+        for (std::size_t m = from; m <= to; ++m) {
+            wall.push_back({(double(m) - double(n)) / kStretch_mm, radii_mm[m], seen[m]});
+            count += std::accumulate(seen[m].begin(), seen[m].end(), 0.0);
+        }
+        if (count < kLeastSeen * double(to - from + 1) * kRays)
             return;
         const SectionFit fit = fitSection(wall);
         if (fit.spread_mm > kMostIrregular * fit.radius_mm)

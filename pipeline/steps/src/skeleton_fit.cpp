@@ -139,35 +139,54 @@ struct Robust {
 
 double quantile(std::vector<double> values, double share)
 {
+    if (values.empty())
+        return 0;
     const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
+}
+
+/// What the wall deviates from the fit, ray by ray, where it is certain at all.
+std::vector<double> deviations(const std::vector<WallRing>& wall, const std::vector<Waves>& waves, const Terms& fit)
+{
+    std::vector<double> deviations_mm;
+    deviations_mm.reserve(wall.size() * waves.size());
+    for (const WallRing& ring : wall) {
+        const Waves fitted = onRing(fit, ring.along);
+        for (std::size_t r = 0; r < waves.size(); ++r)
+            if (ring.certainty[r] > 0)
+                deviations_mm.push_back(std::abs(ring.radii_mm[r] - dotOf(fitted, waves[r])));
+    }
+    return deviations_mm;
+}
+
+/// Weights of all rays, ring by ring: those near the middle of the stretch count, those far from the fit do not.
+std::vector<double> weightsOf(const std::vector<WallRing>& wall, const std::vector<Waves>& waves,
+                              const std::vector<double>& deviations_mm, double limit_mm)
+{
+    std::vector<double> weights(wall.size() * waves.size(), 0);
+    auto deviation_mm = deviations_mm.begin();
+    for (std::size_t n = 0; n < wall.size(); ++n) {
+        const double fading = std::pow(std::max(0.0, 1 - std::pow(std::abs(wall[n].along), 3)), 3);
+        for (std::size_t r = 0; r < waves.size(); ++r)
+            if (const double certainty = wall[n].certainty[r]; certainty > 0) {
+                const double u = std::min(*deviation_mm++ / limit_mm, 1.0);
+                weights[n * waves.size() + r] = certainty * fading * (1 - u * u) * (1 - u * u);
+            }
+    }
+    return weights;
 }
 
 /// Tukey's biweight, from a circle on: folds and openings end up without weight.
 Robust fitted(const std::vector<WallRing>& wall)
 {
     const std::vector<Waves> waves = wavesOf(wall.front().radii_mm.size());
-    std::vector<double> residuals, weights(wall.size() * waves.size());
-    for (const WallRing& ring : wall)
-        residuals.insert(residuals.end(), ring.radii_mm.begin(), ring.radii_mm.end());
-    Robust out{.fit = {quantile(residuals, kStartQuantile)}};
+    Robust out{.fit = {quantile(deviations(wall, waves, {}), kStartQuantile)}};  // of the radii themselves
     for (int round = 0; round < kRounds; ++round) {
-        for (std::size_t n = 0; n < wall.size(); ++n) {
-            const Waves ring = onRing(out.fit, wall[n].along);
-            for (std::size_t r = 0; r < waves.size(); ++r)
-                residuals[n * waves.size() + r] = std::abs(wall[n].radii_mm[r] - dotOf(ring, waves[r]));
-        }
-        out.spread_mm = 1.48 * quantile(residuals, 0.5);
-        const double limit = kTight * std::max(kLeastSpread_mm, out.spread_mm);
-        for (std::size_t n = 0; n < wall.size(); ++n) {
-            const double fading = std::pow(std::max(0.0, 1 - std::pow(std::abs(wall[n].along), 3)), 3);
-            for (std::size_t r = 0; r < waves.size(); ++r) {
-                const double u = residuals[n * waves.size() + r] / limit;
-                weights[n * waves.size() + r] = u < 1 ? wall[n].certainty[r] * fading * (1 - u * u) * (1 - u * u) : 0;
-            }
-        }
-        out.fit = fitOnce(wall, waves, weights);
+        const std::vector<double> deviations_mm = deviations(wall, waves, out.fit);
+        out.spread_mm = 1.48 * quantile(deviations_mm, 0.5);
+        const double limit_mm = kTight * std::max(kLeastSpread_mm, out.spread_mm);
+        out.fit = fitOnce(wall, waves, weightsOf(wall, waves, deviations_mm, limit_mm));
     }
     return out;
 }

@@ -10,7 +10,7 @@ namespace vicon::steps {
 struct WallRing {
     double along = 0;                  ///< from -1 to 1 over the stretch, 0 at the section that is sought
     std::span<const float> radii_mm;   ///< from the line, one for each ray
-    std::span<const float> certainty;  ///< of each radius, from 0 to 1
+    std::span<const float> certainty;  ///< of each radius, from 0 (not met) to 1
 };
 
 /// The lumen's cross-section in the middle of a stretch, fitted to the wall of the stretch.

@@ -42,7 +42,7 @@ void ReadingWindow::setTwoScreens(bool on)
         return;
     }
     // Before the window is laid out, its columns are as they were saved.
-    columns_on_one_ = isVisible() ? columns_->saveState() : QSettings().value(kColumns).toByteArray();
+    columns_on_one_ = isVisible() ? columns_->saveState() : keptSetting(kColumns).toByteArray();
     second_ = new SecondWindow(this);
     second_->setObjectName("second");
     second_->setWindowTitle(windowTitle());
