@@ -19,7 +19,7 @@ namespace vicon::test {
 namespace {
 
 constexpr std::uint64_t kFirstSeed = 231;
-constexpr int kStudies = 20;
+constexpr int kStudies = 21;  // 247 was looked at for a cure and does not count
 
 struct Figures {
     std::uint64_t seed = 0;
