@@ -161,21 +161,22 @@ Shift mixed(Shift a, Shift b, double t)
 std::vector<Fitted> middles(const Polyline& line, const std::vector<Frame>& frames, const Radii& radii, double step_mm,
                             Middle middle)
 {
-    const std::size_t count = (radii.size() + kSparse - 1) / kSparse;
-    std::vector<Fitted> out(radii.size());
-    tbb::parallel_for(std::size_t(0), out.size(),
-                      [&](std::size_t n) { out[n].middle_mm = medianMiddle(n, radii, step_mm); });
-    if (middle == Middle::median)
-        return out;
-    const std::vector<Rays> rays = raysFor(line, frames, radii, step_mm);
+    const std::size_t count = middle == Middle::median ? 0 : (radii.size() + kSparse - 1) / kSparse;
     std::vector<Fitted> fits(count);
+    const std::vector<Rays> rays = count > 0 ? raysFor(line, frames, radii, step_mm) : std::vector<Rays>{};
     tbb::parallel_for(std::size_t(0), count, [&](std::size_t n) { fits[n] = fittedAt(n * kSparse, rays, step_mm); });
-    for (std::size_t n = 0; n < out.size(); ++n) {
+    const auto fittedBeside = [&](std::size_t n) {
         const Fitted &low = fits[n / kSparse], &high = fits[std::min(n / kSparse + 1, count - 1)];
         const double t = double(n % kSparse) / double(kSparse);
-        out[n].trust = std::lerp(low.trust, high.trust, t);
-        out[n].middle_mm = mixed(out[n].middle_mm, mixed(low.middle_mm, high.middle_mm, t), out[n].trust);
-    }
+        return Fitted{mixed(low.middle_mm, high.middle_mm, t), std::lerp(low.trust, high.trust, t)};
+    };
+    std::vector<Fitted> out(radii.size());
+    tbb::parallel_for(std::size_t(0), out.size(), [&](std::size_t n) {
+        if (count > 0)
+            out[n] = fittedBeside(n);
+        if (out[n].trust < 1)
+            out[n].middle_mm = mixed(medianMiddle(n, radii, step_mm), out[n].middle_mm, out[n].trust);
+    });
     return out;
 }
 
