@@ -232,7 +232,7 @@ const std::vector<Step>& stepTable()
          parametersByOrgan<SegmentOptions, OrganOptions>,
          runSegment},
         {"skeleton",
-         8,
+         9,
          0.55,
          0.65,
          {"segment"},

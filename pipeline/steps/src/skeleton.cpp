@@ -135,7 +135,7 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
     }
     std::vector<Polyline> bridges;
     for (std::size_t n = 0; n + 1 < curves.size(); ++n)
-        bridges.push_back(joined(curves[n], plan.bridges.at(n).path_mm, curves[n + 1], open, options.step_mm));
+        bridges.push_back(joined(curves[n], plan.bridges.at(n).path_mm, curves[n + 1], open, options));
     const DistanceProbe wall(wall_mm);
     for (std::size_t n = 0; n < curves.size(); ++n) {
         append(result.curve, besideTube(curves[n], wall, options.step_mm), false, open);

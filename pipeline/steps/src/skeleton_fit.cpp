@@ -14,7 +14,7 @@ constexpr double kStartQuantile = 0.6;   // of the radii: of the wall between fo
 constexpr int kRounds = 6;
 
 // Each term is a power of the station times a wave of the angle: 1, cos t, sin t, cos 2 t, sin 2 t, cos 3 t, sin 3 t.
-constexpr std::size_t kWaves = 7, kPowers = 5, kTerms = 15;
+constexpr std::size_t kWaves = 7, kPowers = 5, kTerms = 17;
 using Waves = std::array<double, kWaves>;
 using Terms = std::array<double, kTerms>;
 using Matrix = std::array<Terms, kTerms>;
@@ -30,9 +30,11 @@ constexpr std::array<Term, kTerms> kTerm{{{0, 0},
                                           {1, 0},
                                           {1, 1},
                                           {1, 2},
+                                          {1, 3},
                                           {2, 0},
                                           {2, 1},
                                           {2, 2},
+                                          {2, 3},
                                           {3, 0},
                                           {4, 0},
                                           {5, 0},

@@ -20,10 +20,11 @@ struct SectionFit {
     double spread_mm = 0;  ///< of the wall about the fit, folds and openings left out
 };
 
-/// Fits r = r0 + r1 s + r2 s^2 + r3 s^3 + r4 s^4 + (a0 + a1 s + a2 s^2) cos t + (b0 + b1 s + b2 s^2) sin t + terms in 2
-/// t and 3 t to the wall: those without t are the lumen's width, narrow at a ring and wide between two; those in t are
-/// how far the middle lies beside the line; those in 2 t and 3 t an oval's and three taeniae's. Tukey's biweight leaves
-/// out what is far from the others: folds, polyps, openings. All rings have the same number of rays.
+/// Fits r = r0 + r1 s + r2 s^2 + r3 s^3 + r4 s^4 + (a0 + a1 s + a2 s^2 + a3 s^3) cos t + (b0 + b1 s + b2 s^2 + b3 s^3)
+/// sin t + terms in 2 t and 3 t to the wall: those without t are the lumen's width, narrow at a ring and wide between
+/// two; those in t are how far the middle lies beside the line; those in 2 t and 3 t an oval's and three taeniae's.
+/// Tukey's biweight leaves out what is far from the others: folds, polyps, openings. All rings have the same number of
+/// rays.
 SectionFit fitSection(const std::vector<WallRing>& wall);
 
 }  // namespace vicon::steps

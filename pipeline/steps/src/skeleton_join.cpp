@@ -1,20 +1,23 @@
 #include "skeleton_join.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "evened_line.h"
+#include "skeleton_section.h"
 
 namespace vicon::steps {
 namespace {
 
-// Chosen on phantoms 1, 301, 302, 304 and 305, full size.
+// Chosen on phantoms 1, 301, 302, 304 and 305, full size; run-up and rounds on 202, 206, 212, 218, 221, 233, 238, 242.
 constexpr double kClosing_mm = 8;     // before a collapsed part the lumen closes, often to one side
-constexpr double kRunUp_mm = 25;      // of the curves, evened together with what joins them
+constexpr double kRunUp_mm = 70;      // of the curves, evened together with what joins them
+constexpr double kKept_mm = 26;       // of that: the wall there was fitted from both sides before
+constexpr int kRounds = 4;            // of moving the run-ups to the middle of the lumen
 constexpr double kUnsure_mm = 2;      // at either end of the way through the cord: it leaves the lumen in a corner
 constexpr double kLeastSure = 0.2;    // of the way, in its middle, that is followed however short it is
 constexpr double kCurveScale_mm = 4;  // of the curves and
 constexpr double kCordScale_mm = 6;   // of the way: what is shorter is evened out
-constexpr double kPinned = 1e6;
 
 /// Cuts off the end of a curve beyond the place where the bridge leaves the lumen, and the stretch before it in which
 /// the lumen closes: there the curve follows the corners of the wall.
@@ -39,76 +42,54 @@ Polyline sureMiddle(const Polyline& way, double step_mm)
     return {first, std::max(even.end() - std::lround(off), first + 1)};
 }
 
-struct Known {
-    Polyline points;
-    std::vector<double> weights;  ///< 0 where nothing is known
-
-    void add(const Polyline& more, double weight, double step_mm)
-    {
-        if (!points.empty()) {
-            const Point3 from = points.back();
-            const int missing = int(std::lround(distance(from, more.front()) / step_mm)) - 1;
-            for (int n = 1; n <= missing; ++n) {
-                points.push_back(interpolate(from, more.front(), double(n) / (missing + 1)));
-                weights.push_back(0);
-            }
-        }
-        points.insert(points.end(), more.begin(), more.end());
-        weights.insert(weights.end(), more.size(), weight);
-    }
+/// Where a line over a collapsed part leaves the lumen and where it enters it again.
+struct Collapsed {
+    std::size_t from = 0, to = 0;
 };
 
-/// The line that is nearest to what is known and whose bend changes least: a smoothing spline of the fifth degree, by
-/// its normal equations, whose matrix has three diagonals on either side of the middle.
-Polyline evened(const Known& known)
+Collapsed collapsedOn(const Polyline& line, const DistanceProbe& open)
 {
-    constexpr std::size_t kBand = 4;
-    constexpr std::array<double, kBand> kThird{-1, 3, -3, 1};
-    const std::size_t count = known.points.size();
-    std::vector<std::array<double, kBand>> rows(count);  // [row][row - column]
-    std::vector<Vector3> right(count);
-    for (std::size_t n = 0; n < count; ++n) {
-        rows[n][0] += known.weights[n];
-        right[n] = (known.points[n] - Point3{}) * known.weights[n];
-        for (std::size_t a = 0; n + 3 < count && a < kBand; ++a)
-            for (std::size_t b = 0; b <= a; ++b)
-                rows[n + a][a - b] += kThird[a] * kThird[b];
-    }
-    // Cholesky's method within the band.
-    for (std::size_t r = 0; r < count; ++r)
-        for (std::size_t off = std::min(r, kBand - 1) + 1; off-- > 0;) {
-            const std::size_t c = r - off;
-            double sum = rows[r][off];
-            for (std::size_t k = r > kBand - 1 ? r - (kBand - 1) : 0; k < c; ++k)
-                if (c - k < kBand)
-                    sum -= rows[r][r - k] * rows[c][c - k];
-            rows[r][off] = off == 0 ? std::sqrt(std::max(sum, 1e-12)) : sum / rows[c][0];
-        }
-    for (std::size_t r = 0; r < count; ++r) {
-        for (std::size_t off = 1; off < kBand && off <= r; ++off)
-            right[r] += right[r - off] * -rows[r][off];
-        right[r] = right[r] / rows[r][0];
-    }
-    for (std::size_t r = count; r-- > 0;) {
-        for (std::size_t off = 1; off < kBand && r + off < count; ++off)
-            right[r] += right[r + off] * -rows[r + off][off];
-        right[r] = right[r] / rows[r][0];
-    }
-    Polyline out;
-    for (const Vector3& v : right)
-        out.push_back(Point3{} + v);
-    return out;
+    Collapsed part{0, line.size() - 1};
+    while (part.from + 2 < part.to && open.inside(line[part.from + 1]))
+        ++part.from;
+    while (part.to > part.from + 1 && open.inside(line[part.to - 1]))
+        --part.to;
+    return part;
 }
 
-double weightFor(double scale_mm, double step_mm)
+Polyline evenedOver(const Polyline& before, const Polyline& middle, const Polyline& after, double step_mm)
 {
-    return std::pow(step_mm / scale_mm, 6);
+    KnownLine known;
+    known.add(before, weightFor(kCurveScale_mm, step_mm), step_mm);
+    known.add(middle, weightFor(kCordScale_mm, step_mm), step_mm);
+    known.add(after, weightFor(kCurveScale_mm, step_mm), step_mm);
+    known.weights.front() = known.weights.back() = kPinned;
+    return resampled(evened(known), step_mm);
+}
+
+/// The line moved to the middle of the lumen on both sides of the collapsed part: the wall is fitted over it, so that
+/// the fit has wall before and behind a place right beside the collapsed part.
+Polyline recentredBeside(const Polyline& line, const Polyline& middle, const DistanceProbe& open,
+                         const SkeletonOptions& options)
+{
+    const auto steps = [&](double mm) { return std::size_t(mm / options.step_mm); };
+    const Collapsed part = collapsedOn(line, open);
+    const std::size_t before = part.from - std::min(part.from, steps(kClosing_mm));
+    const std::size_t after = std::min(part.to + steps(kClosing_mm), line.size() - 1);
+    Polyline moved = recentred(line, open, options.step_mm, options.rays, Middle::fitted);
+    for (std::size_t n = 0; n < line.size(); ++n)
+        if (std::min(n, line.size() - 1 - n) < steps(kKept_mm))
+            moved[n] = line[n];
+    return evenedOver({moved.begin(), moved.begin() + std::ptrdiff_t(before) + 1}, middle,
+                      {moved.begin() + std::ptrdiff_t(after), moved.end()}, options.step_mm);
 }
 
 }  // namespace
 
-Polyline joined(Polyline& before, const Polyline& way, Polyline& after, const DistanceProbe& open, double step_mm)
+Polyline joined(Polyline& before, const Polyline& way, Polyline& after, const DistanceProbe& open,
+                const SkeletonOptions& options)
 {
+    const double step_mm = options.step_mm;
     cutBack(before, way.front());
     std::reverse(after.begin(), after.end());
     cutBack(after, way.back());
@@ -116,23 +97,18 @@ Polyline joined(Polyline& before, const Polyline& way, Polyline& after, const Di
     const auto run = [&](const Polyline& curve) {
         return std::ptrdiff_t(std::min(curve.size(), std::size_t(kRunUp_mm / step_mm)));
     };
-    Known known;
-    known.add({before.end() - run(before), before.end()}, weightFor(kCurveScale_mm, step_mm), step_mm);
-    known.add(sureMiddle(way, step_mm), weightFor(kCordScale_mm, step_mm), step_mm);
-    known.add({after.begin(), after.begin() + run(after)}, weightFor(kCurveScale_mm, step_mm), step_mm);
-    known.weights.front() = known.weights.back() = kPinned;
+    const Polyline middle = sureMiddle(way, step_mm);
+    Polyline line = evenedOver({before.end() - run(before), before.end()}, middle,
+                               {after.begin(), after.begin() + run(after)}, step_mm);
     before.erase(before.end() - run(before) + 1, before.end());
     after.erase(after.begin(), after.begin() + run(after) - 1);
-    const Polyline line = resampled(evened(known), step_mm);
-    std::size_t from = 0, to = line.size() - 1;
-    while (from + 2 < to && open.inside(line[from + 1]))
-        ++from;
-    while (to > from + 1 && open.inside(line[to - 1]))
-        --to;
+    for (int round = 0; round < kRounds; ++round)
+        line = recentredBeside(line, middle, open, options);
+    const Collapsed part = collapsedOn(line, open);
     const auto begin = line.begin();
-    before.insert(before.end(), begin + 1, begin + std::ptrdiff_t(from) + 1);
-    after.insert(after.begin(), begin + std::ptrdiff_t(to), line.end() - 1);
-    return {begin + std::ptrdiff_t(from), begin + std::ptrdiff_t(to) + 1};
+    before.insert(before.end(), begin + 1, begin + std::ptrdiff_t(part.from) + 1);
+    after.insert(after.begin(), begin + std::ptrdiff_t(part.to), line.end() - 1);
+    return {begin + std::ptrdiff_t(part.from), begin + std::ptrdiff_t(part.to) + 1};
 }
 
 }  // namespace vicon::steps

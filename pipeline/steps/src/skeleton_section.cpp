@@ -86,8 +86,10 @@ std::vector<Rays> raysFor(const Polyline& line, const std::vector<Frame>& frames
             const double angle = 2 * std::numbers::pi * double(r) / double(radii[n].size());
             const double curvature = towards_u * std::cos(angle) + towards_v * std::sin(angle);
             const double crowded = std::clamp(1 - radii[n][r] * curvature, kLeastCrowded, 1.0);
+            // From a point of a collapsed part, outside the lumen, no ray gets anywhere.
+            const double certainty = radii[n][r] > 0 ? crowded * crowded * crowded : 0;
             rays[n].radii_mm.push_back(radii[n][r]);
-            rays[n].certainty.push_back(float(crowded * crowded * crowded));
+            rays[n].certainty.push_back(float(certainty));
         }
     });
     return rays;
@@ -109,10 +111,14 @@ Shift medianMiddle(std::size_t middle, const Radii& radii, double step_mm)
     const std::size_t rays = radii[middle].size();
     double area = 0;
     Shift sum{};
-    std::vector<float> along(stretch.last - stretch.first + 1);
+    std::vector<float> along;
     for (std::size_t r = 0; r < rays; ++r) {
+        along.clear();
         for (std::size_t n = stretch.first; n <= stretch.last; ++n)
-            along[n - stretch.first] = radii[n][r];
+            if (radii[n][r] > 0)
+                along.push_back(radii[n][r]);
+        if (along.empty())
+            continue;
         const auto at = along.begin() + std::lround(0.5 * double(along.size() - 1));
         std::nth_element(along.begin(), at, along.end());
         const double angle = 2 * std::numbers::pi * double(r) / double(rays), d = *at;

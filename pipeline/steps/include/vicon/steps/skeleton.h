@@ -15,7 +15,7 @@ namespace vicon::steps {
 struct SkeletonOptions {
     double step_mm = 1;
     double path_smoothing_mm = 4;
-    double smoothing_mm = 4;
+    double smoothing_mm = 3.5;
     int recentrings = 10;
     int rays = 64;
     double uncovered_mm = 40;
