@@ -20,6 +20,8 @@ struct Curve {
     double radius_mm;
 };
 
+using Polyline = std::vector<Point3>;
+
 std::vector<Point3> sampled(int count, const std::function<Point3(double)>& at)
 {
     std::vector<Point3> line;
@@ -155,6 +157,33 @@ TEST(Skeleton, JoinsPiecesByABridgeWithStationsThatGoOn)
     EXPECT_EQ(result.curve.pieces[1].points.front().position_mm, result.curve.pieces[0].points.back().position_mm);
     EXPECT_EQ(result.curve.pieces[1].points.back().station_mm, result.curve.pieces[2].points.front().station_mm);
     EXPECT_NEAR(result.curve.length_mm(), 100, 3);
+}
+
+TEST(Skeleton, StaysInTheMiddleBesideACollapsedPartInABend)
+{
+    // Three quarters of a ring, collapsed over 14 mm in the middle. There the lumen closes within 10 mm.
+    constexpr double kBend_mm = 27, kRadius_mm = 14, kCollapsed_mm = 7, kRamp_mm = 10;
+    const auto on_ring = [](double along_mm) {
+        const double angle = along_mm / kBend_mm;
+        return Point3{kBend_mm * std::cos(angle), kBend_mm * std::sin(angle), 0};
+    };
+    const auto off_ring = [](Point3 p) { return std::hypot(std::hypot(p.x, p.y) - kBend_mm, p.z); };
+    const InsideVolume mask = drawMask(centredGrid({90, 90, 34}, 1), [&](Point3 p) {
+        const double along_mm = std::abs(std::atan2(p.y, p.x)) * kBend_mm;
+        const double closed = 1 - std::clamp((along_mm - kCollapsed_mm) / kRamp_mm, 0.0, 1.0);
+        return along_mm < 63 && off_ring(p) < kRadius_mm * std::sqrt(1 - closed * closed);
+    });
+    const Polyline way{on_ring(-kCollapsed_mm), on_ring(-3), on_ring(0), on_ring(3), on_ring(kCollapsed_mm)};
+    LumenPlan plan;
+    plan.pieces = {{on_ring(-61), way.front()}, {way.back(), on_ring(61)}};
+    plan.bridges.push_back({way.front(), way.back(), way, 14, 0.9, "", true});
+    NoProgress progress;
+    const SkeletonResult result = findSkeleton(mask, plan, {}, progress);
+    ASSERT_EQ(result.curve.pieces.size(), 3U);
+    for (const SkeletonPiece& piece : result.curve.pieces)
+        for (const SkeletonPoint& p : piece.points)
+            if (std::abs(std::atan2(p.position_mm.y, p.position_mm.x)) * kBend_mm < 35)
+                EXPECT_LT(off_ring(p.position_mm), 0.35);
 }
 
 TEST(Skeleton, OfNothingIsEmpty)
