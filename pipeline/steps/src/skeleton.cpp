@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "check_only.h"
+#include "rectal_tube.h"
 #include "skeleton_detour.h"
 #include "skeleton_join.h"
 #include "skeleton_path.h"
@@ -18,57 +19,6 @@ namespace {
 
 constexpr int kBlock = 2;        // half resolution: as exact after recentring as full, and four times faster
 constexpr double kLeast_mm = 0;  // narrow lumens are kept; the cost keeps the path away from corners of the wall
-
-constexpr double kTubeReach_mm = 150;     // from the rectal end: a rectal tube lies no higher
-constexpr double kTubeSection_mm2 = 200;  // of a tube of up to 12 mm, cut obliquely
-
-/// Fills islands of no lumen in one axial slice, up to `most` pixels, that lumen surrounds.
-void fillIslands(InsideVolume& inside, int k, std::size_t most)
-{
-    const int columns = inside.grid.size[0], rows = inside.grid.size[1];
-    std::vector<std::uint8_t> seen(std::size_t(columns) * std::size_t(rows), 0);
-    std::vector<Index3> island;
-    for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < columns; ++i) {
-            island.clear();
-            bool open = false;
-            const auto take = [&](int a, int b) {
-                if (a < 0 || b < 0 || a >= columns || b >= rows) {
-                    open = true;
-                    return;
-                }
-                std::uint8_t& known = seen[std::size_t(b) * std::size_t(columns) + std::size_t(a)];
-                if (!known && !inside.at({a, b, k})) {
-                    known = 1;
-                    island.push_back({a, b, k});
-                }
-            };
-            take(i, j);
-            for (std::size_t n = 0; n < island.size(); ++n) {
-                const Index3 v = island[n];
-                take(v.i - 1, v.j);
-                take(v.i + 1, v.j);
-                take(v.i, v.j - 1);
-                take(v.i, v.j + 1);
-            }
-            if (!open && island.size() <= most)
-                for (const Index3 v : island)
-                    inside.at(v) = kGas;
-        }
-}
-
-/// The lumen with the rectal tube in it filled: the middle of the rectum does not lie beside the tube.
-InsideVolume withoutRectalTube(InsideVolume inside, Point3 rectal_end_mm)
-{
-    const auto& spacing = inside.grid.spacing_mm;
-    const auto most = std::size_t(kTubeSection_mm2 / (spacing[0] * spacing[1]));
-    tbb::parallel_for(0, inside.grid.size[2], [&](int k) {
-        const Index3 end = inside.grid.indexAt(rectal_end_mm);
-        if (std::abs(k - end.k) * spacing[2] <= kTubeReach_mm)
-            fillIslands(inside, k, most);
-    });
-    return inside;
-}
 
 /// Appends points with their stations, which go on from the end of what is there.
 void append(Skeleton& skeleton, const Polyline& line, bool bridge, const DistanceProbe& wall)
@@ -97,7 +47,7 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
     result.wall_mm = wallDistance(inside, progress);
     const FieldVolume& wall_mm = result.wall_mm;
     progress.report(0.3, "skeleton");
-    FieldVolume open_mm;
+    FieldVolume over_tube_mm;
     CheckOnly check(progress);
     std::vector<LumenPath> paths(plan.pieces.size());
     tbb::parallel_invoke(
@@ -109,7 +59,7 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
             });
         },
         [&] {
-            open_mm = wallDistance(withoutRectalTube(inside, plan.pieces.front().rectal_end_mm), check);
+            over_tube_mm = wallDistanceOverTube(inside, plan.pieces.front().rectal_end_mm, check);
             if (hooks.core_free)
                 hooks.core_free();
         });
@@ -119,7 +69,7 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
             found.push_back(path.voxels);
         hooks.paths_found(found);
     }
-    const DistanceProbe open(open_mm);
+    const DistanceProbe open(wall_mm, over_tube_mm);
     std::vector<Polyline> curves;
     for (std::size_t n = 0; n < plan.pieces.size(); ++n) {
         const LumenPath& path = paths[n];

@@ -119,15 +119,42 @@ std::vector<Frame> framesAlong(const Polyline& line, std::size_t reach)
     return frames;
 }
 
+DistanceProbe::DistanceProbe(const FieldVolume& wall_mm, const FieldVolume& box_mm) : field_(wall_mm)
+{
+    if (box_mm.voxels.empty())
+        return;
+    box_ = &box_mm;
+    box_at_ = wall_mm.grid.indexAt(box_mm.grid.origin_mm);
+}
+
+std::pair<const FieldVolume&, Index3> DistanceProbe::holding(Index3 v) const
+{
+    if (box_) {
+        const Index3 in_box{v.i - box_at_.i, v.j - box_at_.j, v.k - box_at_.k};
+        if (box_->grid.contains(in_box) && box_->grid.contains({in_box.i + 1, in_box.j + 1, in_box.k + 1}))
+            return {*box_, in_box};
+    }
+    return {field_, v};
+}
+
 double DistanceProbe::at(Point3 p) const
 {
     const ContinuousIndex3 c = field_.grid.continuousIndexAt(p);
-    const int i = int(std::floor(c.i)), j = int(std::floor(c.j)), k = int(std::floor(c.k));
-    const double x = c.i - i, y = c.j - j, z = c.k - k;
-    const auto value = [&](int a, int b, int d) { return double(field_.valueOr({i + a, j + b, k + d}, 0)); };
+    const Index3 low{int(std::floor(c.i)), int(std::floor(c.j)), int(std::floor(c.k))};
+    const double x = c.i - low.i, y = c.j - low.j, z = c.k - low.k;
+    const auto [field, v] = holding(low);
+    const auto value = [&field, &v](int a, int b, int d) {
+        return double(field.valueOr({v.i + a, v.j + b, v.k + d}, 0));
+    };
     const auto row = [&](int b, int d) { return value(0, b, d) * (1 - x) + value(1, b, d) * x; };
     const auto plane = [&](int d) { return row(0, d) * (1 - y) + row(1, d) * y; };
     return plane(0) * (1 - z) + plane(1) * z;
+}
+
+bool DistanceProbe::inside(Point3 p) const
+{
+    const auto [field, v] = holding(field_.grid.indexAt(p));
+    return field.valueOr(v, 0) > 0;
 }
 
 double DistanceProbe::smallestSpacing_mm() const

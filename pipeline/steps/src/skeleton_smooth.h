@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "vicon/core/geometry.h"
@@ -12,12 +13,19 @@ namespace vicon::steps {
 class DistanceProbe {
 public:
     explicit DistanceProbe(const FieldVolume& wall_mm) : field_(wall_mm) {}
+    /// With a box of the same lattice that takes the place of the whole there; at the box's own faces the two agree.
+    DistanceProbe(const FieldVolume& wall_mm, const FieldVolume& box_mm);
     double at(Point3 p) const;
-    bool inside(Point3 p) const { return field_.valueOr(field_.grid.indexAt(p), 0) > 0; }
+    bool inside(Point3 p) const;
     double smallestSpacing_mm() const;
 
 private:
+    /// The volume that holds the voxel and those after it along all axes, and the voxel's index in it.
+    std::pair<const FieldVolume&, Index3> holding(Index3 v) const;
+
     const FieldVolume& field_;
+    const FieldVolume* box_ = nullptr;
+    Index3 box_at_;
 };
 
 using Polyline = std::vector<Point3>;
