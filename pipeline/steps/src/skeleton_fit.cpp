@@ -12,6 +12,7 @@ constexpr double kTight = 3.5;           // of the residuals' spread: what devia
 constexpr double kLeastSpread_mm = 0.5;  // of noise and haustra
 constexpr double kStartQuantile = 0.6;   // of the radii: of the wall between folds
 constexpr int kRounds = 6;
+constexpr double kSettled_mm = 0.03;  // coarser, and the curve of HuBMAP (reference shapes) falls to an OV of 0.96
 
 // Each term is a power of the station times a wave of the angle: 1, cos t, sin t, cos 2 t, sin 2 t, cos 3 t, sin 3 t.
 constexpr std::size_t kWaves = 7, kPowers = 5, kTerms = 17;
@@ -179,6 +180,16 @@ std::vector<double> weightsOf(const std::vector<WallRing>& wall, const std::vect
     return weights;
 }
 
+/// By how much the section in the middle of the stretch differs, at most, along any ray.
+double differenceOf(const Terms& a, const Terms& b)
+{
+    double sum = 0;
+    for (std::size_t n = 0; n < kTerms; ++n)
+        if (kTerm[n].power == 0)
+            sum += std::abs(a[n] - b[n]);
+    return sum;
+}
+
 /// Tukey's biweight, from a circle on: folds and openings end up without weight.
 Robust fitted(const std::vector<WallRing>& wall)
 {
@@ -188,7 +199,10 @@ Robust fitted(const std::vector<WallRing>& wall)
         const std::vector<double> deviations_mm = deviations(wall, waves, out.fit);
         out.spread_mm = 1.48 * quantile(deviations_mm, 0.5);
         const double limit_mm = kTight * std::max(kLeastSpread_mm, out.spread_mm);
+        const Terms before = out.fit;
         out.fit = fitOnce(wall, waves, weightsOf(wall, waves, deviations_mm, limit_mm));
+        if (differenceOf(out.fit, before) < kSettled_mm)
+            break;
     }
     return out;
 }

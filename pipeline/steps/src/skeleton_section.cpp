@@ -16,7 +16,7 @@ namespace {
 constexpr double kTangent_mm = 3;
 constexpr double kStretch_mm = 26;     // of the curve on either side, fading outwards, for the fit: about one haustrum
 constexpr double kMedianOver_mm = 25;  // of the curve, for the median of the radii per angle: passes over folds
-constexpr std::size_t kSparse = 2;     // of so many sections, and of so many rays, one is used for the fit
+constexpr std::size_t kSparse = 2;     // of so many points of the line one has a section; those between lie between
 constexpr double kEnd_mm = 22;         // of the curve, at an end of which nothing is fitted for half that length
 // Spread of the wall about the fit, in radii. Up to the first the fit counts alone, from the second on the median
 // alone. Phantoms stay below 0.09 (99 % of the sections), the shapes reach 0.32.
@@ -34,18 +34,20 @@ constexpr double kTightest = 0.9;  // of radius x curvature; at 1 the inner wall
 // Without it the curves of phantoms 218 and 225 are 0.4 % short instead of 0.1 %.
 constexpr double kLeastCrowded = 0.1;
 
-using Radii = std::vector<std::vector<float>>;  // [point][ray]
+using Radii = std::vector<std::vector<float>>;  // [section][ray]
 using Shift = std::array<double, 2>;            // along the frame's u and v
 
 Radii sampleRadii(const Polyline& line, const std::vector<Frame>& frames, const DistanceProbe& wall, int rays)
 {
-    Radii radii(line.size(), std::vector<float>(std::size_t(rays)));
-    tbb::parallel_for(std::size_t(0), line.size(), [&](std::size_t n) {
-        const double limit_mm = 3 * wall.at(line[n]) + 5;
+    Radii radii((line.size() + kSparse - 1) / kSparse, std::vector<float>(std::size_t(rays)));
+    tbb::parallel_for(std::size_t(0), radii.size(), [&](std::size_t n) {
+        const Point3 from = line[n * kSparse];
+        const Frame& frame = frames[n * kSparse];
+        const double limit_mm = 3 * wall.at(from) + 5;
         for (int r = 0; r < rays; ++r) {
             const double angle = 2 * std::numbers::pi * r / rays;
-            const Vector3 along = frames[n].u * std::cos(angle) + frames[n].v * std::sin(angle);
-            radii[n][std::size_t(r)] = float(reach(wall, line[n], along, limit_mm));
+            const Vector3 along = frame.u * std::cos(angle) + frame.v * std::sin(angle);
+            radii[n][std::size_t(r)] = float(reach(wall, from, along, limit_mm));
         }
     });
     return radii;
@@ -56,9 +58,9 @@ struct Stretch {
     std::size_t first = 0, last = 0;
 };
 
-Stretch about(std::size_t middle, double half_mm, double step_mm, std::size_t count)
+Stretch about(std::size_t middle, double half_mm, double apart_mm, std::size_t count)
 {
-    const auto half = std::size_t(half_mm / step_mm);
+    const auto half = std::size_t(half_mm / apart_mm);
     return {middle > half ? middle - half : 0, std::min(middle + half, count - 1)};
 }
 
@@ -71,43 +73,45 @@ Vector3 bendAt(const Polyline& line, std::size_t n, double step_mm)
     return (normalized(line[n + off] - line[n]) - normalized(line[n] - line[n - off])) / (double(off) * step_mm);
 }
 
-/// The rays of a section that the fit takes, and how far each can be relied on.
-struct Rays {
-    std::vector<float> radii_mm, certainty;
-};
-
-std::vector<Rays> raysFor(const Polyline& line, const std::vector<Frame>& frames, const Radii& radii, double step_mm)
+/// How far each ray of a section can be relied on.
+Radii certainties(const Polyline& line, const std::vector<Frame>& frames, const Radii& radii, double step_mm)
 {
-    std::vector<Rays> rays(line.size());
-    tbb::parallel_for(std::size_t(0), line.size(), [&](std::size_t n) {
-        const Vector3 bend = bendAt(line, n, step_mm);
-        const double towards_u = dot(bend, frames[n].u), towards_v = dot(bend, frames[n].v);
-        for (std::size_t r = 0; r < radii[n].size(); r += kSparse) {
+    Radii certainty = radii;
+    tbb::parallel_for(std::size_t(0), radii.size(), [&](std::size_t n) {
+        const Vector3 bend = bendAt(line, n * kSparse, step_mm);
+        const double towards_u = dot(bend, frames[n * kSparse].u), towards_v = dot(bend, frames[n * kSparse].v);
+        for (std::size_t r = 0; r < radii[n].size(); ++r) {
             const double angle = 2 * std::numbers::pi * double(r) / double(radii[n].size());
             const double curvature = towards_u * std::cos(angle) + towards_v * std::sin(angle);
             const double crowded = std::clamp(1 - radii[n][r] * curvature, kLeastCrowded, 1.0);
             // From a point of a collapsed part, outside the lumen, no ray gets anywhere.
-            const double certainty = radii[n][r] > 0 ? crowded * crowded * crowded : 0;
-            rays[n].radii_mm.push_back(radii[n][r]);
-            rays[n].certainty.push_back(float(certainty));
+            certainty[n][r] = radii[n][r] > 0 ? float(crowded * crowded * crowded) : 0;
         }
     });
-    return rays;
+    return certainty;
 }
 
-SectionFit fitAt(std::size_t middle, const std::vector<Rays>& rays, double step_mm)
+/// The sections of a line.
+struct Sections {
+    double apart_mm = 0;
+    Radii radii_mm, certainty;  ///< the latter only where they are fitted
+};
+
+SectionFit fitAt(std::size_t middle, const Sections& sections)
 {
-    const Stretch stretch = about(middle, kStretch_mm, step_mm, rays.size());
+    const Stretch stretch = about(middle, kStretch_mm, sections.apart_mm, sections.radii_mm.size());
     std::vector<WallRing> wall;
-    for (std::size_t n = stretch.first + (middle - stretch.first) % kSparse; n <= stretch.last; n += kSparse)
-        wall.push_back({(double(n) - double(middle)) * step_mm / kStretch_mm, rays[n].radii_mm, rays[n].certainty});
+    for (std::size_t n = stretch.first; n <= stretch.last; ++n)
+        wall.push_back({(double(n) - double(middle)) * sections.apart_mm / kStretch_mm, sections.radii_mm[n],
+                        sections.certainty[n]});
     return fitSection(wall);
 }
 
 /// The centroid of the section whose radii are the medians, per angle, over a stretch.
-Shift medianMiddle(std::size_t middle, const Radii& radii, double step_mm)
+Shift medianMiddle(std::size_t middle, const Sections& sections)
 {
-    const Stretch stretch = about(middle, kMedianOver_mm / 2, step_mm, radii.size());
+    const Radii& radii = sections.radii_mm;
+    const Stretch stretch = about(middle, kMedianOver_mm / 2, sections.apart_mm, radii.size());
     const std::size_t rays = radii[middle].size();
     double area = 0;
     Shift sum{};
@@ -148,12 +152,13 @@ struct Fitted {
     double trust = 0;
 };
 
-Fitted fittedAt(std::size_t n, const std::vector<Rays>& rays, double step_mm)
+Fitted fittedAt(std::size_t n, const Sections& sections)
 {
-    const double near_end = trustSoNear(double(std::min(n, rays.size() - 1 - n)) * step_mm);
+    const std::size_t to_end = std::min(n, sections.radii_mm.size() - 1 - n);
+    const double near_end = trustSoNear(double(to_end) * sections.apart_mm);
     if (near_end <= 0)
         return {};
-    const SectionFit fit = fitAt(n, rays, step_mm);
+    const SectionFit fit = fitAt(n, sections);
     return {fit.middle_mm, near_end * trustIn(fit)};
 }
 
@@ -162,26 +167,30 @@ Shift mixed(Shift a, Shift b, double t)
     return {std::lerp(a[0], b[0], t), std::lerp(a[1], b[1], t)};
 }
 
-/// Where the middle of each section lies beside the line, and how much of that is the fitted one.
-std::vector<Fitted> middles(const Polyline& line, const std::vector<Frame>& frames, const Radii& radii, double step_mm,
-                            Middle middle)
+Fitted middleAt(std::size_t n, const Sections& sections, Middle middle)
 {
-    const std::size_t count = middle == Middle::median ? 0 : (radii.size() + kSparse - 1) / kSparse;
-    std::vector<Fitted> fits(count);
-    const std::vector<Rays> rays = count > 0 ? raysFor(line, frames, radii, step_mm) : std::vector<Rays>{};
-    tbb::parallel_for(std::size_t(0), count, [&](std::size_t n) { fits[n] = fittedAt(n * kSparse, rays, step_mm); });
-    const auto fittedBeside = [&](std::size_t n) {
-        const Fitted &low = fits[n / kSparse], &high = fits[std::min(n / kSparse + 1, count - 1)];
+    Fitted out = middle == Middle::fitted ? fittedAt(n, sections) : Fitted{};
+    if (out.trust < 1)
+        out.middle_mm = mixed(medianMiddle(n, sections), out.middle_mm, out.trust);
+    return out;
+}
+
+/// Where the lumen's middle lies beside each point of the line, and how much of that is the fitted one.
+std::vector<Fitted> middles(const Polyline& line, const std::vector<Frame>& frames, const DistanceProbe& wall,
+                            double step_mm, int rays, Middle middle)
+{
+    Sections sections{double(kSparse) * step_mm, sampleRadii(line, frames, wall, rays), {}};
+    if (middle == Middle::fitted)
+        sections.certainty = certainties(line, frames, sections.radii_mm, step_mm);
+    const std::size_t count = sections.radii_mm.size();
+    std::vector<Fitted> found(count);
+    tbb::parallel_for(std::size_t(0), count, [&](std::size_t n) { found[n] = middleAt(n, sections, middle); });
+    std::vector<Fitted> out(line.size());
+    for (std::size_t n = 0; n < out.size(); ++n) {
+        const Fitted &low = found[n / kSparse], &high = found[std::min(n / kSparse + 1, count - 1)];
         const double t = double(n % kSparse) / double(kSparse);
-        return Fitted{mixed(low.middle_mm, high.middle_mm, t), std::lerp(low.trust, high.trust, t)};
-    };
-    std::vector<Fitted> out(radii.size());
-    tbb::parallel_for(std::size_t(0), out.size(), [&](std::size_t n) {
-        if (count > 0)
-            out[n] = fittedBeside(n);
-        if (out[n].trust < 1)
-            out[n].middle_mm = mixed(medianMiddle(n, radii, step_mm), out[n].middle_mm, out[n].trust);
-    });
+        out[n] = {mixed(low.middle_mm, high.middle_mm, t), std::lerp(low.trust, high.trust, t)};
+    }
     return out;
 }
 
@@ -215,7 +224,7 @@ double reach(const DistanceProbe& wall, Point3 from, Vector3 along, double limit
 Polyline recentred(const Polyline& line, const DistanceProbe& wall, double step_mm, int rays, Middle middle)
 {
     const auto frames = framesAlong(line, std::size_t(std::max(1.0, kTangent_mm / step_mm)));
-    const auto found = middles(line, frames, sampleRadii(line, frames, wall, rays), step_mm, middle);
+    const auto found = middles(line, frames, wall, step_mm, rays, middle);
     Polyline out(line.size());
     for (std::size_t n = 0; n < line.size(); ++n) {
         const auto& [x_mm, y_mm] = found[n].middle_mm;

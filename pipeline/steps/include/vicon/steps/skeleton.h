@@ -17,7 +17,7 @@ struct SkeletonOptions {
     double path_smoothing_mm = 4;
     double smoothing_mm = 3.5;
     int recentrings = 10;
-    int rays = 64;
+    int rays = 32;
     double uncovered_mm = 40;
     double uncovered_fraction = 0.005;
 
