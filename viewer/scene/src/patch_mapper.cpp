@@ -3,27 +3,39 @@
 #include <vtkCellArray.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLIndexBufferObject.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
 #include <vtkPolyData.h>
+#include <vtkRenderer.h>
 #include <vtk_glew.h>
 
 namespace vicon::viewer {
 
 vtkStandardNewMacro(PatchMapper);
 
-void PatchMapper::drawOnly(std::vector<TriangleRun> runs)
+void PatchMapper::drawOnly(const std::vector<TriangleRun>& runs)
 {
+    drawAll();
     all_ = false;
-    runs_ = std::move(runs);
+    for (const TriangleRun& run : runs) {
+        counts_.push_back(int(run.count * 3));
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): how OpenGL takes an offset into a bound buffer
+        offsets_.push_back(reinterpret_cast<const void*>(run.first * 3 * sizeof(unsigned int)));
+    }
 }
 
 void PatchMapper::drawAll()
 {
     all_ = true;
-    runs_.clear();
+    counts_.clear();
+    offsets_.clear();
 }
 
 void PatchMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
 {
+    vtkOpenGLState* state = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())->GetState();
+    const vtkOpenGLState::ScopedglEnableDisable as_before(state, GL_BLEND);
+    state->vtkglDisable(GL_BLEND);
     vtkOpenGLHelper& triangles = Primitives[PrimitiveTris];
     // VTK may leave out degenerate triangles when it fills the index buffer; then runs would not fit, and all is drawn.
     const bool fits = triangles.IBO->IndexCount == std::size_t(GetInput()->GetNumberOfPolys()) * 3;
@@ -31,17 +43,14 @@ void PatchMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
         vtkOpenGLPolyDataMapper::RenderPieceDraw(renderer, actor);
         return;
     }
-    if (runs_.empty())
+    if (counts_.empty())
         return;
     // What VTK says of itself before it draws triangles; it decides on shader and colours.
     DrawingVertices = false;
     DrawingSelection = false;
     UpdateShaders(triangles, renderer, actor);
     triangles.IBO->Bind();
-    for (const TriangleRun& run : runs_)
-        glDrawElements(GL_TRIANGLES, GLsizei(run.count * 3), GL_UNSIGNED_INT,
-                       // NOLINTNEXTLINE(performance-no-int-to-ptr): how OpenGL takes an offset into a bound buffer
-                       reinterpret_cast<const void*>(run.first * 3 * sizeof(unsigned int)));
+    glMultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(), GLsizei(counts_.size()));
     triangles.IBO->Release();
 }
 
