@@ -16,7 +16,7 @@ using Voxels = std::array<double, 3>;  // a place or a step, counted in voxels a
 
 /// Squares along the picture's height: those that bundles start with, those that tell patches, and those into which a
 /// bundle is split that runs into a thin wall. Chosen on ctc-prone and the default phantom.
-constexpr double kFirst = 12, kTelling = 48, kFinest = 192;
+constexpr double kFirst = 12, kTelling = 24, kFinest = 96;
 /// Bundles are wider than their squares by this part of a voxel, and by this part of the finest square: what the
 /// graphics driver's arithmetic may be off.
 constexpr double kSlackVoxels = 0.02, kSlackSquares = 0.05;
