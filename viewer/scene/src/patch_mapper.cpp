@@ -7,9 +7,17 @@
 #include <vtkOpenGLState.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
+#include <vtkShaderProgram.h>
 #include <vtk_glew.h>
 
+#include <cstdint>
+
 namespace vicon::viewer {
+namespace {
+
+constexpr const char* kPrimitiveIdOffset = "PrimitiveIDOffset";  // VTK's name
+
+}  // namespace
 
 vtkStandardNewMacro(PatchMapper);
 
@@ -50,7 +58,14 @@ void PatchMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
     DrawingSelection = false;
     UpdateShaders(triangles, renderer, actor);
     triangles.IBO->Bind();
-    glMultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(), GLsizei(counts_.size()));
+    if (!triangles.Program->IsUniformUsed(kPrimitiveIdOffset))
+        glMultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(), GLsizei(counts_.size()));
+    else  // triangles have colours of their own, and OpenGL numbers them from 0 in each run
+        for (std::size_t n = 0; n < counts_.size(); ++n) {
+            const auto first = reinterpret_cast<std::uintptr_t>(offsets_[n]) / (3 * sizeof(unsigned int));
+            triangles.Program->SetUniformi(kPrimitiveIdOffset, int(first));
+            glDrawElements(GL_TRIANGLES, counts_[n], GL_UNSIGNED_INT, offsets_[n]);
+        }
     triangles.IBO->Release();
 }
 
