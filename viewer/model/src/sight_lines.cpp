@@ -16,11 +16,12 @@ using Voxels = std::array<double, 3>;  // a place or a step, counted in voxels a
 
 /// Squares along the picture's height: those that bundles start with, those that tell patches, and those into which a
 /// bundle is split that runs into a thin wall. Chosen on ctc-prone and the default phantom.
-constexpr double kFirst = 12, kTelling = 48, kFinest = 192;
+constexpr double kFirst = 12, kTelling = 24, kFinest = 96;
 /// Bundles are wider than their squares by this part of a voxel, and by this part of the finest square: what the
 /// graphics driver's arithmetic may be off.
 constexpr double kSlackVoxels = 0.02, kSlackSquares = 0.05;
-constexpr double kLeastStep = 1;  // voxel: no step crosses two planes of voxels
+constexpr double kLeastStep = 1;  // voxel: no step in the wall crosses two planes of voxels
+constexpr double kOpenSteps = 2;  // at once, where the lumen is open: there no end is looked for
 /// Steps that a bundle goes on in the wall before it is split.
 constexpr int kMostInWall = 8;
 constexpr double kReach_mm = 2000;  // as far as pictures are drawn
@@ -94,7 +95,12 @@ public:
                 split(square, in_wall[0]);
                 return;
             }
-            if (finest || (open && waiting == 0))
+            if (open && waiting == 0) {
+                tell(way, depth, depth + kOpenSteps * step, spread);
+                depth += kOpenSteps * step;
+                continue;
+            }
+            if (finest)
                 tell(way, depth, depth + step, spread);
             else
                 in_wall[std::size_t(waiting++)] = depth;

@@ -130,7 +130,7 @@ void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patche
             cell.drawn += patches[next].triangles;
         }
         cell.actor->SetVisibility(!runs.empty());
-        cell.mapper->drawOnly(std::move(runs));
+        cell.mapper->drawOnly(runs);
     }
 }
 

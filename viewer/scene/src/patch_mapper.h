@@ -13,14 +13,14 @@ struct TriangleRun {
 };
 
 /// Draws only some of the triangles of its data, which stay where they are in the driver's memory: choosing others
-/// costs nothing. For data of triangles only, drawn as surfaces, without colours of their own a triangle.
+/// costs nothing. For data of triangles only that let nothing through, drawn as surfaces.
 class PatchMapper : public vtkOpenGLPolyDataMapper {
 public:
     static PatchMapper* New();
     vtkTypeMacro(PatchMapper, vtkOpenGLPolyDataMapper);
 
     /// Runs in ascending order. Without a call everything is drawn.
-    void drawOnly(std::vector<TriangleRun> runs);
+    void drawOnly(const std::vector<TriangleRun>& runs);
     void drawAll();
 
     PatchMapper(const PatchMapper&) = delete;
@@ -33,7 +33,8 @@ protected:
 
 private:
     bool all_ = true;
-    std::vector<TriangleRun> runs_;
+    std::vector<int> counts_;           ///< of each run, in corners
+    std::vector<const void*> offsets_;  ///< of each run, in bytes of the index buffer
 };
 
 }  // namespace vicon::viewer

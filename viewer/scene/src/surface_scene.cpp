@@ -4,14 +4,12 @@
 #include <vtkNew.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkShaderProperty.h>
-#include <vtkUniforms.h>
 
 #include <array>
 #include <cmath>
-#include <string>
 
 #include "cell_actors.h"
+#include "lamp_shader.h"
 
 namespace vicon::viewer {
 namespace {
@@ -20,40 +18,6 @@ namespace {
 // ahead is dark but not black.
 constexpr double kLampReach_mm = 45;
 constexpr std::array kMucosa{0.93, 0.66, 0.56};
-
-// What light is left where the wall is least open. Chosen by eye: clefts and the feet of folds and polyps stand out,
-// and nothing in them is too dark to read.
-constexpr double kClosedLight = 0.35;
-
-// A lamp at the eye. Light fades with the distance, so that depth is seen; a wall seen flat keeps some light, as from
-// the walls around it, so that the far side of a fold's edge is not a black rim. Written in place of VTK's light loop,
-// whose variables it uses: vertexVC and normalVCVSOutput are in the eye's frame.
-constexpr const char* kLampShader = R"(
-  float lampDistance = length(vertexVC.xyz);
-  vec3 toLamp = -vertexVC.xyz / lampDistance;
-  float facing = clamp(dot(normalVCVSOutput, toLamp), 0.0, 1.0);
-  float fade = 1.0 / (1.0 + lampDistance * lampDistance / (lampReach * lampReach));
-  float shine = 0.10 * pow(facing, 40.0);
-  vec3 lit = diffuseColor * (0.16 + 0.84 * facing) * fade * 1.12 + vec3(shine * fade);
-  gl_FragData[0] = vec4(lit * openLight, opacity);
-)";
-
-void replaceLamp(vtkShaderProperty* shader, bool by_openness)
-{
-    const auto keep = [](const std::string& place, const std::string& more) { return place + "\n" + more; };
-    const std::string names = "//VTK::PositionVC::Dec", values = "//VTK::PositionVC::Impl";
-    shader->ClearAllShaderReplacements();
-    std::string light = "1.0";
-    if (by_openness) {
-        light = "mix(" + std::to_string(kClosedLight) + ", 1.0, opennessVSOutput * opennessVSOutput)";
-        shader->AddVertexShaderReplacement(names, true, keep(names, "in float openness; out float opennessVSOutput;"),
-                                           false);
-        shader->AddVertexShaderReplacement(values, true, keep(values, "  opennessVSOutput = openness;"), false);
-        shader->AddFragmentShaderReplacement(names, true, keep(names, "in float opennessVSOutput;"), false);
-    }
-    shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, "  float openLight = " + light + ";" + kLampShader,
-                                         false);
-}
 
 std::array<double, 3> cellColor(int segment)
 {
@@ -88,11 +52,8 @@ struct SurfaceScene::Parts {
     void setLamp() const
     {
         lamp->SetLightTypeToHeadlight();
-        for (const CellActor& cell : cells) {
-            vtkShaderProperty* shader = cell.actor->GetShaderProperty();
-            replaceLamp(shader, by_openness);
-            shader->GetFragmentCustomUniforms()->SetUniformf("lampReach", float(lamp_reach_mm));
-        }
+        for (const CellActor& cell : cells)
+            useLampShader(cell.actor->GetShaderProperty(), lamp_reach_mm, by_openness);
     }
 };
 

@@ -1,0 +1,36 @@
+#include "vicon/viewer/scene/id_scene.h"
+
+#include "scan_fixture.h"
+#include "vicon/viewer/scene/cell_visibility.h"
+#include "vicon/viewer/scene/offscreen.h"
+
+namespace vicon::viewer {
+namespace {
+
+struct IdScenes : test::ColonFixture {};
+
+// OpenGL numbers the triangles of each run that is drawn from 0.
+TEST_F(IdScenes, TellTheSameTrianglesWhetherEverythingIsDrawnOrOnlyWhatIsInSight)
+{
+    constexpr int kSide = 200, kPlaces = 8;
+    const PreparedScan of = scan();
+    IdScene ids(of.cells());
+    Offscreen offscreen(ids.renderer());
+    const CellVisibility visibility(of);
+    const PathFrames& frames = of.frames();
+    for (int n = 1; n < kPlaces; ++n) {
+        const double station_mm = frames.length_mm() * n / kPlaces;
+        const Pose pose = lookAt(frames.at(station_mm).position_mm, frames.at(station_mm + 5).position_mm, {0, 0, 1});
+        const SeenParts seen = visibility.seenFrom(pose, {90, kSide, kSide});
+        EXPECT_FALSE(seen.everything);
+        ids.lookFrom(pose, 90);
+        ids.showSeen({.everything = true, .segments = {}, .patches = {}});
+        const auto in_all = IdScene::trianglesIn(offscreen.render(kSide, kSide));
+        ids.showSeen(seen);
+        EXPECT_EQ(IdScene::trianglesIn(offscreen.render(kSide, kSide)), in_all) << station_mm << " mm";
+        EXPECT_GT(in_all.size(), 100U);
+    }
+}
+
+}  // namespace
+}  // namespace vicon::viewer

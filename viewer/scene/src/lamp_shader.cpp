@@ -1,0 +1,81 @@
+#include "lamp_shader.h"
+
+#include <vtkShaderProperty.h>
+#include <vtkUniforms.h>
+
+#include <string>
+
+namespace vicon::viewer {
+namespace {
+
+// What light is left where the wall is least open. Chosen by eye: clefts and the feet of folds and polyps stand out,
+// and nothing in them is too dark to read.
+constexpr double kClosedLight = 0.35;
+
+// Light fades with the distance, so that depth is seen; a wall seen flat keeps some light, as from the walls around it,
+// so that the far side of a fold's edge is not a black rim.
+//
+// A pixel needs the cosine of the angle between the wall's normal and the way to the lamp. Cosines of the corners,
+// interpolated, would flatten the shine on a near wall, whose triangles are large. So corners hand on how the normal
+// leans, as a point of Lambert's azimuthal map (of equal areas) around the way to the lamp: the cosine is 1 less the
+// square of the point's distance from the map's middle. That serves as well as interpolating normals, and takes no root
+// and no division a pixel.
+constexpr const char* kVertexShader = R"(//VTK::System::Dec
+in vec4 vertexMC;
+in vec3 normalMC;
+OPENNESS_IN
+uniform mat3 normalMatrix;
+uniform mat4 MCVCMatrix;
+uniform mat4 MCDCMatrix;
+uniform float lampReach;
+out vec3 leanAndLight;
+void main()
+{
+  vec3 normal = normalMatrix * normalMC;
+  vec3 place = (MCVCMatrix * vertexMC).xyz;
+  float distance2 = dot(place, place);
+  vec3 toLamp = place * -inversesqrt(distance2);
+  float facing = dot(normal, toLamp);
+  // In a frame turned from the picture's to the line of sight by the shortest way.
+  vec2 lean = normal.xy - toLamp.xy * (normal.z + dot(normal.xy, toLamp.xy) / max(1.0 + toLamp.z, 0.01));
+  lean *= inversesqrt(max(1.0 + facing, 0.01));
+  float light = 1.12 / (1.0 + distance2 / (lampReach * lampReach));
+  leanAndLight = vec3(lean, light * OPEN_LIGHT);
+  gl_Position = MCDCMatrix * vertexMC;
+}
+)";
+
+// No pixel is discarded and the picture is not read: the driver can test and write depths first.
+constexpr const char* kFragmentShader = R"(//VTK::System::Dec
+//VTK::Output::Dec
+in vec3 leanAndLight;
+uniform vec3 diffuseColorUniform;
+void main()
+{
+  float facing = max(1.0 - dot(leanAndLight.xy, leanAndLight.xy), 0.0);
+  float facing2 = facing * facing, facing4 = facing2 * facing2, facing8 = facing4 * facing4;
+  float facing16 = facing8 * facing8;
+  float shine = 0.09 * facing16 * facing16 * facing8;
+  gl_FragData[0] = vec4((diffuseColorUniform * (0.16 + 0.84 * facing) + vec3(shine)) * leanAndLight.z, 1.0);
+}
+)";
+
+void put(std::string& code, const std::string& place, const std::string& what)
+{
+    code.replace(code.find(place), place.size(), what);
+}
+
+}  // namespace
+
+void useLampShader(vtkShaderProperty* shader, double reach_mm, bool by_openness)
+{
+    std::string vertices = kVertexShader;
+    put(vertices, "OPENNESS_IN", by_openness ? "in float openness;" : "");
+    put(vertices, "OPEN_LIGHT",
+        by_openness ? "mix(" + std::to_string(kClosedLight) + ", 1.0, openness * openness)" : "1.0");
+    shader->SetVertexShaderCode(vertices.c_str());
+    shader->SetFragmentShaderCode(kFragmentShader);
+    shader->GetVertexCustomUniforms()->SetUniformf("lampReach", float(reach_mm));
+}
+
+}  // namespace vicon::viewer
