@@ -159,6 +159,28 @@ TEST_F(Snapshots, OfAMarkerLookAtItFromWithinTheLumen)
     EXPECT_GT(middle.red, middle.blue);
 }
 
+TEST_F(Snapshots, AWideOverviewShowsTheColonBesideItsCaptionAndLargerSo)
+{
+    const PreparedScan of = scan();
+    const double length_mm = of.skeleton().length_mm();
+    SnapshotRequest request;
+    request.view = SnapshotRequest::View::overview;
+    request.height = 300;
+    request.markers = {markerAt(of.skeleton().at(length_mm / 4).position_mm, MarkerColor::red, ""),
+                       markerAt(of.skeleton().at(length_mm * 3 / 4).position_mm, MarkerColor::green, "")};
+    const auto apart = [&](int width) {
+        request.width = width;
+        const Picture picture = shoot(of, request);
+        const Area all{0, 0, double(width), double(request.height)};
+        const Found red = findColor(picture, colorOf(MarkerColor::red), all);
+        const Found green = findColor(picture, colorOf(MarkerColor::green), all);
+        EXPECT_GT(red.count, 10);
+        EXPECT_GT(green.count, 10);
+        return std::hypot(red.x - green.x, red.y - green.y);
+    };
+    EXPECT_GT(apart(2 * request.height), 1.15 * apart(request.height));
+}
+
 TEST_F(Snapshots, AreTheSameBytesEachTime)
 {
     const PreparedScan of = scan();

@@ -7,10 +7,13 @@
 #include <QPushButton>
 #include <QTableWidget>
 
+#include "panel_parts.h"
+
 namespace vicon::viewer {
 namespace {
+constexpr int kLeastRows = 4;
 enum Column { kStation, kLength, kConfidence, kVerdict, kColumns };
-}
+}  // namespace
 
 QPushButton* ColonPanel::button(const QString& title, const char* name, const QString& tip)
 {
@@ -18,6 +21,7 @@ QPushButton* ColonPanel::button(const QString& title, const char* name, const QS
     made->setObjectName(name);
     made->setAccessibleName(title);
     made->setToolTip(tip);
+    tighten(made);
     return made;
 }
 
@@ -28,11 +32,8 @@ ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
     table_->setAccessibleName(tr("Bridges over collapsed parts"));
     table_->setToolTip(tr("Where the pipeline joined two pieces of lumen. Click: fly there."));
     table_->setHorizontalHeaderLabels({tr("mm"), tr("Bridge"), tr("Sure"), tr("Judged")});
-    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table_->setSelectionMode(QAbstractItemView::SingleSelection);
+    setUpList(table_, kLeastRows);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    table_->verticalHeader()->hide();
-    table_->horizontalHeader()->setStretchLastSection(true);
     confirm_ = button(tr("Confirm"), "confirmBridge", tr("The two pieces belong together"));
     reject_ = button(tr("Reject"), "rejectBridge", tr("They do not; kept with your name and printed in the report"));
     auto* add = button(tr("Add ..."), "correctAdd", tr("Then click on gas or fluid that belongs to the colon"));

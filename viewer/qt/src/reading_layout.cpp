@@ -23,14 +23,12 @@ namespace {
 
 constexpr int kPart = 150, kSideWidth = 430;  // pixels of 96 to the inch, before the window is resized
 
-QWidget* group(const QString& title, QWidget* inside)
+QWidget* framed(QWidget* inside)
 {
     auto* box = new QFrame;  // a group box of this style cuts a pixel off its title
     box->setFrameShape(QFrame::StyledPanel);
     auto* layout = new QVBoxLayout(box);
     layout->setContentsMargins(4, 2, 4, 2);
-    layout->setSpacing(2);
-    layout->addWidget(new QLabel(title));
     layout->addWidget(inside);
     return box;
 }
@@ -89,9 +87,9 @@ QWidget* ReadingWindow::buildSide()
     auto* controls = new QWidget;
     auto* stack = new QVBoxLayout(controls);
     stack->setContentsMargins(0, 0, 0, 0);
-    stack->addWidget(group(tr("Flight"), navigation_));
+    stack->addWidget(framed(navigation_));
     stack->addWidget(lists_, 1);
-    stack->addWidget(group(tr("Below the wall"), peeling_));
+    stack->addWidget(framed(peeling_));
     auto* area = new ControlsArea(controls, peeling_->findChild<QWidget*>("histogram"));
     connect(peeling_, &PeelingPanel::histogramShown, area, [area](QWidget* it) { area->ensureWidgetVisible(it); });
     auto* side = new QWidget;
