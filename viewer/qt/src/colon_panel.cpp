@@ -11,7 +11,7 @@
 
 namespace vicon::viewer {
 namespace {
-constexpr int kLeastRows = 4;
+constexpr int kLeastRows = 4, kButtons = 6, kStateColumns = 2;
 enum Column { kStation, kLength, kConfidence, kVerdict, kColumns };
 }  // namespace
 
@@ -44,22 +44,22 @@ ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
     stop_ = button(tr("Stop"), "stopRedo", tr("Stop the work; the job waits in the queue"));
     state_ = new QLabel(this);
     state_->setObjectName("redoState");
+    state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // what it says makes no column wider
     bar_ = new QProgressBar(this);
     bar_->setObjectName("redo");
     bar_->setAccessibleName(tr("Progress of the scan that is done again"));
 
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(2, 2, 2, 2);
-    grid->addWidget(table_, 0, 0, 1, 6);
+    grid->addWidget(table_, 0, 0, 1, kButtons);
     grid->addWidget(confirm_, 1, 0);
     grid->addWidget(reject_, 1, 1);
     grid->addWidget(add, 1, 2);
     grid->addWidget(cut, 1, 3);
     grid->addWidget(drop, 1, 4);
     grid->addWidget(forget, 1, 5);
-    grid->addWidget(state_, 2, 0, 1, 2);
-    grid->addWidget(bar_, 2, 2, 1, 3);
-    grid->addWidget(stop_, 2, 5);
+    grid->addWidget(bar_, 2, kStateColumns, 1, kButtons - kStateColumns - 1);
+    grid->addWidget(stop_, 2, kButtons - 1);
     connect(table_, &QTableWidget::itemSelectionChanged, this, &ColonPanel::updateButtons);
     connect(table_, &QTableWidget::cellClicked, this, [this](int row, int) {
         const BridgeRow& bridge = bridges_[std::size_t(row)];
@@ -109,9 +109,11 @@ void ColonPanel::show(const std::vector<BridgeRow>& bridges, const Skeleton& ske
 
 void ColonPanel::showProgress(const QString& what, double fraction)
 {
+    const bool under_way = fraction >= 0;
     state_->setText(what);
-    bar_->setVisible(fraction >= 0);
-    stop_->setVisible(fraction >= 0);
+    qobject_cast<QGridLayout*>(layout())->addWidget(state_, 2, 0, 1, under_way ? kStateColumns : kButtons);
+    bar_->setVisible(under_way);
+    stop_->setVisible(under_way);
     bar_->setValue(int(100 * fraction));
 }
 

@@ -235,8 +235,10 @@ void ReadingWindow::addActions()
     addLooks(view);
     addScreens(view);
     add(view, tr("Other scan"), QKeySequence("X"), [this] {
-        if (scan_choice_->count() < 2)
+        if (scan_choice_->count() < 2) {
+            warn(tr("This case has no other scan that can be read."));
             return;
+        }
         scan_choice_->setCurrentIndex((scan_choice_->currentIndex() + 1) % scan_choice_->count());
         emit scan_choice_->activated(scan_choice_->currentIndex());
     });
