@@ -38,7 +38,7 @@ ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
     reject_ = button(tr("Reject"), "rejectBridge", tr("They do not; kept with your name and printed in the report"));
     auto* add = button(tr("Add ..."), "correctAdd", tr("Then click on gas or fluid that belongs to the colon"));
     auto* cut = button(tr("Cut ..."), "correctCut",
-                       tr("Then click into the middle of the lumen where it is cut; the smaller part is dropped"));
+                       tr("Then click into the lumen where it is cut across; the smaller part is dropped"));
     auto* drop = button(tr("Drop ..."), "correctDrop", tr("Then click on a piece that is not colon"));
     auto* forget = button(tr("Forget"), "forgetCorrections", tr("Take back all corrections of this scan"));
     stop_ = button(tr("Stop"), "stopRedo", tr("Stop the work; the job waits in the queue"));

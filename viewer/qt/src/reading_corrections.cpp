@@ -33,10 +33,9 @@ void ReadingWindow::connectCorrections()
         arm({});
         correcting_ = kind;
         setPickCursor(true);
-        tell(kind == Correction::add ? tr("Click on the gas or fluid that belongs to the colon, in a slice")
-             : kind == Correction::cut
-                 ? tr("Click into the middle of the lumen, where it is narrow; the smaller part is dropped")
-                 : tr("Click on the piece that does not belong to the colon"));
+        tell(kind == Correction::add   ? tr("Click on the gas or fluid that belongs to the colon, in a slice")
+             : kind == Correction::cut ? tr("Click into the lumen where it is cut across; the smaller part is dropped")
+                                       : tr("Click on the piece that does not belong to the colon"));
     });
     connect(colon_, &ColonPanel::forgetWanted, this, [this] {
         if (session_.scan())
