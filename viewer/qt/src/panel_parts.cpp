@@ -13,7 +13,8 @@ void setUpList(QTableWidget* table, int least_rows)
 {
     table->setSelectionBehavior(QAbstractItemView::SelectRows);
     table->setSelectionMode(QAbstractItemView::SingleSelection);
-    table->horizontalHeader()->setStretchLastSection(true);
+    // A last section that is merely stretched keeps, in a table grown narrower, a width of its own.
+    table->horizontalHeader()->setSectionResizeMode(table->columnCount() - 1, QHeaderView::Stretch);
     const int row_px = table->fontMetrics().height() + kRowMargin_px;
     table->verticalHeader()->hide();
     table->verticalHeader()->setMinimumSectionSize(row_px);

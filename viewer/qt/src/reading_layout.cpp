@@ -248,15 +248,24 @@ void ReadingWindow::addActions()
 
 void ReadingWindow::showKeys()
 {
-    QString text = "<table>";
+    QVector<QPair<QString, QString>> keys;
     for (const QMenu* menu : menuBar()->findChildren<QMenu*>())
         for (const QAction* action : menu->actions())
             if (!action->shortcut().isEmpty())
-                text += QString("<tr><td><b>%1</b>&nbsp;&nbsp;</td><td>%2</td></tr>")
-                            .arg(action->shortcut().toString().toHtmlEscaped(), action->text().toHtmlEscaped());
-    text +=
-        tr("<tr><td><b>W A S D</b></td><td>guided and free: on, left, back, right</td></tr>"
-           "<tr><td><b>arrows</b></td><td>guided and free: turn the view</td></tr>");
+                keys.append({action->shortcut().toString(), action->text()});
+    keys.append({tr("W A S D"), tr("guided and free: on, left, back, right")});
+    keys.append({tr("arrows"), tr("guided and free: turn the view")});
+    // In two columns, for a screen of large letters is soon too low for one.
+    const int rows = (keys.size() + 1) / 2;
+    const auto unbroken = [](const QString& words) { return words.toHtmlEscaped().replace(' ', "&nbsp;"); };
+    QString text = "<table>";
+    for (int row = 0; row < rows; ++row) {
+        text += "<tr>";
+        for (int n = row; n < keys.size(); n += rows)
+            text += QString("<td><b>%1</b>&nbsp;&nbsp;</td><td>%2&nbsp;&nbsp;&nbsp;</td>")
+                        .arg(unbroken(keys[n].first), unbroken(keys[n].second));
+        text += "</tr>";
+    }
     auto* box = new QMessageBox(QMessageBox::NoIcon, tr("Keys"), text + "</table>", QMessageBox::Close, this);
     box->setObjectName("keys");
     box->setAttribute(Qt::WA_DeleteOnClose);

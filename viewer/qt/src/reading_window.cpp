@@ -209,6 +209,7 @@ SnapshotRequest ReadingWindow::request(const OpenScan& scan, const QSize& size) 
     SnapshotRequest request;
     request.width = size.width();
     request.height = size.height();
+    request.pixel_ratio = devicePixelRatioF();
     request.view_angle_deg = view_angle_deg_;
     request.caption = scan.caption;
     request.markers = session_.markersOf(scan.record.id);

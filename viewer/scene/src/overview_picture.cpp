@@ -12,15 +12,17 @@ namespace vicon::viewer {
 namespace {
 
 // In a window the projection is small, its words are not.
-double captionHeight(double text_px)
+double captionHeight(const SnapshotRequest& request)
 {
     constexpr double kLeast_px = 11;
-    return std::max(0.8 * text_px, kLeast_px);
+    return std::max(0.8 * textHeightFor(request.width, request.height, request.pixel_ratio),
+                    kLeast_px * request.pixel_ratio);
 }
 
 double wordsHeight(const SnapshotRequest& request)
 {
-    return std::max(textHeightFor(request.width, request.height), 12.0);
+    constexpr double kLeast_px = 12;
+    return std::max(textHeightFor(request.width, request.height, request.pixel_ratio), kLeast_px * request.pixel_ratio);
 }
 
 constexpr double kMostCaptionShare = 0.47;  // of the width
@@ -28,7 +30,8 @@ constexpr double kMostCaptionShare = 0.47;  // of the width
 /// What the caption takes of a corner, wherever the eye is.
 TextSize captionSize(const PreparedScan& scan, const SnapshotRequest& request)
 {
-    const double text_px = textHeightFor(request.width, request.height), line_px = captionHeight(text_px);
+    const double text_px = textHeightFor(request.width, request.height, request.pixel_ratio),
+                 line_px = captionHeight(request);
     const double length_mm = scan.frames().length_mm();
     auto lines = captionLines(request.caption, length_mm, length_mm, scan.words());
     TextSize size{0, double(lines.size()) * 1.35 * line_px + 0.48 * text_px};
@@ -211,7 +214,7 @@ void addMarkers(Overlay& overlay, const std::vector<Marker>& markers, const Plan
 
 OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request)
 {
-    const double text_px = textHeightFor(request.width, request.height);
+    const double text_px = textHeightFor(request.width, request.height, request.pixel_ratio);
     const artefact::Projection& projection = scan.coronalProjection();
     OverviewGround ground;
     ground.caption = captionSize(scan, request);
@@ -240,7 +243,7 @@ Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, con
     addHere(overlay, view, place.pose, 0.8 * text_px);
     addLetters(overlay, area, view.right, view.down, text_px);
     addScaleBar(overlay, area, view.mm_per_pixel, text_px);
-    addLines(overlay, {0, 0, ground.caption.width_px, ground.caption.height_px}, lines, captionHeight(text_px));
+    addLines(overlay, {0, 0, ground.caption.width_px, ground.caption.height_px}, lines, captionHeight(request));
     paint(picture, overlay);
     return picture;
 }
