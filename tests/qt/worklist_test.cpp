@@ -40,6 +40,7 @@ TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
     EXPECT_FALSE(room_->findChild<QPushButton*>("open")->isEnabled());
     screenshot("worklist");
     EXPECT_EQ(cases()->item(1 - failed, 6)->text(), "poor: prone");
+    EXPECT_GT(cases()->columnWidth(6), cases()->fontMetrics().horizontalAdvance("poor: prone"));
     EXPECT_TRUE(cases()->item(1 - failed, 6)->toolTip().contains("collapsed over 38 mm"));
     press(room_.get(), "retry");
     EXPECT_TRUE(eventually([&] { return cases()->item(failed, 4)->text() == "queued"; }));

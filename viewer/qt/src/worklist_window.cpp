@@ -102,7 +102,6 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setAlternatingRowColors(true);
     table_->verticalHeader()->hide();
-    table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     table_->horizontalHeader()->setSectionResizeMode(kPatient, QHeaderView::Stretch);
     reason_ = new QLabel(this);
     reason_->setObjectName("reason");
@@ -176,6 +175,7 @@ void WorklistWindow::show(const std::vector<WorklistRow>& rows)
     const std::string chosen_id = chosen ? chosen->record.id : "";
     const QSignalBlocker quiet(table_);
     rows_ = rows;
+    bool changed = table_->rowCount() != int(rows.size());
     table_->setRowCount(int(rows.size()));
     for (int n = 0; n < int(rows.size()); ++n) {
         const WorklistRow& row = rows[std::size_t(n)];
@@ -191,12 +191,16 @@ void WorklistWindow::show(const std::vector<WorklistRow>& rows)
         for (int column = 0; column < kColumns; ++column) {
             if (!table_->item(n, column))
                 table_->setItem(n, column, new QTableWidgetItem);
+            changed = changed || table_->item(n, column)->text() != cells[column];
             table_->item(n, column)->setText(cells[column]);
         }
         table_->item(n, kQuality)->setToolTip(wordsOf(row, false));
         if (row.record.id == chosen_id || (chosen_id.empty() && n == 0))
             table_->selectRow(n);
     }
+    // Once for all: a header that keeps to its contents measures every line again for each cell that is filled.
+    for (int column = kId; changed && column < kColumns; ++column)
+        table_->resizeColumnToContents(column);
     filter();
     updateButtons();
     for (const WorklistRow& row : rows_)
