@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "study.h"
+#include "vicon/core/file.h"
 
 namespace vicon::support {
 namespace {
@@ -39,6 +40,18 @@ TEST(OrganOfTheCommand, AnAirwayGoesThroughTheStepsAndIsFlownThrough)
                 HasSubstr("frames over"));
     EXPECT_THAT(viconOn(store, "fly " + scan.case_id + " --branch 1 --frames 2 --width 200 --height 200"),
                 HasSubstr("frames over"));
+    // However narrow the way is by its tip, the eye goes there: what is clicked in a picture lies where it says.
+    viconOn(store,
+            "fly " + scan.case_id + " --frames 5 --width 200 --height 200 --out " + (folder / "flight").string());
+    const auto flight = nlohmann::json::parse(readFile(folder / "flight" / "flight.json"));
+    ASSERT_EQ(flight["frames"].size(), 5U);
+    for (const auto& frame : flight["frames"]) {
+        const auto& eye = frame["eye_mm"];
+        const auto marker = viconJson(
+            store, "mark " + scan.case_id + " --at=" + eye[0].dump() + "," + eye[1].dump() + "," + eye[2].dump());
+        EXPECT_NEAR(marker["station_mm"].get<double>(), frame["station_mm"].get<double>(), 3);
+    }
+    EXPECT_NEAR(flight["frames"].back()["station_mm"].get<double>(), flight["length_mm"].get<double>(), 1);
     for (const char* view : {"endo", "slices", "overview"}) {
         const auto picture = folder / (std::string(view) + ".png");
         viconOn(store, "snapshot " + scan.case_id + " --view " + view + " --station 60 --out " + picture.string());

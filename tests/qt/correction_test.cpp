@@ -1,5 +1,8 @@
+#include <QLabel>
 #include <QProgressBar>
 #include <QTableWidget>
+#include <atomic>
+#include <thread>
 
 #include "reading.h"
 #include "vicon/core/file.h"
@@ -9,8 +12,37 @@ namespace {
 
 using test::Reading;
 
-TEST_F(Reading, CorrectionsGoToThePipelineAndTheNewResultIsTakenOver)
+/// Corrections of the scan that is read, by the mouse.
+class Correcting : public Reading {
+protected:
+    /// Presses this button of *Colon* and clicks where the path is at the top of the projection.
+    static void correctAlongThePath(const char* button)
+    {
+        press(window(), button);
+        click("overview", {the<QWidget>("overview")->width() / 2, the<QWidget>("overview")->height() / 5});
+        ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); })) << warning();
+    }
+    /// Until the corrected scan is shown.
+    static void waitForNewScan()
+    {
+        ASSERT_TRUE(eventually([] { return !the<QProgressBar>("redo")->isVisible(); }));
+        ASSERT_TRUE(eventually([] { return !the<QWidget>("opening")->isVisible(); }));
+        waitForScan();
+    }
+};
+
+TEST_F(Correcting, CorrectionsGoToThePipelineAndTheNewResultIsTakenOver)
 {
+    // What was seen is kept with the surface that it was seen on, and is written when the case is closed.
+    const auto surfaceSeen = [&] {
+        for (const auto& entry : std::filesystem::directory_iterator(store_ / "cases" / test::kCase / "reading"))
+            return readFile(entry.path()).substr(0, readFile(entry.path()).find('\n'));
+        return std::string();
+    };
+    openCase();
+    closeCase();
+    const std::string before = surfaceSeen();
+    ASSERT_FALSE(before.empty());
     openCase();
     showList(2);
     auto* bridges = the<QTableWidget>("bridges");
@@ -33,26 +65,15 @@ TEST_F(Reading, CorrectionsGoToThePipelineAndTheNewResultIsTakenOver)
     press(window(), "correctCut");
     click("coronal", middle("coronal"));
     EXPECT_TRUE(eventually([] { return warning().starts_with("There is no lumen"); })) << "between the two limbs";
-    click("overview", {the<QWidget>("overview")->width() / 2, the<QWidget>("overview")->height() / 5});
-    ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); }));
+    correctAlongThePath("correctCut");
     screenshot("corrected");
-    ASSERT_TRUE(eventually([] { return !the<QProgressBar>("redo")->isVisible(); }));
-    // What was seen is kept with the surface that it was seen on; the new one is another.
-    const auto surface = [&] {
-        for (const auto& entry : std::filesystem::directory_iterator(store_ / "cases" / test::kCase / "reading"))
-            return readFile(entry.path()).substr(0, readFile(entry.path()).find('\n'));
-        return std::string();
-    };
-    const std::filesystem::path reading = store_ / "cases" / test::kCase / "reading";
-    ASSERT_TRUE(eventually([&] { return std::filesystem::exists(reading) && !surface().empty(); }));
-    const std::string before = surface();
-    waitForScan();
+    waitForNewScan();
     EXPECT_LT(length() - station(), 10) << "the eye is where it was";
     closeCase();
-    EXPECT_NE(surface(), before);
+    EXPECT_NE(surfaceSeen(), before) << "the new one is another";
 }
 
-TEST_F(Reading, MarkersGetTheirStationsOnTheNewPathAndEarlierStepsCanStillBeUndone)
+TEST_F(Correcting, MarkersGetTheirStationsOnTheNewPathAndEarlierStepsCanStillBeUndone)
 {
     openCase();
     click("endoscopic", middle("endoscopic") + QPoint(60, 90), Qt::ShiftModifier);
@@ -67,11 +88,8 @@ TEST_F(Reading, MarkersGetTheirStationsOnTheNewPathAndEarlierStepsCanStillBeUndo
     ASSERT_TRUE(eventually([&] { return std::abs(cell(0, 2).toDouble() - there - 70) < 1; }));
     EXPECT_EQ(warning(), "") << "nobody but the pipeline changed it";
     showList(2);
-    press(window(), "correctCut");
-    click("overview", {the<QWidget>("overview")->width() / 2, the<QWidget>("overview")->height() / 5});
-    ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); })) << warning();
-    ASSERT_TRUE(eventually([] { return !the<QProgressBar>("redo")->isVisible(); }));
-    waitForScan();
+    correctAlongThePath("correctCut");
+    waitForNewScan();
     EXPECT_TRUE(eventually([&] { return std::abs(stored()[0].station_mm - there) < 3 && settled(); }))
         << stored()[0].station_mm << " for " << there;
     EXPECT_EQ(warning(), "");
@@ -83,8 +101,7 @@ TEST_F(Reading, MarkersGetTheirStationsOnTheNewPathAndEarlierStepsCanStillBeUndo
     key(Qt::Key_Z, Qt::ControlModifier);
     ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); })) << warning();
     EXPECT_EQ(corrections(), ScanCorrections{});
-    ASSERT_TRUE(eventually([] { return !the<QProgressBar>("redo")->isVisible(); }));
-    waitForScan();
+    waitForNewScan();
     showList(0);
     ASSERT_TRUE(eventually([] { return settled(); }));
     press(window(), "undo");
@@ -96,15 +113,75 @@ TEST_F(Reading, MarkersGetTheirStationsOnTheNewPathAndEarlierStepsCanStillBeUndo
     EXPECT_TRUE(eventually([&] { return corrections().cut.size() == 1; })) << warning();
 }
 
-TEST_F(Reading, ACorrectionThatAnotherReaderChangedIsNotTakenBack)
+TEST_F(Correcting, AScanThatIsDoneAgainForAnotherReaderIsShownAnewWhereOneWas)
+{
+    openCase();
+    key(Qt::Key_End);
+    settle();
+    CaseStore other(store_);
+    const ScanRecord scan = other.requireScan(test::kCase, test::kSupine);
+    services_.correct(other, scan, {{}, {{0, 0, 0}}, {}});
+    const auto progress = [&] { return cases()->item(0, 5)->text() + cases()->item(1, 5)->text(); };
+    ASSERT_TRUE(eventually([&] { return progress().contains(","); })) << "the worklist shows that it is being done";
+    EXPECT_EQ(warning(), "");
+    services_.work(other, false);
+    ASSERT_TRUE(eventually([] { return warning().find("done again meanwhile") != std::string::npos; }));
+    waitForScan();
+    EXPECT_LT(length() - station(), 10) << "the eye is where it was";
+}
+
+TEST_F(Correcting, WhatWasNotCorrectedIsNotForgottenAndWhatAddsNothingIsSaidSo)
 {
     openCase();
     showList(2);
-    press(window(), "correctCut");
-    click("overview", {the<QWidget>("overview")->width() / 2, the<QWidget>("overview")->height() / 5});
+    press(window(), "forgetCorrections");
+    EXPECT_TRUE(eventually([] { return warning() == "this scan has no corrections"; })) << warning();
+    EXPECT_FALSE(the<QProgressBar>("redo")->isVisible()) << "nothing is done again";
+    key(Qt::Key_End);
+    settle();
+    press(window(), "correctAdd");
+    click("coronal", middle("coronal"));  // between the two limbs
     ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); })) << warning();
-    ASSERT_TRUE(eventually([] { return !the<QProgressBar>("redo")->isVisible(); }));
-    waitForScan();
+    EXPECT_TRUE(eventually([] { return warning().starts_with("Nothing was added"); })) << warning();
+}
+
+TEST_F(Correcting, WorkThatIsStoppedLeavesTheWindowAsItWas)
+{
+    std::atomic<bool> stopped = false;
+    ReadingServices services = test::servicesFor(store_);
+    services.work = [&stopped](CaseStore&, const std::atomic<bool>& stop) {
+        while (!stop)
+            std::this_thread::yield();
+        stopped = true;
+    };
+    services.worklist = [&stopped, before = services.worklist](CaseStore& store) {
+        auto rows = before(store);
+        for (WorklistRow& row : rows)
+            for (WorklistScanRow& scan : row.scans)
+                if (scan.state == "running" && stopped)
+                    scan.state = "queued";
+        return rows;
+    };
+    room_.reset();
+    openRoom(services);
+    openCase();
+    showList(2);
+    const int width = the<QWidget>("endoscopic")->width();
+    correctAlongThePath("correctCut");
+    press(window(), "stopRedo");
+    EXPECT_TRUE(eventually([] { return the<QLabel>("redoState")->text().startsWith("stopped"); }));
+    settle();
+    EXPECT_EQ(the<QWidget>("endoscopic")->width(), width);
+    closeCase();
+    room_.reset();  // before what its services refer to
+}
+
+TEST_F(Correcting, ACorrectionThatAnotherReaderChangedIsNotTakenBack)
+{
+    openCase();
+    showList(2);
+    correctAlongThePath("correctCut");
+    waitForNewScan();
     const auto corrections = [&](const ScanCorrections* set) {
         CaseStore other(store_);
         const ScanRecord scan = other.requireScan(test::kCase, test::kSupine);

@@ -2,6 +2,7 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -65,6 +66,19 @@ TEST_F(Reading, TheMouseLeavesTheKeyboardInThePictureAndSoDoesANumber)
     type(Qt::Key_Return);
     EXPECT_TRUE(eventually([] { return std::abs(station() - 50) < 2; })) << "Return jumps";
     EXPECT_TRUE(eventually([] { return QApplication::focusWidget() == the<QWidget>("endoscopic"); }));
+}
+
+TEST_F(Reading, TheListOfKeysFitsOnALowScreen)
+{
+    openCase();
+    key(Qt::Key_Question);
+    auto* box = the<QMessageBox>("keys");
+    ASSERT_TRUE(eventually([&] { return box->isVisible(); }));
+    constexpr int kLowScreen_px = 650;  // 1300 pixels of twice the usual density
+    EXPECT_LT(box->height(), kLowScreen_px);
+    for (const char* some : {"Ctrl+M", "F2", "Del", "Home", "arrows"})
+        EXPECT_TRUE(box->text().contains(some)) << some;
+    box->close();
 }
 
 TEST_F(Reading, AnotherOrganAndItsEndsAreCalledByTheirNames)

@@ -1,6 +1,8 @@
 #include <QAction>
 #include <QComboBox>
+#include <QHeaderView>
 #include <QLabel>
+#include <QPushButton>
 #include <QTableWidget>
 
 #include "reading.h"
@@ -58,6 +60,27 @@ TEST_F(Reading, SlicesProjectionAndPeelingFollowTheMouse)
     }
     screenshot("lens");
     EXPECT_TRUE(the<QWidget>("endoscopic")->toolTip().isEmpty()) << "it would lie over what is peeled";
+}
+
+TEST_F(Reading, TheListOfMarkersHasRoomInALowWindowAndNothingIsSqueezedForIt)
+{
+    openCase();
+    constexpr int kLeastRows = 5, kLeastOverview_px = 200;
+    for (const QSize size : {QSize(1280, 700), QSize(1280, 900), QSize(1920, 1200)}) {
+        window()->resize(size);
+        ASSERT_TRUE(eventually([&] { return window()->size() == size; }));
+        settle();
+        EXPECT_GE(markers()->viewport()->visibleRegion().boundingRect().height(),
+                  kLeastRows * markers()->verticalHeader()->defaultSectionSize())
+            << size.height();
+        EXPECT_GE(the<QWidget>("overview")->height(), kLeastOverview_px) << size.height();
+        for (const QPushButton* button : the<QWidget>("markerTable")->findChildren<QPushButton*>()) {
+            EXPECT_EQ(button->visibleRegion().boundingRect().size(), button->size())
+                << button->text().toStdString() << " at " << size.height();
+            EXPECT_GT(button->width(), button->fontMetrics().horizontalAdvance(button->text()));
+        }
+        screenshot(("list_" + std::to_string(size.height())).c_str());
+    }
 }
 
 TEST_F(Reading, AmbientOcclusionChangesThePictureAndIsRemembered)

@@ -3,6 +3,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTableWidget>
+#include <atomic>
 
 #include "reading.h"
 
@@ -23,7 +24,7 @@ TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
     const auto reason = [&] { return room_->findChild<QLabel*>("reason")->text(); };
     QTest::keyClicks(search, "bert");
     EXPECT_EQ(shown(), 1);
-    EXPECT_EQ(reason(), "the series has a gap of 40 mm") << "what was found is chosen";
+    EXPECT_EQ(reason(), "supine: the series has a gap of 40 mm") << "what was found is chosen";
     search->clear();
     QTest::keyClicks(search, "anna");
     QTest::keyClick(search, Qt::Key_Return);
@@ -35,14 +36,64 @@ TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
     ASSERT_EQ(shown(), 1);
     const int failed = cases()->isRowHidden(0) ? 1 : 0;
     clickRow(cases(), failed);
-    EXPECT_EQ(reason(), "the series has a gap of 40 mm");
+    EXPECT_EQ(reason(), "supine: the series has a gap of 40 mm");
     EXPECT_FALSE(room_->findChild<QPushButton*>("open")->isEnabled());
     screenshot("worklist");
     EXPECT_EQ(cases()->item(1 - failed, 6)->text(), "poor: prone");
+    EXPECT_GT(cases()->columnWidth(6), cases()->fontMetrics().horizontalAdvance("poor: prone"));
     EXPECT_TRUE(cases()->item(1 - failed, 6)->toolTip().contains("collapsed over 38 mm"));
     press(room_.get(), "retry");
     EXPECT_TRUE(eventually([&] { return cases()->item(failed, 4)->text() == "queued"; }));
     EXPECT_EQ(shown(), 0) << "it is no longer failed";
+}
+
+TEST_F(Reading, AScanThatBecomesReadyWhileItsCaseIsReadIsOffered)
+{
+    std::atomic<bool> ready = false;
+    ReadingServices services = test::servicesFor(store_);
+    services.worklist = [&ready, before = services.worklist](CaseStore& store) {
+        auto rows = before(store);
+        for (WorklistRow& row : rows)
+            for (WorklistScanRow& scan : row.scans)
+                if (scan.record.id == test::kProne && !ready)
+                    scan.state = "running";
+        return rows;
+    };
+    room_.reset();
+    openRoom(services);
+    openCase();
+    auto* scans = the<QComboBox>("scan");
+    ASSERT_EQ(scans->count(), 1);
+    key(Qt::Key_X);
+    EXPECT_EQ(warning(), "This case has no other scan that can be read.");
+    ready = true;
+    ASSERT_TRUE(eventually([&] { return scans->count() == 2; }));
+    the<QLabel>("where")->clear();
+    key(Qt::Key_X);
+    waitForScan();
+    EXPECT_TRUE(scans->currentText().startsWith("prone"));
+    room_.reset();  // before what its services refer to
+}
+
+TEST_F(Reading, ACaseOpenedTooEarlyIsReadAsSoonAsItCanBe)
+{
+    std::atomic<bool> ready = false;
+    ReadingServices services = test::servicesFor(store_);
+    services.worklist = [&ready, before = services.worklist](CaseStore& store) {
+        auto rows = before(store);
+        for (WorklistRow& row : rows)
+            for (WorklistScanRow& scan : row.scans)
+                scan.state = ready && row.record.id == test::kCase ? "done" : "running";
+        return rows;
+    };
+    room_.reset();
+    openRoom(services, test::kCase);
+    ASSERT_TRUE(eventually([] { return window() != nullptr; }));
+    EXPECT_FALSE(warning().empty());
+    ready = true;
+    waitForScan();
+    EXPECT_EQ(warning(), "");
+    room_.reset();
 }
 
 TEST_F(Reading, OpeningCanBeCancelledAndTheScanThatIsOpenStays)

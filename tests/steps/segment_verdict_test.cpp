@@ -166,6 +166,25 @@ TEST(Correction, ACutDropsTheSmallerPart)
     EXPECT_FALSE(Correctable::holds(result, {-45, 0, -15}));
 }
 
+/// Wherever in the lumen it is clicked: beside the wall, in a bend, in a wide place, a little outside.
+TEST(Correction, ACutTakesTheWholeCrossSectionAway)
+{
+    const TubeScan scan{.line = {{0, 15, -70}, {0, 15, -45}, {45, 0, -40}, {45, 0, 45}, {-45, 0, 45}, {-45, 0, -20}},
+                        .second_line = {{-45, -12, 22}, {-45, -12, 8}}};  // a sac beside the last limb
+    const HuVolume volume = scan.draw(kGrid);
+    const Segmentation whole = segment(volume);
+    ASSERT_EQ(whole.plan.pieces.size(), 1U);
+    for (const char* at :
+         {"-45,0,12", "-40,0,12", "-54,1,12", "-45,9,10", "-45,-17,14", "-38,3,0", "-44,0,-3", "-32.5,0,-4"}) {
+        SegmentOptions options;
+        options.cut = at;
+        const Segmentation result = segment(volume, options);
+        EXPECT_TRUE(Correctable::holds(result, {45, 0, 0})) << at;
+        EXPECT_TRUE(Correctable::holds(result, {-20, 0, 45})) << at;
+        EXPECT_FALSE(Correctable::holds(result, {-45, 0, -15})) << at;
+    }
+}
+
 TEST(Correction, ADroppedPieceIsLeftOut)
 {
     TubeScan scan{.line = {{0, 15, -70}, {0, 15, -45}, {45, 0, -40}, {45, 0, 45}, {-45, 0, 45}, {-45, 0, 15}},

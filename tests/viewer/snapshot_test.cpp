@@ -159,6 +159,66 @@ TEST_F(Snapshots, OfAMarkerLookAtItFromWithinTheLumen)
     EXPECT_GT(middle.red, middle.blue);
 }
 
+TEST_F(Snapshots, AWideOverviewShowsTheColonBesideItsCaptionAndLargerSo)
+{
+    const PreparedScan of = scan();
+    const double length_mm = of.skeleton().length_mm();
+    SnapshotRequest request;
+    request.view = SnapshotRequest::View::overview;
+    request.height = 300;
+    request.markers = {markerAt(of.skeleton().at(length_mm / 4).position_mm, MarkerColor::red, ""),
+                       markerAt(of.skeleton().at(length_mm * 3 / 4).position_mm, MarkerColor::green, "")};
+    const auto apart = [&](int width) {
+        request.width = width;
+        const Picture picture = shoot(of, request);
+        const Area all{0, 0, double(width), double(request.height)};
+        const Found red = findColor(picture, colorOf(MarkerColor::red), all);
+        const Found green = findColor(picture, colorOf(MarkerColor::green), all);
+        EXPECT_GT(red.count, 10);
+        EXPECT_GT(green.count, 10);
+        return std::hypot(red.x - green.x, red.y - green.y);
+    };
+    EXPECT_GT(apart(2 * request.height), 1.15 * apart(request.height));
+}
+
+TEST_F(Snapshots, ALongLineInANarrowSliceIsNotWrittenSmallerThanItMustBe)
+{
+    const PreparedScan of = scan();
+    SliceRequest slice;
+    slice.view = sliceThrough(of.volume().grid, SlicePlane::transverse, colon.polyp_mm, 260, 260);
+    slice.window = {"dark", 100, 10000};
+    slice.caption.patient_name = "Katzenellenbogen^Maximiliane";
+    int least = 260, most = 0;
+    const Picture picture = slicePicture(of.volume(), slice);
+    for (int x = 0; x < 260; ++x)
+        if (findColor(picture, kTextColor, {double(x), 16, 1, 16}, 60).count > 0) {
+            least = std::min(least, x);
+            most = std::max(most, x);
+        }
+    EXPECT_GT(most - least, 0.55 * 260) << "it may pass below the letter in the middle";
+}
+
+TEST_F(Snapshots, OnAScreenOfTwiceThePixelsTextIsTwiceAsHigh)
+{
+    const PreparedScan of = scan();
+    SliceRequest slice;
+    SnapshotRequest overview;
+    overview.view = SnapshotRequest::View::overview;
+    overview.caption.patient_name = slice.caption.patient_name = "Phantom^Anna";
+    const auto written = [&](int scale) {
+        slice.view = sliceThrough(of.volume().grid, SlicePlane::transverse, colon.polyp_mm, 300 * scale, 300 * scale);
+        slice.window = {"dark", 100, 10000};
+        overview.width = overview.height = 300 * scale;
+        slice.pixel_ratio = overview.pixel_ratio = scale;
+        const Area corner{0, 0, 140.0 * scale, 60.0 * scale};
+        return std::pair(findColor(slicePicture(of.volume(), slice), kTextColor, corner, 60).count,
+                         findColor(shoot(of, overview), kTextColor, corner, 60).count);
+    };
+    const auto once = written(1), twice = written(2);
+    EXPECT_GT(twice.first, 3 * once.first);
+    EXPECT_GT(twice.second, 3 * once.second);
+}
+
 TEST_F(Snapshots, AreTheSameBytesEachTime)
 {
     const PreparedScan of = scan();

@@ -13,6 +13,7 @@
 #include "fluid_rim.h"
 #include "ileum_cut.h"
 #include "lumen.h"
+#include "lumen_cut.h"
 #include "lumen_pieces.h"
 #include "ordering.h"
 #include "segment_binary.h"
@@ -173,7 +174,7 @@ Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const
     progress.report(0.5, "pieces");
     std::vector<std::vector<Index3>> around_cuts;
     for (const Point3 p : corrections.cut)
-        around_cuts.push_back(cutAt(labels, p));
+        around_cuts.push_back(cutAcross(labels, p, progress));
     const int layers = rimLayers(labels.grid, kLeak_mm);
     markFluidRim(labels, layers);
     RunLabels lumen = labelLumen(labels, Neighbours::faces);

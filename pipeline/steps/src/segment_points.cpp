@@ -10,9 +10,7 @@
 namespace vicon::steps {
 namespace {
 
-constexpr double kCatch_mm = 3;        // how far a person's point may lie beside what it means
-constexpr double kCutMargin_mm = 1.5;  // beyond the nearest wall, so that nothing is left along it
-constexpr double kWidestCut_mm = 45;   // no colon is wider
+constexpr double kCatch_mm = 3;  // how far a person's point may lie beside what it means
 
 template <class Use>
 void forEachWithin(const Grid& grid, Point3 p, double radius_mm, Use use)
@@ -72,26 +70,6 @@ std::vector<int> componentsAt(const RunLabels& labels, const Grid& grid, const s
             found.insert(label);
     }
     return {found.begin(), found.end()};
-}
-
-std::vector<Index3> cutAt(InsideVolume& labels, Point3 point)
-{
-    double wall_mm = kWidestCut_mm;
-    forEachWithin(labels.grid, point, kWidestCut_mm, [&](Index3 v, double d) {
-        if (labels.at(v) == kOutside)
-            wall_mm = std::min(wall_mm, d);
-    });
-    const double radius_mm = std::min(wall_mm + kCutMargin_mm, kWidestCut_mm);
-    std::vector<Index3> around;
-    forEachWithin(labels.grid, point, radius_mm + 2 * labels.grid.spacing_mm[0], [&](Index3 v, double d) {
-        if (labels.at(v) == kOutside)
-            return;
-        if (d <= radius_mm)
-            labels.at(v) = kOutside;
-        else
-            around.push_back(v);
-    });
-    return around;
 }
 
 }  // namespace vicon::steps

@@ -17,8 +17,4 @@ std::string textOf(Point3 point);
 /// The components at, or within 3 mm of, each point; points without one are left out.
 std::vector<int> componentsAt(const RunLabels& labels, const Grid& grid, const std::vector<Point3>& points);
 
-/// Takes a ball out of the lumen that reaches a little beyond the wall nearest to the point: what it separates falls
-/// apart. Returns the voxels of lumen just outside the ball.
-std::vector<Index3> cutAt(InsideVolume& labels, Point3 point);
-
 }  // namespace vicon::steps

@@ -90,9 +90,9 @@ Rgb colorOf(MarkerColor color)
     }
 }
 
-double textHeightFor(int width, int height)
+double textHeightFor(int width, int height, double pixel_ratio)
 {
-    return std::clamp(std::min(width, height) / 38.0, 10.0, 40.0);
+    return std::clamp(std::min(width, height) / 38.0, 10.0 * pixel_ratio, 40.0 * pixel_ratio);
 }
 
 void addLetters(Overlay& overlay, const Area& area, Vector3 right, Vector3 down, double text_px)

@@ -20,6 +20,13 @@ struct Scene {
     const ViewPoseOptions& options;
 };
 
+/// What the eye keeps from the wall where the path is at a station; `room_mm` where nothing is narrow.
+double roomAt(const Scene& scene, double station_mm, double room_mm)
+{
+    constexpr double kOfRadius = 0.5;
+    return scene.path.tapers() ? std::min(room_mm, kOfRadius * scene.path.at(station_mm).radius_mm) : room_mm;
+}
+
 // Up the clearance by small steps, until it suffices or no longer grows.
 Point3 moreRoom(const Lumen& lumen, Point3 p, double enough_mm)
 {
@@ -61,7 +68,7 @@ Place nearestPlace(const Scene& scene, double station_mm)
         for (double d = 0; d <= reach; d += kStep_mm)
             for (const double station : {at - d, at + d})
                 if (station >= 0 && station <= length)
-                    if (const auto eye = eyeAt(scene, station, room))
+                    if (const auto eye = eyeAt(scene, station, roomAt(scene, station, room)))
                         return {station, *eye};
     throw Error(ErrorCode::unusable_scan, "no part of the skeleton lies in the lumen", {},
                 "run 'vicon work' to prepare the scan anew");
@@ -110,7 +117,8 @@ void consider(std::vector<Candidate>& candidates, const Scene& scene, const Targ
     const double d = distance(place.eye_mm, target.point_mm);
     if (d < scene.options.least_distance_mm / 2 || d > 1.3 * scene.options.most_distance_mm)
         return;
-    if (scene.lumen.clearance_mm(place.eye_mm) < scene.options.camera_radius_mm || !scene.lumen.inside(place.eye_mm))
+    if (scene.lumen.clearance_mm(place.eye_mm) < roomAt(scene, place.station_mm, scene.options.camera_radius_mm) ||
+        !scene.lumen.inside(place.eye_mm))
         return;
     if (scene.lumen.sees(place.eye_mm, target.point_mm, target.allowance_mm))
         candidates.push_back({place, d});

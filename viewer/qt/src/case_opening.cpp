@@ -16,6 +16,12 @@ void letGo(OpenScan* scan)
 
 }  // namespace
 
+std::filesystem::file_time_type madeAt(const std::filesystem::path& folder)
+{
+    std::error_code none;
+    return std::filesystem::last_write_time(folder / "inside.mha", none);  // every correction makes it anew
+}
+
 OpenScan::OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case)
     : files(std::move(prepared)),
       record(scan),
@@ -91,11 +97,13 @@ void CaseSession::load(const std::string& work, const std::string& scan_id, Open
                      try {
                          if (!at(0))
                              return {};
+                         const auto before = madeAt(folder);
                          auto files = PreparedScan::open(folder);
                          files.readForFlight();
                          if (!at(1))
                              return {};
                          const std::shared_ptr<OpenScan> made(new OpenScan(files, scan, row_.record), letGo);
+                         made->made = before;
                          if (!at(2))
                              return {};
                          SeenKeeper::restore(made->seen, folder);

@@ -39,12 +39,22 @@ QString caseIsGone()
 CaseSession::CaseSession(const ReadingServices& services, const WorklistRow& row)
     : services_(services), row_(row), history_(row.record.id)
 {
-    for (const WorklistScanRow& scan : row.scans)
-        if (scan.state == "done" && scan.reason.empty())
-            scans_.push_back(scan.record);
+    renew(row);
     connect(&worker_, &Worker::failed, this, &CaseSession::warned);
     connect(&loader_, &Worker::failed, this, &CaseSession::warned);
     refresh();
+}
+
+std::vector<ScanRecord> CaseSession::renew(const WorklistRow& row)
+{
+    row_.scans = row.scans;  // the case's record stays: the workers read it
+    std::vector<ScanRecord> added;
+    for (const WorklistScanRow& scan : row.scans)
+        if (scan.ready() && std::none_of(scans_.begin(), scans_.end(),
+                                         [&](const ScanRecord& known) { return known.id == scan.record.id; }))
+            added.push_back(scan.record);
+    scans_.insert(scans_.end(), added.begin(), added.end());
+    return added;
 }
 
 std::string CaseSession::wordsFor(const Error& error)

@@ -33,9 +33,13 @@ struct OpenScan {
     Lumen lumen;
     Navigator navigator;
     SeenSoFar seen;
+    std::filesystem::file_time_type made;  ///< when its files were
 
     OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case);
 };
+
+/// When the files of a scan were made; what is open may be older.
+std::filesystem::file_time_type madeAt(const std::filesystem::path& folder);
 
 /// A case that is open: its scans and its markers, with one thread that speaks to the database. A change of a marker
 /// is shown when it has been saved.
@@ -47,6 +51,8 @@ public:
     const CaseRecord& record() const { return row_.record; }
     /// Those that can be shown: their jobs are done and found a colon.
     const std::vector<ScanRecord>& scans() const { return scans_; }
+    /// As the worklist shows the case by now. Returns the scans that can be shown since.
+    std::vector<ScanRecord> renew(const WorklistRow& row);
     const std::vector<Marker>& markers() const { return markers_; }
     std::vector<Marker> markersOf(const std::string& scan_id) const;
     /// Nothing when it was deleted.

@@ -7,10 +7,13 @@
 #include <QPushButton>
 #include <QTableWidget>
 
+#include "panel_parts.h"
+
 namespace vicon::viewer {
 namespace {
+constexpr int kLeastRows = 4, kButtons = 6, kStateColumns = 2;
 enum Column { kStation, kLength, kConfidence, kVerdict, kColumns };
-}
+}  // namespace
 
 QPushButton* ColonPanel::button(const QString& title, const char* name, const QString& tip)
 {
@@ -18,6 +21,7 @@ QPushButton* ColonPanel::button(const QString& title, const char* name, const QS
     made->setObjectName(name);
     made->setAccessibleName(title);
     made->setToolTip(tip);
+    tighten(made);
     return made;
 }
 
@@ -28,37 +32,34 @@ ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
     table_->setAccessibleName(tr("Bridges over collapsed parts"));
     table_->setToolTip(tr("Where the pipeline joined two pieces of lumen. Click: fly there."));
     table_->setHorizontalHeaderLabels({tr("mm"), tr("Bridge"), tr("Sure"), tr("Judged")});
-    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table_->setSelectionMode(QAbstractItemView::SingleSelection);
+    setUpList(table_, kLeastRows);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    table_->verticalHeader()->hide();
-    table_->horizontalHeader()->setStretchLastSection(true);
     confirm_ = button(tr("Confirm"), "confirmBridge", tr("The two pieces belong together"));
     reject_ = button(tr("Reject"), "rejectBridge", tr("They do not; kept with your name and printed in the report"));
     auto* add = button(tr("Add ..."), "correctAdd", tr("Then click on gas or fluid that belongs to the colon"));
     auto* cut = button(tr("Cut ..."), "correctCut",
-                       tr("Then click into the middle of the lumen where it is cut; the smaller part is dropped"));
+                       tr("Then click into the lumen where it is cut across; the smaller part is dropped"));
     auto* drop = button(tr("Drop ..."), "correctDrop", tr("Then click on a piece that is not colon"));
     auto* forget = button(tr("Forget"), "forgetCorrections", tr("Take back all corrections of this scan"));
     stop_ = button(tr("Stop"), "stopRedo", tr("Stop the work; the job waits in the queue"));
     state_ = new QLabel(this);
     state_->setObjectName("redoState");
+    state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // what it says makes no column wider
     bar_ = new QProgressBar(this);
     bar_->setObjectName("redo");
     bar_->setAccessibleName(tr("Progress of the scan that is done again"));
 
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(2, 2, 2, 2);
-    grid->addWidget(table_, 0, 0, 1, 6);
+    grid->addWidget(table_, 0, 0, 1, kButtons);
     grid->addWidget(confirm_, 1, 0);
     grid->addWidget(reject_, 1, 1);
     grid->addWidget(add, 1, 2);
     grid->addWidget(cut, 1, 3);
     grid->addWidget(drop, 1, 4);
     grid->addWidget(forget, 1, 5);
-    grid->addWidget(state_, 2, 0, 1, 2);
-    grid->addWidget(bar_, 2, 2, 1, 3);
-    grid->addWidget(stop_, 2, 5);
+    grid->addWidget(bar_, 2, kStateColumns, 1, kButtons - kStateColumns - 1);
+    grid->addWidget(stop_, 2, kButtons - 1);
     connect(table_, &QTableWidget::itemSelectionChanged, this, &ColonPanel::updateButtons);
     connect(table_, &QTableWidget::cellClicked, this, [this](int row, int) {
         const BridgeRow& bridge = bridges_[std::size_t(row)];
@@ -108,9 +109,11 @@ void ColonPanel::show(const std::vector<BridgeRow>& bridges, const Skeleton& ske
 
 void ColonPanel::showProgress(const QString& what, double fraction)
 {
+    const bool under_way = fraction >= 0;
     state_->setText(what);
-    bar_->setVisible(fraction >= 0);
-    stop_->setVisible(fraction >= 0);
+    qobject_cast<QGridLayout*>(layout())->addWidget(state_, 2, 0, 1, under_way ? kStateColumns : kButtons);
+    bar_->setVisible(under_way);
+    stop_->setVisible(under_way);
     bar_->setValue(int(100 * fraction));
 }
 

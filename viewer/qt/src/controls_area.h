@@ -18,14 +18,14 @@ public:
         setFocusPolicy(Qt::NoFocus);  // a click between its controls leaves the keyboard where it is
         setWidgetResizable(true);
         setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-        setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Expanding);
+        setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);  // what is left is the projection's
         setWidget(controls);
     }
 
     QSize sizeHint() const override
     {
         const int extra = passing_->isVisibleTo(widget()) ? passing_->sizeHint().height() : 0;
-        return {minimumSizeHint().width(), widget()->minimumSizeHint().height() - extra};
+        return {minimumSizeHint().width(), widget()->sizeHint().height() - extra};
     }
     QSize minimumSizeHint() const override
     {

@@ -46,6 +46,8 @@ CorrectionHistory::Step CorrectionHistory::forget(CaseStore& store, const ScanRe
     step.scan = scan;
     step.before = services_.corrections(store, scan);
     step.after = ScanCorrections{};
+    if (step.before == step.after)
+        throw Error(ErrorCode::wrong_use, "this scan has no corrections");
     return take(store, std::move(step));
 }
 

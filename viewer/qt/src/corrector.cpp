@@ -148,7 +148,7 @@ void Corrector::show(const WorklistScanRow& row)
     } else {
         watch_.stop();
         emit progressed({}, -1);
-        if (row.state == "done" && row.reason.empty())
+        if (row.ready())
             emit redone(QString::fromStdString(row.record.id));
         else
             emit failed(tr("The corrected scan cannot be read: %1").arg(QString::fromStdString(row.reason)));

@@ -32,6 +32,8 @@ public:
     std::optional<StepNumber> toRedo() const { return to_redo_; }
     /// What runs is stopped; its job waits in the queue.
     void stop();
+    /// A scan is being done again for this reader.
+    bool busy() const { return watch_.isActive(); }
 
 signals:
     void bridgesFound(const std::vector<vicon::viewer::BridgeRow>& bridges, const QString& scan_id);

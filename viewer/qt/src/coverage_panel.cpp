@@ -9,9 +9,12 @@
 #include <QTableWidget>
 #include <algorithm>
 
+#include "panel_parts.h"
+
 namespace vicon::viewer {
 namespace {
 enum Column { kStation, kPart, kArea, kColumns };
+constexpr int kLeastRows = 4;
 constexpr double kMostArea_mm2 = 1000;
 }  // namespace
 
@@ -41,11 +44,8 @@ CoveragePanel::CoveragePanel(QWidget* parent) : QWidget(parent)
                     tr("Count from nothing, as before the first flight"));
     table_ = named(new QTableWidget(0, kColumns, this), "unseen", tr("Unseen patches"), tr("Click: fly there"));
     table_->setHorizontalHeaderLabels({tr("mm"), tr("Part"), tr("mm² unseen")});
-    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table_->setSelectionMode(QAbstractItemView::SingleSelection);
+    setUpList(table_, kLeastRows);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    table_->verticalHeader()->hide();
-    table_->horizontalHeader()->setStretchLastSection(true);
 
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(2, 2, 2, 2);

@@ -9,12 +9,14 @@
 #include <algorithm>
 #include <map>
 
+#include "panel_parts.h"
 #include "vicon/core/case_store.h"
 #include "vicon/viewer/model/annotate.h"
 
 namespace vicon::viewer {
 namespace {
 
+constexpr int kLeastRows = 5, kGap_px = 3;
 enum Column { kId, kScan, kStation, kPart, kPair, kSize, kNote, kColumns };
 
 QString text(const std::string& utf8)
@@ -54,11 +56,8 @@ MarkerTable::MarkerTable(QWidget* parent) : QWidget(parent)
     table_->setObjectName("markers");
     table_->setAccessibleName(tr("Markers"));
     table_->setHorizontalHeaderLabels({tr("ID"), tr("Scan"), tr("mm"), tr("Part"), tr("Pair"), tr("Size"), tr("Note")});
-    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table_->setSelectionMode(QAbstractItemView::SingleSelection);
+    setUpList(table_, kLeastRows);
     table_->horizontalHeaderItem(kSize)->setToolTip(tr("Straight between the two ends that were clicked, in mm (M)"));
-    table_->verticalHeader()->hide();
-    table_->horizontalHeader()->setStretchLastSection(true);
     table_->setToolTip(tr("Click: fly there. Double click on the note: write it."));
 
     const auto button = [this](const QString& title, const char* name, const QString& tip) {
@@ -66,6 +65,7 @@ MarkerTable::MarkerTable(QWidget* parent) : QWidget(parent)
         made->setObjectName(name);
         made->setToolTip(tip);
         made->setAccessibleName(title);
+        tighten(made);
         return made;
     };
     color_ = new QComboBox(this);
@@ -81,12 +81,12 @@ MarkerTable::MarkerTable(QWidget* parent) : QWidget(parent)
 
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(2, 2, 2, 2);
-    grid->addWidget(table_, 0, 0, 1, 4);
-    int n = 0;
-    for (QWidget* widget : std::initializer_list<QWidget*>{go_, color_, move_, pair_, remove_, undo_, redo_}) {
-        grid->addWidget(widget, 1 + n / 4, n % 4);
-        ++n;
-    }
+    const std::initializer_list<QWidget*> controls{go_, color_, move_, pair_, remove_, undo_, redo_};
+    grid->setHorizontalSpacing(kGap_px);
+    grid->addWidget(table_, 0, 0, 1, int(controls.size()));
+    int column = 0;
+    for (QWidget* control : controls)
+        grid->addWidget(control, 1, column++);
     connect(table_, &QTableWidget::itemSelectionChanged, this, &MarkerTable::updateButtons);
     connect(table_, &QTableWidget::cellClicked, this, [this](int, int column) {
         if (const auto marker = selected(); marker && column != kNote)

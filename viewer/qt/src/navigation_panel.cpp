@@ -3,6 +3,7 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -13,12 +14,15 @@
 namespace vicon::viewer {
 namespace {
 constexpr double kStep_mm = 10;
-}
+constexpr int kButtonsInRow = 4;
+}  // namespace
 
 NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
 {
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(2, 2, 2, 2);
+    for (int column = 0; column < kButtonsInRow; ++column)
+        grid->setColumnStretch(column, 1);
     const auto named = [](auto* widget, const char* name, const QString& title, const QString& tip) {
         widget->setObjectName(name);
         widget->setAccessibleName(title);
@@ -42,6 +46,10 @@ NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
     speed_ = named(new QSlider(Qt::Horizontal, this), "speed", tr("Speed"), tr("Speed of flight (+, -)"));
     speed_->setRange(int(Navigator::kLeastSpeed_mm_s), int(Navigator::kMostSpeed_mm_s));
     speed_text_ = new QLabel(this);
+    angle_ = named(new QSlider(Qt::Horizontal, this), "angle", tr("Angle of view"),
+                   tr("Angle of view: narrow is true to shape, wide sees more of the wall"));
+    angle_->setRange(60, 120);
+    angle_text_ = new QLabel(this);
     station_ = named(new QDoubleSpinBox(this), "station", tr("Distance to jump to"), {});
     station_->setDecimals(0);
     station_->setSuffix(tr(" mm"));
@@ -49,25 +57,25 @@ NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
     go_ = button(tr("Jump"), "jump", tr("Jump to this distance"), {});
     where_ = named(new QLabel(this), "where", tr("Place"), tr("Where the eye is"));
 
-    grid->addWidget(mode_, 0, 0);
-    grid->addWidget(back_, 0, 1);
-    grid->addWidget(stop_, 0, 2);
-    grid->addWidget(forward_, 0, 3);
-    grid->addWidget(about_, 1, 0);
-    grid->addWidget(look_back_, 1, 1);
-    grid->addWidget(step_back_, 1, 2);
-    grid->addWidget(step_on_, 1, 3);
-    grid->addWidget(speed_, 2, 0, 1, 3);
-    grid->addWidget(speed_text_, 2, 3);
-    grid->addWidget(station_, 3, 0, 1, 3);
-    grid->addWidget(go_, 3, 3);
-    angle_ = named(new QSlider(Qt::Horizontal, this), "angle", tr("Angle of view"),
-                   tr("Angle of view: narrow is true to shape, wide sees more of the wall"));
-    angle_->setRange(60, 120);
-    angle_text_ = new QLabel(this);
-    grid->addWidget(angle_, 4, 0, 1, 3);
-    grid->addWidget(angle_text_, 4, 3);
-    grid->addWidget(where_, 5, 0, 1, 4);
+    auto* title = new QHBoxLayout;
+    title->addWidget(new QLabel(tr("Flight"), this));
+    title->addStretch();
+    title->addWidget(where_);
+    grid->addLayout(title, 0, 0, 1, kButtonsInRow);
+    grid->addWidget(mode_, 1, 0);
+    grid->addWidget(back_, 1, 1);
+    grid->addWidget(stop_, 1, 2);
+    grid->addWidget(forward_, 1, 3);
+    grid->addWidget(about_, 2, 0);
+    grid->addWidget(look_back_, 2, 1);
+    grid->addWidget(step_back_, 2, 2);
+    grid->addWidget(step_on_, 2, 3);
+    grid->addWidget(speed_, 3, 0);
+    grid->addWidget(speed_text_, 3, 1);
+    grid->addWidget(angle_, 3, 2);
+    grid->addWidget(angle_text_, 3, 3);
+    grid->addWidget(station_, 4, 0, 1, 3);
+    grid->addWidget(go_, 4, 3);
     connect(angle_, &QSlider::valueChanged, this, [this](int degrees) { emit angleWanted(degrees); });
 
     connect(mode_, qOverload<int>(&QComboBox::activated), this,

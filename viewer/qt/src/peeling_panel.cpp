@@ -37,16 +37,20 @@ PeelingPanel::PeelingPanel(QWidget* parent) : QWidget(parent)
     circle_->setToolTip(tr("Peel in a circle that follows the mouse; the surface stays around it"));
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(2, 2, 2, 2);
-    grid->addWidget(preset_, 0, 0);
-    grid->addWidget(circle_, 0, 1);
-    grid->addWidget(offset_, 1, 0);
-    grid->addWidget(offset_text_, 1, 1);
+    auto* title = new QLabel(tr("Below the wall"), this);
+    title->setBuddy(preset_);
+    grid->addWidget(title, 0, 0);
+    grid->addWidget(preset_, 0, 1);
+    grid->addWidget(circle_, 0, 2);
+    grid->addWidget(offset_, 1, 0, 1, 2);
+    grid->addWidget(offset_text_, 1, 2);
+    grid->setColumnStretch(1, 1);
     histogram_ = new QLabel(this);
     histogram_->setObjectName("histogram");
     histogram_->setAccessibleName(tr("Densities of the virtual biopsy"));
     histogram_->setAlignment(Qt::AlignCenter);
     histogram_->hide();
-    grid->addWidget(histogram_, 2, 0, 1, 2);
+    grid->addWidget(histogram_, 2, 0, 1, 3);
     const auto tell = [this] {
         offset_->setEnabled(on());
         circle_->setEnabled(on());

@@ -21,6 +21,7 @@ void ReadingWindow::connectCorrections()
             });
     connect(&corrector_, &Corrector::redone, this, [this](const QString& scan_id) {
         if (!session_.scan() || session_.scan()->record.id != scan_id.toStdString()) {
+            corrected_.reset();
             session_.placeAnew();
             return;
         }
@@ -32,10 +33,9 @@ void ReadingWindow::connectCorrections()
         arm({});
         correcting_ = kind;
         setPickCursor(true);
-        tell(kind == Correction::add ? tr("Click on the gas or fluid that belongs to the colon, in a slice")
-             : kind == Correction::cut
-                 ? tr("Click into the middle of the lumen, where it is narrow; the smaller part is dropped")
-                 : tr("Click on the piece that does not belong to the colon"));
+        tell(kind == Correction::add   ? tr("Click on the gas or fluid that belongs to the colon, in a slice")
+             : kind == Correction::cut ? tr("Click into the lumen where it is cut across; the smaller part is dropped")
+                                       : tr("Click on the piece that does not belong to the colon"));
     });
     connect(colon_, &ColonPanel::forgetWanted, this, [this] {
         if (session_.scan())
@@ -66,8 +66,19 @@ bool ReadingWindow::correctedAt(const OpenScan& scan, Point3 point)
     }
     correcting_.reset();
     setPickCursor(false);
+    corrected_ = {kind, point};
     corrector_.correct(scan.record, kind, point);
     return true;
+}
+
+void ReadingWindow::sayWhatIsNotAdded(const std::optional<std::pair<Correction, Point3>>& corrected)
+{
+    constexpr double kBeside_mm = 4;  // a little more than a point may lie beside what it means
+    if (corrected && corrected->first == Correction::add &&
+        !session_.scan()->lumen.nearestInside(corrected->second, kBeside_mm).found)
+        warn(
+            tr("Nothing was added: there is no gas or tagged fluid at the place that you clicked, or it belongs to a "
+               "piece that you dropped. Undo (Ctrl+Z) takes the correction back."));
 }
 
 }  // namespace vicon::viewer

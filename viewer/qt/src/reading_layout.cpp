@@ -23,14 +23,12 @@ namespace {
 
 constexpr int kPart = 150, kSideWidth = 430;  // pixels of 96 to the inch, before the window is resized
 
-QWidget* group(const QString& title, QWidget* inside)
+QWidget* framed(QWidget* inside)
 {
     auto* box = new QFrame;  // a group box of this style cuts a pixel off its title
     box->setFrameShape(QFrame::StyledPanel);
     auto* layout = new QVBoxLayout(box);
     layout->setContentsMargins(4, 2, 4, 2);
-    layout->setSpacing(2);
-    layout->addWidget(new QLabel(title));
     layout->addWidget(inside);
     return box;
 }
@@ -89,9 +87,9 @@ QWidget* ReadingWindow::buildSide()
     auto* controls = new QWidget;
     auto* stack = new QVBoxLayout(controls);
     stack->setContentsMargins(0, 0, 0, 0);
-    stack->addWidget(group(tr("Flight"), navigation_));
+    stack->addWidget(framed(navigation_));
     stack->addWidget(lists_, 1);
-    stack->addWidget(group(tr("Below the wall"), peeling_));
+    stack->addWidget(framed(peeling_));
     auto* area = new ControlsArea(controls, peeling_->findChild<QWidget*>("histogram"));
     connect(peeling_, &PeelingPanel::histogramShown, area, [area](QWidget* it) { area->ensureWidgetVisible(it); });
     auto* side = new QWidget;
@@ -237,8 +235,10 @@ void ReadingWindow::addActions()
     addLooks(view);
     addScreens(view);
     add(view, tr("Other scan"), QKeySequence("X"), [this] {
-        if (scan_choice_->count() < 2)
+        if (scan_choice_->count() < 2) {
+            warn(tr("This case has no other scan that can be read."));
             return;
+        }
         scan_choice_->setCurrentIndex((scan_choice_->currentIndex() + 1) % scan_choice_->count());
         emit scan_choice_->activated(scan_choice_->currentIndex());
     });
@@ -248,15 +248,24 @@ void ReadingWindow::addActions()
 
 void ReadingWindow::showKeys()
 {
-    QString text = "<table>";
+    QVector<QPair<QString, QString>> keys;
     for (const QMenu* menu : menuBar()->findChildren<QMenu*>())
         for (const QAction* action : menu->actions())
             if (!action->shortcut().isEmpty())
-                text += QString("<tr><td><b>%1</b>&nbsp;&nbsp;</td><td>%2</td></tr>")
-                            .arg(action->shortcut().toString().toHtmlEscaped(), action->text().toHtmlEscaped());
-    text +=
-        tr("<tr><td><b>W A S D</b></td><td>guided and free: on, left, back, right</td></tr>"
-           "<tr><td><b>arrows</b></td><td>guided and free: turn the view</td></tr>");
+                keys.append({action->shortcut().toString(), action->text()});
+    keys.append({tr("W A S D"), tr("guided and free: on, left, back, right")});
+    keys.append({tr("arrows"), tr("guided and free: turn the view")});
+    // In two columns, for a screen of large letters is soon too low for one.
+    const int rows = (keys.size() + 1) / 2;
+    const auto unbroken = [](const QString& words) { return words.toHtmlEscaped().replace(' ', "&nbsp;"); };
+    QString text = "<table>";
+    for (int row = 0; row < rows; ++row) {
+        text += "<tr>";
+        for (int n = row; n < keys.size(); n += rows)
+            text += QString("<td><b>%1</b>&nbsp;&nbsp;</td><td>%2&nbsp;&nbsp;&nbsp;</td>")
+                        .arg(unbroken(keys[n].first), unbroken(keys[n].second));
+        text += "</tr>";
+    }
     auto* box = new QMessageBox(QMessageBox::NoIcon, tr("Keys"), text + "</table>", QMessageBox::Close, this);
     box->setObjectName("keys");
     box->setAttribute(Qt::WA_DeleteOnClose);

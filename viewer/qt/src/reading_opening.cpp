@@ -7,7 +7,9 @@
 #include <QStatusBar>
 #include <utility>
 
+#include "kept_settings.h"
 #include "reading_window.h"
+#include "vicon/viewer/model/annotate.h"
 
 namespace vicon::viewer {
 
@@ -43,6 +45,53 @@ void ReadingWindow::openScan(const std::string& scan_id, bool fresh)
     tell(tr("Reading the scan ..."));
     opening_->show();
     session_.open(scan_id, fresh);
+}
+
+void ReadingWindow::offer(const std::vector<ScanRecord>& scans)
+{
+    for (const ScanRecord& scan : scans)
+        scan_choice_->addItem(QString::fromStdString(positionName(scan.series.patient_position) + ", series " +
+                                                     std::to_string(scan.series.number)),
+                              QString::fromStdString(scan.id));
+}
+
+/// The one that was read last, where it is among them.
+void ReadingWindow::openFirst(const std::vector<ScanRecord>& scans)
+{
+    offer(scans);
+    const QString kept = "place/" + QString::fromStdString(session_.record().id) + "/scan";
+    scan_choice_->setCurrentIndex(std::max(0, scan_choice_->findData(keptSetting(kept))));
+    openScan(scan_choice_->currentData().toString().toStdString(), false);
+}
+
+void ReadingWindow::renew(const WorklistRow& row)
+{
+    const bool none_before = session_.scans().empty();
+    const std::vector<ScanRecord> ready = session_.renew(row);
+    if (none_before && !ready.empty()) {
+        warn({});
+        openFirst(ready);
+    } else if (!ready.empty()) {
+        offer(ready);
+        tell(tr("Another scan of this case can be read now (X; C: side by side)."));
+    }
+    for (const WorklistScanRow& scan : row.scans)
+        if (session_.scan() && scan.record.id == session_.scan()->record.id)
+            takeOver(scan);
+}
+
+/// Its old files are gone: what is marked gets its distances on the new path.
+void ReadingWindow::takeOver(const WorklistScanRow& row)
+{
+    if (corrector_.busy())
+        return;
+    if (row.state == "queued" || row.state == "running")
+        done_elsewhere_ = true;
+    else if (std::exchange(done_elsewhere_, false) && row.ready() && madeAt(row.folder) != session_.scan()->made) {
+        fresh_ = redone_ = true;
+        taken_over_ = true;
+        changeScan(row.record.id);
+    }
 }
 
 void ReadingWindow::stayWhereOneIs()
@@ -101,8 +150,14 @@ void ReadingWindow::scanOpened()
     if (const auto marker = session_.marker(fly_to_when_open_.value_or("")))
         flyTo(*marker);
     fly_to_when_open_.reset();
-    if (std::exchange(redone_, false))
+    if (std::exchange(redone_, false)) {
         session_.placeAnew();
+        sayWhatIsNotAdded(std::exchange(corrected_, {}));
+    }
+    if (std::exchange(taken_over_, false))
+        warn(
+            tr("This scan was done again meanwhile, after a correction by another reader or by 'vicon work'; this is "
+               "the new result."));
 }
 
 }  // namespace vicon::viewer

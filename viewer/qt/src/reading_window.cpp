@@ -32,18 +32,11 @@ ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistRow&
     useWords(wordsFor("colon"));  // until a scan is open
     connectAll();
     new ControlKeys(this, endoscopic_);
-    for (const ScanRecord& scan : session_.scans())
-        scan_choice_->addItem(QString::fromStdString(positionName(scan.series.patient_position) + ", series " +
-                                                     std::to_string(scan.series.number)),
-                              QString::fromStdString(scan.id));
-    if (session_.scans().empty()) {
-        warn(tr("No scan of this case can be read yet."));
-        return;
-    }
-    const int known = scan_choice_->findData(keptSetting("place/" + QString::fromStdString(row.record.id) + "/scan"));
-    scan_choice_->setCurrentIndex(std::max(0, known));
     restoreLooks();
-    openScan(scan_choice_->currentData().toString().toStdString(), false);
+    if (session_.scans().empty())
+        warn(tr("No scan of this case can be read yet; the first one opens as soon as it can."));
+    else
+        openFirst(session_.scans());
 }
 
 ReadingWindow::~ReadingWindow() = default;
@@ -216,6 +209,7 @@ SnapshotRequest ReadingWindow::request(const OpenScan& scan, const QSize& size) 
     SnapshotRequest request;
     request.width = size.width();
     request.height = size.height();
+    request.pixel_ratio = devicePixelRatioF();
     request.view_angle_deg = view_angle_deg_;
     request.caption = scan.caption;
     request.markers = session_.markersOf(scan.record.id);

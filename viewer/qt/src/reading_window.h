@@ -41,6 +41,9 @@ public:
     ~ReadingWindow() override;
 
     const CaseSession& session() const { return session_; }
+    /// As the worklist shows the case by now: scans that became ready are offered, one that was done again for another
+    /// reader is shown anew.
+    void renew(const WorklistRow& row);
 
 signals:
     /// The window is gone; it deletes itself when its threads have ended.
@@ -82,6 +85,9 @@ private:
     /// The other scan is read on from the place that corresponds.
     void changeScan(const std::string& scan_id);
     void openScan(const std::string& scan_id, bool fresh);
+    void offer(const std::vector<ScanRecord>& scans);
+    void openFirst(const std::vector<ScanRecord>& scans);
+    void takeOver(const WorklistScanRow& row);
     void scanOpened();
     void cancelOpening();
     void stayWhereOneIs();
@@ -142,6 +148,7 @@ private:
     // reading_corrections.cpp
     void connectCorrections();
     bool correctedAt(const OpenScan& scan, Point3 point);
+    void sayWhatIsNotAdded(const std::optional<std::pair<Correction, Point3>>& corrected);
 
     // reading_files.cpp
     void chooseMarkerFile(bool to_save);
@@ -240,6 +247,9 @@ private:
     std::optional<Point3> beside_focus_;           // that partner
     bool redone_ = false;                          // the scan that is being opened has a new skeleton
     bool fresh_ = false;                           // the scan was done again; its files are read anew
+    bool taken_over_ = false;                      // done again for another reader, that is
+    bool done_elsewhere_ = false;                  // the open scan is being done again, and not for this reader
+    std::optional<std::pair<Correction, Point3>> corrected_;  // what is being done again for this one
     Studio::Shown beside_shown_;
     Worker settings_worker_{this};
     std::vector<Worker*> workers_;  // once the window is closed

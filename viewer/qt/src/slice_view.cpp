@@ -79,6 +79,7 @@ void SliceView::draw()
     }
     view.centre_mm += pan_mm_;
     shown_ = request_.view = view;
+    request_.pixel_ratio = devicePixelRatioF();
     worker_.post("slice", [this, scan = scan_, request = request_]() -> Worker::Work {
         const std::shared_ptr<const PreparedScan> files(scan, &scan->files);
         auto picture = std::make_shared<Picture>(pictures_.draw(files, request));

@@ -1,9 +1,12 @@
 #include "studio.h"
 
+#include <thread>
+
 namespace vicon::viewer {
 namespace {
 // Counting costs as much as drawing; at the fastest flight of 100 mm/s the eye moves a centimetre meanwhile.
 constexpr std::chrono::milliseconds kBetweenCounts(100);
+constexpr std::chrono::milliseconds kBetweenLooks(1);
 }  // namespace
 
 Studio::Studio()
@@ -11,9 +14,12 @@ Studio::Studio()
     connect(&worker_, &Worker::failed, this, &Studio::failed);
 }
 
+// Each of the workers speaks to the other: none is destroyed before both have ended.
 Studio::~Studio()
 {
     end();
+    while (!worker_.ended() || !sight_worker_.ended())
+        std::this_thread::sleep_for(kBetweenLooks);
 }
 
 void Studio::end()

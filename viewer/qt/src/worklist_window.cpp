@@ -27,8 +27,7 @@ QString text(const std::string& utf8)
 /// Whether any of its scans can be read, others may still be in work.
 bool readable(const WorklistRow& row)
 {
-    return std::any_of(row.scans.begin(), row.scans.end(),
-                       [](const WorklistScanRow& s) { return s.state == "done" && s.reason.empty(); });
+    return std::any_of(row.scans.begin(), row.scans.end(), [](const WorklistScanRow& s) { return s.ready(); });
 }
 
 QString scansOf(const WorklistRow& row)
@@ -55,12 +54,15 @@ QString qualityOf(const WorklistRow& row)
     return poor.empty() ? WorklistWindow::tr("adequate") : WorklistWindow::tr("poor: %1").arg(poor.join(", "));
 }
 
-QString qualityWords(const WorklistRow& row)
+/// A line a scan: how well it is distended, or what is wrong with it.
+QString wordsOf(const WorklistRow& row, bool with_reasons)
 {
     QStringList lines;
-    for (const WorklistScanRow& scan : row.scans)
-        if (!scan.quality.empty())
-            lines << text(positionName(scan.record.series.patient_position) + ": " + scan.quality);
+    for (const WorklistScanRow& scan : row.scans) {
+        const std::string& words = with_reasons && !scan.reason.empty() ? scan.reason : scan.quality;
+        if (!words.empty())
+            lines << text(positionName(scan.record.series.patient_position) + ": " + words);
+    }
     return lines.join("\n");
 }
 
@@ -100,7 +102,6 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setAlternatingRowColors(true);
     table_->verticalHeader()->hide();
-    table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     table_->horizontalHeader()->setSectionResizeMode(kPatient, QHeaderView::Stretch);
     reason_ = new QLabel(this);
     reason_->setObjectName("reason");
@@ -174,6 +175,7 @@ void WorklistWindow::show(const std::vector<WorklistRow>& rows)
     const std::string chosen_id = chosen ? chosen->record.id : "";
     const QSignalBlocker quiet(table_);
     rows_ = rows;
+    bool changed = table_->rowCount() != int(rows.size());
     table_->setRowCount(int(rows.size()));
     for (int n = 0; n < int(rows.size()); ++n) {
         const WorklistRow& row = rows[std::size_t(n)];
@@ -189,14 +191,21 @@ void WorklistWindow::show(const std::vector<WorklistRow>& rows)
         for (int column = 0; column < kColumns; ++column) {
             if (!table_->item(n, column))
                 table_->setItem(n, column, new QTableWidgetItem);
+            changed = changed || table_->item(n, column)->text() != cells[column];
             table_->item(n, column)->setText(cells[column]);
         }
-        table_->item(n, kQuality)->setToolTip(qualityWords(row));
+        table_->item(n, kQuality)->setToolTip(wordsOf(row, false));
         if (row.record.id == chosen_id || (chosen_id.empty() && n == 0))
             table_->selectRow(n);
     }
+    // Once for all: a header that keeps to its contents measures every line again for each cell that is filled.
+    for (int column = kId; changed && column < kColumns; ++column)
+        table_->resizeColumnToContents(column);
     filter();
     updateButtons();
+    for (const WorklistRow& row : rows_)
+        if (const auto window = windows_.find(row.record.id); window != windows_.end())
+            window->second->renew(row);
     const auto wanted = std::find_if(rows_.begin(), rows_.end(), [&](const WorklistRow& row) {
         return !open_case_.empty() && row.record.id == open_case_;
     });
@@ -236,8 +245,7 @@ void WorklistWindow::updateButtons()
     open_->setEnabled(row && readable(*row));
     report_->setEnabled(row && readable(*row));
     retry_->setEnabled(row && row->state == "failed");
-    const QString quality = row ? qualityWords(*row) : QString();
-    reason_->setText(row && !row->reason.empty() ? text(row->reason) : quality);
+    reason_->setText(row ? wordsOf(*row, true) : QString());
 }
 
 void WorklistWindow::open(const WorklistRow& row)

@@ -17,6 +17,8 @@ class QTableWidget;
 
 namespace vicon::viewer {
 
+class ReadingWindow;
+
 /// The cases of a store, kept up to date; opens them.
 class WorklistWindow : public QWidget {
     Q_OBJECT
@@ -43,9 +45,9 @@ private:
     QLabel *reason_, *message_;
     QPushButton *open_, *retry_, *report_;
     QTimer timer_;
-    std::map<std::string, QWidget*> windows_;  ///< open ones, by case
-    std::vector<QPointer<QWidget>> made_;      ///< with those that are closed but still saving
-    std::unique_ptr<CaseStore> store_;         // the worker's
+    std::map<std::string, ReadingWindow*> windows_;  ///< open ones, by case
+    std::vector<QPointer<QWidget>> made_;            ///< with those that are closed but still saving
+    std::unique_ptr<CaseStore> store_;               // the worker's
     Worker worker_{this};
 };
 

@@ -91,7 +91,7 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
     Overlay overlay;
     const Lens lens{request.view_angle_deg, request.width, request.height};
     const Area area{0, 0, double(request.width), double(request.height)};
-    const double text_px = textHeightFor(request.width, request.height);
+    const double text_px = textHeightFor(request.width, request.height, request.pixel_ratio);
     addMarkers(overlay, scan, request, place.pose, lens, text_px);
     addLetters(overlay, area, place.pose.right(), -place.pose.up, text_px);
     addTriad(overlay, {4.2 * text_px, area.height - 4.2 * text_px}, 2.4 * text_px, place.pose, 0.9 * text_px);

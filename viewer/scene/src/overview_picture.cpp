@@ -12,26 +12,54 @@ namespace vicon::viewer {
 namespace {
 
 // In a window the projection is small, its words are not.
-double captionHeight(double text_px)
+double captionHeight(const SnapshotRequest& request)
 {
     constexpr double kLeast_px = 11;
-    return std::max(0.8 * text_px, kLeast_px);
+    return std::max(0.8 * textHeightFor(request.width, request.height, request.pixel_ratio),
+                    kLeast_px * request.pixel_ratio);
 }
 
 double wordsHeight(const SnapshotRequest& request)
 {
-    return std::max(textHeightFor(request.width, request.height), 12.0);
+    constexpr double kLeast_px = 12;
+    return std::max(textHeightFor(request.width, request.height, request.pixel_ratio), kLeast_px * request.pixel_ratio);
 }
 
-/// The whole projection with the caption's room above it and a margin for letters.
-PlaneView viewOfAll(const artefact::Projection& projection, int width, int height, double header_px, double margin_px)
+constexpr double kMostCaptionShare = 0.47;  // of the width
+
+/// What the caption takes of a corner, wherever the eye is.
+TextSize captionSize(const PreparedScan& scan, const SnapshotRequest& request)
 {
-    const double room_x = width - 2 * margin_px, room_y = height - 2 * margin_px - header_px;
+    const double text_px = textHeightFor(request.width, request.height, request.pixel_ratio),
+                 line_px = captionHeight(request);
+    const double length_mm = scan.frames().length_mm();
+    auto lines = captionLines(request.caption, length_mm, length_mm, scan.words());
+    TextSize size{0, double(lines.size()) * 1.35 * line_px + 0.48 * text_px};
+    for (OverlayText& line : lines) {
+        line.height_px = line_px;
+        size.width_px = std::max(size.width_px, textSize(line).width_px + line_px);
+    }
+    size.width_px = std::min(size.width_px, kMostCaptionShare * request.width);
+    return size;
+}
+
+/// The whole projection below the caption or, where it is drawn larger so, beside it; with a margin for letters.
+PlaneView viewOfAll(const artefact::Projection& projection, int width, int height, const TextSize& caption,
+                    double margin_px)
+{
     const double across_mm = projection.width * projection.pixel_mm, down_mm = projection.height * projection.pixel_mm;
-    PlaneView view{{},    projection.right, projection.down, std::max(across_mm / room_x, down_mm / room_y), width,
-                   height};
-    view.centre_mm = projection.first_pixel_mm + view.right * ((across_mm - projection.pixel_mm) / 2) +
-                     view.down * ((down_mm - projection.pixel_mm) / 2 - header_px / 2 * view.mm_per_pixel);
+    const auto mmPerPixel = [&](double left_px, double top_px) {
+        return std::max(across_mm / (width - 2 * margin_px - left_px), down_mm / (height - 2 * margin_px - top_px));
+    };
+    const bool beside = mmPerPixel(caption.width_px, 0) < mmPerPixel(0, caption.height_px);
+    const double least = beside ? mmPerPixel(caption.width_px, 0) : mmPerPixel(0, caption.height_px);
+    PlaneView view{{}, projection.right, projection.down, least, width, height};
+    const double to_caption_px = (width - across_mm / least) / 2 - margin_px;  // where it lies in the middle
+    const double right_px = beside ? std::max(0.0, caption.width_px - to_caption_px) : 0;
+    const double down_px = beside ? 0 : caption.height_px / 2;
+    view.centre_mm = projection.first_pixel_mm +
+                     view.right * ((across_mm - projection.pixel_mm) / 2 - right_px * view.mm_per_pixel) +
+                     view.down * ((down_mm - projection.pixel_mm) / 2 - down_px * view.mm_per_pixel);
     return view;
 }
 
@@ -186,13 +214,11 @@ void addMarkers(Overlay& overlay, const std::vector<Marker>& markers, const Plan
 
 OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request)
 {
-    const double text_px = textHeightFor(request.width, request.height);
+    const double text_px = textHeightFor(request.width, request.height, request.pixel_ratio);
     const artefact::Projection& projection = scan.coronalProjection();
     OverviewGround ground;
-    ground.header_px =
-        double(captionLines(request.caption, 0, 0, scan.words()).size()) * 1.35 * captionHeight(text_px) +
-        0.48 * text_px;
-    ground.view = viewOfAll(projection, request.width, request.height, ground.header_px, 2.2 * text_px);
+    ground.caption = captionSize(scan, request);
+    ground.view = viewOfAll(projection, request.width, request.height, ground.caption, 2.2 * text_px);
     ground.picture = drawn(projection, ground.view);
     Overlay overlay;
     const bool tree = !scan.tree().empty();
@@ -217,7 +243,7 @@ Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, con
     addHere(overlay, view, place.pose, 0.8 * text_px);
     addLetters(overlay, area, view.right, view.down, text_px);
     addScaleBar(overlay, area, view.mm_per_pixel, text_px);
-    addLines(overlay, {0, 0, area.width * 0.47, ground.header_px}, lines, captionHeight(text_px));
+    addLines(overlay, {0, 0, ground.caption.width_px, ground.caption.height_px}, lines, captionHeight(request));
     paint(picture, overlay);
     return picture;
 }

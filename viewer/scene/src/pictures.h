@@ -32,7 +32,7 @@ Picture slicesPicture(const PreparedScan& scan, const SnapshotRequest& request, 
 struct OverviewGround {
     Picture picture;
     PlaneView view;
-    double header_px = 0;  ///< height that the caption takes
+    TextSize caption;  ///< what the caption takes
 };
 OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request);
 Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, const SnapshotRequest& request,

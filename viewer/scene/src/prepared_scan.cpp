@@ -174,7 +174,11 @@ const artefact::Projection& PreparedScan::coronalProjection() const
 
 const PathFrames& PreparedScan::frames() const
 {
-    return files_->frames.get([&] { return PathFrames(skeleton()); });
+    return files_->frames.get([&] {
+        PathFrames frames(skeleton());
+        frames.setTapers(!tree().empty());
+        return frames;
+    });
 }
 
 const ColonPartRanges& PreparedScan::parts() const

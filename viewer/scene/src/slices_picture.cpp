@@ -102,7 +102,7 @@ Picture slicePicture(const HuView& volume, const SliceRequest& request)
     Picture picture = greyPicture(volume, view, request.window);
     Overlay overlay;
     const Area area{0, 0, double(view.width), double(view.height)};
-    const double text_px = textHeightFor(view.width, view.height) * 1.15;
+    const double text_px = textHeightFor(view.width, view.height, request.pixel_ratio) * 1.15;
     const double ring = std::max(kRing_mm / view.mm_per_pixel, 0.9 * text_px);
     addCrosshair(overlay, area, view.toPixel(request.point_mm), ring * 1.5);
     addHere(overlay, view, request.pose, 0.8 * text_px);
@@ -114,9 +114,8 @@ Picture slicePicture(const HuView& volume, const SliceRequest& request)
     OverlayText line;
     line.color = kTextColor;
     line.text = titleOf(request.plane, view.centre_mm);
-    std::vector<OverlayText> lines{line};
-    for (OverlayText& words : patientLines(request.caption))
-        lines.push_back(words);
+    addLines(overlay, {0, 0, area.width * 0.46, area.height}, {line}, text_px);  // beside the letter in the middle
+    std::vector<OverlayText> lines = patientLines(request.caption);
     line.text = request.window.name + " " + std::to_string(std::lround(request.window.width_hu)) + " / " +
                 std::to_string(std::lround(request.window.level_hu)) + " HU";
     lines.push_back(line);
@@ -125,7 +124,7 @@ Picture slicePicture(const HuView& volume, const SliceRequest& request)
         line.color = kWarningColor;
         lines.push_back(line);
     }
-    addLines(overlay, {0, 0, area.width * 0.46, area.height}, lines, text_px);
+    addLines(overlay, {0, 1.35 * text_px, area.width * 0.9, area.height}, lines, text_px);  // below it
     paint(picture, overlay);
     return picture;
 }

@@ -21,7 +21,8 @@ inline constexpr Rgb kHereColor{255, 255, 255};
 Rgb colorOf(MarkerColor color);
 
 /// Height of text that reads well in a picture of this size, in pixels.
-double textHeightFor(int width, int height);
+/// @param pixel_ratio of the screen: how many of its pixels are one of 96 to the inch
+double textHeightFor(int width, int height, double pixel_ratio = 1);
 
 /// The letters of the four sides of a picture whose axes are these, in the middle of each edge of `area`.
 void addLetters(Overlay& overlay, const Area& area, Vector3 right, Vector3 down, double text_px);

@@ -31,10 +31,16 @@ public:
     /// The station nearest to a point among those at most `reach_mm` from `around_mm`.
     double nearestStation(Point3 p, double around_mm, double reach_mm) const;
 
+    /// A way that tapers off, as those of an airway: the eye follows it to its tip, however narrow. A colon is narrow
+    /// where it is collapsed, and there the eye looks from the next wide place.
+    void setTapers(bool tapers) { tapers_ = tapers; }
+    bool tapers() const { return tapers_; }
+
 private:
     std::vector<PathFrame> frames_;
     double step_mm_ = 1;
     double length_mm_ = 0;
+    bool tapers_ = false;
 };
 
 }  // namespace vicon::viewer

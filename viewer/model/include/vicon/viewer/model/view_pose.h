@@ -7,7 +7,8 @@ namespace vicon::viewer {
 
 /// What a good view of a point asks for. Chosen on bent tubes with folds (radius 8 to 25 mm) and a real prone scan.
 struct ViewPoseOptions {
-    double camera_radius_mm = 2;    ///< the eye keeps this from the wall wherever the lumen is wide enough
+    double camera_radius_mm = 2;    ///< the eye keeps this from the wall wherever the lumen is wide enough; on a way
+                                    ///< that tapers off half of the way's radius, where that is less
     double least_distance_mm = 15;  ///< from eye to point, where there is room
     double most_distance_mm = 45;
     double distance_per_radius = 1.7;  ///< wanted distance over the lumen's radius: folds in front, point not grazed

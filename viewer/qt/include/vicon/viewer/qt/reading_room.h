@@ -23,6 +23,8 @@ struct WorklistScanRow {
     std::filesystem::path folder;
     std::string quality;  ///< how well it can be read, in a few words; empty where it is not known
     bool adequate = true;
+
+    bool ready() const { return state == "done" && reason.empty(); }  ///< it can be shown
 };
 
 /// A line of the worklist.

@@ -15,8 +15,9 @@ namespace vicon::viewer {
 struct SliceRequest {
     SlicePlane plane = SlicePlane::transverse;
     PlaneView view;
-    Point3 point_mm;  ///< where the crosshair is
-    Pose pose;        ///< the endoscopic view's eye, drawn with its direction
+    double pixel_ratio = 1;  ///< of the screen, as in SnapshotRequest
+    Point3 point_mm;         ///< where the crosshair is
+    Pose pose;               ///< the endoscopic view's eye, drawn with its direction
     WindowLevel window;
     std::vector<Marker> markers;  ///< drawn where they lie within 5 mm of the plane
     Caption caption;

@@ -35,6 +35,7 @@ struct SnapshotRequest {
     Caption caption;
     int width = 0;                   ///< pixels, kLeastSide to kMostSide; 0: 1024
     int height = 0;                  ///< 0: 768, or 1024 for the overview
+    double pixel_ratio = 1;          ///< of the screen that it is shown on; text is as high there as on any other
     double view_angle_deg = 90;      ///< endo: over the picture's height, 20 to 150
     bool ambient_occlusion = false;  ///< endo: less light where the wall is less open, see opennessOf()
     std::string window = "colon";    ///< slices: a preset of config/windows.toml
