@@ -134,39 +134,59 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
     OtherViews others(scan);
     Flight flight;
     const std::vector<ViewPose> poses = posesOf(scan, settings.step_mm);
+    const auto prepareAfter = [&](std::size_t n) { ahead.prepare(poses[(n + 1) % poses.size()].pose, lens); };
+    std::vector<SeenParts> chosen;
+    // Each way of drawing flies the whole flight, frame after frame, as a reader does.
     for (std::size_t n = 0; n < poses.size(); ++n) {
-        const ViewPose& view = poses[n];
-        const double choice = secondsOf([&] { visibility.seenFrom(view.pose, lens); });
-        const SeenParts shown = ahead.seenFrom(view.pose, lens);
+        chosen.push_back(ahead.seenFrom(poses[n].pose, lens));
         const double cpu_begin = cpuSeconds();
         // A frame is over when it is drawn and the next one's parts are chosen.
-        const double culled = secondsOf([&] {
-            ahead.prepare(poses[(n + 1) % poses.size()].pose, lens);
-            scene.lookFrom(view.pose, settings.angle_deg);
-            scene.showSeen(shown);
+        const double s = secondsOf([&] {
+            prepareAfter(n);
+            scene.lookFrom(poses[n].pose, settings.angle_deg);
+            scene.showSeen(chosen[n]);
             picture.draw(settings.side, settings.side);
             ahead.wait();
         });
-        const double cpu_culled = cpuSeconds() - cpu_begin;
+        flight.culled_s.push_back(s);
+        flight.culled_cpu_s.push_back(cpuSeconds() - cpu_begin);
         flight.cells += double(scene.cellsShown());
         flight.triangles += double(scene.trianglesShown());
-        scene.showOnly({});
-        const double cpu_all_begin = cpuSeconds();
-        picture.draw(settings.side, settings.side);
-        const double all = picture.seconds(), cpu_all = cpuSeconds() - cpu_all_begin;
-        const auto allViews = [&](bool choose) {
-            return secondsOf([&] {
-                others.begin(view);
-                if (choose)
-                    ahead.prepare(poses[(n + 1) % poses.size()].pose, lens);
-                picture.draw(settings.side, settings.side);
-                others.end(view);
-                ahead.wait();
-            });
-        };
-        const double views_all = allViews(false);
-        scene.showSeen(shown);
-        const double views_culled = allViews(true);
+    }
+    scene.showOnly({});
+    for (std::size_t n = 0; n < poses.size(); ++n) {
+        const double cpu_begin = cpuSeconds();
+        const double s = secondsOf([&] {
+            scene.lookFrom(poses[n].pose, settings.angle_deg);
+            picture.draw(settings.side, settings.side);
+        });
+        flight.all_s.push_back(s);
+        flight.all_cpu_s.push_back(cpuSeconds() - cpu_begin);
+    }
+    const auto drawWithOthers = [&](std::size_t n, bool choose) {
+        return secondsOf([&] {
+            others.begin(poses[n]);
+            if (choose)
+                prepareAfter(n);
+            scene.lookFrom(poses[n].pose, settings.angle_deg);
+            if (choose)
+                scene.showSeen(chosen[n]);
+            picture.draw(settings.side, settings.side);
+            others.end(poses[n]);
+            ahead.wait();
+        });
+    };
+    for (std::size_t n = 0; n < poses.size(); ++n)
+        flight.views_all_s.push_back(drawWithOthers(n, false));
+    for (std::size_t n = 0; n < poses.size(); ++n)
+        flight.views_culled_s.push_back(drawWithOthers(n, true));
+    for (auto* seconds : {&flight.culled_s, &flight.culled_cpu_s, &flight.all_s, &flight.all_cpu_s, &flight.views_all_s,
+                          &flight.views_culled_s})
+        seconds->erase(seconds->begin());  // the first frame fills the driver's buffers
+    for (std::size_t n = 0; n < poses.size(); ++n) {
+        const ViewPose& view = poses[n];
+        const SeenParts& shown = chosen[n];
+        const double choice = secondsOf([&] { visibility.seenFrom(view.pose, lens); });
         const double even_cpu = cpuSecondsToDraw(scene, picture, view.pose, shown, settings);
         const double occluded_cpu = cpuSecondsToDraw(occluded, occluded_picture, view.pose, shown, settings);
         ids.lookFrom(view.pose, settings.angle_deg);
@@ -183,14 +203,8 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
         flight.seen_cells += double(seen_cells.size());
         flight.seen += double(seen.size());
         if (flight.frames++ > 0) {  // the first frame of each scene fills the driver's buffers
-            flight.culled_s.push_back(culled);
-            flight.all_s.push_back(all);
             flight.perfect_s.push_back(secondsToDraw(onlyThese(surface, seen), view.pose, settings));
             flight.choice_s.push_back(choice);
-            flight.culled_cpu_s.push_back(cpu_culled);
-            flight.all_cpu_s.push_back(cpu_all);
-            flight.views_culled_s.push_back(views_culled);
-            flight.views_all_s.push_back(views_all);
             flight.even_cpu_s.push_back(even_cpu);
             flight.occluded_cpu_s.push_back(occluded_cpu);
         }

@@ -1,13 +1,29 @@
 #include "vicon/viewer/scene/sight_ahead.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 namespace vicon::viewer {
+namespace {
+
+/// What the calling thread does from now on waits for whoever draws: a picture's rasterizing threads wait for each
+/// other, so one that loses its core for a time slice holds up the frame.
+void yieldToDrawing()
+{
+    setpriority(PRIO_PROCESS, id_t(gettid()), 19);
+}
+
+}  // namespace
 
 void SightAhead::prepare(const Pose& pose, const Lens& lens)
 {
     wait();
     pose_ = pose;
     lens_ = lens;
-    under_way_ = std::async(std::launch::async, [this, pose, lens] { return visibility_.seenFrom(pose, lens); });
+    under_way_ = std::async(std::launch::async, [this, pose, lens] {
+        yieldToDrawing();
+        return visibility_.seenFrom(pose, lens);
+    });
 }
 
 SeenParts SightAhead::seenFrom(const Pose& pose, const Lens& lens)
