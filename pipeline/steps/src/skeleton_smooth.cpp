@@ -142,8 +142,8 @@ double DistanceProbe::at(Point3 p) const
     const ContinuousIndex3 c = field_.grid.continuousIndexAt(p);
     const Index3 low{int(std::floor(c.i)), int(std::floor(c.j)), int(std::floor(c.k))};
     const double x = c.i - low.i, y = c.j - low.j, z = c.k - low.k;
-    const auto [field, v] = holding(low);
-    const auto value = [&field, &v](int a, int b, int d) {
+    const auto held = holding(low);
+    const auto value = [&field = held.first, v = held.second](int a, int b, int d) {
         return double(field.valueOr({v.i + a, v.j + b, v.k + d}, 0));
     };
     const auto row = [&](int b, int d) { return value(0, b, d) * (1 - x) + value(1, b, d) * x; };
