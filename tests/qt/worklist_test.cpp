@@ -12,6 +12,20 @@ namespace {
 
 using test::Reading;
 
+/// The services of a store whose worklist is changed by `change(case's row, scan)` before it is shown.
+template <class Change>
+ReadingServices withScans(ReadingServices services, Change change)
+{
+    services.worklist = [change, before = services.worklist](CaseStore& store) {
+        auto rows = before(store);
+        for (WorklistRow& row : rows)
+            for (WorklistScanRow& scan : row.scans)
+                change(row, scan);
+        return rows;
+    };
+    return services;
+}
+
 TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
 {
     const auto shown = [&] {
@@ -50,15 +64,10 @@ TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
 TEST_F(Reading, AScanThatBecomesReadyWhileItsCaseIsReadIsOffered)
 {
     std::atomic<bool> ready = false;
-    ReadingServices services = test::servicesFor(store_);
-    services.worklist = [&ready, before = services.worklist](CaseStore& store) {
-        auto rows = before(store);
-        for (WorklistRow& row : rows)
-            for (WorklistScanRow& scan : row.scans)
-                if (scan.record.id == test::kProne && !ready)
-                    scan.state = "running";
-        return rows;
-    };
+    const auto services = withScans(test::servicesFor(store_), [&ready](const WorklistRow&, WorklistScanRow& scan) {
+        if (scan.record.id == test::kProne && !ready)
+            scan.state = "running";
+    });
     room_.reset();
     openRoom(services);
     openCase();
@@ -78,14 +87,9 @@ TEST_F(Reading, AScanThatBecomesReadyWhileItsCaseIsReadIsOffered)
 TEST_F(Reading, ACaseOpenedTooEarlyIsReadAsSoonAsItCanBe)
 {
     std::atomic<bool> ready = false;
-    ReadingServices services = test::servicesFor(store_);
-    services.worklist = [&ready, before = services.worklist](CaseStore& store) {
-        auto rows = before(store);
-        for (WorklistRow& row : rows)
-            for (WorklistScanRow& scan : row.scans)
-                scan.state = ready && row.record.id == test::kCase ? "done" : "running";
-        return rows;
-    };
+    const auto services = withScans(test::servicesFor(store_), [&ready](const WorklistRow& row, WorklistScanRow& scan) {
+        scan.state = ready && row.record.id == test::kCase ? "done" : "running";
+    });
     room_.reset();
     openRoom(services, test::kCase);
     ASSERT_TRUE(eventually([] { return window() != nullptr; }));

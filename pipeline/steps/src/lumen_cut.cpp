@@ -7,13 +7,13 @@
 #include <optional>
 
 #include "allocate.h"
+#include "segment_points.h"
 #include "vicon/steps/wall_distance.h"
 
 namespace vicon::steps {
 namespace {
 
 constexpr double kReach_mm = 45;  // no colon is wider
-constexpr double kCatch_mm = 3;   // how far a person's point may lie beside what it means
 constexpr double kHalfGap_mm = 1.5;
 constexpr int kDirections = 200;        // some 10 degrees apart: an area is at most 2 % too large
 constexpr double kTowardsMiddle = 0.5;  // the wall distance grows by about 1 a mm towards the middle, by less along it

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "allocate.h"
-#include "check_only.h"
 #include "vicon/steps/wall_distance.h"
 
 namespace vicon::steps {
@@ -40,7 +39,7 @@ constexpr Box kNothing{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 /// The lumen's bounds in a slice.
 Box lumenIn(const InsideVolume& inside, int k)
 {
-    const auto [columns, rows, slices] = inside.grid.size;
+    const int columns = inside.grid.size[0], rows = inside.grid.size[1];
     Box box = kNothing;
     for (int j = 0; j < rows; ++j) {
         const auto row = inside.voxels.begin() + std::ptrdiff_t(inside.grid.offset({0, j, k})), end = row + columns;
@@ -149,11 +148,10 @@ FieldVolume wallDistanceOverTube(const InsideVolume& inside, Point3 rectal_end_m
         InsideVolume part = cropped(inside, seen);
         for (const Index3 v : tube)
             part.at({v.i - seen.low.i, v.j - seen.low.j, v.k - seen.low.k}) = kGas;
-        CheckOnly check(progress);
-        const FieldVolume open_mm = wallDistance(part, check);
+        const FieldVolume open_mm = wallDistance(part, progress);
         // Lumen that is not as wide as the margin meets its wall within the box, and has none of the tube beyond it.
         if (largest(open_mm) < margin_mm - voxel_mm ||
-            seen == Box{{0, 0, 0}, {inside.grid.size[0], inside.grid.size[1], inside.grid.size[2]}})
+            changed == Box{{0, 0, 0}, {inside.grid.size[0], inside.grid.size[1], inside.grid.size[2]}})
             return cropped(open_mm,
                            {{changed.low.i - seen.low.i, changed.low.j - seen.low.j, changed.low.k - seen.low.k},
                             {changed.high.i - seen.low.i, changed.high.j - seen.low.j, changed.high.k - seen.low.k}});

@@ -10,8 +10,6 @@
 namespace vicon::steps {
 namespace {
 
-constexpr double kCatch_mm = 3;  // how far a person's point may lie beside what it means
-
 template <class Use>
 void forEachWithin(const Grid& grid, Point3 p, double radius_mm, Use use)
 {
