@@ -15,6 +15,7 @@
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume.h"
 #include "vicon/steps/cells.h"
+#include "vicon/steps/densities_around.h"
 #include "vicon/steps/subdivide.h"
 
 namespace vicon::pipeline {
@@ -29,6 +30,17 @@ public:
     const std::filesystem::path& folder() const { return folder_; }
 
     const HuVolume& volume() { return get(volume_, "volume.mha"); }
+    /// The part of volume() around inside(); the whole need not be kept for it.
+    const HuVolume& densitiesAroundLumen()
+    {
+        const Grid lumen = inside().grid;
+        const std::lock_guard lock(mutex_);
+        if (!around_lumen_ && volume_)
+            around_lumen_ = steps::densitiesAround(*volume_, lumen);
+        if (!around_lumen_)
+            around_lumen_ = steps::densitiesAround(artefact::readVolume<std::int16_t>(folder_ / "volume.mha"), lumen);
+        return *around_lumen_;
+    }
     const InsideVolume& inside() { return get(inside_, "inside.mha"); }
     const SegmentVolume& segments() { return get(segments_, "segments.mha"); }
     const Skeleton& skeleton()
@@ -73,10 +85,10 @@ public:
     void beginSurface(const steps::CellOptions& options)
     {
         const std::lock_guard lock(mutex_);
-        if (volume_ && inside_ && !surface_.valid())
-            surface_ = std::async(std::launch::async, [&volume = *volume_, &inside = *inside_, options] {
+        if (around_lumen_ && inside_ && !surface_.valid())
+            surface_ = std::async(std::launch::async, [&densities = *around_lumen_, &inside = *inside_, options] {
                 NoProgress quiet;
-                return steps::LumenSurface(volume, inside, options, quiet);
+                return steps::LumenSurface(densities, inside, options, quiet);
             });
     }
     /// The lumen's surface, when an earlier step began it; it is given away.
@@ -118,12 +130,18 @@ public:
                 writing.get();
         }
     }
-    /// Gives memory back that no later step needs. The volume must be written, and no step at work on it.
+    /// Gives the whole volume's memory back. It must be written, and no step at work on it.
     void dropVolume()
     {
         const std::lock_guard lock(mutex_);
-        surface_ = {};  // waits, when it was begun and nobody wanted it
         volume_.reset();
+    }
+    /// Gives back what densitiesAroundLumen() keeps; no step may be at work on it.
+    void dropDensitiesAroundLumen()
+    {
+        const std::lock_guard lock(mutex_);
+        surface_ = {};  // waits, when it was begun and nobody wanted it
+        around_lumen_.reset();
     }
 
 private:
@@ -154,12 +172,12 @@ private:
 
     std::filesystem::path folder_;
     std::mutex mutex_;
-    std::optional<HuVolume> volume_;
+    std::optional<HuVolume> volume_, around_lumen_;
     std::optional<InsideVolume> inside_;
     std::optional<SegmentVolume> segments_;
     std::optional<FieldVolume> wall_distance_;
     std::optional<Skeleton> skeleton_;
-    std::future<steps::LumenSurface> surface_;          // reads volume_ and inside_
+    std::future<steps::LumenSurface> surface_;          // reads around_lumen_ and inside_
     std::future<steps::PathFlood> flood_;               // reads inside_
     std::map<std::string, std::future<void>> writing_;  // last: what is written must outlive it
 };

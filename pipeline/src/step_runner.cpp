@@ -198,14 +198,18 @@ bool StepRunner::isOver() const
 /// The densities are the largest thing of all.
 void StepRunner::dropWhatNobodyNeeds()
 {
-    const bool needed = std::any_of(tasks_.begin(), tasks_.end(), [](const Task& task) {
-        const auto& inputs = task.step->inputs;
-        const bool reads = inputs.empty() || std::find(inputs.begin(), inputs.end(), "resample") != inputs.end();
-        return reads && (task.state == State::waiting || task.state == State::running ||
-                         (inputs.empty() && task.state != State::recorded && task.state != State::skipped));
-    });
-    if (!needed)
+    const auto needed = [this](Densities densities) {
+        return std::any_of(tasks_.begin(), tasks_.end(), [densities](const Task& task) {
+            const bool makes = task.step->inputs.empty();  // they must be on the disk first
+            return task.step->densities == densities &&
+                   (task.state == State::waiting || task.state == State::running ||
+                    (makes && task.state != State::recorded && task.state != State::skipped));
+        });
+    };
+    if (!needed(Densities::whole))
         artefacts_.dropVolume();
+    if (!needed(Densities::around_lumen))
+        artefacts_.dropDensitiesAroundLumen();
 }
 
 }  // namespace vicon::pipeline

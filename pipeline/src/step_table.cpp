@@ -96,8 +96,10 @@ json runSegment(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRe
                            {"confidence", bridge.confidence},
                            {"certain", bridge.certain},
                            {"reason", bridge.reason}});
-    if (!found.verdict.starts_with("no "))
+    if (!found.verdict.starts_with("no ")) {
         artefacts.put(std::move(found.inside));
+        artefacts.densitiesAroundLumen();  // while the whole is there
+    }
     return result;
 }
 
@@ -150,7 +152,7 @@ json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepR
     return result;
 }
 
-json runQuality(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
+json runQuality(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords& records, Progress& progress)
 {
     if (!isColon(inputs.config))
         return {{"not_measured", "parts and quality are those of a colon"}};
@@ -160,9 +162,10 @@ json runQuality(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRe
     if (!found.reason.empty())
         result["parts_unknown"] = found.reason;
     if (!artefacts.skeleton().empty())
-        result["quality"] = toJson(steps::measureQuality(artefacts.volume(), artefacts.inside(), artefacts.skeleton(),
-                                                         found.ranges, options, progress),
-                                   options);
+        result["quality"] =
+            toJson(steps::measureQuality(artefacts.inside(), artefacts.skeleton(), found.ranges,
+                                         records.at("segment").result.at("noise_hu").get<double>(), options, progress),
+                   options);
     return result;
 }
 
@@ -170,7 +173,7 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
 {
     PartOfProgress divide(progress, 0, 0.6), tell(progress, 0.6, 0.9), project(progress, 0.9, 1);
     const InsideVolume& inside = artefacts.inside();
-    artefacts.volume();  // reads it where an earlier run made it
+    artefacts.densitiesAroundLumen();  // reads them where an earlier run made them
     artefacts.beginSurface(inputs.config.get<steps::CellOptions>());
     auto contour = artefacts.takeSurface();
     auto options = inputs.config.get<steps::SubdivideOptions>();
@@ -222,12 +225,21 @@ const std::vector<Step>& stepTable()
 {
     using namespace steps;
     static const std::vector<Step> kTable = {
-        {"resample", 2, 0, 0.3, {}, always({"volume.mha"}), parametersFrom<ResampleOptions>, runResample},
+        {"resample",
+         2,
+         0,
+         0.3,
+         {},
+         Densities::whole,
+         always({"volume.mha"}),
+         parametersFrom<ResampleOptions>,
+         runResample},
         {"segment",
-         12,
+         13,
          0.3,
          0.55,
          {"resample"},
+         Densities::whole,
          segmentFiles,
          parametersByOrgan<SegmentOptions, OrganOptions>,
          runSegment},
@@ -236,14 +248,16 @@ const std::vector<Step>& stepTable()
          0.55,
          0.65,
          {"segment"},
+         Densities::around_lumen,
          always({"skeleton.vtp", "skeleton_voxels.vtp"}),
          parametersByOrgan<SkeletonOptions, SkeletonOptions>,
          runSkeleton},
         {"quality",
-         1,
+         2,
          0.65,
          0.67,
-         {"resample", "segment", "skeleton"},
+         {"segment", "skeleton"},
+         Densities::none,
          always({}),
          parametersFrom<QualityOptions>,
          runQuality},
@@ -252,6 +266,7 @@ const std::vector<Step>& stepTable()
          0.67,
          0.85,
          {"resample", "segment", "skeleton"},
+         Densities::around_lumen,
          always({"segments.mha", "subdivision.json", "cells.vtp", "projections/coronal.png",
                  "projections/transverse.png", "projections/sagittal.png", "projections/projections.json"}),
          parametersFrom<SubdivideOptions, CellOptions, ProjectionOptions>,
@@ -261,6 +276,7 @@ const std::vector<Step>& stepTable()
          0.85,
          1,
          {"segment", "skeleton"},
+         Densities::none,
          always({"exit_distance.mha", "wall_distance.mha"}),
          [](const Config&) { return json::object(); },
          runPotential},

@@ -39,7 +39,7 @@ struct Bench {
         const std::string& name, std::vector<std::string> inputs, Run run = [](Progress&) { return json{}; })
     {
         const double from = double(table.size()) / 10;
-        table.push_back({name, 1, from, from + 0.1, std::move(inputs),
+        table.push_back({name, 1, from, from + 0.1, std::move(inputs), Densities::none,
                          [](const json&) { return std::vector<std::string>{}; },
                          [](const Config&) { return json::object(); },
                          [run](const StepInputs&, ScanArtefacts&, const StepRecords&, Progress& progress) {
@@ -202,6 +202,14 @@ TEST(ScanArtefacts, HandOnWhatIsStillBeingWrittenAndSayWhenItCannotBe)
     artefacts.finish({"volume.mha", "never-begun.mha"});
     artefacts.dropVolume();
     EXPECT_EQ(artefacts.volume().voxels.back(), 7) << "read back from its file";
+
+    artefacts.put(InsideVolume(Grid{.size = {5, 6, 7}, .origin_mm = {20, 10, 9}}, kGas));
+    artefacts.finish({"inside.mha"});
+    EXPECT_EQ(artefacts.densitiesAroundLumen().grid.size, (std::array<int, 3>{21, 22, 19}));
+    artefacts.dropVolume();
+    EXPECT_EQ(artefacts.densitiesAroundLumen().voxels.back(), 7) << "kept without the whole";
+    artefacts.dropDensitiesAroundLumen();
+    EXPECT_EQ(artefacts.densitiesAroundLumen().voxels.size(), 21U * 22U * 19U) << "read back from the whole's file";
 
     ScanArtefacts nowhere(folder / "missing");
     nowhere.put(HuVolume(Grid{.size = {4, 3, 2}}));

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 
 #include "field_shapes.h"
 #include "vicon/core/error.h"
+#include "vicon/steps/densities_around.h"
 
 namespace vicon::steps {
 namespace {
@@ -198,6 +200,46 @@ TEST(Cells, TakeDensitiesFromALargerVolumeOnTheSameLattice)
     shifted.grid.origin_mm.x += 0.3;
     segments.grid = shifted.grid;
     EXPECT_THROW(extractCells(scan.hu, shifted, segments, {}, quiet), Error);
+}
+
+TEST(Cells, DependOnNoMoreThanTheDensitiesAroundTheLumen)
+{
+    const Scan scan = ball(10, kFluid);
+    HuVolume noisy = scan.hu;
+    std::mt19937 random(5);
+    for (std::int16_t& hu : noisy.voxels)
+        hu = std::int16_t(hu + std::uniform_int_distribution(-150, 150)(random));
+    Grid tight = scan.hu.grid;  // no voxel around the ball: all beyond its faces comes from the densities
+    tight.size = {29, 29, 29};
+    tight.origin_mm = scan.hu.grid.pointAt(Index3{18, 17, 17});
+    InsideVolume inside(tight);
+    SegmentVolume segments(tight);
+    for (std::size_t n = 0; n < tight.voxelCount(); ++n) {
+        const Index3 v = tight.indexOf(n);
+        const std::uint8_t label = scan.inside.at({v.i + 18, v.j + 17, v.k + 17});
+        inside.voxels[n] = label && v.j < 14 ? std::uint8_t(kGas) : label;
+        segments.voxels[n] = label != kOutside;
+    }
+    const HuVolume around = densitiesAround(noisy, tight);
+    EXPECT_EQ(around.grid.size, (std::array<int, 3>{45, 45, 45}));
+    EXPECT_EQ(around.at({8, 8, 8}), noisy.at({18, 17, 17}));
+    const auto few = extractCells(around, inside, segments, {}, quiet);
+    const auto all = extractCells(noisy, inside, segments, {}, quiet);
+    EXPECT_GT(all.triangleCount(), 2000U);
+    EXPECT_EQ(few.triangles, all.triangles);
+    EXPECT_EQ(few.points_mm, all.points_mm);
+    EXPECT_EQ(few.normals, all.normals);
+}
+
+TEST(Cells, HaveTheScansLastDensitiesAroundThem)
+{
+    const Scan scan = ball(10, kGas);
+    const HuVolume around = densitiesAround(scan.hu, scan.hu.grid);
+    EXPECT_EQ(around.grid.size, scan.hu.grid.size);
+    EXPECT_EQ(around.voxels, scan.hu.voxels);
+    Grid elsewhere = scan.hu.grid;
+    elsewhere.origin_mm.x += 0.3;
+    EXPECT_THROW(densitiesAround(scan.hu, elsewhere), Error);
 }
 
 TEST(Cells, DoNotDependOnTheNumberOfThreads)

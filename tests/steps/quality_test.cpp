@@ -7,15 +7,15 @@
 
 #include "vicon/phantom/phantom.h"
 #include "vicon/steps/colon_parts.h"
+#include "vicon/steps/noise.h"
 #include "vicon/steps/resample.h"
 
 namespace vicon::steps {
 namespace {
 
-/// A straight tube along z with a radius of 15 mm, 1200 mm long on voxels of 2 mm, in soft tissue of 40 HU.
+/// A straight tube along z with a radius of 15 mm, 1200 mm long on voxels of 2 mm.
 struct Tube {
-    HuVolume hu{Grid{.size = {28, 28, 610}, .spacing_mm = {2, 2, 2}}, 40};
-    InsideVolume inside{hu.grid};
+    InsideVolume inside{Grid{.size = {28, 28, 610}, .spacing_mm = {2, 2, 2}}};
     Skeleton skeleton;
 
     /// Collapsed between two heights, filled with fluid below another.
@@ -44,7 +44,7 @@ struct Tube {
     ScanQuality measure(const ColonPartRanges& parts = {})
     {
         NoProgress progress;
-        return measureQuality(hu, inside, skeleton, parts, {}, progress);
+        return measureQuality(inside, skeleton, parts, 0, {}, progress);
     }
 };
 
@@ -128,7 +128,7 @@ TEST_P(PhantomQuality, AgreesWithTheTruthInNoiseFluidAndCollapsedLength)
             curve.pieces.push_back({bridge, {}});
         curve.pieces.back().points.push_back(p);
     }
-    const ScanQuality q = measureQuality(scan.hu, truth.inside, curve, truth.parts, {}, progress);
+    const ScanQuality q = measureQuality(truth.inside, curve, truth.parts, softTissueNoise(scan.hu), {}, progress);
     EXPECT_NEAR(q.noise_hu / truth.noise_hu, 1, 0.25);
     EXPECT_NEAR(q.whole.fluid_ml, truth.fluid_ml, 0.02 * truth.fluid_ml + 1);
     EXPECT_NEAR(q.whole.volume_ml, truth.volume_ml, 0.02 * truth.volume_ml);

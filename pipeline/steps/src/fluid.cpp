@@ -7,7 +7,7 @@
 #include "fluid_levels.h"
 #include "fluid_specks.h"
 #include "meniscus.h"
-#include "noise.h"
+#include "vicon/steps/noise.h"
 
 namespace vicon::steps {
 namespace {
@@ -48,13 +48,14 @@ FluidResult addTaggedFluid(const HuVolume& volume, Vector3 gravity, const FluidD
                            InsideVolume& labels, Progress& progress)
 {
     const Down down = downFor(labels.grid, gravity);
-    std::vector<ContactPatch> patches = findFluidLevels(volume, down, densities, softTissueNoise(volume), labels);
+    FluidResult result;
+    result.noise_hu = softTissueNoise(volume);
+    std::vector<ContactPatch> patches = findFluidLevels(volume, down, densities, result.noise_hu, labels);
     progress.check();
     // Lowest threshold first: what a higher one would reach from a voxel already taken has then been taken too, so each
     // voxel is visited once and the order of the levels does not matter.
     std::stable_sort(patches.begin(), patches.end(),
                      [](const ContactPatch& a, const ContactPatch& b) { return a.density_hu < b.density_hu; });
-    FluidResult result;
     std::vector<std::size_t> stack;
     for (const ContactPatch& patch : patches) {
         const double half_hu = (patch.density_hu + densities.tissue_hu) / 2;

@@ -25,6 +25,7 @@ struct FluidLevel {
 struct FluidResult {
     std::vector<FluidLevel> levels;
     std::size_t voxels = 0;
+    double noise_hu = 0;  ///< of softTissueNoise()
 };
 
 /// Adds tagged fluid to `labels` (kGas where gas is, 0 elsewhere), which has the grid of `volume`: what lies under gas

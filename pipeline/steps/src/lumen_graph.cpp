@@ -56,37 +56,61 @@ struct BlockMap {
     std::ptrdiff_t at(int i, int j, int k) const { return i + 1 + size[0] * (j + 1 + size[1] * (k + 1)); }
 };
 
-void joinNodes(LumenGraph& graph, const FieldVolume& wall_mm, const BlockMap& blocks)
-{
-    const auto linksOf = [&](std::size_t n) {
+/// Which of the 27 blocks around a node's hold a node, and which of those are joined to it.
+class Joiner {
+public:
+    Joiner(const LumenGraph& graph, const FieldVolume& wall_mm, const BlockMap& blocks)
+        : graph_(graph), wall_mm_(wall_mm), blocks_(blocks)
+    {
+    }
+    LumenGraph::Links linksOf(std::size_t n) const
+    {
         LumenGraph::Links links;
-        const LumenGraph::Node& own = graph.nodes[n];
-        const int i = own.voxel.i / graph.block, j = own.voxel.j / graph.block, k = own.voxel.k / graph.block;
-        for (int which = 0; which < 27; ++which) {
-            const std::int32_t m =
-                blocks.node[std::size_t(blocks.at(i + which % 3 - 1, j + which / 3 % 3 - 1, k + which / 9 - 1))];
-            if (m < 0)
-                continue;
-            if ((links.there >> (which - which % 3) & 7) == 0)
-                links.first[std::size_t(which) / 3] = std::uint32_t(m);
-            links.there |= 1U << which;
-            if (n == std::size_t(m))
-                continue;
-            const LumenGraph::Node& other = graph.node(m);
-            const double apart = distance(graph.grid.pointAt(own.voxel), graph.grid.pointAt(other.voxel));
-            // The smaller voxel first, so that both ends of an edge see the same line.
-            const bool first = n < std::size_t(m);
-            if (graph.block == 1 || apart < own.wall_mm + other.wall_mm ||
-                lineInside(wall_mm, first ? own.voxel : other.voxel, first ? other.voxel : own.voxel))
-                links.joined |= 1U << which;
+        const LumenGraph::Node& own = graph_.nodes[n];
+        const int i = own.voxel.i / graph_.block, j = own.voxel.j / graph_.block, k = own.voxel.k / graph_.block;
+        for (int row = 0; row < 9; ++row) {
+            const std::int32_t* three = &blocks_.node[std::size_t(blocks_.at(i - 1, j + row % 3 - 1, k + row / 3 - 1))];
+            for (int which = 3 * row; which < 3 * row + 3; ++which, ++three) {
+                if (*three < 0)
+                    continue;
+                if ((links.there >> 3 * row & 7) == 0)
+                    links.first[std::size_t(row)] = std::uint32_t(*three);
+                links.there |= 1U << which;
+                if (std::size_t(*three) != n && joined(n, std::size_t(*three)))
+                    links.joined |= 1U << which;
+            }
         }
         return links;
-    };
+    }
+
+private:
+    bool joined(std::size_t n, std::size_t m) const
+    {
+        const LumenGraph::Node &own = graph_.nodes[n], &other = graph_.nodes[m];
+        const auto& spacing_mm = graph_.grid.spacing_mm;
+        const double x = (own.voxel.i - other.voxel.i) * spacing_mm[0];
+        const double y = (own.voxel.j - other.voxel.j) * spacing_mm[1];
+        const double z = (own.voxel.k - other.voxel.k) * spacing_mm[2];
+        const double overlap = double(own.wall_mm) + double(other.wall_mm);
+        if (graph_.block == 1 || x * x + y * y + z * z < overlap * overlap)
+            return true;
+        // The smaller node first, so that both ends of an edge see the same line.
+        return n < m ? lineInside(wall_mm_, own.voxel, other.voxel) : lineInside(wall_mm_, other.voxel, own.voxel);
+    }
+
+    const LumenGraph& graph_;
+    const FieldVolume& wall_mm_;
+    const BlockMap& blocks_;
+};
+
+void joinNodes(LumenGraph& graph, const FieldVolume& wall_mm, const BlockMap& blocks)
+{
+    const Joiner joiner(graph, wall_mm, blocks);
     graph.links.resize(graph.count());
     const auto chunk = std::size_t(4096);
     tbb::parallel_for(std::size_t(0), graph.count() / chunk + 1, [&](std::size_t c) {
         for (std::size_t n = c * chunk; n < std::min(graph.count(), (c + 1) * chunk); ++n)
-            graph.links[n] = linksOf(n);
+            graph.links[n] = joiner.linksOf(n);
     });
 }
 

@@ -1,4 +1,4 @@
-#include "noise.h"
+#include "vicon/steps/noise.h"
 
 #include <tbb/parallel_for.h>
 

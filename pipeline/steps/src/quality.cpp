@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "lumen_profile.h"
-#include "noise.h"
 #include "vicon/core/error.h"
 
 namespace vicon::steps {
@@ -109,17 +108,16 @@ nlohmann::json measuresOf(const StretchQuality& q)
 
 }  // namespace
 
-ScanQuality measureQuality(const HuVolume& hu, const InsideVolume& inside, const Skeleton& skeleton,
-                           const ColonPartRanges& parts, const QualityOptions& options, Progress& progress)
+ScanQuality measureQuality(const InsideVolume& inside, const Skeleton& skeleton, const ColonPartRanges& parts,
+                           double noise_hu, const QualityOptions& options, Progress& progress)
 {
     if (skeleton.empty())
         throw Error(ErrorCode::bad_input, "the quality of a scan without a skeleton cannot be measured");
     progress.check();
     const LumenProfile profile = profileOf(inside, skeleton);
     progress.check();
-    progress.report(0.5, "noise");
     ScanQuality quality;
-    quality.noise_hu = softTissueNoise(hu);
+    quality.noise_hu = noise_hu;
     const std::vector<double> radii = radiiAlong(skeleton, profile);
     quality.whole = measureStretch("", 0, skeleton.length_mm(), radii, profile, options);
     for (const ColonPartRange& range : parts)

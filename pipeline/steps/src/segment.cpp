@@ -48,6 +48,7 @@ InsideVolume findLumen(const HuVolume& volume, Vector3 gravity, const Body& body
     progress.report(0.3, "tagged fluid");
     const FluidDensities densities{options.fluid_above_hu, options.tissue_hu, options.wall_hu};
     const FluidResult fluid = addTaggedFluid(volume, gravity, densities, labels, progress);
+    result.measures["noise_hu"] = fluid.noise_hu;
     result.measures["fluid_levels"] = fluid.levels.size();
     for (const Point3 p : corrections.add)
         addFluidAt(volume, p, densities, labels);

@@ -7,6 +7,7 @@
 #include "lumen.h"
 #include "segment_points.h"
 #include "segment_verdict.h"
+#include "vicon/steps/noise.h"
 
 namespace vicon::steps {
 namespace {
@@ -62,6 +63,7 @@ Segmentation segmentBinary(const HuVolume& volume, const SegmentOptions& options
                                      : "nothing at the seed point lies below the iso value");
     Segmentation result;
     result.inside = cropped(gas, volume.grid, chosen);
+    result.measures["noise_hu"] = softTissueNoise(volume);
     progress.report(0.7, "ends");
     result.plan = planForMask(result.inside);
     judgeSegmentation(result, body, lumenCut_mm2(volume, result.inside));

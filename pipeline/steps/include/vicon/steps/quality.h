@@ -50,14 +50,11 @@ struct ScanQuality {
 /// Measures how well a scan shows the colon.
 ///
 /// Cross-sections come from the lumen's volume: each voxel belongs to the station whose front of a flood from the whole
-/// skeleton reaches it first (on blocks of 2 x 2 x 2 voxels), averaged over 10 mm (a triangle of 20 mm). Noise is the
-/// most frequent standard deviation among cubes of about 8 mm with a mean of 0 to 100 HU; between acquired slices
-/// interpolation lowers it.
-/// @param hu the isotropic volume
-/// @param inside on the lattice of `hu`, may be smaller
+/// skeleton reaches it first (on blocks of 2 x 2 x 2 voxels), averaged over 10 mm (a triangle of 20 mm).
+/// @param noise_hu of softTissueNoise()
 /// Throws Error{bad_input} when the skeleton is empty, Error{cancelled}.
-ScanQuality measureQuality(const HuVolume& hu, const InsideVolume& inside, const Skeleton& skeleton,
-                           const ColonPartRanges& parts, const QualityOptions& options, Progress& progress);
+ScanQuality measureQuality(const InsideVolume& inside, const Skeleton& skeleton, const ColonPartRanges& parts,
+                           double noise_hu, const QualityOptions& options, Progress& progress);
 
 /// As scan.json has it under "quality"; see docs/quality.md.
 nlohmann::json toJson(const ScanQuality& quality, const QualityOptions& options);
