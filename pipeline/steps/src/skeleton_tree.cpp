@@ -12,7 +12,8 @@ namespace {
 constexpr double kReference_mm = 5;  // only scales the cost
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-/// What a front has to know of a node it may step to lies together: each such look is a cache line that is not there.
+/// Where a node lies in its block. What a front looks at most often is kept by itself, in the fewest bytes: the looks
+/// go all over the lumen, and each is a cache line that is not there.
 struct Place {
     std::array<std::uint8_t, 3> in_block{};  ///< of the node's voxel
 };
@@ -35,13 +36,14 @@ void forEachJoined(const LumenGraph::Links& links, Use use)
 /// Asks for the memory that is looked at when the nodes come out of the queue that wait at its head: they lie anywhere
 /// in the lumen, so nothing of them is in a cache.
 template <class Site>
-void fetchAhead(const LumenGraph& graph, const CheapestFirst& queue, const std::vector<Site>& sites)
+void fetchAhead(const LumenGraph& graph, const CheapestFirst& queue, const std::vector<float>& reached,
+                const std::vector<Site>& sites)
 {
     if (queue.empty())
         return;
     for (const std::uint32_t first : graph.links[queue.next()].first) {
+        __builtin_prefetch(&reached[first]);
         __builtin_prefetch(&sites[first]);
-        __builtin_prefetch(&sites[first] + 2);
     }
     queue.forEachBehindNext([&](std::uint32_t n) {
         __builtin_prefetch(&graph.links[n]);
@@ -101,90 +103,86 @@ LumenTree centralTree(const LumenGraph& graph, std::int32_t root, const std::vec
                       Progress& progress, std::int32_t goal)
 {
     struct Site : Place {
-        float cost = kInfinite, weight = 0, length_mm = 0;
+        float weight = 0;
+    };
+    struct Way {
         std::int32_t parent = -1;
+        float length_mm = 0;
     };
     std::vector<Site> sites(graph.count());
-    for (std::size_t n = 0; n < sites.size(); ++n) {
-        static_cast<Place&>(sites[n]) = EdgeLengths::placeOf(graph, n);
-        sites[n].weight = weight(graph.nodes[n].wall_mm);
-    }
+    for (std::size_t n = 0; n < sites.size(); ++n)
+        sites[n] = {EdgeLengths::placeOf(graph, n), weight(graph.nodes[n].wall_mm)};
+    std::vector<Way> ways(sites.size());
+    LumenTree tree{root, {}, std::vector<float>(sites.size(), kInfinite), {}};
     const EdgeLengths lengths(graph);
     CheapestFirst queue;
-    sites[std::size_t(root)].cost = 0;
+    tree.cost[std::size_t(root)] = 0;
     queue.push(0, std::uint32_t(root));
     for (std::size_t count = 0; !queue.empty(); ++count) {
         if (count % 65536 == 0)
             progress.check();
         const auto [cost, node] = queue.pop();
-        const Site own = sites[node];
-        if (cost > own.cost)
+        if (cost > tree.cost[node])
             continue;
         if (std::int32_t(node) == goal)
             break;
-        fetchAhead(graph, queue, sites);
+        fetchAhead(graph, queue, tree.cost, sites);
+        const Site own = sites[node];
+        const float length_mm = ways[node].length_mm;
         forEachJoined(graph.links[node], [&, so_far = cost, n = node](std::size_t m, std::size_t which) {
-            Site& other = sites[m];
-            if (other.cost <= so_far)
+            float& known = tree.cost[m];
+            if (known <= so_far)
                 return;
+            const Site& other = sites[m];
             const float apart = lengths.of(which, own, other);
             const float to = so_far + apart * 0.5F * (own.weight + other.weight);
-            if (to < other.cost && (blocked.empty() || !blocked[m])) {
-                other.cost = to;
-                other.parent = std::int32_t(n);
-                other.length_mm = own.length_mm + apart;
+            if (to < known && (blocked.empty() || !blocked[m])) {
+                known = to;
+                ways[m] = {std::int32_t(n), length_mm + apart};
                 queue.push(to, std::uint32_t(m));
             }
         });
     }
-    LumenTree tree{root, std::vector<std::int32_t>(sites.size()), std::vector<float>(sites.size()),
-                   std::vector<float>(sites.size())};
-    for (std::size_t n = 0; n < sites.size(); ++n) {
-        tree.parent[n] = sites[n].parent;
-        tree.cost[n] = sites[n].cost;
-        tree.length_mm[n] = sites[n].length_mm;
+    tree.parent.reserve(ways.size());
+    tree.length_mm.reserve(ways.size());
+    for (const Way& way : ways) {
+        tree.parent.push_back(way.parent);
+        tree.length_mm.push_back(way.length_mm);
     }
     return tree;
 }
 
 LumenFeet feetOn(const LumenGraph& graph, const std::vector<std::int32_t>& sources)
 {
-    struct Site : Place {
-        float distance_mm = kInfinite;
-        std::int32_t foot = -1;
-    };
-    std::vector<Site> sites(graph.count());
+    std::vector<Place> sites(graph.count());
     for (std::size_t n = 0; n < sites.size(); ++n)
-        static_cast<Place&>(sites[n]) = EdgeLengths::placeOf(graph, n);
+        sites[n] = EdgeLengths::placeOf(graph, n);
+    LumenFeet feet{std::vector<float>(sites.size(), kInfinite), std::vector<std::int32_t>(sites.size(), -1)};
     const EdgeLengths lengths(graph);
     CheapestFirst queue;
     for (std::size_t s = 0; s < sources.size(); ++s) {
-        sites[std::size_t(sources[s])].distance_mm = 0;
-        sites[std::size_t(sources[s])].foot = std::int32_t(s);
+        feet.distance_mm[std::size_t(sources[s])] = 0;
+        feet.foot[std::size_t(sources[s])] = std::int32_t(s);
         queue.push(0, std::uint32_t(sources[s]));
     }
     while (!queue.empty()) {
         const auto [so_far, node] = queue.pop();
-        const Site own = sites[node];
-        if (so_far > own.distance_mm)
+        if (so_far > feet.distance_mm[node])
             continue;
-        fetchAhead(graph, queue, sites);
+        fetchAhead(graph, queue, feet.distance_mm, sites);
+        const Place own = sites[node];
+        const std::int32_t foot = feet.foot[node];
         forEachJoined(graph.links[node], [&, here = so_far](std::size_t m, std::size_t which) {
-            Site& other = sites[m];
-            if (other.distance_mm <= here)
+            float& known = feet.distance_mm[m];
+            if (known <= here)
                 return;
-            const float to = here + lengths.of(which, own, other);
-            if (to < other.distance_mm) {
-                other.distance_mm = to;
-                other.foot = own.foot;
+            const float to = here + lengths.of(which, own, sites[m]);
+            if (to < known) {
+                known = to;
+                feet.foot[m] = foot;
                 queue.push(to, std::uint32_t(m));
             }
         });
-    }
-    LumenFeet feet{std::vector<float>(sites.size()), std::vector<std::int32_t>(sites.size())};
-    for (std::size_t n = 0; n < sites.size(); ++n) {
-        feet.distance_mm[n] = sites[n].distance_mm;
-        feet.foot[n] = sites[n].foot;
     }
     return feet;
 }
