@@ -262,7 +262,7 @@ const std::vector<Step>& stepTable()
          parametersFrom<QualityOptions>,
          runQuality},
         {"subdivide",
-         4,
+         5,
          0.67,
          0.85,
          {"resample", "segment", "skeleton"},

@@ -62,15 +62,15 @@ void reachSeparateParts(LumenFront& front, const InsideVolume& inside, const Ske
                 nearest = component[n];
             }
         const std::size_t anchor = nearestInside(inside, foot.position_mm);
-        const float at_anchor = front.time.voxels[anchor];
+        const float at_anchor = front.timeAt(anchor);
         const double start_mm = at_anchor < LumenFront::kUnreached ? double(at_anchor) : foot.station_mm;
         if (labels == Labels::ignore)
             front.seed(nearest, float(start_mm + foot.distance_mm));
         else
-            front.seed(nearest, float(start_mm + foot.distance_mm), front.label[anchor]);
+            front.seed(nearest, float(start_mm + foot.distance_mm), front.labelAt(anchor));
         front.run(labels);
         front.runOverCorners(labels);
-        std::erase_if(left, [&](std::uint32_t v) { return front.time.voxels[v] < LumenFront::kUnreached; });
+        std::erase_if(left, [&](std::uint32_t v) { return front.timeAt(v) < LumenFront::kUnreached; });
     }
 }
 
@@ -110,8 +110,8 @@ void crossBridges(LumenFront& front, const InsideVolume& inside, const Skeleton&
         changed = false;
         for (const Bridge& bridge : bridges)
             for (const auto& [a, b] : {std::pair(bridge.from, bridge.to), std::pair(bridge.to, bridge.from)}) {
-                const float at = front.time.voxels[a];
-                if (at == LumenFront::kUnreached || at + bridge.length_mm >= front.time.voxels[b])
+                const float at = front.timeAt(a);
+                if (at == LumenFront::kUnreached || at + bridge.length_mm >= front.timeAt(b))
                     continue;
                 front.seed(b, at + bridge.length_mm);
                 front.run(labels);
@@ -137,7 +137,7 @@ bool tookShortCut(const LumenFront& front, const InsideVolume& inside, const Ske
             const Index3 v = inside.grid.indexAt(point.position_mm);
             if (piece.bridge || inside.valueOr(v, kOutside) == kOutside)
                 continue;
-            const double here = front.time.at(v);
+            const double here = front.timeAt(inside.grid.offset(v));
             most = std::max(most, here);
             if (here < most - kFall_mm)
                 return true;
@@ -167,7 +167,7 @@ FieldVolume exitDistance(const InsideVolume& inside, const Skeleton& skeleton, P
         progress.check();
     }
     progress.report(1, "exit distance");
-    return std::move(front.time);
+    return front.times();
 }
 
 FieldVolume exitDistance(const InsideVolume& inside, const SkeletonTree& tree, Progress& progress)
@@ -178,7 +178,7 @@ FieldVolume exitDistance(const InsideVolume& inside, const SkeletonTree& tree, P
     LumenFront front(inside);
     march(front, inside, tree.allBranches(), Labels::ignore);
     progress.report(1, "exit distance");
-    return std::move(front.time);
+    return front.times();
 }
 
 }  // namespace vicon::steps

@@ -15,6 +15,10 @@ namespace {
 
 using Labels = LumenFront::Labels;
 
+// By how much the front of a path's voxel runs ahead of the next one's: the flood sweeps along the colon, and takes
+// half the time of one that rises everywhere at once. Chosen on the 512 x 512 x 430 phantom; 0.03 to 0.3 are as good.
+constexpr float kAhead_voxels = 0.1F;
+
 std::uint16_t newLabel(Labelling& labelling, LabelledPiece piece)
 {
     if (labelling.pieces.size() >= std::numeric_limits<std::uint16_t>::max())
@@ -64,6 +68,7 @@ void cutPath(std::vector<std::uint16_t>& label_of, Labelling& labelling, const S
 PathFlood floodFrom(const InsideVolume& inside, std::vector<std::uint32_t> seeds)
 {
     PathFlood flood{std::move(seeds), {}, {}};
+    const auto& spacing_mm = inside.grid.spacing_mm;
     const auto next = [&] {
         const std::size_t label = flood.seeds.size() + flood.loose.size();
         if (label > std::numeric_limits<std::uint16_t>::max())
@@ -75,17 +80,18 @@ PathFlood floodFrom(const InsideVolume& inside, std::vector<std::uint32_t> seeds
     LumenFront front(inside);
     for (std::size_t n = 0; n < flood.seeds.size(); ++n)
         front.seed(flood.seeds[n], 0, std::uint16_t(n + 1));
+    front.runAheadByLabel(kAhead_voxels * float(*std::min_element(spacing_mm.begin(), spacing_mm.end())));
     front.run(Labels::adopt);
     front.runOverCorners(Labels::adopt);
     for (const std::uint32_t voxel : front.unreached()) {
-        if (front.time.voxels[voxel] < LumenFront::kUnreached)
+        if (front.timeAt(voxel) < LumenFront::kUnreached)
             continue;
         flood.loose.push_back(voxel);
         const std::uint16_t label = next();
         for (const std::uint32_t v : front.componentOf(voxel))
             front.seed(v, 0, label);
     }
-    flood.label = std::move(front.label);
+    flood.label = front.labels();
     return flood;
 }
 

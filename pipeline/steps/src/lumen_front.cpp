@@ -1,6 +1,7 @@
 #include "lumen_front.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
@@ -35,26 +36,21 @@ float LumenFront::solveEikonal(std::array<Upwind, 3> up) const
     if (up[1].time < up[0].time)
         std::swap(up[0], up[1]);
     // Times relative to the earliest: floats keep their precision 2 m from the exit.
-    const float base = up[0].time;
-    float t = spacing_[up[0].axis];
-    float a = per_square_[up[0].axis], b = 0, c = -1;
-    for (std::size_t n = 1; n < 3 && up[n].time < base + t; ++n) {
-        const float w = per_square_[up[n].axis], x = up[n].time - base;
+    const float base = up[0].time, x = up[1].time - base, y = up[2].time - base;
+    const float u = per_square_[up[0].axis], v = per_square_[up[1].axis], w = per_square_[up[2].axis];
+    if (u * x * x >= 1)  // as late as the second neighbour, the front has passed
+        return base + spacing_[up[0].axis];
+    float a = u + v, b = v * x, c = v * x * x - 1;
+    if (u * y * y + v * (y - x) * (y - x) < 1) {
         a += w;
-        b += w * x;
-        c += w * x * x;
-        const float root = b * b - a * c;
-        if (root < 0)
-            break;
-        t = (b + std::sqrt(root)) / a;
+        b += w * y;
+        c += w * y * y;
     }
-    return base + t;
+    return base + (b + std::sqrt(std::max(0.0F, b * b - a * c))) / a;
 }
 
-LumenFront::LumenFront(const InsideVolume& inside) : time(makeVolume<float>(inside.grid)), inside_(inside)
+LumenFront::LumenFront(const InsideVolume& inside) : inside_(inside), bricks_(inside)
 {
-    if (inside.voxels.size() >= std::numeric_limits<std::uint32_t>::max())
-        throw Error(ErrorCode::no_memory, "the colon's box has more than 4294967295 voxels");
     for (std::size_t d = 0; d < 3; ++d) {
         const auto square = float(inside.grid.spacing_mm[d] * inside.grid.spacing_mm[d]);
         spacing_[d] = std::sqrt(square);
@@ -68,14 +64,16 @@ LumenFront::LumenFront(const InsideVolume& inside) : time(makeVolume<float>(insi
 
 void LumenFront::restart()
 {
-    using Range = tbb::blocked_range<std::size_t>;
+    fillFresh(time_, bricks_.placeCount(), kOutsideTime);
+    using Range = tbb::blocked_range<std::uint32_t>;
     inside_count_ = tbb::parallel_reduce(
-        Range(0, time.voxels.size(), 1 << 18), std::size_t(0),
+        Range(BrickGrid::kVoxels, std::uint32_t(time_.size()), 1 << 14), std::size_t(0),
         [&](const Range& range, std::size_t count) {
-            for (std::size_t n = range.begin(); n < range.end(); ++n) {
-                time.voxels[n] = inside_.voxels[n] ? kUnreached : kOutsideTime;
-                count += inside_.voxels[n] != kOutside;
-            }
+            for (std::uint32_t place = range.begin(); place < range.end(); ++place)
+                if (inside_.valueOr(bricks_.voxelAt(place), kOutside)) {
+                    time_[place] = kUnreached;
+                    ++count;
+                }
             return count;
         },
         std::plus<>());
@@ -83,88 +81,84 @@ void LumenFront::restart()
     buckets_.clear();
 }
 
-void LumenFront::push(std::uint32_t voxel, float time_mm, std::size_t not_before)
+void LumenFront::push(std::uint32_t place, std::size_t not_before)
 {
-    const std::size_t bucket = std::max(bucketOf(time_mm), not_before);
+    const std::size_t bucket = std::max(bucketOf(place), not_before);
     if (bucket >= buckets_.size())
         buckets_.resize(bucket + 1);
-    buckets_[bucket].push_back(voxel);
+    buckets_[bucket].push_back(place);
+}
+
+void LumenFront::seedPlace(std::uint32_t place, float time_mm)
+{
+    setTime(place, time_mm);
+    push(place, 0);
 }
 
 void LumenFront::seed(std::size_t voxel, float time_mm)
 {
-    if (!inside_.voxels[voxel] || time.voxels[voxel] <= time_mm)
-        return;
-    setTime(voxel, time_mm);
-    push(std::uint32_t(voxel), time_mm, 0);
+    if (const std::uint32_t place = placeOf(voxel); time_[place] > time_mm)
+        seedPlace(place, time_mm);
 }
 
-void LumenFront::seed(std::size_t voxel, float time_mm, std::uint16_t a_label)
+void LumenFront::seed(std::size_t voxel, float time_mm, std::uint16_t label)
 {
-    if (!inside_.voxels[voxel] || time.voxels[voxel] <= time_mm)
+    const std::uint32_t place = placeOf(voxel);
+    if (time_[place] <= time_mm)
         return;
-    if (label.empty())
-        fillFresh(label, time.voxels.size(), kNoLabel);
-    label[voxel] = a_label;
-    seed(voxel, time_mm);
+    if (label_.empty())
+        fillFresh(label_, time_.size(), kNoLabel);
+    label_[place] = label;
+    seedPlace(place, time_mm);
 }
 
 template <LumenFront::Labels labels>
-void LumenFront::relax(std::uint32_t voxel, int i, int j, int k, std::size_t bucket)
+void LumenFront::relax(std::uint32_t place, std::size_t bucket)
 {
-    const auto& size = inside_.grid.size;
-    const std::array<int, 3> at{i, j, k};
-    const std::array<std::uint32_t, 3> stride{1, std::uint32_t(size[0]),
-                                              std::uint32_t(size[0]) * std::uint32_t(size[1])};
+    const std::array<std::uint32_t, 6> around = bricks_.around(place);
     std::array<Upwind, 3> up;
-    std::uint32_t from = voxel;
+    std::uint32_t from = place;
     float earliest = kUnreached;
     for (std::size_t d = 0; d < 3; ++d) {
         up[d] = {kUnreached, std::uint32_t(d)};
-        const auto consider = [&](std::uint32_t neighbour) {
-            const float t = time.voxels[neighbour];
+        for (const std::uint32_t neighbour : {around[2 * d], around[2 * d + 1]}) {
+            const float t = time_[neighbour];
             if (t < 0 || t >= up[d].time)
-                return;
-            if (labels == Labels::fixed && std::abs(int(label[neighbour]) - int(label[voxel])) > kSpan)
-                return;
+                continue;
+            if (labels == Labels::fixed && std::abs(int(label_[neighbour]) - int(label_[place])) > kSpan)
+                continue;
             up[d].time = t;
             if (t < earliest) {
                 earliest = t;
                 from = neighbour;
             }
-        };
-        if (at[d] > 0)
-            consider(voxel - stride[d]);
-        if (at[d] + 1 < size[d])
-            consider(voxel + stride[d]);
+        }
     }
     if (earliest == kUnreached)
         return;
     const float t = solveEikonal(up);
-    if (t >= time.voxels[voxel] - tolerance_mm_)
+    if (t >= time_[place] - tolerance_mm_)
         return;
-    setTime(voxel, t);
+    setTime(place, t);
     if (labels == Labels::adopt)
-        label[voxel] = label[from];
-    push(voxel, t, bucket);
+        label_[place] = label_[from];
+    push(place, bucket);
 }
 
-/// Asks for the rows of times that relaxing a voxel's neighbours looks at.
-void LumenFront::fetch(std::uint32_t voxel) const
+/// Asks for the times and labels that relaxing a voxel's neighbours looks at.
+template <LumenFront::Labels labels>
+void LumenFront::fetch(std::uint32_t place) const
 {
-    const auto row = std::ptrdiff_t(inside_.grid.size[0]), slice = row * inside_.grid.size[1];
-    const auto count = std::ptrdiff_t(time.voxels.size());
-    for (const std::ptrdiff_t step : {std::ptrdiff_t(0), row, -row, slice, -slice, 2 * row, -2 * row, 2 * slice,
-                                      -2 * slice, row + slice, row - slice, slice - row, -row - slice})
-        if (const std::ptrdiff_t n = std::ptrdiff_t(voxel) + step; n >= 0 && n < count)
-            __builtin_prefetch(&time.voxels[std::size_t(n)]);
+    for (const std::uint32_t neighbour : bricks_.around(place)) {
+        __builtin_prefetch(&time_[neighbour]);
+        if (labels != Labels::ignore)
+            __builtin_prefetch(&label_[neighbour]);
+    }
 }
 
 template <LumenFront::Labels labels>
 void LumenFront::drain()
 {
-    const auto nx = std::uint32_t(inside_.grid.size[0]), ny = std::uint32_t(inside_.grid.size[1]);
-    const auto nz = std::uint32_t(inside_.grid.size[2]), slice = nx * ny;
     std::vector<std::uint32_t> current;
     for (std::size_t bucket = 0; bucket < buckets_.size(); ++bucket) {
         // What is pushed into this bucket while it is worked off comes next.
@@ -172,31 +166,17 @@ void LumenFront::drain()
             current.clear();
             std::swap(current, buckets_[bucket]);
             for (std::size_t n = 0; n < current.size(); ++n) {
-                const std::uint32_t voxel = current[n];
+                const std::uint32_t place = current[n];
+                if (n + 2 * kAhead < current.size())
+                    bricks_.fetch(current[n + 2 * kAhead]);
                 if (n + kAhead < current.size())
-                    fetch(current[n + kAhead]);
-                const float t = time.voxels[voxel];
-                if (bucketOf(t) < bucket)
+                    fetch<labels>(current[n + kAhead]);
+                if (bucketOf(place) < bucket)
                     continue;
-                const std::uint32_t k = voxel / slice, in_slice = voxel - k * slice, j = in_slice / nx,
-                                    i = in_slice - j * nx;
-                const int x = int(i), y = int(j), z = int(k);
-                const auto visit = [&](std::uint32_t neighbour, int ni, int nj, int nk) {
-                    if (time.voxels[neighbour] > t)
-                        relax<labels>(neighbour, ni, nj, nk, bucket);
-                };
-                if (i > 0)
-                    visit(voxel - 1, x - 1, y, z);
-                if (i + 1 < nx)
-                    visit(voxel + 1, x + 1, y, z);
-                if (j > 0)
-                    visit(voxel - nx, x, y - 1, z);
-                if (j + 1 < ny)
-                    visit(voxel + nx, x, y + 1, z);
-                if (k > 0)
-                    visit(voxel - slice, x, y, z - 1);
-                if (k + 1 < nz)
-                    visit(voxel + slice, x, y, z + 1);
+                const float t = time_[place];
+                for (const std::uint32_t neighbour : bricks_.around(place))
+                    if (time_[neighbour] > t)
+                        relax<labels>(neighbour, bucket);
             }
         }
         std::vector<std::uint32_t>().swap(buckets_[bucket]);
@@ -241,14 +221,14 @@ void LumenFront::runOverCorners(Labels labels)
         };
         std::vector<Step> steps;
         for (const std::uint32_t voxel : left) {
-            Step best{voxel, kUnreached, labels == Labels::ignore ? kNoLabel : label[voxel]};
+            Step best{voxel, kUnreached, labels == Labels::ignore ? kNoLabel : labelAt(voxel)};
             forNeighbours(grid(), voxel, [&](std::size_t neighbour, double distance_mm) {
-                const float t = time.voxels[neighbour];
+                const float t = timeAt(neighbour);
                 if (t < 0 || t == kUnreached || t + float(distance_mm) >= best.time_mm)
                     return;
                 best.time_mm = t + float(distance_mm);
                 if (labels == Labels::adopt)
-                    best.label = label[neighbour];
+                    best.label = labelAt(neighbour);
             });
             if (best.time_mm < kUnreached)
                 steps.push_back(best);
@@ -262,7 +242,7 @@ void LumenFront::runOverCorners(Labels labels)
                 seed(step.voxel, step.time_mm, step.label);
         }
         run(labels);
-        std::erase_if(left, [&](std::uint32_t voxel) { return time.voxels[voxel] < kUnreached; });
+        std::erase_if(left, [&](std::uint32_t voxel) { return timeAt(voxel) < kUnreached; });
     }
 }
 
@@ -271,20 +251,21 @@ std::vector<std::uint32_t> LumenFront::unreached() const
     std::vector<std::uint32_t> voxels;
     if (reached_count_ == inside_count_)
         return voxels;
-    for (std::size_t n = 0; n < time.voxels.size(); ++n)
-        if (time.voxels[n] == kUnreached)
-            voxels.push_back(std::uint32_t(n));
+    for (std::uint32_t place = BrickGrid::kVoxels; place < time_.size(); ++place)
+        if (time_[place] == kUnreached)
+            voxels.push_back(std::uint32_t(grid().offset(bricks_.voxelAt(place))));
+    std::sort(voxels.begin(), voxels.end());
     return voxels;
 }
 
 std::vector<std::uint32_t> LumenFront::componentOf(std::uint32_t voxel)
 {
-    seen_.resize(time.voxels.size());
+    seen_.resize(inside_.voxels.size());
     std::vector<std::uint32_t> found{voxel};
     seen_[voxel] = true;
     for (std::size_t n = 0; n < found.size(); ++n)
         forNeighbours(grid(), found[n], [&](std::size_t neighbour, double) {
-            if (time.voxels[neighbour] != kUnreached || seen_[neighbour])
+            if (timeAt(neighbour) != kUnreached || seen_[neighbour])
                 return;
             seen_[neighbour] = true;
             found.push_back(std::uint32_t(neighbour));
@@ -292,6 +273,36 @@ std::vector<std::uint32_t> LumenFront::componentOf(std::uint32_t voxel)
     for (const std::uint32_t v : found)
         seen_[v] = false;
     return found;
+}
+
+/// Hands the values at all places on as those of all voxels; the rest is untouched.
+template <class T>
+void LumenFront::spread(const std::vector<T>& at_place, std::vector<T>& voxels) const
+{
+    const auto row = std::size_t(grid().size[0]);
+    tbb::parallel_for(0, grid().size[2], [&](int k) {
+        for (int j = 0; j < grid().size[1]; ++j)
+            bricks_.forEachRun(j, k, [&](int i, std::uint32_t place, int count) {
+                std::copy_n(
+                    &at_place[place], count,
+                    &voxels[std::size_t(i) + row * (std::size_t(j) + std::size_t(grid().size[1]) * std::size_t(k))]);
+            });
+    });
+}
+
+FieldVolume LumenFront::times() const
+{
+    auto field = makeVolume<float>(grid(), kOutsideTime);
+    spread(time_, field.voxels);
+    return field;
+}
+
+std::vector<std::uint16_t> LumenFront::labels() const
+{
+    auto all = makeVolume<std::uint16_t>(grid(), kNoLabel);
+    if (!label_.empty())
+        spread(label_, all.voxels);
+    return std::move(all.voxels);
 }
 
 std::size_t nearestInside(const InsideVolume& inside, Point3 point)

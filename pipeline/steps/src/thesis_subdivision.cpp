@@ -90,11 +90,12 @@ std::vector<PathSizes> sizesAlong(const InsideVolume& inside, const std::vector<
     }
     front.run(Labels::adopt);
     front.runOverCorners(Labels::adopt);
+    const std::vector<std::uint16_t> label = front.labels();
     std::vector<double> size(count + 1, 0);
     const VoxelSize measure(inside, criterion);
     for (std::size_t n = 0; n < inside.voxels.size(); ++n)
-        if (inside.voxels[n] && front.label[n] && front.label[n] <= count)
-            size[front.label[n]] += measure.of(inside.grid.indexOf(n));
+        if (inside.voxels[n] && label[n] && label[n] <= count)
+            size[label[n]] += measure.of(inside.grid.indexOf(n));
     double total = 0;
     for (const double s : size)
         total += s;
@@ -175,8 +176,7 @@ Labelling cutAt(const InsideVolume& inside, const Skeleton& skeleton, const std:
         }
     }
     front.run(Labels::adopt);
-    labelling.label = std::move(front.label);
-    labelling.label.resize(inside.voxels.size(), LumenFront::kNoLabel);
+    labelling.label = front.labels();
     for (const auto& [portal, label] : owners)
         for (const std::uint32_t voxel : portal->voxels)
             labelling.label[voxel] = label;
