@@ -11,6 +11,8 @@
 namespace vicon::artefact {
 namespace {
 
+constexpr int kLevel = 3;  // of zlib's 9: the projections of the 512 x 512 x 430 phantom in half the time of 6
+
 [[noreturn]] void fail(png_structp, png_const_charp what)
 {
     throw Error(ErrorCode::store, std::string("picture cannot be written: ") + what);
@@ -51,6 +53,7 @@ void writePng(const std::filesystem::path& file, int width, int height, const st
         png_init_io(writer.png(), out.get());
         png_set_IHDR(writer.png(), writer.info(), png_uint_32(width), png_uint_32(height), 8, PNG_COLOR_TYPE_RGBA,
                      PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        png_set_compression_level(writer.png(), kLevel);
         std::string key = keyword, value = text;
         png_text chunk{};
         chunk.compression = PNG_TEXT_COMPRESSION_NONE;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "cheapest_first.h"
@@ -16,8 +17,9 @@ constexpr double kBoneHu = 250;   // mean of a coarse voxel that holds no lumen
 constexpr double kFatHu = -30;    // below: fat around the bowel, not its wall
 constexpr double kLungHu = -400;  // below, and not lumen: lung, or gas that is no bowel
 constexpr float kLumenCost = 0.8F, kTissueCost = 1, kFatCost = 2, kGasCost = 4;
-constexpr double kHorizon = 150;  // beyond, a way is not looked for but guessed as straight
-constexpr double kGuess = 2;      // cost per millimetre of a guessed way
+constexpr double kLeastCost = 0.75;  // of a way's millimetre: a start that is closed itself shortens the first step
+constexpr double kHorizon = 150;     // beyond, a way is not looked for but guessed as straight
+constexpr double kGuess = 2;         // cost per millimetre of a guessed way
 
 /// To one of the 26 voxels around.
 struct Step {
@@ -121,8 +123,12 @@ std::vector<TissueWay> waysFrom(const Volume<float>& costs, Point3 from, const s
     sites[start].cost = 0;
     queue.push(0, std::uint32_t(start));
     std::vector<std::size_t> goals;
-    for (const Point3 p : to)
+    std::set<std::size_t> near;  // those that may lie within the horizon: the search ends when all are reached
+    for (const Point3 p : to) {
         goals.push_back(grid.offset(clamped(p)));
+        if (kLeastCost * distance(grid.pointAt(clamped(from)), grid.pointAt(clamped(p))) <= kHorizon)
+            near.insert(goals.back());
+    }
     const std::vector<Step> steps = stepsOf(grid);
     for (std::size_t count = 0; !queue.empty(); ++count) {
         if (count % 65536 == 0)
@@ -130,7 +136,7 @@ std::vector<TissueWay> waysFrom(const Volume<float>& costs, Point3 from, const s
         const auto [so_far, n] = queue.pop();
         if (so_far > sites[n].cost)
             continue;
-        if (so_far > kHorizon)
+        if (so_far > kHorizon || (near.erase(n) > 0 && near.empty()))
             break;
         const Index3 v = grid.indexOf(n);
         const bool within =

@@ -1,5 +1,6 @@
 #include "vicon/steps/projections.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -112,16 +113,19 @@ Raster rasterize(const artefact::CellSurface& surface, const artefact::Projectio
 {
     Raster raster(picture.width * kFiner, picture.height * kFiner);
     const Vector3 ahead = cross(picture.right, picture.down);
-    const auto corner = [&](std::size_t n) {
-        const Point3 p = surface.point(n);
-        const Vector3 normal{surface.normals[3 * n], surface.normals[3 * n + 1], surface.normals[3 * n + 2]};
-        // The middle of a fine pixel (0,0) lies (kFiner - 1)/2 fine pixels before the middle of pixel (0,0).
-        return Corner{picture.column(p) * kFiner + 0.5 * (kFiner - 1), picture.row(p) * kFiner + 0.5 * (kFiner - 1),
-                      dot(p - picture.first_pixel_mm, ahead), dot(normal, ahead)};
-    };
+    std::vector<Corner> corners(surface.pointCount());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, corners.size(), 4096), [&](const auto& range) {
+        for (std::size_t n = range.begin(); n < range.end(); ++n) {
+            const Point3 p = surface.point(n);
+            const Vector3 normal{surface.normals[3 * n], surface.normals[3 * n + 1], surface.normals[3 * n + 2]};
+            // The middle of a fine pixel (0,0) lies (kFiner - 1)/2 fine pixels before the middle of pixel (0,0).
+            corners[n] = {picture.column(p) * kFiner + 0.5 * (kFiner - 1), picture.row(p) * kFiner + 0.5 * (kFiner - 1),
+                          dot(p - picture.first_pixel_mm, ahead), dot(normal, ahead)};
+        }
+    });
     for (std::size_t t = 0; t < surface.triangleCount(); ++t) {
         const std::uint32_t* c = &surface.triangles[3 * t];
-        fillTriangle(raster, {corner(c[0]), corner(c[1]), corner(c[2])});
+        fillTriangle(raster, {corners[c[0]], corners[c[1]], corners[c[2]]});
     }
     return raster;
 }

@@ -112,22 +112,19 @@ public:
     {
         for (auto& copy : copies_)
             copy.resize(std::size_t(view.grid.size[0]));
+        columns_stay_ = taps.size() == mixed_.size();
+        for (std::size_t i = 0; i < taps.size() && columns_stay_; ++i)
+            columns_stay_ = taps[i].low == int(i) && taps[i].high == int(i);
     }
 
     void sample(Tap y, Tap z, std::int16_t* out)
     {
         const std::array<const std::int16_t*, 4> row{acquiredRow(0, y.low, z.low), acquiredRow(1, y.high, z.low),
                                                      acquiredRow(2, y.low, z.high), acquiredRow(3, y.high, z.high)};
-        const std::size_t count = mixed_.size();
-        for (std::size_t i = 0; i < count; ++i) {
-            const float near = float(row[0][i]) + y.weight * (float(row[1][i]) - float(row[0][i]));
-            const float far = float(row[2][i]) + y.weight * (float(row[3][i]) - float(row[2][i]));
-            mixed_[i] = near + z.weight * (far - near);
-        }
-        for (std::size_t i = 0; i < taps_.size(); ++i) {
-            const float low = mixed_[std::size_t(taps_[i].low)], high = mixed_[std::size_t(taps_[i].high)];
-            out[i] = toHu(low + taps_[i].weight * (high - low));
-        }
+        if (columns_stay_ && y.low == y.high)
+            between(row[0], row[2], z.weight, out);
+        else
+            amongFour(row, y, z, out);
         // Almost every row crosses the corners outside the reconstruction circle; few of its voxels lie there.
         if (markPadding(row))
             for (std::size_t i = 0; i < taps_.size(); ++i)
@@ -136,6 +133,24 @@ public:
     }
 
 private:
+    /// New slices between those acquired and nothing else: what most scans need.
+    void between(const std::int16_t* near, const std::int16_t* far, float weight, std::int16_t* out) const
+    {
+        for (std::size_t i = 0; i < taps_.size(); ++i)
+            out[i] = toHu(float(near[i]) + weight * (float(far[i]) - float(near[i])));
+    }
+    void amongFour(const std::array<const std::int16_t*, 4>& row, Tap y, Tap z, std::int16_t* out)
+    {
+        for (std::size_t i = 0; i < mixed_.size(); ++i) {
+            const float near = float(row[0][i]) + y.weight * (float(row[1][i]) - float(row[0][i]));
+            const float far = float(row[2][i]) + y.weight * (float(row[3][i]) - float(row[2][i]));
+            mixed_[i] = near + z.weight * (far - near);
+        }
+        for (std::size_t i = 0; i < taps_.size(); ++i) {
+            const float low = mixed_[std::size_t(taps_[i].low)], high = mixed_[std::size_t(taps_[i].high)];
+            out[i] = toHu(low + taps_[i].weight * (high - low));
+        }
+    }
     static std::int16_t toHu(float value)
     {
         return std::int16_t(std::int32_t(value + (kAboveAllHu + 0.5F)) - std::int32_t(kAboveAllHu));
@@ -172,6 +187,7 @@ private:
 
     const CanonicalView& view_;
     const std::vector<Tap>& taps_;
+    bool columns_stay_ = false;  ///< the new columns are those acquired
     std::vector<float> mixed_;
     std::vector<std::uint8_t> padding_;
     std::array<std::vector<std::int16_t>, 4> copies_;
