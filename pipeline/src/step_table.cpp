@@ -244,7 +244,7 @@ const std::vector<Step>& stepTable()
          parametersByOrgan<SegmentOptions, OrganOptions>,
          runSegment},
         {"skeleton",
-         10,
+         9,
          0.55,
          0.65,
          {"segment"},
