@@ -48,6 +48,20 @@ Scan ball(double radius_mm, std::uint8_t content, std::array<Vector3, 3> axis = 
     return scan;
 }
 
+template <class T>
+Volume<T> partOf(const Volume<T>& whole, Index3 lower, std::array<int, 3> size)
+{
+    Grid grid = whole.grid;
+    grid.size = size;
+    grid.origin_mm = whole.grid.pointAt(lower);
+    Volume<T> part(grid);
+    for (std::size_t n = 0; n < part.voxels.size(); ++n) {
+        const Index3 v = grid.indexOf(n);
+        part.voxels[n] = whole.at({lower.i + v.i, lower.j + v.j, lower.k + v.k});
+    }
+    return part;
+}
+
 artefact::CellSurface cellsOf(const Scan& scan)
 {
     return extractCells(scan.hu, scan.inside, scan.segments, {}, quiet);
@@ -181,16 +195,8 @@ TEST(Cells, CloseWhereTheScanEndsInsideTheLumen)
 TEST(Cells, TakeDensitiesFromALargerVolumeOnTheSameLattice)
 {
     const Scan scan = ball(10, kGas);
-    Grid crop = scan.hu.grid;
-    crop.size = {40, 42, 44};
-    crop.origin_mm = scan.hu.grid.pointAt(Index3{12, 11, 10});
-    InsideVolume inside(crop);
-    SegmentVolume segments(crop);
-    for (std::size_t n = 0; n < crop.voxelCount(); ++n) {
-        const Index3 v = crop.indexOf(n);
-        inside.voxels[n] = scan.inside.at({v.i + 12, v.j + 11, v.k + 10});
-        segments.voxels[n] = scan.segments.at({v.i + 12, v.j + 11, v.k + 10});
-    }
+    const InsideVolume inside = partOf(scan.inside, {12, 11, 10}, {40, 42, 44});
+    SegmentVolume segments = partOf(scan.segments, {12, 11, 10}, {40, 42, 44});
     const auto cropped = extractCells(scan.hu, inside, segments, {}, quiet);
     const auto whole = cellsOf(scan);
     ASSERT_EQ(cropped.triangles, whole.triangles);
@@ -209,18 +215,13 @@ TEST(Cells, DependOnNoMoreThanTheDensitiesAroundTheLumen)
     std::mt19937 random(5);
     for (std::int16_t& hu : noisy.voxels)
         hu = std::int16_t(hu + std::uniform_int_distribution(-150, 150)(random));
-    Grid tight = scan.hu.grid;  // no voxel around the ball: all beyond its faces comes from the densities
-    tight.size = {29, 29, 29};
-    tight.origin_mm = scan.hu.grid.pointAt(Index3{18, 17, 17});
-    InsideVolume inside(tight);
-    SegmentVolume segments(tight);
-    for (std::size_t n = 0; n < tight.voxelCount(); ++n) {
-        const Index3 v = tight.indexOf(n);
-        const std::uint8_t label = scan.inside.at({v.i + 18, v.j + 17, v.k + 17});
-        inside.voxels[n] = label && v.j < 14 ? std::uint8_t(kGas) : label;
-        segments.voxels[n] = label != kOutside;
-    }
-    const HuVolume around = densitiesAround(noisy, tight);
+    // No voxel around the ball: all beyond its faces comes from the densities.
+    InsideVolume inside = partOf(scan.inside, {18, 17, 17}, {29, 29, 29});
+    const SegmentVolume segments = partOf(scan.segments, {18, 17, 17}, {29, 29, 29});
+    for (std::size_t n = 0; n < inside.voxels.size(); ++n)
+        if (inside.voxels[n] && inside.grid.indexOf(n).j < 14)
+            inside.voxels[n] = kGas;
+    const HuVolume around = densitiesAround(noisy, inside.grid);
     EXPECT_EQ(around.grid.size, (std::array<int, 3>{45, 45, 45}));
     EXPECT_EQ(around.at({8, 8, 8}), noisy.at({18, 17, 17}));
     const auto few = extractCells(around, inside, segments, {}, quiet);
