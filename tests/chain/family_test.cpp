@@ -14,6 +14,7 @@
 #include "vicon/steps/resample.h"
 #include "vicon/steps/segment.h"
 #include "vicon/steps/skeleton.h"
+#include "vicon/steps/subdivide.h"
 
 namespace vicon::test {
 namespace {
@@ -86,13 +87,51 @@ void measureCurve(const Skeleton& found, const phantom::PhantomTruth& truth, Fig
         figures.curve_mean_mm += d / double(away_mm.size());
     figures.curve_95_mm = away_mm[away_mm.size() * 95 / 100];
     figures.length_fraction = found.length_mm() / truth.length_mm - 1;
-    for (const phantom::Polyp& polyp : truth.polyps)
-        figures.polyp_mm =
-            std::max(figures.polyp_mm, std::abs(found.nearest(polyp.position_mm).station_mm - polyp.station_mm));
     // From the rectum to the caecum, and never back by more than the curve's own error.
     figures.directed = stations.front() < truth.length_mm * 0.02 && stations.back() > truth.length_mm * 0.98;
     for (std::size_t n = 0; n + 20 < stations.size(); ++n)
         figures.directed = figures.directed && stations[n + 20] > stations[n];
+}
+
+/// The segment of the inside voxel nearest to a point.
+int segmentAt(const SegmentVolume& segments, Point3 point)
+{
+    constexpr int kReach = 4;
+    const Index3 c = segments.grid.indexAt(point);
+    int segment = 0;
+    double least_mm = 1e9;
+    for (int k = c.k - kReach; k <= c.k + kReach; ++k)
+        for (int j = c.j - kReach; j <= c.j + kReach; ++j)
+            for (int i = c.i - kReach; i <= c.i + kReach; ++i)
+                if (const Index3 v{i, j, k}; segments.valueOr(v, 0))
+                    if (const double d = distance(segments.grid.pointAt(v), point); d < least_mm) {
+                        least_mm = d;
+                        segment = segments.at(v);
+                    }
+    return segment;
+}
+
+/// Stations of polyps, each clicked on its side towards the lumen: as markers get theirs, among the stations of the
+/// segment there. The nearest point of the whole curve may be one of a narrow loop behind a wide loop's wall.
+void measurePolyps(const steps::Segmentation& found, const steps::SkeletonResult& skeleton,
+                   const phantom::PhantomTruth& truth, Figures& figures)
+{
+    constexpr double kBeside_mm = 20;
+    NoProgress quiet;
+    const steps::Subdivided divided = steps::subdivide(found.inside, skeleton.curve, skeleton.voxels, {}, quiet);
+    Skeleton curve;
+    curve.pieces.push_back({false, truth.curve});
+    for (const phantom::Polyp& polyp : truth.polyps) {
+        const Vector3 into_lumen = normalized(curve.at(polyp.station_mm).position_mm - polyp.position_mm);
+        const Point3 clicked = polyp.position_mm + into_lumen * (polyp.diameter_mm / 2);
+        const int segment = segmentAt(divided.segments, clicked);
+        ASSERT_GT(segment, 0) << "no lumen at the polyp at " << polyp.station_mm;
+        const auto& range = divided.description.segments.at(std::size_t(segment) - 1);
+        const double station_mm =
+            skeleton.curve.nearest(clicked, range.from_station_mm - kBeside_mm, range.to_station_mm + kBeside_mm)
+                .station_mm;
+        figures.polyp_mm = std::max(figures.polyp_mm, std::abs(station_mm - polyp.station_mm));
+    }
 }
 
 std::vector<Figures>& allFigures()
@@ -158,10 +197,12 @@ TEST_P(Family, UnseenPhantomIsSegmentedAndFollowed)
     const steps::Segmentation found = steps::segmentColon(volume, scan.truth.gravity, {}, quiet);
     EXPECT_EQ(found.verdict, "colon") << found.reason;
     ASSERT_FALSE(found.inside.voxels.empty());
-    const Skeleton curve = steps::findSkeleton(found.inside, found.plan, {}, quiet).curve;
+    const steps::SkeletonResult skeleton = steps::findSkeleton(found.inside, found.plan, {}, quiet);
+    const Skeleton& curve = skeleton.curve;
     figures.lumen = lumenErrors(volume, found.inside, scan.truth.inside);
     figures.ordered = piecesInOrder(curve, scan.truth);
     measureCurve(curve, scan.truth, figures);
+    measurePolyps(found, skeleton, scan.truth, figures);
     print(figures);
     allFigures().push_back(figures);
     EXPECT_GE(figures.lumen.dice, 0.975);

@@ -113,6 +113,26 @@ TEST_F(Unseen, PatchesHoldEachUnseenTriangleOnceAndCrossTheBordersOfCells)
     EXPECT_EQ(count, coverage.triangleCount() - coverage.seenCount());
 }
 
+TEST_F(Unseen, TheStationIsOneOfTheLoopThatIsLookedAt)
+{
+    const double station_mm = 0.5 * path.length_mm();
+    const Point3 place = wallAt(station_mm);
+    seeAllBut({place}, 6);
+    // A narrow loop runs right behind the wall there.
+    Skeleton with_loop = colon.skeleton;
+    const double end_mm = with_loop.length_mm();
+    const Vector3 outwards = normalized(place - path.at(station_mm).position_mm);
+    SkeletonPiece loop;
+    for (int n = 0; n <= 20; ++n)
+        loop.points.push_back({place + outwards * 2 + path.at(station_mm).up * double(n - 10), end_mm + 300 + n, 1});
+    with_loop.pieces.push_back(loop);
+    ASSERT_GT(with_loop.nearest(place).station_mm, end_mm + 300);
+    const auto found =
+        unseenPatches(colon.cells.points_mm, colon.cells.triangles, coverage, with_loop, path, lumen, {28, {}});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found.front().station_mm, station_mm, 12);
+}
+
 TEST_F(Unseen, SmallPatchesAreLeftOut)
 {
     seeAllBut({wallAt(0.3 * path.length_mm()), wallAt(0.7 * path.length_mm())}, 4);

@@ -84,6 +84,18 @@ Point3 middleOf(const std::vector<float>& points_mm, const std::vector<std::uint
     return Point3{} + sum / 3;
 }
 
+/// The station of a patch. The whole path's nearest point may be one of a narrow loop behind a wide loop's wall; what
+/// is looked at in plain view lies in the same loop as the eye.
+double stationOf(const UnseenPatch& patch, const Skeleton& skeleton)
+{
+    constexpr double kBeside_mm = 20;
+    if (!patch.view.sees_target)
+        return skeleton.nearest(patch.centre_mm).station_mm;
+    const double reach_mm = 2 * distance(patch.view.pose.eye_mm, patch.centre_mm) + kBeside_mm;
+    const double eye_mm = patch.view.station_mm;
+    return skeleton.nearest(patch.centre_mm, eye_mm - reach_mm, eye_mm + reach_mm).station_mm;
+}
+
 }  // namespace
 
 std::vector<UnseenPatch> unseenPatches(const std::vector<float>& points_mm, const std::vector<std::uint32_t>& triangles,
@@ -114,8 +126,8 @@ std::vector<UnseenPatch> unseenPatches(const std::vector<float>& points_mm, cons
     std::stable_sort(patches.begin(), patches.end(),
                      [](const auto& a, const auto& b) { return a.area_mm2 > b.area_mm2; });
     for (UnseenPatch& patch : patches) {
-        patch.station_mm = skeleton.nearest(patch.centre_mm).station_mm;
         patch.view = poseForPoint(skeleton, path, lumen, patch.centre_mm, options.pose);
+        patch.station_mm = stationOf(patch, skeleton);
     }
     return patches;
 }

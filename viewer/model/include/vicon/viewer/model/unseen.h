@@ -12,7 +12,7 @@ namespace vicon::viewer {
 struct UnseenPatch {
     double area_mm2 = 0;
     Point3 centre_mm;       ///< LPS; on the wall, the middle of the triangle nearest to the piece's middle
-    double station_mm = 0;  ///< of the nearest point of the path
+    double station_mm = 0;  ///< of the nearest point of the path in the loop that the view looks at
     ViewPose view;          ///< a place from which the centre is looked at
     std::vector<std::uint32_t> triangles;  ///< ascending
 };
