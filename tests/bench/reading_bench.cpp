@@ -48,18 +48,24 @@ double cpuMilliseconds()
     return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
 }
 
-/// How often the calling thread waited for something, a lock or the disk, of its own accord.
-long waitsSoFar()
-{
-    rusage usage{};
-    ::getrusage(RUSAGE_THREAD, &usage);
-    return usage.ru_nvcsw;
-}
+/// How often the calling thread waited for something, a lock or the disk, of its own accord, and how often it touched a
+/// page of a mapped file that had to be read.
+struct Waits {
+    long all = 0, pages_read = 0;
+
+    static Waits soFar()
+    {
+        rusage usage{};
+        ::getrusage(RUSAGE_THREAD, &usage);
+        return {usage.ru_nvcsw, usage.ru_majflt};
+    }
+    Waits since(const Waits& begin) const { return {all - begin.all, pages_read - begin.pages_read}; }
+};
 
 /// What the longest event of a kind took.
 struct Event {
     double ms = 0, cpu_ms = 0;
-    long waits = 0;
+    Waits waits;
 };
 
 /// Times every event that reaches the window's thread.
@@ -78,9 +84,9 @@ public:
                                  ", event " + std::to_string(int(event->type()));
         const auto begin = Clock::now();
         const double cpu_begin = cpuMilliseconds();
-        const long waits_begin = waitsSoFar();
+        const Waits waits_begin = Waits::soFar();
         const bool done = QApplication::notify(to, event);
-        const Event took{millisecondsSince(begin), cpuMilliseconds() - cpu_begin, waitsSoFar() - waits_begin};
+        const Event took{millisecondsSince(begin), cpuMilliseconds() - cpu_begin, Waits::soFar().since(waits_begin)};
         depth_ = 0;
         durations_.push_back(took.ms);
         most_cpu_ms_ = std::max(most_cpu_ms_, took.cpu_ms);
@@ -119,8 +125,8 @@ private:
         std::sort(kinds.begin(), kinds.end(), [](const auto& a, const auto& b) { return a.second.ms > b.second.ms; });
         kinds.resize(std::min(kinds.size(), kListed));
         for (const auto& [what, took] : kinds)
-            std::fprintf(stderr, "  %s: %.1f ms, CPU %.1f ms, %ld waits: %s\n", stage, took.ms, took.cpu_ms, took.waits,
-                         what.c_str());
+            std::fprintf(stderr, "  %s: %.1f ms, CPU %.1f ms, %ld waits, %ld pages read: %s\n", stage, took.ms,
+                         took.cpu_ms, took.waits.all, took.waits.pages_read, what.c_str());
     }
 
     int depth_ = 0;

@@ -2,69 +2,87 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace vicon::viewer {
 namespace {
 
-/// A triangle's place: its block and patch, and the bit of its cube.
+/// Where a patch has triangles: a block and the bits of its cubes.
 struct Found {
-    std::uint64_t block_and_patch;
-    std::uint64_t cube;
+    std::size_t block;
+    std::uint64_t cubes;
 };
+
+// The contour puts each triangle into one cube; its middle tells which.
+std::array<int, 3> cubeOf(const Grid& grid, const DrawnSurface& surface, std::size_t triangle)
+{
+    Vector3 sum;
+    for (std::size_t n = 0; n < 3; ++n) {
+        const float* p = &surface.points_mm[3 * std::size_t(surface.triangles[3 * triangle + n])];
+        sum += Vector3{p[0], p[1], p[2]};
+    }
+    const ContinuousIndex3 c = grid.continuousIndexAt(Point3{} + sum / 3);
+    const std::array<double, 3> at{c.i, c.j, c.k};
+    std::array<int, 3> cube{};
+    for (std::size_t d = 0; d < 3; ++d)
+        cube[d] = std::clamp(int(std::floor(at[d])) + 1, 0, grid.size[d]);
+    return cube;
+}
+
+// Each block once.
+std::vector<Found> foundOf(const Patch& patch, const Grid& grid, const BlockGrid& blocks, const DrawnSurface& surface)
+{
+    std::vector<Found> found;
+    for (std::size_t t = patch.first_triangle; t < patch.first_triangle + patch.triangles; ++t) {
+        const std::array<int, 3> cube = cubeOf(grid, surface, t);
+        found.push_back({blocks.blockOf(cube), std::uint64_t(1) << BlockGrid::placeOf(cube)});
+    }
+    std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.block < b.block; });
+    std::vector<Found> merged;
+    for (const Found& f : found)
+        if (!merged.empty() && merged.back().block == f.block)
+            merged.back().cubes |= f.cubes;
+        else
+            merged.push_back(f);
+    return merged;
+}
 
 }  // namespace
 
 PatchBlocks::PatchBlocks(const Grid& grid, const DrawnSurface& surface)
+    : blocks_({grid.size[0] + 1, grid.size[1] + 1, grid.size[2] + 1}), patches_(surface.patches.size())
 {
-    std::size_t blocks = 1;
-    for (std::size_t d = 0; d < 3; ++d) {
-        size_[d] = (grid.size[d] >> 2) + 1;
-        blocks *= std::size_t(size_[d]);
-    }
-    // The contour puts each triangle into one cube; its middle tells which.
-    const auto foundAt = [&](std::size_t t, std::size_t patch) {
-        Vector3 sum;
-        for (std::size_t n = 0; n < 3; ++n) {
-            const float* p = &surface.points_mm[3 * std::size_t(surface.triangles[3 * t + n])];
-            sum += Vector3{p[0], p[1], p[2]};
+    std::vector<std::vector<Found>> of_patch(patches_);
+    tbb::parallel_for(std::size_t(0), patches_,
+                      [&](std::size_t p) { of_patch[p] = foundOf(surface.patches[p], grid, blocks_, surface); });
+    std::vector<std::uint32_t> entries(blocks_.count(), 0);
+    for (const auto& found : of_patch)
+        for (const Found& f : found)
+            ++entries[f.block];
+    number_.assign(blocks_.count(), kEmpty);
+    first_.assign(1, 0);
+    for (std::size_t block = 0; block < entries.size(); ++block)
+        if (entries[block] > 0) {
+            number_[block] = std::uint32_t(first_.size() - 1);
+            first_.push_back(first_.back() + entries[block]);
         }
-        const ContinuousIndex3 c = grid.continuousIndexAt(Point3{} + sum / 3);
-        const std::array<double, 3> at{c.i, c.j, c.k};
-        std::array<int, 3> cube{};
-        for (std::size_t d = 0; d < 3; ++d)
-            cube[d] = std::clamp(int(std::floor(at[d])) + 1, 0, 4 * size_[d] - 1);
-        const int bit = (cube[0] & 3) + 4 * (cube[1] & 3) + 16 * (cube[2] & 3);
-        return Found{std::uint64_t(offset({cube[0] >> 2, cube[1] >> 2, cube[2] >> 2})) << 32 | patch, std::uint64_t(1)
-                                                                                                          << bit};
-    };
-    std::vector<std::vector<Found>> of_patch(surface.patches.size());
-    tbb::parallel_for(std::size_t(0), surface.patches.size(), [&](std::size_t p) {
-        std::vector<Found>& found = of_patch[p];
-        const Patch& patch = surface.patches[p];
-        for (std::size_t t = patch.first_triangle; t < patch.first_triangle + patch.triangles; ++t)
-            found.push_back(foundAt(t, p));
-        std::sort(found.begin(), found.end(),
-                  [](const Found& a, const Found& b) { return a.block_and_patch < b.block_and_patch; });
-        std::vector<Found> merged;
-        for (const Found& f : found)
-            if (!merged.empty() && merged.back().block_and_patch == f.block_and_patch)
-                merged.back().cube |= f.cube;
-            else
-                merged.push_back(f);
-        found = std::move(merged);
-    });
-    first_.assign(blocks + 1, 0);
-    for (const auto& found : of_patch)
-        for (const Found& f : found)
-            ++first_[(f.block_and_patch >> 32) + 1];
-    for (std::size_t n = 0; n < blocks; ++n)
-        first_[n + 1] += first_[n];
-    entries_.resize(first_[blocks]);
+    entries_.resize(first_.back());
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (const auto& found : of_patch)
-        for (const Found& f : found)
-            entries_[next[f.block_and_patch >> 32]++] = {f.cube, std::uint32_t(f.block_and_patch & 0xFFFFFFFF)};
+    for (std::size_t p = 0; p < patches_; ++p)
+        for (const Found& f : of_patch[p])
+            entries_[next[number_[f.block]]++] = {f.cubes, std::uint32_t(p)};
+}
+
+std::vector<std::uint8_t> PatchBlocks::patchesIn(const Cubes& cubes) const
+{
+    std::vector<std::uint8_t> in(patches_, 0);
+    for (std::size_t block = 0; block < cubes.size(); ++block)
+        if (cubes[block])
+            for (std::uint32_t n = first_[block]; n < first_[block + 1]; ++n)
+                if (entries_[n].cubes & cubes[block])
+                    in[entries_[n].patch] = 1;
+    return in;
 }
 
 }  // namespace vicon::viewer

@@ -1,76 +1,54 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
+#include "block_grid.h"
 #include "vicon/core/geometry.h"
 #include "vicon/viewer/model/sight_lines.h"
 
 namespace vicon::viewer {
 
 /// Which patches have triangles in which cube. A cube is the box between eight voxel centres; cube n along an axis lies
-/// between voxels n - 1 and n. Kept by blocks of 4 x 4 x 4 cubes, a bit a cube.
+/// between voxels n - 1 and n.
 class PatchBlocks {
 public:
     PatchBlocks(const Grid& grid, const DrawnSurface& surface);
 
-    /// Calls visit(patch) for every patch with a triangle in a cube from `low` to `high`; maybe more than once.
-    template <class Visit>
-    void forPatches(std::array<int, 3> low, std::array<int, 3> high, Visit visit) const
+    /// Cubes put down, of those blocks that hold triangles. Threads may put down at the same time.
+    using Cubes = std::vector<std::uint64_t>;
+    Cubes none() const { return Cubes(first_.size() - 1, 0); }
+
+    /// Puts down the cubes from `low` to `high`.
+    void add(Cubes& cubes, const std::array<int, 3>& low, const std::array<int, 3>& high) const
     {
-        for (std::size_t d = 0; d < 3; ++d) {
-            low[d] = std::max(low[d], 0);
-            high[d] = std::min(high[d], 4 * size_[d] - 1);
-        }
-        for (int k = low[2] >> 2; k <= high[2] >> 2; ++k)
-            for (int j = low[1] >> 2; j <= high[1] >> 2; ++j)
-                for (int i = low[0] >> 2; i <= high[0] >> 2; ++i) {
-                    const std::size_t block = offset({i, j, k});
-                    if (first_[block] == first_[block + 1])
-                        continue;
-                    const std::uint64_t asked =
-                        rowOf(low[0], high[0], i) * columnOf(low[1], high[1], j) * sliceOf(low[2], high[2], k);
-                    for (std::uint32_t n = first_[block]; n < first_[block + 1]; ++n)
-                        if (entries_[n].cubes & asked)
-                            visit(entries_[n].patch);
-                }
+        blocks_.any(low, high, [&](std::size_t block, std::uint64_t box) {
+            if (number_[block] != kEmpty) {
+                const std::atomic_ref<std::uint64_t> of_block(cubes[number_[block]]);
+                if (box & ~of_block.load(std::memory_order_relaxed))  // boxes overlap: most bring nothing new
+                    of_block.fetch_or(box, std::memory_order_relaxed);
+            }
+            return false;
+        });
     }
+
+    /// For every patch 1 when it has a triangle in one of these cubes, else 0.
+    std::vector<std::uint8_t> patchesIn(const Cubes& cubes) const;
 
 private:
     struct Entry {
-        std::uint64_t cubes;  ///< bit x + 4 y + 16 z
+        std::uint64_t cubes;
         std::uint32_t patch;
     };
+    static constexpr std::uint32_t kEmpty = 0xFFFFFFFF;
 
-    // Bits of the cubes of a block between low and high along each axis; the product of the three are those of a box.
-    static std::uint64_t bits(int low, int high, int block)
-    {
-        const int from = std::max(low - 4 * block, 0), to = std::min(high - 4 * block, 3);
-        return (std::uint64_t(2) << to) - (std::uint64_t(1) << from);
-    }
-    static std::uint64_t rowOf(int low, int high, int block) { return bits(low, high, block); }
-    static std::uint64_t columnOf(int low, int high, int block)
-    {
-        const std::uint64_t b = bits(low, high, block);
-        return (b & 1) | (b & 2) << 3 | (b & 4) << 6 | (b & 8) << 9;
-    }
-    static std::uint64_t sliceOf(int low, int high, int block)
-    {
-        const std::uint64_t b = bits(low, high, block);
-        return (b & 1) | (b & 2) << 15 | (b & 4) << 30 | (b & 8) << 45;
-    }
-
-    std::size_t offset(const std::array<int, 3>& block) const
-    {
-        return std::size_t(block[0]) +
-               std::size_t(size_[0]) * (std::size_t(block[1]) + std::size_t(size_[1]) * std::size_t(block[2]));
-    }
-
-    std::array<int, 3> size_{};         ///< in blocks
-    std::vector<std::uint32_t> first_;  ///< of each block: where its entries begin
+    BlockGrid blocks_;
+    std::vector<std::uint32_t> number_;  ///< of each block among those that hold triangles
+    std::vector<std::uint32_t> first_;   ///< of each of those: where its entries begin
     std::vector<Entry> entries_;
+    std::size_t patches_ = 0;
 };
 
 }  // namespace vicon::viewer

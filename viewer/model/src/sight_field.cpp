@@ -58,25 +58,47 @@ SightField::SightField(const InsideView& inside) : grid_(inside.grid)
     for (std::size_t d = 0; d < 3; ++d)
         size_[d] = grid_.size[d] + 1;
     std::vector<std::uint8_t> steps(std::size_t(size_[0]) * std::size_t(size_[1]) * std::size_t(size_[2]));
-    steps_.resize(steps.size());
     tbb::parallel_for(tbb::blocked_range<int>(0, size_[2]), [&](const auto& slices) {
         for (int k = slices.begin(); k < slices.end(); ++k)
             for (int j = 0; j < size_[1]; ++j)
                 classifyRow(inside, j, k, steps);
     });
-    inside_.resize(inside.voxels.size());
-    for (std::size_t n = 0; n < inside.voxels.size(); ++n)
-        inside_[n] = inside.voxels[n] != kOutside;
     sweep(steps, size_, true);
     sweep(steps, size_, false);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, steps.size(), 1 << 16), [&](const auto& range) {
-        for (std::size_t n = range.begin(); n < range.end(); ++n)
-            steps_[n] = std::int8_t(steps_[n] * int(steps[n]));
+    fillVoxelBlocks(inside);
+    fillCubeBlocks(inside, steps);
+}
+
+void SightField::fillVoxelBlocks(const InsideView& inside)
+{
+    voxel_blocks_ = BlockGrid({grid_.size[0], grid_.size[1], grid_.size[2]});
+    inside_.assign(voxel_blocks_.count(), 0);
+    std::size_t n = 0;
+    for (int k = 0; k < grid_.size[2]; ++k)
+        for (int j = 0; j < grid_.size[1]; ++j)
+            for (int i = 0; i < grid_.size[0]; ++i, ++n)
+                if (inside.voxels[n] != kOutside)
+                    inside_[voxel_blocks_.blockOf({i, j, k})] |= std::uint64_t(1) << BlockGrid::placeOf({i, j, k});
+}
+
+void SightField::fillCubeBlocks(const InsideView& inside, const std::vector<std::uint8_t>& steps)
+{
+    cube_blocks_ = BlockGrid(size_);
+    steps_.assign(cube_blocks_.count() * BlockGrid::kPlaces, 0);
+    tbb::parallel_for(tbb::blocked_range<int>(0, size_[2]), [&](const auto& slices) {
+        std::size_t n = std::size_t(slices.begin()) * std::size_t(size_[0]) * std::size_t(size_[1]);
+        for (int k = slices.begin(); k < slices.end(); ++k)
+            for (int j = 0; j < size_[1]; ++j)
+                for (int i = 0; i < size_[0]; ++i, ++n) {
+                    // Where a cube's corners are alike, any of them tells what they are.
+                    const bool open = grid_.contains({i, j, k}) && inside.voxels[grid_.offset({i, j, k})] != kOutside;
+                    steps_[cube_blocks_.elementOf({i, j, k})] = std::int8_t(open ? int(steps[n]) : -int(steps[n]));
+                }
     });
 }
 
-// Signs into steps_ (1 open, -1 solid), and 0 in the wall or the most elsewhere into steps.
-void SightField::classifyRow(const InsideView& inside, int j, int k, std::vector<std::uint8_t>& steps)
+// 0 in the wall, the most elsewhere.
+void SightField::classifyRow(const InsideView& inside, int j, int k, std::vector<std::uint8_t>& steps) const
 {
     const auto voxelRow = [&](int v, int w) -> const std::uint8_t* {
         if (v < 0 || v >= grid_.size[1] || w < 0 || w >= grid_.size[2])
@@ -96,7 +118,6 @@ void SightField::classifyRow(const InsideView& inside, int j, int k, std::vector
     for (int i = 0; i < size_[0]; ++i) {
         const int after = insideAt(i), corners = before + after;
         steps[first + std::size_t(i)] = corners == 0 || corners == 8 ? kMost : 0;
-        steps_[first + std::size_t(i)] = corners == 0 ? -1 : 1;
         before = after;
     }
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "block_grid.h"
 #include "vicon/core/volume_view.h"
 
 namespace vicon::viewer {
@@ -40,9 +41,7 @@ public:
         for (std::size_t d = 0; d < 3; ++d)
             if (cube[d] < 0 || cube[d] >= size_[d])
                 return {Kind::solid, std::max(0.0, beyond)};
-        const int steps =
-            steps_[std::size_t(cube[0]) +
-                   std::size_t(size_[0]) * (std::size_t(cube[1]) + std::size_t(size_[1]) * std::size_t(cube[2]))];
+        const int steps = steps_[cube_blocks_.elementOf(cube)];
         if (steps == 0)
             return {Kind::wall, 0};
         return {steps > 0 ? Kind::open : Kind::solid, std::abs(steps) - 1 + to_side};
@@ -52,14 +51,13 @@ public:
     /// does not cross such a plane between them. Ends belong to it; axes follow in the order 0, 1, 2, 0, 1.
     bool outside(std::size_t axis, int plane, std::array<int, 2> low, std::array<int, 2> high) const
     {
-        std::array<int, 3> v{};
-        v[axis] = plane;
+        std::array<int, 3> from{}, to{};
         const std::size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
-        for (v[a] = low[0]; v[a] <= high[0]; ++v[a])
-            for (v[b] = low[1]; v[b] <= high[1]; ++v[b])
-                if (grid_.contains({v[0], v[1], v[2]}) && inside_[grid_.offset({v[0], v[1], v[2]})])
-                    return false;
-        return true;
+        from[axis] = to[axis] = plane;
+        from[a] = low[0], to[a] = high[0];
+        from[b] = low[1], to[b] = high[1];
+        return !voxel_blocks_.any(from, to,
+                                  [&](std::size_t block, std::uint64_t box) { return (inside_[block] & box) != 0; });
     }
 
     const Grid& grid() const { return grid_; }
@@ -67,12 +65,17 @@ public:
     const std::array<int, 3>& cubes() const { return size_; }
 
 private:
-    void classifyRow(const InsideView& inside, int j, int k, std::vector<std::uint8_t>& steps);
+    void classifyRow(const InsideView& inside, int j, int k, std::vector<std::uint8_t>& steps) const;
+    void fillVoxelBlocks(const InsideView& inside);
+    void fillCubeBlocks(const InsideView& inside, const std::vector<std::uint8_t>& steps);
 
     Grid grid_;
     std::array<int, 3> size_{};
-    std::vector<bool> inside_;        ///< of each voxel
-    std::vector<std::int8_t> steps_;  ///< of each cube: steps to the next other one, negative in solid; 0 in the wall
+    BlockGrid voxel_blocks_, cube_blocks_;
+    std::vector<std::uint64_t> inside_;  ///< of each block of voxels: those in the lumen
+    /// Of each cube, block by block, so that neighbours share lines of memory: steps to the next cube of another kind,
+    /// negative in solid; 0 in the wall.
+    std::vector<std::int8_t> steps_;
 };
 
 }  // namespace vicon::viewer

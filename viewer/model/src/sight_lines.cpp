@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 
 #include "patch_blocks.h"
 #include "sight_field.h"
@@ -43,8 +42,8 @@ Voxels inVoxels(const Grid& grid, Vector3 v)
 class Bundles {
 public:
     Bundles(const SightField& field, const PatchBlocks& blocks, const Pose& pose, const Lens& lens,
-            std::vector<std::uint8_t>& seen)
-        : field_(field), blocks_(blocks), seen_(seen)
+            PatchBlocks::Cubes& cubes)
+        : field_(field), blocks_(blocks), cubes_(cubes)
     {
         const ContinuousIndex3 eye = field.grid().continuousIndexAt(pose.eye_mm);
         eye_ = {eye.i, eye.j, eye.k};
@@ -177,14 +176,12 @@ private:
             low[d] = int(std::floor(std::min(a[d], b[d]) - wide)) + 1;
             high[d] = int(std::floor(std::max(a[d], b[d]) + wide)) + 1;
         }
-        blocks_.forPatches(low, high, [&](std::uint32_t patch) {
-            std::atomic_ref<std::uint8_t>(seen_[patch]).store(1, std::memory_order_relaxed);
-        });
+        blocks_.add(cubes_, low, high);
     }
 
     const SightField& field_;
     const PatchBlocks& blocks_;
-    std::vector<std::uint8_t>& seen_;
+    PatchBlocks::Cubes& cubes_;  ///< what bundles have met
     Voxels eye_{}, forward_{}, right_{}, up_{};
     double widest_ = 0;  ///< voxels along any axis that a square of half edge 1 reaches from its middle, at depth 1
     double top_ = 0;     ///< of the picture, at depth 1
@@ -195,12 +192,10 @@ private:
 struct SightLines::Parts {
     SightField field;
     PatchBlocks blocks;
-    std::size_t patches;
 };
 
 SightLines::SightLines(const InsideView& inside, const DrawnSurface& surface)
-    : parts_(
-          std::make_unique<Parts>(Parts{SightField(inside), PatchBlocks(inside.grid, surface), surface.patches.size()}))
+    : parts_(std::make_unique<Parts>(Parts{SightField(inside), PatchBlocks(inside.grid, surface)}))
 {
 }
 
@@ -219,8 +214,8 @@ bool SightLines::holdsAt(Point3 eye_mm, double near_mm) const
 
 std::vector<std::uint8_t> SightLines::seenFrom(const Pose& pose, const Lens& lens) const
 {
-    std::vector<std::uint8_t> seen(parts_->patches, 0);
-    const Bundles bundles(parts_->field, parts_->blocks, pose, lens, seen);
+    PatchBlocks::Cubes cubes = parts_->blocks.none();
+    const Bundles bundles(parts_->field, parts_->blocks, pose, lens, cubes);
     const double half = bundles.top() / kFirst;
     const double side = lens.height > 0 ? bundles.top() * lens.width / lens.height : bundles.top();
     const int rows = int(kFirst), columns = std::max(1, int(std::ceil(side / half - 1e-9)));
@@ -228,7 +223,7 @@ std::vector<std::uint8_t> SightLines::seenFrom(const Pose& pose, const Lens& len
         const int column = n % columns, row = n / columns;
         bundles.follow({half * (2 * column + 1 - columns), half * (2 * row + 1 - rows), half, 0});
     });
-    return seen;
+    return parts_->blocks.patchesIn(cubes);
 }
 
 }  // namespace vicon::viewer

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 
+#include "lumen_pages.h"
 #include "vicon/artefact/skeleton_file.h"
 #include "vicon/artefact/stored_volume.h"
 #include "vicon/core/error.h"
@@ -107,10 +108,12 @@ void PreparedScan::readForFlight() const
     tbb::parallel_invoke([&] { segments(); }, [&] { cells(); }, [&] { inside(); },
                          [&] {
                              subdivision();
-                             volume();
                              wallDistance();
                              exitDistance();
+                             volume();  // last: the disk is asked for files as a whole, in this order
                          });
+    for (const FieldView* field : {&wallDistance(), &exitDistance()})
+        bringInLumen(*field, inside());
 }
 
 const HuView& PreparedScan::volume() const

@@ -1,6 +1,7 @@
 #include "vicon/viewer/scene/sight_ahead.h"
 
 #include <sys/resource.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
 namespace vicon::viewer {
@@ -22,7 +23,10 @@ void SightAhead::prepare(const Pose& pose, const Lens& lens)
     lens_ = lens;
     under_way_ = std::async(std::launch::async, [this, pose, lens] {
         yieldToDrawing();
-        return visibility_.seenFrom(pose, lens);
+        // In this thread alone: those that would help do not yield, and what is to be drawn keeps but one core busy
+        // while it is taken in.
+        tbb::task_arena alone(1);
+        return alone.execute([&] { return visibility_.seenFrom(pose, lens); });
     });
 }
 

@@ -30,7 +30,8 @@ public:
 
     const std::filesystem::path& folder() const;
 
-    /// Reads what a flight needs now, on all cores. Throws as the functions below do.
+    /// Reads what a flight needs now, on all cores, also of the mapped fields: a camera that flies does not wait for
+    /// the disk. Throws as the functions below do.
     void readForFlight() const;
 
     // Each throws Error{not_ready} where its file is missing, Error{bad_input} where it is damaged.

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace vicon::viewer {
+
+/// A grid's elements (voxels, or the cubes between them) by blocks of 4 x 4 x 4: those of a block are bits of one word,
+/// bit x + 4 y + 16 z, so that a box is put down or asked for with a few words.
+class BlockGrid {
+public:
+    static constexpr std::size_t kPlaces = 64;  ///< of a block
+
+    BlockGrid() = default;
+    explicit BlockGrid(const std::array<int, 3>& elements)
+    {
+        for (std::size_t d = 0; d < 3; ++d)
+            size_[d] = (elements[d] + 3) >> 2;
+    }
+
+    std::size_t count() const { return std::size_t(size_[0]) * std::size_t(size_[1]) * std::size_t(size_[2]); }
+    /// The number of the block that holds an element of the grid.
+    std::size_t blockOf(const std::array<int, 3>& at) const { return number(at[0] >> 2, at[1] >> 2, at[2] >> 2); }
+    /// The number of an element where blocks follow each other.
+    std::size_t elementOf(const std::array<int, 3>& at) const
+    {
+        return blockOf(at) * kPlaces + std::size_t(placeOf(at));
+    }
+    /// The place of an element in its block.
+    static int placeOf(const std::array<int, 3>& at) { return (at[0] & 3) + 4 * (at[1] & 3) + 16 * (at[2] & 3); }
+
+    /// Calls test(block, bits) for the blocks of a box, ends included, until one says true; what lies outside of the
+    /// blocks does not count. Returns whether one did.
+    template <class Test>
+    bool any(std::array<int, 3> low, std::array<int, 3> high, Test test) const
+    {
+        for (std::size_t d = 0; d < 3; ++d) {
+            low[d] = std::max(low[d], 0);
+            high[d] = std::min(high[d], 4 * size_[d] - 1);
+        }
+        for (int k = low[2] >> 2; k <= high[2] >> 2; ++k) {
+            const std::uint64_t slices = spread<16>(bits(low[2], high[2], k));
+            for (int j = low[1] >> 2; j <= high[1] >> 2; ++j) {
+                const std::uint64_t columns = slices * spread<4>(bits(low[1], high[1], j));
+                for (int i = low[0] >> 2; i <= high[0] >> 2; ++i)
+                    if (test(number(i, j, k), columns * bits(low[0], high[0], i)))
+                        return true;
+            }
+        }
+        return false;
+    }
+
+private:
+    std::size_t number(int i, int j, int k) const
+    {
+        return std::size_t(i) + std::size_t(size_[0]) * (std::size_t(j) + std::size_t(size_[1]) * std::size_t(k));
+    }
+
+    // Of a block's four places along one axis those between low and high; the product of three such, the second and
+    // third spread out, are the bits of a box.
+    static std::uint64_t bits(int low, int high, int block)
+    {
+        const int from = std::max(low - 4 * block, 0), to = std::min(high - 4 * block, 3);
+        return (std::uint64_t(2) << to) - (std::uint64_t(1) << from);
+    }
+    template <int stride>
+    static std::uint64_t spread(std::uint64_t b)
+    {
+        constexpr int step = stride - 1;
+        return (b & 1) | (b & 2) << step | (b & 4) << 2 * step | (b & 8) << 3 * step;
+    }
+
+    std::array<int, 3> size_{};  ///< in blocks
+};
+
+}  // namespace vicon::viewer
