@@ -63,6 +63,12 @@ private:
     QWidget* buildTop();
     void enlarge(QWidget* view);
     void addActions();
+
+    // reading_focus.cpp
+    void orderTabs();
+    void notAfterAll();
+    void goToList();
+    void enlargeFocused();
     void showKeys();
 
     // reading_window.cpp

@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QShortcut>
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -84,7 +85,7 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
     search_ = new QLineEdit(this);
     search_->setObjectName("search");
     search_->setAccessibleName(tr("Search"));
-    search_->setPlaceholderText(tr("Search name or ID"));
+    search_->setPlaceholderText(tr("Search name or ID (Ctrl+F)"));
     search_->setClearButtonEnabled(true);
     state_ = new QComboBox(this);
     state_->setObjectName("state");
@@ -99,6 +100,7 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
                                        tr("Progress"), tr("Quality"), tr("Markers"), tr("Reports")});
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
+    table_->setTabKeyNavigation(false);  // Tab leads out of it; the arrow keys move in it
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setAlternatingRowColors(true);
     table_->verticalHeader()->hide();
@@ -134,6 +136,19 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
     column->addLayout(bottom);
     resize(1000, 500);
 
+    QWidget* const order[] = {search_, state_, table_, retry_, report_, open_};
+    for (std::size_t n = 1; n < std::size(order); ++n)
+        setTabOrder(order[n - 1], order[n]);
+    for (QPushButton* b : {retry_, report_, open_})
+        b->setAutoDefault(true);  // Return presses it as well
+    for (const auto key : {Qt::Key_Escape, Qt::Key_Down})
+        connect(new QShortcut(key, search_, {}, {}, Qt::WidgetShortcut), &QShortcut::activated, this,
+                [this] { table_->setFocus(Qt::ShortcutFocusReason); });
+    connect(new QShortcut(QKeySequence("Ctrl+F"), this), &QShortcut::activated, search_, [this] {
+        search_->setFocus(Qt::ShortcutFocusReason);
+        search_->selectAll();
+    });
+    connect(new QShortcut(QKeySequence("Ctrl+Q"), this), &QShortcut::activated, this, &QWidget::close);
     connect(search_, &QLineEdit::textChanged, this, &WorklistWindow::filter);
     connect(state_, qOverload<int>(&QComboBox::currentIndexChanged), this, &WorklistWindow::filter);
     connect(table_, &QTableWidget::itemSelectionChanged, this, &WorklistWindow::updateButtons);
