@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace vicon::viewer {
 namespace {
 
@@ -67,6 +69,34 @@ TEST(Text, IsMadeSmallerUntilItFits)
     EXPECT_LE(textSize(text).width_px, 301);
     EXPECT_EQ(inked(written(name, 300), 308, 400), 0);
     EXPECT_GT(inked(written(name, 300), 250, 308), 0);
+}
+
+/// WCAG 2: of a picture's dimmest or brightest values, 0 to 255.
+double contrast(double light, double dark)
+{
+    const auto luminance = [](double v) { return std::pow((v / 255 + 0.055) / 1.055, 2.4); };
+    return (luminance(light) + 0.05) / (luminance(dark) + 0.05);
+}
+
+TEST(Text, StandsOutOnBrightTissueAndDimsNoMarkerBelowIt)
+{
+    constexpr int kWidth = 400, kHeight = 60;
+    Picture picture(kWidth, kHeight, {255, 255, 255});
+    Overlay overlay;
+    overlay.texts.push_back({{20, 30}, "sea measures, no room", 14, {230, 230, 230}, Across::left, Along::middle, 1e9});
+    overlay.texts.push_back(overlay.texts.back());  // two over each other darken once
+    overlay.discs.push_back({{25, 30}, 12, {255, 48, 48}, 2});
+    const double right = 20 + textSize(overlay.texts.back()).width_px;
+    paint(picture, overlay);
+    // Above letters without ascenders, where no rim reaches.
+    for (int x = 45; x < int(right); ++x) {
+        const int ground = picture.at(x, 25).green;
+        EXPECT_GE(contrast(230, ground), 4.5) << x << ": " << ground;
+        EXPECT_GT(ground, 80) << "what lies below is still seen";
+    }
+    EXPECT_EQ(picture.at(25, 18), (Rgb{255, 48, 48}));
+    EXPECT_EQ(picture.at(25, 5), (Rgb{255, 255, 255}));
+    EXPECT_EQ(picture.at(kWidth - 5, 30), (Rgb{255, 255, 255}));
 }
 
 TEST(Paint, LinesAndDiscsLieWhereTheyShould)
