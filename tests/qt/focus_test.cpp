@@ -277,7 +277,7 @@ TEST_F(Reading, ACaseIsReadWithoutAMouse)
     EXPECT_TRUE(eventually([&] { return anyHas("size"); })) << warning();
     type(Qt::Key_T);
     type(Qt::Key_Return);
-    for (int n = 0; n < 8; ++n)
+    for (int n = 0; n < 16; ++n)
         type(Qt::Key_Right);
     type(Qt::Key_Return);
     EXPECT_TRUE(eventually([&] { return anyHas("density"); })) << warning();

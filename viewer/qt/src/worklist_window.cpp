@@ -209,6 +209,7 @@ void WorklistWindow::show(const std::vector<WorklistRow>& rows)
             changed = changed || table_->item(n, column)->text() != cells[column];
             table_->item(n, column)->setText(cells[column]);
         }
+        table_->item(n, kPatient)->setToolTip(cells[kPatient]);  // a long name is cut off in its cell
         table_->item(n, kQuality)->setToolTip(wordsOf(row, false));
         if (row.record.id == chosen_id || (chosen_id.empty() && n == 0))
             table_->selectRow(n);

@@ -5,7 +5,9 @@
 #include FT_OUTLINE_H
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <mutex>
 
 #include "fonts.h"
@@ -20,9 +22,8 @@ constexpr Rgb kGround{0, 0, 0};
 constexpr double kGroundStrength =
     0.6;  // white tissue keeps two fifths of its light: white letters on it contrast 4.5 : 1
 constexpr double kGroundEdge = 0.35, kLetterTop = 0.72, kLetterBottom = 0.1;  // of the size
-constexpr double kLeastSize_px = 6;
-constexpr std::uint32_t kReplacement = 0xFFFD;
-constexpr double kAscent = 0.95, kDescent = 0.25;  // of the size: room for accents and tails in every script
+constexpr double kLeastSize_px = 6, kLeastShare = 0.6;  // of the wanted height: a name is read, not merely there
+constexpr double kAscent = 0.95, kDescent = 0.25;       // of the size: room for accents and tails in every script
 
 struct Library {
     std::mutex mutex;
@@ -72,12 +73,20 @@ std::vector<std::uint32_t> visualOrder(const std::string& utf8)
     return visible;
 }
 
-Fonts::Found glyphFor(Fonts& fonts, std::uint32_t character)
+/// What no font has is called by its number: a box would not say what is missing.
+std::vector<std::uint32_t> withoutBoxes(Fonts& fonts, const std::vector<std::uint32_t>& characters)
 {
-    for (const std::uint32_t c : {character, kReplacement, std::uint32_t('?')})
-        if (const auto found = fonts.find(c); found.face)
-            return found;
-    return {};
+    std::vector<std::uint32_t> out;
+    for (const std::uint32_t c : characters) {
+        if (fonts.find(c).face) {
+            out.push_back(c);
+            continue;
+        }
+        std::array<char, 16> number{};
+        const int length = std::snprintf(number.data(), number.size(), "[U+%04X]", unsigned(c));
+        out.insert(out.end(), number.begin(), number.begin() + length);
+    }
+    return out;
 }
 
 void setSize(FT_Face face, double size_px)
@@ -91,7 +100,7 @@ TextLine inOneRow(Fonts& fonts, const std::vector<std::uint32_t>& characters, do
     TextLine line;
     line.size = size_px;
     for (const std::uint32_t c : characters) {
-        const auto glyph = glyphFor(fonts, c);
+        const auto glyph = fonts.find(c);
         if (!glyph.face)
             continue;
         setSize(glyph.face, size_px);
@@ -103,14 +112,41 @@ TextLine inOneRow(Fonts& fonts, const std::vector<std::uint32_t>& characters, do
     return line;
 }
 
+TextLine inOneRow(Fonts& fonts, const std::string& utf8, double size_px)
+{
+    return inOneRow(fonts, withoutBoxes(fonts, visualOrder(utf8)), size_px);
+}
+
+std::string firstCharacters(const std::string& utf8, std::size_t count)
+{
+    std::size_t end = 0;
+    for (; end < utf8.size(); ++end)
+        if ((utf8[end] & 0xC0) != 0x80 && count-- == 0)
+            break;
+    return utf8.substr(0, end);
+}
+
+/// So much of the text as fits at this size, with a sign that there is more.
+TextLine cutOff(Fonts& fonts, const OverlayText& text, double size_px, double whole_width_px)
+{
+    const auto all = std::count_if(text.text.begin(), text.text.end(), [](char c) { return (c & 0xC0) != 0x80; });
+    for (auto count = std::size_t(double(all) * text.most_width_px / whole_width_px);; --count) {
+        TextLine line = inOneRow(fonts, firstCharacters(text.text, count) + "…", size_px);
+        if (line.width <= text.most_width_px || count == 0)
+            return line;
+    }
+}
+
 TextLine fitted(Fonts& fonts, const OverlayText& text)
 {
-    const auto characters = visualOrder(text.text);
-    TextLine line = inOneRow(fonts, characters, text.height_px);
-    if (line.width <= text.most_width_px)
-        return line;
-    const double smaller = text.height_px * text.most_width_px / line.width;
-    return inOneRow(fonts, characters, std::max(kLeastSize_px, smaller));
+    const TextLine wanted = inOneRow(fonts, text.text, text.height_px);
+    if (wanted.width <= text.most_width_px)
+        return wanted;
+    const double smaller = text.height_px * text.most_width_px / wanted.width;
+    const double least = std::max(kLeastSize_px, kLeastShare * text.height_px);
+    if (smaller >= least)
+        return inOneRow(fonts, text.text, smaller);
+    return cutOff(fonts, text, least, wanted.width * least / text.height_px);
 }
 
 Pixel beginOf(const OverlayText& text, const TextLine& line)
