@@ -13,6 +13,7 @@
 
 #include "reading_window.h"
 #include "vicon/viewer/model/annotate.h"
+#include "worklist_hint.h"
 
 namespace vicon::viewer {
 namespace {
@@ -105,6 +106,12 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
     table_->setAlternatingRowColors(true);
     table_->verticalHeader()->hide();
     table_->horizontalHeader()->setSectionResizeMode(kPatient, QHeaderView::Stretch);
+    hint_ = new QLabel(tr("Reading the worklist ..."), table_->viewport());
+    hint_->setObjectName("hint");
+    hint_->setAlignment(Qt::AlignCenter);
+    hint_->setWordWrap(true);
+    hint_->setTextInteractionFlags(Qt::TextSelectableByMouse);  // commands are copied
+    (new QVBoxLayout(table_->viewport()))->addWidget(hint_);
     reason_ = new QLabel(this);
     reason_->setObjectName("reason");
     reason_->setWordWrap(true);
@@ -190,6 +197,7 @@ void WorklistWindow::show(const std::vector<WorklistRow>& rows)
     const std::string chosen_id = chosen ? chosen->record.id : "";
     const QSignalBlocker quiet(table_);
     rows_ = rows;
+    listed_ = true;
     bool changed = table_->rowCount() != int(rows.size());
     table_->setRowCount(int(rows.size()));
     for (int n = 0; n < int(rows.size()); ++n) {
@@ -245,6 +253,20 @@ void WorklistWindow::filter()
                 break;
             }
     updateButtons();
+    if (listed_)
+        showHint();
+}
+
+void WorklistWindow::showHint()
+{
+    int shown = 0;
+    for (int n = 0; n < table_->rowCount(); ++n)
+        shown += table_->isRowHidden(n) ? 0 : 1;
+    hint_->setVisible(shown == 0);
+    hint_->setText(rows_.empty() ? hintOfEmptyStore(services_)
+                                 : hintOfNothingFound(search_->text().trimmed(),
+                                                      state_->currentIndex() > 0 ? state_->currentText() : QString(),
+                                                      int(rows_.size())));
 }
 
 const WorklistRow* WorklistWindow::selected() const
