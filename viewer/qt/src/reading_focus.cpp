@@ -20,9 +20,8 @@ namespace vicon::viewer {
 // From left to right and from top to bottom, as the eye goes.
 void ReadingWindow::orderTabs()
 {
-    std::vector<QWidget*> order{scan_choice_,     window_choice_, endoscopic_, beside_->endoscopic(),
-                                beside_->slice(), transverse_,    coronal_,    sagittal_,
-                                overview_};
+    std::vector<QWidget*> order{scan_choice_,     way_choice_, window_choice_, endoscopic_, beside_->endoscopic(),
+                                beside_->slice(), transverse_, coronal_,       sagittal_,   overview_};
     const auto add = [&](std::initializer_list<QWidget*> parts) {
         for (QWidget* part : parts)
             for (QWidget* control : reachableIn(part))

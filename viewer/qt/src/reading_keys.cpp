@@ -135,6 +135,10 @@ void ReadingWindow::clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers)
 {
     if (!navigator() || !overview_shown_)
         return;
+    if (const SkeletonTree& tree = session_.scan()->files.tree(); !tree.empty()) {
+        clickedTree(tree, at, modifiers);
+        return;
+    }
     const PathFrames& path = session_.scan()->files.frames();
     double station = 0, least = 1e300;
     for (double s = 0; s <= path.length_mm(); s += 1) {

@@ -45,6 +45,13 @@ QWidget* ReadingWindow::buildTop()
     scan_choice_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     scan_choice_->setAccessibleName(tr("Scan"));
     scan_choice_->setToolTip(tr("Supine or prone; the other one opens at the same part of the way (X)"));
+    way_choice_ = new QComboBox(top);
+    way_choice_->setObjectName("way");
+    way_choice_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    way_choice_->setAccessibleName(tr("Way through the branches"));
+    way_choice_->setToolTip(
+        tr("Which tip the way leads to, the farthest first; or click on a branch in the projection"));
+    way_choice_->hide();
     window_choice_ = new QComboBox(top);
     window_choice_->setObjectName("window");
     window_choice_->setAccessibleName(tr("Window of the slices"));
@@ -58,6 +65,7 @@ QWidget* ReadingWindow::buildTop()
     warning_->setWordWrap(true);
     warning_->setStyleSheet("color: #ff9a4a; font-weight: bold;");
     row->addWidget(scan_choice_);
+    row->addWidget(way_choice_);
     row->addWidget(window_choice_);
     row->addWidget(notice_);
     row->addWidget(warning_, 1);

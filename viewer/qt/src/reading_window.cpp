@@ -108,6 +108,8 @@ void ReadingWindow::connectAll()
     }
     connect(scan_choice_, qOverload<int>(&QComboBox::activated), this,
             [this](int) { changeScan(scan_choice_->currentData().toString().toStdString()); });
+    connect(way_choice_, qOverload<int>(&QComboBox::activated), this,
+            [this] { takeWay(way_choice_->currentData().toInt(), {}); });
     showPictureTip();
     connect(peeling_, &PeelingPanel::changed, this, [this] {
         showPictureTip();
