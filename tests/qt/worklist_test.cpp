@@ -85,6 +85,7 @@ TEST_F(Reading, AnEmptyWorklistSaysWhatToDoAndOneInWhichNothingIsFoundToo)
     screenshot("worklist_nothing_found");
     search->clear();
     EXPECT_FALSE(hint->isVisible());
+    settle();  // the search's own button fades out
 }
 
 TEST_F(Reading, AScanThatBecomesReadyWhileItsCaseIsReadIsOffered)

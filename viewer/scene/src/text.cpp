@@ -139,7 +139,7 @@ TextLine cutOff(Fonts& fonts, const OverlayText& text, double size_px, double wh
 
 TextLine fitted(Fonts& fonts, const OverlayText& text)
 {
-    const TextLine wanted = inOneRow(fonts, text.text, text.height_px);
+    TextLine wanted = inOneRow(fonts, text.text, text.height_px);
     if (wanted.width <= text.most_width_px)
         return wanted;
     const double smaller = text.height_px * text.most_width_px / wanted.width;
