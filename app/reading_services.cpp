@@ -1,5 +1,8 @@
 #include "reading_services.h"
 
+#include <unistd.h>
+
+#include <array>
 #include <filesystem>
 
 #include "correcting.h"
@@ -7,6 +10,7 @@
 #include "report_writing.h"
 #include "scan_work.h"
 #include "text_table.h"
+#include "vicon/ingest/receiver.h"
 #include "vicon/pipeline/queue.h"
 #include "vicon/pipeline/worker.h"
 #include "worklist.h"
@@ -106,12 +110,22 @@ void addCorrections(viewer::ReadingServices& services, const Config& config)
     services.work = [&config](CaseStore& store, const std::atomic<bool>& stop) { runQueue(store, config, stop); };
 }
 
+std::string receiverOf(const Config& config)
+{
+    const auto options = config.get<ingest::ReceiverOptions>();
+    std::array<char, 256> host{};
+    const bool known = ::gethostname(host.data(), host.size() - 1) == 0;
+    return options.ae_title + " (" + (known ? host.data() : "this machine") + ", port " + std::to_string(options.port) +
+           ")";
+}
+
 }  // namespace
 
 viewer::ReadingServices readingServices(const fs::path& store, const Config& config)
 {
     viewer::ReadingServices services;
     services.store = store;
+    services.receiver = receiverOf(config);
     services.worklist = [&config](CaseStore& store) {
         std::vector<viewer::WorklistRow> rows;
         for (const WorklistCase& a_case : makeWorklist(store, config))

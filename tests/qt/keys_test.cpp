@@ -8,6 +8,7 @@
 #include <QTableWidget>
 
 #include "reading.h"
+#include "vicon/artefact/skeleton_file.h"
 #include "vicon/core/file.h"
 
 namespace vicon::viewer {
@@ -100,6 +101,60 @@ TEST_F(Reading, AnotherOrganAndItsEndsAreCalledByTheirNames)
     waitForScan();
     EXPECT_EQ(the<QPushButton>("about")->text(), "To caecum");
     EXPECT_TRUE(the<QTabWidget>("lists")->isTabEnabled(2));
+}
+
+/// The colon's path as a tree: a trunk, the rest of it, and a side branch beside that, which ends a little earlier.
+void makeTree(const std::filesystem::path& folder)
+{
+    const auto points = artefact::readSkeleton(folder / "skeleton.vtp").pieces.front().points;
+    const auto fork = points.begin() + std::ptrdiff_t(points.size() / 2);
+    const auto end = points.begin() + std::ptrdiff_t(points.size() * 4 / 5);
+    SkeletonTree tree;
+    tree.branches.push_back({-1, 0, {points.begin(), fork + 1}});
+    tree.branches.push_back({0, 1, {fork, points.end()}});
+    tree.branches.push_back({0, 1, {fork, end}});
+    for (std::size_t n = 1; n < tree.branches[2].points.size(); ++n)
+        tree.branches[2].points[n].position_mm.y += 2;
+    artefact::writeSkeletonTree(folder / "skeleton.vtp", tree);
+    const auto file = folder / "scan.json";
+    auto scan = nlohmann::json::parse(readFile(file));
+    scan["organ"] = "airway";
+    replaceFile(file, scan.dump());
+}
+
+TEST_F(Reading, TheWayToAnotherTipIsChosenInTheListOrInTheProjectionAndKept)
+{
+    openCase();
+    EXPECT_FALSE(the<QComboBox>("way")->isVisible()) << "a colon has one way";
+    closeCase();
+    makeTree(store_ / "cases" / test::kCase / test::kSupine);
+    openCase();
+    auto* way = the<QComboBox>("way");
+    ASSERT_TRUE(way->isVisible());
+    ASSERT_EQ(way->count(), 2);
+    EXPECT_TRUE(way->itemText(0).startsWith("to tip 1, ")) << way->itemText(0).toStdString();
+    const double whole = length();
+    the<QDoubleSpinBox>("station")->setValue(50);
+    press(window(), "jump");
+    ASSERT_TRUE(eventually([] { return std::abs(station() - 50) < 2; }));
+    way->setFocus();
+    type(Qt::Key_Down);
+    ASSERT_TRUE(eventually([&] { return length() < 0.9 * whole; })) << warning();
+    waitForScan();
+    EXPECT_NEAR(station(), 50, 2) << "on the trunk that both ways share";
+    screenshot("other_way");
+    closeCase();
+    openCase();
+    EXPECT_EQ(the<QComboBox>("way")->currentData().toInt(), 2);
+    EXPECT_LT(length(), 0.9 * whole);
+    // The caecum's end of the test's colon, which only the other way reaches.
+    auto* overview = the<QWidget>("overview");
+    for (int y = overview->height() / 2; y < overview->height() * 9 / 10 && length() < 0.9 * whole; y += 8) {
+        click("overview", QPoint(overview->width() * 4 / 10, y));
+        QTest::qWait(kSettle_ms);
+    }
+    EXPECT_TRUE(eventually([&] { return length() > 0.95 * whole && station() > 0.8 * whole; })) << station();
+    EXPECT_EQ(the<QComboBox>("way")->currentData().toInt(), 1);
 }
 
 }  // namespace

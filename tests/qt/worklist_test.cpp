@@ -61,6 +61,33 @@ TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
     EXPECT_EQ(shown(), 0) << "it is no longer failed";
 }
 
+TEST_F(Reading, AnEmptyWorklistSaysWhatToDoAndOneInWhichNothingIsFoundToo)
+{
+    auto empty = services_;
+    empty.worklist = [](CaseStore&) { return std::vector<WorklistRow>(); };
+    empty.receiver = "VICON (reading-host, port 11112)";
+    const auto room = makeReadingRoom(empty, {});
+    room->show();
+    auto* said = room->findChild<QLabel*>("hint");
+    ASSERT_TRUE(eventually([&] { return said->text().contains("vicon import"); }));
+    EXPECT_TRUE(said->isVisible());
+    for (const std::string& part : {store_.string(), empty.receiver, std::string("vicon receive")})
+        EXPECT_TRUE(said->text().contains(part.c_str())) << part;
+    room->grab().save(VICON_SCREENSHOTS "/worklist_empty.png");
+
+    auto* hint = room_->findChild<QLabel*>("hint");
+    auto* search = room_->findChild<QLineEdit*>("search");
+    EXPECT_FALSE(hint->isVisible());
+    QTest::keyClicks(search, "nobody");
+    EXPECT_TRUE(hint->isVisible());
+    EXPECT_TRUE(hint->text().contains("No case has \"nobody\" in its name or ID.")) << hint->text().toStdString();
+    EXPECT_TRUE(hint->text().contains("Cases in all: 2"));
+    screenshot("worklist_nothing_found");
+    search->clear();
+    EXPECT_FALSE(hint->isVisible());
+    settle();  // the search's own button fades out
+}
+
 TEST_F(Reading, AScanThatBecomesReadyWhileItsCaseIsReadIsOffered)
 {
     std::atomic<bool> ready = false;

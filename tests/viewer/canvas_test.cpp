@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace vicon::viewer {
 namespace {
 
@@ -56,17 +58,61 @@ TEST(Text, FromRightToLeftIsInOrder)
     EXPECT_LT(textSize(joined).width_px, textSize(apart).width_px);
 }
 
-TEST(Text, IsMadeSmallerUntilItFits)
+TEST(Text, IsMadeSmallerUntilItFitsAndThenCutOff)
 {
-    const std::string name = "Wolfeschlegelsteinhausenbergerdorff, Hubert Blaine";
     OverlayText text;
-    text.text = name;
+    text.text = "Wolfeschlegelsteinhausenbergerdorff, H. B.";
     text.height_px = 24;
-    EXPECT_GT(textSize(text).width_px, 300);
-    text.most_width_px = 300;
-    EXPECT_LE(textSize(text).width_px, 301);
-    EXPECT_EQ(inked(written(name, 300), 308, 400), 0);
-    EXPECT_GT(inked(written(name, 300), 250, 308), 0);
+    const double whole = textSize(text).width_px;
+    text.most_width_px = 0.7 * whole;
+    EXPECT_LE(textSize(text).width_px, text.most_width_px + 1);
+    EXPECT_NEAR(textSize(text).height_px, 0.7 * 1.2 * 24, 0.5) << "all of it, smaller";
+    for (const double share : {0.5, 0.2, 0.01}) {
+        text.most_width_px = share * whole;
+        EXPECT_LE(textSize(text).width_px, std::max(text.most_width_px, 15.0));
+        EXPECT_NEAR(textSize(text).height_px, 0.6 * 1.2 * 24, 0.01) << "no smaller than can be read";
+    }
+    EXPECT_EQ(inked(written(text.text, 300), 308, 400), 0);
+    EXPECT_GT(inked(written(text.text, 300), 280, 308), 0);
+    OverlayText cut = text;
+    cut.most_width_px = 0.3 * whole;
+    text.text = "Wolfeschlegelsteinhausenbergerdor, H. B.";  // another end, which is not shown
+    text.most_width_px = 0.3 * whole;
+    EXPECT_EQ(textSize(cut).width_px, textSize(text).width_px);
+}
+
+TEST(Text, ThatNoFontHasIsCalledByItsNumber)
+{
+    constexpr const char* kUnassigned = "\u0378";  // no character, so no font will have it
+    EXPECT_EQ(written(kUnassigned).rgb, written("[U+0378]").rgb);
+}
+
+/// WCAG 2: of a picture's dimmest or brightest values, 0 to 255.
+double contrast(double light, double dark)
+{
+    const auto luminance = [](double v) { return std::pow((v / 255 + 0.055) / 1.055, 2.4); };
+    return (luminance(light) + 0.05) / (luminance(dark) + 0.05);
+}
+
+TEST(Text, StandsOutOnBrightTissueAndDimsNoMarkerBelowIt)
+{
+    constexpr int kWidth = 400, kHeight = 60;
+    Picture picture(kWidth, kHeight, {255, 255, 255});
+    Overlay overlay;
+    overlay.texts.push_back({{20, 30}, "sea measures, no room", 14, {230, 230, 230}, Across::left, Along::middle, 1e9});
+    overlay.texts.push_back(overlay.texts.back());  // two over each other darken once
+    overlay.discs.push_back({{25, 30}, 12, {255, 48, 48}, 2});
+    const double right = 20 + textSize(overlay.texts.back()).width_px;
+    paint(picture, overlay);
+    // Above letters without ascenders, where no rim reaches.
+    for (int x = 45; x < int(right); ++x) {
+        const int ground = picture.at(x, 25).green;
+        EXPECT_GE(contrast(230, ground), 4.5) << x << ": " << ground;
+        EXPECT_GT(ground, 80) << "what lies below is still seen";
+    }
+    EXPECT_EQ(picture.at(25, 18), (Rgb{255, 48, 48}));
+    EXPECT_EQ(picture.at(25, 5), (Rgb{255, 255, 255}));
+    EXPECT_EQ(picture.at(kWidth - 5, 30), (Rgb{255, 255, 255}));
 }
 
 TEST(Paint, LinesAndDiscsLieWhereTheyShould)

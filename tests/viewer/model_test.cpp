@@ -166,7 +166,8 @@ TEST(Annotation, NamesAreWrittenAsPeopleWriteThem)
     } cases[] = {{"Doe^Jane", "Doe, Jane"},
                  {"Doe^Jane^Q^Dr^PhD", "Doe, Dr Jane Q PhD"},
                  {"Doe", "Doe"},
-                 {"", ""},
+                 {"", "name not given"},
+                 {"^^^^", "name not given"},
                  {"^Jane", "Jane"},
                  {"Yamada^Tarou=山田^太郎=やまだ^たろう", "Yamada, Tarou / 山田 太郎 / やまだ たろう"},
                  {"=山田^太郎", "山田 太郎"}};

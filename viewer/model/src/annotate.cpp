@@ -245,7 +245,7 @@ std::string personName(const std::string& dicom_name)
         if (!words.empty())
             name += (name.empty() ? "" : " / ") + words;
     }
-    return name;
+    return name.empty() ? "name not given" : name;
 }
 
 std::string dateText(const std::string& d)

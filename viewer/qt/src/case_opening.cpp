@@ -14,6 +14,13 @@ void letGo(OpenScan* scan)
     QThreadPool::globalInstance()->start([scan] { delete scan; });
 }
 
+/// The branch, unless the scan was done again meanwhile and has no such one.
+int branchIn(const std::filesystem::path& folder, int branch)
+{
+    const bool asked = branch >= 0;
+    return asked && std::size_t(branch) < PreparedScan::open(folder).tree().branches.size() ? branch : -1;
+}
+
 }  // namespace
 
 std::filesystem::file_time_type madeAt(const std::filesystem::path& folder)
@@ -32,7 +39,7 @@ OpenScan::OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseReco
 {
 }
 
-void CaseSession::open(const std::string& scan_id, bool fresh)
+void CaseSession::open(const std::string& scan_id, bool fresh, int branch)
 {
     wanted_scan_ = scan_id;
     if (!fresh && beside_ && beside_->record.id == scan_id) {
@@ -48,10 +55,12 @@ void CaseSession::open(const std::string& scan_id, bool fresh)
     const auto take = [this](std::shared_ptr<OpenScan> made) {
         if (made->record.id != wanted_scan_)
             return;
+        if (scan_ && scan_->record.id == made->record.id)
+            made->seen.unpack(scan_->seen.packed());  // of the same wall; what was seen is still being written
         scan_ = std::move(made);
         emit opened();
     };
-    load("open", scan_id, take, stop_opening_);
+    load("open", scan_id, branch, take, stop_opening_);
 }
 
 void CaseSession::cancelOpening()
@@ -64,7 +73,8 @@ void CaseSession::cancelOpening()
 void CaseSession::openBeside(const std::string& scan_id)
 {
     wanted_beside_ = scan_id;
-    load("open beside", scan_id, [this](std::shared_ptr<OpenScan> made) {
+    constexpr int kFarthest = -1;
+    load("open beside", scan_id, kFarthest, [this](std::shared_ptr<OpenScan> made) {
         if (made->record.id != wanted_beside_)
             return;
         beside_ = std::move(made);
@@ -78,7 +88,7 @@ void CaseSession::closeBeside()
     beside_.reset();
 }
 
-void CaseSession::load(const std::string& work, const std::string& scan_id, Opened then,
+void CaseSession::load(const std::string& work, const std::string& scan_id, int branch, Opened then,
                        const std::shared_ptr<const std::atomic<bool>>& stop)
 {
     const auto row = std::find_if(row_.scans.begin(), row_.scans.end(),
@@ -92,32 +102,35 @@ void CaseSession::load(const std::string& work, const std::string& scan_id, Open
                 this, [this, stage] { emit opening(stage, kStages); }, Qt::QueuedConnection);
         return !stop || !*stop;
     };
-    loader_.post(work,
-                 [this, folder = row->folder, scan = row->record, then = std::move(then), at, stop]() -> Worker::Work {
-                     try {
-                         if (!at(0))
-                             return {};
-                         const auto before = madeAt(folder);
-                         auto files = PreparedScan::open(folder);
-                         files.readForFlight();
-                         if (!at(1))
-                             return {};
-                         const std::shared_ptr<OpenScan> made(new OpenScan(files, scan, row_.record), letGo);
-                         made->made = before;
-                         if (!at(2))
-                             return {};
-                         SeenKeeper::restore(made->seen, folder);
-                         return [made, then, stop] {
-                             if (!stop || !*stop)
-                                 then(made);
-                         };
-                     } catch (...) {
-                         if (at(0))
-                             QMetaObject::invokeMethod(
-                                 this, [this] { emit openingFailed(); }, Qt::QueuedConnection);
-                         throw;
-                     }
-                 });
+    loader_.post(
+        work,
+        [this, folder = row->folder, scan = row->record, branch, then = std::move(then), at, stop]() -> Worker::Work {
+            try {
+                if (!at(0))
+                    return {};
+                const auto before = madeAt(folder);
+                const int way = branchIn(folder, branch);
+                auto files = PreparedScan::open(folder, way);
+                files.readForFlight();
+                if (!at(1))
+                    return {};
+                const std::shared_ptr<OpenScan> made(new OpenScan(files, scan, row_.record), letGo);
+                made->made = before;
+                made->branch = way;
+                if (!at(2))
+                    return {};
+                SeenKeeper::restore(made->seen, folder);
+                return [made, then, stop] {
+                    if (!stop || !*stop)
+                        then(made);
+                };
+            } catch (...) {
+                if (at(0))
+                    QMetaObject::invokeMethod(
+                        this, [this] { emit openingFailed(); }, Qt::QueuedConnection);
+                throw;
+            }
+        });
 }
 
 }  // namespace vicon::viewer

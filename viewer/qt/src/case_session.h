@@ -34,6 +34,7 @@ struct OpenScan {
     Navigator navigator;
     SeenSoFar seen;
     std::filesystem::file_time_type made;  ///< when its files were
+    int branch = -1;                       ///< whose end the way leads to; below 0: to the farthest tip
 
     OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case);
 };
@@ -59,8 +60,10 @@ public:
     std::optional<Marker> marker(const std::string& id) const;
 
     /// Reads a scan's files; opened() follows, or warned(). The scan beside changes places with the one being read.
-    /// @param fresh reads it again, after its files were made anew
-    void open(const std::string& scan_id, bool fresh = false);
+    /// @param fresh reads it again, after its files were made anew, or for another way
+    /// @param branch of an organ that branches: the way from the root to the end of this one; below 0, or where there
+    ///        is no such branch any more: to the farthest tip
+    void open(const std::string& scan_id, bool fresh = false, int branch = -1);
     /// What is being read is given up; the scan that is open stays.
     void cancelOpening();
     /// Reads another scan to be shown beside the one being read; besideOpened() follows.
@@ -128,7 +131,7 @@ private:
     std::string renewPlaces(CaseStore& store);  // on the worker's thread
     using Opened = std::function<void(std::shared_ptr<OpenScan>)>;
     /// Reads a scan's files on the loader's thread.
-    void load(const std::string& work, const std::string& scan_id, Opened then,
+    void load(const std::string& work, const std::string& scan_id, int branch, Opened then,
               const std::shared_ptr<const std::atomic<bool>>& stop = {});
     CaseStore& store();                                              // on the worker's thread
     std::filesystem::path newPicture(const std::string& extension);  // on the worker's thread

@@ -30,7 +30,7 @@ ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
     table_ = new QTableWidget(0, kColumns, this);
     table_->setObjectName("bridges");
     table_->setAccessibleName(tr("Bridges over collapsed parts"));
-    table_->setToolTip(tr("Where the pipeline joined two pieces of lumen. Click: fly there."));
+    table_->setToolTip(tr("Where the pipeline joined two pieces of lumen. Click or Return: fly there."));
     table_->setHorizontalHeaderLabels({tr("mm"), tr("Bridge"), tr("Sure"), tr("Judged")});
     setUpList(table_, kLeastRows);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -61,10 +61,11 @@ ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
     grid->addWidget(bar_, 2, kStateColumns, 1, kButtons - kStateColumns - 1);
     grid->addWidget(stop_, 2, kButtons - 1);
     connect(table_, &QTableWidget::itemSelectionChanged, this, &ColonPanel::updateButtons);
-    connect(table_, &QTableWidget::cellClicked, this, [this](int row, int) {
-        const BridgeRow& bridge = bridges_[std::size_t(row)];
-        emit flyWanted(bridge.from_mm, stations_mm_[std::size_t(row)]);
-    });
+    for (const auto chosen : {&QTableWidget::cellClicked, &QTableWidget::cellActivated})
+        connect(table_, chosen, this, [this](int row, int) {
+            const BridgeRow& bridge = bridges_[std::size_t(row)];
+            emit flyWanted(bridge.from_mm, stations_mm_[std::size_t(row)]);
+        });
     for (QPushButton* verdict : {confirm_, reject_})
         connect(verdict, &QPushButton::clicked, this, [this, verdict] {
             if (const auto bridge = selected())

@@ -8,6 +8,8 @@
 #include <QKeyEvent>
 #include <QTabBar>
 
+#include "picture_view.h"
+
 namespace vicon::viewer {
 namespace {
 
@@ -48,9 +50,10 @@ ControlKeys::ControlKeys(QWidget* window, QWidget* picture) : QObject(window), p
             continue;  // an open list has all keys anyway
         const bool is_list = qobject_cast<QComboBox*>(control) || qobject_cast<QAbstractItemView*>(control);
         const bool is_slider = qobject_cast<QAbstractSlider*>(control);
-        if (is_list || is_slider || qobject_cast<QAbstractSpinBox*>(control))
-            control->installEventFilter(this);
         const bool is_pressed = qobject_cast<QAbstractButton*>(control) || qobject_cast<QTabBar*>(control);
+        if (is_list || is_slider || is_pressed || qobject_cast<QAbstractSpinBox*>(control) ||
+            qobject_cast<PictureView*>(control))
+            control->installEventFilter(this);
         if ((is_list || is_slider || is_pressed) && control->focusPolicy() != Qt::NoFocus)
             control->setFocusPolicy(Qt::TabFocus);
     }
@@ -61,7 +64,11 @@ bool ControlKeys::eventFilter(QObject* control, QEvent* event)
 {
     if (event->type() == QEvent::ShortcutOverride) {
         const auto& key = *static_cast<QKeyEvent*>(event);
-        const bool its_own = moves(key) || (isLetter(key) && qobject_cast<QComboBox*>(control));
+        if (qobject_cast<PictureView*>(control))
+            return false;
+        const bool its_own = qobject_cast<QAbstractButton*>(control)
+                                 ? key.key() == Qt::Key_Space
+                                 : moves(key) || (isLetter(key) && qobject_cast<QComboBox*>(control));
         if (its_own)
             event->accept();
         return its_own;
@@ -73,10 +80,17 @@ bool ControlKeys::eventFilter(QObject* control, QEvent* event)
             event->ignore();
             return true;
         }
-        if ((key.key() == Qt::Key_Return || key.key() == Qt::Key_Enter) && qobject_cast<QAbstractSpinBox*>(control))
+        const bool is_return = key.key() == Qt::Key_Return || key.key() == Qt::Key_Enter;
+        if (auto* button = qobject_cast<QAbstractButton*>(control); button && is_return) {
+            button->click();
+            return true;
+        }
+        if (is_return && qobject_cast<QAbstractSpinBox*>(control))
             QMetaObject::invokeMethod(
                 picture_, [this] { picture_->setFocus(); }, Qt::QueuedConnection);
     }
+    if (auto* view = qobject_cast<PictureView*>(control); view && event->type() == QEvent::MouseButtonPress)
+        (view->window() == picture_->window() ? picture_ : view->window())->setFocus(Qt::MouseFocusReason);
     return QObject::eventFilter(control, event);
 }
 

@@ -7,8 +7,8 @@ class QWidget;
 namespace vicon::viewer {
 
 /// Whose a key is, in a window where plain letters are commands. A control that got the keyboard by Tab keeps the keys
-/// that it understands; the mouse leaves the keyboard where it is, in the picture, and so does a number that was
-/// entered.
+/// that it understands; a click on a control leaves the keyboard where it is, one on a picture and a number that was
+/// entered give it back to the picture.
 class ControlKeys : public QObject {
     Q_OBJECT
 public:

@@ -32,6 +32,11 @@ CoveragePanel::CoveragePanel(QWidget* parent) : QWidget(parent)
     paint_ = named(new QCheckBox(tr("paint what was seen"), this), "paintSeen", tr("Paint what was seen"),
                    tr("Tint the wall that was seen before the last turn or jump (V); what stays in its own colour is "
                       "new"));
+    table_ =
+        named(new QTableWidget(0, kColumns, this), "unseen", tr("Unseen patches"), tr("Click or Return: fly there"));
+    table_->setHorizontalHeaderLabels({tr("mm"), tr("Part"), tr("mm² unseen")});
+    setUpList(table_, kLeastRows);
+    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     least_ = named(new QDoubleSpinBox(this), "leastUnseen", tr("Least area of an unseen patch"),
                    tr("Smaller patches are not listed; a polyp of 6 mm hides behind 28 mm²"));
     least_->setRange(1, kMostArea_mm2);
@@ -42,10 +47,6 @@ CoveragePanel::CoveragePanel(QWidget* parent) : QWidget(parent)
                   tr("Look for the patches that are unseen by now"));
     forget_ = named(new QPushButton(tr("Start again"), this), "forgetSeen", tr("Forget what was seen"),
                     tr("Count from nothing, as before the first flight"));
-    table_ = named(new QTableWidget(0, kColumns, this), "unseen", tr("Unseen patches"), tr("Click: fly there"));
-    table_->setHorizontalHeaderLabels({tr("mm"), tr("Part"), tr("mm² unseen")});
-    setUpList(table_, kLeastRows);
-    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
 
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(2, 2, 2, 2);
@@ -62,10 +63,11 @@ CoveragePanel::CoveragePanel(QWidget* parent) : QWidget(parent)
     connect(least_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &CoveragePanel::listWanted);
     connect(list_, &QPushButton::clicked, this, &CoveragePanel::listWanted);
     connect(forget_, &QPushButton::clicked, this, &CoveragePanel::forgetWanted);
-    connect(table_, &QTableWidget::cellClicked, this, [this](int row, int) {
-        if (row < int(patches_.size()))
-            emit flyWanted(patches_[std::size_t(row)]);
-    });
+    for (const auto chosen : {&QTableWidget::cellClicked, &QTableWidget::cellActivated})
+        connect(table_, chosen, this, [this](int row, int) {
+            if (row < int(patches_.size()))
+                emit flyWanted(patches_[std::size_t(row)]);
+        });
     setSeen(0);
 }
 

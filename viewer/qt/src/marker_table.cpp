@@ -58,7 +58,7 @@ MarkerTable::MarkerTable(QWidget* parent) : QWidget(parent)
     table_->setHorizontalHeaderLabels({tr("ID"), tr("Scan"), tr("mm"), tr("Part"), tr("Pair"), tr("Size"), tr("Note")});
     setUpList(table_, kLeastRows);
     table_->horizontalHeaderItem(kSize)->setToolTip(tr("Straight between the two ends that were clicked, in mm (M)"));
-    table_->setToolTip(tr("Click: fly there. Double click on the note: write it."));
+    table_->setToolTip(tr("Click or Return: fly there. Double click on the note, or N: write it."));
 
     const auto button = [this](const QString& title, const char* name, const QString& tip) {
         auto* made = new QPushButton(title, this);
@@ -68,11 +68,11 @@ MarkerTable::MarkerTable(QWidget* parent) : QWidget(parent)
         tighten(made);
         return made;
     };
+    go_ = button(tr("Show"), "markerGo", tr("Fly to the marker and show its saved view"));
     color_ = new QComboBox(this);
     color_->setObjectName("markerColor");
     color_->setAccessibleName(tr("Colour of the marker"));
     color_->addItems({tr("red"), tr("yellow"), tr("green")});
-    go_ = button(tr("Show"), "markerGo", tr("Fly to the marker and show its saved view"));
     move_ = button(tr("Move"), "markerMove", tr("Then click on its new place in any view"));
     pair_ = button(tr("Pair"), "markerPair", tr("Then choose the same finding in the other scan; again: part them"));
     remove_ = button(tr("Delete"), "markerRemove", tr("Delete the marker (Delete)"));
@@ -90,6 +90,11 @@ MarkerTable::MarkerTable(QWidget* parent) : QWidget(parent)
     connect(table_, &QTableWidget::itemSelectionChanged, this, &MarkerTable::updateButtons);
     connect(table_, &QTableWidget::cellClicked, this, [this](int, int column) {
         if (const auto marker = selected(); marker && column != kNote)
+            emit flyWanted(*marker);
+    });
+    // By Return; a double click on a note begins to write it and activates nothing.
+    connect(table_, &QTableWidget::cellActivated, this, [this] {
+        if (const auto marker = selected())
             emit flyWanted(*marker);
     });
     connect(table_, &QTableWidget::cellChanged, this, &MarkerTable::noteEdited);
@@ -164,7 +169,9 @@ void MarkerTable::setUndo(bool can_undo, bool can_redo)
 void MarkerTable::setBusy(bool busy)
 {
     if (QWidget* focused = QApplication::focusWidget(); busy)
-        had_focus_ = focused && isAncestorOf(focused) ? focused : nullptr;
+        had_focus_ = !focused || !isAncestorOf(focused) ? nullptr
+                     : table_->isAncestorOf(focused)    ? table_  // the note's editor is gone by then
+                                                        : focused;
     setEnabled(!busy);
     if (!busy && had_focus_ && !QApplication::focusWidget())
         had_focus_->setFocus();
@@ -183,6 +190,18 @@ void MarkerTable::select(const std::string& id)
     for (std::size_t row = 0; row < markers_.size(); ++row)
         if (markers_[row].id == id)
             table_->selectRow(int(row));
+}
+
+void MarkerTable::writeNote()
+{
+    if (markers_.empty() || !isEnabled())
+        return;
+    if (!selected())
+        table_->selectRow(0);
+    const int row = table_->selectionModel()->selectedRows().front().row();
+    table_->setCurrentCell(row, kNote);
+    table_->setFocus(Qt::ShortcutFocusReason);
+    table_->editItem(table_->item(row, kNote));
 }
 
 void MarkerTable::updateButtons()

@@ -30,6 +30,8 @@ public:
     void setBusy(bool busy);
     std::optional<Marker> selected() const;
     void select(const std::string& id);
+    /// Begins to write the note of the chosen marker, else of the first.
+    void writeNote();
 
 signals:
     void flyWanted(const vicon::Marker& marker);

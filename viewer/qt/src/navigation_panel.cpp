@@ -97,6 +97,17 @@ NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
     connect(station_->findChild<QLineEdit*>(), &QLineEdit::returnPressed, this, jump);
 }
 
+void NavigationPanel::askStation()
+{
+    station_->setFocus(Qt::ShortcutFocusReason);
+    station_->selectAll();
+}
+
+void NavigationPanel::forgetStation()
+{
+    station_->setValue(shown_station_mm_);
+}
+
 void NavigationPanel::setAngle(double angle_deg)
 {
     const QSignalBlocker quiet(angle_);

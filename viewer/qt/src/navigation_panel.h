@@ -19,6 +19,10 @@ class NavigationPanel : public QWidget {
 public:
     explicit NavigationPanel(QWidget* parent = nullptr);
     void show(const Navigator& navigator, double length_mm, const OrganWords& words);
+    /// The keyboard to the field of the distance.
+    void askStation();
+    /// What was typed there and not used.
+    void forgetStation();
     void setAngle(double angle_deg);
 
 signals:

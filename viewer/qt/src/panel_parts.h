@@ -1,9 +1,15 @@
 #pragma once
 
+#include <vector>
+
+class QWidget;
 class QPushButton;
 class QTableWidget;
 
 namespace vicon::viewer {
+
+/// The controls in `part`, itself among them, that Tab leads to, in the order in which they were made.
+std::vector<QWidget*> reachableIn(QWidget* part);
 
 /// A list beside the views: its lines are chosen as a whole, one at a time, and are as low as their text, for the
 /// panels share the height of one screen. It never shows fewer than `least_rows`.

@@ -26,15 +26,15 @@ PeelingPanel::PeelingPanel(QWidget* parent) : QWidget(parent)
     preset_->addItem(tr("no peeling"), QString());
     for (const TransferFunction& function : transferFunctions())
         preset_->addItem(QString::fromStdString(function.title), QString::fromStdString(function.name));
+    circle_ = new QCheckBox(tr("only in a circle"), this);
+    circle_->setObjectName("peelCircle");
+    circle_->setToolTip(tr("Peel in a circle that follows the mouse; the surface stays around it"));
     offset_ = new QSlider(Qt::Horizontal, this);
     offset_->setObjectName("peelOffset");
     offset_->setAccessibleName(tr("Depth of the look below the wall"));
     offset_->setToolTip(tr("How far below the surface the look begins"));
     offset_->setRange(0, int(kMostOffset_mm / kTick_mm));
     offset_text_ = new QLabel(this);
-    circle_ = new QCheckBox(tr("only in a circle"), this);
-    circle_->setObjectName("peelCircle");
-    circle_->setToolTip(tr("Peel in a circle that follows the mouse; the surface stays around it"));
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(2, 2, 2, 2);
     auto* title = new QLabel(tr("Below the wall"), this);

@@ -15,7 +15,7 @@ PictureView::PictureView(const QString& name, QWidget* parent) : QWidget(parent)
     setAccessibleName(name);
     setMinimumSize(SnapshotRequest::kLeastSide, SnapshotRequest::kLeastSide);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    setFocusPolicy(Qt::ClickFocus);
+    setFocusPolicy(Qt::TabFocus);
     setAttribute(Qt::WA_OpaquePaintEvent);
 }
 
@@ -29,7 +29,8 @@ void PictureView::showPicture(const Picture& picture)
 void PictureView::setCircling(bool on)
 {
     circling_ = on;
-    update();
+    dragging_ = dragging_ && (on || button_ != Qt::NoButton);
+    forgetCross();
 }
 
 double PictureView::circleRadius() const
@@ -61,6 +62,11 @@ QSize PictureView::pictureSize() const
         .expandedTo({SnapshotRequest::kLeastSide, SnapshotRequest::kLeastSide});
 }
 
+Pixel PictureView::toPicture(QPoint at) const
+{
+    return {(at.x() + 0.5) * devicePixelRatioF(), (at.y() + 0.5) * devicePixelRatioF()};
+}
+
 QPointF PictureView::toWidget(Pixel at) const
 {
     return QPointF(at.x, at.y) / devicePixelRatioF();
@@ -79,6 +85,8 @@ void PictureView::paintEvent(QPaintEvent*)
             painter.setPen(QPen(Qt::white, 2));
             painter.drawEllipse(QPointF(pressed_), circleRadius(), circleRadius());
         }
+        painter.resetTransform();
+        drawFocus(painter);
         return;
     }
     // The view has another size by now, and its picture is still to come.
@@ -93,6 +101,8 @@ void PictureView::resizeEvent(QResizeEvent*)
 
 void PictureView::mousePressEvent(QMouseEvent* event)
 {
+    reached_ = false;
+    update();
     pressed_ = last_ = event->pos();
     button_ = event->button();
     dragging_ = false;
@@ -101,8 +111,11 @@ void PictureView::mousePressEvent(QMouseEvent* event)
 void PictureView::mouseMoveEvent(QMouseEvent* event)
 {
     if (button_ == Qt::NoButton) {
-        const double ratio = devicePixelRatioF();
-        emit hovered({(event->pos().x() + 0.5) * ratio, (event->pos().y() + 0.5) * ratio});
+        if (!mouse_moved_last_)
+            update();
+        cross_ = event->pos();
+        mouse_moved_last_ = true;
+        emit hovered(toPicture(event->pos()));
         return;
     }
     dragging_ = dragging_ || (event->pos() - pressed_).manhattanLength() >= QApplication::startDragDistance();
@@ -120,15 +133,14 @@ void PictureView::mouseMoveEvent(QMouseEvent* event)
 void PictureView::mouseReleaseEvent(QMouseEvent* event)
 {
     const bool was_click = !dragging_ && button_ == Qt::LeftButton && event->button() == Qt::LeftButton;
-    const double ratio = devicePixelRatioF();
     if (dragging_ && circling_)
-        emit circled({(pressed_.x() + 0.5) * ratio, (pressed_.y() + 0.5) * ratio}, circleRadius() * ratio);
+        emit circled(toPicture(pressed_), circleRadius() * devicePixelRatioF());
     else if (dragging_)
         emit dragEnded();
     button_ = Qt::NoButton;
     dragging_ = false;
     if (was_click && !image_.isNull())
-        emit clicked({(event->pos().x() + 0.5) * ratio, (event->pos().y() + 0.5) * ratio}, event->modifiers());
+        emit clicked(toPicture(event->pos()), event->modifiers());
 }
 
 void PictureView::mouseDoubleClickEvent(QMouseEvent*)

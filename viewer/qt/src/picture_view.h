@@ -4,6 +4,7 @@
 #include <QLineF>
 #include <QVector>
 #include <QWidget>
+#include <optional>
 
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/scene/canvas.h"
@@ -18,8 +19,13 @@ class PictureView : public QWidget {
 public:
     explicit PictureView(const QString& name, QWidget* parent = nullptr);
 
-    /// The next drag with the left button draws a circle around where it begins; circled() follows.
+    /// The next drag with the left button draws a circle around where it begins; circled() follows. By the keyboard:
+    /// Return at its middle, arrows, Return.
     void setCircling(bool on);
+    /// A click is awaited: the arrow keys move a cross, Return clicks there, or where the mouse is if that moved last.
+    void setPicking(bool on);
+    /// The arrow keys are the flight's unless a click is awaited.
+    void setSteered() { steered_ = true; }
     /// Drawn over the picture; in its pixels.
     void setLines(const QVector<QLineF>& lines);
     void showPicture(const Picture& picture);
@@ -40,6 +46,12 @@ signals:
     void circled(vicon::viewer::Pixel centre, double radius_px);  ///< in the picture's pixels
 
 protected:
+    /// Where the keyboard's cross is at first; in the widget.
+    virtual QPoint home() const { return rect().center(); }
+    void keyPressEvent(QKeyEvent* event) override;
+    void focusInEvent(QFocusEvent* event) override;
+    void focusOutEvent(QFocusEvent* event) override;
+    void leaveEvent(QEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
@@ -49,7 +61,16 @@ protected:
     void wheelEvent(QWheelEvent* event) override;
 
 private:
+    // picture_keys.cpp
+    bool takesArrows() const;
+    bool actedOn(const QKeyEvent& key);
+    void moveCross(QPoint by);
+    void clickAtCross(Qt::KeyboardModifiers modifiers);
+    void forgetCross();
+    void drawFocus(QPainter& painter) const;
+
     void drawLines(QPainter& painter) const;
+    Pixel toPicture(QPoint at) const;
     /// Of the circle that is being drawn, in widget pixels.
     double circleRadius() const;
 
@@ -59,6 +80,10 @@ private:
     Qt::MouseButton button_ = Qt::NoButton;
     bool dragging_ = false;
     bool circling_ = false;
+    bool picking_ = false, steered_ = false;
+    bool reached_ = false;         // by the keyboard, which then acts on this view
+    std::optional<QPoint> cross_;  // home() until it was moved
+    bool mouse_moved_last_ = false;
     int wheel_ = 0;  // eighths of a degree not yet reported
 };
 

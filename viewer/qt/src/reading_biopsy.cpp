@@ -26,7 +26,7 @@ void ReadingWindow::startCircling()
     circling_ = true;
     endoscopic_->setCircling(true);
     setPickCursor(true);
-    tell(tr("Virtual biopsy: drag from the middle of the finding to its edge"));
+    tell(tr("Virtual biopsy: drag from the middle of the finding to its edge; or arrows and Return at both"));
 }
 
 void ReadingWindow::forgetCircle()

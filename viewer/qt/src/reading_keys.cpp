@@ -2,6 +2,7 @@
 #include <QClipboard>
 #include <QStatusBar>
 
+#include "beside_view.h"
 #include "reading_window.h"
 #include "saved_view.h"
 #include "vicon/core/error.h"
@@ -68,7 +69,7 @@ bool ReadingWindow::placed(const OpenScan& scan, const SnapshotResult& from, Poi
         return true;
     if (moving_) {
         const auto before = session_.marker(*moving_);
-        moving_.reset();
+        arm({});
         if (!before)
             return true;
         if (before->scan_id != scan.record.id) {
@@ -134,6 +135,10 @@ void ReadingWindow::clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers)
 {
     if (!navigator() || !overview_shown_)
         return;
+    if (const SkeletonTree& tree = session_.scan()->files.tree(); !tree.empty()) {
+        clickedTree(tree, at, modifiers);
+        return;
+    }
     const PathFrames& path = session_.scan()->files.frames();
     double station = 0, least = 1e300;
     for (double s = 0; s <= path.length_mm(); s += 1) {
@@ -169,13 +174,19 @@ void ReadingWindow::arm(std::optional<MarkerColor> color)
     stopMeasuring();
     forgetCircle();
     setPickCursor(color.has_value());
-    tell(color ? tr("Click where the %1 marker shall be").arg(QString::fromStdString(nameOf(*color))) : QString());
+    tell(
+        color
+            ? tr("Click where the %1 marker shall be, or arrows and Return").arg(QString::fromStdString(nameOf(*color)))
+            : QString());
 }
 
 void ReadingWindow::setPickCursor(bool on)
 {
-    for (QWidget* view : std::initializer_list<QWidget*>{endoscopic_, overview_, transverse_, coronal_, sagittal_})
-        view->setCursor(on ? Qt::CrossCursor : Qt::ArrowCursor);
+    for (PictureView* view : std::initializer_list<PictureView*>{endoscopic_, overview_, transverse_, coronal_,
+                                                                 sagittal_, beside_->endoscopic(), beside_->slice()})
+        view->setPicking(on);
+    if (on && !qobject_cast<PictureView*>(focusWidget()))
+        endoscopic_->setFocus(Qt::ShortcutFocusReason);  // Return clicks in a picture
 }
 
 void ReadingWindow::setMode(NavigationMode mode)

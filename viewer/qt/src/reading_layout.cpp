@@ -5,9 +5,9 @@
 #include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
-#include <QMessageBox>
 #include <QSplitter>
 #include <QStatusBar>
+#include <QTabBar>
 #include <QTabWidget>
 #include <QVBoxLayout>
 
@@ -45,6 +45,13 @@ QWidget* ReadingWindow::buildTop()
     scan_choice_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     scan_choice_->setAccessibleName(tr("Scan"));
     scan_choice_->setToolTip(tr("Supine or prone; the other one opens at the same part of the way (X)"));
+    way_choice_ = new QComboBox(top);
+    way_choice_->setObjectName("way");
+    way_choice_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    way_choice_->setAccessibleName(tr("Way through the branches"));
+    way_choice_->setToolTip(
+        tr("Which tip the way leads to, the farthest first; or click on a branch in the projection"));
+    way_choice_->hide();
     window_choice_ = new QComboBox(top);
     window_choice_->setObjectName("window");
     window_choice_->setAccessibleName(tr("Window of the slices"));
@@ -58,6 +65,7 @@ QWidget* ReadingWindow::buildTop()
     warning_->setWordWrap(true);
     warning_->setStyleSheet("color: #ff9a4a; font-weight: bold;");
     row->addWidget(scan_choice_);
+    row->addWidget(way_choice_);
     row->addWidget(window_choice_);
     row->addWidget(notice_);
     row->addWidget(warning_, 1);
@@ -72,6 +80,7 @@ QWidget* ReadingWindow::buildSide()
     coverage_ = new CoveragePanel;
     lists_ = new QTabWidget;
     lists_->setObjectName("lists");
+    lists_->tabBar()->setAccessibleName(tr("Lists"));
     lists_->addTab(table_, tr("&Markers"));
     lists_->addTab(coverage_, tr("&Unseen"));
     colon_ = new ColonPanel;
@@ -86,7 +95,8 @@ QWidget* ReadingWindow::buildSide()
     statusBar()->addPermanentWidget(seen_text_);
     auto* controls = new QWidget;
     auto* stack = new QVBoxLayout(controls);
-    stack->setContentsMargins(0, 0, 0, 0);
+    constexpr int kFocusRing_px = 2;  // of the tabs
+    stack->setContentsMargins(kFocusRing_px, 0, kFocusRing_px, 0);
     stack->addWidget(framed(navigation_));
     stack->addWidget(lists_, 1);
     stack->addWidget(framed(peeling_));
@@ -106,6 +116,7 @@ void ReadingWindow::buildViews()
     endoscopic_ = new PictureView(tr("Endoscopic view"));
     endoscopic_->setObjectName("endoscopic");
     endoscopic_->setMouseTracking(true);
+    endoscopic_->setSteered();
     overview_ = new PictureView({});
     overview_->setObjectName("overview");
     overview_->setToolTip(tr("Click: go there"));
@@ -189,14 +200,14 @@ void ReadingWindow::addActions()
     add(edit, tr("Red marker at the next click"), QKeySequence("1"), [this] { arm(MarkerColor::red); });
     add(edit, tr("Yellow marker at the next click"), QKeySequence("2"), [this] { arm(MarkerColor::yellow); });
     add(edit, tr("Green marker at the next click"), QKeySequence("3"), [this] { arm(MarkerColor::green); });
-    add(edit, tr("Not after all: no marker, line, circle or warning"), QKeySequence("Esc"), [this] {
-        arm({});
-        measured_way_.clear();
-        drawMeasured();
-        warn({});
-    });
+    add(edit, tr("Back to the view: no marker, line, circle, warning"), QKeySequence("Esc"), [this] { notAfterAll(); });
     add(edit, tr("Measure between two clicks"), QKeySequence("M"), [this] { startMeasuring(); });
     add(edit, tr("Virtual biopsy: circle a finding"), QKeySequence("T"), [this] { startCircling(); });
+    add(edit, tr("Go to the list: arrows choose, Return flies there"), QKeySequence("L"), [this] { goToList(); });
+    add(edit, tr("Write the note of the chosen marker"), QKeySequence("N"), [this] {
+        lists_->setCurrentWidget(table_);
+        table_->writeNote();
+    });
     add(edit, tr("Marker information"), QKeySequence("I"), [this] { showMarkerInformation(); });
     add(edit, tr("Delete marker"), QKeySequence("Del"), [this] {
         if (const auto marker = table_->selected(); marker && table_->isEnabled())
@@ -213,6 +224,7 @@ void ReadingWindow::addActions()
         [this] { emit navigation_->lookBackWanted(navigator() && !navigator()->looksBack()); });
     add(flight, tr("A centimetre on"), QKeySequence("."), [this] { emit navigation_->stepWanted(10); });
     add(flight, tr("A centimetre back"), QKeySequence(","), [this] { emit navigation_->stepWanted(-10); });
+    add(flight, tr("Jump to a distance"), QKeySequence("J"), [this] { navigation_->askStation(); });
     to_first_end_ = add(flight, {}, QKeySequence("Home"), [this] { goToEnd(Heading::rectum); });
     to_last_end_ = add(flight, {}, QKeySequence("End"), [this] { goToEnd(Heading::caecum); });
     add(flight, tr("Faster"), QKeySequence("+"), [this] {
@@ -224,6 +236,7 @@ void ReadingWindow::addActions()
             emit navigation_->speedWanted(navigator()->speed_mm_s() - 5);
     });
     QMenu* view = menuBar()->addMenu(tr("&View"));
+    add(view, tr("This view alone, and back"), QKeySequence("E"), [this] { enlargeFocused(); });
     add(view, tr("Whole slices"), QKeySequence("0"), [this] {
         for (SliceView* slice : {transverse_, coronal_, sagittal_})
             slice->resetView();
@@ -244,32 +257,6 @@ void ReadingWindow::addActions()
     });
     add(view, tr("Paint what was seen"), QKeySequence("V"), [this] { coverage_->setPaints(!coverage_->paints()); });
     add(menuBar()->addMenu(tr("&Help")), tr("Keys"), QKeySequence("?"), [this] { showKeys(); });
-}
-
-void ReadingWindow::showKeys()
-{
-    QVector<QPair<QString, QString>> keys;
-    for (const QMenu* menu : menuBar()->findChildren<QMenu*>())
-        for (const QAction* action : menu->actions())
-            if (!action->shortcut().isEmpty())
-                keys.append({action->shortcut().toString(), action->text()});
-    keys.append({tr("W A S D"), tr("guided and free: on, left, back, right")});
-    keys.append({tr("arrows"), tr("guided and free: turn the view")});
-    // In two columns, for a screen of large letters is soon too low for one.
-    const int rows = (keys.size() + 1) / 2;
-    const auto unbroken = [](const QString& words) { return words.toHtmlEscaped().replace(' ', "&nbsp;"); };
-    QString text = "<table>";
-    for (int row = 0; row < rows; ++row) {
-        text += "<tr>";
-        for (int n = row; n < keys.size(); n += rows)
-            text += QString("<td><b>%1</b>&nbsp;&nbsp;</td><td>%2&nbsp;&nbsp;&nbsp;</td>")
-                        .arg(unbroken(keys[n].first), unbroken(keys[n].second));
-        text += "</tr>";
-    }
-    auto* box = new QMessageBox(QMessageBox::NoIcon, tr("Keys"), text + "</table>", QMessageBox::Close, this);
-    box->setObjectName("keys");
-    box->setAttribute(Qt::WA_DeleteOnClose);
-    box->open();
 }
 
 }  // namespace vicon::viewer

@@ -26,7 +26,7 @@ void ReadingWindow::startMeasuring()
     measured_way_.clear();
     drawMeasured();
     setPickCursor(true);
-    tell(tr("Measure: click on the two ends, on the wall or in a slice"));
+    tell(tr("Measure: click on the two ends, on the wall or in a slice; or arrows and Return"));
 }
 
 void ReadingWindow::stopMeasuring()

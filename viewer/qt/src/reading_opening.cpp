@@ -44,7 +44,7 @@ void ReadingWindow::openScan(const std::string& scan_id, bool fresh)
 {
     tell(tr("Reading the scan ..."));
     opening_->show();
-    session_.open(scan_id, fresh);
+    session_.open(scan_id, fresh, wayOf(scan_id));
 }
 
 void ReadingWindow::offer(const std::vector<ScanRecord>& scans)
@@ -97,6 +97,9 @@ void ReadingWindow::takeOver(const WorklistScanRow& row)
 void ReadingWindow::stayWhereOneIs()
 {
     came_from_.reset();
+    go_to_when_open_.reset();
+    if (session_.scan())
+        showWays();
     fly_to_when_open_.reset();
     if (session_.scan())
         scan_choice_->setCurrentIndex(scan_choice_->findData(QString::fromStdString(session_.scan()->record.id)));
@@ -137,7 +140,9 @@ void ReadingWindow::scanOpened()
     warning_->clear();
     tell({});
     useWords(organWords());
+    showWays();
     restorePlace();
+    go_to_when_open_.reset();
     markersChanged();
     clock_.start();
     timer_.start();

@@ -42,7 +42,7 @@ void ReadingWindow::restorePlace()
         navigator()->setHeading(came_from_->navigator.heading());
         navigator()->setSpeed(came_from_->navigator.speed_mm_s());
         const bool same = came_from_->record.id == session_.scan()->record.id;  // done again: where the eye was
-        const Point3 eye = came_from_->navigator.state().pose.eye_mm;
+        const Point3 eye = go_to_when_open_.value_or(came_from_->navigator.state().pose.eye_mm);
         navigator()->jumpTo(same ? session_.scan()->files.skeleton().nearest(eye).station_mm
                                  : corresponding_mm(*came_from_, came_from_mm_, *session_.scan()));
         came_from_.reset();

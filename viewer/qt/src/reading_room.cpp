@@ -4,6 +4,7 @@
 #include <QTimer>
 #include <cstdlib>
 
+#include "focus_ring.h"
 #include "theme.h"
 #include "vicon/core/error.h"
 #include "vicon/viewer/scene/display.h"
@@ -14,7 +15,9 @@ namespace vicon::viewer {
 std::unique_ptr<QWidget> makeReadingRoom(const ReadingServices& services, const std::string& case_id)
 {
     applyTheme();
-    return std::make_unique<WorklistWindow>(services, case_id);
+    auto room = std::make_unique<WorklistWindow>(services, case_id);
+    new FocusRing(room.get());
+    return room;
 }
 
 namespace {

@@ -32,6 +32,7 @@ ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistRow&
     useWords(wordsFor("colon"));  // until a scan is open
     connectAll();
     new ControlKeys(this, endoscopic_);
+    orderTabs();
     restoreLooks();
     if (session_.scans().empty())
         warn(tr("No scan of this case can be read yet; the first one opens as soon as it can."));
@@ -107,6 +108,8 @@ void ReadingWindow::connectAll()
     }
     connect(scan_choice_, qOverload<int>(&QComboBox::activated), this,
             [this](int) { changeScan(scan_choice_->currentData().toString().toStdString()); });
+    connect(way_choice_, qOverload<int>(&QComboBox::activated), this,
+            [this] { takeWay(way_choice_->currentData().toInt(), {}); });
     showPictureTip();
     connect(peeling_, &PeelingPanel::changed, this, [this] {
         showPictureTip();
@@ -120,8 +123,10 @@ void ReadingWindow::connectAll()
     connect(table_, &MarkerTable::removeWanted, &session_, &CaseSession::removeMarker);
     connect(table_, &MarkerTable::pairWanted, this, &ReadingWindow::pair);
     connect(table_, &MarkerTable::moveWanted, this, [this](const Marker& marker) {
+        arm({});
         moving_ = marker.id;
-        tell(tr("Click on the new place of %1").arg(QString::fromStdString(marker.id)));
+        setPickCursor(true);
+        tell(tr("Click on the new place of %1, or arrows and Return").arg(QString::fromStdString(marker.id)));
     });
     connect(table_, &MarkerTable::undoWanted, this, &ReadingWindow::undo);
     connect(table_, &MarkerTable::redoWanted, this, &ReadingWindow::redo);

@@ -63,6 +63,12 @@ private:
     QWidget* buildTop();
     void enlarge(QWidget* view);
     void addActions();
+
+    // reading_focus.cpp
+    void orderTabs();
+    void notAfterAll();
+    void goToList();
+    void enlargeFocused();
     void showKeys();
 
     // reading_window.cpp
@@ -162,6 +168,14 @@ private:
     void placeSecondWindow();
     void saveSecondWindow();
 
+    // reading_ways.cpp
+    /// The number of the tip that was chosen last; below 0: the farthest.
+    int wayOf(const std::string& scan_id) const;
+    void showWays();
+    /// @param to where the eye is then; else the place on it that is nearest to where the eye is now
+    void takeWay(int tip, std::optional<Point3> to);
+    void clickedTree(const SkeletonTree& tree, Pixel at, Qt::KeyboardModifiers modifiers);
+
     // reading_words.cpp
     /// For the organ of the open scan.
     const OrganWords& organWords() const { return session_.scan()->files.words(); }
@@ -212,7 +226,7 @@ private:
     BesideView* beside_;
     QAction *compare_ = nullptr, *structure_ = nullptr, *occlusion_ = nullptr, *two_screens_ = nullptr;
     QAction *to_first_end_, *to_last_end_;
-    QComboBox *scan_choice_, *window_choice_;
+    QComboBox *scan_choice_, *way_choice_, *window_choice_;
     QLabel *warning_, *notice_, *seen_text_;
     QTimer timer_, still_, poll_, keep_seen_;
     QElapsedTimer clock_;
@@ -243,6 +257,7 @@ private:
     std::shared_ptr<OpenScan> came_from_;  // when the scan is changed, with the station there
     double came_from_mm_ = 0;
     std::optional<std::string> fly_to_when_open_;  // a marker
+    std::optional<Point3> go_to_when_open_;        // on another way of the same scan
     std::optional<ViewPose> beside_place_;         // the partner of the marker that is shown; else what corresponds
     std::optional<Point3> beside_focus_;           // that partner
     bool redone_ = false;                          // the scan that is being opened has a new skeleton

@@ -45,6 +45,12 @@ void SliceView::setWindow(const WindowLevel& window)
     draw();
 }
 
+QPoint SliceView::home() const
+{
+    const QPoint at = scan_ ? toWidget(shown_.toPixel(request_.point_mm)).toPoint() : rect().center();
+    return rect().contains(at) ? at : rect().center();
+}
+
 void SliceView::resetView()
 {
     pan_mm_ = {};

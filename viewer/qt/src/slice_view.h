@@ -27,6 +27,10 @@ signals:
     void pointClicked(vicon::Point3 point, Qt::KeyboardModifiers modifiers);
     void failed(const QString& message);
 
+protected:
+    /// The point that is looked at.
+    QPoint home() const override;
+
 private:
     void draw();
     void scroll(int steps, Qt::KeyboardModifiers modifiers);

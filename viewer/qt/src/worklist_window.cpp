@@ -6,12 +6,14 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QShortcut>
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <algorithm>
 
 #include "reading_window.h"
 #include "vicon/viewer/model/annotate.h"
+#include "worklist_hint.h"
 
 namespace vicon::viewer {
 namespace {
@@ -84,7 +86,7 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
     search_ = new QLineEdit(this);
     search_->setObjectName("search");
     search_->setAccessibleName(tr("Search"));
-    search_->setPlaceholderText(tr("Search name or ID"));
+    search_->setPlaceholderText(tr("Search name or ID (Ctrl+F)"));
     search_->setClearButtonEnabled(true);
     state_ = new QComboBox(this);
     state_->setObjectName("state");
@@ -99,10 +101,17 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
                                        tr("Progress"), tr("Quality"), tr("Markers"), tr("Reports")});
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
+    table_->setTabKeyNavigation(false);  // Tab leads out of it; the arrow keys move in it
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setAlternatingRowColors(true);
     table_->verticalHeader()->hide();
     table_->horizontalHeader()->setSectionResizeMode(kPatient, QHeaderView::Stretch);
+    hint_ = new QLabel(tr("Reading the worklist ..."), table_->viewport());
+    hint_->setObjectName("hint");
+    hint_->setAlignment(Qt::AlignCenter);
+    hint_->setWordWrap(true);
+    hint_->setTextInteractionFlags(Qt::TextSelectableByMouse);  // commands are copied
+    (new QVBoxLayout(table_->viewport()))->addWidget(hint_);
     reason_ = new QLabel(this);
     reason_->setObjectName("reason");
     reason_->setWordWrap(true);
@@ -134,6 +143,19 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
     column->addLayout(bottom);
     resize(1000, 500);
 
+    QWidget* const order[] = {search_, state_, table_, retry_, report_, open_};
+    for (std::size_t n = 1; n < std::size(order); ++n)
+        setTabOrder(order[n - 1], order[n]);
+    for (QPushButton* b : {retry_, report_, open_})
+        b->setAutoDefault(true);  // Return presses it as well
+    for (const auto key : {Qt::Key_Escape, Qt::Key_Down})
+        connect(new QShortcut(key, search_, {}, {}, Qt::WidgetShortcut), &QShortcut::activated, this,
+                [this] { table_->setFocus(Qt::ShortcutFocusReason); });
+    connect(new QShortcut(QKeySequence("Ctrl+F"), this), &QShortcut::activated, search_, [this] {
+        search_->setFocus(Qt::ShortcutFocusReason);
+        search_->selectAll();
+    });
+    connect(new QShortcut(QKeySequence("Ctrl+Q"), this), &QShortcut::activated, this, &QWidget::close);
     connect(search_, &QLineEdit::textChanged, this, &WorklistWindow::filter);
     connect(state_, qOverload<int>(&QComboBox::currentIndexChanged), this, &WorklistWindow::filter);
     connect(table_, &QTableWidget::itemSelectionChanged, this, &WorklistWindow::updateButtons);
@@ -175,6 +197,7 @@ void WorklistWindow::show(const std::vector<WorklistRow>& rows)
     const std::string chosen_id = chosen ? chosen->record.id : "";
     const QSignalBlocker quiet(table_);
     rows_ = rows;
+    listed_ = true;
     bool changed = table_->rowCount() != int(rows.size());
     table_->setRowCount(int(rows.size()));
     for (int n = 0; n < int(rows.size()); ++n) {
@@ -194,6 +217,7 @@ void WorklistWindow::show(const std::vector<WorklistRow>& rows)
             changed = changed || table_->item(n, column)->text() != cells[column];
             table_->item(n, column)->setText(cells[column]);
         }
+        table_->item(n, kPatient)->setToolTip(cells[kPatient]);  // a long name is cut off in its cell
         table_->item(n, kQuality)->setToolTip(wordsOf(row, false));
         if (row.record.id == chosen_id || (chosen_id.empty() && n == 0))
             table_->selectRow(n);
@@ -229,6 +253,20 @@ void WorklistWindow::filter()
                 break;
             }
     updateButtons();
+    if (listed_)
+        showHint();
+}
+
+void WorklistWindow::showHint()
+{
+    int shown = 0;
+    for (int n = 0; n < table_->rowCount(); ++n)
+        shown += table_->isRowHidden(n) ? 0 : 1;
+    hint_->setVisible(shown == 0);
+    hint_->setText(rows_.empty() ? hintOfEmptyStore(services_)
+                                 : hintOfNothingFound(search_->text().trimmed(),
+                                                      state_->currentIndex() > 0 ? state_->currentText() : QString(),
+                                                      int(rows_.size())));
 }
 
 const WorklistRow* WorklistWindow::selected() const

@@ -30,6 +30,8 @@ private:
     void refresh();
     void show(const std::vector<WorklistRow>& rows);
     void filter();
+    /// In the middle of a list that shows nothing: what can be done.
+    void showHint();
     const WorklistRow* selected() const;
     void updateButtons();
     void open(const WorklistRow& row);
@@ -39,10 +41,11 @@ private:
     ReadingServices services_;
     std::string open_case_;  // to be opened as soon as the list is there
     std::vector<WorklistRow> rows_;
+    bool listed_ = false;  // once, at least
     QLineEdit* search_;
     QComboBox* state_;
     QTableWidget* table_;
-    QLabel *reason_, *message_;
+    QLabel *hint_, *reason_, *message_;
     QPushButton *open_, *retry_, *report_;
     QTimer timer_;
     std::map<std::string, ReadingWindow*> windows_;  ///< open ones, by case

@@ -95,17 +95,21 @@ void Picture::set(int x, int y, Rgb color)
 void paint(Picture& picture, const Overlay& overlay)
 {
     Mask mask(picture.width, picture.height), rim(picture.width, picture.height);
+    std::vector<TextLine> texts;
+    for (const OverlayText& text : overlay.texts)
+        texts.push_back(layOut(text));
+    paintGround(picture, texts, mask);  // not over lines and discs: markers stay as bright as they are
     for (const OverlayLine& line : overlay.lines)
         paintLine(picture, mask, line);
     for (const OverlayDisc& disc : overlay.discs)
         paintDisc(picture, mask, disc);
-    for (const OverlayText& text : overlay.texts)
+    for (const TextLine& text : texts)
         paintText(picture, text, mask, rim);
 }
 
 TextSize textSize(const OverlayText& text)
 {
-    return measureText(text);
+    return sizeOf(layOut(text));
 }
 
 void copyInto(Picture& target, const Picture& source, int x, int y)

@@ -68,6 +68,15 @@ void Mask::addSegment(Pixel a, Pixel b, double width_px)
              });
 }
 
+void Mask::addBox(const Area& box, double edge_px)
+{
+    addShape(box.x - edge_px, box.y - edge_px, box.right() + edge_px, box.bottom() + edge_px, [&](double x, double y) {
+        const double dx = std::max({box.x - x, x - box.right(), 0.0}),
+                     dy = std::max({box.y - y, y - box.bottom(), 0.0});
+        return 1 - lengthOf(dx, dy) / edge_px;
+    });
+}
+
 void Mask::addRing(Pixel c, double inner_px, double outer_px)
 {
     addShape(c.x - outer_px, c.y - outer_px, c.x + outer_px, c.y + outer_px, [&](double x, double y) {

@@ -13,6 +13,8 @@ public:
 
     void clear();
     void addSegment(Pixel a, Pixel b, double width_px);
+    /// A rectangle with soft edges of this breadth outside of it.
+    void addBox(const Area& box, double edge_px);
     /// A full disc where `inner_px` is below 0.
     void addRing(Pixel centre, double inner_px, double outer_px);
     /// Sets a pixel to at least this cover, 0 to 255; outside the picture: nothing.

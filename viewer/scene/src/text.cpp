@@ -5,7 +5,9 @@
 #include FT_OUTLINE_H
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <mutex>
 
 #include "fonts.h"
@@ -16,9 +18,12 @@ namespace {
 
 constexpr double kRimShare = 0.11;  // of the text's height
 constexpr double kRimStrength = 0.75;
-constexpr double kLeastSize_px = 6;
-constexpr std::uint32_t kReplacement = 0xFFFD;
-constexpr double kAscent = 0.95, kDescent = 0.25;  // of the size: room for accents and tails in every script
+constexpr Rgb kGround{0, 0, 0};
+constexpr double kGroundStrength =
+    0.6;  // white tissue keeps two fifths of its light: white letters on it contrast 4.5 : 1
+constexpr double kGroundEdge = 0.35, kLetterTop = 0.72, kLetterBottom = 0.1;  // of the size
+constexpr double kLeastSize_px = 6, kLeastShare = 0.6;  // of the wanted height: a name is read, not merely there
+constexpr double kAscent = 0.95, kDescent = 0.25;       // of the size: room for accents and tails in every script
 
 struct Library {
     std::mutex mutex;
@@ -68,24 +73,21 @@ std::vector<std::uint32_t> visualOrder(const std::string& utf8)
     return visible;
 }
 
-Fonts::Found glyphFor(Fonts& fonts, std::uint32_t character)
+/// What no font has is called by its number: a box would not say what is missing.
+std::vector<std::uint32_t> withoutBoxes(Fonts& fonts, const std::vector<std::uint32_t>& characters)
 {
-    for (const std::uint32_t c : {character, kReplacement, std::uint32_t('?')})
-        if (const auto found = fonts.find(c); found.face)
-            return found;
-    return {};
+    std::vector<std::uint32_t> out;
+    for (const std::uint32_t c : characters) {
+        if (fonts.find(c).face) {
+            out.push_back(c);
+            continue;
+        }
+        std::array<char, 16> number{};
+        const int length = std::snprintf(number.data(), number.size(), "[U+%04X]", unsigned(c));
+        out.insert(out.end(), number.begin(), number.begin() + length);
+    }
+    return out;
 }
-
-struct Placed {
-    Fonts::Found glyph;
-    double x = 0;
-};
-
-struct Line {
-    std::vector<Placed> glyphs;
-    double width = 0;
-    double size = 0;
-};
 
 void setSize(FT_Face face, double size_px)
 {
@@ -93,12 +95,12 @@ void setSize(FT_Face face, double size_px)
     FT_Set_Char_Size(face, 0, FT_F26Dot6(std::lround(size_px * kFixed)), 72, 72);
 }
 
-Line layOut(Fonts& fonts, const std::vector<std::uint32_t>& characters, double size_px)
+TextLine inOneRow(Fonts& fonts, const std::vector<std::uint32_t>& characters, double size_px)
 {
-    Line line;
+    TextLine line;
     line.size = size_px;
     for (const std::uint32_t c : characters) {
-        const auto glyph = glyphFor(fonts, c);
+        const auto glyph = fonts.find(c);
         if (!glyph.face)
             continue;
         setSize(glyph.face, size_px);
@@ -110,17 +112,44 @@ Line layOut(Fonts& fonts, const std::vector<std::uint32_t>& characters, double s
     return line;
 }
 
-Line fitted(Fonts& fonts, const OverlayText& text)
+TextLine inOneRow(Fonts& fonts, const std::string& utf8, double size_px)
 {
-    const auto characters = visualOrder(text.text);
-    Line line = layOut(fonts, characters, text.height_px);
-    if (line.width <= text.most_width_px)
-        return line;
-    const double smaller = text.height_px * text.most_width_px / line.width;
-    return layOut(fonts, characters, std::max(kLeastSize_px, smaller));
+    return inOneRow(fonts, withoutBoxes(fonts, visualOrder(utf8)), size_px);
 }
 
-Pixel beginOf(const OverlayText& text, const Line& line)
+std::string firstCharacters(const std::string& utf8, std::size_t count)
+{
+    std::size_t end = 0;
+    for (; end < utf8.size(); ++end)
+        if ((utf8[end] & 0xC0) != 0x80 && count-- == 0)
+            break;
+    return utf8.substr(0, end);
+}
+
+/// So much of the text as fits at this size, with a sign that there is more.
+TextLine cutOff(Fonts& fonts, const OverlayText& text, double size_px, double whole_width_px)
+{
+    const auto all = std::count_if(text.text.begin(), text.text.end(), [](char c) { return (c & 0xC0) != 0x80; });
+    for (auto count = std::size_t(double(all) * text.most_width_px / whole_width_px);; --count) {
+        TextLine line = inOneRow(fonts, firstCharacters(text.text, count) + "…", size_px);
+        if (line.width <= text.most_width_px || count == 0)
+            return line;
+    }
+}
+
+TextLine fitted(Fonts& fonts, const OverlayText& text)
+{
+    TextLine wanted = inOneRow(fonts, text.text, text.height_px);
+    if (wanted.width <= text.most_width_px)
+        return wanted;
+    const double smaller = text.height_px * text.most_width_px / wanted.width;
+    const double least = std::max(kLeastSize_px, kLeastShare * text.height_px);
+    if (smaller >= least)
+        return inOneRow(fonts, text.text, smaller);
+    return cutOff(fonts, text, least, wanted.width * least / text.height_px);
+}
+
+Pixel beginOf(const OverlayText& text, const TextLine& line)
 {
     Pixel p = text.at;
     if (text.across == Across::centre)
@@ -136,7 +165,7 @@ Pixel beginOf(const OverlayText& text, const Line& line)
     return {std::round(p.x), std::round(p.y)};
 }
 
-void draw(Mask& mask, const Placed& placed, Pixel begin, double size_px)
+void draw(Mask& mask, const PlacedGlyph& placed, Pixel begin, double size_px)
 {
     FT_Face face = placed.glyph.face;
     setSize(face, size_px);
@@ -156,25 +185,41 @@ void draw(Mask& mask, const Placed& placed, Pixel begin, double size_px)
 
 }  // namespace
 
-void paintText(Picture& picture, const OverlayText& text, Mask& letters, Mask& rim)
+TextLine layOut(const OverlayText& text)
 {
     const std::lock_guard lock(library().mutex);
-    const Line line = fitted(library().fonts, text);
-    const Pixel begin = beginOf(text, line);
-    letters.clear();
-    for (const Placed& placed : line.glyphs)
-        draw(letters, placed, begin, line.size);
-    rim.clear();
-    letters.growInto(rim, std::max(1.0, kRimShare * line.size));
-    rim.blendInto(picture, {0, 0, 0}, kRimStrength);
-    letters.blendInto(picture, text.color, 1);
+    TextLine line = fitted(library().fonts, text);
+    line.begin = beginOf(text, line);
+    line.color = text.color;
+    return line;
 }
 
-TextSize measureText(const OverlayText& text)
+TextSize sizeOf(const TextLine& line)
+{
+    return {line.width, (kAscent + kDescent) * line.size};
+}
+
+void paintGround(Picture& picture, const std::vector<TextLine>& lines, Mask& mask)
+{
+    mask.clear();
+    for (const TextLine& line : lines)
+        if (!line.glyphs.empty())
+            mask.addBox({line.begin.x, line.begin.y - kLetterTop * line.size, line.width,
+                         (kLetterTop + kLetterBottom) * line.size},
+                        kGroundEdge * line.size);
+    mask.blendInto(picture, kGround, kGroundStrength);
+}
+
+void paintText(Picture& picture, const TextLine& line, Mask& letters, Mask& rim)
 {
     const std::lock_guard lock(library().mutex);
-    const Line line = fitted(library().fonts, text);
-    return {line.width, (kAscent + kDescent) * line.size};
+    letters.clear();
+    for (const PlacedGlyph& placed : line.glyphs)
+        draw(letters, placed, line.begin, line.size);
+    rim.clear();
+    letters.growInto(rim, std::max(1.0, kRimShare * line.size));
+    rim.blendInto(picture, kGround, kRimStrength);
+    letters.blendInto(picture, line.color, 1);
 }
 
 }  // namespace vicon::viewer

@@ -46,7 +46,7 @@ struct OverlayText {
     Rgb color;
     Across across = Across::left;
     Along along = Along::top;
-    double most_width_px = 1e9;  ///< made smaller until it fits
+    double most_width_px = 1e9;  ///< made smaller until it fits, to three fifths; then cut off with "…"
 };
 
 /// What is written over a picture, in order lines, discs, texts. Painted by scene/canvas.h into pictures and by the

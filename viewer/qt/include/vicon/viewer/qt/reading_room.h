@@ -66,6 +66,7 @@ struct BridgeRow {
 /// window's, with that thread's connection to the store.
 struct ReadingServices {
     std::filesystem::path store;
+    std::string receiver;  ///< where a PACS sends studies to, in words
     std::function<std::vector<WorklistRow>(CaseStore&)> worklist;
     /// Puts the failed jobs of a case back into the queue.
     std::function<void(CaseStore&, const std::string& case_id)> retry;

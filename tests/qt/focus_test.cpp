@@ -1,0 +1,332 @@
+// A reading without a mouse: every key goes to whoever has the keyboard, as the window system does it.
+#include <QAbstractButton>
+#include <QAbstractItemView>
+#include <QAbstractSlider>
+#include <QAbstractSpinBox>
+#include <QAccessible>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFocusFrame>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QTabWidget>
+#include <QTableWidget>
+#include <algorithm>
+#include <set>
+
+#include "reading.h"
+
+namespace vicon::viewer {
+namespace {
+
+using test::Reading;
+
+void type(int key, Qt::KeyboardModifiers modifiers = {})
+{
+    ASSERT_NE(QApplication::focusWidget(), nullptr) << "nobody has the keyboard";
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key(key), modifiers);
+}
+
+bool isControl(const QWidget* widget)
+{
+    return qobject_cast<const QAbstractButton*>(widget) || qobject_cast<const QAbstractItemView*>(widget) ||
+           qobject_cast<const QAbstractSlider*>(widget) || qobject_cast<const QAbstractSpinBox*>(widget) ||
+           qobject_cast<const QComboBox*>(widget) || qobject_cast<const QTabBar*>(widget) ||
+           qobject_cast<const QLineEdit*>(widget) || widget->inherits("vicon::viewer::PictureView");
+}
+
+/// Parts of a control that Qt makes for itself are reached through it.
+bool isOfAnother(const QWidget* widget)
+{
+    for (const QWidget* p = widget->parentWidget(); p && !p->isWindow(); p = p->parentWidget())
+        if (qobject_cast<const QAbstractItemView*>(p) || qobject_cast<const QAbstractSpinBox*>(p) ||
+            qobject_cast<const QComboBox*>(p) || qobject_cast<const QLineEdit*>(p) || qobject_cast<const QTabBar*>(p) ||
+            qobject_cast<const QMenuBar*>(p))
+            return true;
+    return widget->inherits("QScrollBar");
+}
+
+std::vector<QWidget*> controlsOf(QWidget* window)
+{
+    std::vector<QWidget*> controls;
+    for (QWidget* widget : window->findChildren<QWidget*>())
+        if (widget->window() == window && isControl(widget) && !isOfAnother(widget))
+            controls.push_back(widget);
+    return controls;
+}
+
+std::string nameOf(const QWidget* widget)
+{
+    return (QString(widget->metaObject()->className()) + " '" + widget->objectName() + "'").toStdString();
+}
+
+void expectNames(QWidget* window)
+{
+    for (QWidget* control : controlsOf(window)) {
+        const auto* spoken = QAccessible::queryAccessibleInterface(control);
+        ASSERT_NE(spoken, nullptr) << nameOf(control);
+        EXPECT_FALSE(spoken->text(QAccessible::Name).isEmpty()) << nameOf(control);
+    }
+}
+
+/// All that Tab leads to, from who has the keyboard until it is there again.
+std::vector<QWidget*> walkByTab()
+{
+    std::vector<QWidget*> way;
+    QWidget* const first = QApplication::focusWidget();
+    constexpr std::size_t kMost = 200;
+    do {
+        way.push_back(QApplication::focusWidget());
+        type(Qt::Key_Tab);
+    } while (QApplication::focusWidget() != first && way.size() < kMost);
+    return way;
+}
+
+/// Before the first key, as a window manager does it.
+void activate(QWidget* window, QWidget* focus)
+{
+    window->activateWindow();
+    focus->setFocus();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return QApplication::focusWidget() == focus; }));
+}
+
+void expectAllReached(QWidget* window)
+{
+    const std::vector<QWidget*> way = walkByTab();
+    const std::set<QWidget*> reached(way.begin(), way.end());
+    EXPECT_EQ(reached.size(), way.size()) << "nobody comes twice";
+    for (QWidget* control : controlsOf(window))
+        EXPECT_TRUE(reached.count(control) || !control->isVisible() || !control->isEnabled()) << nameOf(control);
+    type(Qt::Key_Backtab);
+    EXPECT_EQ(QApplication::focusWidget(), way.back()) << "and back again";
+    type(Qt::Key_Tab);
+}
+
+TEST_F(Reading, EveryControlHasAnAccessibleName)
+{
+    expectNames(room_.get());
+    openCase();
+    expectNames(window());
+    type(Qt::Key_Question);
+    expectNames(the<QMessageBox>("keys"));
+    the<QMessageBox>("keys")->close();
+}
+
+TEST_F(Reading, TabLeadsToEveryControlInTheOrderOfTheEye)
+{
+    activate(room_.get(), room_->findChild<QLineEdit*>("search"));
+    expectAllReached(room_.get());
+    openCase();
+    click("endoscopic", middle("endoscopic") + QPoint(60, 90), Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    for (const int list : {0, 1, 2}) {
+        the<QTabWidget>("lists")->setCurrentIndex(list);
+        the<QWidget>("endoscopic")->setFocus();
+        expectAllReached(window());
+        QPoint before(-1, -1);
+        for (const char* name : {"endoscopic", "transverse", "overview", "mode", "lists", "peel"}) {
+            QWidget* part = the<QWidget>(name);
+            const QPoint at = part->mapTo(window(), QPoint(0, 0));
+            EXPECT_TRUE(at.x() > before.x() || at.y() > before.y()) << name;
+            before = at;
+        }
+    }
+    const auto follows = [](const char* name) {
+        type(Qt::Key_Tab);
+        return QApplication::focusWidget() == the<QWidget>(name);
+    };
+    the<QTabWidget>("lists")->setCurrentIndex(0);
+    the<QWidget>("endoscopic")->setFocus();
+    for (const char* name : {"transverse", "coronal", "sagittal", "overview", "mode", "back", "stop", "forward"})
+        EXPECT_TRUE(follows(name)) << name;
+}
+
+/// All four sides of it, outside of the control.
+bool hasWholeFrame(QWidget* control)
+{
+    control->setFocus(Qt::TabFocusReason);
+    QTest::qWait(1);
+    for (QFocusFrame* frame : control->window()->findChildren<QFocusFrame*>("focusRing"))
+        if (frame->widget() == control && frame->isVisible())
+            return frame->visibleRegion().boundingRect() == frame->rect() && frame->width() > control->width() &&
+                   frame->height() > control->height();
+    return false;
+}
+
+TEST_F(Reading, WhatHasTheKeyboardHasABrightFrame)
+{
+    openCase();
+    ASSERT_EQ(QApplication::focusWidget(), the<QWidget>("endoscopic"));
+    for (QWidget* control : walkByTab()) {
+        if (!control->inherits("vicon::viewer::PictureView")) {
+            EXPECT_TRUE(hasWholeFrame(control)) << nameOf(control);
+            continue;
+        }
+        control->setFocus(Qt::TabFocusReason);
+        const QColor edge = control->grab().toImage().pixelColor(control->width() / 2, 0);
+        EXPECT_TRUE(edge.red() > 200 && edge.green() > 150 && edge.blue() < 100) << nameOf(control);
+    }
+    screenshot("focus");
+    click("endoscopic", middle("endoscopic"));
+    EXPECT_EQ(QApplication::focusWidget(), the<QWidget>("endoscopic"));
+    EXPECT_LT(pictureOf("endoscopic").pixelColor(the<QWidget>("endoscopic")->width() / 2, 0).green(), 150)
+        << "a mouse has no need of it";
+    type(Qt::Key_Question);
+    auto* box = the<QMessageBox>("keys");
+    ASSERT_TRUE(eventually([&] { return box->isActiveWindow(); }));
+    EXPECT_TRUE(hasWholeFrame(box->button(QMessageBox::Close)));
+    box->close();
+}
+
+TEST_F(Reading, ACaseIsReadWithoutAMouse)
+{
+    auto* search = room_->findChild<QLineEdit*>("search");
+    activate(room_.get(), search);
+    QTest::keyClicks(search, "anna");
+    type(Qt::Key_Escape);
+    ASSERT_EQ(QApplication::focusWidget(), cases()) << "Escape leaves the text";
+    type(Qt::Key_Return);
+    ASSERT_TRUE(eventually([] { return window() != nullptr; }));
+    waitForScan();
+
+    // Flown with Space, jumped with J.
+    type(Qt::Key_Space);
+    ASSERT_TRUE(eventually([] { return station() > 20; }));
+    type(Qt::Key_Space);
+    type(Qt::Key_J);
+    QTest::keyClicks(QApplication::focusWidget(), "150");
+    type(Qt::Key_Return);
+    ASSERT_TRUE(eventually([] { return std::abs(station() - 150) < 2 && pictureIsThere(); }));
+    type(Qt::Key_J);
+    QTest::keyClicks(QApplication::focusWidget(), "50");
+    type(Qt::Key_Escape);
+    settle();
+    EXPECT_EQ(QApplication::focusWidget(), the<QWidget>("endoscopic"));
+    EXPECT_NEAR(station(), 150, 2) << "not used";
+    EXPECT_NEAR(the<QDoubleSpinBox>("station")->value(), 150, 2);
+
+    // In the middle, beside it, and in a slice.
+    const auto marked = [](int count) {
+        return eventually([&] { return markers()->rowCount() == count && settled(); });
+    };
+    type(Qt::Key_1);
+    type(Qt::Key_Right);
+    type(Qt::Key_Down);
+    screenshot("cross");
+    type(Qt::Key_Return);
+    ASSERT_TRUE(marked(1)) << warning();
+    type(Qt::Key_2);
+    for (int n = 0; n < 8; ++n)
+        type(Qt::Key_Left);
+    type(Qt::Key_Return);
+    ASSERT_TRUE(marked(2));
+    EXPECT_GT(distance(stored()[0].position_mm, stored()[1].position_mm), 5) << "the cross was moved";
+    type(Qt::Key_Return, Qt::ShiftModifier);
+    ASSERT_TRUE(marked(3)) << "at once";
+    type(Qt::Key_Tab);
+    ASSERT_EQ(QApplication::focusWidget(), the<QWidget>("transverse"));
+    const QImage before = pictureOf("transverse");
+    type(Qt::Key_PageUp);
+    EXPECT_TRUE(eventually([&] { return pictureOf("transverse") != before; })) << "scrolled";
+    type(Qt::Key_3);
+    type(Qt::Key_Up, Qt::ShiftModifier);
+    type(Qt::Key_Return);
+    ASSERT_TRUE(marked(4));
+    EXPECT_EQ(stored()[3].color, MarkerColor::green);
+
+    // The list: chosen, flown to, its note written.
+    type(Qt::Key_Home);
+    ASSERT_TRUE(eventually([] { return station() < 2; }));
+    type(Qt::Key_L);
+    ASSERT_EQ(QApplication::focusWidget(), markers());
+    type(Qt::Key_Return);
+    EXPECT_TRUE(eventually([] { return station() > 120; })) << "flown to";
+    type(Qt::Key_N);
+    QTest::keyClicks(QApplication::focusWidget(), "sessile");
+    type(Qt::Key_Return);
+    const auto first = [&] {
+        const auto all = stored();
+        return all.empty() ? Marker{} : all[0];
+    };
+    ASSERT_TRUE(eventually([&] { return first().note == "sessile" && settled(); }));
+    EXPECT_EQ(QApplication::focusWidget(), markers());
+    type(Qt::Key_N);
+    QTest::keyClicks(QApplication::focusWidget(), "not meant");
+    type(Qt::Key_Escape);
+    EXPECT_EQ(cell(0, 6), "sessile");
+    type(Qt::Key_Escape);
+    ASSERT_EQ(QApplication::focusWidget(), the<QWidget>("endoscopic"));
+
+    // Measured, circled, moved.
+    const auto anyHas = [&](const char* what) {
+        const auto all = stored();
+        return settled() &&
+               std::any_of(all.begin(), all.end(), [&](const Marker& m) { return m.extra.contains(what); });
+    };
+    type(Qt::Key_L);
+    type(Qt::Key_Return);
+    ASSERT_TRUE(eventually([] { return pictureIsThere(); }));
+    type(Qt::Key_M);
+    ASSERT_EQ(QApplication::focusWidget(), the<QWidget>("endoscopic"));
+    type(Qt::Key_Return);
+    type(Qt::Key_Right);
+    type(Qt::Key_Return);
+    EXPECT_TRUE(eventually([&] { return anyHas("size"); })) << warning();
+    type(Qt::Key_T);
+    type(Qt::Key_Return);
+    for (int n = 0; n < 16; ++n)
+        type(Qt::Key_Right);
+    type(Qt::Key_Return);
+    EXPECT_TRUE(eventually([&] { return anyHas("density"); })) << warning();
+    type(Qt::Key_Escape);
+    const Point3 was = first().position_mm;
+    the<QWidget>("markerMove")->setFocus(Qt::TabFocusReason);
+    type(Qt::Key_Space);
+    ASSERT_EQ(QApplication::focusWidget(), the<QWidget>("endoscopic"));
+    for (int n = 0; n < 4; ++n)
+        type(Qt::Key_Up);
+    type(Qt::Key_Return);
+    EXPECT_TRUE(eventually([&] { return !(first().position_mm == was) && settled(); })) << warning();
+
+    // Peeled, one view alone, reported, closed.
+    const QImage plain = pictureOf("endoscopic");
+    the<QWidget>("peel")->setFocus(Qt::TabFocusReason);
+    type(Qt::Key_Down);
+    EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") != plain; }));
+    type(Qt::Key_Up);
+    type(Qt::Key_Escape);
+    type(Qt::Key_E);
+    EXPECT_FALSE(the<QWidget>("coronal")->isVisible());
+    type(Qt::Key_E);
+    EXPECT_TRUE(the<QWidget>("coronal")->isVisible());
+    type(Qt::Key_W, Qt::ControlModifier);
+    EXPECT_TRUE(eventually([] { return window() == nullptr; }));
+}
+
+TEST_F(Reading, TheListOfKeysNamesEveryKeyAndNoneTwice)
+{
+    openCase();
+    type(Qt::Key_Question);
+    auto* box = the<QMessageBox>("keys");
+    const QString listed = box->text().replace("&nbsp;", " ");
+    std::set<QString> seen;
+    for (const QMenu* menu : window()->menuBar()->findChildren<QMenu*>())
+        for (const QAction* action : menu->actions()) {
+            const QString key = action->shortcut().toString();
+            if (key.isEmpty())
+                continue;
+            EXPECT_TRUE(seen.insert(key).second) << key.toStdString();
+            EXPECT_TRUE(listed.contains("<b>" + key.toHtmlEscaped() + "</b>")) << key.toStdString();
+            EXPECT_TRUE(listed.contains(action->text().remove('&').toHtmlEscaped())) << key.toStdString();
+        }
+    for (const char* other : {"W A S D", "arrows, Return", "Shift+Return", "Tab, Shift+Tab", "PgUp, PgDown"})
+        EXPECT_TRUE(listed.contains(QString("<b>%1</b>").arg(other))) << other;
+    QTest::keyClick(box, Qt::Key_Escape);
+    EXPECT_TRUE(eventually([&] { return window()->findChild<QMessageBox*>("keys") == nullptr; }));
+}
+
+}  // namespace
+}  // namespace vicon::viewer
