@@ -185,9 +185,9 @@ double leastMegabytes(const std::string& step, std::map<std::string, double> mb,
         return 2 * mb["dicom"];
     if (step == "resample")
         return mb["dicom"] + mb["volume.mha"];
-    if (step == "segment" || step == "quality")
+    if (step == "segment")
         return mb["volume.mha"] + inside_mb;
-    if (step == "skeleton")
+    if (step == "skeleton" || step == "quality")
         return inside_mb;
     if (step == "subdivide")  // the densities of the crop; labels; 16-bit segments; the surface
         return 2 * inside_mb + inside_mb + 2 * inside_mb + mb["cells.vtp"];
