@@ -243,7 +243,7 @@ TEST_F(Snapshots, CarryNameAndWarningOfLossyPixels)
     request.station_mm = 100;
     const Area caption{302, 302, 290, 200};
     const int plain = findColor(shoot(of, request), kTextColor, caption, 80).count;
-    request.caption.patient_name = "Müller^Änne";
+    request.caption.patient_name = "Müller^Änne Annegret";  // longer than "name not given"
     const int named = findColor(shoot(of, request), kTextColor, caption, 80).count;
     EXPECT_GT(named, plain + 30);
     EXPECT_EQ(findColor(shoot(of, request), kWarningColor, caption, 30).count, 0);
@@ -258,15 +258,15 @@ TEST_F(Snapshots, ASliceOfAPatientOfWhomNothingIsKnownSaysNoDistance)
     request.view = sliceThrough(prepared.volume().grid, SlicePlane::transverse, colon.polyp_mm, 400, 400);
     request.point_mm = colon.polyp_mm;
     request.window = {"dark", 100, 10000};
-    // Under two lines, the place and the window.
+    // Under three lines: the place, that there is no name, and the window.
     const double line_px = 1.35 * 1.15 * textHeightFor(400, 400);
     EXPECT_EQ(
-        findColor(slicePicture(prepared.volume(), request), kTextColor, {0, 2.4 * line_px, 180, 3 * line_px}, 60).count,
+        findColor(slicePicture(prepared.volume(), request), kTextColor, {0, 3.4 * line_px, 180, 3 * line_px}, 60).count,
         0);
     request.caption.patient_id = "PH-1";
     request.caption.position = "supine";
     EXPECT_GT(
-        findColor(slicePicture(prepared.volume(), request), kTextColor, {0, 2.4 * line_px, 180, 3 * line_px}, 60).count,
+        findColor(slicePicture(prepared.volume(), request), kTextColor, {0, 3.4 * line_px, 180, 3 * line_px}, 60).count,
         0);
 }
 
