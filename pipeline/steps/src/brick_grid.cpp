@@ -57,8 +57,7 @@ void BrickGrid::number(const InsideVolume& inside)
             for (std::uint32_t i = 0; i < size_[0]; ++i, ++n)
                 if (brick_of_[n]) {
                     brick_of_[n] = std::uint32_t(bricks_.size());
-                    bricks_.push_back(
-                        {{}, {std::int16_t(i * kEdge), std::int16_t(j * kEdge), std::int16_t(k * kEdge)}});
+                    bricks_.push_back({{}, {int(i * kEdge), int(j * kEdge), int(k * kEdge)}});
                 }
     if (placeCount() > std::numeric_limits<std::uint32_t>::max())
         throw Error(ErrorCode::no_memory, "the lumen has more than 4294967295 voxels");

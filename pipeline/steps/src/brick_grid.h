@@ -64,7 +64,7 @@ public:
 private:
     struct Brick {
         std::array<std::uint32_t, 7> begin{};  ///< first place of the brick on each side, and last its own
-        std::array<std::int16_t, 3> first{};   ///< its first voxel
+        std::array<std::int32_t, 3> first{};   ///< its first voxel
     };
     struct Step {
         std::uint8_t brick, voxel;

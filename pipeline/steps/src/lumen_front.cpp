@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <limits>
 
 #include "allocate.h"
 
@@ -51,6 +52,8 @@ float LumenFront::solveEikonal(std::array<Upwind, 3> up) const
 
 LumenFront::LumenFront(const InsideVolume& inside) : inside_(inside), bricks_(inside)
 {
+    if (inside.voxels.size() >= std::numeric_limits<std::uint32_t>::max())
+        throw Error(ErrorCode::no_memory, "the colon's box has more than 4294967295 voxels");
     for (std::size_t d = 0; d < 3; ++d) {
         const auto square = float(inside.grid.spacing_mm[d] * inside.grid.spacing_mm[d]);
         spacing_[d] = std::sqrt(square);
