@@ -69,33 +69,23 @@ public:
         });
     }
 
-    /// Distance from boundary, when an earlier step made it on its way; it is given away.
-    std::optional<FieldVolume> takeWallDistance()
-    {
-        const std::lock_guard lock(mutex_);
-        return std::exchange(wall_distance_, std::nullopt);
-    }
-    void keepWallDistance(FieldVolume field)
-    {
-        const std::lock_guard lock(mutex_);
-        wall_distance_ = std::move(field);
-    }
-
-    /// Begins to contour the lumen, when the densities are in memory anyway.
+    /// Begins to contour the lumen, unless that was begun, or the densities around it are not in memory.
     void beginSurface(const steps::CellOptions& options)
     {
         const std::lock_guard lock(mutex_);
         if (around_lumen_ && inside_ && !surface_.valid())
             surface_ = std::async(std::launch::async, [&densities = *around_lumen_, &inside = *inside_, options] {
-                NoProgress quiet;
-                return steps::LumenSurface(densities, inside, options, quiet);
-            });
+                           NoProgress quiet;
+                           return steps::LumenSurface(densities, inside, options, quiet);
+                       }).share();
     }
-    /// The lumen's surface, when an earlier step began it; it is given away.
-    std::future<steps::LumenSurface> takeSurface()
+    /// The lumen's surface; reads the densities where an earlier run made them.
+    std::shared_future<steps::LumenSurface> surface(const steps::CellOptions& options)
     {
+        densitiesAroundLumen();
+        beginSurface(options);
         const std::lock_guard lock(mutex_);
-        return std::exchange(surface_, {});
+        return surface_;
     }
 
     /// The lumen flooded from the skeleton's paths, when an earlier step began it; it is given away.
@@ -175,9 +165,8 @@ private:
     std::optional<HuVolume> volume_, around_lumen_;
     std::optional<InsideVolume> inside_;
     std::optional<SegmentVolume> segments_;
-    std::optional<FieldVolume> wall_distance_;
     std::optional<Skeleton> skeleton_;
-    std::future<steps::LumenSurface> surface_;          // reads around_lumen_ and inside_
+    std::shared_future<steps::LumenSurface> surface_;   // reads around_lumen_ and inside_
     std::future<steps::PathFlood> flood_;               // reads inside_
     std::map<std::string, std::future<void>> writing_;  // last: what is written must outlive it
 };

@@ -123,7 +123,6 @@ json runTree(const steps::LumenPlan& plan, const StepInputs& inputs, ScanArtefac
                    {"total_length_mm", found.tree.totalLength_mm()}};
     artefact::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
     artefact::writeSkeletonTree(artefacts.folder() / "skeleton.vtp", found.tree);
-    artefacts.keepWallDistance(std::move(found.wall_mm));
     return result;
 }
 
@@ -148,7 +147,6 @@ json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepR
     result["length_mm"] = found.curve.length_mm();
     artefact::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
     artefacts.put(std::move(found.curve));
-    artefacts.keepWallDistance(std::move(found.wall_mm));
     return result;
 }
 
@@ -173,9 +171,7 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
 {
     PartOfProgress divide(progress, 0, 0.6), tell(progress, 0.6, 0.9), project(progress, 0.9, 1);
     const InsideVolume& inside = artefacts.inside();
-    artefacts.densitiesAroundLumen();  // reads them where an earlier run made them
-    artefacts.beginSurface(inputs.config.get<steps::CellOptions>());
-    auto contour = artefacts.takeSurface();
+    const auto contour = artefacts.surface(inputs.config.get<steps::CellOptions>());
     auto options = inputs.config.get<steps::SubdivideOptions>();
     const SkeletonTree tree = artefact::readSkeletonTree(artefacts.folder() / "skeleton.vtp");
     if (!tree.empty())
@@ -199,18 +195,17 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
     return result;
 }
 
-json runPotential(const StepInputs&, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
+json runPotential(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
 {
     PartOfProgress wall(progress, 0, 0.3), exit(progress, 0.3, 1);
     const auto largest = [](const FieldVolume& field) {
         return *std::max_element(field.voxels.begin(), field.voxels.end());
     };
     json result;
-    std::optional<FieldVolume> from_wall_mm = artefacts.takeWallDistance();
-    if (!from_wall_mm)
-        from_wall_mm = steps::wallDistance(artefacts.inside(), wall);
-    result["largest_wall_distance_mm"] = largest(*from_wall_mm);
-    artefacts.write("wall_distance.mha", *std::move(from_wall_mm));
+    const auto surface = artefacts.surface(inputs.config.get<steps::CellOptions>());
+    FieldVolume from_wall_mm = steps::wallDistance(artefacts.inside(), surface.get().nearWall(), wall);
+    result["largest_wall_distance_mm"] = largest(from_wall_mm);
+    artefacts.write("wall_distance.mha", std::move(from_wall_mm));
     const SkeletonTree tree = artefact::readSkeletonTree(artefacts.folder() / "skeleton.vtp");
     FieldVolume from_exit_mm = tree.empty() ? steps::exitDistance(artefacts.inside(), artefacts.skeleton(), exit)
                                             : steps::exitDistance(artefacts.inside(), tree, exit);
@@ -272,13 +267,13 @@ const std::vector<Step>& stepTable()
          parametersFrom<SubdivideOptions, CellOptions, ProjectionOptions>,
          runSubdivide},
         {"potential",
-         2,
+         3,
          0.85,
          1,
-         {"segment", "skeleton"},
-         Densities::none,
+         {"resample", "segment", "skeleton"},
+         Densities::around_lumen,
          always({"exit_distance.mha", "wall_distance.mha"}),
-         [](const Config&) { return json::object(); },
+         parametersFrom<CellOptions>,
          runPotential},
     };
     return kTable;

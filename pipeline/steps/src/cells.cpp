@@ -16,14 +16,12 @@
 #include <cmath>
 #include <limits>
 
-#include "allocate.h"
-#include "wall_field.h"
+#include "vicon/core/error.h"
+#include "wall_values.h"
 
 namespace vicon::steps {
 namespace {
 
-/// The field is contoured as whole numbers: half the memory of floats, and the wall's place to 1e-4 of a voxel.
-constexpr float kScale = 10000;
 /// Where the densities' gradient is further than this from the surface's own normal (cosine), it belongs to something
 /// else, a fluid level or a neighbouring loop, and the surface's normal is taken.
 constexpr double kAgree = 0.5;
@@ -35,30 +33,6 @@ struct Contour {
     std::size_t pointCount() const { return points.size() / 3; }
     std::size_t triangleCount() const { return triangles.size() / 3; }
 };
-
-/// The field with one more voxel on every side, so that the surface closes where the scan ends.
-Volume<std::int16_t> paddedField(const WallField& field, const InsideVolume& inside)
-{
-    const auto [nx, ny, nz] = inside.grid.size;
-    auto padded = makeVolume<std::int16_t>(Grid{.size = {nx + 2, ny + 2, nz + 2}}, std::int16_t(kScale));
-    const RowsNearLumen rows(inside);
-    tbb::parallel_for(tbb::blocked_range<int>(-1, nz + 1), [&, nx = nx, ny = ny](const tbb::blocked_range<int>& range) {
-        for (int k = range.begin(); k < range.end(); ++k)
-            for (int j = -1; j <= ny; ++j) {
-                if (!rows.near(j, k))
-                    continue;
-                for (int i = -1; i <= nx; ++i) {
-                    const Index3 v{i, j, k};
-                    const bool is_inside = inside.valueOr(v, kOutside) != kOutside;
-                    float value = is_inside ? -1.0F : 1.0F;
-                    if (besideOther(inside, v))
-                        value = is_inside ? field.ofInside(v) : field.ofOutside(v);
-                    padded.at({i + 1, j + 1, k + 1}) = std::int16_t(std::lround(value * kScale));
-                }
-            }
-    });
-    return padded;
-}
 
 Contour contour(Volume<std::int16_t> field)
 {
@@ -261,6 +235,7 @@ struct LumenSurface::Parts {
     const InsideVolume& inside;
     WallField field;
     Contour contour;
+    std::vector<NearWall> near_wall;
 };
 
 LumenSurface::LumenSurface(const HuVolume& hu, const InsideVolume& inside, const CellOptions& options,
@@ -268,7 +243,9 @@ LumenSurface::LumenSurface(const HuVolume& hu, const InsideVolume& inside, const
 {
     progress.report(0, "surface");
     auto parts = std::make_unique<Parts>(hu, inside, options);
-    parts->contour = contour(paddedField(parts->field, inside));
+    auto values = wallValues(parts->field, inside);
+    parts->near_wall = findNearWall(values, inside);
+    parts->contour = contour(std::move(values));
     parts_ = std::move(parts);
     progress.check();
     progress.report(1, "surface");
@@ -277,6 +254,11 @@ LumenSurface::LumenSurface(const HuVolume& hu, const InsideVolume& inside, const
 LumenSurface::~LumenSurface() = default;
 LumenSurface::LumenSurface(LumenSurface&&) noexcept = default;
 LumenSurface& LumenSurface::operator=(LumenSurface&&) noexcept = default;
+
+const std::vector<NearWall>& LumenSurface::nearWall() const
+{
+    return parts_->near_wall;
+}
 
 artefact::CellSurface LumenSurface::cellsOf(const SegmentVolume& segments, Progress& progress) const
 {

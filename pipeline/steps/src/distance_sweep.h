@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "vicon/core/geometry.h"
@@ -17,7 +18,7 @@ inline constexpr float kPlaceUnit = 1.0F / 128;
 /// Half-way: where the wall lies when only the mask is known.
 inline constexpr std::uint8_t kHalfVoxel = 64;
 /// The wall lies at most this far before an outside voxel's centre, in voxels.
-inline constexpr float kLargestPlace = 1.9F;
+inline constexpr float kLargestPlace = 1;
 /// The wall distance of outside voxels while sweeping: nothing is nearer.
 inline constexpr float kNever = -1000;
 
@@ -31,38 +32,67 @@ struct Swept {
     std::uint8_t* place;  ///< null: the wall lies half-way everywhere
 };
 
-/// kLanes neighbouring columns, with a row of outside before and behind.
+/// Which stretches of kLanes voxels along the rows hold an inside voxel: a lumen fills a tenth of its box.
+class Occupied {
+public:
+    explicit Occupied(const Grid& grid)
+        : stretches_((grid.size[0] + kLanes - 1) / kLanes),
+          rows_(grid.size[1]),
+          any_(std::size_t(stretches_) * std::size_t(rows_) * std::size_t(grid.size[2]), 0)
+    {
+    }
+    int stretches() const { return stretches_; }
+    std::uint8_t& at(int stretch, int j, int k) { return any_[index(stretch, j, k)]; }
+    std::uint8_t at(int stretch, int j, int k) const { return any_[index(stretch, j, k)]; }
+
+private:
+    std::size_t index(int stretch, int j, int k) const
+    {
+        return std::size_t(stretch) + std::size_t(stretches_) * (std::size_t(j) + std::size_t(rows_) * std::size_t(k));
+    }
+    int stretches_, rows_;
+    std::vector<std::uint8_t> any_;
+};
+
+/// kLanes neighbouring columns from one row of outside voxels to the next.
 template <bool kPlaces>
 class ColumnBlock {
 public:
     explicit ColumnBlock(int rows)
-        : rows_(rows),
-          before_(std::size_t(rows) + 2),
+        : before_(std::size_t(rows) + 2),
           after_(std::size_t(rows)),
           place_(kPlaces ? before_.size() : 0),
           place_after_(kPlaces ? after_.size() : 0)
     {
-        if (kPlaces) {
-            place_.front().fill(kHalfVoxel);
-            place_.back().fill(kHalfVoxel);
-        }
     }
 
-    /// Copies `lanes` columns in; false when none of them holds an inside voxel.
-    bool load(const Swept& from, std::size_t first, std::size_t row_stride, int lanes)
+    /// Where in memory the block lies, and how much of it.
+    struct Part {
+        std::size_t first, stride;  ///< offset of the first row's first voxel; from row to row
+        int rows, lanes;
+        bool at_begin, at_end;  ///< no row lies before the first, behind the last
+    };
+
+    void load(const Swept& from, const Part& part)
     {
-        float any = 0;
+        rows_ = part.rows;
+        before_[0].fill(0);
+        before_[std::size_t(rows_) + 1].fill(0);
         for (int r = 0; r < rows_; ++r) {
-            const std::size_t n = first + std::size_t(r) * row_stride;
             Lanes& row = before_[std::size_t(r) + 1];
             row.fill(0);
-            std::copy_n(from.squared + n, lanes, row.begin());
-            for (const float value : row)
-                any = std::max(any, value);
-            if (kPlaces)
-                std::copy_n(from.place + n, lanes, place_[std::size_t(r) + 1].begin());
+            std::copy_n(from.squared + part.first + std::size_t(r) * part.stride, part.lanes, row.begin());
         }
-        return any > 0;
+        if constexpr (kPlaces)
+            for (int r = -1; r <= rows_; ++r) {
+                Lanes& row = place_[std::size_t(r + 1)];
+                row.fill(float(kHalfVoxel) * kPlaceUnit);
+                if ((r < 0 && part.at_begin) || (r == rows_ && part.at_end))
+                    continue;
+                const std::uint8_t* place = from.place + part.first + std::size_t(r) * part.stride;
+                std::transform(place, place + part.lanes, row.begin(),
+                               [](std::uint8_t p) { return float(p) * kPlaceUnit; });
+            }
     }
 
     /// after[r] = min over q of before[q] + weight * (r - q)^2. The search of a row ends at the distance found so far,
@@ -81,8 +111,8 @@ public:
             float reach = reachOf(best);
             for (int n = 1; reach >= weight * float(n) * float(n); ++n) {
                 const float step = weight * float(n) * float(n);
-                consider(best, std::size_t(std::max(r + 1 - n, 0)), step);
-                consider(best, std::size_t(std::min(r + 1 + n, rows_ + 1)), step);
+                consider(best, {std::size_t(std::max(r + 1 - n, 0)), std::size_t(std::min(r + 1 + n, rows_ + 1))},
+                         step);
                 if (n % 4 == 0)
                     reach = reachOf(best);
             }
@@ -92,14 +122,26 @@ public:
         }
     }
 
-    void store(const Swept& to, std::size_t first, std::size_t row_stride, int lanes) const
+    void store(const Swept& to, const Part& part) const
     {
         for (int r = 0; r < rows_; ++r) {
-            const std::size_t n = first + std::size_t(r) * row_stride;
-            std::copy_n(after_[std::size_t(r)].begin(), lanes, to.squared + n);
+            const std::size_t n = part.first + std::size_t(r) * part.stride;
+            std::copy_n(after_[std::size_t(r)].begin(), part.lanes, to.squared + n);
             if (kPlaces)
-                std::transform(place_after_[std::size_t(r)].begin(), place_after_[std::size_t(r)].begin() + lanes,
-                               to.place + n, [](float p) { return std::uint8_t(p); });
+                std::transform(place_after_[std::size_t(r)].begin(), place_after_[std::size_t(r)].begin() + part.lanes,
+                               to.place + n, [](float p) { return std::uint8_t(p / kPlaceUnit); });
+        }
+    }
+
+    /// Stores distances of inside voxels: distance(squared, place in voxels).
+    template <class Distance>
+    void store(const Swept& to, const Part& part, Distance distance) const
+    {
+        for (int r = 0; r < rows_; ++r) {
+            float* row = to.squared + part.first + std::size_t(r) * part.stride;
+            const Lanes& squared = after_[std::size_t(r)];
+            for (std::size_t l = 0; l < std::size_t(part.lanes); ++l)
+                row[l] = squared[l] > 0 ? distance(squared[l], kPlaces ? place_after_[std::size_t(r)][l] : 0) : 0;
         }
     }
 
@@ -110,7 +152,7 @@ private:
     };
 
     /// Distance of the wall, in voxels; below that of the voxel behind it.
-    static float wallAt(float squared, float place) { return std::sqrt(squared) - place * kPlaceUnit; }
+    static float wallAt(float squared, float place) { return std::sqrt(squared) - place; }
 
     /// The square of the largest distance, along the columns, at which something nearer may still lie.
     static float reachOf(const Nearest& best)
@@ -121,34 +163,63 @@ private:
         return farthest == kNever ? 0 : (farthest + kLargestPlace) * (farthest + kLargestPlace);
     }
 
-    void consider(Nearest& best, std::size_t row, float step)
+    void consider(Nearest& best, const std::array<std::size_t, 2>& rows, float step)
     {
-        const Lanes& other = before_[row];
         if constexpr (kPlaces) {
-            const Lanes& place = place_[row];
-            for (std::size_t l = 0; l < kLanes; ++l) {
-                const float wall = wallAt(other[l] + step, place[l]);
-                const bool better = wall < best.wall[l] || (wall == best.wall[l] && place[l] > best.place[l]);
-                best.squared[l] = better ? other[l] + step : best.squared[l];
-                best.place[l] = better ? place[l] : best.place[l];
-                best.wall[l] = better ? wall : best.wall[l];
-            }
+            if (!mayBeNearer(best, rows, step))
+                return;
+            for (const std::size_t row : rows)
+                takeNearer(best, before_[row], place_[row], step);
         } else {
-            for (std::size_t l = 0; l < kLanes; ++l)
-                best.squared[l] = std::min(best.squared[l], other[l] + step);
+            for (const std::size_t row : rows)
+                for (std::size_t l = 0; l < kLanes; ++l)
+                    best.squared[l] = std::min(best.squared[l], before_[row][l] + step);
         }
     }
 
-    int rows_;
+    /// Without a root: most rows are not nearer in any lane.
+    bool mayBeNearer(const Nearest& best, const std::array<std::size_t, 2>& rows, float step) const
+    {
+        constexpr float kRounding = 1.00001F;
+        const Lanes &before = before_[rows[0]], &behind = before_[rows[1]];
+        const Lanes &place_before = place_[rows[0]], &place_behind = place_[rows[1]];
+        std::array<int, kLanes> nearer;
+        for (std::size_t l = 0; l < kLanes; ++l) {
+            const float first = best.wall[l] + place_before[l], second = best.wall[l] + place_behind[l];
+            nearer[l] = (int(first > 0) & int(before[l] + step <= first * first * kRounding)) |
+                        (int(second > 0) & int(behind[l] + step <= second * second * kRounding));
+        }
+        return std::any_of(nearer.begin(), nearer.end(), [](int yes) { return yes != 0; });
+    }
+
+    // Both sides of every choice are computed, so that the compiler can choose lane by lane in vector registers.
+    static void takeNearer(Nearest& best, const Lanes& other, const Lanes& place, float step)
+    {
+        for (std::size_t l = 0; l < kLanes; ++l) {
+            const float squared = other[l] + step, wall = wallAt(squared, place[l]);
+            const bool better = int(wall < best.wall[l]) | (int(wall == best.wall[l]) & int(place[l] > best.place[l]));
+            best.squared[l] = better ? squared : best.squared[l];
+            best.place[l] = better ? place[l] : best.place[l];
+            best.wall[l] = better ? wall : best.wall[l];
+        }
+    }
+
+    int rows_ = 0;
     std::vector<Lanes> before_, after_, place_, place_after_;
 };
 
-/// The same along a row, where all distances are still those of the nearest outside voxel of the row itself.
-inline void sweepRow(const std::uint8_t* inside, float* squared, std::uint8_t* place, int count, float weight)
+/// The same along a row, where all distances are still those of the nearest outside voxel of the row itself. Marks
+/// the stretches that hold an inside voxel: element n of `occupied` tells of voxels from n * kLanes on.
+inline void sweepRow(const std::uint8_t* inside, float* squared, std::uint8_t* place, int count, float weight,
+                     std::uint8_t* occupied)
 {
+    const float scale = std::sqrt(weight);
     for (int i = 0; i < count;) {
         if (!inside[i]) {
-            ++i;
+            std::uint64_t next = 1;
+            if (i + 8 <= count)
+                std::memcpy(&next, inside + i, sizeof next);
+            i += next ? 1 : 8;
             continue;
         }
         int end = i;
@@ -158,7 +229,7 @@ inline void sweepRow(const std::uint8_t* inside, float* squared, std::uint8_t* p
         const std::uint8_t behind = place && end < count ? place[end] : kHalfVoxel;
         for (int v = i; v < end; ++v) {
             const int to_begin = v - i + 1, to_end = end - v;
-            const float scale = std::sqrt(weight), lead = float(before - behind) * kPlaceUnit;
+            const float lead = float(before - behind) * kPlaceUnit;
             const bool first = float(to_begin - to_end) * scale < lead ||
                                (float(to_begin - to_end) * scale == lead && before > behind);
             const auto d = float(place ? (first ? to_begin : to_end) : std::min(to_begin, to_end));
@@ -166,6 +237,7 @@ inline void sweepRow(const std::uint8_t* inside, float* squared, std::uint8_t* p
             if (place)
                 place[v] = first ? before : behind;
         }
+        std::fill(occupied + i / kLanes, occupied + (end - 1) / kLanes + 1, std::uint8_t(1));
         i = end;
     }
 }

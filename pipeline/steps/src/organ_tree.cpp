@@ -125,16 +125,16 @@ TreeResult findTree(const InsideVolume& inside, Point3 root_mm, double branch_mm
                     Progress& progress)
 {
     TreeResult result;
-    result.wall_mm = wallDistance(inside, progress);
+    const FieldVolume wall_mm = wallDistance(inside, progress);
     progress.report(0.2, "skeleton");
-    const LumenGraph graph = makeGraph(result.wall_mm, 1, 0);
+    const LumenGraph graph = makeGraph(wall_mm, 1, 0);
     const std::int32_t root = graph.nearest(root_mm);
     if (root < 0)
         throw Error(ErrorCode::bad_input, "there is no lumen to find a skeleton of");
     const LumenTree tree = centralTree(graph, root, {}, progress);
     const std::vector<NodeBranch> branches = branchesOf(graph, tree, branch_mm, progress);
     progress.report(0.5, "skeleton");
-    const DistanceProbe wall(result.wall_mm);
+    const DistanceProbe wall(wall_mm);
     result.tree = TreeFit(graph, branches, wall, options).fit(progress);
     for (const NodeBranch& branch : branches) {
         auto& voxels = result.voxels.emplace_back();

@@ -43,12 +43,9 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
 {
     SkeletonResult result;
     result.measures["pieces"] = nlohmann::json::array();
-    if (plan.pieces.empty()) {
-        result.wall_mm = wallDistance(inside, progress);
+    if (plan.pieces.empty())
         return result;
-    }
-    result.wall_mm = wallDistance(inside, progress);
-    const FieldVolume& wall_mm = result.wall_mm;
+    const FieldVolume wall_mm = wallDistance(inside, progress);
     progress.report(0.3, "skeleton");
     FieldVolume over_tube_mm;
     CheckOnly check(progress);

@@ -10,42 +10,82 @@
 
 #include "allocate.h"
 #include "distance_sweep.h"
-#include "wall_field.h"
+#include "vicon/core/fresh_memory.h"
+#include "wall_values.h"
 
 namespace vicon::steps {
 namespace {
 
 /// The least distance of an inside voxel from the wall, in voxels.
-constexpr double kLeastDistance = 0.05;
+constexpr float kLeastDistance = 0.05F;
 
-template <bool kPlaces>
-void sweepAll(const InsideVolume& inside, const Swept& swept, const std::array<float, 3>& weight)
+/// Calls visit(first, last) for each run of rows with an inside voxel among `count`.
+template <class AnyInside, class Visit>
+void forRuns(int count, AnyInside anyInside, Visit visit)
 {
+    for (int first = 0; first < count;) {
+        if (!anyInside(first)) {
+            ++first;
+            continue;
+        }
+        int last = first;
+        while (last + 1 < count && anyInside(last + 1))
+            ++last;
+        visit(first, last);
+        first = last + 1;
+    }
+}
+
+/// Squared distances along rows, then columns, then across slices; in the end distance(squared, place in voxels) of
+/// every inside voxel.
+template <bool kPlaces, class Distance>
+void sweepAll(const InsideVolume& inside, const Swept& swept, const std::array<float, 3>& weight, Distance distance)
+{
+    using Block = ColumnBlock<kPlaces>;
     const auto [nx, ny, nz] = swept.grid.size;
     const std::size_t row = std::size_t(nx), slice = row * std::size_t(ny);
-    const auto sweepColumns = [nx = nx, &swept](ColumnBlock<kPlaces>& block, std::size_t start, std::size_t stride,
-                                                float w) {
-        for (int i = 0; i < nx; i += kLanes) {
-            const int lanes = std::min(kLanes, nx - i);
-            if (!block.load(swept, start + std::size_t(i), stride, lanes))
-                continue;
-            block.sweep(w);
-            block.store(swept, start + std::size_t(i), stride, lanes);
-        }
+    Occupied occupied(swept.grid);
+    const auto partOf = [nx = nx](int stretch, int first, int last, int count, std::size_t start, std::size_t stride) {
+        const int i = stretch * kLanes;
+        return typename Block::Part{start + std::size_t(i) + std::size_t(first) * stride,
+                                    stride,
+                                    last - first + 1,
+                                    std::min(kLanes, nx - i),
+                                    first == 0,
+                                    last == count - 1};
     };
     tbb::parallel_for(tbb::blocked_range<int>(0, nz), [&, nx = nx, ny = ny](const tbb::blocked_range<int>& range) {
-        ColumnBlock<kPlaces> block(ny);
+        Block block(ny);
         for (int k = range.begin(); k < range.end(); ++k) {
             const std::size_t start = std::size_t(k) * slice;
-            for (std::size_t n = start; n < start + slice; n += row)
-                sweepRow(&inside.voxels[n], swept.squared + n, kPlaces ? swept.place + n : nullptr, nx, weight[0]);
-            sweepColumns(block, start, row, weight[1]);
+            for (int j = 0; j < ny; ++j) {
+                const std::size_t n = start + std::size_t(j) * row;
+                sweepRow(&inside.voxels[n], swept.squared + n, kPlaces ? swept.place + n : nullptr, nx, weight[0],
+                         &occupied.at(0, j, k));
+            }
+            for (int stretch = 0; stretch < occupied.stretches(); ++stretch)
+                forRuns(
+                    ny, [&](int j) { return occupied.at(stretch, j, k) != 0; },
+                    [&](int first, int last) {
+                        const auto part = partOf(stretch, first, last, ny, start, row);
+                        block.load(swept, part);
+                        block.sweep(weight[1]);
+                        block.store(swept, part);
+                    });
         }
     });
     tbb::parallel_for(tbb::blocked_range<int>(0, ny), [&, nz = nz](const tbb::blocked_range<int>& range) {
-        ColumnBlock<kPlaces> block(nz);
+        Block block(nz);
         for (int j = range.begin(); j < range.end(); ++j)
-            sweepColumns(block, std::size_t(j) * row, slice, weight[2]);
+            for (int stretch = 0; stretch < occupied.stretches(); ++stretch)
+                forRuns(
+                    nz, [&](int k) { return occupied.at(stretch, j, k) != 0; },
+                    [&](int first, int last) {
+                        const auto part = partOf(stretch, first, last, nz, std::size_t(j) * row, slice);
+                        block.load(swept, part);
+                        block.sweep(weight[2]);
+                        block.store(swept, part, distance);
+                    });
     });
 }
 
@@ -63,55 +103,13 @@ std::array<float, 3> weightsOf(const Grid& grid)
     return weight;
 }
 
-template <class Convert>
-void convertInside(FieldVolume& field, const InsideVolume& inside, Convert convert)
+/// Where the wall lies before each outside voxel, in 128ths of a voxel: nowhere, unless an inside voxel is beside it.
+std::vector<std::uint8_t> placesOf(const std::vector<NearWall>& wall, const InsideVolume& inside)
 {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, field.voxels.size(), 1 << 16), [&](const auto& range) {
-        for (std::size_t n = range.begin(); n < range.end(); ++n)
-            if (inside.voxels[n])
-                field.voxels[n] = convert(n);
-    });
-}
-
-/// Distance in voxels between a voxel beside the wall and the wall: the wall field there over its slope towards the
-/// other side, steepest along each axis.
-double distanceToWall(const WallField& wall, const InsideVolume& inside, Index3 v)
-{
-    const Grid& grid = inside.grid;
-    const double unit = unitOf(grid);
-    const auto valueAt = [&](Index3 n) {
-        return double(inside.valueOr(n, kOutside) ? wall.ofInside(n) : wall.ofOutside(n));
-    };
-    const double here = valueAt(v), towards = here < 0 ? 1 : -1;
-    double slope2 = 0;
-    for (std::size_t d = 0; d < 3; ++d) {
-        double steepest = 0;
-        for (const int step : {-1, 1}) {
-            Index3 n = v;
-            (d == 0 ? n.i : d == 1 ? n.j : n.k) += step;
-            steepest = std::max(steepest, (valueAt(n) - here) * towards * unit / grid.spacing_mm[d]);
-        }
-        slope2 += steepest * steepest;
-    }
-    return slope2 > 0 ? std::abs(here) / std::sqrt(slope2) : 0;
-}
-
-/// Where the wall lies before each outside voxel beside an inside one.
-std::vector<std::uint8_t> placesOf(const WallField& wall, const InsideVolume& inside)
-{
-    const Grid& grid = inside.grid;
-    std::vector<std::uint8_t> places(inside.voxels.size(), kHalfVoxel);
-    const RowsNearLumen rows(inside);
-    tbb::parallel_for(tbb::blocked_range<int>(0, grid.size[2]), [&](const tbb::blocked_range<int>& range) {
-        for (int k = range.begin(); k < range.end(); ++k)
-            for (int j = 0; j < grid.size[1]; ++j)
-                for (int i = 0; i < grid.size[0] && rows.near(j, k); ++i)
-                    if (const Index3 v{i, j, k}; !inside.at(v) && besideOther(inside, v)) {
-                        const double voxels = distanceToWall(wall, inside, v);
-                        places[grid.offset(v)] =
-                            std::uint8_t(std::lround(std::min(float(voxels), kLargestPlace) / kPlaceUnit));
-                    }
-    });
+    std::vector<std::uint8_t> places;
+    fillFresh(places, inside.voxels.size(), std::uint8_t(0));
+    for (const NearWall& near : wall)
+        places[near.offset] = std::uint8_t(std::lround(std::min(near.voxels, kLargestPlace) / kPlaceUnit));
     return places;
 }
 
@@ -121,36 +119,38 @@ FieldVolume wallDistance(const InsideVolume& inside, Progress& progress)
 {
     progress.report(0, "wall distance");
     auto field = makeVolume<float>(inside.grid);
-    sweepAll<false>(inside, {inside.grid, field.voxels.data(), nullptr}, weightsOf(inside.grid));
+    sweepAll<false>(inside, {inside.grid, field.voxels.data(), nullptr}, weightsOf(inside.grid),
+                    [unit_mm = unitOf(inside.grid)](float squared, float) {
+                        return float(unit_mm * (std::sqrt(double(squared)) - 0.5));
+                    });
     progress.check();
-    convertInside(field, inside, [&, unit_mm = unitOf(inside.grid)](std::size_t n) {
-        return float(unit_mm * (std::sqrt(double(field.voxels[n])) - 0.5));
-    });
+    progress.report(1, "wall distance");
+    return field;
+}
+
+FieldVolume wallDistance(const InsideVolume& inside, const std::vector<NearWall>& wall, Progress& progress)
+{
+    progress.report(0, "wall distance");
+    auto places = placesOf(wall, inside);
+    auto field = makeVolume<float>(inside.grid);
+    const auto unit_mm = float(unitOf(inside.grid));
+    sweepAll<true>(inside, {inside.grid, field.voxels.data(), places.data()}, weightsOf(inside.grid),
+                   [unit_mm](float squared, float place) {
+                       return unit_mm * std::max(std::sqrt(squared) - place, kLeastDistance);
+                   });
+    progress.check();
+    // Beside the wall the field itself tells the distance, better than the way to a voxel's centre.
+    for (const NearWall& near : wall)
+        if (inside.voxels[near.offset])
+            field.voxels[near.offset] = unit_mm * std::max(near.voxels, kLeastDistance);
     progress.report(1, "wall distance");
     return field;
 }
 
 FieldVolume wallDistance(const InsideVolume& inside, const HuVolume& hu, Progress& progress)
 {
-    progress.report(0, "wall distance");
-    const WallField wall(hu, inside, {});
-    auto places = placesOf(wall, inside);
-    progress.check();
-    progress.report(0.3, "wall distance");
-    auto field = makeVolume<float>(inside.grid);
-    sweepAll<true>(inside, {inside.grid, field.voxels.data(), places.data()}, weightsOf(inside.grid));
-    progress.check();
-    const double unit_mm = unitOf(inside.grid);
-    convertInside(field, inside, [&](std::size_t n) {
-        double voxels = std::sqrt(double(field.voxels[n])) - double(places[n]) * double(kPlaceUnit);
-        // Beside the wall the field itself tells the distance, better than the way to a voxel's centre.
-        if (const Index3 v = inside.grid.indexOf(n); field.voxels[n] < 1.5F)
-            if (const double slope = distanceToWall(wall, inside, v); slope > 0)
-                voxels = slope;
-        return float(unit_mm * std::max(voxels, kLeastDistance));
-    });
-    progress.report(1, "wall distance");
-    return field;
+    const WallField field(hu, inside, {});
+    return wallDistance(inside, findNearWall(wallValues(field, inside), inside), progress);
 }
 
 }  // namespace vicon::steps

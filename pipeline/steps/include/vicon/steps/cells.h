@@ -1,12 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "vicon/artefact/cells_file.h"
 #include "vicon/artefact/subdivision_file.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/volume.h"
+#include "vicon/steps/wall_distance.h"
 
 namespace vicon::steps {
 
@@ -47,6 +49,9 @@ public:
 
     /// Throws Error{bad_input} when the segments do not lie on the grid of the labels.
     artefact::CellSurface cellsOf(const SegmentVolume& segments, Progress& progress) const;
+
+    /// The voxels beside the wall with their distances from the surface, for wallDistance(); in order of their offsets.
+    const std::vector<NearWall>& nearWall() const;
 
 private:
     struct Parts;

@@ -79,7 +79,6 @@ Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, P
 struct TreeResult {
     SkeletonTree tree;
     artefact::SkeletonVoxels voxels;  ///< of each branch: 26-connected, from the root; neighbours share their fork
-    FieldVolume wall_mm;              ///< wallDistance() of the lumen
 };
 
 /// The skeleton of a lumen that branches, without loops by construction.

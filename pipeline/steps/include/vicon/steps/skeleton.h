@@ -42,7 +42,6 @@ struct SkeletonOptions {
 struct SkeletonResult {
     Skeleton curve;                   ///< pieces and bridges from rectum to caecum
     artefact::SkeletonVoxels voxels;  ///< the 26-connected path of each piece
-    FieldVolume wall_mm;              ///< wallDistance() of the lumen, made on the way
     nlohmann::json measures = nlohmann::json::object();
 };
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "vicon/core/progress.h"
 #include "vicon/core/volume.h"
 
@@ -11,10 +14,21 @@ namespace vicon::steps {
 /// Same grid as `inside`. The result does not depend on the number of threads.
 FieldVolume wallDistance(const InsideVolume& inside, Progress& progress);
 
-/// The same with the wall where the densities cross the half level, to a fraction of a voxel: beside gas at -480 HU,
-/// under fluid half-way between tissue (40 HU) and the local fluid. Every voxel's distance is corrected by where the
-/// wall lies before its nearest outside voxel; within one voxel of the wall at least 0.05 of a voxel. `hu` must lie on
-/// the lattice of `inside` and may be larger. Throws Error{bad_input} when the lattices do not fit together.
+/// How far a voxel beside the wall, inside or outside, is from it.
+struct NearWall {
+    std::size_t offset;  ///< of the voxel in its grid
+    float voxels;        ///< in voxels of the smallest spacing
+};
+
+/// The same with the wall where the densities cross the half level, to a fraction of a voxel (LumenSurface::nearWall):
+/// before each outside voxel beside the lumen it lies as far as `wall` tells, and the nearest wall decides; beside the
+/// wall a voxel's own distance is taken, at least 0.05 of a voxel.
+/// @param wall all voxels beside the wall, inside and outside, each once
+FieldVolume wallDistance(const InsideVolume& inside, const std::vector<NearWall>& wall, Progress& progress);
+
+/// The same from the densities, with the wall at -480 HU beside gas and half-way between tissue (40 HU) and the local
+/// fluid under fluid. `hu` must lie on the lattice of `inside` and may be larger. Throws Error{bad_input} when the
+/// lattices do not fit together.
 FieldVolume wallDistance(const InsideVolume& inside, const HuVolume& hu, Progress& progress);
 
 }  // namespace vicon::steps
