@@ -136,6 +136,10 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
     const std::vector<ViewPose> poses = posesOf(scan, settings.step_mm);
     const auto prepareAfter = [&](std::size_t n) { ahead.prepare(poses[(n + 1) % poses.size()].pose, lens); };
     std::vector<SeenParts> chosen;
+    scene.lookFrom(poses[0].pose, settings.angle_deg);
+    scene.showSeen(ahead.seenFrom(poses[0].pose, lens));
+    scene.sendAll();  // as the reading room does before one flies
+    picture.draw(settings.side, settings.side);
     // Each way of drawing flies the whole flight, frame after frame, as a reader does.
     for (std::size_t n = 0; n < poses.size(); ++n) {
         chosen.push_back(ahead.seenFrom(poses[n].pose, lens));

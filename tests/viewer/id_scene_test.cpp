@@ -3,6 +3,7 @@
 #include "scan_fixture.h"
 #include "vicon/viewer/scene/cell_visibility.h"
 #include "vicon/viewer/scene/offscreen.h"
+#include "vicon/viewer/scene/surface_scene.h"
 
 namespace vicon::viewer {
 namespace {
@@ -30,6 +31,29 @@ TEST_F(IdScenes, TellTheSameTrianglesWhetherEverythingIsDrawnOrOnlyWhatIsInSight
         EXPECT_EQ(IdScene::trianglesIn(offscreen.render(kSide, kSide)), in_all) << station_mm << " mm";
         EXPECT_GT(in_all.size(), 100U);
     }
+}
+
+// The reading room sends all cells to the driver before one flies.
+TEST_F(IdScenes, WhatIsSentAheadIsNeitherDrawnNorCounted)
+{
+    constexpr int kSide = 100;
+    const PreparedScan of = scan();
+    SurfaceScene scene(of.cells());
+    Offscreen offscreen(scene.renderer());
+    const SeenParts one{.everything = false, .segments = {of.cells().segment.front()}, .patches = {}};
+    const PathFrames& frames = of.frames();
+    const double middle_mm = frames.length_mm() / 2;
+    scene.lookFrom(lookAt(frames.at(middle_mm).position_mm, frames.at(middle_mm + 5).position_mm, {0, 0, 1}), 90);
+    scene.showSeen(one);
+    const std::size_t triangles = scene.trianglesShown();
+    const auto before = offscreen.render(kSide, kSide).rgb;
+    scene.sendAll();
+    EXPECT_EQ(offscreen.render(kSide, kSide).rgb, before);
+    EXPECT_EQ(scene.cellsShown(), 1U);
+    EXPECT_EQ(scene.trianglesShown(), triangles);
+    scene.showOnly({});
+    EXPECT_EQ(scene.cellsShown(), scene.cellCount());
+    EXPECT_NE(offscreen.render(kSide, kSide).rgb, before);
 }
 
 }  // namespace

@@ -116,6 +116,37 @@ TEST(SightLines, AWallOfOneVoxelHidesWhatIsBehindIt)
     }
 }
 
+// A hall with half a wall near its far end. Wide bundles would meet what lies far behind the wall's edge.
+TEST(SightLines, FarAwayLittleIsMetBehindAnEdge)
+{
+    InsideVolume inside(Grid{.size = {40, 40, 300}});
+    for (int k = 2; k < 298; ++k)
+        for (int j = 2; j < 38; ++j)
+            for (int i = 2; i < 38; ++i)
+                inside.at({i, j, k}) = k >= 250 && k < 253 && i >= 20 ? kOutside : kGas;
+    std::vector<float> points;
+    std::vector<std::uint32_t> triangles;
+    std::vector<Patch> patches;
+    for (std::uint32_t n = 0; n < 17; ++n) {  // on the end wall, side by side behind the half wall
+        const float x = 20.2F + float(n), z = 297.4F;
+        points.insert(points.end(), {x, 20, z, x + 0.5F, 20, z, x, 20.5F, z});
+        triangles.insert(triangles.end(), {3 * n, 3 * n + 1, 3 * n + 2});
+        patches.push_back({n, 1, 1});
+    }
+    const SightLines lines(inside, {points, triangles, patches});
+    for (const double x : {12.0, 15.0, 17.0, 18.5, 20.0}) {
+        const auto seen = lines.seenFrom(lookAt({x, 20, 6}, {x, 20, 100}, {0, 1, 0}), {90, 768, 768});
+        const double shadow = 20 + (20 - x) * (297.4 - 250) / (250 - 6);  // where the edge's shadow begins there
+        for (std::size_t n = 0; n < patches.size(); ++n) {
+            const double beyond = points[9 * n] - shadow;
+            if (beyond < 0)
+                EXPECT_TRUE(seen[n]) << x << " mm, " << beyond << " mm behind the edge";
+            if (beyond > 5)
+                EXPECT_FALSE(seen[n]) << x << " mm, " << beyond << " mm behind the edge";
+        }
+    }
+}
+
 TEST(SightLines, NothingIsProvedBesideTheWall)
 {
     const test::TestColon colon;

@@ -11,6 +11,19 @@
 
 namespace vicon::viewer {
 
+/// The next whole number below or above, of numbers within 65536 of 0 and but for some 1e-11: bundles are wider than
+/// that. Without the instructions for rounding, which not every machine of the architecture has, std::floor takes a
+/// fifth of all the time that bundles take.
+inline int floorOf(double x)
+{
+    constexpr int kAway = 65536;  // conversion cuts off towards 0, which is downwards there
+    return int(x + kAway) - kAway;
+}
+inline int ceilOf(double x)
+{
+    return -floorOf(-x);
+}
+
 /// How far around a place nothing but lumen lies, or nothing but what is outside of it; counted in voxels along the
 /// axes of the grid.
 ///
@@ -33,8 +46,8 @@ public:
         std::array<int, 3> cube{};
         double to_side = 1, beyond = 0;
         for (std::size_t d = 0; d < 3; ++d) {
-            const double low = std::floor(p[d]);
-            cube[d] = int(low) + 1;
+            const int low = floorOf(p[d]);
+            cube[d] = low + 1;
             to_side = std::min({to_side, p[d] - low, 1 - (p[d] - low)});
             beyond = std::max({beyond, -1 - p[d], p[d] - (size_[d] - 1)});
         }

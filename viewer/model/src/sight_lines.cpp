@@ -13,9 +13,12 @@ namespace {
 
 using Voxels = std::array<double, 3>;  // a place or a step, counted in voxels along the grid's axes
 
-/// Squares along the picture's height: those that bundles start with, those that tell patches, and those into which a
-/// bundle is split that runs into a thin wall. Chosen on ctc-prone and the default phantom.
-constexpr double kFirst = 12, kTelling = 24, kFinest = 96;
+/// Squares along the picture's height: those that bundles start with, those that tell patches, those into which a
+/// bundle is split that runs into a thin wall, and those far away. Chosen on ctc-prone and the default phantom.
+constexpr double kFirst = 12, kTelling = 24, kFinest = 96, kFinestFar = 192;
+/// Voxels from a bundle's middle to its side: a wider one is split before it tells patches, and one that runs into a
+/// wall is split into the finest squares of far away. A wide bundle meets much that lies behind a fold's edge.
+constexpr double kWideTelling = 3, kWideInWall = 1.5;
 /// Bundles are wider than their squares by this part of a voxel, and by this part of the finest square: what the
 /// graphics driver's arithmetic may be off.
 constexpr double kSlackVoxels = 0.02, kSlackSquares = 0.05;
@@ -51,7 +54,8 @@ public:
         right_ = inVoxels(field.grid(), pose.right());
         up_ = inVoxels(field.grid(), pose.up);
         for (std::size_t d = 0; d < 3; ++d)
-            widest_ = std::max(widest_, std::abs(right_[d]) + std::abs(up_[d]));
+            wide_[d] = std::abs(right_[d]) + std::abs(up_[d]);
+        widest_ = *std::max_element(wide_.begin(), wide_.end());
         top_ = std::tan(radians(lens.view_angle_deg) / 2);
     }
 
@@ -61,8 +65,9 @@ public:
     {
         const Voxels way = wayThrough(square);
         const double speed = std::max({std::abs(way[0]), std::abs(way[1]), std::abs(way[2])});
-        const double spread = (square.half + kSlackSquares * top_ / kFinest) * widest_;
-        const bool telling = square.half <= top_ / kTelling * 1.001, finest = square.half <= top_ / kFinest * 1.001;
+        const double half = square.half + kSlackSquares * top_ / kFinest, spread = half * widest_;
+        const bool telling = atMost(square, kTelling), fine = atMost(square, kFinest);
+        const bool finest_far = atMost(square, kFinestFar);
         const double step = kLeastStep / speed;
         std::array<double, kMostInWall + 1> in_wall{};  // depths of steps that are not told yet
         int waiting = 0;
@@ -77,17 +82,18 @@ public:
                 depth += leap;
                 continue;
             }
-            if (!telling) {
-                split(square, depth);
+            const bool finest = finest_far || (fine && depth * spread <= kWideInWall);
+            if (!telling || (!finest && depth * spread > kWideTelling)) {
+                split(square, waiting > 0 ? in_wall[0] : depth);
                 return;
             }
             if (end == 0 && !open)
                 end = endOf(square, way, depth, depth + step);
             if (end > 0) {
                 for (int n = 0; n < waiting; ++n)
-                    tell(way, in_wall[std::size_t(n)], in_wall[std::size_t(n)] + step, spread);
+                    tell(way, in_wall[std::size_t(n)], in_wall[std::size_t(n)] + step, half);
                 if (end > depth)
-                    tell(way, depth, end, spread);
+                    tell(way, depth, end, half);
                 return;
             }
             if (!finest && (waiting == kMostInWall || (open && waiting > 0))) {
@@ -95,12 +101,12 @@ public:
                 return;
             }
             if (open && waiting == 0) {
-                tell(way, depth, depth + kOpenSteps * step, spread);
+                tell(way, depth, depth + kOpenSteps * step, half);
                 depth += kOpenSteps * step;
                 continue;
             }
             if (finest)
-                tell(way, depth, depth + step, spread);
+                tell(way, depth, depth + step, half);
             else
                 in_wall[std::size_t(waiting++)] = depth;
             depth += step;
@@ -108,6 +114,8 @@ public:
     }
 
 private:
+    bool atMost(const Square& square, double along_height) const { return square.half <= top_ / along_height * 1.001; }
+
     Voxels wayThrough(const Square& square) const
     {
         Voxels way{};
@@ -128,7 +136,7 @@ private:
     {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double a = eye_[axis] + depth * way[axis], b = eye_[axis] + next * way[axis];
-            const double plane = way[axis] > 0 ? std::ceil(a) : std::floor(a);
+            const double plane = way[axis] > 0 ? ceilOf(a) : floorOf(a);
             if ((plane - a) * (b - plane) < 0 || a == b)
                 continue;
             if (const double last = endAt(square, axis, plane, next + 3 * (next - depth)); last > 0)
@@ -153,8 +161,8 @@ private:
             low = {std::min(low[0], p[u]), std::min(low[1], p[v])};
             high = {std::max(high[0], p[u]), std::max(high[1], p[v])};
         }
-        const auto below = [](double x) { return int(std::floor(x - kSlackVoxels)); };
-        const auto above = [](double x) { return int(std::ceil(x + kSlackVoxels)); };
+        const auto below = [](double x) { return floorOf(x - kSlackVoxels); };
+        const auto above = [](double x) { return ceilOf(x + kSlackVoxels); };
         const bool blocked =
             field_.outside(axis, int(plane), {below(low[0]), below(low[1])}, {above(high[0]), above(high[1])});
         return blocked ? last : 0;
@@ -167,14 +175,14 @@ private:
             follow({square.x + (n & 1 ? h : -h), square.y + (n & 2 ? h : -h), h, from});
     }
 
-    void tell(const Voxels& way, double from, double to, double spread) const
+    void tell(const Voxels& way, double from, double to, double half) const
     {
         const Voxels a = along(way, from), b = along(way, to);
-        const double wide = to * spread + kSlackVoxels;
         std::array<int, 3> low{}, high{};
         for (std::size_t d = 0; d < 3; ++d) {
-            low[d] = int(std::floor(std::min(a[d], b[d]) - wide)) + 1;
-            high[d] = int(std::floor(std::max(a[d], b[d]) + wide)) + 1;
+            const double wide = to * half * wide_[d] + kSlackVoxels;
+            low[d] = floorOf(std::min(a[d], b[d]) - wide) + 1;
+            high[d] = floorOf(std::max(a[d], b[d]) + wide) + 1;
         }
         blocks_.add(cubes_, low, high);
     }
@@ -183,7 +191,8 @@ private:
     const PatchBlocks& blocks_;
     PatchBlocks::Cubes& cubes_;  ///< what bundles have met
     Voxels eye_{}, forward_{}, right_{}, up_{};
-    double widest_ = 0;  ///< voxels along any axis that a square of half edge 1 reaches from its middle, at depth 1
+    Voxels wide_{};      ///< along each axis, how far a square of half edge 1 reaches from its middle, at depth 1
+    double widest_ = 0;  ///< the most of these
     double top_ = 0;     ///< of the picture, at depth 1
 };
 

@@ -134,6 +134,15 @@ void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patche
     }
 }
 
+void sendAll(std::vector<CellActor>& cells)
+{
+    for (CellActor& cell : cells)
+        if (!cell.actor->GetVisibility()) {
+            cell.mapper->drawOnly({});
+            cell.actor->SetVisibility(true);
+        }
+}
+
 void addOpenness(std::vector<CellActor>& cells, const artefact::CellSurface& surface,
                  const std::vector<float>& openness)
 {

@@ -37,6 +37,10 @@ void showOnly(std::vector<CellActor>& cells, const std::vector<int>& segments);
 void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patches,
                  const std::vector<std::uint8_t>& shown);
 
+/// The next picture hands the driver also what is not shown, without drawing it; else a cell is handed over when it is
+/// shown for the first time.
+void sendAll(std::vector<CellActor>& cells);
+
 /// Gives each corner of a triangle how open the wall is there, of opennessOf() for the same surface: the shader's
 /// attribute `openness`.
 void addOpenness(std::vector<CellActor>& cells, const artefact::CellSurface& surface,

@@ -44,6 +44,8 @@ Offscreen::Offscreen(vtkRenderer* renderer) : window_(std::make_unique<Window>()
     const DriverLeaks not_ours;
     window_->vtk->SetOffScreenRendering(1);
     window_->vtk->SetMultiSamples(0);
+    // Otherwise VTK copies colours and depths of each frame to the buffers that a screen would show.
+    window_->vtk->SetSwapBuffers(0);
     if (!display_.draws() || !window_->vtk->SupportsOpenGL())
         throw Error(ErrorCode::no_display, "the display has no OpenGL 3.2", display_.name(),
                     "install the Debian package 'libgl1-mesa-dri', or unset DISPLAY to use a private display");

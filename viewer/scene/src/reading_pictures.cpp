@@ -167,7 +167,14 @@ Picture ReadingPictures::endoscopic(const SnapshotRequest& request, const Snapsh
 
 void ReadingPictures::chooseBy(std::shared_ptr<const CellVisibility> visibility)
 {
-    parts_->visibility = std::move(visibility);
+    Parts& p = *parts_;
+    p.visibility = std::move(visibility);
+    if (!p.offscreen)
+        return;
+    // Flying begins now: what comes into sight on the way shall not hold it up.
+    constexpr int kSmall = 16;
+    p.scene.sendAll();
+    p.offscreen->draw(kSmall, kSmall);
 }
 
 void ReadingPictures::countSeen(SeenSoFar& seen)

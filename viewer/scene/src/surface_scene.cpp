@@ -100,6 +100,11 @@ void SurfaceScene::showSeen(const SeenParts& parts)
         viewer::showOnly(parts_->cells, parts.segments);
 }
 
+void SurfaceScene::sendAll()
+{
+    viewer::sendAll(parts_->cells);
+}
+
 void SurfaceScene::colorCells(bool on)
 {
     parts_->color_cells = on;
@@ -143,7 +148,7 @@ std::size_t SurfaceScene::cellsShown() const
 {
     std::size_t sum = 0;
     for (const CellActor& cell : parts_->cells)
-        sum += cell.actor->GetVisibility() ? 1 : 0;
+        sum += cell.drawn > 0 ? 1 : 0;
     return sum;
 }
 

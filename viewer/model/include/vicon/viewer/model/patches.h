@@ -16,8 +16,8 @@ struct Patch {
 };
 
 /// Triangles of a patch: small enough that little of a patch in sight is out of sight, large enough that few patches
-/// are asked. Chosen among 100, 150, 250, 400, 500 and 1000 on ctc-prone and the default phantom.
-constexpr std::uint32_t kPatchTriangles = 100;
+/// are asked. Chosen among 6, 12, 24, 50, 100 and more on ctc-prone and the default phantom.
+constexpr std::uint32_t kPatchTriangles = 12;
 
 /// Cuts the triangles of each cell into patches as equal as may be.
 /// @param cell of each triangle, never decreasing

@@ -31,6 +31,9 @@ public:
     void showOnly(const std::vector<int>& segments);
     /// Draws only what CellVisibility found; it must have been made for the same surface.
     void showSeen(const SeenParts& parts);
+    /// The next picture, which shows the same, also hands the driver all that it does not show. What is shown for the
+    /// first time later costs its picture tens of milliseconds otherwise.
+    void sendAll();
     /// Paints each cell in a colour of its own.
     void colorCells(bool on);
     /// How far the lamp reaches: the distance at which it has lost half of its strength.
