@@ -132,13 +132,21 @@ void NavigationPanel::show(const Navigator& navigator, double length_mm, const O
     }
     speed_->setEnabled(navigator.mode() != NavigationMode::guided);
     speed_text_->setText(tr("%1 mm/s").arg(navigator.speed_mm_s(), 0, 'f', 0));
-    station_->setRange(0, length_mm);
-    if (!station_->hasFocus() && station_->value() == shown_station_mm_) {  // what was typed stays until it is used
+    const bool typed = station_->hasFocus() || station_->value() != shown_station_mm_;
+    station_->setRange(0, length_mm);  // a shorter path changes the value as well
+    if (!typed) {                      // what was typed stays until it is used
         station_->setValue(state.station_mm);
         shown_station_mm_ = station_->value();
     }
-    const auto texts = stationTexts(state.station_mm, length_mm, words);
-    where_->setText(QString::fromStdString(texts[0]) + ", " + QString::fromStdString(texts[1]));
+    const auto place = [&](double station_mm, double of_mm) {
+        const auto texts = stationTexts(station_mm, of_mm, words);
+        return QString::fromStdString(texts[0]) + ", " + QString::fromStdString(texts[1]);
+    };
+    where_->setText(place(state.station_mm, length_mm));
+    // Room for as many digits as this path can need: no view changes its size when a distance gets one more.
+    const QFontMetrics letters = where_->fontMetrics();
+    const int kerning_px = letters.horizontalAdvance('0');  // digits are not all of one width beside each other
+    where_->setMinimumWidth(letters.horizontalAdvance(place(length_mm, 2 * length_mm)) + kerning_px);
 }
 
 }  // namespace vicon::viewer
