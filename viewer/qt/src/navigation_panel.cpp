@@ -15,6 +15,19 @@ namespace vicon::viewer {
 namespace {
 constexpr double kStep_mm = 10;
 constexpr int kButtonsInRow = 4;
+
+QString placeText(double station_mm, double length_mm, const OrganWords& words)
+{
+    const auto texts = stationTexts(station_mm, length_mm, words);
+    return QString::fromStdString(texts[0]) + ", " + QString::fromStdString(texts[1]);
+}
+
+/// For as many digits as any colon needs: no view changes its size when a distance gets one more.
+int roomForPlace_px(const QFontMetrics& letters)
+{
+    constexpr double kFourDigits_mm = 4000;
+    return letters.horizontalAdvance(placeText(kFourDigits_mm, 2 * kFourDigits_mm, wordsFor("colon")) + "0");
+}
 }  // namespace
 
 NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
@@ -56,6 +69,7 @@ NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
     station_->setKeyboardTracking(false);
     go_ = button(tr("Jump"), "jump", tr("Jump to this distance"), {});
     where_ = named(new QLabel(this), "where", tr("Place"), tr("Where the eye is"));
+    where_->setMinimumWidth(roomForPlace_px(where_->fontMetrics()));
 
     auto* title = new QHBoxLayout;
     title->addWidget(new QLabel(tr("Flight"), this));
@@ -138,15 +152,7 @@ void NavigationPanel::show(const Navigator& navigator, double length_mm, const O
         station_->setValue(state.station_mm);
         shown_station_mm_ = station_->value();
     }
-    const auto place = [&](double station_mm, double of_mm) {
-        const auto texts = stationTexts(station_mm, of_mm, words);
-        return QString::fromStdString(texts[0]) + ", " + QString::fromStdString(texts[1]);
-    };
-    where_->setText(place(state.station_mm, length_mm));
-    // Room for as many digits as this path can need: no view changes its size when a distance gets one more.
-    const QFontMetrics letters = where_->fontMetrics();
-    const int kerning_px = letters.horizontalAdvance('0');  // digits are not all of one width beside each other
-    where_->setMinimumWidth(letters.horizontalAdvance(place(length_mm, 2 * length_mm)) + kerning_px);
+    where_->setText(placeText(state.station_mm, length_mm, words));
 }
 
 }  // namespace vicon::viewer
