@@ -29,10 +29,12 @@ int reportsOf(CaseStore& store, const std::string& case_id)
     return count;
 }
 
-/// What a radiologist asks first: is it distended, is there fluid, is anything collapsed.
-void addQuality(CaseStore& store, viewer::WorklistScanRow& row)
+/// What a radiologist asks first: what does it show, is it distended, is there fluid, is anything collapsed.
+void addFindings(CaseStore& store, viewer::WorklistScanRow& row)
 {
     for (const StepRecord& step : store.steps(row.record.case_id, row.record.id)) {
+        if (step.result.contains("organ"))
+            row.organ = step.result["organ"].get<std::string>();
         if (step.step != "quality" || !step.result.contains("quality"))
             continue;
         const nlohmann::json& quality = step.result["quality"];
@@ -51,7 +53,7 @@ viewer::WorklistRow rowOf(CaseStore& store, const WorklistCase& from)
     int jobs = 0;
     for (const WorklistScan& scan : from.scans) {
         row.scans.push_back({scan.record, scan.state, scan.step, scan.progress, scan.reason, scan.folder, {}});
-        addQuality(store, row.scans.back());
+        addFindings(store, row.scans.back());
         if (scan.state == "kept")
             continue;
         row.progress += scan.progress;
@@ -132,6 +134,7 @@ viewer::ReadingServices readingServices(const fs::path& store, const Config& con
             rows.push_back(rowOf(store, a_case));
         return rows;
     };
+    services.worklist_version = [](CaseStore& store) { return store.database().version(); };
     services.retry = [&config](CaseStore& store, const std::string& case_id) {
         pipeline::JobQueue queue(store.database(), config.get<pipeline::QueueOptions>());
         for (const ScanRecord& scan : store.scans(case_id))

@@ -12,6 +12,7 @@ find_package(PNG REQUIRED)
 find_package(DCMTK REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(FRIBIDI REQUIRED IMPORTED_TARGET fribidi)
+pkg_check_modules(HARFBUZZ REQUIRED IMPORTED_TARGET harfbuzz)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 
 # Debian's SOCI and libharu come without CMake or pkg-config files.

@@ -16,7 +16,7 @@ struct SnapshotArguments {
     int width = 0, height = 0;
     double angle_deg = 90;
     bool ambient_occlusion = false;
-    std::string window = "colon";
+    std::string window;
     std::string peel;
     double peel_offset_mm = 0;
     bool peel_middle = false;
@@ -106,8 +106,8 @@ Subcommand snapshotCommand()
                 ->capture_default_str();
             command.add_flag("--ambient-occlusion", arguments->ambient_occlusion,
                              "Endoscopic view: less light between folds and at the foot of what rises from the wall");
-            command.add_option("--window", arguments->window, "Window/level preset of the slices")
-                ->capture_default_str();
+            command.add_option("--window", arguments->window,
+                               "Window/level preset of the slices (default: the organ's)");
             auto* peel =
                 command
                     .add_option("--peel", arguments->peel,

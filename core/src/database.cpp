@@ -108,6 +108,18 @@ void Database::migrate()
     });
 }
 
+std::string Database::version()
+{
+    try {
+        long long by_others = 0, by_this = 0;
+        *session_ << "PRAGMA data_version", soci::into(by_others);
+        *session_ << "SELECT total_changes()", soci::into(by_this);
+        return std::to_string(by_others) + "/" + std::to_string(by_this);
+    } catch (const soci::soci_error& e) {
+        throw refusal(e);
+    }
+}
+
 void Database::write(const std::function<void(soci::session&)>& work)
 {
     try {

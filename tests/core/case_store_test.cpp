@@ -34,6 +34,21 @@ protected:
     }
 };
 
+TEST_F(Store, SaysWhetherAnybodyChangedAnything)
+{
+    addScan("s1");
+    const std::string first = store_.database().version();
+    store_.cases();
+    EXPECT_EQ(store_.database().version(), first) << "nothing was changed";
+    store_.audit("opened", "c1", "s1", "");
+    const std::string second = store_.database().version();
+    EXPECT_NE(second, first) << "changed over this connection";
+    CaseStore(folder_.path()).audit("opened", "c1", "s1", "");
+    const std::string third = store_.database().version();
+    EXPECT_NE(third, second) << "changed over another one";
+    EXPECT_EQ(store_.database().version(), third);
+}
+
 TEST_F(Store, KeepsACaseItsScansAndTheirInstances)
 {
     addScan("s1");

@@ -1,3 +1,4 @@
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QProgressBar>
 #include <QTableWidget>
@@ -47,8 +48,11 @@ TEST_F(Correcting, CorrectionsGoToThePipelineAndTheNewResultIsTakenOver)
     showList(2);
     auto* bridges = the<QTableWidget>("bridges");
     ASSERT_TRUE(eventually([&] { return bridges->rowCount() == 1; }));
+    key(Qt::Key_End);
     clickRow(bridges, 0);
-    EXPECT_TRUE(eventually([] { return std::abs(station() - 180) < 3; }));
+    // Off the bridge, which begins at 180 mm, so that it is looked at.
+    const auto off_mm = [] { return std::abs(station() - 180); };
+    EXPECT_TRUE(eventually([&] { return off_mm() > 5 && off_mm() < 45; })) << station();
     const auto judged = [&] { return bridges->item(0, 3)->text(); };
     press(window(), "rejectBridge");
     EXPECT_TRUE(eventually([&] { return judged() == "rejected, anna"; })) << judged().toStdString();
@@ -69,6 +73,7 @@ TEST_F(Correcting, CorrectionsGoToThePipelineAndTheNewResultIsTakenOver)
     screenshot("corrected");
     waitForNewScan();
     EXPECT_LT(length() - station(), 10) << "the eye is where it was";
+    EXPECT_NEAR(the<QDoubleSpinBox>("station")->value(), station(), 1) << "the path's new length is no distance typed";
     closeCase();
     EXPECT_NE(surfaceSeen(), before) << "the new one is another";
 }

@@ -1,11 +1,14 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSlider>
+#include <QStatusBar>
 
 #include "film_reader.h"
 #include "reading.h"
+#include "vicon/artefact/skeleton_file.h"
 #include "vicon/core/file.h"
 
 namespace vicon::viewer {
@@ -59,6 +62,37 @@ TEST_F(Reading, GuidedFlightIsSteeredByKeysAndComesBackWhenLetGo)
     const double let_go = station();
     settle();
     EXPECT_LT(std::abs(station() - let_go), 40) << "nothing pulls it any more";
+}
+
+TEST_F(Reading, AGuidedFlightThatCannotReachAPlaceSaysSo)
+{
+    const auto file = store_ / "cases" / test::kCase / test::kSupine / "skeleton.vtp";
+    Skeleton path = artefact::readSkeleton(file);
+    auto& points = path.pieces.back().points;
+    for (int n = 1; n <= 40; ++n)  // beyond the lumen: no room there
+        points.push_back({points.back().position_mm - Vector3{0, 0, 1}, points.back().station_mm + 1, 1});
+    artefact::writeSkeleton(file, path);
+    openCase();
+    key(Qt::Key_G);
+    key(Qt::Key_Home);
+    EXPECT_FALSE(window()->statusBar()->currentMessage().contains("too narrow"));
+    key(Qt::Key_End);
+    EXPECT_TRUE(window()->statusBar()->currentMessage().contains("too narrow"))
+        << window()->statusBar()->currentMessage().toStdString();
+    EXPECT_LT(station(), length() - 20);
+}
+
+TEST_F(Reading, TheRoomOfThePlaceInWordsIsTheSameAllAlongTheWay)
+{
+    openCase();
+    auto* where = the<QLabel>("where");
+    const int room = where->minimumWidth();
+    for (const double share : {0.0, 0.1, 0.5, 0.9, 1.0}) {
+        the<QDoubleSpinBox>("station")->setValue(share * length());
+        press(window(), "jump");
+        EXPECT_GE(room, where->minimumSizeHint().width()) << where->text().toStdString();
+        EXPECT_EQ(where->minimumWidth(), room);
+    }
 }
 
 TEST_F(Reading, AFilmIsMadeOrCancelledAndThePictureShowsHowItIsMade)

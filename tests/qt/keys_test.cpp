@@ -94,6 +94,9 @@ TEST_F(Reading, AnotherOrganAndItsEndsAreCalledByTheirNames)
     EXPECT_EQ(the<QPushButton>("about")->text(), "To tip");
     EXPECT_EQ(markers()->horizontalHeaderItem(2)->toolTip(), "Distance from the root along the airway");
     EXPECT_FALSE(the<QTabWidget>("lists")->isTabEnabled(2)) << "corrections are a colon's";
+    auto* windows = the<QComboBox>("window");
+    EXPECT_EQ(windows->currentText(), "lung");
+    EXPECT_EQ(windows->findText("colon"), -1);
     auto* scans = the<QComboBox>("scan");  // the other scan is a colon
     scans->setFocus();
     the<QLabel>("where")->clear();
@@ -101,6 +104,14 @@ TEST_F(Reading, AnotherOrganAndItsEndsAreCalledByTheirNames)
     waitForScan();
     EXPECT_EQ(the<QPushButton>("about")->text(), "To caecum");
     EXPECT_TRUE(the<QTabWidget>("lists")->isTabEnabled(2));
+    windows->setCurrentText("soft-tissue");
+    key(Qt::Key_X);
+    waitForScan();
+    EXPECT_EQ(windows->currentText(), "soft-tissue") << "both organs have it";
+    windows->setCurrentText("bone");
+    closeCase();
+    openCase();
+    EXPECT_EQ(the<QComboBox>("window")->currentText(), "bone");
 }
 
 /// The colon's path as a tree: a trunk, the rest of it, and a side branch beside that, which ends a little earlier.

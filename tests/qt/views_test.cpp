@@ -3,6 +3,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
+#include <QSplitter>
 #include <QTableWidget>
 
 #include "reading.h"
@@ -176,9 +177,13 @@ TEST_F(Reading, SlicesAndProjectionMoveToASecondWindowThatHasTheKeysAndIsRemembe
     EXPECT_FALSE(the<QWidget>("overview")->isVisible());
     QTest::mouseDClick(the<QWidget>("coronal"), Qt::LeftButton, {}, middle("coronal"));
     EXPECT_TRUE(the<QWidget>("overview")->isVisible());
+    auto* rows = qobject_cast<QSplitter*>(second);
+    rows->setSizes({second->height() / 5, second->height() * 4 / 5});
+    const int projection = the<QWidget>("overview")->height();
     closeCase();
     openCase();
     EXPECT_NE(the<QWidget>("coronal")->window(), window()) << "remembered";
+    EXPECT_NEAR(the<QWidget>("overview")->height(), projection, 3) << "as are its parts";
     the<QWidget>("second")->close();
     EXPECT_TRUE(eventually([] { return the<QWidget>("coronal")->window() == window(); }));
     EXPECT_TRUE(eventually([] { return the<QWidget>("overview")->isVisible(); }));

@@ -61,6 +61,32 @@ TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
     EXPECT_EQ(shown(), 0) << "it is no longer failed";
 }
 
+TEST_F(Reading, AWorklistThatIsStillTheSameIsNotReadAgain)
+{
+    std::atomic<int> asked = 0, read = 0, version = 0;
+    auto services = withScans(test::servicesFor(store_), [&](const WorklistRow& row, WorklistScanRow& scan) {
+        if (row.record.id == test::kFailedCase)
+            scan.organ = version == 0 ? "colon" : "aorta";
+    });
+    services.worklist = [&, before = services.worklist](CaseStore& store) {
+        ++read;
+        return before(store);
+    };
+    services.worklist_version = [&](CaseStore&) {
+        ++asked;
+        return std::to_string(version);
+    };
+    const auto room = makeReadingRoom(services, {});
+    auto* table = room->findChild<QTableWidget*>("cases");
+    ASSERT_TRUE(eventually([&] { return asked >= 3; }));
+    EXPECT_EQ(read, 1);
+    const auto scans = [&] { return table->item(0, 3)->text() + "; " + table->item(1, 3)->text(); };
+    EXPECT_FALSE(scans().contains("(")) << scans().toStdString();
+    version = 1;
+    EXPECT_TRUE(eventually([&] { return scans().contains("supine (aorta)"); })) << scans().toStdString();
+    EXPECT_EQ(read, 2);
+}
+
 TEST_F(Reading, AnEmptyWorklistSaysWhatToDoAndOneInWhichNothingIsFoundToo)
 {
     auto empty = services_;

@@ -58,6 +58,27 @@ TEST(Text, FromRightToLeftIsInOrder)
     EXPECT_LT(textSize(joined).width_px, textSize(apart).width_px);
 }
 
+TEST(Text, OfScriptsThatStackAndReorderLettersIsShaped)
+{
+    const auto width = [](const std::string& words) {
+        OverlayText text;
+        text.text = words;
+        text.height_px = 24;
+        return textSize(text).width_px;
+    };
+    // A consonant below another, where U+200C keeps the two apart.
+    EXPECT_LT(width("क्ष"), 0.8 * width("क्\u200Cष")) << "Devanagari";
+    EXPECT_LT(width("క్ష"), 0.8 * width("క్\u200Cష")) << "Telugu";
+    // A vowel that is written after its consonant and stands before it: the stem of the consonant is at the right.
+    const auto inkOfLast = [&](const std::string& words) {
+        const int end = int(width(words)) + 5;
+        return inked(written(words), end - 6, end);
+    };
+    EXPECT_NEAR(inkOfLast("कि"), inkOfLast("क"), 0.3 * inkOfLast("क"));
+    // An accent takes no room of its own.
+    EXPECT_NEAR(width("e\u0301"), width("e"), 0.5);
+}
+
 TEST(Text, IsMadeSmallerUntilItFitsAndThenCutOff)
 {
     OverlayText text;

@@ -126,6 +126,17 @@ TEST(PathFrames, NearestStationIsFoundOnlyWithinReach)
     EXPECT_LE(frames.nearestStation(beside, 100, 20), 121);
 }
 
+TEST(Marker, LabelsAreReadOnDarkenedTissue)
+{
+    const auto luminance = [](Rgb c) {  // WCAG 2
+        const auto linear = [](double v) { return std::pow((v / 255 + 0.055) / 1.055, 2.4); };
+        return 0.2126 * linear(c.red) + 0.7152 * linear(c.green) + 0.0722 * linear(c.blue);
+    };
+    constexpr Rgb kTissue{60, 60, 60};  // below a text
+    for (const MarkerColor color : {MarkerColor::red, MarkerColor::yellow, MarkerColor::green})
+        EXPECT_GE((luminance(labelColorOf(color)) + 0.05) / (luminance(kTissue) + 0.05), 4.5) << nameOf(color);
+}
+
 TEST(WindowLevel, SpreadsItsDensitiesFromBlackToWhite)
 {
     const WindowLevel colon = windowPreset("colon");
@@ -140,6 +151,26 @@ TEST(WindowLevel, SpreadsItsDensitiesFromBlackToWhite)
     EXPECT_EQ(soft.width_hu, 400);
     EXPECT_EQ(soft.level_hu, 40);
     EXPECT_THROW(windowPreset("no such"), Error);
+}
+
+TEST(WindowLevel, EachOrganHasPresetsOfItsOwnAndItsDefaultFirst)
+{
+    const auto named = [](const std::string& organ) {
+        std::vector<std::string> names;
+        for (const WindowLevel& window : windowPresets(organ))
+            names.push_back(window.name);
+        return names;
+    };
+    using testing::Contains, testing::Not;
+    EXPECT_EQ(named("colon").front(), "colon");
+    EXPECT_EQ(named("airway").front(), "lung");
+    EXPECT_EQ(named("aorta").front(), "vessel");
+    EXPECT_EQ(named("another").front(), "soft-tissue");
+    EXPECT_THAT(named("airway"), Not(Contains("colon")));
+    EXPECT_THAT(named("colon"), Not(Contains("vessel")));
+    for (const char* organ : {"colon", "airway", "aorta"})
+        for (const char* common : {"soft-tissue", "bone", "lung"})
+            EXPECT_THAT(named(organ), Contains(common)) << organ;
 }
 
 TEST(TransferFunction, PresetsRiseInDensityAndInterpolate)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "vicon/viewer/model/orientation.h"
 
@@ -90,6 +91,14 @@ Rgb colorOf(MarkerColor color)
     }
 }
 
+Rgb labelColorOf(MarkerColor color)
+{
+    constexpr double kWhite = 0.45;
+    const auto lighter = [](std::uint8_t c) { return std::uint8_t(std::lround(std::lerp(double(c), 255.0, kWhite))); };
+    const Rgb full = colorOf(color);
+    return {lighter(full.red), lighter(full.green), lighter(full.blue)};
+}
+
 double textHeightFor(int width, int height, double pixel_ratio)
 {
     return std::clamp(std::min(width, height) / 38.0, 10.0 * pixel_ratio, 40.0 * pixel_ratio);
@@ -165,10 +174,9 @@ void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>
 
 void addMarkerRing(Overlay& overlay, Pixel at, double radius_px, const Marker& marker, double text_px)
 {
-    const Rgb color = colorOf(marker.color);
-    overlay.discs.push_back({at, radius_px, color, 2});
-    overlay.texts.push_back(text({at.x + radius_px * 0.75 + 2, at.y - radius_px * 0.75 - 1}, marker.id, text_px, color,
-                                 Across::left, Along::bottom));
+    overlay.discs.push_back({at, radius_px, colorOf(marker.color), 2});
+    overlay.texts.push_back(text({at.x + radius_px * 0.75 + 2, at.y - radius_px * 0.75 - 1}, marker.id, text_px,
+                                 labelColorOf(marker.color), Across::left, Along::bottom));
 }
 
 void addCrosshair(Overlay& overlay, const Area& area, Pixel at, double gap_px)

@@ -39,9 +39,36 @@ const Preset& named(const std::vector<Preset>& presets, const std::string& name,
     throw Error(ErrorCode::wrong_use, "there is no " + kind + " of this name", "'" + name + "'", "use one of " + names);
 }
 
-WindowLevel windowFrom(const toml::table& entry)
+struct OfferedWindow : WindowLevel {
+    std::vector<std::string> organs;  // empty: all
+    std::vector<std::string> default_for;
+};
+
+std::vector<std::string> names(const toml::node_view<const toml::node>& node)
 {
-    return {entry["name"].value<std::string>().value(), number(entry["width_hu"]), number(entry["level_hu"])};
+    std::vector<std::string> all;
+    if (const toml::array* entries = node.as_array())
+        for (const toml::node& entry : *entries)
+            all.push_back(entry.value<std::string>().value());
+    return all;
+}
+
+OfferedWindow windowFrom(const toml::table& entry)
+{
+    return {{entry["name"].value<std::string>().value(), number(entry["width_hu"]), number(entry["level_hu"])},
+            names(entry["organs"]),
+            names(entry["default_for"])};
+}
+
+const std::vector<OfferedWindow>& allWindows()
+{
+    static const auto presets = presetsOf<OfferedWindow>(kWindowsToml, "window", windowFrom);
+    return presets;
+}
+
+bool has(const std::vector<std::string>& all, const std::string& one)
+{
+    return std::find(all.begin(), all.end(), one) != all.end();
 }
 
 TransferFunction transferFunctionFrom(const toml::table& entry)
@@ -63,15 +90,18 @@ std::uint8_t WindowLevel::greyOf(double density_hu) const
     return std::uint8_t(std::lround(std::clamp(share, 0.0, 1.0) * 255));
 }
 
-const std::vector<WindowLevel>& windowPresets()
+std::vector<WindowLevel> windowPresets(const std::string& organ)
 {
-    static const auto presets = presetsOf<WindowLevel>(kWindowsToml, "window", windowFrom);
-    return presets;
+    std::vector<WindowLevel> offered;
+    for (const OfferedWindow& window : allWindows())
+        if (window.organs.empty() || has(window.organs, organ))
+            offered.insert(has(window.default_for, organ) ? offered.begin() : offered.end(), window);
+    return offered;
 }
 
 WindowLevel windowPreset(const std::string& name)
 {
-    return named(windowPresets(), name, "window preset");
+    return named(allWindows(), name, "window preset");
 }
 
 TransferPoint TransferFunction::at(double density_hu) const

@@ -62,10 +62,7 @@ ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
     grid->addWidget(stop_, 2, kButtons - 1);
     connect(table_, &QTableWidget::itemSelectionChanged, this, &ColonPanel::updateButtons);
     for (const auto chosen : {&QTableWidget::cellClicked, &QTableWidget::cellActivated})
-        connect(table_, chosen, this, [this](int row, int) {
-            const BridgeRow& bridge = bridges_[std::size_t(row)];
-            emit flyWanted(bridge.from_mm, stations_mm_[std::size_t(row)]);
-        });
+        connect(table_, chosen, this, [this](int row, int) { emit flyWanted(bridges_[std::size_t(row)].from_mm); });
     for (QPushButton* verdict : {confirm_, reject_})
         connect(verdict, &QPushButton::clicked, this, [this, verdict] {
             if (const auto bridge = selected())
@@ -83,15 +80,13 @@ ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
 void ColonPanel::show(const std::vector<BridgeRow>& bridges, const Skeleton& skeleton)
 {
     bridges_ = bridges;
-    stations_mm_.clear();
     table_->setRowCount(int(bridges.size()));
     for (int row = 0; row < int(bridges.size()); ++row) {
         const BridgeRow& bridge = bridges[std::size_t(row)];
-        stations_mm_.push_back(skeleton.nearest(bridge.from_mm).station_mm);
         const QString judged = bridge.verdict.empty() ? tr("no")
                                                       : tr("%1, %2").arg(QString::fromStdString(bridge.verdict),
                                                                          QString::fromStdString(bridge.by));
-        const QStringList cells{QString::number(stations_mm_.back(), 'f', 0),
+        const QStringList cells{QString::number(skeleton.nearest(bridge.from_mm).station_mm, 'f', 0),
                                 tr("%1 mm").arg(bridge.length_mm, 0, 'f', 0),
                                 tr("%1 %").arg(100 * bridge.confidence, 0, 'f', 0), judged};
         for (int column = 0; column < kColumns; ++column) {

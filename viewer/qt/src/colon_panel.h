@@ -25,7 +25,7 @@ public:
     void showProgress(const QString& what, double fraction);
 
 signals:
-    void flyWanted(vicon::Point3 point, double station_mm);
+    void flyWanted(vicon::Point3 point);
     void reviewed(const vicon::viewer::BridgeRow& bridge, bool confirmed);
     void correctionWanted(vicon::viewer::Correction kind);
     void forgetWanted();
@@ -37,7 +37,6 @@ private:
     void updateButtons();
 
     std::vector<BridgeRow> bridges_;
-    std::vector<double> stations_mm_;
     QTableWidget* table_;
     QPushButton *confirm_, *reject_, *stop_;
     QLabel* state_;

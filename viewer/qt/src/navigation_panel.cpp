@@ -15,6 +15,19 @@ namespace vicon::viewer {
 namespace {
 constexpr double kStep_mm = 10;
 constexpr int kButtonsInRow = 4;
+
+QString placeText(double station_mm, double length_mm, const OrganWords& words)
+{
+    const auto texts = stationTexts(station_mm, length_mm, words);
+    return QString::fromStdString(texts[0]) + ", " + QString::fromStdString(texts[1]);
+}
+
+/// For as many digits as any colon needs: no view changes its size when a distance gets one more.
+int roomForPlace_px(const QFontMetrics& letters)
+{
+    constexpr double kFourDigits_mm = 4000;
+    return letters.horizontalAdvance(placeText(kFourDigits_mm, 2 * kFourDigits_mm, wordsFor("colon")) + "0");
+}
 }  // namespace
 
 NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
@@ -56,6 +69,7 @@ NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
     station_->setKeyboardTracking(false);
     go_ = button(tr("Jump"), "jump", tr("Jump to this distance"), {});
     where_ = named(new QLabel(this), "where", tr("Place"), tr("Where the eye is"));
+    where_->setMinimumWidth(roomForPlace_px(where_->fontMetrics()));
 
     auto* title = new QHBoxLayout;
     title->addWidget(new QLabel(tr("Flight"), this));
@@ -132,13 +146,13 @@ void NavigationPanel::show(const Navigator& navigator, double length_mm, const O
     }
     speed_->setEnabled(navigator.mode() != NavigationMode::guided);
     speed_text_->setText(tr("%1 mm/s").arg(navigator.speed_mm_s(), 0, 'f', 0));
-    station_->setRange(0, length_mm);
-    if (!station_->hasFocus() && station_->value() == shown_station_mm_) {  // what was typed stays until it is used
+    const bool typed = station_->hasFocus() || station_->value() != shown_station_mm_;
+    station_->setRange(0, length_mm);  // a shorter path changes the value as well
+    if (!typed) {                      // what was typed stays until it is used
         station_->setValue(state.station_mm);
         shown_station_mm_ = station_->value();
     }
-    const auto texts = stationTexts(state.station_mm, length_mm, words);
-    where_->setText(QString::fromStdString(texts[0]) + ", " + QString::fromStdString(texts[1]));
+    where_->setText(placeText(state.station_mm, length_mm, words));
 }
 
 }  // namespace vicon::viewer

@@ -45,13 +45,9 @@ void ReadingWindow::connectCorrections()
         if (session_.scan())
             corrector_.review(session_.scan()->record, bridge, confirmed);
     });
-    connect(colon_, &ColonPanel::flyWanted, this, [this](Point3 point, double station_mm) {
-        if (!navigator())
-            return;
-        beginPass();
-        navigator()->jumpTo(station_mm);
-        focus_ = point;
-        moved(true);
+    connect(colon_, &ColonPanel::flyWanted, this, [this](Point3 point) {
+        if (navigator())
+            lookAt(point);
     });
 }
 

@@ -226,6 +226,14 @@ void ReadingWindow::goToEnd(Heading end)
     emit navigation_->jumpWanted(end == Heading::caecum ? session_.scan()->files.frames().length_mm() : 0);
 }
 
+void ReadingWindow::sayWhereItIsNarrow(double wanted_mm)
+{
+    constexpr double kOff_mm = 5;
+    if (navigator() && navigator()->mode() == NavigationMode::guided &&
+        std::abs(navigator()->state().station_mm - wanted_mm) > kOff_mm)
+        tell(tr("There it is too narrow for the guided flight; the planned one (P) reaches it."));
+}
+
 void ReadingWindow::updateSteering()
 {
     if (!navigator())

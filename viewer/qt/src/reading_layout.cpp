@@ -56,8 +56,6 @@ QWidget* ReadingWindow::buildTop()
     window_choice_->setObjectName("window");
     window_choice_->setAccessibleName(tr("Window of the slices"));
     window_choice_->setToolTip(tr("Window and level of the slices"));
-    for (const WindowLevel& window : windowPresets())
-        window_choice_->addItem(QString::fromStdString(window.name));
     notice_ = new QLabel(top);
     notice_->setObjectName("notice");
     warning_ = new QLabel(top);

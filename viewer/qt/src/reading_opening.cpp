@@ -140,6 +140,7 @@ void ReadingWindow::scanOpened()
     warning_->clear();
     tell({});
     useWords(organWords());
+    kept_window_.clear();
     showWays();
     restorePlace();
     go_to_when_open_.reset();

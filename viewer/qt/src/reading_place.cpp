@@ -72,7 +72,7 @@ void ReadingWindow::saveLooks()
     values["window/two"] = two_screens_->isChecked();
     saveSecondWindow();
     const QString place = groupOf(session_.record()) + "/";
-    values[place + "window_level"] = window_choice_->currentText();
+    values[place + "window_level"] = kept_window_.isEmpty() ? window_choice_->currentText() : kept_window_;
     values[place + "peel"] = peeling_->preset();
     values[place + "peel_mm"] = peeling_->offset_mm();
     values[place + "peel_circle"] = peeling_->circleOnly();
@@ -93,9 +93,7 @@ void ReadingWindow::restoreLooks()
     const auto kept = [place = groupOf(session_.record()) + "/"](const QString& key, const QVariant& otherwise = {}) {
         return keptSetting(place + key, otherwise);
     };
-    const int level = window_choice_->findText(kept("window_level").toString());
-    if (level >= 0)
-        window_choice_->setCurrentIndex(level);
+    kept_window_ = kept("window_level").toString();
     peeling_->choose(kept("peel").toString(), kept("peel_mm").toDouble(), kept("peel_circle").toBool());
     const double reach_mm = kept("light_mm", lamp_reach_mm_).toDouble();
     for (QAction* light : lights_->actions())

@@ -13,6 +13,7 @@
 namespace vicon::viewer {
 namespace {
 constexpr const char* kGeometry = "window/second_geometry";
+constexpr const char* kRows = "window/second_rows";
 constexpr int kSlicesColumn = 2;
 }  // namespace
 
@@ -65,8 +66,10 @@ void ReadingWindow::setTwoScreens(bool on)
 /// Where it was, else on the screen that the main window is not on.
 void ReadingWindow::placeSecondWindow()
 {
-    if (second_->restoreGeometry(keptSetting(kGeometry).toByteArray()))
+    if (second_->restoreGeometry(keptSetting(kGeometry).toByteArray())) {
+        second_->restoreState(keptSetting(kRows).toByteArray());
         return;
+    }
     second_->resize(size());
     for (const QScreen* other : QGuiApplication::screens())
         if (other != screen()) {
@@ -78,7 +81,7 @@ void ReadingWindow::placeSecondWindow()
 void ReadingWindow::saveSecondWindow()
 {
     if (second_)
-        keepSettings(settings_worker_, {{kGeometry, second_->saveGeometry()}});
+        keepSettings(settings_worker_, {{kGeometry, second_->saveGeometry()}, {kRows, second_->saveState()}});
 }
 
 }  // namespace vicon::viewer

@@ -148,6 +148,7 @@ void ReadingWindow::connectAll()
     connect(navigation_, &NavigationPanel::speedWanted, this, steered(&Navigator::setSpeed));
     connect(navigation_, &NavigationPanel::stepWanted, this, steered(&Navigator::step));
     connect(navigation_, &NavigationPanel::jumpWanted, this, steered(&Navigator::jumpTo));
+    connect(navigation_, &NavigationPanel::jumpWanted, this, &ReadingWindow::sayWhereItIsNarrow);
     connect(navigation_, &NavigationPanel::jumpWanted, endoscopic_, [this] { endoscopic_->setFocus(); });
 
     connectCoverage();

@@ -123,6 +123,7 @@ private:
     void turnAbout();
     /// Looking into the colon: the way back is what is flown next.
     void goToEnd(Heading end);
+    void sayWhereItIsNarrow(double wanted_mm);
     void updateSteering();
     void snapshot(bool to_clipboard);
 
@@ -180,6 +181,7 @@ private:
     /// For the organ of the open scan.
     const OrganWords& organWords() const { return session_.scan()->files.words(); }
     void useWords(const OrganWords& words);
+    void offerWindows(const std::string& organ);
     void showPictureTip();
 
     // reading_looks.cpp
@@ -227,6 +229,7 @@ private:
     QAction *compare_ = nullptr, *structure_ = nullptr, *occlusion_ = nullptr, *two_screens_ = nullptr;
     QAction *to_first_end_, *to_last_end_;
     QComboBox *scan_choice_, *way_choice_, *window_choice_;
+    QString kept_window_;  // of the last reading, until the scan and with it the organ are known
     QLabel *warning_, *notice_, *seen_text_;
     QTimer timer_, still_, poll_, keep_seen_;
     QElapsedTimer clock_;

@@ -1,6 +1,9 @@
 // What the controls call the organ that is read, and the two ends of the way through it.
 #include <QAction>
+#include <QComboBox>
+#include <QSignalBlocker>
 #include <QTabWidget>
+#include <algorithm>
 
 #include "colon_panel.h"
 #include "coverage_panel.h"
@@ -22,6 +25,21 @@ void ReadingWindow::useWords(const OrganWords& words)
     lists_->setTabToolTip(colon, words.isColon()
                                      ? tr("Bridges over collapsed parts, and corrections of the lumen")
                                      : tr("Bridges and corrections are a colon's; this scan shows the %1").arg(organ));
+    offerWindows(words.organ);
+}
+
+/// The one that was chosen stays where the organ has it too.
+void ReadingWindow::offerWindows(const std::string& organ)
+{
+    const QString wanted = kept_window_.isEmpty() ? window_choice_->currentText() : kept_window_;
+    {
+        const QSignalBlocker quiet(window_choice_);
+        window_choice_->clear();
+        for (const WindowLevel& window : windowPresets(organ))
+            window_choice_->addItem(QString::fromStdString(window.name));
+        window_choice_->setCurrentIndex(std::max(0, window_choice_->findText(wanted)));
+    }
+    emit window_choice_->currentTextChanged(window_choice_->currentText());
 }
 
 void ReadingWindow::showPictureTip()

@@ -10,7 +10,6 @@ namespace vicon::viewer {
 SliceView::SliceView(SlicePlane plane, const QString& name, QWidget* parent) : PictureView(name, parent), plane_(plane)
 {
     request_.plane = plane;
-    request_.window = windowPresets().front();
     setToolTip(
         tr("Click: look there. Wheel: scroll. Control and wheel: zoom. Right button: pan. Double click: "
            "enlarge. Shift and click: marker."));

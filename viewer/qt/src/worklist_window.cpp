@@ -37,7 +37,8 @@ QString scansOf(const WorklistRow& row)
     QStringList names;
     for (const WorklistScanRow& scan : row.scans)
         if (scan.state != "kept")
-            names << text(positionName(scan.record.series.patient_position));
+            names << text(positionName(scan.record.series.patient_position) +
+                          (scan.organ == "colon" ? "" : " (" + scan.organ + ")"));
     return names.join(", ");
 }
 
@@ -187,7 +188,15 @@ void WorklistWindow::refresh()
     worker_.post("list", [this]() -> Worker::Work {
         if (!store_)
             store_ = std::make_unique<CaseStore>(services_.store);
-        return [this, rows = services_.worklist(*store_)] { show(rows); };
+        // Asked for first: what changes while the rows are read is read the next time.
+        std::optional<std::string> version;
+        if (services_.worklist_version)
+            version = services_.worklist_version(*store_);
+        if (version && version == version_)
+            return {};
+        auto rows = services_.worklist(*store_);
+        version_ = version;
+        return [this, rows = std::move(rows)] { show(rows); };
     });
 }
 

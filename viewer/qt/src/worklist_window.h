@@ -5,6 +5,8 @@
 #include <QWidget>
 #include <map>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "vicon/viewer/qt/reading_room.h"
 #include "worker.h"
@@ -50,7 +52,8 @@ private:
     QTimer timer_;
     std::map<std::string, ReadingWindow*> windows_;  ///< open ones, by case
     std::vector<QPointer<QWidget>> made_;            ///< with those that are closed but still saving
-    std::unique_ptr<CaseStore> store_;               // the worker's
+    std::unique_ptr<CaseStore> store_;               // the worker's, as is what it read last
+    std::optional<std::string> version_;
     Worker worker_{this};
 };
 

@@ -1,5 +1,7 @@
 #include "fonts.h"
 
+#include <hb-ft.h>
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -22,10 +24,12 @@ constexpr std::array kPreferred{"DejaVuSans.ttf",
                                 "ipag.ttf"};
 constexpr std::array kFolders{"/usr/share/fonts", "/usr/local/share/fonts"};
 
+/// The preferred ones, then each other script's upright font of usual weight, then the rest.
 std::size_t rankOf(const fs::path& file)
 {
-    const auto at = std::find(kPreferred.begin(), kPreferred.end(), file.filename().string());
-    return std::size_t(at - kPreferred.begin());
+    const std::string name = file.filename().string();
+    const auto at = std::find(kPreferred.begin(), kPreferred.end(), name);
+    return std::size_t(at - kPreferred.begin()) + (at == kPreferred.end() && !name.ends_with("-Regular.ttf") ? 1 : 0);
 }
 
 bool isFont(const fs::path& file)
@@ -65,7 +69,18 @@ Fonts::Fonts()
 
 Fonts::~Fonts()
 {
+    shapers_.clear();
     FT_Done_FreeType(library_);  // and with it the faces
+}
+
+hb_font_t* Fonts::shaperOf(FT_Face face)
+{
+    auto& shaper = shapers_.try_emplace(face, nullptr, hb_font_destroy).first->second;
+    if (!shaper) {
+        shaper.reset(hb_ft_font_create_referenced(face));
+        hb_ft_font_set_load_flags(shaper.get(), FT_LOAD_NO_HINTING);
+    }
+    return shaper.get();
 }
 
 FT_Face Fonts::faceAt(std::size_t n)

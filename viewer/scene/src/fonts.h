@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ft2build.h>
+#include <hb.h>
 #include FT_FREETYPE_H
 
 #include <cstdint>
@@ -25,7 +26,8 @@ public:
     };
     /// The first font in order that has the character: the preferred ones by name, then all others by path.
     Found find(std::uint32_t character);
-    FT_Library library() const { return library_; }
+    /// What arranges the glyphs of one of these faces; made once.
+    hb_font_t* shaperOf(FT_Face face);
 
 private:
     FT_Face faceAt(std::size_t n);
@@ -38,6 +40,7 @@ private:
     FT_Library library_ = nullptr;
     std::vector<Entry> entries_;
     std::map<std::uint32_t, Found> known_;
+    std::map<FT_Face, std::unique_ptr<hb_font_t, decltype(&hb_font_destroy)>> shapers_;
 };
 
 }  // namespace vicon::viewer

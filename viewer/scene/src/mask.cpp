@@ -73,7 +73,8 @@ void Mask::addBox(const Area& box, double edge_px)
     addShape(box.x - edge_px, box.y - edge_px, box.right() + edge_px, box.bottom() + edge_px, [&](double x, double y) {
         const double dx = std::max({box.x - x, x - box.right(), 0.0}),
                      dy = std::max({box.y - y, y - box.bottom(), 0.0});
-        return 1 - lengthOf(dx, dy) / edge_px;
+        const double share = std::clamp(1 - lengthOf(dx, dy) / edge_px, 0.0, 1.0);
+        return share * share * (3 - 2 * share);  // without a step where it begins and ends: no edge is seen
     });
 }
 

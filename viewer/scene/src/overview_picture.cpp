@@ -203,7 +203,7 @@ void addMarkers(Overlay& overlay, const std::vector<Marker>& markers, const Plan
         overlay.texts.push_back({{at.x + 0.5 * text_px, at.y - 0.2 * text_px},
                                  marker.id,
                                  text_px,
-                                 colorOf(marker.color),
+                                 labelColorOf(marker.color),
                                  Across::left,
                                  Along::bottom,
                                  1e9});

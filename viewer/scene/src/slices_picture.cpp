@@ -39,12 +39,17 @@ struct Panel {
     bool cross;
 };
 
+WindowLevel windowOf(const PreparedScan& scan, const SnapshotRequest& request)
+{
+    return request.window.empty() ? windowPresets(scan.words().organ).front() : windowPreset(request.window);
+}
+
 Picture slice(const PreparedScan& scan, const SnapshotRequest& request, const Panel& panel)
 {
     const auto& [plane, point, width, height, field_mm, cross] = panel;
     const HuView& volume = scan.volume();
     const PlaneView view = sliceThrough(volume.grid, plane, point, width, height, field_mm);
-    Picture picture = greyPicture(volume, view, windowPreset(request.window));
+    Picture picture = greyPicture(volume, view, windowOf(scan, request));
     Overlay overlay;
     const Area area{0, 0, double(width), double(height)};
     const double text_px = textHeightFor(width, height) * 1.15;
@@ -71,7 +76,7 @@ Picture captionPanel(const PreparedScan& scan, const SnapshotRequest& request, c
     Picture picture(width, height, {10, 12, 16});
     Overlay overlay;
     auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), scan.words());
-    const WindowLevel window = windowPreset(request.window);
+    const WindowLevel window = windowOf(scan, request);
     OverlayText line;
     line.color = kTextColor;
     line.text = "window " + window.name + ": " + std::to_string(std::lround(window.width_hu)) + " / " +
@@ -79,7 +84,7 @@ Picture captionPanel(const PreparedScan& scan, const SnapshotRequest& request, c
     lines.push_back(line);
     for (const Marker& marker : request.markers)
         if (request.look_at_mm && marker.position_mm == *request.look_at_mm) {
-            line.color = colorOf(marker.color);
+            line.color = labelColorOf(marker.color);
             for (const std::string& words : wrapped(marker.id + "  " + marker.note, kNoteLine, kMostNoteLines)) {
                 line.text = words;
                 lines.push_back(line);

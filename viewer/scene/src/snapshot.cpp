@@ -24,7 +24,8 @@ SnapshotRequest completed(SnapshotRequest request)
     if (request.view_angle_deg < kNarrowest_deg || request.view_angle_deg > kWidest_deg)
         throw Error(ErrorCode::wrong_use, "the angle of view must be 20 to 150 degrees",
                     std::to_string(request.view_angle_deg));
-    windowPreset(request.window);
+    if (!request.window.empty())
+        windowPreset(request.window);
     if (!request.peel.empty())
         transferFunction(request.peel);
     return request;

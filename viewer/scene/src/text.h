@@ -2,15 +2,10 @@
 
 #include <vector>
 
-#include "fonts.h"
 #include "mask.h"
+#include "shaping.h"
 
 namespace vicon::viewer {
-
-struct PlacedGlyph {
-    Fonts::Found glyph;
-    double x = 0;  ///< from the line's begin
-};
 
 /// A text as it will be painted.
 struct TextLine {
@@ -20,7 +15,6 @@ struct TextLine {
     Rgb color;
 };
 
-/// Glyphs through FreeType; order and Arabic joining through FriBidi.
 TextLine layOut(const OverlayText& text);
 TextSize sizeOf(const TextLine& line);
 

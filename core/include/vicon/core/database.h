@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace vicon {
 
@@ -21,6 +22,10 @@ public:
     Database& operator=(const Database&) = delete;
 
     soci::session& session() { return *session_; }
+
+    /// The same again as long as nobody changed anything, over this connection or another; to be compared with what
+    /// this object said before.
+    std::string version();
 
     /// Runs `work` in one write transaction (BEGIN IMMEDIATE), rolled back when it throws. Database errors become
     /// Error{database}.

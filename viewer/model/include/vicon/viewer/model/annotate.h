@@ -19,6 +19,8 @@ inline constexpr Rgb kPathColor{120, 235, 255};
 inline constexpr Rgb kBridgeColor{255, 90, 220};
 inline constexpr Rgb kHereColor{255, 255, 255};
 Rgb colorOf(MarkerColor color);
+/// Lighter: thin letters of a full red are not read on tissue.
+Rgb labelColorOf(MarkerColor color);
 
 /// Height of text that reads well in a picture of this size, in pixels.
 /// @param pixel_ratio of the screen: how many of its pixels are one of 96 to the inch

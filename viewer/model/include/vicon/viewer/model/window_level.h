@@ -16,10 +16,10 @@ struct WindowLevel {
     std::uint8_t greyOf(double density_hu) const;
 };
 
-/// The presets of config/windows.toml, in its order.
-const std::vector<WindowLevel>& windowPresets();
+/// The presets of config/windows.toml that are offered for an organ, its default first, the others in the file's order.
+std::vector<WindowLevel> windowPresets(const std::string& organ);
 
-/// The preset of that name. Throws Error{wrong_use} naming those there are.
+/// The preset of that name, whichever organ it is offered for. Throws Error{wrong_use} naming those there are.
 WindowLevel windowPreset(const std::string& name);
 
 }  // namespace vicon::viewer

@@ -23,6 +23,7 @@ struct WorklistScanRow {
     std::filesystem::path folder;
     std::string quality;  ///< how well it can be read, in a few words; empty where it is not known
     bool adequate = true;
+    std::string organ = "colon";  ///< what it shows
 
     bool ready() const { return state == "done" && reason.empty(); }  ///< it can be shown
 };
@@ -68,6 +69,8 @@ struct ReadingServices {
     std::filesystem::path store;
     std::string receiver;  ///< where a PACS sends studies to, in words
     std::function<std::vector<WorklistRow>(CaseStore&)> worklist;
+    /// The same again where the worklist is still the same, for that connection; none: the worklist is always read.
+    std::function<std::string(CaseStore&)> worklist_version;
     /// Puts the failed jobs of a case back into the queue.
     std::function<void(CaseStore&, const std::string& case_id)> retry;
     /// Fills in a marker's stations and its part of the colon; throws where the point is not in the colon.
