@@ -10,6 +10,7 @@
 #include "vicon/artefact/skeleton_file.h"
 #include "vicon/artefact/volume_file.h"
 #include "vicon/steps/projections.h"
+#include "vicon/steps/wall_distance.h"
 
 namespace vicon::viewer::test {
 namespace {
@@ -174,7 +175,8 @@ TestColon::TestColon(const Storage& storage, double voxel_mm)
             exit_distance.voxels[n] = float(feet[n].station_mm);
         }
     }
-    wall_distance = wallDistanceOf(inside);
+    NoProgress quiet;
+    wall_distance = steps::wallDistance(inside, volume, quiet);
     for (SkeletonPoint& p : skeleton.pieces.front().points)
         p.radius_mm = body.radius(p.station_mm);
     cells = surfaceOf(

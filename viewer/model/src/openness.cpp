@@ -18,10 +18,11 @@ constexpr std::array<Probe, 4> kProbes{{{2, 0.3}, {3.5, 0.3}, {5, 0.2}, {7.5, 0.
 
 double opennessAt(Point3 point, Vector3 normal, const Lumen& lumen)
 {
+    const double unsure_mm = lumen.voxel_mm() / 4;  // what a field of voxels may be short by before plain wall
     double openness = 0;
     for (const Probe& probe : kProbes) {
         const double free_mm = lumen.clearance_mm(point + normal * probe.distance_mm);
-        openness += probe.weight * std::min(free_mm / probe.distance_mm, 1.0);
+        openness += probe.weight * std::min((free_mm + unsure_mm) / probe.distance_mm, 1.0);
     }
     return openness;
 }
