@@ -23,7 +23,7 @@ public:
             row.resize(width_ + 2);
     }
 
-    /// Element i + 1 tells of voxel i, from -1 to one behind the last.
+    /// Element n tells of voxel n - 1, from one before the first to one behind the last.
     const std::vector<std::uint8_t>& of(int j, int k)
     {
         load(rows_[0], j, k);
@@ -90,15 +90,15 @@ Volume<std::int16_t> wallValues(const WallField& field, const InsideVolume& insi
                 if (!rows.near(j, k))
                     continue;
                 const std::vector<std::uint8_t>& marks = beside.of(j, k);
-                std::int16_t* row = &values.at({1, j + 1, k + 1});
-                for (int i = -1; i <= nx; ++i) {
-                    const Index3 v{i, j, k};
+                std::int16_t* row = &values.at({0, j + 1, k + 1});
+                for (int n = 0; n < nx + 2; ++n) {
+                    const Index3 v{n - 1, j, k};
                     const bool is_inside = inside.valueOr(v, kOutside) != kOutside;
-                    if (marks[std::size_t(i + 1)])
-                        row[i] = std::int16_t(
+                    if (marks[std::size_t(n)])
+                        row[n] = std::int16_t(
                             std::lround((is_inside ? field.ofInside(v) : field.ofOutside(v)) * kWallScale));
                     else if (is_inside)
-                        row[i] = std::int16_t(-kWallScale);
+                        row[n] = std::int16_t(-kWallScale);
                 }
             }
     });
@@ -122,10 +122,10 @@ std::vector<NearWall> findNearWall(const Volume<std::int16_t>& values, const Ins
             if (!rows.near(j, k))
                 continue;
             const std::vector<std::uint8_t>& marks = beside.of(j, k);
-            for (int i = 0; i < nx; ++i)
-                if (marks[std::size_t(i + 1)])
+            for (int n = 1; n <= nx; ++n)
+                if (marks[std::size_t(n)])
                     slices[std::size_t(k)].push_back(
-                        {grid.offset({i, j, k}), distanceFromWall(&values.at({i + 1, j + 1, k + 1}), steps, lengths)});
+                        {grid.offset({n - 1, j, k}), distanceFromWall(&values.at({n, j + 1, k + 1}), steps, lengths)});
         }
     });
     std::vector<NearWall> all;
