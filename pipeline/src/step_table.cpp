@@ -239,7 +239,7 @@ const std::vector<Step>& stepTable()
          parametersByOrgan<SegmentOptions, OrganOptions>,
          runSegment},
         {"skeleton",
-         9,
+         10,
          0.55,
          0.65,
          {"segment"},

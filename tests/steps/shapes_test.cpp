@@ -19,12 +19,23 @@ namespace {
 
 NoProgress quiet;
 
+constexpr double kLeastOverlap = 0.98;
+
 struct Shape {
     const char* name;
-    double overlap;  ///< least OV where the two lines run together
     double jump_mm;  ///< most that the given line advances while the found one goes 10 mm
-    double tail_mm;  ///< longest loose end of the given line
+    double tail_mm;  ///< longest loose end of the given line, with ends found without it
 };
+
+/// The line with a point every millimetre or so, so that each counts as much as any other.
+Skeleton evenly(const Skeleton& line)
+{
+    const int count = int(std::lround(line.length_mm()));
+    SkeletonPiece piece{.bridge = false, .points = {}};
+    for (int n = 0; n <= count; ++n)
+        piece.points.push_back(line.at(line.length_mm() * n / count));
+    return Skeleton{{piece}};
+}
 
 std::vector<SkeletonPoint> pointsOf(const Skeleton& skeleton)
 {
@@ -130,39 +141,64 @@ void expectInside(const InsideVolume& inside, const SkeletonResult& result)
         }
 }
 
-class Shapes : public testing::TestWithParam<Shape> {};
-
-TEST_P(Shapes, AreFollowedInTheLumenOverTheirWholeLengthTheRightWay)
+void print(const char* shape, const char* ends, const Overlap& overlap, double found_mm, double given_mm)
 {
-    const Shape& shape = GetParam();
-    const std::string file = std::string("shapes/") + shape.name;
-    VICON_NEEDS_DATA(file + ".mha");
-    const auto inside = artefact::readVolume<std::uint8_t>(support::sharedData(file + ".mha"));
-    Skeleton given = readCentreline(support::sharedData(file + "_centerline.csv"));
-    measureRadii(wallDistance(inside, quiet), given);
-    const LumenPlan plan = planForMask(inside);
-    ASSERT_EQ(plan.pieces.size(), 1U);
-    const SkeletonResult result = findSkeleton(inside, plan, {}, quiet);
-    const Overlap overlap = compare(given, result.curve);
     std::printf(
-        "%s: OV %.4f where the lines run together, %.4f in all; loose ends: given %.1f mm, found %.1f mm; in 10 mm "
-        "%.1f "
-        "mm on, %.1f mm back; mean distance %.2f mm; length %.0f mm (given line %.0f)\n",
-        shape.name, overlap.between, overlap.whole, overlap.given_mm, overlap.found_mm, overlap.jump_mm,
-        overlap.back_mm, overlap.mean_mm, result.curve.length_mm(), given.length_mm());
-    expectInside(inside, result);
-    EXPECT_GE(overlap.between, shape.overlap);
-    EXPECT_LE(overlap.given_mm, shape.tail_mm);
-    EXPECT_LE(overlap.jump_mm, shape.jump_mm);
-    EXPECT_LT(overlap.back_mm, 10);
+        "%s, %s ends: OV %.4f in all, %.4f where the lines run together; loose ends: given %.1f mm, found %.1f mm; in "
+        "10 mm %.1f mm on, %.1f mm back; mean distance %.2f mm; length %.0f mm (given line %.0f)\n",
+        shape, ends, overlap.whole, overlap.between, overlap.given_mm, overlap.found_mm, overlap.jump_mm,
+        overlap.back_mm, overlap.mean_mm, found_mm, given_mm);
 }
 
-// The Edinburgh lines run on into the appendix. HuBMAPVHM_3D_00070 turns back on itself within less than its own width
+class Shapes : public testing::TestWithParam<Shape> {
+protected:
+    void SetUp() override
+    {
+        const std::string file = std::string("shapes/") + GetParam().name;
+        VICON_NEEDS_DATA(file + ".mha");
+        inside_ = artefact::readVolume<std::uint8_t>(support::sharedData(file + ".mha"));
+        given_ = evenly(readCentreline(support::sharedData(file + "_centerline.csv")));
+        measureRadii(wallDistance(inside_, quiet), given_);
+        plan_ = planForMask(inside_);
+        ASSERT_EQ(plan_.pieces.size(), 1U);
+    }
+
+    Overlap follow(const char* ends) const
+    {
+        const SkeletonResult result = findSkeleton(inside_, plan_, {}, quiet);
+        expectInside(inside_, result);
+        const Overlap overlap = compare(given_, result.curve);
+        print(GetParam().name, ends, overlap, result.curve.length_mm(), given_.length_mm());
+        EXPECT_GE(overlap.between, kLeastOverlap);
+        EXPECT_LE(overlap.jump_mm, GetParam().jump_mm);
+        EXPECT_LT(overlap.back_mm, 10);
+        return overlap;
+    }
+
+    InsideVolume inside_;
+    Skeleton given_;
+    LumenPlan plan_;
+};
+
+TEST_P(Shapes, AreCoveredOverTheirWholeLengthFromOneGivenEndToTheOther)
+{
+    LumenPiece& piece = plan_.pieces.front();
+    piece.rectal_end_mm = given_.pieces.front().points.front().position_mm;
+    piece.caecal_end_mm = given_.pieces.front().points.back().position_mm;
+    EXPECT_GE(follow("given").whole, kLeastOverlap);
+}
+
+TEST_P(Shapes, AreFollowedFromEndsFoundInTheMaskAlone)
+{
+    EXPECT_LE(follow("found").given_mm, GetParam().tail_mm);
+}
+
+// Which of the tips is the end a mask does not tell: two Edinburgh lines and the third run on into the appendix, and
+// ctc_460 is open to an anal tube and the ileum. HuBMAPVHM_3D_00070 turns back on itself within less than its own width
 // at 1015 to 1072 mm of its line: there both lines pass the same place on either side of each other's bend.
 INSTANTIATE_TEST_SUITE_P(Colons, Shapes,
-                         testing::Values(Shape{"EdinGCA_3D_00060", 0.98, 30, 25},
-                                         Shape{"EdinGCA_3D_00090", 0.98, 30, 45},
-                                         Shape{"HuBMAPVHM_3D_00070", 0.98, 75, 35}, Shape{"ctc_460", 0.98, 30, 25}),
+                         testing::Values(Shape{"EdinGCA_3D_00060", 30, 45}, Shape{"EdinGCA_3D_00090", 30, 45},
+                                         Shape{"HuBMAPVHM_3D_00070", 75, 35}, Shape{"ctc_460", 30, 25}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

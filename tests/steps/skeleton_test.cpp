@@ -102,6 +102,24 @@ TEST(Skeleton, VoxelPathIs26ConnectedAndInside)
     }
 }
 
+TEST(Skeleton, KeepsToTheWidePartOfAFlatLumen)
+{
+    // A channel beside a slit of about the same area: the middle of a section lies in the slit.
+    const Curve channel{"channel", {{-12, 0, -50}, {-12, 0, 50}}, 4};
+    const InsideVolume mask = drawMask(centredGrid({80, 40, 140}, 1), [&](Point3 p) {
+        const bool in_slit = std::abs(p.y) < 2.6 && p.x > -12 && p.x < 16 && std::abs(p.z) < 50;
+        return in_slit || tubeDistance(channel.line, channel.radius_mm, p) < 0;
+    });
+    NoProgress progress;
+    LumenPlan plan = planForMask(mask);
+    ASSERT_EQ(plan.pieces.size(), 1U);
+    plan.pieces.front().rectal_end_mm = channel.line.front();
+    plan.pieces.front().caecal_end_mm = channel.line.back();
+    const SkeletonResult result = findSkeleton(mask, plan, {}, progress);
+    for (const SkeletonPoint& p : result.curve.pieces.front().points)
+        EXPECT_LT(tubeDistance(channel.line, 0, p.position_mm), 0.75 * channel.radius_mm + 1) << p.station_mm;
+}
+
 TEST(Skeleton, GoesAroundALoopThatTouchesItself)
 {
     // Two limbs of a hairpin whose walls merge over a few voxels half-way up.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "path_balls.h"
 #include "skeleton_ends.h"
 #include "skeleton_section.h"
 #include "skeleton_unwind.h"
@@ -157,6 +158,11 @@ bool DistanceProbe::inside(Point3 p) const
     return field.valueOr(v, 0) > 0;
 }
 
+bool DistanceProbe::overTube(Point3 p) const
+{
+    return box_ && at(p) > DistanceProbe(field_).at(p);
+}
+
 double DistanceProbe::smallestSpacing_mm() const
 {
     const auto& spacing = field_.grid.spacing_mm;
@@ -204,6 +210,7 @@ Polyline centredCurve(const Polyline& path, const DistanceProbe& wall, const Ske
     Polyline line = resampledInside(withoutTips(path, wall), wall, options.step_mm);
     line = resampledInside(smoothedInside(line, options.path_smoothing_mm, wall, options), wall, options.step_mm);
     const Polyline path_line = line;
+    const PathBalls balls(path, wall);
     for (int n = 0; n < options.recentrings; ++n) {
         // The percentiles are those of a stretch, not of a point: what the line wriggles within such a stretch would
         // stay. So the rays start from a line without wriggles; at last from the line itself, because what was taken
@@ -215,7 +222,7 @@ Polyline centredCurve(const Polyline& path, const DistanceProbe& wall, const Ske
         const Middle middle = n + kFitted >= options.recentrings ? Middle::fitted : Middle::median;
         line = unwound(base, recentred(base, wall, options.step_mm, options.rays, middle), path_line, wall,
                        options.step_mm);
-        line = smoothedInside(line, options.smoothing_mm, wall, options);
+        line = balls.hold(smoothedInside(line, options.smoothing_mm, wall, options));
         if (n + 1 < options.recentrings)
             line = resampledInside(line, wall, options.step_mm);
     }

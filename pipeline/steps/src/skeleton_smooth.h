@@ -17,6 +17,8 @@ public:
     DistanceProbe(const FieldVolume& wall_mm, const FieldVolume& box_mm);
     double at(Point3 p) const;
     bool inside(Point3 p) const;
+    /// Whether the wall is farther away there because the box counts the rectal tube as lumen.
+    bool overTube(Point3 p) const;
     double smallestSpacing_mm() const;
 
 private:
