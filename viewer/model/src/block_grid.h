@@ -41,11 +41,11 @@ public:
             high[d] = std::min(high[d], 4 * size_[d] - 1);
         }
         for (int k = low[2] >> 2; k <= high[2] >> 2; ++k) {
-            const std::uint64_t slices = spread<16>(bits(low[2], high[2], k));
+            const std::uint64_t slices = kBits[2][between(low[2], high[2], k)];
             for (int j = low[1] >> 2; j <= high[1] >> 2; ++j) {
-                const std::uint64_t columns = slices * spread<4>(bits(low[1], high[1], j));
+                const std::uint64_t columns = slices & kBits[1][between(low[1], high[1], j)];
                 for (int i = low[0] >> 2; i <= high[0] >> 2; ++i)
-                    if (test(number(i, j, k), columns * bits(low[0], high[0], i)))
+                    if (test(number(i, j, k), columns & kBits[0][between(low[0], high[0], i)]))
                         return true;
             }
         }
@@ -58,19 +58,23 @@ private:
         return std::size_t(i) + std::size_t(size_[0]) * (std::size_t(j) + std::size_t(size_[1]) * std::size_t(k));
     }
 
-    // Of a block's four places along one axis those between low and high; the product of three such, the second and
-    // third spread out, are the bits of a box.
-    static std::uint64_t bits(int low, int high, int block)
+    // Of a block's four places along one axis the first and the last between low and high, as a number of kBits.
+    static std::size_t between(int low, int high, int block)
     {
         const int from = std::max(low - 4 * block, 0), to = std::min(high - 4 * block, 3);
-        return (std::uint64_t(2) << to) - (std::uint64_t(1) << from);
+        return std::size_t(4 * from + to);
     }
-    template <int stride>
-    static std::uint64_t spread(std::uint64_t b)
-    {
-        constexpr int step = stride - 1;
-        return (b & 1) | (b & 2) << step | (b & 4) << 2 * step | (b & 8) << 3 * step;
-    }
+    // For each axis the bits of all elements from one place along it to another.
+    static constexpr std::array<std::array<std::uint64_t, 16>, 3> kBits = [] {
+        std::array<std::array<std::uint64_t, 16>, 3> bits{};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (std::size_t from = 0; from < 4; ++from)
+                for (std::size_t to = from; to < 4; ++to)
+                    for (std::size_t place = 0; place < kPlaces; ++place)
+                        if (const std::size_t at = place >> (2 * axis) & 3; at >= from && at <= to)
+                            bits[axis][4 * from + to] |= std::uint64_t(1) << place;
+        return bits;
+    }();
 
     std::array<int, 3> size_{};  ///< in blocks
 };

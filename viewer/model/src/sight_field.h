@@ -2,27 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 #include "block_grid.h"
+#include "four.h"
 #include "vicon/core/volume_view.h"
 
 namespace vicon::viewer {
-
-/// The next whole number below or above, of numbers within 65536 of 0 and but for some 1e-11: bundles are wider than
-/// that. Without the instructions for rounding, which not every machine of the architecture has, std::floor takes a
-/// fifth of all the time that bundles take.
-inline int floorOf(double x)
-{
-    constexpr int kAway = 65536;  // conversion cuts off towards 0, which is downwards there
-    return int(x + kAway) - kAway;
-}
-inline int ceilOf(double x)
-{
-    return -floorOf(-x);
-}
 
 /// How far around a place nothing but lumen lies, or nothing but what is outside of it; counted in voxels along the
 /// axes of the grid.
@@ -37,27 +25,23 @@ public:
     /// A place's kind, and the half edge, in voxels, of a box around it that holds no cube of another kind.
     struct Clear {
         Kind kind = Kind::solid;
-        double voxels = 0;
+        float voxels = 0;
     };
 
     /// @param p in voxels: index 0 is the centre of the first voxel
-    Clear at(const std::array<double, 3>& p) const
+    Clear at(Four p) const
     {
-        std::array<int, 3> cube{};
-        double to_side = 1, beyond = 0;
-        for (std::size_t d = 0; d < 3; ++d) {
-            const int low = floorOf(p[d]);
-            cube[d] = low + 1;
-            to_side = std::min({to_side, p[d] - low, 1 - (p[d] - low)});
-            beyond = std::max({beyond, -1 - p[d], p[d] - (size_[d] - 1)});
-        }
+        const FourInts low = floorOf(p);
+        const std::array<int, 3> cube{low[0] + 1, low[1] + 1, low[2] + 1};
         for (std::size_t d = 0; d < 3; ++d)
-            if (cube[d] < 0 || cube[d] >= size_[d])
-                return {Kind::solid, std::max(0.0, beyond)};
+            if (unsigned(cube[d]) >= unsigned(size_[d]))
+                return {Kind::solid, std::max(0.0F, beyond(p))};
         const int steps = steps_[cube_blocks_.elementOf(cube)];
         if (steps == 0)
             return {Kind::wall, 0};
-        return {steps > 0 ? Kind::open : Kind::solid, std::abs(steps) - 1 + to_side};
+        const Four part = p - fourOf(low), side = leastOf(part, 1 - part);
+        const float to_side = std::min({side[0], side[1], side[2]});
+        return {steps > 0 ? Kind::open : Kind::solid, float(std::abs(steps) - 1) + to_side};
     }
 
     /// Whether all voxels of a rectangle of the plane across `axis` through voxels `plane` are outside: the surface
@@ -78,6 +62,15 @@ public:
     const std::array<int, 3>& cubes() const { return size_; }
 
 private:
+    /// How far beyond the cubes a place lies.
+    float beyond(Four p) const
+    {
+        float most = -1;
+        for (int d = 0; d < 3; ++d)
+            most = std::max({most, -1 - p[d], p[d] - float(size_[std::size_t(d)] - 1)});
+        return most;
+    }
+
     void classifyRow(const InsideView& inside, int j, int k, std::vector<std::uint8_t>& steps) const;
     void fillVoxelBlocks(const InsideView& inside);
     void fillCubeBlocks(const InsideView& inside, const std::vector<std::uint8_t>& steps);

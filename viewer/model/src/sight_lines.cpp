@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "patch_blocks.h"
 #include "sight_field.h"
@@ -11,34 +12,49 @@
 namespace vicon::viewer {
 namespace {
 
-using Voxels = std::array<double, 3>;  // a place or a step, counted in voxels along the grid's axes
-
 /// Squares along the picture's height: those that bundles start with, those that tell patches, those into which a
 /// bundle is split that runs into a thin wall, and those far away. Chosen on ctc-prone and the default phantom.
-constexpr double kFirst = 12, kTelling = 24, kFinest = 96, kFinestFar = 192;
+constexpr float kFirst = 12, kTelling = 24, kFinest = 96, kFinestFar = 192;
 /// Voxels from a bundle's middle to its side: a wider one is split before it tells patches, and one that runs into a
 /// wall is split into the finest squares of far away. A wide bundle meets much that lies behind a fold's edge.
-constexpr double kWideTelling = 3, kWideInWall = 1.5;
+constexpr float kWideTelling = 3, kWideInWall = 1.5;
 /// Bundles are wider than their squares by this part of a voxel, and by this part of the finest square: what the
-/// graphics driver's arithmetic may be off.
-constexpr double kSlackVoxels = 0.02, kSlackSquares = 0.05;
-constexpr double kLeastStep = 1;  // voxel: no step in the wall crosses two planes of voxels
-constexpr double kOpenSteps = 2;  // at once, where the lumen is open: there no end is looked for
+/// graphics driver's arithmetic and that of bundles, both of single precision, may be off.
+constexpr float kSlackVoxels = 0.02, kSlackSquares = 0.05;
+constexpr float kLeastStep = 1;  // voxel: no step in the wall crosses two planes of voxels
+constexpr float kOpenSteps = 2;  // at once, where the lumen is open: there no end is looked for
 /// Steps that a bundle goes on in the wall before it is split.
 constexpr int kMostInWall = 8;
-constexpr double kReach_mm = 2000;  // as far as pictures are drawn
+constexpr float kReach_mm = 2000;  // as far as pictures are drawn
 
 /// A square of the plane at depth 1 from the eye.
 struct Square {
-    double x = 0, y = 0;  ///< its middle, to the right and up
-    double half = 0;
-    double from = 0;  ///< the depth up to which nothing but lumen has been found
+    float x = 0, y = 0;  ///< its middle, to the right and up
+    float half = 0;
+    float from = 0;  ///< the depth up to which nothing but lumen has been found
 };
 
-Voxels inVoxels(const Grid& grid, Vector3 v)
+/// Along each axis of the grid how far the lines through a square's four corners go for each step of depth, and how
+/// deep they go for each voxel.
+struct Corners {
+    std::array<Four, 3> way, depth;
+};
+
+Four inVoxels(const Grid& grid, Vector3 v)
 {
-    return {dot(v, grid.axis[0]) / grid.spacing_mm[0], dot(v, grid.axis[1]) / grid.spacing_mm[1],
-            dot(v, grid.axis[2]) / grid.spacing_mm[2]};
+    return Four{float(dot(v, grid.axis[0]) / grid.spacing_mm[0]), float(dot(v, grid.axis[1]) / grid.spacing_mm[1]),
+                float(dot(v, grid.axis[2]) / grid.spacing_mm[2]), 0};
+}
+
+Four inVoxels(const Grid& grid, Point3 p)
+{
+    const ContinuousIndex3 at = grid.continuousIndexAt(p);
+    return Four{float(at.i), float(at.j), float(at.k), 0};
+}
+
+Four sizeOf(Four a)
+{
+    return mostOf(a, -a);
 }
 
 /// The bundles of one picture.
@@ -46,38 +62,38 @@ class Bundles {
 public:
     Bundles(const SightField& field, const PatchBlocks& blocks, const Pose& pose, const Lens& lens,
             PatchBlocks::Cubes& cubes)
-        : field_(field), blocks_(blocks), cubes_(cubes)
+        : field_(field),
+          blocks_(blocks),
+          cubes_(cubes),
+          eye_(inVoxels(field.grid(), pose.eye_mm)),
+          forward_(inVoxels(field.grid(), pose.forward)),
+          right_(inVoxels(field.grid(), pose.right())),
+          up_(inVoxels(field.grid(), pose.up)),
+          wide_(sizeOf(right_) + sizeOf(up_)),
+          widest_(mostIn(wide_)),
+          top_(float(std::tan(radians(lens.view_angle_deg) / 2)))
     {
-        const ContinuousIndex3 eye = field.grid().continuousIndexAt(pose.eye_mm);
-        eye_ = {eye.i, eye.j, eye.k};
-        forward_ = inVoxels(field.grid(), pose.forward);
-        right_ = inVoxels(field.grid(), pose.right());
-        up_ = inVoxels(field.grid(), pose.up);
-        for (std::size_t d = 0; d < 3; ++d)
-            wide_[d] = std::abs(right_[d]) + std::abs(up_[d]);
-        widest_ = *std::max_element(wide_.begin(), wide_.end());
-        top_ = std::tan(radians(lens.view_angle_deg) / 2);
     }
 
-    double top() const { return top_; }
+    float top() const { return top_; }
 
     void follow(const Square& square) const
     {
-        const Voxels way = wayThrough(square);
-        const double speed = std::max({std::abs(way[0]), std::abs(way[1]), std::abs(way[2])});
-        const double half = square.half + kSlackSquares * top_ / kFinest, spread = half * widest_;
+        const Four way = wayThrough(square);
+        const float speed = mostIn(sizeOf(way));
+        const float half = square.half + kSlackSquares * top_ / kFinest, spread = half * widest_;
+        const Corners corners = cornersOf(square, half);
         const bool telling = atMost(square, kTelling), fine = atMost(square, kFinest);
         const bool finest_far = atMost(square, kFinestFar);
-        const double step = kLeastStep / speed;
-        std::array<double, kMostInWall + 1> in_wall{};  // depths of steps that are not told yet
+        const float step = kLeastStep / speed;
+        std::array<float, kMostInWall + 1> in_wall{};  // depths of steps that are not told yet
         int waiting = 0;
-        for (double depth = square.from; depth < kReach_mm;) {
-            const Voxels p = along(way, depth);
-            const SightField::Clear clear = field_.at(p);
+        for (float depth = square.from; depth < kReach_mm;) {
+            const SightField::Clear clear = field_.at(along(way, depth));
             const bool open = clear.kind == SightField::Kind::open;
-            const double free = clear.voxels - depth * spread - kSlackVoxels;
-            double end = clear.kind == SightField::Kind::solid && free > 0 ? depth : 0;
-            const double leap = open ? free / (speed + spread) : 0;
+            const float free = clear.voxels - depth * spread - kSlackVoxels;
+            float end = clear.kind == SightField::Kind::solid && free > 0 ? depth : 0;
+            const float leap = open ? free / (speed + spread) : 0;
             if (waiting == 0 && leap >= step) {
                 depth += leap;
                 continue;
@@ -88,7 +104,7 @@ public:
                 return;
             }
             if (end == 0 && !open)
-                end = endOf(square, way, depth, depth + step);
+                end = endOf(corners, way, depth, depth + step);
             if (end > 0) {
                 for (int n = 0; n < waiting; ++n)
                     tell(way, in_wall[std::size_t(n)], in_wall[std::size_t(n)] + step, half);
@@ -114,86 +130,74 @@ public:
     }
 
 private:
-    bool atMost(const Square& square, double along_height) const { return square.half <= top_ / along_height * 1.001; }
+    bool atMost(const Square& square, float along_height) const { return square.half <= top_ / along_height * 1.001F; }
 
-    Voxels wayThrough(const Square& square) const
+    Four wayThrough(const Square& square) const { return forward_ + square.x * right_ + square.y * up_; }
+
+    Corners cornersOf(const Square& square, float half) const
     {
-        Voxels way{};
-        for (std::size_t d = 0; d < 3; ++d)
-            way[d] = forward_[d] + square.x * right_[d] + square.y * up_[d];
-        return way;
+        const Four x = square.x + Four{-half, half, -half, half}, y = square.y + Four{-half, -half, half, half};
+        Corners corners;
+        for (std::size_t d = 0; d < 3; ++d) {
+            corners.way[d] = forward_[d] + x * right_[d] + y * up_[d];
+            corners.depth[d] = 1 / corners.way[d];
+        }
+        return corners;
     }
 
-    Voxels along(const Voxels& way, double depth) const
-    {
-        return {eye_[0] + depth * way[0], eye_[1] + depth * way[1], eye_[2] + depth * way[2]};
-    }
+    Four along(Four way, float depth) const { return eye_ + depth * way; }
 
     // Where the whole bundle crosses a plane of voxels between two depths of its middle, and all voxels around the
     // crossing are outside: the greatest depth of a crossing; else 0. This finds walls that are too thin for a solid
     // cube.
-    double endOf(const Square& square, const Voxels& way, double depth, double next) const
+    float endOf(const Corners& corners, Four way, float depth, float next) const
     {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double a = eye_[axis] + depth * way[axis], b = eye_[axis] + next * way[axis];
-            const double plane = way[axis] > 0 ? ceilOf(a) : floorOf(a);
-            if ((plane - a) * (b - plane) < 0 || a == b)
-                continue;
-            if (const double last = endAt(square, axis, plane, next + 3 * (next - depth)); last > 0)
-                return last;
-        }
+        const Four a = along(way, depth), b = along(way, next);
+        const Four plane = way > 0 ? -fourOf(floorOf(-a)) : fourOf(floorOf(a));
+        const FourInts crossed = ((plane - a) * (b - plane) >= 0) & (a != b);
+        for (int axis = 0; axis < 3; ++axis)
+            if (crossed[axis])
+                if (const float last = endAt(corners, std::size_t(axis), plane[axis], next + 3 * (next - depth));
+                    last > 0)
+                    return last;
         return 0;
     }
 
-    double endAt(const Square& square, std::size_t axis, double plane, double most) const
+    float endAt(const Corners& corners, std::size_t axis, float plane, float most) const
     {
         const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-        const double half = square.half + kSlackSquares * top_ / kFinest;
-        std::array<double, 2> low{1e300, 1e300}, high{-1e300, -1e300};
-        double last = 0;
-        for (int n = 0; n < 4; ++n) {
-            const Voxels way = wayThrough({square.x + (n & 1 ? half : -half), square.y + (n & 2 ? half : -half), 0, 0});
-            const double depth = (plane - eye_[axis]) / way[axis];
-            if (!(depth > 0 && depth < most))
-                return 0;
-            last = std::max(last, depth);
-            const Voxels p = along(way, depth);
-            low = {std::min(low[0], p[u]), std::min(low[1], p[v])};
-            high = {std::max(high[0], p[u]), std::max(high[1], p[v])};
-        }
-        const auto below = [](double x) { return floorOf(x - kSlackVoxels); };
-        const auto above = [](double x) { return ceilOf(x + kSlackVoxels); };
-        const bool blocked =
-            field_.outside(axis, int(plane), {below(low[0]), below(low[1])}, {above(high[0]), above(high[1])});
-        return blocked ? last : 0;
+        const Four depth = (plane - eye_[axis]) * corners.depth[axis];
+        if (!allOf((depth > 0) & (depth < most)))
+            return 0;
+        const Four along_u = eye_[u] + depth * corners.way[u], along_v = eye_[v] + depth * corners.way[v];
+        // The next voxels below the least of them; those above the greatest, with the signs turned round.
+        const FourInts around =
+            floorOf(Four{leastIn(along_u), leastIn(along_v), -mostIn(along_u), -mostIn(along_v)} - kSlackVoxels);
+        const bool blocked = field_.outside(axis, int(plane), {around[0], around[1]}, {-around[2], -around[3]});
+        return blocked ? mostIn(depth) : 0;
     }
 
-    void split(const Square& square, double from) const
+    void split(const Square& square, float from) const
     {
-        const double h = square.half / 2;
+        const float h = square.half / 2;
         for (int n = 0; n < 4; ++n)
             follow({square.x + (n & 1 ? h : -h), square.y + (n & 2 ? h : -h), h, from});
     }
 
-    void tell(const Voxels& way, double from, double to, double half) const
+    void tell(Four way, float from, float to, float half) const
     {
-        const Voxels a = along(way, from), b = along(way, to);
-        std::array<int, 3> low{}, high{};
-        for (std::size_t d = 0; d < 3; ++d) {
-            const double wide = to * half * wide_[d] + kSlackVoxels;
-            low[d] = floorOf(std::min(a[d], b[d]) - wide) + 1;
-            high[d] = floorOf(std::max(a[d], b[d]) + wide) + 1;
-        }
-        blocks_.add(cubes_, low, high);
+        const Four a = along(way, from), b = along(way, to), wide = to * half * wide_ + kSlackVoxels;
+        const FourInts low = floorOf(leastOf(a, b) - wide) + 1, high = floorOf(mostOf(a, b) + wide) + 1;
+        blocks_.add(cubes_, {low[0], low[1], low[2]}, {high[0], high[1], high[2]});
     }
 
     const SightField& field_;
     const PatchBlocks& blocks_;
-    PatchBlocks::Cubes& cubes_;  ///< what bundles have met
-    Voxels eye_{}, forward_{}, right_{}, up_{};
-    Voxels wide_{};      ///< along each axis, how far a square of half edge 1 reaches from its middle, at depth 1
-    double widest_ = 0;  ///< the most of these
-    double top_ = 0;     ///< of the picture, at depth 1
+    PatchBlocks::Cubes& cubes_;        ///< what bundles have met
+    Four eye_, forward_, right_, up_;  ///< in voxels
+    Four wide_;     ///< along each axis, how far a square of half edge 1 reaches from its middle, at depth 1
+    float widest_;  ///< the most of these
+    float top_;     ///< of the picture, at depth 1
 };
 
 }  // namespace
@@ -215,22 +219,22 @@ SightLines& SightLines::operator=(SightLines&&) noexcept = default;
 bool SightLines::holdsAt(Point3 eye_mm, double near_mm) const
 {
     const Grid& grid = parts_->field.grid();
-    const ContinuousIndex3 eye = grid.continuousIndexAt(eye_mm);
-    const SightField::Clear clear = parts_->field.at({eye.i, eye.j, eye.k});
+    const SightField::Clear clear = parts_->field.at(inVoxels(grid, eye_mm));
     return clear.kind == SightField::Kind::open &&
-           clear.voxels * std::min({grid.spacing_mm[0], grid.spacing_mm[1], grid.spacing_mm[2]}) > near_mm;
+           (clear.voxels - kSlackVoxels) * std::min({grid.spacing_mm[0], grid.spacing_mm[1], grid.spacing_mm[2]}) >
+               near_mm;
 }
 
 std::vector<std::uint8_t> SightLines::seenFrom(const Pose& pose, const Lens& lens) const
 {
     PatchBlocks::Cubes cubes = parts_->blocks.none();
     const Bundles bundles(parts_->field, parts_->blocks, pose, lens, cubes);
-    const double half = bundles.top() / kFirst;
-    const double side = lens.height > 0 ? bundles.top() * lens.width / lens.height : bundles.top();
-    const int rows = int(kFirst), columns = std::max(1, int(std::ceil(side / half - 1e-9)));
+    const float half = bundles.top() / kFirst;
+    const double wide = lens.height > 0 ? double(kFirst) * lens.width / lens.height : double(kFirst);
+    const int rows = int(kFirst), columns = std::max(1, int(std::ceil(wide - 1e-9)));
     tbb::parallel_for(0, rows * columns, [&](int n) {
         const int column = n % columns, row = n / columns;
-        bundles.follow({half * (2 * column + 1 - columns), half * (2 * row + 1 - rows), half, 0});
+        bundles.follow({half * float(2 * column + 1 - columns), half * float(2 * row + 1 - rows), half, 0});
     });
     return parts_->blocks.patchesIn(cubes);
 }

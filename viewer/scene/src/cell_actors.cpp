@@ -81,6 +81,38 @@ void makeActor(CellActor& cell)
     cell.drawn = cell.triangles;
 }
 
+/// What is drawn of a cell. Other cells' patches are not looked at: they are many.
+std::vector<TriangleRun> runsOf(const CellActor& cell, const std::vector<Patch>& patches, const SeenParts& parts)
+{
+    std::vector<TriangleRun> runs;
+    if (std::find(parts.segments.begin(), parts.segments.end(), cell.segment) == parts.segments.end())
+        return runs;
+    const auto of_cell = std::partition_point(patches.begin(), patches.end(),
+                                              [&](const Patch& p) { return p.first_triangle < cell.first_triangle; });
+    for (auto p = of_cell; p != patches.end() && p->cell == cell.segment; ++p) {
+        if (!parts.patches[std::size_t(p - patches.begin())])
+            continue;
+        const std::size_t first = p->first_triangle - cell.first_triangle;
+        if (!runs.empty() && runs.back().first + runs.back().count == first)
+            runs.back().count += p->triangles;
+        else
+            runs.push_back({first, p->triangles});
+    }
+    return runs;
+}
+
+/// Software OpenGL takes in triangles on one core and fills pixels on all, but only when it has taken in the whole
+/// picture or is told to begin. Told so after half, no core has to wait for long; told more often, it is slower.
+void handOverHalf(std::vector<CellActor>& cells, std::size_t drawn)
+{
+    std::size_t before = 0;
+    for (CellActor& cell : cells) {
+        if (before < drawn / 2 && before + cell.drawn >= drawn / 2)
+            cell.mapper->handOverAfter(drawn / 2 - before);
+        before += cell.drawn;
+    }
+}
+
 }  // namespace
 
 std::vector<CellActor> cellActors(const artefact::CellSurface& surface)
@@ -112,26 +144,19 @@ void showOnly(std::vector<CellActor>& cells, const std::vector<int>& segments)
     }
 }
 
-void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patches,
-                 const std::vector<std::uint8_t>& shown)
+void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patches, const SeenParts& parts)
 {
-    std::size_t next = 0;
+    std::size_t drawn = 0;
     for (CellActor& cell : cells) {
-        std::vector<TriangleRun> runs;
+        const std::vector<TriangleRun> runs = runsOf(cell, patches, parts);
         cell.drawn = 0;
-        for (; next < patches.size() && patches[next].cell == cell.segment; ++next) {
-            if (!shown[next])
-                continue;
-            const std::size_t first = patches[next].first_triangle - cell.first_triangle;
-            if (!runs.empty() && runs.back().first + runs.back().count == first)
-                runs.back().count += patches[next].triangles;
-            else
-                runs.push_back({first, patches[next].triangles});
-            cell.drawn += patches[next].triangles;
-        }
+        for (const TriangleRun& run : runs)
+            cell.drawn += run.count;
+        drawn += cell.drawn;
         cell.actor->SetVisibility(!runs.empty());
         cell.mapper->drawOnly(runs);
     }
+    handOverHalf(cells, drawn);
 }
 
 void sendAll(std::vector<CellActor>& cells)

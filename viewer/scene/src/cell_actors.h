@@ -11,6 +11,7 @@
 #include "vicon/artefact/cells_file.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/patches.h"
+#include "vicon/viewer/scene/cell_visibility.h"
 
 namespace vicon::viewer {
 
@@ -33,9 +34,9 @@ std::vector<CellActor> cellActors(const artefact::CellSurface& surface);
 
 /// Whole cells; empty: all.
 void showOnly(std::vector<CellActor>& cells, const std::vector<int>& segments);
-/// Only these patches: of each 1 or 0, as long as `patches`.
-void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patches,
-                 const std::vector<std::uint8_t>& shown);
+/// Only the patches that `parts` names, among those of its cells.
+/// @param patches of the whole surface, as many as parts.patches tells of
+void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patches, const SeenParts& parts);
 
 /// The next picture hands the driver also what is not shown, without drawing it; else a cell is handed over when it is
 /// shown for the first time.

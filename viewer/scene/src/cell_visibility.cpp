@@ -32,8 +32,13 @@ CellVisibility::CellVisibility(const PreparedScan& scan, Means means)
     scan_.segments();
     if (means == Means::gates_and_sight_lines) {
         const artefact::CellSurface& surface = scan.cells();
-        patches_ = patchesOf(surface.segment);
-        sight_lines_.emplace(scan.inside(), DrawnSurface{surface.points_mm, surface.triangles, patches_});
+        const std::vector<Patch> patches = patchesOf(surface.segment);
+        sight_lines_.emplace(scan.inside(), DrawnSurface{surface.points_mm, surface.triangles, patches});
+        for (std::size_t n = 0; n < patches.size(); ++n) {
+            if (cells_.empty() || cells_.back().segment != patches[n].cell)
+                cells_.push_back({patches[n].cell, n, n});
+            cells_.back().end = n + 1;
+        }
     }
 }
 
@@ -58,12 +63,14 @@ SeenParts CellVisibility::seenFrom(const Pose& pose, const Lens& lens) const
     if (sight_lines_) {
         seen.patches = sight_lines_->seenFrom(pose, lens);
         shown.assign(through_gates.size(), false);
-        for (std::size_t n = 0; n < patches_.size(); ++n) {
-            const std::size_t cell = patches_[n].cell;
-            if (cell >= through_gates.size() || !through_gates[cell])
-                seen.patches[n] = 0;
-            else if (seen.patches[n])
-                shown[cell] = true;
+        for (const CellPatches& cell : cells_) {
+            const auto first = seen.patches.begin() + std::ptrdiff_t(cell.first);
+            const auto end = seen.patches.begin() + std::ptrdiff_t(cell.end);
+            const auto number = std::size_t(cell.segment);
+            if (number >= through_gates.size() || !through_gates[number])
+                std::fill(first, end, std::uint8_t(0));
+            else
+                shown[number] = std::find(first, end, 1) != end;
         }
     }
     for (std::size_t n = 0; n < shown.size(); ++n)

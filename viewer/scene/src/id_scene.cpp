@@ -80,7 +80,7 @@ void IdScene::showSeen(const SeenParts& parts)
     if (parts.everything)
         showOnly({});
     else if (parts.patches.size() == parts_->patches.size())
-        viewer::showPatches(parts_->cells, parts_->patches, parts.patches);
+        viewer::showPatches(parts_->cells, parts_->patches, parts);
     else
         showOnly(parts.segments);
 }

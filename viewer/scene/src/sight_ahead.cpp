@@ -16,18 +16,41 @@ void yieldToDrawing()
 
 }  // namespace
 
+SightAhead::SightAhead(const CellVisibility& visibility)
+    : visibility_(visibility), thread_([this](const std::stop_token& stop) { choose(stop); })
+{
+}
+
 void SightAhead::prepare(const Pose& pose, const Lens& lens)
 {
     wait();
     pose_ = pose;
     lens_ = lens;
-    under_way_ = std::async(std::launch::async, [this, pose, lens] {
-        yieldToDrawing();
-        // In this thread alone: those that would help do not yield, and what is to be drawn keeps but one core busy
-        // while it is taken in.
-        tbb::task_arena alone(1);
-        return alone.execute([&] { return visibility_.seenFrom(pose, lens); });
-    });
+    Choice choice([this, pose, lens] { return visibility_.seenFrom(pose, lens); });
+    under_way_ = choice.get_future();
+    {
+        const std::lock_guard lock(mutex_);
+        next_ = std::move(choice);
+    }
+    wanted_.notify_one();
+}
+
+void SightAhead::choose(const std::stop_token& stop)
+{
+    yieldToDrawing();
+    // In this thread alone: those that would help do not yield, and what is to be drawn keeps but one core busy while
+    // it is taken in.
+    tbb::task_arena alone(1);
+    for (;;) {
+        Choice choice;
+        {
+            std::unique_lock lock(mutex_);
+            if (!wanted_.wait(lock, stop, [this] { return next_.valid(); }))
+                return;
+            choice = std::move(next_);
+        }
+        alone.execute([&] { choice(); });
+    }
 }
 
 SeenParts SightAhead::seenFrom(const Pose& pose, const Lens& lens)

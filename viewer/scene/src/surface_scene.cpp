@@ -95,7 +95,7 @@ void SurfaceScene::showSeen(const SeenParts& parts)
     if (parts.everything)
         viewer::showOnly(parts_->cells, {});
     else if (parts.patches.size() == parts_->patches.size())
-        viewer::showPatches(parts_->cells, parts_->patches, parts.patches);
+        viewer::showPatches(parts_->cells, parts_->patches, parts);
     else
         viewer::showOnly(parts_->cells, parts.segments);
 }

@@ -38,7 +38,11 @@ public:
 private:
     PreparedScan scan_;
     Visibility visibility_;
-    std::vector<Patch> patches_;
+    struct CellPatches {
+        int segment = 0;
+        std::size_t first = 0, end = 0;  ///< of the surface's patches
+    };
+    std::vector<CellPatches> cells_;
     std::optional<SightLines> sight_lines_;
 };
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <condition_variable>
 #include <future>
+#include <mutex>
+#include <thread>
 
 #include "vicon/viewer/scene/cell_visibility.h"
 
@@ -11,7 +14,7 @@ namespace vicon::viewer {
 class SightAhead {
 public:
     /// `visibility` must live on.
-    explicit SightAhead(const CellVisibility& visibility) : visibility_(visibility) {}
+    explicit SightAhead(const CellVisibility& visibility);
     /// Waits for what is under way.
     ~SightAhead() = default;
     SightAhead(const SightAhead&) = delete;
@@ -27,10 +30,17 @@ public:
     void wait() const;
 
 private:
+    using Choice = std::packaged_task<SeenParts()>;
+    void choose(const std::stop_token& stop);
+
     const CellVisibility& visibility_;
     Pose pose_;
     Lens lens_;
     std::future<SeenParts> under_way_;
+    std::mutex mutex_;  ///< of what follows
+    std::condition_variable_any wanted_;
+    Choice next_;
+    std::jthread thread_;  ///< kept from frame to frame: a new one costs a frame 0.05 ms
 };
 
 }  // namespace vicon::viewer
