@@ -9,6 +9,8 @@
 namespace vicon::viewer {
 namespace {
 
+constexpr double kLineMargin = 0.4, kLineHeight = 1.35;  // of the text's height
+
 OverlayText text(Pixel at, std::string words, double height_px, Rgb color, Across across, Along along)
 {
     return {at, std::move(words), height_px, color, across, along};
@@ -159,7 +161,7 @@ void addTriad(Overlay& overlay, Pixel centre, double radius_px, const Pose& pose
 
 void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>& lines, double text_px)
 {
-    const double margin = text_px * 0.4;
+    const double margin = kLineMargin * text_px;
     double y = area.y + margin;
     for (OverlayText line : lines) {
         line.at = {area.x + margin, y};
@@ -168,8 +170,18 @@ void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>
         line.along = Along::top;
         line.most_width_px = area.width - 2 * margin;
         overlay.texts.push_back(line);
-        y += text_px * 1.35;
+        y += kLineHeight * text_px;
     }
+}
+
+double heightOfText(std::size_t lines, double height_px)
+{
+    return height_px / (kLineHeight * double(lines) + 2 * kLineMargin);
+}
+
+int linesIn(double height_px, double text_px)
+{
+    return std::max(1, int((height_px - 2 * kLineMargin * text_px) / (kLineHeight * text_px)));
 }
 
 void addMarkerRing(Overlay& overlay, Pixel at, double radius_px, const Marker& marker, double text_px)

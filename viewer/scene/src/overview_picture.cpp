@@ -122,26 +122,18 @@ void addTips(Overlay& overlay, const Skeleton& skeleton, const OrganWords& words
     }
 }
 
-Area areaOf(const OverlayText& text, const TextSize& size)
-{
-    const double left = text.across == Across::centre ? 0.5 : text.across == Across::right ? 1.0 : 0.0;
-    const double above = text.along == Along::middle ? 0.5 : text.along == Along::bottom ? 1.0 : 0.0;
-    return {text.at.x - left * size.width_px, text.at.y - above * size.height_px, size.width_px, size.height_px};
-}
-
 /// Where in a picture names are written already.
 class Names {
 public:
     Names(const Overlay& overlay, const PlaneView& view) : picture_{0, 0, double(view.width), double(view.height)}
     {
         for (const OverlayText& text : overlay.texts)
-            taken_.push_back(areaOf(text, textSize(text)));
+            taken_.push_back(textArea(text));
     }
 
     /// Above, below, on the right or on the left of a place; false where there is no room.
     bool write(Overlay& overlay, OverlayText text, Pixel at, double aside_px)
     {
-        const TextSize size = textSize(text);
         for (const auto& [across, along] : {std::pair{Across::centre, Along::bottom},
                                             {Across::centre, Along::top},
                                             {Across::left, Along::middle},
@@ -150,9 +142,10 @@ public:
             text.along = along;
             const double by = across == Across::left ? aside_px : across == Across::right ? -aside_px : 0;
             text.at = {at.x + by, at.y};
-            if (!free(areaOf(text, size)))
+            const Area area = textArea(text);
+            if (!free(area))
                 continue;
-            taken_.push_back(areaOf(text, size));
+            taken_.push_back(area);
             overlay.texts.push_back(text);
             return true;
         }
