@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "reading.h"
+#include "test_colon.h"
 #include "vicon/core/file.h"
 
 namespace vicon::viewer {
@@ -181,6 +182,17 @@ TEST_F(Correcting, WhatWasNotCorrectedIsNotForgottenAndWhatAddsNothingIsSaidSo)
     settle();
     press(window(), "correctAdd");
     click("coronal", middle("coronal"));  // between the two limbs
+    EXPECT_TRUE(eventually([] { return warning().starts_with("There is neither gas nor tagged fluid"); })) << warning();
+    EXPECT_FALSE(the<QProgressBar>("redo")->isVisible()) << "nothing is done again";
+    closeCase();
+    test::TestColon with_gas;
+    for (std::size_t n = 0; n < with_gas.volume.voxels.size(); ++n)
+        if (!with_gas.inside.voxels[n])
+            with_gas.volume.voxels[n] = -1000;
+    with_gas.write(store_ / "cases" / test::kCase / test::kSupine);
+    openCase();
+    press(window(), "correctAdd");
+    click("coronal", middle("coronal"));
     ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); })) << warning();
     EXPECT_TRUE(eventually([] { return warning().starts_with("Nothing was added"); })) << warning();
 }

@@ -111,5 +111,32 @@ TEST_F(Captions, OfTheViewFromInsideTouchNeitherLettersNorEachOther)
     }
 }
 
+TEST_F(Captions, OfMarkersInTheProjectionMakeRoomForTheOnesOfItsParts)
+{
+    const PreparedScan of = scan();
+    SnapshotRequest request;
+    request.width = request.height = 600;
+    const OverviewGround ground = overviewGround(of, request);
+    ASSERT_EQ(ground.names.size(), 2U) << "rectum and caecum";
+    const SnapshotResult place = placeOf(of, request);
+    for (const Area& name : ground.names)
+        for (const Pixel at : {Pixel{name.x, name.bottom()}, name.centre(), Pixel{name.right() - 20, name.bottom()}}) {
+            Marker marker;
+            marker.position_mm = ground.view.pointAt(at);
+            for (const char* id : {"m1", "m2"}) {
+                marker.id = id;
+                request.markers.push_back(marker);
+            }
+            const auto texts = overviewOverlay(ground, of, request, place).texts;
+            for (const OverlayText& text : texts)
+                if (text.text.starts_with("m1") || text.text.starts_with("m2"))
+                    for (const Area& taken : ground.names)
+                        EXPECT_FALSE(touch(textArea(text), taken)) << at.x << ", " << at.y;
+            ASSERT_EQ(texts[texts.size() - 2].text + texts.back().text, "m1m2");
+            EXPECT_FALSE(touch(textArea(texts[texts.size() - 2]), textArea(texts.back()))) << "of one place";
+            request.markers.clear();
+        }
+}
+
 }  // namespace
 }  // namespace vicon::viewer

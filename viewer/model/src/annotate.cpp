@@ -122,7 +122,8 @@ void addLetters(Overlay& overlay, const Area& area, Vector3 right, Vector3 down,
 
 void addScaleBar(Overlay& overlay, const Area& area, double mm_per_pixel, double text_px)
 {
-    const double bar_mm = roundLength(area.width * mm_per_pixel * 0.3);
+    constexpr double kShare = 0.3, kMostOfHeight = 0.45;  // of a flat picture's width the most would be metres
+    const double bar_mm = roundLength(std::min(kShare * area.width, kMostOfHeight * area.height) * mm_per_pixel);
     const double bar_px = bar_mm / mm_per_pixel;
     const Pixel end{area.right() - text_px, area.bottom() - text_px * 0.8};
     const Pixel begin{end.x - bar_px, end.y};
