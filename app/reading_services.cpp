@@ -54,6 +54,8 @@ viewer::WorklistRow rowOf(CaseStore& store, const WorklistCase& from)
     for (const WorklistScan& scan : from.scans) {
         row.scans.push_back({scan.record, scan.state, scan.step, scan.progress, scan.reason, scan.folder, {}});
         addFindings(store, row.scans.back());
+        if (!scan.reason.empty())
+            row.scans.back().corrected = !pipeline::readCorrections(scan.folder).empty();
         if (scan.state == "kept")
             continue;
         row.progress += scan.progress;
@@ -112,6 +114,18 @@ void addCorrections(viewer::ReadingServices& services, const Config& config)
     services.work = [&config](CaseStore& store, const std::atomic<bool>& stop) { runQueue(store, config, stop); };
 }
 
+void retry(CaseStore& store, const Config& config, const std::string& case_id)
+{
+    pipeline::JobQueue queue(store.database(), config.get<pipeline::QueueOptions>());
+    const auto a_case = makeWorklistCase(store, config, store.requireCase(case_id));
+    for (const viewer::WorklistScanRow& scan : rowOf(store, a_case).scans)
+        if (scan.state == "failed")
+            queue.retry(case_id, scan.record.id);
+        else if (scan.spoiled())
+            correctScan(store, config, scan.record, {}, true);
+    requeueOutdated(store, config);
+}
+
 std::string receiverOf(const Config& config)
 {
     const auto options = config.get<ingest::ReceiverOptions>();
@@ -135,12 +149,7 @@ viewer::ReadingServices readingServices(const fs::path& store, const Config& con
         return rows;
     };
     services.worklist_version = [](CaseStore& store) { return store.database().version(); };
-    services.retry = [&config](CaseStore& store, const std::string& case_id) {
-        pipeline::JobQueue queue(store.database(), config.get<pipeline::QueueOptions>());
-        for (const ScanRecord& scan : store.scans(case_id))
-            if (const auto job = queue.find(case_id, scan.id); job && job->state == pipeline::JobState::failed)
-                queue.retry(case_id, scan.id);
-    };
+    services.retry = [&config](CaseStore& store, const std::string& case_id) { retry(store, config, case_id); };
     services.place = [&config](CaseStore& store, const std::string& case_id, Marker marker) {
         return placeMarker(store, config.get<MarkOptions>(), case_id, std::move(marker));
     };

@@ -68,8 +68,10 @@ int fly(Context& context, const FlyArguments& arguments)
         std::printf("%s\n", toJson(report).dump(2).c_str());
         return 0;
     }
-    std::printf("%zu frames over %.0f mm; %.1f %% of the surface seen\n", report.frames.size(), report.length_mm,
-                report.coverage * 100);
+    std::printf("%zu frames over %.0f mm", report.frames.size(), report.length_mm);
+    if (request.measure_coverage)
+        std::printf("; %.1f %% of the surface seen", report.coverage * 100);
+    std::printf("\n");
     std::printf("cells drawn %.1f of %zu, triangles drawn %.0f of %zu on average; frame %.1f ms median\n",
                 report.average_cells, report.cells, report.average_triangles, report.triangles,
                 report.median_seconds * 1e3);

@@ -4,6 +4,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "vicon/core/error.h"
 
 namespace vicon::artefact {
@@ -16,8 +18,14 @@ MappedFile::MappedFile(const std::filesystem::path& file) : size_(std::filesyste
         ::close(descriptor);
     if (bytes == MAP_FAILED)
         throw Error(ErrorCode::store, "cannot be read", file.string(), "check the permissions of the store");
-    ::madvise(bytes, size_, MADV_WILLNEED);  // a hint: from a disk, the first look should not wait for every page
     data_ = static_cast<const std::byte*>(bytes);
+}
+
+void MappedFile::readAhead(std::size_t begin, std::size_t end) const
+{
+    const std::size_t page = std::size_t(::sysconf(_SC_PAGESIZE)), first = begin / page * page;
+    if (first < std::min(end, size_))
+        ::madvise(const_cast<std::byte*>(data_) + first, std::min(end, size_) - first, MADV_WILLNEED);
 }
 
 MappedFile::~MappedFile()

@@ -14,6 +14,8 @@ public:
     MappedFile& operator=(const MappedFile&) = delete;
 
     const std::byte* data() const { return data_; }
+    /// Asks the disk for the bytes [begin, end) now, a hint: who looks at them soon should not wait for every page.
+    void readAhead(std::size_t begin, std::size_t end) const;
 
 private:
     const std::byte* data_ = nullptr;

@@ -184,12 +184,22 @@ StoredVolume<T>::StoredVolume(const fs::path& file)
         auto mapped = std::make_shared<const MappedFile>(file);
         const void* first = mapped->data() + bytes->begin;
         view_ = {grid, std::span(static_cast<const T*>(first), grid.voxelCount())};
+        mapped_ = mapped.get();
         owner_ = std::move(mapped);
     } else {
         auto read = std::make_shared<const Volume<T>>(readVoxels<T>(*io, file));
         view_ = *read;
         owner_ = std::move(read);
     }
+}
+
+template <class T>
+void StoredVolume<T>::readAhead(std::size_t begin, std::size_t end) const
+{
+    if (!mapped_)
+        return;
+    const auto first = std::size_t(reinterpret_cast<const std::byte*>(view_.voxels.data()) - mapped_->data());
+    mapped_->readAhead(first + begin * sizeof(T), first + end * sizeof(T));
 }
 
 Grid readGrid(const fs::path& file)

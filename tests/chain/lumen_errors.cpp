@@ -1,7 +1,6 @@
 #include "lumen_errors.h"
 
 #include <tbb/parallel_for.h>
-#include <vtkCellArray.h>
 #include <vtkFlyingEdges3D.h>
 #include <vtkGenericCell.h>
 #include <vtkImageData.h>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "vicon/steps/cells.h"
+#include "vicon/support/poly_data.h"
 
 namespace vicon::test {
 namespace {
@@ -121,22 +121,7 @@ vtkNew<vtkPolyData> foundSurface(const HuVolume& volume, const InsideVolume& fou
     SegmentVolume segments(found.grid);
     for (std::size_t n = 0; n < found.voxels.size(); ++n)
         segments.voxels[n] = found.voxels[n] ? 1 : 0;
-    const artefact::CellSurface cells = steps::extractCells(volume, found, segments, {}, quiet);
-    vtkNew<vtkPoints> points;
-    for (std::size_t n = 0; n < cells.pointCount(); ++n) {
-        const Point3 p = cells.point(n);
-        points->InsertNextPoint(p.x, p.y, p.z);
-    }
-    vtkNew<vtkCellArray> triangles;
-    for (std::size_t t = 0; t < cells.triangleCount(); ++t) {
-        const vtkIdType corners[3] = {vtkIdType(cells.triangles[3 * t]), vtkIdType(cells.triangles[3 * t + 1]),
-                                      vtkIdType(cells.triangles[3 * t + 2])};
-        triangles->InsertNextCell(3, corners);
-    }
-    vtkNew<vtkPolyData> surface;
-    surface->SetPoints(points);
-    surface->SetPolys(triangles);
-    return surface;
+    return support::asPolyData(steps::extractCells(volume, found, segments, {}, quiet));
 }
 
 void addDistances(vtkPolyData* from, vtkPolyData* to, std::vector<double>& distances_mm)

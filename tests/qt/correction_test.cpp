@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "reading.h"
+#include "test_colon.h"
 #include "vicon/core/file.h"
 
 namespace vicon::viewer {
@@ -73,9 +74,44 @@ TEST_F(Correcting, CorrectionsGoToThePipelineAndTheNewResultIsTakenOver)
     screenshot("corrected");
     waitForNewScan();
     EXPECT_LT(length() - station(), 10) << "the eye is where it was";
-    EXPECT_NEAR(the<QDoubleSpinBox>("station")->value(), station(), 1) << "the path's new length is no distance typed";
     closeCase();
     EXPECT_NE(surfaceSeen(), before) << "the new one is another";
+}
+
+TEST_F(Correcting, TheFieldOfTheDistanceFollowsAPathThatBecameShorterAndKeepsWhatWasTyped)
+{
+    openCase();
+    auto* field = the<QDoubleSpinBox>("station");
+    const double whole = length();
+    const auto cut = [] {
+        showList(2);
+        correctAlongThePath("correctCut");
+    };
+    const auto undo = [] {
+        key(Qt::Key_Z, Qt::ControlModifier);
+        ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); })) << warning();
+        waitForNewScan();
+    };
+    for (const bool has_keyboard : {false, true}) {
+        SCOPED_TRACE(has_keyboard);
+        key(Qt::Key_End);
+        ASSERT_TRUE(eventually([&] { return whole - station() < 2 && pictureIsThere(); }));
+        cut();
+        if (has_keyboard)
+            key(Qt::Key_J);
+        waitForNewScan();
+        ASSERT_LT(length(), whole - 30);
+        the<QWidget>("endoscopic")->setFocus();
+        EXPECT_NEAR(field->value(), length(), 1) << "the path's new length is no distance typed";
+        key(Qt::Key_Home);
+        EXPECT_TRUE(eventually([&] { return station() < 2 && field->value() < 2; })) << field->value();
+        undo();
+    }
+    key(Qt::Key_J);
+    QTest::keyClicks(field, "50");
+    cut();
+    waitForNewScan();
+    EXPECT_NEAR(field->value(), 50, 0.1) << "typed, and not used yet";
 }
 
 TEST_F(Correcting, MarkersGetTheirStationsOnTheNewPathAndEarlierStepsCanStillBeUndone)
@@ -146,6 +182,17 @@ TEST_F(Correcting, WhatWasNotCorrectedIsNotForgottenAndWhatAddsNothingIsSaidSo)
     settle();
     press(window(), "correctAdd");
     click("coronal", middle("coronal"));  // between the two limbs
+    EXPECT_TRUE(eventually([] { return warning().starts_with("There is neither gas nor tagged fluid"); })) << warning();
+    EXPECT_FALSE(the<QProgressBar>("redo")->isVisible()) << "nothing is done again";
+    closeCase();
+    test::TestColon with_gas;
+    for (std::size_t n = 0; n < with_gas.volume.voxels.size(); ++n)
+        if (!with_gas.inside.voxels[n])
+            with_gas.volume.voxels[n] = -1000;
+    with_gas.write(store_ / "cases" / test::kCase / test::kSupine);
+    openCase();
+    press(window(), "correctAdd");
+    click("coronal", middle("coronal"));
     ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); })) << warning();
     EXPECT_TRUE(eventually([] { return warning().starts_with("Nothing was added"); })) << warning();
 }

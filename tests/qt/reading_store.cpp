@@ -47,8 +47,18 @@ void makeStore(const fs::path& folder)
 
 namespace {
 
+/// The way without what a cut took of its caecal end.
+void cutShort(Skeleton& path)
+{
+    constexpr double kCut_mm = 40;
+    const double end_mm = path.length_mm() - kCut_mm;
+    std::vector<SkeletonPoint>& points = path.pieces.back().points;
+    while (points.back().station_mm > end_mm)
+        points.pop_back();
+}
+
 /// What `app` does with corrections and bridges, without its pipeline: the queue's work is to write the scan anew, of
-/// larger voxels.
+/// larger voxels; where it was cut, the way is shorter.
 void addCorrections(ReadingServices& services)
 {
     struct State {
@@ -85,13 +95,16 @@ void addCorrections(ReadingServices& services)
     services.work = [state](CaseStore& store, const std::atomic<bool>&) {
         constexpr double kCoarser_mm = 3;
         std::string scan;
-        bool corrected = false;
+        bool corrected = false, cut = false;
         {
             const std::lock_guard lock(state->mutex);
             scan = state->queued;
             corrected = state->corrections[scan] != ScanCorrections{};
+            cut = !state->corrections[scan].cut.empty();
         }
-        const TestColon colon = corrected ? TestColon(storages().front(), kCoarser_mm) : TestColon();
+        TestColon colon = corrected ? TestColon(storages().front(), kCoarser_mm) : TestColon();
+        if (cut)
+            cutShort(colon.skeleton);
         colon.write(store.scanFolder(kCase, scan));
         const std::lock_guard lock(state->mutex);
         state->queued.clear();

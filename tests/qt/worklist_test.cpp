@@ -61,6 +61,30 @@ TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
     EXPECT_EQ(shown(), 0) << "it is no longer failed";
 }
 
+TEST_F(Reading, AScanThatItsCorrectionsSpoiledIsRetriedWithoutThem)
+{
+    std::atomic<bool> retried = false;
+    auto services = withScans(test::servicesFor(store_), [&](const WorklistRow& row, WorklistScanRow& scan) {
+        if (row.record.id == test::kCase && !retried) {
+            scan.reason = "no colon: the longest run of gas is 61 mm long";
+            scan.corrected = scan.record.id == test::kProne;
+        }
+    });
+    services.retry = [&](CaseStore&, const std::string&) { retried = true; };
+    room_.reset();
+    openRoom(services);
+    QTest::keyClicks(room_->findChild<QLineEdit*>("search"), "anna");
+    EXPECT_FALSE(room_->findChild<QPushButton*>("open")->isEnabled());
+    const QStringList reasons = room_->findChild<QLabel*>("reason")->text().split('\n');
+    ASSERT_EQ(reasons.size(), 2);
+    EXPECT_FALSE(reasons[0].contains("Retry"));
+    EXPECT_TRUE(reasons[1].contains("61 mm long (corrected; Retry forgets its corrections)"));
+    press(room_.get(), "retry");
+    EXPECT_TRUE(eventually([&] { return room_->findChild<QPushButton*>("open")->isEnabled(); }));
+    EXPECT_FALSE(room_->findChild<QPushButton*>("retry")->isEnabled());
+    room_.reset();  // before what its services refer to
+}
+
 TEST_F(Reading, AWorklistThatIsStillTheSameIsNotReadAgain)
 {
     std::atomic<int> asked = 0, read = 0, version = 0;

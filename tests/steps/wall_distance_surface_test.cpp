@@ -1,11 +1,7 @@
 // The distance from boundary against the surface that is drawn: both say where the wall lies between two voxels.
 #include <gtest/gtest.h>
 
-#include <vtkCellArray.h>
-#include <vtkFloatArray.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkStaticCellLocator.h>
 
 #include <algorithm>
@@ -14,6 +10,7 @@
 
 #include "vicon/steps/cells.h"
 #include "vicon/steps/wall_distance.h"
+#include "vicon/support/poly_data.h"
 
 namespace vicon::steps {
 namespace {
@@ -40,25 +37,6 @@ Tube bentTube(Vector3 shift)
         tube.inside.voxels[n] = tube.hu.voxels[n] < -480 ? kGas : kOutside;
     }
     return tube;
-}
-
-vtkNew<vtkPolyData> asPolyData(const artefact::CellSurface& surface)
-{
-    vtkNew<vtkPoints> points;
-    for (std::uint32_t n = 0; n < surface.pointCount(); ++n) {
-        const Point3 p = surface.point(n);
-        points->InsertNextPoint(p.x, p.y, p.z);
-    }
-    vtkNew<vtkCellArray> triangles;
-    for (std::size_t t = 0; t < surface.triangleCount(); ++t) {
-        const vtkIdType corners[3] = {vtkIdType(surface.triangles[3 * t]), vtkIdType(surface.triangles[3 * t + 1]),
-                                      vtkIdType(surface.triangles[3 * t + 2])};
-        triangles->InsertNextCell(3, corners);
-    }
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(points);
-    data->SetPolys(triangles);
-    return data;
 }
 
 struct Errors {
@@ -98,7 +76,7 @@ TEST(WallDistance, IsThatOfTheSurfaceDrawnToAFractionOfAVoxel)
         std::transform(tube.inside.voxels.begin(), tube.inside.voxels.end(), segments.voxels.begin(),
                        [](std::uint8_t v) { return std::uint16_t(v ? 1 : 0); });
         const LumenSurface surface(tube.hu, tube.inside, {}, quiet);
-        const auto drawn = asPolyData(surface.cellsOf(segments, quiet));
+        const auto drawn = support::asPolyData(surface.cellsOf(segments, quiet));
         vtkNew<vtkStaticCellLocator> locator;
         locator->SetDataSet(drawn);
         locator->BuildLocator();

@@ -102,6 +102,23 @@ TEST(Text, IsMadeSmallerUntilItFitsAndThenCutOff)
     EXPECT_EQ(textSize(cut).width_px, textSize(text).width_px);
 }
 
+TEST(Text, ThatBeginsNearAnEdgeIsMovedUntilItEndsInThePicture)
+{
+    const auto shown = [](Pixel at, Across across) {
+        Picture picture(200, 60);
+        Overlay overlay;
+        overlay.texts.push_back({at, "m12", 24, {}, across, Along::bottom, 1e9});
+        paint(picture, overlay);
+        return inked(picture, 0, 200);
+    };
+    const int whole = shown({80, 40}, Across::left);
+    ASSERT_GT(whole, 100);
+    for (const Pixel at : {Pixel{190, 40}, Pixel{80, 8}, Pixel{195, 3}})
+        EXPECT_NEAR(shown(at, Across::left), whole, 0.05 * whole) << at.x << ", " << at.y;
+    EXPECT_NEAR(shown({10, 40}, Across::right), whole, 0.05 * whole);
+    EXPECT_EQ(shown({230, 40}, Across::left), 0) << "it begins outside";
+}
+
 TEST(Text, ThatNoFontHasIsCalledByItsNumber)
 {
     constexpr const char* kUnassigned = "\u0378";  // no character, so no font will have it

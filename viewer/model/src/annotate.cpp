@@ -9,6 +9,8 @@
 namespace vicon::viewer {
 namespace {
 
+constexpr double kLineMargin = 0.4, kLineHeight = 1.35;  // of the text's height
+
 OverlayText text(Pixel at, std::string words, double height_px, Rgb color, Across across, Along along)
 {
     return {at, std::move(words), height_px, color, across, along};
@@ -120,7 +122,8 @@ void addLetters(Overlay& overlay, const Area& area, Vector3 right, Vector3 down,
 
 void addScaleBar(Overlay& overlay, const Area& area, double mm_per_pixel, double text_px)
 {
-    const double bar_mm = roundLength(area.width * mm_per_pixel * 0.3);
+    constexpr double kShare = 0.3, kMostOfHeight = 0.45;  // of a flat picture's width the most would be metres
+    const double bar_mm = roundLength(std::min(kShare * area.width, kMostOfHeight * area.height) * mm_per_pixel);
     const double bar_px = bar_mm / mm_per_pixel;
     const Pixel end{area.right() - text_px, area.bottom() - text_px * 0.8};
     const Pixel begin{end.x - bar_px, end.y};
@@ -159,7 +162,7 @@ void addTriad(Overlay& overlay, Pixel centre, double radius_px, const Pose& pose
 
 void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>& lines, double text_px)
 {
-    const double margin = text_px * 0.4;
+    const double margin = kLineMargin * text_px;
     double y = area.y + margin;
     for (OverlayText line : lines) {
         line.at = {area.x + margin, y};
@@ -168,8 +171,18 @@ void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>
         line.along = Along::top;
         line.most_width_px = area.width - 2 * margin;
         overlay.texts.push_back(line);
-        y += text_px * 1.35;
+        y += kLineHeight * text_px;
     }
+}
+
+double heightOfText(std::size_t lines, double height_px)
+{
+    return height_px / (kLineHeight * double(lines) + 2 * kLineMargin);
+}
+
+int linesIn(double height_px, double text_px)
+{
+    return std::max(1, int((height_px - 2 * kLineMargin * text_px) / (kLineHeight * text_px)));
 }
 
 void addMarkerRing(Overlay& overlay, Pixel at, double radius_px, const Marker& marker, double text_px)

@@ -14,6 +14,17 @@ void letGo(OpenScan* scan)
     QThreadPool::globalInstance()->start([scan] { delete scan; });
 }
 
+/// While the first pictures are drawn, not before them. What cannot be read is said where it is looked at.
+void readOn(const PreparedScan& files)
+{
+    QThreadPool::globalInstance()->start([files] {
+        try {
+            files.readOn();
+        } catch (const std::exception&) {
+        }
+    });
+}
+
 /// The branch, unless the scan was done again meanwhile and has no such one.
 int branchIn(const std::filesystem::path& folder, int branch)
 {
@@ -120,6 +131,7 @@ void CaseSession::load(const std::string& work, const std::string& scan_id, int 
                 if (!at(2))
                     return {};
                 SeenKeeper::restore(made->seen, folder);
+                readOn(files);
                 return [made, then, stop] {
                     if (!stop || !*stop)
                         then(made);

@@ -151,7 +151,8 @@ void Corrector::show(const WorklistScanRow& row)
         if (row.ready())
             emit redone(QString::fromStdString(row.record.id));
         else
-            emit failed(tr("The corrected scan cannot be read: %1").arg(QString::fromStdString(row.reason)));
+            emit failed(tr("The corrected scan cannot be read: %1. Undo (Ctrl+Z) takes the correction back.")
+                            .arg(QString::fromStdString(row.reason)));
     }
 }
 

@@ -8,6 +8,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSlider>
+#include <algorithm>
 
 #include "vicon/viewer/model/annotate.h"
 
@@ -146,9 +147,9 @@ void NavigationPanel::show(const Navigator& navigator, double length_mm, const O
     }
     speed_->setEnabled(navigator.mode() != NavigationMode::guided);
     speed_text_->setText(tr("%1 mm/s").arg(navigator.speed_mm_s(), 0, 'f', 0));
-    const bool typed = station_->hasFocus() || station_->value() != shown_station_mm_;
-    station_->setRange(0, length_mm);  // a shorter path changes the value as well
-    if (!typed) {                      // what was typed stays until it is used
+    station_->setRange(0, length_mm);
+    shown_station_mm_ = std::min(shown_station_mm_, station_->maximum());   // a shorter path changes the value as well
+    if (!station_->hasFocus() && station_->value() == shown_station_mm_) {  // what was typed stays until it is used
         station_->setValue(state.station_mm);
         shown_station_mm_ = station_->value();
     }

@@ -1,8 +1,33 @@
+#include <array>
+#include <cmath>
+
 #include "colon_panel.h"
 #include "corrector.h"
 #include "reading_window.h"
 
 namespace vicon::viewer {
+namespace {
+
+constexpr double kBeside_mm = 4;  // a little more than a point may lie beside what it means
+
+/// Whether the pipeline might find gas or tagged fluid about a point: what is certainly tissue is not asked for.
+bool mayBeLumen(const HuView& volume, Point3 point)
+{
+    constexpr int kPerhapsGas_hu = -400, kPerhapsFluid_hu = 100;
+    const Grid& grid = volume.grid;
+    const Index3 middle = grid.indexAt(point);
+    std::array<int, 3> reach{};
+    for (std::size_t d = 0; d < 3; ++d)
+        reach[d] = int(std::ceil(kBeside_mm / grid.spacing_mm[d]));
+    for (int k = middle.k - reach[2]; k <= middle.k + reach[2]; ++k)
+        for (int j = middle.j - reach[1]; j <= middle.j + reach[1]; ++j)
+            for (int i = middle.i - reach[0]; i <= middle.i + reach[0]; ++i)
+                if (const int hu = volume.valueOr({i, j, k}, 0); hu < kPerhapsGas_hu || hu > kPerhapsFluid_hu)
+                    return true;
+    return false;
+}
+
+}  // namespace
 
 void ReadingWindow::connectCorrections()
 {
@@ -60,6 +85,10 @@ bool ReadingWindow::correctedAt(const OpenScan& scan, Point3 point)
         warn(tr("There is no lumen at this point; click into the gas or fluid that is to be cut or dropped."));
         return true;
     }
+    if (kind == Correction::add && !mayBeLumen(scan.files.volume(), point)) {
+        warn(tr("There is neither gas nor tagged fluid at this point; click into what belongs to the colon."));
+        return true;
+    }
     correcting_.reset();
     setPickCursor(false);
     corrected_ = {kind, point};
@@ -69,7 +98,6 @@ bool ReadingWindow::correctedAt(const OpenScan& scan, Point3 point)
 
 void ReadingWindow::sayWhatIsNotAdded(const std::optional<std::pair<Correction, Point3>>& corrected)
 {
-    constexpr double kBeside_mm = 4;  // a little more than a point may lie beside what it means
     if (corrected && corrected->first == Correction::add &&
         !session_.scan()->lumen.nearestInside(corrected->second, kBeside_mm).found)
         warn(

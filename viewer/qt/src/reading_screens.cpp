@@ -71,6 +71,7 @@ void ReadingWindow::placeSecondWindow()
         return;
     }
     second_->resize(size());
+    second_->setSizes({2 * height() / 5, 3 * height() / 5});  // in a flat strip the projection would be small
     for (const QScreen* other : QGuiApplication::screens())
         if (other != screen()) {
             second_->setGeometry(other->availableGeometry());

@@ -32,6 +32,11 @@ bool readable(const WorklistRow& row)
     return std::any_of(row.scans.begin(), row.scans.end(), [](const WorklistScanRow& s) { return s.ready(); });
 }
 
+bool spoiled(const WorklistRow& row)
+{
+    return std::any_of(row.scans.begin(), row.scans.end(), [](const WorklistScanRow& s) { return s.spoiled(); });
+}
+
 QString scansOf(const WorklistRow& row)
 {
     QStringList names;
@@ -48,6 +53,8 @@ QString qualityOf(const WorklistRow& row)
     QStringList poor;
     bool known = false;
     for (const WorklistScanRow& scan : row.scans) {
+        if (scan.spoiled())
+            continue;  // what is known of it is of another lumen
         known = known || !scan.quality.empty();
         if (!scan.quality.empty() && !scan.adequate)
             poor << text(positionName(scan.record.series.patient_position));
@@ -64,7 +71,10 @@ QString wordsOf(const WorklistRow& row, bool with_reasons)
     for (const WorklistScanRow& scan : row.scans) {
         const std::string& words = with_reasons && !scan.reason.empty() ? scan.reason : scan.quality;
         if (!words.empty())
-            lines << text(positionName(scan.record.series.patient_position) + ": " + words);
+            lines << text(positionName(scan.record.series.patient_position) + ": " + words) +
+                         (with_reasons && scan.spoiled()
+                              ? WorklistWindow::tr(" (corrected; Retry forgets its corrections)")
+                              : QString());
     }
     return lines.join("\n");
 }
@@ -291,7 +301,7 @@ void WorklistWindow::updateButtons()
     const WorklistRow* row = selected();
     open_->setEnabled(row && readable(*row));
     report_->setEnabled(row && readable(*row));
-    retry_->setEnabled(row && row->state == "failed");
+    retry_->setEnabled(row && (row->state == "failed" || spoiled(*row)));
     reason_->setText(row ? wordsOf(*row, true) : QString());
 }
 

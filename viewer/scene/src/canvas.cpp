@@ -3,6 +3,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "mask.h"
 #include "text.h"
@@ -67,6 +68,18 @@ void paintDisc(Picture& picture, Mask& mask, const OverlayDisc& disc)
     }
 }
 
+// A marker's name beside its ring, at the picture's edge.
+TextLine movedInto(const Picture& picture, TextLine line, Pixel at)
+{
+    if (at.x < 0 || at.y < 0 || at.x > picture.width || at.y > picture.height)
+        return line;
+    const Area area = areaOf(line);
+    line.begin.x += std::max(0.0, -area.x) - std::clamp(area.right() - picture.width, 0.0, std::max(0.0, area.x));
+    line.begin.y += std::max(0.0, -area.y) - std::clamp(area.bottom() - picture.height, 0.0, std::max(0.0, area.y));
+    line.begin = {std::round(line.begin.x), std::round(line.begin.y)};
+    return line;
+}
+
 }  // namespace
 
 Picture::Picture(int w, int h, Rgb ground) : width(w), height(h), rgb(std::size_t(w) * std::size_t(h) * 3)
@@ -97,7 +110,7 @@ void paint(Picture& picture, const Overlay& overlay)
     Mask mask(picture.width, picture.height), rim(picture.width, picture.height);
     std::vector<TextLine> texts;
     for (const OverlayText& text : overlay.texts)
-        texts.push_back(layOut(text));
+        texts.push_back(movedInto(picture, layOut(text), text.at));
     paintGround(picture, texts, mask);  // not over lines and discs: markers stay as bright as they are
     for (const OverlayLine& line : overlay.lines)
         paintLine(picture, mask, line);
@@ -110,6 +123,11 @@ void paint(Picture& picture, const Overlay& overlay)
 TextSize textSize(const OverlayText& text)
 {
     return sizeOf(layOut(text));
+}
+
+Area textArea(const OverlayText& text)
+{
+    return areaOf(layOut(text));
 }
 
 void copyInto(Picture& target, const Picture& source, int x, int y)

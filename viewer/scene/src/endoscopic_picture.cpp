@@ -113,7 +113,9 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
         note.color = kWarningColor;
         lines.push_back(note);
     }
-    addLines(overlay, {0, 0, area.width * 0.47, area.height}, lines, text_px);
+    const double above_letter_px = area.height / 2 - text_px;  // the one in the middle of the left edge
+    addLines(overlay, {0, 0, area.width * 0.47, area.height}, lines,
+             std::min(text_px, heightOfText(lines.size(), above_letter_px)));
     return overlay;
 }
 

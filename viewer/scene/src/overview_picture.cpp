@@ -122,26 +122,19 @@ void addTips(Overlay& overlay, const Skeleton& skeleton, const OrganWords& words
     }
 }
 
-Area areaOf(const OverlayText& text, const TextSize& size)
-{
-    const double left = text.across == Across::centre ? 0.5 : text.across == Across::right ? 1.0 : 0.0;
-    const double above = text.along == Along::middle ? 0.5 : text.along == Along::bottom ? 1.0 : 0.0;
-    return {text.at.x - left * size.width_px, text.at.y - above * size.height_px, size.width_px, size.height_px};
-}
-
 /// Where in a picture names are written already.
 class Names {
 public:
-    Names(const Overlay& overlay, const PlaneView& view) : picture_{0, 0, double(view.width), double(view.height)}
+    Names(std::vector<Area> taken, const Overlay& overlay, const PlaneView& view)
+        : picture_{0, 0, double(view.width), double(view.height)}, taken_(std::move(taken))
     {
         for (const OverlayText& text : overlay.texts)
-            taken_.push_back(areaOf(text, textSize(text)));
+            taken_.push_back(textArea(text));
     }
 
     /// Above, below, on the right or on the left of a place; false where there is no room.
-    bool write(Overlay& overlay, OverlayText text, Pixel at, double aside_px)
+    bool write(Overlay& overlay, OverlayText text, Pixel at, double aside_px, double above_px = 0)
     {
-        const TextSize size = textSize(text);
         for (const auto& [across, along] : {std::pair{Across::centre, Along::bottom},
                                             {Across::centre, Along::top},
                                             {Across::left, Along::middle},
@@ -149,14 +142,22 @@ public:
             text.across = across;
             text.along = along;
             const double by = across == Across::left ? aside_px : across == Across::right ? -aside_px : 0;
-            text.at = {at.x + by, at.y};
-            if (!free(areaOf(text, size)))
-                continue;
-            taken_.push_back(areaOf(text, size));
-            overlay.texts.push_back(text);
-            return true;
+            const double up = along == Along::bottom ? above_px : along == Along::top ? -above_px : 0;
+            text.at = {at.x + by, at.y - up};
+            if (write(overlay, text))
+                return true;
         }
         return false;
+    }
+    /// Where it is; false where there is no room.
+    bool write(Overlay& overlay, const OverlayText& text)
+    {
+        const Area area = textArea(text);
+        if (!free(area))
+            return false;
+        taken_.push_back(area);
+        overlay.texts.push_back(text);
+        return true;
     }
 
 private:
@@ -179,7 +180,7 @@ private:
 void addParts(Overlay& overlay, const ColonPartRanges& parts, const Skeleton& skeleton, const PlaneView& view,
               double text_px)
 {
-    Names names(overlay, view);
+    Names names({}, overlay, view);
     for (const ColonPartRange& range : parts) {
         if (range.part != ColonPart::rectum)
             overlay.discs.push_back(
@@ -197,16 +198,28 @@ void addParts(Overlay& overlay, const ColonPartRanges& parts, const Skeleton& sk
 
 void addMarkers(Overlay& overlay, const std::vector<Marker>& markers, const PlaneView& view, double text_px)
 {
+    for (const Marker& marker : markers)
+        overlay.discs.push_back({view.toPixel(marker.position_mm), 0.38 * text_px, colorOf(marker.color), 0});
+}
+
+/// Beside their discs; where other names stand there, above, below or on the other side.
+void addMarkerNames(Overlay& overlay, const std::vector<Marker>& markers, const OverviewGround& ground, double text_px)
+{
+    Names names(ground.names, overlay, ground.view);
     for (const Marker& marker : markers) {
-        const Pixel at = view.toPixel(marker.position_mm);
-        overlay.discs.push_back({at, 0.38 * text_px, colorOf(marker.color), 0});
-        overlay.texts.push_back({{at.x + 0.5 * text_px, at.y - 0.2 * text_px},
-                                 marker.id,
-                                 text_px,
-                                 labelColorOf(marker.color),
-                                 Across::left,
-                                 Along::bottom,
-                                 1e9});
+        const Pixel at = ground.view.toPixel(marker.position_mm);
+        OverlayText name{{at.x + 0.5 * text_px, at.y - 0.2 * text_px},
+                         marker.id,
+                         text_px,
+                         labelColorOf(marker.color),
+                         Across::left,
+                         Along::bottom,
+                         1e9};
+        bool written = names.write(overlay, name);
+        for (const double away : {0.6, 1.7, 2.8})  // in heights of the text
+            written = written || names.write(overlay, name, at, away * text_px, away * text_px);
+        if (!written)
+            overlay.texts.push_back(name);
     }
 }
 
@@ -226,17 +239,18 @@ OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& r
     addSkeleton(overlay, tree ? scan.tree().allBranches() : scan.skeleton(), ground.view, std::max(1.5, words_px / 9));
     addTips(overlay, scan.skeleton(), scan.words(), ground.view, words_px);
     addParts(overlay, scan.parts(), scan.skeleton(), ground.view, words_px);
+    for (const OverlayText& name : overlay.texts)
+        ground.names.push_back(textArea(name));
     paint(ground.picture, overlay);
     return ground;
 }
 
-Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, const SnapshotRequest& request,
-                     const SnapshotResult& place)
+Overlay overviewOverlay(const OverviewGround& ground, const PreparedScan& scan, const SnapshotRequest& request,
+                        const SnapshotResult& place)
 {
     const PlaneView& view = ground.view;
     const double text_px = wordsHeight(request);
     const auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), scan.words());
-    Picture picture = ground.picture;
     Overlay overlay;
     const Area area{0, 0, double(request.width), double(request.height)};
     addMarkers(overlay, request.markers, view, text_px);
@@ -244,7 +258,15 @@ Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, con
     addLetters(overlay, area, view.right, view.down, text_px);
     addScaleBar(overlay, area, view.mm_per_pixel, text_px);
     addLines(overlay, {0, 0, ground.caption.width_px, ground.caption.height_px}, lines, captionHeight(request));
-    paint(picture, overlay);
+    addMarkerNames(overlay, request.markers, ground, text_px);
+    return overlay;
+}
+
+Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, const SnapshotRequest& request,
+                     const SnapshotResult& place)
+{
+    Picture picture = ground.picture;
+    paint(picture, overviewOverlay(ground, scan, request, place));
     return picture;
 }
 

@@ -32,9 +32,13 @@ Picture slicesPicture(const PreparedScan& scan, const SnapshotRequest& request, 
 struct OverviewGround {
     Picture picture;
     PlaneView view;
-    TextSize caption;  ///< what the caption takes
+    TextSize caption;         ///< what the caption takes
+    std::vector<Area> names;  ///< what the names of the colon's parts take
 };
 OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request);
+/// What is written over it.
+Overlay overviewOverlay(const OverviewGround& ground, const PreparedScan& scan, const SnapshotRequest& request,
+                        const SnapshotResult& place);
 Picture overviewOver(const OverviewGround& ground, const PreparedScan& scan, const SnapshotRequest& request,
                      const SnapshotResult& place);
 Picture overviewPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);

@@ -71,6 +71,19 @@ struct PreparedScan::Files {
         return folder / name;
     }
 
+    const artefact::StoredVolume<std::int16_t>& storedVolume()
+    {
+        return volume.get([&] { return artefact::StoredVolume<std::int16_t>(at("volume.mha")); });
+    }
+    const artefact::StoredVolume<float>& storedWallDistance()
+    {
+        return wall_distance.get([&] { return artefact::StoredVolume<float>(at("wall_distance.mha")); });
+    }
+    const artefact::StoredVolume<float>& storedExitDistance()
+    {
+        return exit_distance.get([&] { return artefact::StoredVolume<float>(at("exit_distance.mha")); });
+    }
+
     /// scan.json; an empty object where there is none.
     nlohmann::json description() const
     {
@@ -110,15 +123,21 @@ void PreparedScan::readForFlight() const
                              subdivision();
                              wallDistance();
                              exitDistance();
-                             volume();  // last: the disk is asked for files as a whole, in this order
+                             volume();
                          });
-    for (const FieldView* field : {&wallDistance(), &exitDistance()})
-        bringInLumen(*field, inside());
+    bringInLumen(files_->storedWallDistance(), inside());
+}
+
+void PreparedScan::readOn() const
+{
+    bringInLumen(files_->storedExitDistance(), inside());
+    const auto& stored = files_->storedVolume();
+    stored.readAhead(0, stored.view().voxels.size());
 }
 
 const HuView& PreparedScan::volume() const
 {
-    return files_->volume.get([&] { return artefact::StoredVolume<std::int16_t>(files_->at("volume.mha")); }).view();
+    return files_->storedVolume().view();
 }
 
 const InsideView& PreparedScan::inside() const
@@ -128,14 +147,12 @@ const InsideView& PreparedScan::inside() const
 
 const FieldView& PreparedScan::wallDistance() const
 {
-    return files_->wall_distance.get([&] { return artefact::StoredVolume<float>(files_->at("wall_distance.mha")); })
-        .view();
+    return files_->storedWallDistance().view();
 }
 
 const FieldView& PreparedScan::exitDistance() const
 {
-    return files_->exit_distance.get([&] { return artefact::StoredVolume<float>(files_->at("exit_distance.mha")); })
-        .view();
+    return files_->storedExitDistance().view();
 }
 
 const SegmentView& PreparedScan::segments() const

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "caption_panel.h"
 #include "pictures.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/slice_image.h"
@@ -69,12 +70,8 @@ Picture slice(const PreparedScan& scan, const SnapshotRequest& request, const Pa
     return picture;
 }
 
-// The place where the caption is written: the fourth quarter of the picture.
-Picture captionPanel(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place,
-                     Point3 point, int width, int height)
+std::vector<OverlayText> linesOf(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
 {
-    Picture picture(width, height, {10, 12, 16});
-    Overlay overlay;
     auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), scan.words());
     const WindowLevel window = windowOf(scan, request);
     OverlayText line;
@@ -90,12 +87,19 @@ Picture captionPanel(const PreparedScan& scan, const SnapshotRequest& request, c
                 lines.push_back(line);
             }
         }
-    const double text_px = textHeightFor(width, height) * 1.3;
-    const int close = height * 6 / 10, margin = int(text_px);
-    addLines(overlay, {text_px, text_px, width - 2 * text_px, height - 2 * text_px}, lines, text_px);
-    const Panel panel{SlicePlane::transverse, point, close, close, kCloseUp_mm, false};
-    copyInto(picture, slice(scan, request, panel), width - close - margin, height - close - margin);
-    paint(picture, overlay);
+    return lines;
+}
+
+// The fourth quarter of the picture.
+Picture captionAndCloseUp(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place,
+                          Point3 point, int width, int height)
+{
+    Picture picture(width, height, {10, 12, 16});
+    const CaptionPanel panel = captionPanel(linesOf(scan, request, place), width, height);
+    if (const int side = int(panel.close_up.width); side > 0)
+        copyInto(picture, slice(scan, request, {SlicePlane::transverse, point, side, side, kCloseUp_mm, false}),
+                 int(panel.close_up.x), int(panel.close_up.y));
+    paint(picture, panel.overlay);
     return picture;
 }
 
@@ -147,7 +151,7 @@ Picture slicesPicture(const PreparedScan& scan, const SnapshotRequest& request, 
     put(SlicePlane::transverse, 0, 0);
     put(SlicePlane::coronal, right, 0);
     put(SlicePlane::sagittal, 0, below);
-    copyInto(picture, captionPanel(scan, request, place, point, w, h), right, below);
+    copyInto(picture, captionAndCloseUp(scan, request, place, point, w, h), right, below);
     return picture;
 }
 

@@ -128,6 +128,12 @@ TextSize sizeOf(const TextLine& line)
     return {line.width, (kAscent + kDescent) * line.size};
 }
 
+Area areaOf(const TextLine& line)
+{
+    const TextSize size = sizeOf(line);
+    return {line.begin.x, line.begin.y - kAscent * line.size, size.width_px, size.height_px};
+}
+
 void paintGround(Picture& picture, const std::vector<TextLine>& lines, Mask& mask)
 {
     mask.clear();

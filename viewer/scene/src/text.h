@@ -17,6 +17,7 @@ struct TextLine {
 
 TextLine layOut(const OverlayText& text);
 TextSize sizeOf(const TextLine& line);
+Area areaOf(const TextLine& line);
 
 /// Darkens what lies below the lines, once where they overlap, so that they read on bright tissue as on air. The masks
 /// are room to work in, as large as the picture.

@@ -37,6 +37,10 @@ void addTriad(Overlay& overlay, Pixel centre, double radius_px, const Pose& pose
 
 /// Lines of text from the upper left corner of `area`, none wider than it.
 void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>& lines, double text_px);
+/// How many lines addLines() has room for in an area of this height; at least one.
+int linesIn(double height_px, double text_px);
+/// How high the text may be for that many lines to fit into an area of this height.
+double heightOfText(std::size_t lines, double height_px);
 
 /// A ring around a marker with its id beside it; the middle stays free.
 void addMarkerRing(Overlay& overlay, Pixel at, double radius_px, const Marker& marker, double text_px);

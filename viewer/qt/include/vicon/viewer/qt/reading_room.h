@@ -24,8 +24,11 @@ struct WorklistScanRow {
     std::string quality;  ///< how well it can be read, in a few words; empty where it is not known
     bool adequate = true;
     std::string organ = "colon";  ///< what it shows
+    bool corrected = false;       ///< by a person; told of scans that cannot be shown
 
     bool ready() const { return state == "done" && reason.empty(); }  ///< it can be shown
+    /// Nothing that can be shown was left by its corrections.
+    bool spoiled() const { return state == "done" && !reason.empty() && corrected; }
 };
 
 /// A line of the worklist.
@@ -71,7 +74,7 @@ struct ReadingServices {
     std::function<std::vector<WorklistRow>(CaseStore&)> worklist;
     /// The same again where the worklist is still the same, for that connection; none: the worklist is always read.
     std::function<std::string(CaseStore&)> worklist_version;
-    /// Puts the failed jobs of a case back into the queue.
+    /// Puts the failed jobs of a case back into the queue; spoiled scans as well, without their corrections.
     std::function<void(CaseStore&, const std::string& case_id)> retry;
     /// Fills in a marker's stations and its part of the colon; throws where the point is not in the colon.
     std::function<Marker(CaseStore&, const std::string& case_id, Marker)> place;

@@ -20,7 +20,8 @@ struct Picture {
 };
 
 /// Paints lines, discs and texts over a picture, smoothed. Texts may be in any script for which a font is installed;
-/// right-to-left ones are ordered and joined. A character that no font has is painted as U+FFFD or "?".
+/// right-to-left ones are ordered and joined. A text that begins in the picture is moved until it ends there, too, as
+/// far as it fits. A character that no font has is painted as U+FFFD or "?".
 void paint(Picture& picture, const Overlay& overlay);
 
 /// Width and height of a line of text as paint() would draw it, in pixels.
@@ -28,6 +29,8 @@ struct TextSize {
     double width_px = 0, height_px = 0;
 };
 TextSize textSize(const OverlayText& text);
+/// What a line of text as paint() would draw it takes of a picture that is large enough.
+Area textArea(const OverlayText& text);
 
 /// Puts a picture into another one; what does not fit is cut off.
 void copyInto(Picture& target, const Picture& source, int x, int y);

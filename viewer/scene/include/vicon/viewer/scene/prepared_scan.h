@@ -30,9 +30,12 @@ public:
 
     const std::filesystem::path& folder() const;
 
-    /// Reads what a flight needs now, on all cores, also of the mapped fields: a camera that flies does not wait for
-    /// the disk. Throws as the functions below do.
+    /// Reads what a flight needs now, on all cores, also of the mapped distances from the wall: a camera that flies
+    /// does not wait for the disk. Throws as the functions below do.
     void readForFlight() const;
+    /// Reads what else will be looked at soon: the distances from the exit, which pull the guided camera, and the
+    /// densities. Throws as the functions below do.
+    void readOn() const;
 
     // Each throws Error{not_ready} where its file is missing, Error{bad_input} where it is damaged.
     const HuView& volume() const;                           ///< volume.mha

@@ -1,0 +1,115 @@
+// What of a study becomes a scan, and what is kept or set aside.
+#include <gtest/gtest.h>
+
+#include "import_fixture.h"
+
+using namespace vicon;
+using namespace vicon::test;
+using Kind = ingest::ImportLine::Kind;
+
+namespace {
+
+TEST_F(Import, OfTheReconstructionsOfAnAcquisitionTheThinnestSoftOneIsTheScan)
+{
+    SeriesSpec thick, thin_sharp, thin_soft, prone;
+    thick.slices = 12;
+    thin_sharp = secondSeries(thick, "2");
+    thin_sharp.kernel = "B70f";
+    thin_sharp.step_mm.z = 0.5;
+    thin_sharp.thickness_mm = 0.5;
+    thin_sharp.slices = 48;
+    thin_soft = secondSeries(thin_sharp, "3");
+    thin_soft.kernel = "B30f";
+    thin_soft.step_mm.z = 1;
+    thin_soft.thickness_mm = 1;
+    thin_soft.slices = 24;
+    prone = secondSeries(thick, "4");
+    prone.patient_position = "HFP";
+    prone.acquisition_number = "2";
+    prone.acquisition_time = "102500";
+    // In an order in which each import changes what is the scan.
+    std::map<std::string, std::string> roles;
+    for (const SeriesSpec& spec : {thin_sharp, thick, prone, thin_soft}) {
+        writeSeries(folder / spec.series_uid, spec);
+        import({folder / spec.series_uid});
+    }
+    for (const ScanRecord& scan : store.scans(CaseStore::caseIdFor(thick.study_uid)))
+        roles[scan.series.uid] = scan.role;
+    EXPECT_EQ(roles[thick.series_uid], "kept");
+    EXPECT_EQ(roles[thin_sharp.series_uid], "kept");
+    EXPECT_EQ(roles[thin_soft.series_uid], "scan");
+    EXPECT_EQ(roles[prone.series_uid], "scan");
+    EXPECT_EQ(jobs(), 2);
+}
+
+TEST_F(Import, ASecondSupineAcquisitionIsAScanOfItsOwn)
+{
+    SeriesSpec first, second = secondSeries(first, "2");
+    second.acquisition_number = "2";
+    second.acquisition_time = "101700";
+    writeSeries(folder / "a", first);
+    writeSeries(folder / "b", second);
+    EXPECT_EQ(import({folder / "a", folder / "b"}).scans_stored, 2);
+}
+
+TEST_F(Import, FewerThanTenSlicesAreKeptAndNotQueued)
+{
+    SeriesSpec spec;
+    spec.slices = 9;
+    writeSeries(folder / "in", spec);
+    const auto report = import({folder / "in"});
+    EXPECT_EQ(report.images_kept, 1);
+    EXPECT_TRUE(report.anythingStored());
+    EXPECT_TRUE(says(report, Kind::kept, "9 slices, fewer than the 10 of a scan")) << lines(report);
+    EXPECT_EQ(onlyScan().role, "kept");
+    EXPECT_EQ(jobs(), 0);
+    EXPECT_EQ(load(onlyScan()).grid.size[2], 9);
+}
+
+TEST_F(Import, LocalizersScreenSavesAndOtherModalitiesAreSetAside)
+{
+    SeriesSpec spec, localizer = secondSeries(spec, "2"), pet = secondSeries(spec, "3");
+    localizer.image_type = "ORIGINAL\\PRIMARY\\LOCALIZER";
+    pet.modality = "PT";
+    writeSeries(folder / "in/a", spec);
+    writeSeries(folder / "in/b", localizer, {0});
+    writeSeries(folder / "in/c", pet);
+    SeriesSpec in_series = localizer;  // some scanners put the localizer into the scan's own series
+    in_series.series_uid = spec.series_uid;
+    writeSeries(folder / "in/d", in_series, {100});
+    const auto report = import({folder / "in"});
+    EXPECT_EQ(report.scans_stored, 1) << lines(report);
+    EXPECT_EQ(report.set_aside, 14);
+    EXPECT_EQ(report.refused, 0);
+    EXPECT_TRUE(says(report, Kind::set_aside, "localizer"));
+    EXPECT_TRUE(says(report, Kind::set_aside, "modality PT, no CT slice (12 files)"));
+    EXPECT_EQ(onlyScan().ingest["set_aside"].size(), 1u);
+}
+
+TEST_F(Import, AMissingPatientPositionIsSaidNotGuessed)
+{
+    SeriesSpec spec;
+    spec.patient_position = "";
+    writeSeries(folder / "prone HFP", spec);
+    const auto report = import({folder / "prone HFP"});
+    EXPECT_TRUE(says(report, Kind::repaired, "Patient Position not said")) << lines(report);
+    EXPECT_EQ(onlyScan().series.patient_position, "");
+}
+
+TEST_F(Import, AnObjectOfAnotherGridBesideTheScanIsKeptApart)
+{
+    SeriesSpec spec, odd = spec;
+    odd.columns = 20;
+    writeSeries(folder / "in", spec);
+    writeSeries(folder / "odd", odd, {77});
+    const auto report = import({folder / "odd", folder / "in"});
+    EXPECT_EQ(report.scans_stored, 1) << lines(report);
+    EXPECT_EQ(report.images_kept, 1);
+    // The odd one alone would have been the series; the state is the same in this order.
+    CaseStore parts(folder / "parts");
+    ingest::importPaths(parts, {folder / "odd"}, options, quiet);
+    ingest::importPaths(parts, {folder / "in"}, options, quiet);
+    EXPECT_EQ(stateOf(parts), stateOf(store));
+}
+
+}  // namespace

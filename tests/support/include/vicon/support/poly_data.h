@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+
+#include "vicon/artefact/cells_file.h"
+
+namespace vicon::support {
+
+/// The triangles of all cells, in LPS mm, for VTK's locators.
+vtkNew<vtkPolyData> asPolyData(const artefact::CellSurface& cells);
+
+}  // namespace vicon::support

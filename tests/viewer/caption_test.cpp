@@ -1,0 +1,142 @@
+// What is written over pictures of any size: nothing over anything else.
+#include <gtest/gtest.h>
+
+#include "caption_panel.h"
+#include "pictures.h"
+#include "scan_fixture.h"
+#include "vicon/viewer/model/annotate.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr std::array<std::array<int, 2>, 9> kSizes{{{200, 200},
+                                                    {300, 250},
+                                                    {500, 400},
+                                                    {700, 600},
+                                                    {1200, 900},
+                                                    {2400, 1800},
+                                                    {1600, 600},
+                                                    {600, 1600},
+                                                    {4096, 4096}}};
+
+constexpr std::size_t kMostLetters = 2;  // of a direction
+
+bool touch(const Area& a, const Area& b)
+{
+    return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+}
+
+/// Texts that lie over one another, or none. The letters of the indicator of directions lie about a sphere: those
+/// behind may.
+std::string overlapping(const std::vector<OverlayText>& texts)
+{
+    for (std::size_t n = 0; n < texts.size(); ++n)
+        for (std::size_t other = 0; other < n; ++other)
+            if (std::max(texts[n].text.size(), texts[other].text.size()) > kMostLetters &&
+                touch(textArea(texts[n]), textArea(texts[other])))
+                return texts[other].text + " | " + texts[n].text;
+    return {};
+}
+
+Caption longCaption()
+{
+    return {"Wolfeschlegelsteinhausenbergerdorff^Hubert Blaine",
+            "0123456789-0123456789",
+            "19040801",
+            "prone",
+            "20260102",
+            true};
+}
+
+/// As many lines as a caption can have.
+std::vector<OverlayText> manyLines()
+{
+    auto lines = captionLines(longCaption(), 1234, 1999, wordsFor("colon"));
+    for (const char* words :
+         {"window colon: 1500 / -200 HU", "m12  a sessile polyp behind a fold, which was seen on",
+          "the way back alone, and does not move when the", "patient is turned; to be looked at again…"})
+        lines.push_back({{}, words});
+    return lines;
+}
+
+TEST(CaptionOfSlices, LeavesRoomForACloseUpThatNoTextTouches)
+{
+    for (const std::size_t left_out : {0U, 4U})
+        for (const auto& [width, height] : kSizes) {
+            SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height));
+            auto lines = manyLines();
+            lines.resize(lines.size() - left_out);
+            const int w = width / 2 - 1, h = height / 2 - 1;
+            const CaptionPanel panel = captionPanel(lines, w, h);
+            EXPECT_EQ(overlapping(panel.overlay.texts), "");
+            for (const OverlayText& text : panel.overlay.texts) {
+                const Area area = textArea(text);
+                EXPECT_FALSE(touch(area, panel.close_up)) << text.text;
+                EXPECT_TRUE(area.x >= 0 && area.right() <= w && area.bottom() <= h) << text.text;
+            }
+            EXPECT_LE(panel.close_up.bottom(), h);
+            EXPECT_EQ(panel.close_up.width, panel.close_up.height);
+            if (width >= 500 && left_out > 0) {
+                EXPECT_GE(panel.close_up.height, 0.3 * h);
+            }
+        }
+}
+
+TEST(CaptionOfSlices, SaysWhereThereWasMore)
+{
+    const auto lines = manyLines();
+    const CaptionPanel tight = captionPanel(lines, 99, 99), roomy = captionPanel(lines, 599, 449);
+    ASSERT_LT(tight.overlay.texts.size(), lines.size());
+    EXPECT_TRUE(tight.overlay.texts.back().text.ends_with(" …"));
+    EXPECT_EQ(tight.close_up.width, 0);
+    EXPECT_EQ(roomy.overlay.texts.size(), lines.size());
+    EXPECT_EQ(roomy.overlay.texts.back().text, lines.back().text);
+}
+
+struct Captions : test::ColonFixture {};
+
+TEST_F(Captions, OfTheViewFromInsideTouchNeitherLettersNorEachOther)
+{
+    const PreparedScan of = scan();
+    SnapshotRequest request;
+    request.caption = longCaption();
+    request.look_at_mm = colon.polyp_mm;
+    request.peel = "biopsy";
+    SnapshotResult place = placeOf(of, request);
+    place.sees_target = false;
+    for (const auto& [width, height] : kSizes) {
+        request.width = width;
+        request.height = height;
+        EXPECT_EQ(overlapping(endoscopicOverlay(of, request, place).texts), "") << width << " x " << height;
+    }
+}
+
+TEST_F(Captions, OfMarkersInTheProjectionMakeRoomForTheOnesOfItsParts)
+{
+    const PreparedScan of = scan();
+    SnapshotRequest request;
+    request.width = request.height = 600;
+    const OverviewGround ground = overviewGround(of, request);
+    ASSERT_EQ(ground.names.size(), 2U) << "rectum and caecum";
+    const SnapshotResult place = placeOf(of, request);
+    for (const Area& name : ground.names)
+        for (const Pixel at : {Pixel{name.x, name.bottom()}, name.centre(), Pixel{name.right() - 20, name.bottom()}}) {
+            Marker marker;
+            marker.position_mm = ground.view.pointAt(at);
+            for (const char* id : {"m1", "m2"}) {
+                marker.id = id;
+                request.markers.push_back(marker);
+            }
+            const auto texts = overviewOverlay(ground, of, request, place).texts;
+            for (const OverlayText& text : texts)
+                if (text.text.starts_with("m1") || text.text.starts_with("m2"))
+                    for (const Area& taken : ground.names)
+                        EXPECT_FALSE(touch(textArea(text), taken)) << at.x << ", " << at.y;
+            ASSERT_EQ(texts[texts.size() - 2].text + texts.back().text, "m1m2");
+            EXPECT_FALSE(touch(textArea(texts[texts.size() - 2]), textArea(texts.back()))) << "of one place";
+            request.markers.clear();
+        }
+}
+
+}  // namespace
+}  // namespace vicon::viewer
