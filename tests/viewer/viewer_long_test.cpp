@@ -35,6 +35,17 @@ void forEachPreparedScan(const std::function<void(const PreparedScan&)>& check)
     EXPECT_EQ(scans, 2U);
 }
 
+/// Neither end of the path goes there and back before it sets off.
+void expectNoHooks(const PathFrames& path)
+{
+    const double length_mm = path.length_mm();
+    for (double off_mm = 1; off_mm <= 60; ++off_mm) {
+        EXPECT_GT(distance(path.at(0).position_mm, path.at(off_mm).position_mm), off_mm / 3) << off_mm;
+        EXPECT_GT(distance(path.at(length_mm).position_mm, path.at(length_mm - off_mm).position_mm), off_mm / 3)
+            << off_mm << " from the caecal end";
+    }
+}
+
 TEST(LongPrepared, AThousandCulledPicturesOfEachScanAreIdenticalToPicturesOfEverything)
 {
     VICON_NEEDS_DATA("ctc-prone");
@@ -50,6 +61,7 @@ TEST(LongPrepared, TheGuidedCameraKeepsOffTheWallFliesAlikeAtAnyFrameRateAndCome
 {
     VICON_NEEDS_DATA("ctc-prone");
     forEachPreparedScan([](const PreparedScan& scan) {
+        expectNoHooks(scan.frames());
         const test::Course course{scan.frames(), scan.lumen(), scan.exitDistance(), scan.cells()};
         test::steerAtRandom(course, 1000000, 1000);
         for (unsigned n = 0; n < 20; ++n)

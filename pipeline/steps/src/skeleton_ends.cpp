@@ -16,6 +16,8 @@ constexpr double kMostWidening = 0.3;  // mm of radius per mm: more is not the t
 constexpr int kTipRounds = 4;
 constexpr double kSettled_mm = 0.1;
 constexpr double kMostMoved_mm = 10;  // of an end of the curve, when the lumen's tip is measured from it
+constexpr double kHookReach = 4;      // radii along the curve within which it may come back to its beginning
+constexpr double kHook = 1.0 / 3;     // of the way gone, what is left of it as the crow flies
 
 Polyline withoutFirstTip(const Polyline& path, const DistanceProbe& wall)
 {
@@ -70,6 +72,22 @@ double ballAhead(const Polyline& line, const DistanceProbe& wall, double step_mm
     return medianOf(ahead);
 }
 
+/// At the end of a wide pouch sections turn with the few points that there are, and the line may begin by going there
+/// and back, 24 mm each way in the rectum of the prone reference scan. A line that comes back nearly to its beginning
+/// begins there instead. No lumen does so within its own width: a hairpin of a tube comes back to two radii after pi.
+void dropHook(Polyline& line, const DistanceProbe& wall, double step_mm)
+{
+    const auto reach = std::min(line.size() / 2, std::size_t(kHookReach * wall.at(line.front()) / step_mm));
+    std::size_t back = 0;
+    double least = kHook;
+    for (std::size_t n = 1; n < reach; ++n)
+        if (const double share = distance(line[n], line.front()) / (double(n) * step_mm); share < least) {
+            least = share;
+            back = n;
+        }
+    line.erase(line.begin(), line.begin() + std::ptrdiff_t(back));
+}
+
 /// The line, longer by so much in its first direction, or shorter where that is below 0.
 void moveStart(Polyline& line, double by_mm, Vector3 along, const DistanceProbe& wall, double step_mm)
 {
@@ -122,6 +140,7 @@ Polyline endsOneRadiusIn(Polyline line, const DistanceProbe& wall, double step_m
 {
     for (int end = 0; end < 2; ++end) {
         std::reverse(line.begin(), line.end());
+        dropHook(line, wall, step_mm);
         beginOneRadiusIn(line, wall, step_mm);
     }
     return line;
