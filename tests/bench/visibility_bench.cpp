@@ -1,7 +1,8 @@
 // The thesis' Table 3 for prepared scans: how much of the surface is drawn on a flight, how much of that is seen, and
 // what a frame takes with culling and without, in one run.
-//   vicon_visibility_bench [--step MM] [--side PX] [--angle DEG] FOLDER...
-// FOLDER is a scan's folder, or a store's: then every prepared scan in it.
+//   vicon_visibility_bench [--step MM] [--side PX] [--angle DEG] [--flights N] FOLDER...
+// FOLDER is a scan's folder, or a store's: then every prepared scan in it. Each way of drawing flies N times, in turn
+// with the others, so that a machine whose speed changes does so for all of them; medians are over all frames.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -33,6 +34,7 @@ struct Settings {
     double step_mm = 10;
     int side = 768;
     double angle_deg = 90;
+    int flights = 3;
     std::vector<fs::path> folders;
 };
 
@@ -140,33 +142,38 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
     scene.showSeen(ahead.seenFrom(poses[0].pose, lens));
     scene.sendAll();  // as the reading room does before one flies
     picture.draw(settings.side, settings.side);
+    for (const ViewPose& view : poses)
+        chosen.push_back(visibility.seenFrom(view.pose, lens));
     // Each way of drawing flies the whole flight, frame after frame, as a reader does.
-    for (std::size_t n = 0; n < poses.size(); ++n) {
-        chosen.push_back(ahead.seenFrom(poses[n].pose, lens));
-        const double cpu_begin = cpuSeconds();
-        // A frame is over when it is drawn and the next one's parts are chosen.
-        const double s = secondsOf([&] {
-            prepareAfter(n);
-            scene.lookFrom(poses[n].pose, settings.angle_deg);
-            scene.showSeen(chosen[n]);
-            picture.draw(settings.side, settings.side);
-            ahead.wait();
-        });
-        flight.culled_s.push_back(s);
-        flight.culled_cpu_s.push_back(cpuSeconds() - cpu_begin);
-        flight.cells += double(scene.cellsShown());
-        flight.triangles += double(scene.trianglesShown());
-    }
-    scene.showOnly({});
-    for (std::size_t n = 0; n < poses.size(); ++n) {
-        const double cpu_begin = cpuSeconds();
-        const double s = secondsOf([&] {
-            scene.lookFrom(poses[n].pose, settings.angle_deg);
-            picture.draw(settings.side, settings.side);
-        });
-        flight.all_s.push_back(s);
-        flight.all_cpu_s.push_back(cpuSeconds() - cpu_begin);
-    }
+    const auto flyChosen = [&] {
+        ahead.prepare(poses[0].pose, lens);
+        for (std::size_t n = 0; n < poses.size(); ++n) {
+            const SeenParts shown = ahead.seenFrom(poses[n].pose, lens);
+            const double cpu_begin = cpuSeconds();
+            // A frame is over when it is drawn and the next one's parts are chosen.
+            const double s = secondsOf([&] {
+                prepareAfter(n);
+                scene.lookFrom(poses[n].pose, settings.angle_deg);
+                scene.showSeen(shown);
+                picture.draw(settings.side, settings.side);
+                ahead.wait();
+            });
+            flight.culled_s.push_back(s);
+            flight.culled_cpu_s.push_back(cpuSeconds() - cpu_begin);
+        }
+    };
+    const auto flyAll = [&] {
+        scene.showOnly({});
+        for (const ViewPose& view : poses) {
+            const double cpu_begin = cpuSeconds();
+            const double s = secondsOf([&] {
+                scene.lookFrom(view.pose, settings.angle_deg);
+                picture.draw(settings.side, settings.side);
+            });
+            flight.all_s.push_back(s);
+            flight.all_cpu_s.push_back(cpuSeconds() - cpu_begin);
+        }
+    };
     const auto drawWithOthers = [&](std::size_t n, bool choose) {
         return secondsOf([&] {
             others.begin(poses[n]);
@@ -180,18 +187,25 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
             ahead.wait();
         });
     };
-    for (std::size_t n = 0; n < poses.size(); ++n)
-        flight.views_all_s.push_back(drawWithOthers(n, false));
-    for (std::size_t n = 0; n < poses.size(); ++n)
-        flight.views_culled_s.push_back(drawWithOthers(n, true));
-    for (auto* seconds : {&flight.culled_s, &flight.culled_cpu_s, &flight.all_s, &flight.all_cpu_s, &flight.views_all_s,
-                          &flight.views_culled_s})
-        seconds->erase(seconds->begin());  // the first frame fills the driver's buffers
+    const auto flyWithOthers = [&](bool choose) {
+        if (!choose)
+            scene.showOnly({});
+        for (std::size_t n = 0; n < poses.size(); ++n)
+            (choose ? flight.views_culled_s : flight.views_all_s).push_back(drawWithOthers(n, choose));
+    };
+    for (int n = 0; n < settings.flights; ++n) {
+        flyChosen();
+        flyAll();
+        flyWithOthers(true);
+        flyWithOthers(false);
+    }
     for (std::size_t n = 0; n < poses.size(); ++n) {
         const ViewPose& view = poses[n];
         const SeenParts& shown = chosen[n];
         const double choice = secondsOf([&] { visibility.seenFrom(view.pose, lens); });
         const double even_cpu = cpuSecondsToDraw(scene, picture, view.pose, shown, settings);
+        flight.cells += double(scene.cellsShown());
+        flight.triangles += double(scene.trianglesShown());
         const double occluded_cpu = cpuSecondsToDraw(occluded, occluded_picture, view.pose, shown, settings);
         ids.lookFrom(view.pose, settings.angle_deg);
         const auto seen = IdScene::trianglesIn(id_picture.render(settings.side, settings.side));
@@ -275,6 +289,8 @@ Settings settingsFrom(int argc, char** argv)
             settings.side = std::atoi(argv[++n]);
         else if (word == "--angle" && n + 1 < argc)
             settings.angle_deg = std::atof(argv[++n]);
+        else if (word == "--flights" && n + 1 < argc)
+            settings.flights = std::atoi(argv[++n]);
         else
             for (const fs::path& scan : scansIn(word))
                 settings.folders.push_back(scan);

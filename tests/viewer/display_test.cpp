@@ -10,6 +10,7 @@
 
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace vicon::viewer {
@@ -134,6 +135,14 @@ TEST(Display, AnAnsweringDisplayIsUsedAndADeadOneIsNot)
     EXPECT_EQ(guest.line(), display.name());
     Probe lost({"PATH=/usr/bin:/bin", "DISPLAY=:9753"});
     EXPECT_NE(lost.line(), ":9753");
+}
+
+TEST(Display, SoftwareOpenGlHasTwoThreadsACore)
+{
+    const Display display;
+    const char* threads = std::getenv("LP_NUM_THREADS");
+    ASSERT_TRUE(threads);
+    EXPECT_EQ(std::stoul(threads), 2 * std::thread::hardware_concurrency());
 }
 
 TEST(Display, OneServerServesAllObjectsOfAProcess)

@@ -101,18 +101,6 @@ std::vector<TriangleRun> runsOf(const CellActor& cell, const std::vector<Patch>&
     return runs;
 }
 
-/// Software OpenGL takes in triangles on one core and fills pixels on all, but only when it has taken in the whole
-/// picture or is told to begin. Told so after half, no core has to wait for long; told more often, it is slower.
-void handOverHalf(std::vector<CellActor>& cells, std::size_t drawn)
-{
-    std::size_t before = 0;
-    for (CellActor& cell : cells) {
-        if (before < drawn / 2 && before + cell.drawn >= drawn / 2)
-            cell.mapper->handOverAfter(drawn / 2 - before);
-        before += cell.drawn;
-    }
-}
-
 }  // namespace
 
 std::vector<CellActor> cellActors(const artefact::CellSurface& surface)
@@ -146,17 +134,14 @@ void showOnly(std::vector<CellActor>& cells, const std::vector<int>& segments)
 
 void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patches, const SeenParts& parts)
 {
-    std::size_t drawn = 0;
     for (CellActor& cell : cells) {
         const std::vector<TriangleRun> runs = runsOf(cell, patches, parts);
         cell.drawn = 0;
         for (const TriangleRun& run : runs)
             cell.drawn += run.count;
-        drawn += cell.drawn;
         cell.actor->SetVisibility(!runs.empty());
         cell.mapper->drawOnly(runs);
     }
-    handOverHalf(cells, drawn);
 }
 
 void sendAll(std::vector<CellActor>& cells)

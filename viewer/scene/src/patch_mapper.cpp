@@ -35,22 +35,8 @@ void PatchMapper::drawOnly(const std::vector<TriangleRun>& runs)
 void PatchMapper::drawAll()
 {
     all_ = true;
-    hand_over_after_ = 0;
     counts_.clear();
     offsets_.clear();
-}
-
-void PatchMapper::handOverAfter(std::size_t triangles)
-{
-    std::size_t corners = 0;
-    for (hand_over_after_ = 0; hand_over_after_ < counts_.size() && corners < 3 * triangles; ++hand_over_after_)
-        corners += std::size_t(counts_[hand_over_after_]);
-}
-
-void PatchMapper::drawRuns(std::size_t first, std::size_t end) const
-{
-    glMultiDrawElements(GL_TRIANGLES, counts_.data() + first, GL_UNSIGNED_INT, offsets_.data() + first,
-                        GLsizei(end - first));
 }
 
 void PatchMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
@@ -72,13 +58,9 @@ void PatchMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
     DrawingSelection = false;
     UpdateShaders(triangles, renderer, actor);
     triangles.IBO->Bind();
-    if (!triangles.Program->IsUniformUsed(kPrimitiveIdOffset)) {
-        if (hand_over_after_ > 0) {
-            drawRuns(0, hand_over_after_);
-            glFlush();
-        }
-        drawRuns(hand_over_after_, counts_.size());
-    } else  // triangles have colours of their own, and OpenGL numbers them from 0 in each run
+    if (!triangles.Program->IsUniformUsed(kPrimitiveIdOffset))
+        glMultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(), GLsizei(counts_.size()));
+    else  // triangles have colours of their own, and OpenGL numbers them from 0 in each run
         for (std::size_t n = 0; n < counts_.size(); ++n) {
             const auto first = reinterpret_cast<std::uintptr_t>(offsets_[n]) / (3 * sizeof(unsigned int));
             triangles.Program->SetUniformi(kPrimitiveIdOffset, int(first));

@@ -22,8 +22,6 @@ public:
     /// Runs in ascending order. Without a call everything is drawn.
     void drawOnly(const std::vector<TriangleRun>& runs);
     void drawAll();
-    /// Until the next call of these two: once as many triangles have been given to OpenGL, it begins to fill pixels.
-    void handOverAfter(std::size_t triangles);
 
     PatchMapper(const PatchMapper&) = delete;
     PatchMapper& operator=(const PatchMapper&) = delete;
@@ -34,10 +32,7 @@ protected:
     void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override;
 
 private:
-    void drawRuns(std::size_t first, std::size_t end) const;
-
     bool all_ = true;
-    std::size_t hand_over_after_ = 0;   ///< runs; 0: never
     std::vector<int> counts_;           ///< of each run, in corners
     std::vector<const void*> offsets_;  ///< of each run, in bytes of the index buffer
 };
