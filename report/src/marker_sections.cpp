@@ -70,8 +70,7 @@ void Sections::drawMarkers()
     drawSection(flow_, "Markers", 8 * leadingOf(look::kBody));
     flow_.paragraph(flow_.left(), flow_.width(), explained, look::kSmall, look::kMuted);
     flow_.skip(look::kGap / 2);
-    if (content_.markers.size() > 1)
-        drawMarkerTable();
+    drawMarkerTable();
     for (const MarkerEntry& entry : content_.markers)
         drawMarker(entry);
 }

@@ -101,19 +101,24 @@ TEST_F(PdfWriter, FiftyMarkersFillPagesWithoutOverlap)
     expectTidy(pdf_);
 }
 
-TEST_F(PdfWriter, TheTableOfMarkersNamesTheRightPage)
+class PdfWriterTable : public PdfWriter, public testing::WithParamInterface<int> {};
+
+TEST_P(PdfWriterTable, OfMarkersNamesTheRightPage)
 {
-    addMarkers(7);
+    const int markers = GetParam();
+    addMarkers(markers);
     write();
     const std::string table = runCommand("pdftotext -layout " + pdf_.string() + " -").output;
     const std::vector<std::string> pages = samples::pageTexts(pdf_);
-    for (int n = 1; n <= 7; ++n) {
+    for (int n = 1; n <= markers; ++n) {
         const std::string id = "m" + std::to_string(n);
         std::smatch found;
         ASSERT_TRUE(std::regex_search(table, found, std::regex(id + " (red|yellow|green) .*% +([0-9]+)\n"))) << id;
         EXPECT_THAT(pages.at(std::stoul(found[2]) - 1), HasSubstr("Marker " + id + ","));
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Markers, PdfWriterTable, testing::Values(1, 7));
 
 TEST_F(PdfWriter, ANoteOfFiveThousandWordsRunsOverPagesWhole)
 {
