@@ -137,12 +137,18 @@ TEST(Display, AnAnsweringDisplayIsUsedAndADeadOneIsNot)
     EXPECT_NE(lost.line(), ":9753");
 }
 
-TEST(Display, SoftwareOpenGlHasTwoThreadsACore)
+TEST(Display, SoftwareOpenGlHasTwoThreadsACoreUnlessToldOtherwise)
 {
+    constexpr const char* kThreads = "LP_NUM_THREADS";
+    ::setenv(kThreads, "3", 1);
+    {
+        const Display display;
+        EXPECT_STREQ(std::getenv(kThreads), "3");
+    }
+    ::unsetenv(kThreads);
     const Display display;
-    const char* threads = std::getenv("LP_NUM_THREADS");
-    ASSERT_TRUE(threads);
-    EXPECT_EQ(std::stoul(threads), 2 * std::thread::hardware_concurrency());
+    ASSERT_TRUE(std::getenv(kThreads));
+    EXPECT_EQ(std::stoul(std::getenv(kThreads)), 2 * std::thread::hardware_concurrency());
 }
 
 TEST(Display, OneServerServesAllObjectsOfAProcess)

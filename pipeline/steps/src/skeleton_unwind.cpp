@@ -7,8 +7,8 @@ namespace vicon::steps {
 namespace {
 
 // Chosen on the four shapes of the reference data, of which HuBMAPVHM_3D_00070 needs it: with 0.95 and 1 times the
-// path's length the curve follows its sharpest bend with either ends and either of two smoothings, with 1.1 it depends
-// on them.
+// path's length the curve follows its sharpest bend with given and with found ends and with either of two smoothings,
+// with 1.1 it depends on them.
 constexpr double kLeastOn = 0.5;   // of a step along the line that must be left once its ends were moved
 constexpr double kMostTurn = 1.4;  // rad, within a radius on either side; a bend as sharp as the lumen is wide has 1
 constexpr double kWound = 1.0;     // times the path's length: what is longer than that has wound itself up
