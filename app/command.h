@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/core/options.h"
 
 namespace vicon::app {

@@ -7,10 +7,10 @@
 #include <cstdio>
 
 #include "organs.h"
-#include "vicon/artefact/volume_file.h"
+#include "vicon/cases/job_queue.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
-#include "vicon/pipeline/queue.h"
+#include "vicon/scan_files/volume_file.h"
 
 namespace vicon::app {
 namespace {
@@ -23,7 +23,7 @@ void requireInside(const std::filesystem::path& scan_folder, const std::vector<P
     const auto file = scan_folder / "volume.mha";
     if (points.empty() || !std::filesystem::exists(file))
         return;
-    const Grid grid = artefact::readGrid(file);
+    const Grid grid = scan_files::readGrid(file);
     for (const Point3 p : points) {
         if (grid.contains(grid.indexAt(p)))
             continue;
@@ -107,8 +107,8 @@ void correctScan(CaseStore& store, const Config& config, const ScanRecord& scan,
     append(all.drop, more.drop);
     pipeline::writeCorrections(folder, all);
     store.audit("corrections", scan.case_id, scan.id, toJson(all).dump());
-    pipeline::JobQueue queue(store.database(), config.get<pipeline::QueueOptions>());
-    if (const auto job = queue.find(scan.case_id, scan.id); job && job->state == pipeline::JobState::failed)
+    JobQueue queue(store.database(), config.get<QueueOptions>());
+    if (const auto job = queue.find(scan.case_id, scan.id); job && job->state == JobState::failed)
         queue.retry(scan.case_id, scan.id);
 }
 

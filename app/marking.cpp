@@ -5,11 +5,11 @@
 #include <sstream>
 
 #include "text_table.h"
-#include "vicon/artefact/skeleton_file.h"
-#include "vicon/artefact/subdivision_file.h"
-#include "vicon/artefact/volume_file.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/scan_files/skeleton_file.h"
+#include "vicon/scan_files/subdivision_file.h"
+#include "vicon/scan_files/volume_file.h"
 #include "vicon/viewer/model/biopsy.h"
 
 namespace fs = std::filesystem;
@@ -106,9 +106,9 @@ namespace {
 /// The skeleton; of a tree the way from the root that passes nearest to the point.
 Skeleton wayThrough(const fs::path& file, Point3 point)
 {
-    const SkeletonTree tree = artefact::readSkeletonTree(file);
+    const SkeletonTree tree = scan_files::readSkeletonTree(file);
     if (tree.empty())
-        return artefact::readSkeleton(file);
+        return scan_files::readSkeleton(file);
     Skeleton best;
     double least_mm = 1e300;
     for (const int tip : tree.tips()) {
@@ -128,12 +128,12 @@ std::optional<SnappedPoint> snapToSkeleton(const fs::path& folder, Point3 point,
     if (!isPrepared(folder))
         throw Error(ErrorCode::not_ready, "the scan has not been through the pipeline", folder.filename().string(),
                     "run 'vicon work --until-idle'");
-    const auto segments = artefact::readVolume<std::uint16_t>(folder / "segments.mha");
+    const auto segments = scan_files::readVolume<std::uint16_t>(folder / "segments.mha");
     const NearestVoxel voxel = nearestInside(segments, point, within_mm);
     if (voxel.segment == 0 || voxel.distance_mm > within_mm)
         return std::nullopt;
     const Skeleton skeleton = wayThrough(folder / "skeleton.vtp", point);
-    const auto subdivision = artefact::readSubdivision(folder / "subdivision.json");
+    const auto subdivision = scan_files::readSubdivision(folder / "subdivision.json");
     const auto& info = subdivision.segments.at(std::size_t(voxel.segment) - 1);
     const SkeletonFoot foot =
         skeleton.nearest(point, info.from_station_mm - kSegmentMargin_mm, info.to_station_mm + kSegmentMargin_mm);
@@ -222,8 +222,8 @@ void renewPlaces(CaseStore& store, const MarkOptions& options, const std::string
 void addDensity(CaseStore& store, const std::string& case_id, Marker& marker, double radius_mm)
 {
     const fs::path folder = store.scanFolder(case_id, marker.scan_id);
-    const auto volume = artefact::readVolume<std::int16_t>(folder / "volume.mha");
-    const auto inside = artefact::readVolume<std::uint8_t>(folder / "inside.mha");
+    const auto volume = scan_files::readVolume<std::int16_t>(folder / "volume.mha");
+    const auto inside = scan_files::readVolume<std::uint8_t>(folder / "inside.mha");
     const viewer::Biopsy biopsy = viewer::takeBiopsy(volume, inside, marker.position_mm, radius_mm);
     if (biopsy.voxels == 0)
         throw Error(ErrorCode::wrong_use,

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/core/colon_parts.h"
 #include "vicon/core/options.h"
 

@@ -1,10 +1,10 @@
 #include "organs.h"
 
 #include "text_table.h"
-#include "vicon/artefact/skeleton_file.h"
+#include "vicon/cases/job_queue.h"
 #include "vicon/core/error.h"
 #include "vicon/pipeline/organs.h"
-#include "vicon/pipeline/queue.h"
+#include "vicon/scan_files/skeleton_file.h"
 
 namespace fs = std::filesystem;
 
@@ -60,7 +60,7 @@ std::string branchTable(const fs::path& scan_folder)
 {
     if (!fs::exists(scan_folder / "skeleton.vtp"))
         return {};
-    const SkeletonTree tree = artefact::readSkeletonTree(scan_folder / "skeleton.vtp");
+    const SkeletonTree tree = scan_files::readSkeletonTree(scan_folder / "skeleton.vtp");
     if (tree.empty())
         return {};
     std::vector<std::vector<std::string>> rows;

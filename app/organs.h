@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/core/options.h"
 
 namespace vicon::app {

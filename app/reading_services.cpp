@@ -10,8 +10,8 @@
 #include "report_writing.h"
 #include "scan_work.h"
 #include "text_table.h"
+#include "vicon/cases/job_queue.h"
 #include "vicon/ingest/receiver.h"
-#include "vicon/pipeline/queue.h"
 #include "vicon/pipeline/worker.h"
 #include "worklist.h"
 
@@ -91,8 +91,7 @@ void runQueue(CaseStore& store, const Config& config, const std::atomic<bool>& s
     pipeline::WorkSummary summary;
     do {
         requeueOutdated(store, config);
-        summary = pipeline::runWorker(store, config.get<pipeline::QueueOptions>(), options, scanWork(store, config), {},
-                                      stop);
+        summary = pipeline::runWorker(store, config.get<QueueOptions>(), options, scanWork(store, config), {}, stop);
     } while (!stop && summary.done > 0);
 }
 
@@ -116,7 +115,7 @@ void addCorrections(viewer::ReadingServices& services, const Config& config)
 
 void retry(CaseStore& store, const Config& config, const std::string& case_id)
 {
-    pipeline::JobQueue queue(store.database(), config.get<pipeline::QueueOptions>());
+    JobQueue queue(store.database(), config.get<QueueOptions>());
     const auto a_case = makeWorklistCase(store, config, store.requireCase(case_id));
     for (const viewer::WorklistScanRow& scan : rowOf(store, a_case).scans)
         if (scan.state == "failed")

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/core/progress.h"
 #include "vicon/report/content.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 

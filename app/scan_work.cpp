@@ -23,9 +23,9 @@ pipeline::JobWork scanWork(CaseStore& store, const Config& config)
 
 void requeueOutdated(CaseStore& store, const Config& config)
 {
-    pipeline::JobQueue queue(store.database(), config.get<pipeline::QueueOptions>());
-    for (const pipeline::Job& job : queue.jobs())
-        if (job.state == pipeline::JobState::done &&
+    JobQueue queue(store.database(), config.get<QueueOptions>());
+    for (const Job& job : queue.jobs())
+        if (job.state == JobState::done &&
             pipeline::isOutdated(store, config, toJson(config.get<ingest::ImportOptions>()), job.case_id, job.scan_id))
             queue.retry(job.case_id, job.scan_id);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/core/options.h"
 #include "vicon/pipeline/scan_work.h"
 

@@ -4,19 +4,19 @@
 #include <array>
 
 #include "organs.h"
-#include "vicon/pipeline/queue.h"
+#include "vicon/cases/job_queue.h"
 
 namespace vicon::app {
 namespace {
 
-WorklistScan makeScan(CaseStore& store, pipeline::JobQueue& queue, const ScanRecord& record)
+WorklistScan makeScan(CaseStore& store, JobQueue& queue, const ScanRecord& record)
 {
     WorklistScan scan{
         .record = record, .state = "kept", .folder = store.scanFolder(record.case_id, record.id).string()};
     if (const auto job = queue.find(record.case_id, record.id)) {
-        scan.state = pipeline::nameOf(job->state);
+        scan.state = nameOf(job->state);
         scan.step = job->step;
-        scan.progress = job->state == pipeline::JobState::done ? 1 : job->progress;
+        scan.progress = job->state == JobState::done ? 1 : job->progress;
         scan.reason = job->reason;
     }
     if (scan.reason.empty())
@@ -30,7 +30,7 @@ WorklistScan makeScan(CaseStore& store, pipeline::JobQueue& queue, const ScanRec
 
 WorklistCase makeWorklistCase(CaseStore& store, const Config& config, const CaseRecord& record)
 {
-    pipeline::JobQueue queue(store.database(), config.get<pipeline::QueueOptions>());
+    JobQueue queue(store.database(), config.get<QueueOptions>());
     WorklistCase out{.record = record, .state = "kept"};
     for (const ScanRecord& scan : store.scans(record.id))
         out.scans.push_back(makeScan(store, queue, scan));

@@ -4,11 +4,12 @@
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 # Nothing reads errno after a root; as long as something might, no loop with one can use vector registers.
 add_compile_options(-fno-math-errno)
+# The compiler cache needs it where headers are precompiled.
+add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 
 find_program(CCACHE ccache)
 if(CCACHE)
@@ -16,20 +17,26 @@ if(CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
 endif()
 
+# What nearly every file includes; each still includes what it uses, so that it compiles without them as well.
+set(VICON_PRECOMPILED <algorithm> <array> <atomic> <cmath> <cstdint> <cstdio> <filesystem> <functional> <map> <memory> <mutex>
+    <optional> <set> <string> <string_view> <thread> <vector> <nlohmann/json.hpp>)
+
 # Warnings that the project's own code is held to; libraries' headers are system headers.
 add_library(vicon_warnings INTERFACE)
 # -Wno-restrict: GCC 12 warns falsely in std::string operator+ (GCC bug 105651). -Wno-missing-field-initializers: a designated
 # initialiser that leaves the rest to the struct's own defaults is what options structs are for.
 target_compile_options(vicon_warnings INTERFACE -Wall -Wextra $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -Wno-missing-field-initializers)
 
-# vicon_room(NAME SOURCES src/a.cpp ... PUBLIC targets ... PRIVATE targets ...)
-# makes the library vicon_NAME from the current folder.
+# vicon_room(NAME SOURCES src/a.cpp ... PUBLIC targets ... PRIVATE targets ... [PRECOMPILE "<header>" ...])
+# makes the library vicon_NAME from the current folder. PRECOMPILE: libraries' headers that take long to read and that many
+# of its files need; those of the standard library and JSON are among them anyhow.
 function(vicon_room NAME)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
   add_library(vicon_${NAME} STATIC ${ROOM_SOURCES})
   target_include_directories(vicon_${NAME} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include
                                            PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   target_link_libraries(vicon_${NAME} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE} vicon_warnings)
+  target_precompile_headers(vicon_${NAME} PRIVATE ${VICON_PRECOMPILED} ${ROOM_PRECOMPILE})
 endfunction()
 
 # vicon_test(NAME SOURCES a_test.cpp ... LINK targets ... [LABELS long] [TIMEOUT s] [TOGETHER])
@@ -38,6 +45,7 @@ endfunction()
 function(vicon_test NAME)
   cmake_parse_arguments(TEST "TOGETHER" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   add_executable(${NAME} ${TEST_SOURCES})
+  target_precompile_headers(${NAME} REUSE_FROM vicon_test_precompiled)
   target_link_libraries(${NAME} PRIVATE ${TEST_LINK} vicon_test_support GTest::gmock_main vicon_warnings)
   if(NOT TEST_TIMEOUT)
     set(TEST_TIMEOUT 300)

@@ -43,7 +43,7 @@ Config declaredConfig()
     config.declare(specsOf<ingest::ImportOptions>());
     config.declare(specsOf<ingest::ReceiverOptions>());
     config.declare(pipeline::stepOptionSpecs());
-    config.declare(specsOf<pipeline::QueueOptions>());
+    config.declare(specsOf<QueueOptions>());
     config.declare(specsOf<pipeline::WorkOptions>());
     config.declare(specsOf<MarkOptions>());
     return config;

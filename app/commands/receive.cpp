@@ -19,11 +19,10 @@ void workInBackground(const std::filesystem::path& store_folder, const Config& c
     try {
         CaseStore store(store_folder);
         pipeline::WorkerEvents events;
-        events.ended = [](const pipeline::Job& job, pipeline::JobState state, const std::string& reason) {
-            spdlog::info("{}/{}: {}{}", job.case_id, job.scan_id, pipeline::nameOf(state),
-                         reason.empty() ? "" : ", " + reason);
+        events.ended = [](const Job& job, JobState state, const std::string& reason) {
+            spdlog::info("{}/{}: {}{}", job.case_id, job.scan_id, nameOf(state), reason.empty() ? "" : ", " + reason);
         };
-        pipeline::runWorker(store, config.get<pipeline::QueueOptions>(), config.get<pipeline::WorkOptions>(),
+        pipeline::runWorker(store, config.get<QueueOptions>(), config.get<pipeline::WorkOptions>(),
                             scanWork(store, config), events, stopRequested());
     } catch (const std::exception& e) {
         spdlog::error("the worker stopped: {}", e.what());

@@ -4,8 +4,8 @@
 #include "../organs.h"
 #include "../text_table.h"
 #include "../worklist.h"
-#include "vicon/artefact/subdivision_file.h"
 #include "vicon/pipeline/corrections.h"
+#include "vicon/scan_files/subdivision_file.h"
 
 namespace vicon::app {
 namespace {
@@ -96,7 +96,7 @@ int printSubdivisionTable(CaseStore& store, const WorklistCase& c, const std::st
         const auto file = store.scanFolder(c.record.id, scan.record.id) / "subdivision.json";
         if (!scan.record.id.starts_with(scan_id) || !std::filesystem::exists(file))
             continue;
-        const auto subdivision = artefact::readSubdivision(file);
+        const auto subdivision = scan_files::readSubdivision(file);
         const auto& s = subdivision.statistics;
         const auto number = [&](const char* key, int decimals) { return formatNumber(s.value(key, 0.0), decimals); };
         rows.push_back({scan.record.id, subdivision.method, number("specified_segments", 0), number("segments", 0),

@@ -44,7 +44,7 @@ void correct(Context& context, CaseStore& store, const WorkArguments& arguments)
 }
 
 /// What the pipeline says of a scan whose organ it is not sure of.
-std::string warningOf(CaseStore& store, const pipeline::Job& job)
+std::string warningOf(CaseStore& store, const Job& job)
 {
     for (const StepRecord& step : store.steps(job.case_id, job.scan_id))
         if (step.step == "segment")
@@ -52,11 +52,11 @@ std::string warningOf(CaseStore& store, const pipeline::Job& job)
     return {};
 }
 
-void retryFailed(CaseStore& store, const pipeline::QueueOptions& options)
+void retryFailed(CaseStore& store, const QueueOptions& options)
 {
-    pipeline::JobQueue queue(store.database(), options);
-    for (const pipeline::Job& job : queue.jobs())
-        if (job.state == pipeline::JobState::failed)
+    JobQueue queue(store.database(), options);
+    for (const Job& job : queue.jobs())
+        if (job.state == JobState::failed)
             queue.retry(job.case_id, job.scan_id);
 }
 
@@ -75,7 +75,7 @@ int work(Context& context, const WorkArguments& arguments)
 {
     keepMemory();
     CaseStore& store = context.existingStore();
-    const auto queue_options = context.config().get<pipeline::QueueOptions>();
+    const auto queue_options = context.config().get<QueueOptions>();
     if (arguments.retry)
         retryFailed(store, queue_options);
     if (!arguments.organ.empty())
@@ -88,16 +88,15 @@ int work(Context& context, const WorkArguments& arguments)
 
     ProgressLine progress("work");
     pipeline::WorkerEvents events;
-    events.progress = [&](const pipeline::Job& job, double fraction, const std::string& what) {
+    events.progress = [&](const Job& job, double fraction, const std::string& what) {
         progress.rename(job.case_id + "/" + job.scan_id);
         progress.report(fraction, what);
     };
-    events.ended = [&](const pipeline::Job& job, pipeline::JobState state, const std::string& reason) {
+    events.ended = [&](const Job& job, JobState state, const std::string& reason) {
         progress.clear();
-        std::printf("%s/%s: %s%s\n", job.case_id.c_str(), job.scan_id.c_str(), pipeline::nameOf(state).c_str(),
+        std::printf("%s/%s: %s%s\n", job.case_id.c_str(), job.scan_id.c_str(), nameOf(state).c_str(),
                     reason.empty() ? "" : (", " + reason).c_str());
-        if (const std::string warning = state == pipeline::JobState::done ? warningOf(store, job) : "";
-            !warning.empty())
+        if (const std::string warning = state == JobState::done ? warningOf(store, job) : ""; !warning.empty())
             std::printf("  ! %s\n", warning.c_str());
         std::fflush(stdout);
         if (!arguments.until_idle)

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "vicon/cases/records.h"
 #include "vicon/core/geometry.h"
-#include "vicon/core/records.h"
 
 namespace vicon::ingest {
 

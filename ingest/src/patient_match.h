@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vicon/core/records.h"
+#include "vicon/cases/records.h"
 
 namespace vicon::ingest {
 

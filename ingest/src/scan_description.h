@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "stack_plan.h"
-#include "vicon/core/records.h"
+#include "vicon/cases/records.h"
 
 namespace vicon::ingest {
 

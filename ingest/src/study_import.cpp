@@ -332,11 +332,7 @@ void StudyImport::flagSharedIds()
         return;
     const auto once = [&](const std::string& case_id, const std::string& other) {
         const std::string line = "the patient ID is also that of case " + other + ", with another name or birth date";
-        int said = 0;  // a flag that a person took away does not come back
-        store_.database().session() << "SELECT COUNT(*) FROM audit WHERE event = 'flagged' AND case_id = :c AND"
-                                       " detail = :line",
-            soci::use(case_id), soci::use(line), soci::into(said);
-        if (said > 0)
+        if (store_.wasFlagged(case_id, line))  // a flag that a person took away does not come back
             return;
         store_.flag(case_id, line);
         reporter_.line({ImportLine::Kind::flagged, case_id, line + "; a person must decide", case_id, {}});

@@ -7,7 +7,7 @@
 
 #include "acquisition.h"
 #include "image_object.h"
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/ingest/import.h"
 
 namespace vicon::ingest {

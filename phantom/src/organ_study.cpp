@@ -6,10 +6,10 @@
 #include "imaging.h"
 #include "tubes.h"
 #include "uid.h"
-#include "vicon/artefact/volume_file.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/phantom/organ_phantom.h"
+#include "vicon/scan_files/volume_file.h"
 
 namespace fs = std::filesystem;
 
@@ -135,7 +135,8 @@ void writeOrganStudy(const fs::path& out, const OrganPhantomOptions& options, Pr
     study.protocol = airway ? "CHEST" : "AORTA";
     const SeriesHeader series{2, uidFor(study.key, options.organ), options.organ + " soft", "HFS"};
     writeCtSeries(out / ("series-2-" + options.organ), study, series, scan.hu, progress);
-    artefact::writeVolume(out / ("truth-" + options.organ + "-inside.mha"), scan.truth.inside, artefact::Packing::zlib);
+    scan_files::writeVolume(out / ("truth-" + options.organ + "-inside.mha"), scan.truth.inside,
+                            scan_files::Packing::zlib);
     nlohmann::json truth = describe(scan.truth);
     truth["organ"] = options.organ;
     truth["scan"] = series.uid;

@@ -3,10 +3,10 @@
 #include "dicom_writer.h"
 #include "random.h"
 #include "uid.h"
-#include "vicon/artefact/volume_file.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/phantom/phantom.h"
+#include "vicon/scan_files/volume_file.h"
 
 namespace fs = std::filesystem;
 
@@ -113,7 +113,7 @@ void writeStudy(const fs::path& out, const PhantomOptions& options, Progress& pr
         const SeriesHeader series{number, uidFor(study.key, name), "CTC " + name + " " + thickness + " mm soft",
                                   position};
         writeCtSeries(out / ("series-" + std::to_string(number) + "-" + name), study, series, scan.hu, part);
-        artefact::writeVolume(out / ("truth-" + name + "-inside.mha"), scan.truth.inside, artefact::Packing::zlib);
+        scan_files::writeVolume(out / ("truth-" + name + "-inside.mha"), scan.truth.inside, scan_files::Packing::zlib);
         nlohmann::json truth = describeTruth(scan.truth);
         truth["scan"] = series.uid;
         truth["study"] = study.study_uid;

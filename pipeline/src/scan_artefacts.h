@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "vicon/artefact/skeleton_file.h"
-#include "vicon/artefact/subdivision_file.h"
-#include "vicon/artefact/volume_file.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume.h"
+#include "vicon/scan_files/skeleton_file.h"
+#include "vicon/scan_files/subdivision_file.h"
+#include "vicon/scan_files/volume_file.h"
 #include "vicon/steps/cells.h"
 #include "vicon/steps/densities_around.h"
 #include "vicon/steps/subdivide.h"
@@ -38,7 +38,7 @@ public:
         if (!around_lumen_ && volume_)
             around_lumen_ = steps::densitiesAround(*volume_, lumen);
         if (!around_lumen_)
-            around_lumen_ = steps::densitiesAround(artefact::readVolume<std::int16_t>(folder_ / "volume.mha"), lumen);
+            around_lumen_ = steps::densitiesAround(scan_files::readVolume<std::int16_t>(folder_ / "volume.mha"), lumen);
         return *around_lumen_;
     }
     const InsideVolume& inside() { return get(inside_, "inside.mha"); }
@@ -47,17 +47,17 @@ public:
     {
         const std::lock_guard lock(mutex_);
         if (!skeleton_)
-            skeleton_ = artefact::readSkeleton(folder_ / "skeleton.vtp");
+            skeleton_ = scan_files::readSkeleton(folder_ / "skeleton.vtp");
         return *skeleton_;
     }
 
     /// Keeps the object and begins to write the file.
-    void put(HuVolume v) { put(volume_, std::move(v), "volume.mha", artefact::Packing::raw); }
-    void put(InsideVolume v) { put(inside_, std::move(v), "inside.mha", artefact::Packing::zlib); }
-    void put(SegmentVolume v) { put(segments_, std::move(v), "segments.mha", artefact::Packing::zlib); }
+    void put(HuVolume v) { put(volume_, std::move(v), "volume.mha", scan_files::Packing::raw); }
+    void put(InsideVolume v) { put(inside_, std::move(v), "inside.mha", scan_files::Packing::zlib); }
+    void put(SegmentVolume v) { put(segments_, std::move(v), "segments.mha", scan_files::Packing::zlib); }
     void put(Skeleton s)
     {
-        artefact::writeSkeleton(folder_ / "skeleton.vtp", s);
+        scan_files::writeSkeleton(folder_ / "skeleton.vtp", s);
         const std::lock_guard lock(mutex_);
         skeleton_ = std::move(s);
     }
@@ -65,7 +65,7 @@ public:
     void write(const std::string& file, FieldVolume field)
     {
         begin(file, [path = folder_ / file, kept = std::make_shared<const FieldVolume>(std::move(field))] {
-            artefact::writeVolume(path, *kept, artefact::Packing::raw);
+            scan_files::writeVolume(path, *kept, scan_files::Packing::raw);
         });
     }
 
@@ -140,17 +140,17 @@ private:
     {
         const std::lock_guard lock(mutex_);
         if (!kept)
-            kept = artefact::readVolume<T>(folder_ / file);
+            kept = scan_files::readVolume<T>(folder_ / file);
         return *kept;
     }
     template <class T>
-    void put(std::optional<Volume<T>>& kept, Volume<T> made, const char* file, artefact::Packing packing)
+    void put(std::optional<Volume<T>>& kept, Volume<T> made, const char* file, scan_files::Packing packing)
     {
         {
             const std::lock_guard lock(mutex_);
             kept = std::move(made);
         }
-        begin(file, [path = folder_ / file, &kept, packing] { artefact::writeVolume(path, *kept, packing); });
+        begin(file, [path = folder_ / file, &kept, packing] { scan_files::writeVolume(path, *kept, packing); });
     }
     template <class Write>
     void begin(const std::string& file, Write write)

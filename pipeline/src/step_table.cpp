@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <future>
 
-#include "vicon/artefact/cells_file.h"
+#include "vicon/scan_files/cells_file.h"
+#include "vicon/scan_files/projections_file.h"
+#include "vicon/scan_files/skeleton_file.h"
+#include "vicon/scan_files/subdivision_file.h"
 #include "vicon/steps/cells.h"
 #include "vicon/steps/colon_parts.h"
 #include "vicon/steps/exit_distance.h"
@@ -121,8 +124,8 @@ json runTree(const steps::LumenPlan& plan, const StepInputs& inputs, ScanArtefac
                    {"tips", tips.size()},
                    {"length_mm", found.tree.pathTo(tips.front()).length_mm()},
                    {"total_length_mm", found.tree.totalLength_mm()}};
-    artefact::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
-    artefact::writeSkeletonTree(artefacts.folder() / "skeleton.vtp", found.tree);
+    scan_files::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
+    scan_files::writeSkeletonTree(artefacts.folder() / "skeleton.vtp", found.tree);
     return result;
 }
 
@@ -145,7 +148,7 @@ json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepR
         steps::findSkeleton(artefacts.inside(), plan, inputs.config.get<steps::SkeletonOptions>(), progress, hooks);
     json result = found.measures;
     result["length_mm"] = found.curve.length_mm();
-    artefact::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
+    scan_files::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
     artefacts.put(std::move(found.curve));
     return result;
 }
@@ -173,21 +176,21 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
     const InsideVolume& inside = artefacts.inside();
     const auto contour = artefacts.surface(inputs.config.get<steps::CellOptions>());
     auto options = inputs.config.get<steps::SubdivideOptions>();
-    const SkeletonTree tree = artefact::readSkeletonTree(artefacts.folder() / "skeleton.vtp");
+    const SkeletonTree tree = scan_files::readSkeletonTree(artefacts.folder() / "skeleton.vtp");
     if (!tree.empty())
         options.method = "flood";  // planes across one path do not part branches
     steps::Subdivided divided =
         steps::subdivide(inside, tree.empty() ? artefacts.skeleton() : tree.allBranches(),
-                         artefact::readSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp"), options, divide,
+                         scan_files::readSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp"), options, divide,
                          artefacts.takeFlood());
     artefacts.put(std::move(divided.segments));
-    const artefact::CellSurface surface = contour.get().cellsOf(artefacts.segments(), tell);
+    const CellSurface surface = contour.get().cellsOf(artefacts.segments(), tell);
     steps::countTriangles(surface, divided.description);
     auto cells =
-        std::async(std::launch::async, [&] { artefact::writeCells(artefacts.folder() / "cells.vtp", surface); });
-    artefact::writeProjections(artefacts.folder() / "projections",
-                               steps::project(surface, inputs.config.get<steps::ProjectionOptions>(), project));
-    artefact::writeSubdivision(artefacts.folder() / "subdivision.json", divided.description);
+        std::async(std::launch::async, [&] { scan_files::writeCells(artefacts.folder() / "cells.vtp", surface); });
+    scan_files::writeProjections(artefacts.folder() / "projections",
+                                 steps::project(surface, inputs.config.get<steps::ProjectionOptions>(), project));
+    scan_files::writeSubdivision(artefacts.folder() / "subdivision.json", divided.description);
     cells.get();
     json result = divided.description.statistics;
     result["method"] = divided.description.method;
@@ -206,7 +209,7 @@ json runPotential(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
     FieldVolume from_wall_mm = steps::wallDistance(artefacts.inside(), surface.get().nearWall(), wall);
     result["largest_wall_distance_mm"] = largest(from_wall_mm);
     artefacts.write("wall_distance.mha", std::move(from_wall_mm));
-    const SkeletonTree tree = artefact::readSkeletonTree(artefacts.folder() / "skeleton.vtp");
+    const SkeletonTree tree = scan_files::readSkeletonTree(artefacts.folder() / "skeleton.vtp");
     FieldVolume from_exit_mm = tree.empty() ? steps::exitDistance(artefacts.inside(), artefacts.skeleton(), exit)
                                             : steps::exitDistance(artefacts.inside(), tree, exit);
     result["largest_exit_distance_mm"] = largest(from_exit_mm);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "scan_artefacts.h"
+#include "vicon/cases/records.h"
 #include "vicon/core/options.h"
-#include "vicon/core/records.h"
 #include "vicon/pipeline/scan_work.h"
 
 namespace vicon::pipeline {

@@ -5,7 +5,7 @@
 
 #include "describe_json.h"
 #include "quality_words.h"
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/report/wording.h"
 
 using nlohmann::json;

@@ -11,7 +11,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "vicon/core/records.h"
+#include "vicon/cases/records.h"
 
 namespace vicon::report {
 namespace {

@@ -36,7 +36,7 @@ struct Tube {
     InsideVolume inside{Grid{.size = {kWidth, kDepth, kHeight}, .spacing_mm = {kVoxel_mm, kVoxel_mm, kVoxel_mm}}};
     HuVolume hu{inside.grid, 40};
     Skeleton skeleton;
-    artefact::SkeletonVoxels path;
+    SkeletonVoxels path;
 
     Tube()
     {

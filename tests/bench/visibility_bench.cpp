@@ -82,9 +82,9 @@ std::vector<ViewPose> posesOf(const PreparedScan& scan, double step_mm)
     return poses;
 }
 
-artefact::CellSurface onlyThese(const artefact::CellSurface& surface, const std::vector<std::uint32_t>& triangles)
+CellSurface onlyThese(const CellSurface& surface, const std::vector<std::uint32_t>& triangles)
 {
-    artefact::CellSurface some;
+    CellSurface some;
     some.points_mm = surface.points_mm;
     some.normals = surface.normals;
     for (const std::uint32_t t : triangles) {
@@ -97,7 +97,7 @@ artefact::CellSurface onlyThese(const artefact::CellSurface& surface, const std:
 
 // The floor of every choice: what is left to do when each triangle drawn is seen. The first picture fills the driver's
 // buffers.
-double secondsToDraw(const artefact::CellSurface& surface, const Pose& pose, const Settings& settings)
+double secondsToDraw(const CellSurface& surface, const Pose& pose, const Settings& settings)
 {
     SurfaceScene scene(surface);
     Offscreen picture(scene.renderer());
@@ -119,7 +119,7 @@ double cpuSecondsToDraw(SurfaceScene& scene, Offscreen& picture, const Pose& pos
 
 Flight flyThrough(const PreparedScan& scan, const Settings& settings)
 {
-    const artefact::CellSurface& surface = scan.cells();
+    const CellSurface& surface = scan.cells();
     std::vector<std::size_t> triangles_of(65536, 0);
     for (const std::uint16_t s : surface.segment)
         ++triangles_of[s];

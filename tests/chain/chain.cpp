@@ -4,7 +4,7 @@
 #include <random>
 
 #include "dicom_writer.h"
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/ingest/import.h"
 #include "vicon/ingest/load_scan.h"
 #include "vicon/steps/cells.h"
@@ -49,13 +49,13 @@ std::string bytesOf(const Skeleton& curve)
     return bytes;
 }
 
-std::string bytesOf(const artefact::Subdivision& subdivision)
+std::string bytesOf(const Subdivision& subdivision)
 {
     std::string bytes = subdivision.statistics.dump();
-    for (const artefact::SegmentInfo& s : subdivision.segments)
+    for (const SegmentInfo& s : subdivision.segments)
         append(bytes, std::vector<double>{s.from_station_mm, s.to_station_mm, s.volume_mm3, double(s.surface_voxels),
                                           double(s.triangles)});
-    for (const artefact::Portal& p : subdivision.portals) {
+    for (const Portal& p : subdivision.portals) {
         append(bytes, std::vector<double>{double(p.segment_a), double(p.segment_b), p.area_mm2});
         append(bytes, std::vector<std::array<Point3, 8>>{p.box_mm});
         append(bytes, std::vector<std::array<Point3, 4>>{p.gate_mm});
@@ -109,8 +109,7 @@ ChainResult runChain(HuVolume acquired, Vector3 gravity)
         return result;
     steps::Subdivided divided = steps::subdivide(result.inside, skeleton.curve, skeleton.voxels, {}, quiet);
     bytes["segments"] = bytesOf(divided.segments);
-    const artefact::CellSurface surface =
-        steps::extractCells(result.volume, result.inside, divided.segments, {}, quiet);
+    const CellSurface surface = steps::extractCells(result.volume, result.inside, divided.segments, {}, quiet);
     steps::countTriangles(surface, divided.description);
     bytes["subdivision"] = bytesOf(divided.description);
     append(bytes["cells"], surface.points_mm);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <soci/soci.h>
 #include <fstream>
 #include <map>
 #include <string>

@@ -9,8 +9,8 @@
 #include <set>
 
 #include "scans.h"
-#include "vicon/artefact/volume_file.h"
 #include "vicon/core/error.h"
+#include "vicon/scan_files/volume_file.h"
 #include "vicon/support/support.h"
 
 namespace fs = std::filesystem;
@@ -143,7 +143,7 @@ TEST(PhantomStudy, HasTheTruthBesideIt)
     for (const std::string name : {"supine", "prone", "decubitus-left"}) {
         std::ifstream file(study().out / ("truth-" + name + ".json"));
         const nlohmann::json truth = nlohmann::json::parse(file);
-        const auto inside = artefact::readVolume<std::uint8_t>(study().out / ("truth-" + name + "-inside.mha"));
+        const auto inside = scan_files::readVolume<std::uint8_t>(study().out / ("truth-" + name + "-inside.mha"));
         const auto count =
             std::count_if(inside.voxels.begin(), inside.voxels.end(), [](auto label) { return label > 0; });
         EXPECT_NEAR(truth["volume_ml"].get<double>(), double(count) * inside.grid.voxelVolume_mm3() / 1000, 0.01);

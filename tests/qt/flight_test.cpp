@@ -8,8 +8,8 @@
 
 #include "film_reader.h"
 #include "reading.h"
-#include "vicon/artefact/skeleton_file.h"
 #include "vicon/core/file.h"
+#include "vicon/scan_files/skeleton_file.h"
 
 namespace vicon::viewer {
 namespace {
@@ -67,11 +67,11 @@ TEST_F(Reading, GuidedFlightIsSteeredByKeysAndComesBackWhenLetGo)
 TEST_F(Reading, AGuidedFlightThatCannotReachAPlaceSaysSo)
 {
     const auto file = store_ / "cases" / test::kCase / test::kSupine / "skeleton.vtp";
-    Skeleton path = artefact::readSkeleton(file);
+    Skeleton path = scan_files::readSkeleton(file);
     auto& points = path.pieces.back().points;
     for (int n = 1; n <= 40; ++n)  // beyond the lumen: no room there
         points.push_back({points.back().position_mm - Vector3{0, 0, 1}, points.back().station_mm + 1, 1});
-    artefact::writeSkeleton(file, path);
+    scan_files::writeSkeleton(file, path);
     openCase();
     key(Qt::Key_G);
     key(Qt::Key_Home);

@@ -8,8 +8,8 @@
 #include <QTableWidget>
 
 #include "reading.h"
-#include "vicon/artefact/skeleton_file.h"
 #include "vicon/core/file.h"
+#include "vicon/scan_files/skeleton_file.h"
 
 namespace vicon::viewer {
 namespace {
@@ -117,7 +117,7 @@ TEST_F(Reading, AnotherOrganAndItsEndsAreCalledByTheirNames)
 /// The colon's path as a tree: a trunk, the rest of it, and a side branch beside that, which ends a little earlier.
 void makeTree(const std::filesystem::path& folder)
 {
-    const auto points = artefact::readSkeleton(folder / "skeleton.vtp").pieces.front().points;
+    const auto points = scan_files::readSkeleton(folder / "skeleton.vtp").pieces.front().points;
     const auto fork = points.begin() + std::ptrdiff_t(points.size() / 2);
     const auto end = points.begin() + std::ptrdiff_t(points.size() * 4 / 5);
     SkeletonTree tree;
@@ -126,7 +126,7 @@ void makeTree(const std::filesystem::path& folder)
     tree.branches.push_back({0, 1, {fork, end}});
     for (std::size_t n = 1; n < tree.branches[2].points.size(); ++n)
         tree.branches[2].points[n].position_mm.y += 2;
-    artefact::writeSkeletonTree(folder / "skeleton.vtp", tree);
+    scan_files::writeSkeletonTree(folder / "skeleton.vtp", tree);
     const auto file = folder / "scan.json";
     auto scan = nlohmann::json::parse(readFile(file));
     scan["organ"] = "airway";

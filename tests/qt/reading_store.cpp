@@ -5,9 +5,9 @@
 #include <mutex>
 
 #include "test_colon.h"
-#include "vicon/artefact/skeleton_file.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/scan_files/skeleton_file.h"
 
 namespace fs = std::filesystem;
 
@@ -78,7 +78,7 @@ void addCorrections(ReadingServices& services)
         state->queued = scan.id;
     };
     services.bridges = [state](CaseStore& store, const ScanRecord& scan) {
-        const Skeleton path = artefact::readSkeleton(store.scanFolder(scan.case_id, scan.id) / "skeleton.vtp");
+        const Skeleton path = scan_files::readSkeleton(store.scanFolder(scan.case_id, scan.id) / "skeleton.vtp");
         const std::lock_guard lock(state->mutex);
         const BridgeRow& judged = state->bridge;
         return std::vector<BridgeRow>{{path.at(180).position_mm, path.at(200).position_mm, 20, 0.7, true, "a short gap",
@@ -154,7 +154,7 @@ ReadingServices servicesFor(const fs::path& folder)
     };
     services.retry = [retried](CaseStore&, const std::string&) { *retried = true; };
     services.place = [](CaseStore& store, const std::string& case_id, Marker marker) {
-        const Skeleton path = artefact::readSkeleton(store.scanFolder(case_id, marker.scan_id) / "skeleton.vtp");
+        const Skeleton path = scan_files::readSkeleton(store.scanFolder(case_id, marker.scan_id) / "skeleton.vtp");
         const SkeletonFoot foot = path.nearest(marker.position_mm);
         constexpr double kFar_mm = 60;
         if (foot.distance_mm > kFar_mm)

@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <soci/soci.h>
 #include <sys/resource.h>
 
 #include <QComboBox>

@@ -62,12 +62,12 @@ Volume<T> partOf(const Volume<T>& whole, Index3 lower, std::array<int, 3> size)
     return part;
 }
 
-artefact::CellSurface cellsOf(const Scan& scan)
+CellSurface cellsOf(const Scan& scan)
 {
     return extractCells(scan.hu, scan.inside, scan.segments, {}, quiet);
 }
 
-Vector3 normalAt(const artefact::CellSurface& s, std::size_t n)
+Vector3 normalAt(const CellSurface& s, std::size_t n)
 {
     return {s.normals[3 * n], s.normals[3 * n + 1], s.normals[3 * n + 2]};
 }
@@ -77,7 +77,7 @@ struct Measures {
     double volume_mm3 = 0;  ///< enclosed; positive when front sides look inwards
 };
 
-Measures measure(const artefact::CellSurface& s)
+Measures measure(const CellSurface& s)
 {
     Measures m;
     for (std::size_t t = 0; t < s.triangleCount(); ++t) {
@@ -91,7 +91,7 @@ Measures measure(const artefact::CellSurface& s)
 }
 
 /// Every edge lies in exactly two triangles, once in each direction: the surface is closed and consistently wound.
-void expectClosed(const artefact::CellSurface& s)
+void expectClosed(const CellSurface& s)
 {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (std::size_t t = 0; t < s.triangleCount(); ++t)
@@ -144,7 +144,7 @@ TEST(Cells, AreContiguousRangesInOrderOfTheirSegment)
                          3;
         ASSERT_EQ(surface.segment[t], z < -0.7 ? 1 : z > 0.7 ? 2 : surface.segment[t]);
     }
-    artefact::Subdivision description;
+    Subdivision description;
     description.segments.resize(2);
     countTriangles(surface, description);
     EXPECT_EQ(description.segments[0].triangles + description.segments[1].triangles, surface.triangleCount());

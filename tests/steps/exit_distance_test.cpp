@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "field_shapes.h"
-#include "vicon/artefact/volume_file.h"
 #include "vicon/core/error.h"
+#include "vicon/scan_files/volume_file.h"
 #include "vicon/support/support.h"
 
 namespace vicon::steps {
@@ -158,7 +158,7 @@ TEST(ExitDistance, IsFiniteOnEveryInsideVoxel)
 TEST(ExitDistance, OfARealColonGrowsAllAlongItsCentreline)
 {
     VICON_NEEDS_DATA("shapes/EdinGCA_3D_00090.mha");
-    auto inside = artefact::readVolume<std::uint8_t>(support::sharedData("shapes/EdinGCA_3D_00090.mha"));
+    auto inside = scan_files::readVolume<std::uint8_t>(support::sharedData("shapes/EdinGCA_3D_00090.mha"));
     const Skeleton skeleton = readCentreline(support::sharedData("shapes/EdinGCA_3D_00090_centerline.csv"));
     const FieldVolume field = exitDistance(inside, skeleton, quiet);
     float before = 0;

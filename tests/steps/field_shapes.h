@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "vicon/artefact/skeleton_file.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume.h"
+#include "vicon/scan_files/skeleton_file.h"
 
 namespace vicon::steps {
 
@@ -39,9 +39,9 @@ inline SkeletonPiece pieceThrough(const std::vector<Point3>& points, double radi
 }
 
 /// The voxels along the curve's connected pieces, 26-connected where the curve stays inside.
-inline artefact::SkeletonVoxels voxelsAlong(const Skeleton& skeleton, const InsideVolume& inside)
+inline SkeletonVoxels voxelsAlong(const Skeleton& skeleton, const InsideVolume& inside)
 {
-    artefact::SkeletonVoxels paths;
+    SkeletonVoxels paths;
     for (const SkeletonPiece& piece : skeleton.pieces) {
         if (piece.bridge)
             continue;

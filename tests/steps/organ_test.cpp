@@ -5,11 +5,11 @@
 #include <set>
 
 #include "organ_checks.h"
-#include "vicon/artefact/skeleton_file.h"
 #include "vicon/core/error.h"
 #include "vicon/phantom/organ_phantom.h"
 #include "vicon/pipeline/organs.h"
 #include "vicon/pipeline/scan_work.h"
+#include "vicon/scan_files/skeleton_file.h"
 #include "vicon/steps/exit_distance.h"
 #include "vicon/steps/organ.h"
 #include "vicon/steps/resample.h"
@@ -195,15 +195,15 @@ TEST(Organ, ATreeIsReadBackAsItWasWrittenAndAsOneWayToTheFarthestTip)
 {
     const support::TemporaryFolder folder;
     const SkeletonTree& tree = airway().skeleton.tree;
-    artefact::writeSkeletonTree(folder / "skeleton.vtp", tree);
-    const SkeletonTree back = artefact::readSkeletonTree(folder / "skeleton.vtp");
+    scan_files::writeSkeletonTree(folder / "skeleton.vtp", tree);
+    const SkeletonTree back = scan_files::readSkeletonTree(folder / "skeleton.vtp");
     ASSERT_EQ(back.branches.size(), tree.branches.size());
     for (std::size_t n = 0; n < tree.branches.size(); ++n) {
         EXPECT_EQ(back.branches[n].parent, tree.branches[n].parent);
         EXPECT_EQ(back.branches[n].generation, tree.branches[n].generation);
         EXPECT_EQ(back.branches[n].points.size(), tree.branches[n].points.size());
     }
-    const Skeleton way = artefact::readSkeleton(folder / "skeleton.vtp");
+    const Skeleton way = scan_files::readSkeleton(folder / "skeleton.vtp");
     ASSERT_EQ(way.pieces.size(), 1U);
     double farthest_mm = 0;
     for (const SkeletonBranch& branch : tree.branches)

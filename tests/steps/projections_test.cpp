@@ -14,7 +14,7 @@ namespace {
 NoProgress quiet;
 
 /// Adds a ball of triangles (longitude by latitude) to a surface.
-void addBall(artefact::CellSurface& s, Point3 centre, double radius_mm)
+void addBall(CellSurface& s, Point3 centre, double radius_mm)
 {
     constexpr int kAround = 32, kUp = 16;
     const auto first = std::uint32_t(s.pointCount());
@@ -37,14 +37,14 @@ void addBall(artefact::CellSurface& s, Point3 centre, double radius_mm)
         }
 }
 
-bool covered(const artefact::Projection& picture, Point3 p)
+bool covered(const Projection& picture, Point3 p)
 {
     const int x = int(std::lround(picture.column(p))), y = int(std::lround(picture.row(p)));
     return x >= 0 && y >= 0 && x < picture.width && y < picture.height &&
            picture.rgba[4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x)) + 3] > 127;
 }
 
-int brightness(const artefact::Projection& picture, Point3 p)
+int brightness(const Projection& picture, Point3 p)
 {
     const int x = int(std::lround(picture.column(p))), y = int(std::lround(picture.row(p)));
     return picture.rgba[4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x))];
@@ -53,9 +53,9 @@ int brightness(const artefact::Projection& picture, Point3 p)
 constexpr Point3 kLeftHead{60, -20, 130};  // +x: left, -y: front, +z: head
 constexpr Point3 kRightFeet{-40, 40, -90};
 
-artefact::CellSurface twoBalls()
+CellSurface twoBalls()
 {
-    artefact::CellSurface s;
+    CellSurface s;
     addBall(s, kLeftHead, 10);
     addBall(s, kRightFeet, 10);
     return s;
@@ -78,7 +78,7 @@ TEST(Projections, ShowThePatientsLeftOnTheRightHeadUpAndFrontUp)
 TEST(Projections, HaveTheSurfaceWhereTheMappingSays)
 {
     for (const double pixel_mm : {0.6, 1.7})
-        for (const artefact::Projection& picture : project(twoBalls(), {pixel_mm}, quiet)) {
+        for (const Projection& picture : project(twoBalls(), {pixel_mm}, quiet)) {
             const Vector3 ahead = cross(picture.right, picture.down);
             for (const Point3 centre : {kLeftHead, kRightFeet})
                 for (int n = 0; n < 16; ++n) {
@@ -98,7 +98,7 @@ TEST(Projections, ShowWhatIsNearer)
         Vector3 nearer;
     };
     for (const Case& c : {Case{0, {0, -1, 0}}, Case{1, {0, 0, -1}}, Case{2, {1, 0, 0}}}) {
-        artefact::CellSurface far_only, both;
+        CellSurface far_only, both;
         const Point3 away = Point3{} - c.nearer * 60, near = Point3{} + c.nearer * 60;
         const Vector3 aside = c.view == 0 ? Vector3{0, 0, 40} : c.view == 1 ? Vector3{40, 0, 0} : Vector3{0, 40, 0};
         addBall(both, away, 20);

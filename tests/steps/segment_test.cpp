@@ -77,7 +77,7 @@ std::vector<double> wallErrorsAtLevel(const HuVolume& volume, const InsideVolume
     SegmentVolume segments(inside.grid);
     std::transform(inside.voxels.begin(), inside.voxels.end(), segments.voxels.begin(),
                    [](std::uint8_t label) { return std::uint16_t(label != kOutside); });
-    const artefact::CellSurface surface = extractCells(volume, inside, segments, {}, progress);
+    const CellSurface surface = extractCells(volume, inside, segments, {}, progress);
     std::vector<double> errors_mm;
     for (std::size_t n = 0; n < surface.pointCount(); ++n) {
         const Point3 p = surface.point(n);

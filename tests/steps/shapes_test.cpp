@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "field_shapes.h"
-#include "vicon/artefact/volume_file.h"
+#include "vicon/scan_files/volume_file.h"
 #include "vicon/steps/lumen_plan.h"
 #include "vicon/steps/skeleton.h"
 #include "vicon/steps/wall_distance.h"
@@ -156,7 +156,7 @@ protected:
     {
         const std::string file = std::string("shapes/") + GetParam().name;
         VICON_NEEDS_DATA(file + ".mha");
-        inside_ = artefact::readVolume<std::uint8_t>(support::sharedData(file + ".mha"));
+        inside_ = scan_files::readVolume<std::uint8_t>(support::sharedData(file + ".mha"));
         given_ = evenly(readCentreline(support::sharedData(file + "_centerline.csv")));
         measureRadii(wallDistance(inside_, quiet), given_);
         plan_ = planForMask(inside_);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "field_shapes.h"
-#include "vicon/artefact/volume_file.h"
+#include "vicon/scan_files/volume_file.h"
 #include "vicon/steps/subdivide.h"
 #include "vicon/support/support.h"
 
@@ -53,7 +53,7 @@ inline Lumen bridgedTubes()
 
 inline Lumen realColon(const std::string& name)
 {
-    return {artefact::readVolume<std::uint8_t>(support::sharedData("shapes/" + name + ".mha")),
+    return {scan_files::readVolume<std::uint8_t>(support::sharedData("shapes/" + name + ".mha")),
             readCentreline(support::sharedData("shapes/" + name + "_centerline.csv"))};
 }
 
@@ -128,7 +128,7 @@ inline void expectGatesEnclose(const Subdivided& divided)
 {
     const Grid& grid = divided.segments.grid;
     const double diagonal_mm = std::hypot(grid.spacing_mm[0], grid.spacing_mm[1], grid.spacing_mm[2]);
-    std::map<std::pair<int, int>, const artefact::Portal*> portals;
+    std::map<std::pair<int, int>, const Portal*> portals;
     for (const auto& portal : divided.description.portals) {
         EXPECT_LT(portal.segment_a, portal.segment_b);
         EXPECT_TRUE(portals.emplace(std::pair(portal.segment_a, portal.segment_b), &portal).second);

@@ -79,7 +79,7 @@ TEST(ThinFolds, HaveTheirSurfaceHalfWayBetweenTheirBottomAndTheFluid)
     std::transform(scan.inside.voxels.begin(), scan.inside.voxels.end(), segments.voxels.begin(),
                    [](std::uint8_t label) { return std::uint16_t(label != kOutside); });
     NoProgress progress;
-    const artefact::CellSurface surface = extractCells(scan.volume, scan.inside, segments, {}, progress);
+    const CellSurface surface = extractCells(scan.volume, scan.inside, segments, {}, progress);
     const double half_mm = FoldScan::kSigma_mm * std::sqrt(2 * std::log(2.0));
     std::vector<double> errors_mm;
     for (std::size_t n = 0; n < surface.pointCount(); ++n) {

@@ -5,7 +5,7 @@
 
 namespace vicon::support {
 
-vtkNew<vtkPolyData> asPolyData(const artefact::CellSurface& cells)
+vtkNew<vtkPolyData> asPolyData(const CellSurface& cells)
 {
     vtkNew<vtkPoints> points;
     for (std::size_t n = 0; n < cells.pointCount(); ++n) {

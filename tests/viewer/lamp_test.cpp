@@ -16,10 +16,10 @@ const Pose kPose;  // at the origin, looking along y
 const Lens kLens{90, 200, 200};
 
 /// A wall across the direction of view that fills the picture, with this normal all over.
-artefact::CellSurface wallAt(double depth_mm, Vector3 normal)
+CellSurface wallAt(double depth_mm, Vector3 normal)
 {
     const int cells = int(std::ceil(2.2 * depth_mm / kTriangle_mm));
-    artefact::CellSurface wall;
+    CellSurface wall;
     for (int j = 0; j <= cells; ++j)
         for (int i = 0; i <= cells; ++i) {
             for (const double v : {(i - cells / 2.0) * kTriangle_mm, depth_mm, (j - cells / 2.0) * kTriangle_mm})
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Turned, Lamp, testing::Values(0.0, 25.0, 50.0, 80.0, 11
 TEST(LampLight, IsTakenAwayWhereTheWallIsClosedAndGivenBack)
 {
     constexpr double kDepth_mm = 20;
-    const artefact::CellSurface wall = wallAt(kDepth_mm, turned(0));
+    const CellSurface wall = wallAt(kDepth_mm, turned(0));
     SurfaceScene scene(wall);
     Offscreen offscreen(scene.renderer());
     scene.lookFrom(kPose, kLens.view_angle_deg);

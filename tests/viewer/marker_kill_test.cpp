@@ -8,7 +8,7 @@
 #include <map>
 #include <random>
 
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/core/file.h"
 #include "vicon/support/support.h"
 

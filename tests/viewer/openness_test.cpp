@@ -17,7 +17,7 @@ using Field = std::function<double(Point3)>;  // distance to the wall, below 0 i
 struct Wall {
     InsideVolume inside;
     FieldVolume distance;
-    artefact::CellSurface surface;
+    CellSurface surface;
     std::vector<float> openness;
 
     explicit Wall(const Field& field)

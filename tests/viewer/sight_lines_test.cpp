@@ -11,7 +11,7 @@ namespace vicon::viewer {
 namespace {
 
 /// The triangle that a ray meets first with its front side.
-std::optional<std::size_t> firstTriangle(const artefact::CellSurface& surface, Point3 eye, Vector3 way)
+std::optional<std::size_t> firstTriangle(const CellSurface& surface, Point3 eye, Vector3 way)
 {
     std::optional<std::size_t> first;
     double nearest = 1e300;

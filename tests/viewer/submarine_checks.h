@@ -14,7 +14,7 @@ struct Course {
     const PathFrames& path;
     Lumen lumen;
     FieldView exit_distance;
-    const artefact::CellSurface& wall;
+    const CellSurface& wall;
 
     Submarine submarine(const SubmarineOptions& options = {}) const { return {path, lumen, exit_distance, options}; }
     // Distance to the nearest point of the wall's surface, independent of the field that the camera steers by.

@@ -89,7 +89,7 @@ struct Hall {
 struct InAHall {
     Hall hall;
     PathFrames path{hall.skeleton};
-    artefact::CellSurface no_surface;
+    CellSurface no_surface;
     test::Course course{path, Lumen(hall.inside, hall.wall), hall.exit, no_surface};
     Submarine boat{course.submarine()};
 

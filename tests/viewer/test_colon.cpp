@@ -6,9 +6,11 @@
 #include <numbers>
 
 #include "test_surface.h"
-#include "vicon/artefact/projections_file.h"
-#include "vicon/artefact/skeleton_file.h"
-#include "vicon/artefact/volume_file.h"
+#include "vicon/scan_files/cells_file.h"
+#include "vicon/scan_files/projections_file.h"
+#include "vicon/scan_files/skeleton_file.h"
+#include "vicon/scan_files/subdivision_file.h"
+#include "vicon/scan_files/volume_file.h"
 #include "vicon/steps/projections.h"
 #include "vicon/steps/wall_distance.h"
 
@@ -188,18 +190,18 @@ TestColon::TestColon(const Storage& storage, double voxel_mm)
 
 void TestColon::write(const std::filesystem::path& folder) const
 {
-    using artefact::Packing;
+    using scan_files::Packing;
     std::filesystem::create_directories(folder);
-    artefact::writeVolume(folder / "volume.mha", volume, Packing::raw);
-    artefact::writeVolume(folder / "inside.mha", inside, Packing::raw);
-    artefact::writeVolume(folder / "wall_distance.mha", wall_distance, Packing::raw);
-    artefact::writeVolume(folder / "exit_distance.mha", exit_distance, Packing::raw);
-    artefact::writeVolume(folder / "segments.mha", segments, Packing::raw);
-    artefact::writeSkeleton(folder / "skeleton.vtp", skeleton);
-    artefact::writeCells(folder / "cells.vtp", cells);
-    artefact::writeSubdivision(folder / "subdivision.json", subdivision);
+    scan_files::writeVolume(folder / "volume.mha", volume, Packing::raw);
+    scan_files::writeVolume(folder / "inside.mha", inside, Packing::raw);
+    scan_files::writeVolume(folder / "wall_distance.mha", wall_distance, Packing::raw);
+    scan_files::writeVolume(folder / "exit_distance.mha", exit_distance, Packing::raw);
+    scan_files::writeVolume(folder / "segments.mha", segments, Packing::raw);
+    scan_files::writeSkeleton(folder / "skeleton.vtp", skeleton);
+    scan_files::writeCells(folder / "cells.vtp", cells);
+    scan_files::writeSubdivision(folder / "subdivision.json", subdivision);
     NoProgress quiet;
-    artefact::writeProjections(folder / "projections", steps::project(cells, {}, quiet));
+    scan_files::writeProjections(folder / "projections", steps::project(cells, {}, quiet));
 }
 
 FieldVolume wallDistanceOf(const InsideVolume& inside)
@@ -236,7 +238,7 @@ FieldVolume wallDistanceOf(const InsideVolume& inside)
     return field;
 }
 
-std::vector<artefact::Portal> portalsOf(const SegmentVolume& segments)
+std::vector<Portal> portalsOf(const SegmentVolume& segments)
 {
     const Grid& g = segments.grid;
     std::map<std::pair<int, int>, std::vector<std::pair<Point3, Vector3>>> faces;
@@ -249,10 +251,10 @@ std::vector<artefact::Portal> portalsOf(const SegmentVolume& segments)
                 faces[{a, b}].push_back({interpolate(g.pointAt(v), g.pointAt(w), 0.5), g.pointAt(w) - g.pointAt(v)});
         }
     }
-    std::vector<artefact::Portal> portals;
+    std::vector<Portal> portals;
     const double diagonal = std::hypot(g.spacing_mm[0], g.spacing_mm[1], g.spacing_mm[2]);
     for (const auto& [pair, list] : faces) {
-        artefact::Portal portal;
+        Portal portal;
         portal.segment_a = pair.first;
         portal.segment_b = pair.second;
         Vector3 sum, way;

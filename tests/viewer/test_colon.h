@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "vicon/artefact/cells_file.h"
-#include "vicon/artefact/subdivision_file.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume.h"
+#include "vicon/scan_files/cells_file.h"
+#include "vicon/scan_files/subdivision_file.h"
 
 namespace vicon::viewer::test {
 
@@ -28,8 +28,8 @@ struct TestColon {
     FieldVolume wall_distance, exit_distance;
     SegmentVolume segments;
     Skeleton skeleton;
-    artefact::CellSurface cells;
-    artefact::Subdivision subdivision;
+    CellSurface cells;
+    Subdivision subdivision;
     Point3 polyp_mm;  ///< the sphere's middle, on the wall
     double polyp_radius_mm = 0;
     double polyp_station_mm = 0;
@@ -43,6 +43,6 @@ struct TestColon {
 FieldVolume wallDistanceOf(const InsideVolume& inside);
 
 /// Gates of segments that touch: a box around all faces that two segments share, dilated by a voxel's diagonal.
-std::vector<artefact::Portal> portalsOf(const SegmentVolume& segments);
+std::vector<Portal> portalsOf(const SegmentVolume& segments);
 
 }  // namespace vicon::viewer::test

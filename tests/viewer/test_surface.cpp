@@ -35,12 +35,12 @@ Vector3 downhill(const std::function<double(Point3)>& field, Point3 p)
     return normalized({slope({h, 0, 0}), slope({0, h, 0}), slope({0, 0, h})});
 }
 
-Point3 pointOf(const artefact::CellSurface& s, std::size_t corner)
+Point3 pointOf(const CellSurface& s, std::size_t corner)
 {
     return s.point(s.triangles[corner]);
 }
 
-Vector3 normalOf(const artefact::CellSurface& s, std::size_t corner)
+Vector3 normalOf(const CellSurface& s, std::size_t corner)
 {
     const std::size_t n = 3 * std::size_t(s.triangles[corner]);
     return {s.normals[n], s.normals[n + 1], s.normals[n + 2]};
@@ -48,12 +48,12 @@ Vector3 normalOf(const artefact::CellSurface& s, std::size_t corner)
 
 }  // namespace
 
-artefact::CellSurface surfaceOf(const Grid& grid, const std::vector<float>& values,
-                                const std::function<double(Point3)>& field, const std::function<int(Point3)>& segment)
+CellSurface surfaceOf(const Grid& grid, const std::vector<float>& values, const std::function<double(Point3)>& field,
+                      const std::function<int(Point3)>& segment)
 {
     const auto contour = contoured(grid, values);
     vtkPolyData* data = contour->GetOutput();
-    artefact::CellSurface raw;
+    CellSurface raw;
     for (vtkIdType n = 0; n < data->GetNumberOfPoints(); ++n) {
         double c[3];
         data->GetPoint(n, c);
@@ -81,7 +81,7 @@ artefact::CellSurface surfaceOf(const Grid& grid, const std::vector<float>& valu
     std::vector<std::size_t> order(raw.segment.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return raw.segment[a] < raw.segment[b]; });
-    artefact::CellSurface sorted;
+    CellSurface sorted;
     sorted.points_mm = raw.points_mm;
     sorted.normals = raw.normals;
     for (const std::size_t n : order) {

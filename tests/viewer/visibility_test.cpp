@@ -63,7 +63,7 @@ TEST(Visibility, NothingOnALineOfSightIsLeftOut)
 {
     const test::TestColon colon;
     std::vector<Gate> gates;
-    for (const artefact::Portal& portal : colon.subdivision.portals)
+    for (const Portal& portal : colon.subdivision.portals)
         gates.push_back({portal.segment_a, portal.segment_b, portal.box_mm});
     const Visibility visibility(gates);
     std::vector<std::size_t> inside;

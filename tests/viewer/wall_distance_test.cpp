@@ -14,7 +14,7 @@ namespace {
 constexpr double kSpacing_mm = 0.8;
 
 /// The surface where a field is 0, contoured on voxels of 0.8 mm within a box of this half side.
-artefact::CellSurface contoured(double half_mm, const std::function<double(Point3)>& field)
+CellSurface contoured(double half_mm, const std::function<double(Point3)>& field)
 {
     Grid grid;
     const int side = int(std::ceil(2 * half_mm / kSpacing_mm)) + 1;
@@ -27,7 +27,7 @@ artefact::CellSurface contoured(double half_mm, const std::function<double(Point
     return test::surfaceOf(grid, values, field, [](Point3) { return 0; });
 }
 
-std::optional<WallDistance> measured(const artefact::CellSurface& surface, Point3 a, Point3 b)
+std::optional<WallDistance> measured(const CellSurface& surface, Point3 a, Point3 b)
 {
     return distanceOverWall(surface.points_mm, surface.triangles, a, b);
 }

@@ -158,13 +158,13 @@ std::vector<std::uint32_t> drawingOrder(const Contour& contour, const std::vecto
 }
 
 /// Puts triangles in drawing order and points in order of their first use, in patient coordinates.
-artefact::CellSurface arrange(const Contour& contour, const std::vector<std::uint16_t>& tags, const Grid& grid,
-                              std::vector<std::uint32_t>& point_source)
+CellSurface arrange(const Contour& contour, const std::vector<std::uint16_t>& tags, const Grid& grid,
+                    std::vector<std::uint32_t>& point_source)
 {
     const std::vector<std::uint32_t> order = drawingOrder(contour, tags);
     constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> renumbered(contour.pointCount(), kUnused);
-    artefact::CellSurface surface;
+    CellSurface surface;
     surface.triangles.reserve(contour.triangles.size());
     surface.segment.reserve(tags.size());
     const bool right_handed = dot(cross(grid.axis[0], grid.axis[1]), grid.axis[2]) > 0;
@@ -190,7 +190,7 @@ artefact::CellSurface arrange(const Contour& contour, const std::vector<std::uin
 }
 
 /// Area-weighted normals of the triangles around each point; they point to the front side.
-std::vector<Vector3> surfaceNormals(const artefact::CellSurface& surface)
+std::vector<Vector3> surfaceNormals(const CellSurface& surface)
 {
     std::vector<Vector3> normals(surface.pointCount());
     for (std::size_t t = 0; t < surface.triangleCount(); ++t) {
@@ -203,7 +203,7 @@ std::vector<Vector3> surfaceNormals(const artefact::CellSurface& surface)
     return normals;
 }
 
-void setNormals(artefact::CellSurface& surface, const Contour& contour, const std::vector<std::uint32_t>& point_source,
+void setNormals(CellSurface& surface, const Contour& contour, const std::vector<std::uint32_t>& point_source,
                 const WallField& field, const InsideVolume& inside)
 {
     const auto geometric = surfaceNormals(surface);
@@ -260,7 +260,7 @@ const std::vector<NearWall>& LumenSurface::nearWall() const
     return parts_->near_wall;
 }
 
-artefact::CellSurface LumenSurface::cellsOf(const SegmentVolume& segments, Progress& progress) const
+CellSurface LumenSurface::cellsOf(const SegmentVolume& segments, Progress& progress) const
 {
     const InsideVolume& inside = parts_->inside;
     if (segments.grid != inside.grid)
@@ -269,7 +269,7 @@ artefact::CellSurface LumenSurface::cellsOf(const SegmentVolume& segments, Progr
     progress.report(0, "surface");
     const auto tags = tagTriangles(parts_->contour, inside, segments);
     std::vector<std::uint32_t> point_source;
-    artefact::CellSurface surface = arrange(parts_->contour, tags, inside.grid, point_source);
+    CellSurface surface = arrange(parts_->contour, tags, inside.grid, point_source);
     progress.check();
     progress.report(0.6, "surface");
     setNormals(surface, parts_->contour, point_source, parts_->field, inside);
@@ -277,13 +277,13 @@ artefact::CellSurface LumenSurface::cellsOf(const SegmentVolume& segments, Progr
     return surface;
 }
 
-artefact::CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const SegmentVolume& segments,
-                                   const CellOptions& options, Progress& progress)
+CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const SegmentVolume& segments,
+                         const CellOptions& options, Progress& progress)
 {
     return LumenSurface(hu, inside, options, progress).cellsOf(segments, progress);
 }
 
-void countTriangles(const artefact::CellSurface& surface, artefact::Subdivision& description)
+void countTriangles(const CellSurface& surface, Subdivision& description)
 {
     for (auto& segment : description.segments)
         segment.triangles = 0;

@@ -97,7 +97,7 @@ PathFlood floodFrom(const InsideVolume& inside, std::vector<std::uint32_t> seeds
 
 }  // namespace
 
-std::vector<Path> pathsOf(const InsideVolume& inside, const Skeleton& skeleton, const artefact::SkeletonVoxels& voxels)
+std::vector<Path> pathsOf(const InsideVolume& inside, const Skeleton& skeleton, const SkeletonVoxels& voxels)
 {
     std::vector<Path> paths;
     std::size_t next = 0;

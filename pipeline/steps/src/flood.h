@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "segments.h"
-#include "vicon/artefact/skeleton_file.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/steps/subdivide.h"
 
@@ -24,7 +23,7 @@ struct Path {
 };
 
 /// The paths as voxels of `inside`, with their stations on the curve. Points of a path that lie outside are left out.
-std::vector<Path> pathsOf(const InsideVolume& inside, const Skeleton& skeleton, const artefact::SkeletonVoxels& voxels);
+std::vector<Path> pathsOf(const InsideVolume& inside, const Skeleton& skeleton, const SkeletonVoxels& voxels);
 
 struct Labelling {
     std::vector<std::uint16_t> label;  ///< of every voxel, 1..pieces.size(), 0 outside

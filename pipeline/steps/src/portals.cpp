@@ -168,7 +168,7 @@ double diagonal_mm(const Grid& grid)
     return std::hypot(grid.spacing_mm[0], grid.spacing_mm[1], grid.spacing_mm[2]);
 }
 
-artefact::Portal portalOf(std::pair<int, int> between, const Contact& contact, const Grid& grid)
+Portal portalOf(std::pair<int, int> between, const Contact& contact, const Grid& grid)
 {
     Frame frame = planeOf(contact);
     turnToSmallest(frame, contact);
@@ -180,13 +180,13 @@ artefact::Portal portalOf(std::pair<int, int> between, const Contact& contact, c
     }
     for (Bounds* bounds : {&bu, &bv, &bn})
         bounds->widen(diagonal_mm(grid));
-    artefact::Portal portal{.segment_a = between.first,
-                            .segment_b = between.second,
-                            .centre_mm = frame.centre,
-                            .normal = frame.normal,
-                            .area_mm2 = contact.area_mm2,
-                            .gate_mm = {},
-                            .box_mm = {}};
+    Portal portal{.segment_a = between.first,
+                  .segment_b = between.second,
+                  .centre_mm = frame.centre,
+                  .normal = frame.normal,
+                  .area_mm2 = contact.area_mm2,
+                  .gate_mm = {},
+                  .box_mm = {}};
     const std::array<std::pair<double, double>, 4> corner{
         std::pair(bu.low, bv.low), {bu.high, bv.low}, {bu.high, bv.high}, {bu.low, bv.high}};
     for (std::size_t n = 0; n < 4; ++n) {
@@ -206,13 +206,13 @@ bool followAlongSkeleton(const LabelledPiece& a, const LabelledPiece& b)
 
 }  // namespace
 
-std::vector<artefact::Portal> findPortals(const NumberedSegments& numbered)
+std::vector<Portal> findPortals(const NumberedSegments& numbered)
 {
     const Contacts found = findContacts(numbered.segments);
     std::vector<Contacts::const_pointer> contacts;
     for (const auto& contact : found)
         contacts.push_back(&contact);
-    std::vector<artefact::Portal> portals(contacts.size());
+    std::vector<Portal> portals(contacts.size());
     tbb::parallel_for(std::size_t(0), contacts.size(), [&](std::size_t n) {
         const auto& [between, contact] = *contacts[n];
         portals[n] = portalOf(between, contact, numbered.segments.grid);
@@ -222,7 +222,7 @@ std::vector<artefact::Portal> findPortals(const NumberedSegments& numbered)
     return portals;
 }
 
-double thicknessOf(const artefact::Portal& portal, const Grid& grid)
+double thicknessOf(const Portal& portal, const Grid& grid)
 {
     return distance(portal.box_mm[0], portal.box_mm[4]) - 2 * diagonal_mm(grid);
 }

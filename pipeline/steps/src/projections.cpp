@@ -78,7 +78,7 @@ struct Box {
     Point3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
 };
 
-Box boxOf(const artefact::CellSurface& surface)
+Box boxOf(const CellSurface& surface)
 {
     Box box;
     for (std::size_t n = 0; n < surface.pointCount(); ++n) {
@@ -90,7 +90,7 @@ Box boxOf(const artefact::CellSurface& surface)
 }
 
 /// The picture's place: the box of the surface with its border, from its corner of least column and row.
-artefact::Projection frameFor(const View& view, const Box& box, double pixel_mm)
+Projection frameFor(const View& view, const Box& box, double pixel_mm)
 {
     const auto cornerAlong = [](Vector3 direction, Point3 low, Point3 high, bool first) {
         const Vector3 from = (direction.x + direction.y + direction.z > 0) == first ? low - Point3{} : high - Point3{};
@@ -98,7 +98,7 @@ artefact::Projection frameFor(const View& view, const Box& box, double pixel_mm)
     };
     const double left = cornerAlong(view.right, box.low, box.high, true);
     const double top = cornerAlong(view.down, box.low, box.high, true);
-    artefact::Projection picture;
+    Projection picture;
     picture.name = view.name;
     picture.pixel_mm = pixel_mm;
     picture.right = view.right;
@@ -109,7 +109,7 @@ artefact::Projection frameFor(const View& view, const Box& box, double pixel_mm)
     return picture;
 }
 
-Raster rasterize(const artefact::CellSurface& surface, const artefact::Projection& picture)
+Raster rasterize(const CellSurface& surface, const Projection& picture)
 {
     Raster raster(picture.width * kFiner, picture.height * kFiner);
     const Vector3 ahead = cross(picture.right, picture.down);
@@ -130,7 +130,7 @@ Raster rasterize(const artefact::CellSurface& surface, const artefact::Projectio
     return raster;
 }
 
-void shade(artefact::Projection& picture, const Raster& raster)
+void shade(Projection& picture, const Raster& raster)
 {
     float nearest = std::numeric_limits<float>::max(), farthest = -nearest;
     for (const float depth : raster.depth)
@@ -163,14 +163,13 @@ void shade(artefact::Projection& picture, const Raster& raster)
 
 }  // namespace
 
-std::array<artefact::Projection, 3> project(const artefact::CellSurface& surface, const ProjectionOptions& options,
-                                            Progress& progress)
+std::array<Projection, 3> project(const CellSurface& surface, const ProjectionOptions& options, Progress& progress)
 {
     if (surface.triangleCount() == 0)
         throw Error(ErrorCode::bad_input, "the surface has no triangles to project");
     progress.report(0, "projections");
     const Box box = boxOf(surface);
-    std::array<artefact::Projection, 3> pictures;
+    std::array<Projection, 3> pictures;
     tbb::parallel_for(std::size_t(0), kViews.size(), [&](std::size_t n) {
         pictures[n] = frameFor(kViews[n], box, options.pixel_mm);
         shade(pictures[n], rasterize(surface, pictures[n]));

@@ -115,7 +115,7 @@ struct Extent {
 };
 
 /// The LPS box around the voxels of an extent, to their outer edges.
-void setBox(artefact::SegmentInfo& info, const Extent& extent, const Grid& grid)
+void setBox(SegmentInfo& info, const Extent& extent, const Grid& grid)
 {
     info.lower_mm = {1e300, 1e300, 1e300};
     info.upper_mm = {-1e300, -1e300, -1e300};
@@ -146,7 +146,7 @@ NumberedSegments numberSegments(const InsideVolume& inside, const std::vector<st
     for (std::size_t n = 0; n < order.size(); ++n) {
         const LabelledPiece& piece = pieces[found[order[n]].label - 1U];
         out.pieces.push_back(piece);
-        artefact::SegmentInfo info;
+        SegmentInfo info;
         info.number = int(n + 1);
         info.from_station_mm = piece.from_station_mm;
         info.to_station_mm = piece.to_station_mm;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "vicon/artefact/subdivision_file.h"
+#include "vicon/core/subdivision.h"
 #include "vicon/core/volume.h"
 
 namespace vicon::steps {
@@ -17,8 +17,8 @@ struct LabelledPiece {
 
 struct NumberedSegments {
     SegmentVolume segments;
-    std::vector<artefact::SegmentInfo> infos;  ///< in order of number
-    std::vector<LabelledPiece> pieces;         ///< of each segment, in order of number
+    std::vector<SegmentInfo> infos;     ///< in order of number
+    std::vector<LabelledPiece> pieces;  ///< of each segment, in order of number
 };
 
 /// Makes segments of a labelling: each 26-connected component of a label that holds an anchor is a segment, and so is

@@ -43,7 +43,7 @@ nlohmann::json statisticsOf(const Subdivided& result, int specified)
 
 }  // namespace
 
-Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const artefact::SkeletonVoxels& voxels,
+Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const SkeletonVoxels& voxels,
                      const SubdivideOptions& options, Progress& progress, std::optional<PathFlood> flood)
 {
     if (skeleton.empty())

@@ -10,7 +10,7 @@
 #include <map>
 
 #include "panel_parts.h"
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/viewer/model/annotate.h"
 
 namespace vicon::viewer {

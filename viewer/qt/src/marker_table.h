@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "vicon/core/records.h"
+#include "vicon/cases/records.h"
 
 class QTableWidget;
 class QPushButton;

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "vicon/core/records.h"
+#include "vicon/cases/records.h"
 #include "vicon/viewer/scene/snapshot.h"
 
 namespace vicon::viewer {

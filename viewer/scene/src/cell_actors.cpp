@@ -31,7 +31,7 @@ vtkSmartPointer<vtkFloatArray> gathered(const std::vector<float>& values, const 
 }
 
 /// The surface's points that a cell holds, in the order in which its triangles first name them.
-std::vector<std::uint32_t> pointsOf(const artefact::CellSurface& surface, const CellActor& cell,
+std::vector<std::uint32_t> pointsOf(const CellSurface& surface, const CellActor& cell,
                                     std::vector<std::uint32_t>& number_of)
 {
     std::vector<std::uint32_t> points;
@@ -45,7 +45,7 @@ std::vector<std::uint32_t> pointsOf(const artefact::CellSurface& surface, const 
     return points;
 }
 
-vtkSmartPointer<vtkPolyData> cellData(const artefact::CellSurface& surface, const CellActor& cell,
+vtkSmartPointer<vtkPolyData> cellData(const CellSurface& surface, const CellActor& cell,
                                       std::vector<std::uint32_t>& number_of)
 {
     const std::vector<std::uint32_t> points = pointsOf(surface, cell, number_of);
@@ -103,7 +103,7 @@ std::vector<TriangleRun> runsOf(const CellActor& cell, const std::vector<Patch>&
 
 }  // namespace
 
-std::vector<CellActor> cellActors(const artefact::CellSurface& surface)
+std::vector<CellActor> cellActors(const CellSurface& surface)
 {
     std::vector<CellActor> cells;
     std::vector<std::uint32_t> number_of(surface.pointCount(), 0);
@@ -153,8 +153,7 @@ void sendAll(std::vector<CellActor>& cells)
         }
 }
 
-void addOpenness(std::vector<CellActor>& cells, const artefact::CellSurface& surface,
-                 const std::vector<float>& openness)
+void addOpenness(std::vector<CellActor>& cells, const CellSurface& surface, const std::vector<float>& openness)
 {
     std::vector<std::uint32_t> number_of(surface.pointCount(), 0);
     for (CellActor& cell : cells) {

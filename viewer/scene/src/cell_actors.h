@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "patch_mapper.h"
-#include "vicon/artefact/cells_file.h"
+#include "vicon/scan_files/cells_file.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/patches.h"
 #include "vicon/viewer/scene/cell_visibility.h"
@@ -30,7 +30,7 @@ struct CellActor {
 
 /// The cells in order; each holds only its own points. Corners keep the surface's coordinates to the bit, so that
 /// neighbours meet without cracks.
-std::vector<CellActor> cellActors(const artefact::CellSurface& surface);
+std::vector<CellActor> cellActors(const CellSurface& surface);
 
 /// Whole cells; empty: all.
 void showOnly(std::vector<CellActor>& cells, const std::vector<int>& segments);
@@ -44,8 +44,7 @@ void sendAll(std::vector<CellActor>& cells);
 
 /// Gives each corner of a triangle how open the wall is there, of opennessOf() for the same surface: the shader's
 /// attribute `openness`.
-void addOpenness(std::vector<CellActor>& cells, const artefact::CellSurface& surface,
-                 const std::vector<float>& openness);
+void addOpenness(std::vector<CellActor>& cells, const CellSurface& surface, const std::vector<float>& openness);
 
 void placeCamera(vtkCamera* camera, const Pose& pose, double view_angle_deg);
 

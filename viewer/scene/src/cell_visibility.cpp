@@ -8,10 +8,10 @@
 namespace vicon::viewer {
 namespace {
 
-std::vector<Gate> gatesOf(const artefact::Subdivision& subdivision)
+std::vector<Gate> gatesOf(const Subdivision& subdivision)
 {
     std::vector<Gate> gates;
-    for (const artefact::Portal& portal : subdivision.portals)
+    for (const Portal& portal : subdivision.portals)
         gates.push_back({portal.segment_a, portal.segment_b, portal.box_mm});
     return gates;
 }
@@ -31,7 +31,7 @@ CellVisibility::CellVisibility(const PreparedScan& scan, Means means)
 {
     scan_.segments();
     if (means == Means::gates_and_sight_lines) {
-        const artefact::CellSurface& surface = scan.cells();
+        const CellSurface& surface = scan.cells();
         const std::vector<Patch> patches = patchesOf(surface.segment);
         sight_lines_.emplace(scan.inside(), DrawnSurface{surface.points_mm, surface.triangles, patches});
         for (std::size_t n = 0; n < patches.size(); ++n) {

@@ -39,7 +39,7 @@ struct IdScene::Parts {
     vtkNew<vtkRenderer> renderer;
 };
 
-IdScene::IdScene(const artefact::CellSurface& surface) : parts_(std::make_unique<Parts>())
+IdScene::IdScene(const CellSurface& surface) : parts_(std::make_unique<Parts>())
 {
     if (surface.triangleCount() > kMostIds)
         throw Error(ErrorCode::bad_input, "the surface has too many triangles for a colour each");

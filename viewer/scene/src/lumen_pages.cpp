@@ -40,7 +40,7 @@ std::vector<char> pagesOfLumen(const FieldView& field, const InsideView& inside)
 }
 
 /// Runs of wanted pages at once, small gaps included: a disk reads a whole run as fast as its parts.
-void askFor(const std::vector<char>& wanted, const artefact::StoredVolume<float>& field)
+void askFor(const std::vector<char>& wanted, const scan_files::StoredVolume<float>& field)
 {
     constexpr std::size_t kGap = 16;
     for (std::size_t page = 0; page < wanted.size(); ++page) {
@@ -57,7 +57,7 @@ void askFor(const std::vector<char>& wanted, const artefact::StoredVolume<float>
 
 }  // namespace
 
-void bringInLumen(const artefact::StoredVolume<float>& stored, const InsideView& inside)
+void bringInLumen(const scan_files::StoredVolume<float>& stored, const InsideView& inside)
 {
     const FieldView& field = stored.view();
     if (field.grid != inside.grid)

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "vicon/artefact/stored_volume.h"
+#include "vicon/scan_files/stored_volume.h"
 
 namespace vicon::viewer {
 
 /// Reads each page of a stored field that a camera in the lumen may ask for, and no other, on all cores: whoever asks
 /// later does not wait for the disk. Fields of another grid are left alone.
-void bringInLumen(const artefact::StoredVolume<float>& field, const InsideView& inside);
+void bringInLumen(const scan_files::StoredVolume<float>& field, const InsideView& inside);
 
 }  // namespace vicon::viewer

@@ -44,8 +44,7 @@ TextSize captionSize(const PreparedScan& scan, const SnapshotRequest& request)
 }
 
 /// The whole projection below the caption or, where it is drawn larger so, beside it; with a margin for letters.
-PlaneView viewOfAll(const artefact::Projection& projection, int width, int height, const TextSize& caption,
-                    double margin_px)
+PlaneView viewOfAll(const Projection& projection, int width, int height, const TextSize& caption, double margin_px)
 {
     const double across_mm = projection.width * projection.pixel_mm, down_mm = projection.height * projection.pixel_mm;
     const auto mmPerPixel = [&](double left_px, double top_px) {
@@ -66,7 +65,7 @@ PlaneView viewOfAll(const artefact::Projection& projection, int width, int heigh
 using Ink = std::array<double, 4>;  ///< colour times opacity, and opacity
 
 // Between four pixels; beyond the border there is nothing.
-Ink inkAt(const artefact::Projection& from, double column, double row)
+Ink inkAt(const Projection& from, double column, double row)
 {
     const int x = int(std::floor(column)), y = int(std::floor(row));
     Ink ink{};
@@ -84,7 +83,7 @@ Ink inkAt(const artefact::Projection& from, double column, double row)
 }
 
 // The mean of a few places in each pixel, so that a small picture of a large projection is smooth.
-Picture drawn(const artefact::Projection& from, const PlaneView& view)
+Picture drawn(const Projection& from, const PlaneView& view)
 {
     constexpr Rgb kGround{10, 13, 18};
     const double step = view.mm_per_pixel / from.pixel_mm;  // projection's pixels in a pixel
@@ -228,7 +227,7 @@ void addMarkerNames(Overlay& overlay, const std::vector<Marker>& markers, const 
 OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request)
 {
     const double text_px = textHeightFor(request.width, request.height, request.pixel_ratio);
-    const artefact::Projection& projection = scan.coronalProjection();
+    const Projection& projection = scan.coronalProjection();
     OverviewGround ground;
     ground.caption = captionSize(scan, request);
     ground.view = viewOfAll(projection, request.width, request.height, ground.caption, 2.2 * text_px);

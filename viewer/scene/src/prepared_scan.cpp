@@ -6,10 +6,13 @@
 #include <optional>
 
 #include "lumen_pages.h"
-#include "vicon/artefact/skeleton_file.h"
-#include "vicon/artefact/stored_volume.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/scan_files/cells_file.h"
+#include "vicon/scan_files/projections_file.h"
+#include "vicon/scan_files/skeleton_file.h"
+#include "vicon/scan_files/stored_volume.h"
+#include "vicon/scan_files/subdivision_file.h"
 #include "vicon/viewer/model/openness.h"
 
 namespace fs = std::filesystem;
@@ -49,16 +52,16 @@ private:
 
 struct PreparedScan::Files {
     fs::path folder;
-    Lazy<artefact::StoredVolume<std::int16_t>> volume;
-    Lazy<artefact::StoredVolume<std::uint8_t>> inside;
-    Lazy<artefact::StoredVolume<float>> wall_distance, exit_distance;
-    Lazy<artefact::StoredVolume<std::uint16_t>> segments;
+    Lazy<scan_files::StoredVolume<std::int16_t>> volume;
+    Lazy<scan_files::StoredVolume<std::uint8_t>> inside;
+    Lazy<scan_files::StoredVolume<float>> wall_distance, exit_distance;
+    Lazy<scan_files::StoredVolume<std::uint16_t>> segments;
     int branch = -1;
     Lazy<Skeleton> skeleton;
     Lazy<SkeletonTree> tree;
-    Lazy<artefact::CellSurface> cells;
-    Lazy<artefact::Subdivision> subdivision;
-    Lazy<artefact::Projection> coronal;
+    Lazy<CellSurface> cells;
+    Lazy<Subdivision> subdivision;
+    Lazy<Projection> coronal;
     Lazy<PathFrames> frames;
     Lazy<ColonPartRanges> parts;
     Lazy<OrganWords> words;
@@ -71,17 +74,17 @@ struct PreparedScan::Files {
         return folder / name;
     }
 
-    const artefact::StoredVolume<std::int16_t>& storedVolume()
+    const scan_files::StoredVolume<std::int16_t>& storedVolume()
     {
-        return volume.get([&] { return artefact::StoredVolume<std::int16_t>(at("volume.mha")); });
+        return volume.get([&] { return scan_files::StoredVolume<std::int16_t>(at("volume.mha")); });
     }
-    const artefact::StoredVolume<float>& storedWallDistance()
+    const scan_files::StoredVolume<float>& storedWallDistance()
     {
-        return wall_distance.get([&] { return artefact::StoredVolume<float>(at("wall_distance.mha")); });
+        return wall_distance.get([&] { return scan_files::StoredVolume<float>(at("wall_distance.mha")); });
     }
-    const artefact::StoredVolume<float>& storedExitDistance()
+    const scan_files::StoredVolume<float>& storedExitDistance()
     {
-        return exit_distance.get([&] { return artefact::StoredVolume<float>(at("exit_distance.mha")); });
+        return exit_distance.get([&] { return scan_files::StoredVolume<float>(at("exit_distance.mha")); });
     }
 
     /// scan.json; an empty object where there is none.
@@ -142,7 +145,7 @@ const HuView& PreparedScan::volume() const
 
 const InsideView& PreparedScan::inside() const
 {
-    return files_->inside.get([&] { return artefact::StoredVolume<std::uint8_t>(files_->at("inside.mha")); }).view();
+    return files_->inside.get([&] { return scan_files::StoredVolume<std::uint8_t>(files_->at("inside.mha")); }).view();
 }
 
 const FieldView& PreparedScan::wallDistance() const
@@ -157,7 +160,7 @@ const FieldView& PreparedScan::exitDistance() const
 
 const SegmentView& PreparedScan::segments() const
 {
-    return files_->segments.get([&] { return artefact::StoredVolume<std::uint16_t>(files_->at("segments.mha")); })
+    return files_->segments.get([&] { return scan_files::StoredVolume<std::uint16_t>(files_->at("segments.mha")); })
         .view();
 }
 
@@ -165,7 +168,7 @@ const Skeleton& PreparedScan::skeleton() const
 {
     return files_->skeleton.get([&] {
         if (files_->branch < 0)
-            return artefact::readSkeleton(files_->at("skeleton.vtp"));
+            return scan_files::readSkeleton(files_->at("skeleton.vtp"));
         if (tree().empty())
             throw Error(ErrorCode::wrong_use, "the scan's organ has no branches", files_->folder.filename().string());
         return tree().pathTo(files_->branch);
@@ -174,22 +177,22 @@ const Skeleton& PreparedScan::skeleton() const
 
 const SkeletonTree& PreparedScan::tree() const
 {
-    return files_->tree.get([&] { return artefact::readSkeletonTree(files_->at("skeleton.vtp")); });
+    return files_->tree.get([&] { return scan_files::readSkeletonTree(files_->at("skeleton.vtp")); });
 }
 
-const artefact::CellSurface& PreparedScan::cells() const
+const CellSurface& PreparedScan::cells() const
 {
-    return files_->cells.get([&] { return artefact::readCells(files_->at("cells.vtp")); });
+    return files_->cells.get([&] { return scan_files::readCells(files_->at("cells.vtp")); });
 }
 
-const artefact::Subdivision& PreparedScan::subdivision() const
+const Subdivision& PreparedScan::subdivision() const
 {
-    return files_->subdivision.get([&] { return artefact::readSubdivision(files_->at("subdivision.json")); });
+    return files_->subdivision.get([&] { return scan_files::readSubdivision(files_->at("subdivision.json")); });
 }
 
-const artefact::Projection& PreparedScan::coronalProjection() const
+const Projection& PreparedScan::coronalProjection() const
 {
-    return files_->coronal.get([&] { return artefact::readProjection(files_->at("projections"), "coronal"); });
+    return files_->coronal.get([&] { return scan_files::readProjection(files_->at("projections"), "coronal"); });
 }
 
 const PathFrames& PreparedScan::frames() const

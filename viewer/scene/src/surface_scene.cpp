@@ -57,7 +57,7 @@ struct SurfaceScene::Parts {
     }
 };
 
-SurfaceScene::SurfaceScene(const artefact::CellSurface& surface) : parts_(std::make_unique<Parts>())
+SurfaceScene::SurfaceScene(const CellSurface& surface) : parts_(std::make_unique<Parts>())
 {
     parts_->cells = cellActors(surface);
     parts_->patches = patchesOf(surface.segment);
@@ -117,7 +117,7 @@ void SurfaceScene::setLampReach(double half_mm)
     parts_->setLamp();
 }
 
-void SurfaceScene::shadeByOpenness(const artefact::CellSurface& surface, const std::vector<float>& openness)
+void SurfaceScene::shadeByOpenness(const CellSurface& surface, const std::vector<float>& openness)
 {
     if (!parts_->has_openness)
         addOpenness(parts_->cells, surface, openness);

@@ -42,4 +42,7 @@ struct Skeleton {
     SkeletonFoot nearest(Point3 p, double from_mm = 0, double to_mm = 1e9) const;
 };
 
+/// The thesis' 26-connected path: voxel centres in order from the rectum, one list per connected piece.
+using SkeletonVoxels = std::vector<std::vector<Point3>>;
+
 }  // namespace vicon

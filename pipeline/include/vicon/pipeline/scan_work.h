@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/core/options.h"
 #include "vicon/core/volume.h"
 #include "vicon/pipeline/worker.h"

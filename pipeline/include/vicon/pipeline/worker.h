@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
+#include "vicon/cases/job_queue.h"
 #include "vicon/core/progress.h"
-#include "vicon/pipeline/queue.h"
 
 namespace vicon::pipeline {
 

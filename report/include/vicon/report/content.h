@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "vicon/core/records.h"
+#include "vicon/cases/records.h"
 
 namespace vicon::report {
 

@@ -3,10 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include "vicon/artefact/cells_file.h"
-#include "vicon/artefact/subdivision_file.h"
+#include "vicon/core/cell_surface.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
+#include "vicon/core/subdivision.h"
 #include "vicon/core/volume.h"
 #include "vicon/steps/wall_distance.h"
 
@@ -35,8 +35,8 @@ struct CellOptions {
 /// Normals are the gradient of the densities. `hu` must lie on the lattice of `inside` and may be larger; `segments`
 /// has the grid of `inside`, and each triangle takes the segment of the inside voxel that it is nearest to.
 /// The result does not depend on the number of threads. Throws Error{bad_input} when the grids do not fit together.
-artefact::CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const SegmentVolume& segments,
-                                   const CellOptions& options, Progress& progress);
+CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const SegmentVolume& segments,
+                         const CellOptions& options, Progress& progress);
 
 /// The same in two parts: the contour needs no segments and can be made while the lumen is divided.
 class LumenSurface {
@@ -48,7 +48,7 @@ public:
     LumenSurface& operator=(LumenSurface&&) noexcept;
 
     /// Throws Error{bad_input} when the segments do not lie on the grid of the labels.
-    artefact::CellSurface cellsOf(const SegmentVolume& segments, Progress& progress) const;
+    CellSurface cellsOf(const SegmentVolume& segments, Progress& progress) const;
 
     /// The voxels beside the wall with their distances from the surface, for wallDistance(); in order of their offsets.
     const std::vector<NearWall>& nearWall() const;
@@ -60,6 +60,6 @@ private:
 
 /// Fills in the triangle counts of the description and the statistics of the thesis' Table 2: "triangles",
 /// "triangles_average", "triangles_largest", "triangles_smallest", "triangles_standard_deviation".
-void countTriangles(const artefact::CellSurface& surface, artefact::Subdivision& description);
+void countTriangles(const CellSurface& surface, Subdivision& description);
 
 }  // namespace vicon::steps

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "vicon/artefact/skeleton_file.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
+#include "vicon/core/skeleton.h"
 #include "vicon/core/skeleton_tree.h"
 #include "vicon/core/volume.h"
 #include "vicon/steps/segment.h"
@@ -78,7 +78,7 @@ Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, P
 
 struct TreeResult {
     SkeletonTree tree;
-    artefact::SkeletonVoxels voxels;  ///< of each branch: 26-connected, from the root; neighbours share their fork
+    SkeletonVoxels voxels;  ///< of each branch: 26-connected, from the root; neighbours share their fork
 };
 
 /// The skeleton of a lumen that branches, without loops by construction.

@@ -2,10 +2,10 @@
 
 #include <array>
 
-#include "vicon/artefact/cells_file.h"
-#include "vicon/artefact/projections_file.h"
+#include "vicon/core/cell_surface.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
+#include "vicon/core/projection.h"
 
 namespace vicon::steps {
 
@@ -22,7 +22,6 @@ struct ProjectionOptions {
 /// The three projections: coronal seen from the front, transverse seen from the feet (both with the patient's right on
 /// the picture's left), sagittal seen from the patient's left (front on the picture's left). Head up, front up in the
 /// transverse one. Computed without OpenGL. Throws Error{bad_input} when the surface is empty.
-std::array<artefact::Projection, 3> project(const artefact::CellSurface& surface, const ProjectionOptions& options,
-                                            Progress& progress);
+std::array<Projection, 3> project(const CellSurface& surface, const ProjectionOptions& options, Progress& progress);
 
 }  // namespace vicon::steps

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "vicon/artefact/skeleton_file.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume.h"
@@ -40,8 +39,8 @@ struct SkeletonOptions {
 };
 
 struct SkeletonResult {
-    Skeleton curve;                   ///< pieces and bridges from rectum to caecum
-    artefact::SkeletonVoxels voxels;  ///< the 26-connected path of each piece
+    Skeleton curve;         ///< pieces and bridges from rectum to caecum
+    SkeletonVoxels voxels;  ///< the 26-connected path of each piece
     nlohmann::json measures = nlohmann::json::object();
 };
 

@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "vicon/artefact/skeleton_file.h"
-#include "vicon/artefact/subdivision_file.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/skeleton.h"
+#include "vicon/core/subdivision.h"
 #include "vicon/core/volume.h"
 
 namespace vicon::steps {
@@ -50,7 +49,7 @@ struct SubdivideOptions {
 
 struct Subdivided {
     SegmentVolume segments;  ///< grid of `inside`; 0 outside, 1..N from the rectum
-    artefact::Subdivision description;
+    Subdivision description;
 };
 
 /// Which voxel of the skeleton's paths is nearest to each inside voxel, measured inside the lumen.
@@ -77,7 +76,7 @@ PathFlood floodFromPaths(const InsideVolume& inside, const std::vector<std::vect
 /// @param flood of the same paths when it was made ahead; otherwise method "flood" makes it
 /// The triangle counts of the description are 0 until countTriangles() (cells.h) fills them in.
 /// Throws Error{bad_input} when nothing is inside or the skeleton is empty, or when more segments than 65535 result.
-Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const artefact::SkeletonVoxels& voxels,
+Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const SkeletonVoxels& voxels,
                      const SubdivideOptions& options, Progress& progress, std::optional<PathFlood> flood = {});
 
 }  // namespace vicon::steps

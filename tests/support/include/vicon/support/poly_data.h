@@ -3,11 +3,11 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
-#include "vicon/artefact/cells_file.h"
+#include "vicon/scan_files/cells_file.h"
 
 namespace vicon::support {
 
 /// The triangles of all cells, in LPS mm, for VTK's locators.
-vtkNew<vtkPolyData> asPolyData(const artefact::CellSurface& cells);
+vtkNew<vtkPolyData> asPolyData(const CellSurface& cells);
 
 }  // namespace vicon::support

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "vicon/core/records.h"
+#include "vicon/cases/records.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/viewer/model/organ_words.h"
 #include "vicon/viewer/model/overlay.h"

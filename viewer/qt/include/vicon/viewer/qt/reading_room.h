@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 
 class QWidget;
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "vicon/artefact/cells_file.h"
+#include "vicon/scan_files/cells_file.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/cell_visibility.h"
@@ -17,7 +17,7 @@ namespace vicon::viewer {
 class IdScene {
 public:
     /// Throws Error{bad_input} for a surface of more triangles than there are colours (16.7 million).
-    explicit IdScene(const artefact::CellSurface& surface);
+    explicit IdScene(const CellSurface& surface);
     ~IdScene();
 
     vtkRenderer* renderer() const;

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "vicon/core/records.h"
+#include "vicon/cases/records.h"
 #include "vicon/viewer/model/biopsy.h"
 #include "vicon/viewer/model/plane_size.h"
 #include "vicon/viewer/scene/canvas.h"

@@ -4,13 +4,13 @@
 #include <memory>
 #include <vector>
 
-#include "vicon/artefact/cells_file.h"
-#include "vicon/artefact/projections_file.h"
-#include "vicon/artefact/subdivision_file.h"
 #include "vicon/core/colon_parts.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/skeleton_tree.h"
 #include "vicon/core/volume_view.h"
+#include "vicon/scan_files/cells_file.h"
+#include "vicon/scan_files/projections_file.h"
+#include "vicon/scan_files/subdivision_file.h"
 #include "vicon/viewer/model/density_bricks.h"
 #include "vicon/viewer/model/lumen.h"
 #include "vicon/viewer/model/organ_words.h"
@@ -38,22 +38,22 @@ public:
     void readOn() const;
 
     // Each throws Error{not_ready} where its file is missing, Error{bad_input} where it is damaged.
-    const HuView& volume() const;                           ///< volume.mha
-    const InsideView& inside() const;                       ///< inside.mha
-    const FieldView& wallDistance() const;                  ///< wall_distance.mha
-    const FieldView& exitDistance() const;                  ///< exit_distance.mha
-    const SegmentView& segments() const;                    ///< segments.mha
-    const Skeleton& skeleton() const;                       ///< skeleton.vtp; of a tree one way from the root
-    const SkeletonTree& tree() const;                       ///< skeleton.vtp; no branches where the organ is one path
-    const artefact::CellSurface& cells() const;             ///< cells.vtp
-    const artefact::Subdivision& subdivision() const;       ///< subdivision.json
-    const artefact::Projection& coronalProjection() const;  ///< of projections/
-    const PathFrames& frames() const;                       ///< of the skeleton
-    const ColonPartRanges& parts() const;                   ///< of scan.json; empty where it knows none
-    const OrganWords& words() const;                        ///< for the organ that scan.json names
-    const DensityBricks& bricks() const;                    ///< of the volume
-    const std::vector<float>& openness() const;             ///< of the points of cells(), see opennessOf()
-    Lumen lumen() const;  ///< of inside and wallDistance; valid while this object lives
+    const HuView& volume() const;                 ///< volume.mha
+    const InsideView& inside() const;             ///< inside.mha
+    const FieldView& wallDistance() const;        ///< wall_distance.mha
+    const FieldView& exitDistance() const;        ///< exit_distance.mha
+    const SegmentView& segments() const;          ///< segments.mha
+    const Skeleton& skeleton() const;             ///< skeleton.vtp; of a tree one way from the root
+    const SkeletonTree& tree() const;             ///< skeleton.vtp; no branches where the organ is one path
+    const CellSurface& cells() const;             ///< cells.vtp
+    const Subdivision& subdivision() const;       ///< subdivision.json
+    const Projection& coronalProjection() const;  ///< of projections/
+    const PathFrames& frames() const;             ///< of the skeleton
+    const ColonPartRanges& parts() const;         ///< of scan.json; empty where it knows none
+    const OrganWords& words() const;              ///< for the organ that scan.json names
+    const DensityBricks& bricks() const;          ///< of the volume
+    const std::vector<float>& openness() const;   ///< of the points of cells(), see opennessOf()
+    Lumen lumen() const;                          ///< of inside and wallDistance; valid while this object lives
 
 private:
     struct Files;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "vicon/core/case_store.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/viewer/model/peeling.h"
 #include "vicon/viewer/model/view_pose.h"
 #include "vicon/viewer/scene/prepared_scan.h"

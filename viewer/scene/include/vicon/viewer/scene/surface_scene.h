@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "vicon/artefact/cells_file.h"
+#include "vicon/scan_files/cells_file.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/overlay.h"
 #include "vicon/viewer/scene/canvas.h"
@@ -17,7 +17,7 @@ namespace vicon::viewer {
 /// reading room puts renderer() into its widget, pictures without a window come from OffscreenSurface.
 class SurfaceScene {
 public:
-    explicit SurfaceScene(const artefact::CellSurface& surface);
+    explicit SurfaceScene(const CellSurface& surface);
     ~SurfaceScene();
     SurfaceScene(SurfaceScene&&) noexcept;
     SurfaceScene& operator=(SurfaceScene&&) noexcept;
@@ -41,7 +41,7 @@ public:
     /// Ambient occlusion: the less open the lumen is before the wall, the less light. Costs a frame next to nothing.
     /// @param surface that this scene was made from
     /// @param openness of opennessOf() for it
-    void shadeByOpenness(const artefact::CellSurface& surface, const std::vector<float>& openness);
+    void shadeByOpenness(const CellSurface& surface, const std::vector<float>& openness);
     /// Without ambient occlusion, as at the beginning.
     void shadeEvenly();
 

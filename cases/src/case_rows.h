@@ -1,0 +1,36 @@
+#pragma once
+
+#include <soci/soci.h>
+
+#include <string>
+#include <vector>
+
+#include "vicon/cases/records.h"
+
+namespace vicon {
+
+/// How the store's records lie in the tables of its database. The writing ones run within a transaction of the caller.
+CaseRecord caseFrom(const soci::row& row);
+ScanRecord scanFrom(const soci::row& row);
+InstanceRecord instanceFrom(const soci::row& row);
+StepRecord stepFrom(const soci::row& row);
+
+/// Reads all rows of a query into records.
+template <class Record, class Statement>
+std::vector<Record> collect(Statement&& rows, Record (*from)(const soci::row&))
+{
+    std::vector<Record> records;
+    for (const soci::row& row : rows)
+        records.push_back(from(row));
+    return records;
+}
+
+void putCase(soci::session& sql, const CaseRecord& c);
+void putScan(soci::session& sql, const ScanRecord& s);
+void putInstances(soci::session& sql, const std::vector<InstanceRecord>& instances);
+void putAudit(soci::session& sql, const std::string& event, const std::string& case_id, const std::string& scan_id,
+              const std::string& detail);
+/// Next value of a counter, starting with 1.
+int takeNumber(soci::session& sql, const std::string& name);
+
+}  // namespace vicon

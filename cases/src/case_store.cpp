@@ -1,0 +1,235 @@
+#include "vicon/cases/case_store.h"
+
+#include <soci/soci.h>
+
+#include "case_rows.h"
+#include "job_rows.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace vicon {
+namespace {
+
+constexpr std::size_t kIdDigits =
+    10;  // 40 bits: among 10,000 cases two ids collide with probability 5e-5, and then import refuses
+
+}  // namespace
+
+CaseStore::CaseStore(const fs::path& folder)
+    : folder_(fs::absolute(folder).lexically_normal()),
+      database_((makePrivateFolder(folder_ / "cases"), folder_ / "vicon.db"))
+{
+    renewMarkerFiles();
+}
+
+fs::path CaseStore::caseFolder(const std::string& case_id) const
+{
+    return folder_ / "cases" / case_id;
+}
+
+fs::path CaseStore::scanFolder(const std::string& case_id, const std::string& scan_id) const
+{
+    return caseFolder(case_id) / scan_id;
+}
+
+std::string CaseStore::caseIdFor(const std::string& study_uid)
+{
+    return "c" + sha256(study_uid).substr(0, kIdDigits);
+}
+
+std::string CaseStore::scanIdFor(const std::string& scan_key)
+{
+    return "s" + sha256(scan_key).substr(0, kIdDigits);
+}
+
+std::vector<CaseRecord> CaseStore::cases()
+{
+    const soci::rowset<soci::row> rows = (database_.session().prepare << "SELECT * FROM cases ORDER BY created, id");
+    return collect(rows, caseFrom);
+}
+
+std::optional<CaseRecord> CaseStore::findCase(const std::string& case_id)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM cases WHERE id = :id", soci::use(case_id));
+    const auto found = collect(rows, caseFrom);
+    return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+std::optional<CaseRecord> CaseStore::findCaseByStudy(const std::string& study_uid)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM cases WHERE study_uid = :uid", soci::use(study_uid));
+    const auto found = collect(rows, caseFrom);
+    return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+std::vector<CaseRecord> CaseStore::findCasesByPatient(const std::string& patient_id)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM cases WHERE patient_id = :id ORDER BY id",
+         soci::use(patient_id));
+    return collect(rows, caseFrom);
+}
+
+CaseRecord CaseStore::requireCase(const std::string& case_id)
+{
+    if (auto found = findCase(case_id))
+        return *found;
+    std::vector<CaseRecord> matching;
+    for (CaseRecord& c : cases())
+        if (!case_id.empty() && c.id.starts_with(case_id))
+            matching.push_back(std::move(c));
+    if (matching.size() == 1)
+        return matching.front();
+    throw Error(ErrorCode::not_found, matching.empty() ? "no such case" : "several cases begin so", "'" + case_id + "'",
+                "'vicon cases' lists them");
+}
+
+std::vector<ScanRecord> CaseStore::scans(const std::string& case_id)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM scans WHERE case_id = :id"
+                                        " ORDER BY role DESC, CAST(json_extract(series, '$.number') AS INTEGER), id",
+         soci::use(case_id));
+    return collect(rows, scanFrom);
+}
+
+ScanRecord CaseStore::requireScan(const std::string& case_id, const std::string& scan_id)
+{
+    std::vector<ScanRecord> candidates;
+    for (ScanRecord& scan : scans(case_id))
+        if (scan_id.empty() ? scan.role == "scan" : scan.id.starts_with(scan_id))
+            candidates.push_back(std::move(scan));
+    if (candidates.size() == 1)
+        return candidates.front();
+    if (candidates.empty())
+        throw Error(ErrorCode::not_found, scan_id.empty() ? "the case has no scan" : "no such scan '" + scan_id + "'",
+                    case_id, "'vicon show " + case_id + "' lists its scans");
+    throw Error(ErrorCode::wrong_use, "the case has several scans", case_id,
+                "name one with --scan; 'vicon show " + case_id + "' lists them");
+}
+
+std::optional<InstanceRecord> CaseStore::findInstance(const std::string& sop_uid)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM instances WHERE sop_uid = :uid", soci::use(sop_uid));
+    const auto found = collect(rows, instanceFrom);
+    return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+std::vector<InstanceRecord> CaseStore::instances(const std::string& case_id, const std::string& scan_id)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM instances WHERE case_id = :c AND scan_id = :s ORDER BY file",
+         soci::use(case_id), soci::use(scan_id));
+    return collect(rows, instanceFrom);
+}
+
+void CaseStore::addScan(const CaseRecord& a_case, const ScanRecord& scan, const std::vector<InstanceRecord>& instances,
+                        bool queue)
+{
+    database_.write([&](soci::session& sql) {
+        putCase(sql, a_case);
+        putScan(sql, scan);
+        putInstances(sql, instances);
+        if (queue)
+            enqueueJob(sql, scan.case_id, scan.id);
+        else if (scan.role != "scan")
+            withdrawJob(sql, scan.case_id, scan.id);
+        putAudit(sql, "imported", scan.case_id, scan.id, std::to_string(instances.size()) + " objects");
+    });
+    writeScanFile(scan.case_id, scan.id);
+}
+
+void CaseStore::removeScan(const std::string& case_id, const std::string& scan_id)
+{
+    int markers = 0;
+    database_.write([&](soci::session& sql) {
+        sql << "SELECT COUNT(*) FROM markers WHERE case_id = :c AND scan_id = :s", soci::use(case_id),
+            soci::use(scan_id), soci::into(markers);
+        if (markers > 0)
+            return;
+        removeJob(sql, case_id, scan_id);
+        for (const char* table : {"steps", "instances"})
+            sql << std::string("DELETE FROM ") + table + " WHERE case_id = :c AND scan_id = :s", soci::use(case_id),
+                soci::use(scan_id);
+        sql << "DELETE FROM scans WHERE case_id = :c AND id = :s", soci::use(case_id), soci::use(scan_id);
+        putAudit(sql, "scan removed", case_id, scan_id, "");
+    });
+    std::error_code ignored;  // what stays belongs to no scan any more
+    if (markers == 0)
+        fs::remove_all(scanFolder(case_id, scan_id), ignored);
+}
+
+void CaseStore::flag(const std::string& case_id, const std::string& line)
+{
+    auto flags = requireCase(case_id).flags;
+    if (std::find(flags.begin(), flags.end(), line) != flags.end())
+        return;
+    flags.push_back(line);
+    const std::string text = json(flags).dump();
+    database_.write([&](soci::session& sql) {
+        sql << "UPDATE cases SET flags = :flags WHERE id = :id", soci::use(text), soci::use(case_id);
+        putAudit(sql, "flagged", case_id, "", line);
+    });
+}
+
+bool CaseStore::wasFlagged(const std::string& case_id, const std::string& line)
+{
+    int count = 0;
+    database_.session() << "SELECT COUNT(*) FROM audit WHERE event = 'flagged' AND case_id = :c AND detail = :line",
+        soci::use(case_id), soci::use(line), soci::into(count);
+    return count > 0;
+}
+
+std::vector<StepRecord> CaseStore::steps(const std::string& case_id, const std::string& scan_id)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM steps WHERE case_id = :c AND scan_id = :s ORDER BY rowid",
+         soci::use(case_id), soci::use(scan_id));
+    return collect(rows, stepFrom);
+}
+
+json CaseStore::describeScan(const std::string& case_id, const std::string& scan_id)
+{
+    const CaseRecord c = requireCase(case_id);
+    const ScanRecord scan = requireScan(case_id, scan_id);
+    json out = {{"case", c.id},      {"scan", scan.id},        {"patient", c.patient},
+                {"study", c.study},  {"series", scan.series},  {"position", positionName(scan.series.patient_position)},
+                {"role", scan.role}, {"created", scan.created}};
+    out.update(scan.ingest);
+    json& done = out["steps"] = json::object();
+    for (const StepRecord& step : steps(case_id, scan_id)) {
+        done[step.step] = {{"version", step.version}, {"digest", step.digest},   {"parameters", step.parameters},
+                           {"result", step.result},   {"seconds", step.seconds}, {"finished", step.finished}};
+        // What readers of a scan ask for first stands at the top level, under the contract's names.
+        for (const char* key : {"bridges", "parts", "quality", "verdict", "confidence", "organ"})
+            if (step.result.contains(key))
+                out[key] = step.result[key];
+    }
+    return out;
+}
+
+void CaseStore::writeScanFile(const std::string& case_id, const std::string& scan_id)
+{
+    replaceFile(scanFolder(case_id, scan_id) / "scan.json", describeScan(case_id, scan_id).dump(2) + "\n");
+}
+
+int CaseStore::nextNumber(const std::string& name)
+{
+    int value = 0;
+    database_.write([&](soci::session& sql) { value = takeNumber(sql, name); });
+    return value;
+}
+
+void CaseStore::audit(const std::string& event, const std::string& case_id, const std::string& scan_id,
+                      const std::string& detail)
+{
+    database_.write([&](soci::session& sql) { putAudit(sql, event, case_id, scan_id, detail); });
+}
+
+}  // namespace vicon

@@ -1,0 +1,28 @@
+#include "job_rows.h"
+
+#include "vicon/core/file.h"
+
+namespace vicon {
+
+void enqueueJob(soci::session& sql, const std::string& case_id, const std::string& scan_id)
+{
+    const std::string now = nowUtc();
+    sql << "INSERT INTO jobs (case_id, scan_id, state, attempts, not_before, fence, owner, lease_until, step, progress,"
+           " reason, changed) VALUES (:case, :scan, 'queued', 0, 0, 0, '', 0, '', 0, '', :now)"
+           " ON CONFLICT (case_id, scan_id) DO UPDATE SET state = 'queued', attempts = 0, not_before = 0,"
+           " fence = fence + 1, owner = '', lease_until = 0, reason = '', changed = excluded.changed",
+        soci::use(case_id), soci::use(scan_id), soci::use(now);
+}
+
+void withdrawJob(soci::session& sql, const std::string& case_id, const std::string& scan_id)
+{
+    sql << "DELETE FROM jobs WHERE case_id = :c AND scan_id = :s AND state <> 'done'", soci::use(case_id),
+        soci::use(scan_id);
+}
+
+void removeJob(soci::session& sql, const std::string& case_id, const std::string& scan_id)
+{
+    sql << "DELETE FROM jobs WHERE case_id = :c AND scan_id = :s", soci::use(case_id), soci::use(scan_id);
+}
+
+}  // namespace vicon

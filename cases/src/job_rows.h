@@ -1,0 +1,17 @@
+#pragma once
+
+#include <soci/soci.h>
+
+#include <string>
+
+namespace vicon {
+
+/// A scan's row in the queue's table, within a transaction of the caller.
+
+/// Adds a job, or puts a finished one back into the queue.
+void enqueueJob(soci::session& sql, const std::string& case_id, const std::string& scan_id);
+/// Takes it out of the queue unless it is done.
+void withdrawJob(soci::session& sql, const std::string& case_id, const std::string& scan_id);
+void removeJob(soci::session& sql, const std::string& case_id, const std::string& scan_id);
+
+}  // namespace vicon

@@ -1,0 +1,64 @@
+#include "meta_header.h"
+
+#include <cstdio>
+#include <fstream>
+
+#include "vicon/core/error.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::scan_files {
+namespace {
+
+constexpr const char* kVoxelsFollow = "ElementDataFile = LOCAL\n";
+
+std::string line(const char* key, std::initializer_list<double> numbers)
+{
+    std::string text = std::string(key) + " =";
+    for (const double number : numbers) {
+        char word[32];
+        std::snprintf(word, sizeof word, " %.17g", number);
+        text += word;
+    }
+    return text + "\n";
+}
+
+}  // namespace
+
+std::string rawHeader(const Grid& grid, const std::string& type)
+{
+    const auto& [x, y, z] = grid.axis;
+    const std::string lines = "BinaryData = True\nBinaryDataByteOrderMSB = False\nCompressedData = False\n" +
+                              line("TransformMatrix", {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z}) +
+                              line("Offset", {grid.origin_mm.x, grid.origin_mm.y, grid.origin_mm.z}) +
+                              "CenterOfRotation = 0 0 0\nAnatomicalOrientation = RAI\n" +
+                              line("ElementSpacing", {grid.spacing_mm[0], grid.spacing_mm[1], grid.spacing_mm[2]}) +
+                              line("DimSize", {double(grid.size[0]), double(grid.size[1]), double(grid.size[2])}) +
+                              "ElementType = " + type + "\n" + kVoxelsFollow;
+    const std::string first = "ObjectType = Image\nNDims = 3\nComment = voxels are aligned ";
+    const std::size_t least = first.size() + 1 + lines.size();
+    const std::size_t missing = (kVoxelAlignment - least % kVoxelAlignment) % kVoxelAlignment;
+    return first + std::string(missing, '.') + "\n" + lines;
+}
+
+std::optional<VoxelBytes> voxelBytesIn(const fs::path& file, std::size_t raw_bytes)
+{
+    std::string head(4096, '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(head.data(), std::streamsize(head.size()));
+    head.resize(std::size_t(in.gcount()));
+    const auto local = head.find(kVoxelsFollow);
+    if (local == std::string::npos)
+        return {};
+    VoxelBytes bytes{local + std::char_traits<char>::length(kVoxelsFollow), raw_bytes, false};
+    const std::string key = "CompressedDataSize = ";
+    if (const auto at = head.find(key); at < local) {
+        bytes.packed = true;
+        bytes.count = std::stoull(head.substr(at + key.size()));
+    }
+    if (fs::file_size(file) < bytes.begin + bytes.count)
+        throw Error(ErrorCode::bad_input, "is cut off", file.string(), "run 'vicon work' to make it anew");
+    return bytes;
+}
+
+}  // namespace vicon::scan_files

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "vicon/core/geometry.h"
+
+namespace vicon::scan_files {
+
+/// Voxels in a file are mapped, so they begin where any type and any vector instruction may read.
+constexpr std::size_t kVoxelAlignment = 64;
+
+/// The header of a MetaImage whose raw voxels follow in the same file, a multiple of kVoxelAlignment bytes long.
+/// @param type the format's name of the voxel type, "MET_SHORT"
+std::string rawHeader(const Grid& grid, const std::string& type);
+
+/// Where the voxels of such a file lie.
+struct VoxelBytes {
+    std::size_t begin = 0;
+    std::size_t count = 0;
+    bool packed = false;
+};
+/// Nothing where they lie in another file. Throws Error{bad_input} when the file is too short for them.
+/// @param raw_bytes how many they are when they are not packed
+std::optional<VoxelBytes> voxelBytesIn(const std::filesystem::path& file, std::size_t raw_bytes);
+
+}  // namespace vicon::scan_files

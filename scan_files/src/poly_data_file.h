@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <filesystem>
+
+namespace vicon::scan_files {
+
+/// Writes a .vtp (appended raw binary, uncompressed: reading is what a radiologist waits for), by replaceFile().
+void writePolyData(const std::filesystem::path& file, vtkPolyData* data);
+/// Throws Error{not_found} or Error{bad_input}.
+vtkSmartPointer<vtkPolyData> readPolyData(const std::filesystem::path& file);
+
+}  // namespace vicon::scan_files

@@ -1,0 +1,87 @@
+#include "vicon/scan_files/projections_file.h"
+
+#include <future>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "png_file.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::scan_files {
+namespace {
+
+template <class Triple>
+nlohmann::json triple(const Triple& t)
+{
+    return {t.x, t.y, t.z};
+}
+
+nlohmann::json mappingOf(const Projection& p)
+{
+    return {{"name", p.name},         {"file", p.name + ".png"},
+            {"width", p.width},       {"height", p.height},
+            {"pixel_mm", p.pixel_mm}, {"right", triple(p.right)},
+            {"down", triple(p.down)}, {"first_pixel_mm", triple(p.first_pixel_mm)}};
+}
+
+template <class Triple>
+Triple tripleFrom(const nlohmann::json& j)
+{
+    return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
+}
+
+Projection described(const nlohmann::json& all, const std::string& name)
+{
+    for (const auto& j : all.at("projections"))
+        if (j.at("name") == name) {
+            Projection p;
+            p.name = name;
+            p.width = j.at("width");
+            p.height = j.at("height");
+            p.pixel_mm = j.at("pixel_mm");
+            p.right = tripleFrom<Vector3>(j.at("right"));
+            p.down = tripleFrom<Vector3>(j.at("down"));
+            p.first_pixel_mm = tripleFrom<Point3>(j.at("first_pixel_mm"));
+            return p;
+        }
+    return {};
+}
+
+}  // namespace
+
+void writeProjections(const fs::path& folder, std::span<const Projection> projections)
+{
+    makePrivateFolder(folder);
+    nlohmann::json mapping = {{"projections", nlohmann::json::array()}};
+    std::vector<std::future<void>> pictures;  // packing keeps a core busy
+    for (const Projection& p : projections) {
+        const nlohmann::json one = mappingOf(p);
+        pictures.push_back(std::async(std::launch::async, [&folder, &p, text = one.dump()] {
+            writePng(folder / (p.name + ".png"), p.width, p.height, p.rgba, "vicon:mapping", text);
+        }));
+        mapping["projections"].push_back(one);
+    }
+    for (auto& picture : pictures)
+        picture.get();
+    replaceFile(folder / "projections.json", mapping.dump(1) + "\n");
+}
+
+Projection readProjection(const fs::path& folder, const std::string& name)
+{
+    const fs::path file = folder / "projections.json";
+    Projection projection;
+    try {
+        projection = described(nlohmann::json::parse(readFile(file)), name);
+    } catch (const nlohmann::json::exception&) {
+    }
+    if (projection.width <= 0 || projection.height <= 0 || !(projection.pixel_mm > 0))
+        throw Error(ErrorCode::bad_input, "does not describe the " + name + " projection", file.string(),
+                    "run 'vicon work' to make it anew");
+    projection.rgba = readPng(folder / (name + ".png"), projection.width, projection.height);
+    return projection;
+}
+
+}  // namespace vicon::scan_files

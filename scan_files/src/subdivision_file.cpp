@@ -1,0 +1,110 @@
+#include "vicon/scan_files/subdivision_file.h"
+
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace vicon::scan_files {
+namespace {
+
+template <class Triple>
+json triple(const Triple& t)
+{
+    return {t.x, t.y, t.z};
+}
+
+template <class Triple>
+Triple tripleFrom(const json& j)
+{
+    return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
+}
+
+json toJson(const Portal& p)
+{
+    json gate = json::array(), box = json::array();
+    for (const Point3& corner : p.gate_mm)
+        gate.push_back(triple(corner));
+    for (const Point3& corner : p.box_mm)
+        box.push_back(triple(corner));
+    return {{"between", {p.segment_a, p.segment_b}},
+            {"centre_mm", triple(p.centre_mm)},
+            {"normal", triple(p.normal)},
+            {"area_mm2", p.area_mm2},
+            {"gate_mm", gate},
+            {"box_mm", box},
+            {"along_skeleton", p.along_skeleton}};
+}
+
+Portal portalFrom(const json& j)
+{
+    Portal p;
+    p.segment_a = j.at("between").at(0);
+    p.segment_b = j.at("between").at(1);
+    p.centre_mm = tripleFrom<Point3>(j.at("centre_mm"));
+    p.normal = tripleFrom<Vector3>(j.at("normal"));
+    p.area_mm2 = j.at("area_mm2");
+    for (std::size_t n = 0; n < 4; ++n)
+        p.gate_mm[n] = tripleFrom<Point3>(j.at("gate_mm").at(n));
+    for (std::size_t n = 0; n < 8; ++n)
+        p.box_mm[n] = tripleFrom<Point3>(j.at("box_mm").at(n));
+    p.along_skeleton = j.at("along_skeleton");
+    return p;
+}
+
+json toJson(const SegmentInfo& s)
+{
+    return {{"number", s.number},         {"from_station_mm", s.from_station_mm}, {"to_station_mm", s.to_station_mm},
+            {"volume_mm3", s.volume_mm3}, {"inside_voxels", s.inside_voxels},     {"surface_voxels", s.surface_voxels},
+            {"triangles", s.triangles},   {"lower_mm", triple(s.lower_mm)},       {"upper_mm", triple(s.upper_mm)}};
+}
+
+SegmentInfo segmentFrom(const json& j)
+{
+    return {j.at("number"),
+            j.at("from_station_mm"),
+            j.at("to_station_mm"),
+            j.at("volume_mm3"),
+            j.at("inside_voxels"),
+            j.at("surface_voxels"),
+            j.at("triangles"),
+            tripleFrom<Point3>(j.at("lower_mm")),
+            tripleFrom<Point3>(j.at("upper_mm"))};
+}
+
+}  // namespace
+
+void writeSubdivision(const fs::path& file, const Subdivision& subdivision)
+{
+    json out = {{"method", subdivision.method},
+                {"parameters", subdivision.parameters},
+                {"statistics", subdivision.statistics},
+                {"segments", json::array()},
+                {"portals", json::array()}};
+    for (const SegmentInfo& segment : subdivision.segments)
+        out["segments"].push_back(toJson(segment));
+    for (const Portal& portal : subdivision.portals)
+        out["portals"].push_back(toJson(portal));
+    replaceFile(file, out.dump(1) + "\n");
+}
+
+Subdivision readSubdivision(const fs::path& file)
+{
+    const json in = json::parse(readFile(file), nullptr, false);
+    Subdivision subdivision;
+    try {
+        subdivision.method = in.at("method");
+        subdivision.parameters = in.at("parameters");
+        subdivision.statistics = in.at("statistics");
+        for (const json& segment : in.at("segments"))
+            subdivision.segments.push_back(segmentFrom(segment));
+        for (const json& portal : in.at("portals"))
+            subdivision.portals.push_back(portalFrom(portal));
+    } catch (const json::exception&) {
+        throw Error(ErrorCode::bad_input, "is not a subdivision", file.string(), "run 'vicon work' to make it anew");
+    }
+    return subdivision;
+}
+
+}  // namespace vicon::scan_files

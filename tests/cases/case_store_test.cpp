@@ -1,0 +1,160 @@
+#include "vicon/cases/case_store.h"
+
+#include <gmock/gmock.h>
+#include <soci/soci.h>
+
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+#include "vicon/support/support.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon {
+namespace {
+
+using testing::HasSubstr;
+
+class Store : public testing::Test {
+protected:
+    support::TemporaryFolder folder_;
+    CaseStore store_{folder_.path()};
+
+    void addScan(const std::string& scan_id)
+    {
+        fs::create_directories(store_.scanFolder("c1", scan_id));
+        CaseRecord a_case;
+        a_case.id = "c1";
+        a_case.patient = {"P1", "Doe^Jane", "19500101", "F"};
+        a_case.study.uid = "1.2";
+        ScanRecord scan;
+        scan.id = scan_id;
+        scan.case_id = "c1";
+        scan.series.uid = "1.2." + scan_id;
+        scan.series.patient_position = "HFP";
+        store_.addScan(a_case, scan, {{"1.2.9." + scan_id, "c1", scan_id, "hash", "a.dcm"}}, true);
+    }
+};
+
+TEST_F(Store, SaysWhetherAnybodyChangedAnything)
+{
+    addScan("s1");
+    const std::string first = store_.database().version();
+    store_.cases();
+    EXPECT_EQ(store_.database().version(), first) << "nothing was changed";
+    store_.audit("opened", "c1", "s1", "");
+    const std::string second = store_.database().version();
+    EXPECT_NE(second, first) << "changed over this connection";
+    CaseStore(folder_.path()).audit("opened", "c1", "s1", "");
+    const std::string third = store_.database().version();
+    EXPECT_NE(third, second) << "changed over another one";
+    EXPECT_EQ(store_.database().version(), third);
+}
+
+TEST_F(Store, KeepsACaseItsScansAndTheirInstances)
+{
+    addScan("s1");
+    addScan("s2");
+    EXPECT_EQ(store_.requireCase("c1").patient.name, "Doe^Jane");
+    EXPECT_EQ(store_.requireCase("c").id, "c1") << "a beginning is enough";
+    EXPECT_EQ(store_.scans("c1").size(), 2u);
+    EXPECT_EQ(store_.findInstance("1.2.9.s1")->scan_id, "s1");
+    EXPECT_EQ(store_.findCaseByStudy("1.2")->id, "c1");
+    EXPECT_THROW(store_.requireCase("x"), Error);
+    EXPECT_THROW(store_.requireScan("c1", ""), Error) << "there are two";
+}
+
+TEST_F(Store, AddingTheSameAgainChangesNothing)
+{
+    addScan("s1");
+    addScan("s1");
+    EXPECT_EQ(store_.cases().size(), 1u);
+    EXPECT_EQ(store_.scans("c1").size(), 1u);
+    EXPECT_EQ(store_.instances("c1", "s1").size(), 1u);
+}
+
+TEST_F(Store, WritesScanJsonFromTheDatabase)
+{
+    addScan("s1");
+    const auto json = nlohmann::json::parse(readFile(store_.scanFolder("c1", "s1") / "scan.json"));
+    EXPECT_EQ(json["position"], "prone");
+    EXPECT_EQ(json["patient"]["birth_date"], "19500101");
+}
+
+TEST_F(Store, NumbersMarkersAndNeverUsesANumberTwice)
+{
+    addScan("s1");
+    const Marker first = store_.saveMarker("c1", {.scan_id = "s1", .note = "one"});
+    EXPECT_EQ(first.id, "m1");
+    store_.removeMarker("c1", "m1");
+    EXPECT_EQ(store_.saveMarker("c1", {.scan_id = "s1"}).id, "m2");
+    EXPECT_THROW(store_.removeMarker("c1", "m1"), Error);
+}
+
+TEST_F(Store, RewritesMarkersJsonAfterEveryChange)
+{
+    addScan("s1");
+    addScan("s2");
+    Marker marker = store_.saveMarker("c1", {.scan_id = "s1", .position_mm = {1, 2, 3}, .note = "polyp"});
+    const auto markersIn = [](const fs::path& folder) {
+        return nlohmann::json::parse(readFile(folder / "markers.json"))["markers"];
+    };
+    EXPECT_EQ(markersIn(store_.scanFolder("c1", "s1"))[0]["position_mm"], (nlohmann::json{1.0, 2.0, 3.0}));
+    EXPECT_EQ(markersIn(store_.scanFolder("c1", "s2")).size(), 0u);
+    EXPECT_EQ(markersIn(store_.caseFolder("c1")).size(), 1u);
+    marker.note = "fold";
+    store_.saveMarker("c1", marker);
+    EXPECT_EQ(markersIn(store_.caseFolder("c1"))[0]["note"], "fold");
+    store_.removeMarker("c1", marker.id);
+    EXPECT_EQ(markersIn(store_.caseFolder("c1")).size(), 0u);
+}
+
+TEST_F(Store, FlagsACaseOncePerLine)
+{
+    addScan("s1");
+    store_.flag("c1", "check the patient");
+    store_.flag("c1", "check the patient");
+    EXPECT_EQ(store_.requireCase("c1").flags, std::vector<std::string>{"check the patient"});
+}
+
+TEST_F(Store, RefusesADatabaseOfANewerVersion)
+{
+    store_.database().session() << "PRAGMA user_version = 99";
+    try {
+        const CaseStore again(folder_.path());
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ErrorCode::database);
+        EXPECT_THAT(e.what(), HasSubstr("schema version 99"));
+    }
+}
+
+TEST_F(Store, RollsBackAWriteThatThrows)
+{
+    addScan("s1");
+    EXPECT_THROW(store_.database().write([](soci::session& sql) {
+        sql << "DELETE FROM scans";
+        throw Error(ErrorCode::internal, "stop");
+    }),
+                 Error);
+    EXPECT_EQ(store_.scans("c1").size(), 1u);
+}
+
+TEST(StoreFolder, ThatCannotBeMadeIsOneClearLine)
+{
+    try {
+        const CaseStore store("/proc/vicon-store");
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_THAT(e.what(), HasSubstr("/proc/vicon-store"));
+    }
+}
+
+TEST(Ids, AreShortStableAndSafeAsPath)
+{
+    EXPECT_EQ(CaseStore::caseIdFor("1.2.3"), CaseStore::caseIdFor("1.2.3"));
+    EXPECT_NE(CaseStore::caseIdFor("1.2.3"), CaseStore::caseIdFor("1.2.4"));
+    EXPECT_THAT(CaseStore::caseIdFor("1.2.3"), testing::MatchesRegex("c[0-9a-f]+"));
+}
+
+}  // namespace
+}  // namespace vicon

@@ -1,0 +1,201 @@
+#include "vicon/cases/job_queue.h"
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <set>
+#include <thread>
+
+#include "fake_jobs.h"
+#include "vicon/core/error.h"
+
+namespace vicon::pipeline {
+namespace {
+
+using testing::HasSubstr;
+
+class Queue : public testing::Test {
+protected:
+    double now_ = 1000;
+    FakeStore fake_;
+    JobQueue queue_{fake_.store.database(), QueueOptions{.lease_s = 10, .most_attempts = 3, .most_drops = 4},
+                    [this] { return now_; }};
+
+    ErrorCode codeOf(const std::function<void()>& action)
+    {
+        try {
+            action();
+        } catch (const Error& e) {
+            return e.code();
+        }
+        ADD_FAILURE() << "nothing was thrown";
+        return ErrorCode::internal;
+    }
+};
+
+TEST_F(Queue, GivesJobsInTheOrderTheyCameAndEachOnce)
+{
+    fake_.addJobs(3);
+    EXPECT_EQ(queue_.claim("a")->scan_id, "s0");
+    EXPECT_EQ(queue_.claim("b")->scan_id, "s1");
+    EXPECT_EQ(queue_.claim("c")->scan_id, "s2");
+    EXPECT_FALSE(queue_.claim("d"));
+}
+
+TEST_F(Queue, GivesEachJobToOneOfManyProcessesOnly)
+{
+    fake_.addJobs(40);
+    std::vector<std::thread> threads;
+    std::array<std::vector<std::string>, 4> taken;
+    for (auto& mine : taken)
+        threads.emplace_back([&] {
+            Database database(fake_.store.folder() / "vicon.db");
+            JobQueue queue(database, queue_.options());
+            while (const auto job = queue.claim("elsewhere/x/1/1"))
+                mine.push_back(job->scan_id);
+        });
+    for (auto& thread : threads)
+        thread.join();
+    std::multiset<std::string> all;
+    for (const auto& mine : taken)
+        all.insert(mine.begin(), mine.end());
+    EXPECT_EQ(all.size(), 40u);
+    EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), 40u);
+}
+
+TEST_F(Queue, TakesAJobFromAWorkerWhoseLeaseLapsed)
+{
+    fake_.addJobs(1);
+    const Job lost = *queue_.claim("a");
+    now_ += 11;
+    const Job taken = *queue_.claim("b");
+    EXPECT_EQ(taken.scan_id, lost.scan_id);
+    EXPECT_GT(taken.fence, lost.fence);
+    EXPECT_EQ(taken.attempts, 1) << "a claim dropped without an outcome is a failure";
+    EXPECT_THAT(taken.reason, HasSubstr("stopped without a word"));
+}
+
+TEST_F(Queue, LetsARenewedLeaseLive)
+{
+    fake_.addJobs(1);
+    const Job job = *queue_.claim("a");
+    now_ += 9;
+    queue_.renew(job, "segment", 0.5);
+    now_ += 9;
+    EXPECT_FALSE(queue_.claim("b"));
+    EXPECT_EQ(queue_.find("c", "s0")->step, "segment");
+    EXPECT_DOUBLE_EQ(queue_.find("c", "s0")->progress, 0.5);
+}
+
+TEST_F(Queue, RefusesEverythingFromAWorkerThatLostItsJob)
+{
+    fake_.addJobs(1);
+    const Job stale = *queue_.claim("a");
+    now_ += 11;
+    const Job current = *queue_.claim("b");
+    const StepRecord step{.step = "segment", .version = 1, .digest = "stale"};
+    EXPECT_EQ(codeOf([&] { queue_.renew(stale, "x", 0); }), ErrorCode::lease_lost);
+    EXPECT_EQ(codeOf([&] { queue_.commitStep(stale, step); }), ErrorCode::lease_lost);
+    EXPECT_EQ(codeOf([&] { queue_.complete(stale); }), ErrorCode::lease_lost);
+    EXPECT_EQ(codeOf([&] { queue_.fail(stale, "x", false); }), ErrorCode::lease_lost);
+    EXPECT_EQ(codeOf([&] { queue_.release(stale); }), ErrorCode::lease_lost);
+    EXPECT_TRUE(fake_.store.steps("c", "s0").empty());
+    queue_.complete(current);
+    EXPECT_EQ(queue_.find("c", "s0")->state, JobState::done);
+}
+
+TEST_F(Queue, BacksOffTwiceAsLongAfterEachFailureAndThenFails)
+{
+    fake_.addJobs(1);
+    const auto failOnce = [&] { queue_.fail(*queue_.claim("a"), "disk full", false); };
+    failOnce();
+    EXPECT_FALSE(queue_.claim("a"));
+    EXPECT_DOUBLE_EQ(*queue_.nextDue(), now_ + 1);
+    now_ += 1;
+    failOnce();
+    EXPECT_DOUBLE_EQ(*queue_.nextDue(), now_ + 2);
+    now_ += 2;
+    failOnce();
+    const Job job = *queue_.find("c", "s0");
+    EXPECT_EQ(job.state, JobState::failed);
+    EXPECT_EQ(job.reason, "disk full");
+    EXPECT_FALSE(queue_.nextDue());
+}
+
+TEST_F(Queue, DoesNotTryAgainWhatCannotSucceed)
+{
+    fake_.addJobs(1);
+    queue_.fail(*queue_.claim("a"), "not a CT", true);
+    EXPECT_EQ(queue_.find("c", "s0")->state, JobState::failed);
+}
+
+TEST_F(Queue, FailsAJobThatKeepsKillingItsWorkers)
+{
+    fake_.addJobs(1);
+    for (int n = 0; n < 4; ++n) {
+        ASSERT_TRUE(queue_.claim("a")) << n;
+        now_ += 11;
+    }
+    EXPECT_FALSE(queue_.claim("a"));
+    EXPECT_EQ(queue_.find("c", "s0")->state, JobState::failed);
+}
+
+TEST_F(Queue, ForgetsFailuresWhenAStepWasFinished)
+{
+    fake_.addJobs(1);
+    for (int n = 0; n < 10; ++n) {
+        const auto job = queue_.claim("a");
+        ASSERT_TRUE(job) << n;
+        queue_.commitStep(*job, {.step = "step" + std::to_string(n), .version = 1, .digest = "d"});
+        now_ += 11;
+    }
+    EXPECT_EQ(fake_.store.steps("c", "s0").size(), 10u);
+}
+
+TEST_F(Queue, RetriesByHandAFailedJobOnly)
+{
+    fake_.addJobs(1);
+    queue_.fail(*queue_.claim("a"), "not a CT", true);
+    queue_.retry("c", "s0");
+    EXPECT_EQ(queue_.claim("a")->attempts, 0);
+    EXPECT_EQ(codeOf([&] { queue_.retry("c", "other"); }), ErrorCode::not_found);
+}
+
+TEST_F(Queue, ReleasesAJobUntouchedWhenTheWorkerIsToldToStop)
+{
+    fake_.addJobs(1);
+    queue_.release(*queue_.claim("a"));
+    const auto job = queue_.claim("b");
+    ASSERT_TRUE(job);
+    EXPECT_EQ(job->attempts, 0);
+}
+
+TEST_F(Queue, TakesTheJobOfADeadProcessOfThisMachineAtOnce)
+{
+    fake_.addJobs(1);
+    int owner_pipe[2];
+    ASSERT_EQ(::pipe(owner_pipe), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const std::string owner = thisOwner();
+        [[maybe_unused]] const auto written = ::write(owner_pipe[1], owner.data(), owner.size());
+        ::_exit(0);
+    }
+    ::waitpid(child, nullptr, 0);
+    std::array<char, 512> text{};
+    const auto size = ::read(owner_pipe[0], text.data(), text.size());
+    ASSERT_GT(size, 0);
+    ASSERT_TRUE(queue_.claim(std::string(text.data(), std::size_t(size))));
+    EXPECT_TRUE(queue_.claim("b")) << "its lease has not lapsed, but the process is gone";
+}
+
+TEST_F(Queue, LeavesTheJobOfALivingProcessAlone)
+{
+    fake_.addJobs(1);
+    ASSERT_TRUE(queue_.claim(thisOwner()));
+    EXPECT_FALSE(queue_.claim("b"));
+}
+
+}  // namespace
+}  // namespace vicon::pipeline
