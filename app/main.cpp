@@ -1,6 +1,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <new>
 
@@ -61,7 +62,8 @@ int run(int argc, char** argv)
         CLI::App* sub = command.add_subcommand(row.name, row.help);
         sub->fallthrough();
         sub->footer(kCommonFooter);
-        sub->final_callback([&chosen, action = row.declare(*sub)] { chosen = action; });
+        CommandLine line(*sub);
+        sub->final_callback([&chosen, action = row.declare(line)] { chosen = action; });
     }
     try {
         command.parse(argc, argv);
