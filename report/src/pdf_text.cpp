@@ -114,12 +114,13 @@ void PdfText::writeText(HPDF_Page page, const Word& word)
     for (std::size_t from = word.from, n = from; from < word.to; from = n) {
         UsedFont& used = load(run.font);
         std::string utf8;
-        for (double kern = 0; n < word.to && std::abs(kern) < kKern * word.size; ++n) {
+        double next_x = run.glyphs[from].x;
+        for (; n < word.to && std::abs(run.glyphs[n].x - next_x) < kKern * word.size; ++n) {
             const PlacedGlyph& glyph = run.glyphs[n];
             if (used.meaning.try_emplace(char16_t(glyph.character), glyph.character).second)
                 embedGlyphs(used.font, componentsOf(fonts_, run.font, glyph.glyph));
             append(utf8, char16_t(glyph.character));
-            kern = glyph.advance - word.size * advance_em(fonts_, run.font, glyph.glyph);
+            next_x = glyph.x + word.size * advance_em(fonts_, run.font, glyph.glyph);
         }
         HPDF_Page_SetFontAndSize(page, used.font, float(word.size));
         HPDF_Page_BeginText(page);

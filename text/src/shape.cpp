@@ -154,8 +154,9 @@ void append(TextLine& line, FontSet& fonts, const Run& run)
                               line.width, advance, info[n].cluster});
         line.width += advance;
     }
+    const double stays = kStays * line.size * kFixed;
     for (std::size_t n = 0; n < out.glyphs.size(); ++n)
-        if (std::hypot(at[n].x_offset, at[n].y_offset) <= kStays * line.size * kFixed)
+        if (std::abs(at[n].y_offset) <= stays && (std::abs(at[n].x_offset) <= stays || at[n].x_advance > 0))
             out.glyphs[n].character = ownCharacter(fonts, out, n);
 }
 

@@ -17,8 +17,8 @@ struct PlacedGlyph {
     double pen_x = 0;     ///< where its advance begins, without the offset that shaping gave it
     double advance = 0;
     std::size_t cluster = 0;  ///< the first of the run's characters that it stands for
-    /// The one character that it stands for, where it is that character's own glyph at its own place; 0: shaping
-    /// replaced it, joined several or moved it.
+    /// The one character that it stands for, where it is that character's own glyph beside its neighbours, kerned or
+    /// not; 0: shaping replaced it, joined several or set it over another.
     char32_t character = 0;
 };
 
