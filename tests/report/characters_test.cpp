@@ -208,6 +208,33 @@ TEST_F(Ink, OfAGlyphMadeOfGlyphsIsWholeWithoutOthersThatBringItsParts)
         expectWhole({c});
 }
 
+TEST_F(Ink, OfAFontThatLibharuCannotLoadIsDrawnAndItsTextKept)
+{
+    // FreeType does without the table of names, libharu does not.
+    const support::TemporaryFolder folder;
+    const auto fileOf = [&](char32_t c) { return fonts_.file(fonts_.find(c).value()); };
+    std::string font = readFile(fileOf(U'ש'));
+    font.replace(font.find("name"), 4, "none");
+    replaceFile(folder / fileOf(U'ש').filename(), font);
+    std::filesystem::copy_file(fileOf(U'A'), folder / fileOf(U'A').filename());
+
+    text::FontSet fonts({folder.path()}, text::FontSet::Medium::paper);
+    PdfDocument pdf(fonts, {});
+    pdf.addPage(300, 100);
+    pdf.text(0, 10, 50, Typesetter(fonts).line("Adams שרון", {.size = kSize}), {});
+    replaceFile(folder / "drawn.pdf", pdf.finish());
+    EXPECT_THAT(samples::textOf(folder / "drawn.pdf"), testing::AllOf(HasSubstr("Adams"), HasSubstr("שרון")));
+    const samples::Raster page = samples::render(folder / "drawn.pdf", 1, kDpi);
+    double ink = 0;
+    for (std::size_t n = 0; n < page.rgb.size(); n += 3)
+        ink += 1 - page.rgb[n] / 255.0;
+    double expected = 0;
+    for (const text::GlyphRun& run : type_.line("Adams שרון", {.size = kSize}).runs)
+        for (const text::PlacedGlyph& glyph : run.glyphs)
+            expected += inkOf(run.font, glyph.glyph);
+    EXPECT_NEAR(ink, expected, kInkTolerance * expected);
+}
+
 TEST_F(Ink, OfLettersThatTheirFontHasIsText)
 {
     const support::TemporaryFolder folder;

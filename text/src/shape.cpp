@@ -5,6 +5,7 @@
 #include FT_ADVANCES_H
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -16,6 +17,10 @@ namespace {
 
 constexpr int kAnyFont = -1;     // of a character that only steers shaping
 constexpr double kStays = 1e-3;  // of the size: less than this is no move
+
+constexpr std::array<hb_feature_t, 2> kSeparate{
+    {{HB_TAG('l', 'i', 'g', 'a'), 0, HB_FEATURE_GLOBAL_START, HB_FEATURE_GLOBAL_END},
+     {HB_TAG('c', 'l', 'i', 'g'), 0, HB_FEATURE_GLOBAL_START, HB_FEATURE_GLOBAL_END}}};
 
 /// Letters that one font writes in one direction and one script.
 struct Run {
@@ -96,6 +101,13 @@ std::vector<Run> runsOf(const std::vector<Letter>& letters)
     return runs;
 }
 
+/// Written letter by letter: ligatures are ornaments there, and a word looks the same beside any other.
+bool isSpelt(hb_script_t script)
+{
+    return script == HB_SCRIPT_COMMON || script == HB_SCRIPT_LATIN || script == HB_SCRIPT_GREEK ||
+           script == HB_SCRIPT_CYRILLIC;
+}
+
 /// From left to right: rule L2 of Unicode's annex 9.
 void putInVisualOrder(std::vector<Run>& runs)
 {
@@ -143,7 +155,7 @@ void append(TextLine& line, FontSet& fonts, const Run& run)
     const bool right_to_left = run.level % 2 == 1;
     hb_buffer_set_direction(buffer.get(), right_to_left ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
     hb_buffer_set_script(buffer.get(), run.script);
-    hb_shape(font, buffer.get(), nullptr, 0);
+    hb_shape(font, buffer.get(), kSeparate.data(), isSpelt(run.script) ? unsigned(kSeparate.size()) : 0);
     unsigned glyphs = 0;
     const hb_glyph_info_t* info = hb_buffer_get_glyph_infos(buffer.get(), &glyphs);
     const hb_glyph_position_t* at = hb_buffer_get_glyph_positions(buffer.get(), &glyphs);
