@@ -4,14 +4,13 @@
 #include <cmath>
 
 #include "grid/lattice.h"
+#include "grid/neighbours.h"
 
 namespace vicon::steps {
 namespace {
 
 /// A pool's density must differ from tissue by this much to place a wall; less is taken as this.
 constexpr double kLeastContrast_hu = 50;
-
-constexpr int kFaces[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
 
 }  // namespace
 
@@ -28,23 +27,6 @@ RowsNearLumen::RowsNearLumen(const InsideVolume& inside)
                 for (int dj = -1; dj <= 1; ++dj)
                     near_[index(j + dj, k + dk)] = 1;
         }
-}
-
-bool besideOther(const InsideVolume& inside, Index3 v)
-{
-    const Grid& grid = inside.grid;
-    const auto [nx, ny, nz] = grid.size;
-    if (v.i > 0 && v.j > 0 && v.k > 0 && v.i + 1 < nx && v.j + 1 < ny && v.k + 1 < nz) {
-        const std::uint8_t* at = &inside.voxels[grid.offset(v)];
-        const std::ptrdiff_t row = nx, slice = row * ny;
-        const int around =
-            (at[-1] != 0) + (at[1] != 0) + (at[-row] != 0) + (at[row] != 0) + (at[-slice] != 0) + (at[slice] != 0);
-        return *at ? around < 6 : around > 0;
-    }
-    const bool here = inside.valueOr(v, kOutside) != kOutside;
-    return std::any_of(std::begin(kFaces), std::end(kFaces), [&](const int* f) {
-        return (inside.valueOr({v.i + f[0], v.j + f[1], v.k + f[2]}, kOutside) != kOutside) != here;
-    });
 }
 
 WallField::WallField(const HuVolume& hu, const InsideVolume& inside, Levels levels)
@@ -67,8 +49,8 @@ void WallField::measurePools()
             const Index3 v{i, run.j, run.k};
             const auto density = std::int16_t(hu(v, levels_.tissue_hu));
             all[run.component].push_back(density);
-            const bool surrounded = std::all_of(std::begin(kFaces), std::end(kFaces), [&](const int* f) {
-                return inside_.valueOr({v.i + f[0], v.j + f[1], v.k + f[2]}, kOutside) == kFluid;
+            const bool surrounded = std::all_of(kFaces.begin(), kFaces.end(), [&](Index3 face) {
+                return inside_.valueOr(shifted(v, face), kOutside) == kFluid;
             });
             if (surrounded)
                 deep[run.component].push_back(density);
@@ -120,8 +102,8 @@ float WallField::fromDensities(Index3 v) const
     double sum = 0;
     int count = 0;
     const double density = hu(v, levels_.tissue_hu);
-    for (const auto& f : kFaces) {
-        const Index3 n{v.i + f[0], v.j + f[1], v.k + f[2]};
+    for (const Index3 face : kFaces) {
+        const Index3 n = shifted(v, face);
         if (const std::uint8_t label = inside_.valueOr(n, kOutside)) {
             sum += valueBeside(n, label, label == kFluid ? asThickFold(v, n, density) : density);
             ++count;
@@ -134,8 +116,8 @@ float WallField::fromDensities(Index3 v) const
 bool WallField::besideThinFold(Index3 fluid) const
 {
     const double half_hu = (levels_.tissue_hu + pool_hu_[pools_.at(fluid)]) / 2;
-    return std::any_of(std::begin(kFaces), std::end(kFaces), [&](const int* f) {
-        const Index3 n{fluid.i + f[0], fluid.j + f[1], fluid.k + f[2]};
+    return std::any_of(kFaces.begin(), kFaces.end(), [&](Index3 face) {
+        const Index3 n = shifted(fluid, face);
         return inside_.valueOr(n, kOutside) == kOutside && hu(n, levels_.tissue_hu) > half_hu;
     });
 }
@@ -149,10 +131,7 @@ double WallField::asThickFold(Index3 v, Index3 fluid, double density) const
     if (density <= (levels_.tissue_hu + fluid_hu) / 2)
         return density;
     double bottom = density;
-    for (int k = v.k - kBottom_voxels; k <= v.k + kBottom_voxels; ++k)
-        for (int j = v.j - kBottom_voxels; j <= v.j + kBottom_voxels; ++j)
-            for (int i = v.i - kBottom_voxels; i <= v.i + kBottom_voxels; ++i)
-                bottom = std::min(bottom, hu({i, j, k}, density));
+    forEachInCube(v, kBottom_voxels, [&](Index3 n) { bottom = std::min(bottom, hu(n, density)); });
     return density - (std::max(bottom, levels_.tissue_hu) - levels_.tissue_hu) / 2;
 }
 

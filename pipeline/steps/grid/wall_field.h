@@ -21,9 +21,6 @@ private:
     std::vector<std::uint8_t> near_;
 };
 
-/// Whether one of the six neighbours of a voxel lies on the other side of the mask; beyond the grid is outside.
-bool besideOther(const InsideVolume& inside, Index3 v);
-
 /// Where the wall lies between an inside and an outside voxel, from the densities: a signed value of each voxel beside
 /// the wall, below 0 inside, above 0 outside, about -1 and +1 away from the wall, linear in the density. Beside gas it
 /// is 0 at the wall's density, under fluid half-way between tissue and the pool's own density, so one level serves

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "grid/lumen_graph.h"
+#include "grid/neighbours.h"
 #include "organ/tube_seed.h"
 #include "segment/body.h"
 #include "segment/field_of_view.h"
@@ -161,9 +162,8 @@ void growToWall(const HuVolume& volume, const OrganOptions& options, InsideVolum
             if (!mask.voxels[n])
                 continue;
             const Index3 v = mask.grid.indexOf(n);
-            for (const auto& [i, j, k] :
-                 {std::array{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}) {
-                const Index3 to{v.i + i, v.j + j, v.k + k}, beyond{v.i + 2 * i, v.j + 2 * j, v.k + 2 * k};
+            for (const Index3 face : kFaces) {
+                const Index3 to = shifted(v, face), beyond = shifted(to, face);
                 if (mask.valueOr(to, kGas) == kOutside && hu(to) < wall_hu && hu(beyond) > hu(to) + kRising_hu)
                     added.push_back(to);
             }

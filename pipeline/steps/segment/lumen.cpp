@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "grid/allocate.h"
+#include "grid/neighbours.h"
 
 namespace vicon::steps {
 namespace {
@@ -69,24 +70,16 @@ InsideVolume labelGas(const HuVolume& volume, const RunLabels& gas, const std::v
 
 void growToWall(const HuVolume& volume, double wall_hu, InsideVolume& labels)
 {
-    const auto& size = labels.grid.size;
-    const std::array<std::ptrdiff_t, 3> stride{1, size[0], std::ptrdiff_t(size[0]) * size[1]};
     const auto neighboursOf = [&](std::size_t n, std::vector<std::size_t>& next) {
-        const Index3 v = labels.grid.indexOf(n);
-        const std::array<int, 3> at{v.i, v.j, v.k};
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            for (const int step : {-1, 1}) {
-                const int to = at[axis] + step;
-                if (to < 0 || to >= size[axis])
-                    continue;
-                const std::size_t m = std::size_t(std::ptrdiff_t(n) + step * stride[axis]);
-                if (!labels.voxels[m] && volume.voxels[m] < wall_hu)
-                    next.push_back(m);
-            }
+        forEachOverFaces(labels.grid, n, [&](std::size_t m) {
+            if (!labels.voxels[m] && volume.voxels[m] < wall_hu)
+                next.push_back(m);
+        });
     };
-    std::vector<std::vector<std::size_t>> slices(std::size_t(size[2]), std::vector<std::size_t>{});
-    tbb::parallel_for(0, size[2], [&](int k) {
-        const std::size_t begin = labels.grid.offset({0, 0, k}), end = begin + std::size_t(stride[2]);
+    const int slice_count = labels.grid.size[2];
+    std::vector<std::vector<std::size_t>> slices(std::size_t(slice_count), std::vector<std::size_t>{});
+    tbb::parallel_for(0, slice_count, [&](int k) {
+        const std::size_t begin = labels.grid.offset({0, 0, k}), end = labels.grid.offset({0, 0, k + 1});
         for (std::size_t n = begin; n < end; ++n)
             if (labels.voxels[n] == kGas)
                 neighboursOf(n, slices[std::size_t(k)]);

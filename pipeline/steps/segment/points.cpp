@@ -6,27 +6,9 @@
 #include <sstream>
 
 #include "vicon/core/error.h"
+#include "vicon/core/nearest_voxel.h"
 
 namespace vicon::steps {
-namespace {
-
-template <class Use>
-void forEachWithin(const Grid& grid, Point3 p, double radius_mm, Use use)
-{
-    const Index3 c = grid.indexAt(p);
-    const int reach = int(std::ceil(radius_mm / grid.spacing_mm[0])) + 1;
-    for (int k = c.k - reach; k <= c.k + reach; ++k)
-        for (int j = c.j - reach; j <= c.j + reach; ++j)
-            for (int i = c.i - reach; i <= c.i + reach; ++i)
-                if (const Index3 v{i, j, k}; grid.contains(v)) {
-                    const double d = distance(grid.pointAt(v), p);
-                    if (d <= radius_mm)
-                        use(v, d);
-                }
-}
-
-}  // namespace
-
 std::vector<Point3> parsePoints(const std::string& text, const std::string& option)
 {
     std::vector<Point3> points;
@@ -54,19 +36,9 @@ std::string textOf(Point3 point)
 std::vector<int> componentsAt(const RunLabels& labels, const Grid& grid, const std::vector<Point3>& points)
 {
     std::set<int> found;
-    for (const Point3 p : points) {
-        int label = -1;
-        double nearest = 1e300;
-        forEachWithin(grid, p, kCatch_mm, [&](Index3 v, double d) {
-            const int here = d < nearest ? labels.labelAt(v) : -1;
-            if (here >= 0) {
-                nearest = d;
-                label = here;
-            }
-        });
-        if (label >= 0)
-            found.insert(label);
-    }
+    for (const Point3 p : points)
+        if (const auto nearest = nearestVoxel(grid, p, kCatch_mm, [&](Index3 v) { return labels.labelAt(v) >= 0; }))
+            found.insert(labels.labelAt(nearest->voxel));
     return {found.begin(), found.end()};
 }
 

@@ -1,10 +1,10 @@
 #include "segment/fluid/levels.h"
+#include "vicon/core/disjoint_sets.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
 
@@ -119,13 +119,7 @@ std::vector<std::uint32_t> joinContacts(const std::vector<Contact>& contacts, co
     at.reserve(contacts.size() * 2);
     for (std::size_t n = 0; n < contacts.size(); ++n)
         at[grid.offset(contacts[n].gas)] = std::uint32_t(n);
-    std::vector<std::uint32_t> parent(contacts.size());
-    std::iota(parent.begin(), parent.end(), 0U);
-    const auto root = [&](std::uint32_t n) {
-        while (parent[n] != n)
-            n = parent[n] = parent[parent[n]];
-        return n;
-    };
+    DisjointSets levels(contacts.size());
     for (std::size_t n = 0; n < contacts.size(); ++n)
         for (int axis = 0; axis < 3; ++axis)
             for (int step = -1; axis != down.axis && step <= 1; ++step) {
@@ -133,14 +127,13 @@ std::vector<std::uint32_t> joinContacts(const std::vector<Contact>& contacts, co
                 along(v, axis) += 1;
                 along(v, down.axis) += step;
                 const auto found = grid.contains(v) ? at.find(grid.offset(v)) : at.end();
-                if (found == at.end())
-                    continue;
-                const auto a = root(std::uint32_t(n)), b = root(found->second);
-                parent[std::max(a, b)] = std::min(a, b);
+                if (found != at.end())
+                    levels.join(std::uint32_t(n), found->second);
             }
-    for (std::size_t n = 0; n < parent.size(); ++n)
-        parent[n] = root(std::uint32_t(n));
-    return parent;
+    std::vector<std::uint32_t> roots(contacts.size());
+    for (std::size_t n = 0; n < roots.size(); ++n)
+        roots[n] = levels.rootOf(std::uint32_t(n));
+    return roots;
 }
 
 template <class Value>

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <queue>
 
+#include "grid/cheapest_ways.h"
+#include "grid/neighbours.h"
 #include "segment/pieces/cord_middle.h"
 #include "skeleton/smooth.h"
+#include "vicon/core/nearest_voxel.h"
 #include "vicon/steps/wall_distance.h"
 
 namespace vicon::steps {
@@ -77,34 +78,19 @@ double meanIn(const HuVolume& volume, const Grid& grid, Index3 cell)
 /// The lumen about a tip: connected, and near enough to it to lead into the collapsed part.
 void markLumen(Cord& cord, const std::vector<std::uint8_t>& lumen, Point3 tip, Cell as)
 {
-    const auto nearest = [&] {
-        std::size_t best = cord.cells.size();
-        double least = 1e300;
-        for (std::size_t n = 0; n < lumen.size(); ++n)
-            if (const double d = lumen[n] ? distance(cord.grid.pointAt(cord.grid.indexOf(n)), tip) : 1e300; d < least) {
-                least = d;
-                best = n;
-            }
-        return best;
-    }();
-    if (nearest == cord.cells.size())
+    const Grid& grid = cord.grid;
+    const auto nearest = nearestVoxel(grid, tip, kAnyDistance_mm, [&](Index3 v) { return lumen[grid.offset(v)] != 0; });
+    if (!nearest)
         return;
-    std::vector<std::size_t> queue{nearest};
-    cord.cells[nearest] = as;
-    while (!queue.empty()) {
-        const Index3 v = cord.grid.indexOf(queue.back());
-        queue.pop_back();
-        for (const Index3 w : {Index3{v.i - 1, v.j, v.k}, Index3{v.i + 1, v.j, v.k}, Index3{v.i, v.j - 1, v.k},
-                               Index3{v.i, v.j + 1, v.k}, Index3{v.i, v.j, v.k - 1}, Index3{v.i, v.j, v.k + 1}}) {
-            if (!cord.grid.contains(w) || distance(cord.grid.pointAt(w), tip) > kReach_mm)
-                continue;
-            const std::size_t n = cord.grid.offset(w);
-            if (lumen[n] && cord.cells[n] != kBefore && cord.cells[n] != kAfter) {
-                cord.cells[n] = as;
-                queue.push_back(n);
-            }
-        }
-    }
+    const auto take = [&](std::size_t n) {
+        if (!lumen[n] || cord.cells[n] == kBefore || cord.cells[n] == kAfter ||
+            distance(grid.pointAt(grid.indexOf(n)), tip) > kReach_mm)
+            return false;
+        cord.cells[n] = as;
+        return true;
+    };
+    cord.cells[grid.offset(nearest->voxel)] = as;
+    floodOverFaces(grid, {grid.offset(nearest->voxel)}, take);
 }
 
 Cord cordBetween(const HuVolume& volume, const InsideVolume& inside, Point3 from, Point3 to, Progress& progress)
@@ -148,43 +134,23 @@ std::vector<std::size_t> cheapest(const Cord& cord, Point3 from, Point3 to, Prog
                             std::clamp(v.k, 0, grid.size[2] - 1)});
     };
     const std::size_t start = cellAt(from), goal = cellAt(to);
-    std::vector<double> cost(cord.cells.size(), std::numeric_limits<double>::infinity());
-    std::vector<std::size_t> parent(cord.cells.size(), start);
-    std::priority_queue<std::pair<double, std::size_t>, std::vector<std::pair<double, std::size_t>>, std::greater<>>
-        queue;
-    cost[start] = 0;
-    queue.push({0, start});
-    while (!queue.empty()) {
-        const auto [so_far, n] = queue.top();
-        queue.pop();
-        if (n == goal)
-            break;
-        if (so_far > cost[n])
-            continue;
-        if (queue.size() % 4096 == 0)
+    CheapestWays<CheapestFirstWide> ways(cord.cells.size(), start);
+    std::size_t count = 0;
+    const auto isGoal = [&](std::uint32_t n, double) {
+        if (++count % 4096 == 0)
             progress.check();
+        return n == goal;
+    };
+    ways.run(isGoal, [&](std::uint32_t n, auto offer) {
         const Index3 v = grid.indexOf(n);
-        for (int k = -1; k <= 1; ++k)
-            for (int j = -1; j <= 1; ++j)
-                for (int i = -1; i <= 1; ++i) {
-                    const Index3 w{v.i + i, v.j + j, v.k + k};
-                    if ((!i && !j && !k) || !grid.contains(w))
-                        continue;
-                    const std::size_t m = grid.offset(w);
-                    const double step = distance(grid.pointAt(v), grid.pointAt(w));
-                    const double reached = so_far + step * 0.5 * (costOf(cord, n) + costOf(cord, m));
-                    if (reached < cost[m]) {
-                        cost[m] = reached;
-                        parent[m] = n;
-                        queue.push({reached, m});
-                    }
-                }
-    }
-    std::vector<std::size_t> chain{goal};
-    while (chain.back() != start)
-        chain.push_back(parent[chain.back()]);
-    std::reverse(chain.begin(), chain.end());
-    return chain;
+        forEachInCube(v, 1, [&](Index3 w) {
+            if (w == v || !grid.contains(w))
+                return;
+            const std::size_t m = grid.offset(w);
+            offer(m, distance(grid.pointAt(v), grid.pointAt(w)) * 0.5 * (costOf(cord, n) + costOf(cord, m)));
+        });
+    });
+    return ways.wayTo(goal);
 }
 
 /// The cells of the chain that lie between the two lumens, with one of each.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid/check_only.h"
+#include "grid/neighbours.h"
 #include "segment/fluid/rim.h"
 #include "vicon/steps/wall_distance.h"
 
@@ -60,10 +61,8 @@ void takeRim(InsideVolume& mask)
     for (int layer = 0; layer < 2; ++layer) {
         std::vector<std::size_t> taken;
         std::erase_if(rim, [&](std::size_t n) {
-            const Index3 v = mask.grid.indexOf(n);
-            const bool touches = mask.valueOr({v.i - 1, v.j, v.k}, 0) || mask.valueOr({v.i + 1, v.j, v.k}, 0) ||
-                                 mask.valueOr({v.i, v.j - 1, v.k}, 0) || mask.valueOr({v.i, v.j + 1, v.k}, 0) ||
-                                 mask.valueOr({v.i, v.j, v.k - 1}, 0) || mask.valueOr({v.i, v.j, v.k + 1}, 0);
+            bool touches = false;
+            forEachOverFaces(mask.grid, n, [&](std::size_t m) { touches = touches || mask.voxels[m] != 0; });
             if (touches)
                 taken.push_back(n);
             return touches;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "grid/lattice.h"
+#include "grid/neighbours.h"
 #include "segment/wall/trim_lumen.h"
 
 namespace vicon::steps {
@@ -108,24 +109,13 @@ private:
 
 bool besideGas(const InsideVolume& inside, Index3 v)
 {
-    for (int k = v.k - kGas_voxels; k <= v.k + kGas_voxels; ++k)
-        for (int j = v.j - kGas_voxels; j <= v.j + kGas_voxels; ++j)
-            for (int i = v.i - kGas_voxels; i <= v.i + kGas_voxels; ++i)
-                if (inside.valueOr({i, j, k}, kOutside) == kGas)
-                    return true;
-    return false;
+    return anyInCube(v, kGas_voxels, [&](Index3 n) { return inside.valueOr(n, kOutside) == kGas; });
 }
 
 /// Those that hang together with the wall over faces, edges or corners.
 std::vector<std::size_t> onTheWall(const std::vector<std::size_t>& found, const InsideVolume& inside)
 {
-    const auto around = [&](std::size_t n, auto visit) {
-        const Index3 v = inside.grid.indexOf(n);
-        for (int k = v.k - 1; k <= v.k + 1; ++k)
-            for (int j = v.j - 1; j <= v.j + 1; ++j)
-                for (int i = v.i - 1; i <= v.i + 1; ++i)
-                    visit(Index3{i, j, k});
-    };
+    const auto around = [&](std::size_t n, auto visit) { forEachInCube(inside.grid.indexOf(n), 1, visit); };
     std::vector<std::uint8_t> reached(found.size(), 0);
     std::vector<std::size_t> front, kept;
     for (std::size_t n = 0; n < found.size(); ++n) {
