@@ -6,6 +6,7 @@
 #include "grid/components.h"
 #include "grid/meniscus.h"
 #include "vicon/core/volume.h"
+#include "vicon/steps/wall_densities.h"
 
 namespace vicon::steps {
 
@@ -28,13 +29,8 @@ private:
 /// with what the densities tell around. The mask decides the sign.
 class WallField {
 public:
-    struct Levels {
-        double gas_wall_hu = -480;
-        double tissue_hu = 40;
-    };
-
     /// References must outlive the field. Throws Error{bad_input} when the grids do not fit together.
-    WallField(const HuVolume& hu, const InsideVolume& inside, Levels levels);
+    WallField(const HuVolume& hu, const InsideVolume& inside, const WallDensities& densities);
 
     /// The value of an inside voxel, in [-1, -kLeast].
     float ofInside(Index3 v) const;
@@ -70,7 +66,7 @@ private:
 
     const HuVolume& hu_;
     const InsideVolume& inside_;
-    Levels levels_;
+    WallDensities densities_;
     Index3 offset_;
     Components pools_;
     Meniscus meniscus_;

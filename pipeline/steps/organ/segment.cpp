@@ -24,7 +24,7 @@ constexpr double kLargestCut_mm2 = 30;
 
 bool isBright(const OrganOptions& options)
 {
-    return options.wall_hu < options.low_hu;
+    return options.densities.wall_hu < options.low_hu;
 }
 
 /// What lies in the body between two densities.
@@ -154,7 +154,7 @@ void growToWall(const HuVolume& volume, const OrganOptions& options, InsideVolum
     const auto hu = [&](Index3 v) {
         return sign * volume.valueOr({v.i + offset.i, v.j + offset.j, v.k + offset.k}, kPaddingHu);
     };
-    const double wall_hu = sign * options.wall_hu;
+    const double wall_hu = sign * options.densities.wall_hu;
     const int steps = std::max(1, int(kEdge_mm / mask.grid.spacing_mm[0]));
     for (int step = 0; step < steps; ++step) {
         std::vector<Index3> added;
@@ -211,7 +211,7 @@ std::string whole(double value)
 
 Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, Progress& progress)
 {
-    std::vector<Point3> seeds = parsePoints(options.seed, "organ.seed");
+    std::vector<Point3> seeds = options.seed;
     progress.report(0, "body");
     const Body body = findBody(volume, progress);
     if (body.empty())

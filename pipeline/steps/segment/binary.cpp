@@ -51,15 +51,14 @@ InsideVolume cropped(const RunLabels& gas, const Grid& grid, int chosen)
 
 Segmentation segmentBinary(const HuVolume& volume, const SegmentOptions& options, Progress& progress)
 {
-    const std::vector<Point3> seeds = parsePoints(options.seed, "segment.seed");
     progress.report(0, "body");
     const Body body = findBody(volume, progress);
     if (body.empty())
         return noColon("there is no body in the scan");
     const RunLabels gas = findGas(volume, body, options.iso_hu);
-    const int chosen = chosenComponent(gas, volume.grid, seeds);
+    const int chosen = chosenComponent(gas, volume.grid, options.seed);
     if (chosen < 0)
-        return noColon(seeds.empty() ? "nothing in the body lies below the iso value"
+        return noColon(options.seed.empty() ? "nothing in the body lies below the iso value"
                                      : "nothing at the seed point lies below the iso value");
     Segmentation result;
     result.inside = cropped(gas, volume.grid, chosen);

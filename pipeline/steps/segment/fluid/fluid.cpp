@@ -46,7 +46,7 @@ FluidResult addTaggedFluid(const HuVolume& volume, Vector3 gravity, const FluidD
                      [](const ContactPatch& a, const ContactPatch& b) { return a.density_hu < b.density_hu; });
     for (const ContactPatch& patch : patches) {
         std::vector<std::size_t> front;
-        const double half_hu = (patch.density_hu + densities.tissue_hu) / 2;
+        const double half_hu = (patch.density_hu + densities.wall.tissue_hu) / 2;
         FluidLevel level{patch.density_hu, 0, {}};
         Vector3 sum;
         for (const Contact& contact : patch.contacts) {
@@ -65,7 +65,7 @@ FluidResult addTaggedFluid(const HuVolume& volume, Vector3 gravity, const FluidD
         result.levels.push_back(level);
         progress.check();
     }
-    closeFluidLayer(volume, down, patches, densities.tissue_hu, labels);
+    closeFluidLayer(volume, down, patches, densities.wall.tissue_hu, labels);
     // Where noise cannot have made them, holes are what is left of a wall between two pools, and keep them apart.
     if (std::any_of(patches.begin(), patches.end(), [](const ContactPatch& patch) { return patch.noisy; }))
         fillFluidSpecks(labels);
@@ -91,7 +91,7 @@ void addFluidAt(const HuVolume& volume, Point3 point, const FluidDensities& dens
     if (density_hu < densities.fluid_above_hu)
         return;
     labels.at(v) = kFluid;
-    flood(volume, (density_hu + densities.tissue_hu) / 2, labels, {labels.grid.offset(v)});
+    flood(volume, (density_hu + densities.wall.tissue_hu) / 2, labels, {labels.grid.offset(v)});
 }
 
 }  // namespace vicon::steps

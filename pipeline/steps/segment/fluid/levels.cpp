@@ -68,14 +68,14 @@ std::optional<Contact> contactBelow(const HuVolume& volume, Down down, const Flu
     }
     if (!first_bright)
         return std::nullopt;
-    const double half = (densities.tissue_hu + brightest) / 2;
+    const double half = (densities.wall.tissue_hu + brightest) / 2;
     double leave_gas = 0, enter_fluid = 0, level = 0;
     const double middle = (hu[0] + brightest) / 2;
     int n = 1;
     for (; n <= count; ++n) {
         const double a = hu[std::size_t(n - 1)], b = hu[std::size_t(n)];
-        if (a <= densities.wall_hu && b > densities.wall_hu)
-            leave_gas = crossing(a, b, n, densities.wall_hu);
+        if (a <= densities.wall.wall_hu && b > densities.wall.wall_hu)
+            leave_gas = crossing(a, b, n, densities.wall.wall_hu);
         if (a <= middle && b > middle)
             level = crossing(a, b, n, middle);
         if (b >= half) {
@@ -218,7 +218,7 @@ std::vector<ContactPatch> findFluidLevels(const HuVolume& volume, Down down, con
     }
     std::erase_if(patches, [&](ContactPatch& patch) { return !isLevel(patch, volume, down); });
     for (ContactPatch& patch : patches)
-        measureDensity(patch, volume, down, densities.tissue_hu, noise_hu);
+        measureDensity(patch, volume, down, densities.wall.tissue_hu, noise_hu);
     return patches;
 }
 

@@ -33,7 +33,6 @@ constexpr double kNearEnd_mm = 160;                   // a valve lies at most so
 constexpr double kMargin_mm = 1.5;                    // of the cut beyond the neck's own radius
 constexpr double kLeastColon_ml = 50;                 // of a piece that ends in a caecum
 constexpr double kTipOff_mm = 6;                      // of a tip from lumen: it may lie in the rim of fluid
-constexpr double kSeedCatch_mm = 3;
 // A tail behind the caecum; the prone scan of the reference data (70 mm of small bowel, 8 mm wide, behind 22 mm).
 constexpr double kTailShare = 0.45, kShortestTail_mm = 30, kWideColon_mm = 15, kTailStart_mm = 15;
 constexpr std::size_t kBehindNeck = 4;  // nodes of the graph
@@ -192,7 +191,7 @@ double takeOut(InsideVolume& inside, Index3 offset, const LumenGraph& graph, con
         forEachOverFaces(inside.grid, taken[n].first, take);
     const bool wanted = std::any_of(taken.begin(), taken.end(), [&](const auto& voxel) {
         const Point3 p = inside.grid.pointAt(inside.grid.indexOf(voxel.first));
-        return std::any_of(keep.begin(), keep.end(), [&](Point3 q) { return distance(p, q) < kSeedCatch_mm; });
+        return std::any_of(keep.begin(), keep.end(), [&](Point3 q) { return distance(p, q) < kCatch_mm; });
     });
     if (taken.size() <= most && !wanted)
         return double(taken.size()) * voxel_ml;
@@ -286,7 +285,7 @@ IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, const Surroundings& aroun
             for (std::size_t n = 0; n < gates.size() && result.removed_ml == 0; ++n)
                 result.removed_ml = takeOut(labels, offset, graph, gates[n], *branch, keep, 1.3 * neck.behind_ml + 2);
             if (result.removed_ml == 0)
-                doubt = "it comes round to the colon again, or holds a seed";
+                doubt = "it comes round to the colon again, or holds an added point";
         }
         result.cut = result.removed_ml > 0;
         if (result.cut)

@@ -79,14 +79,14 @@ std::vector<std::size_t> tooFaintBeside(const std::vector<std::size_t>& taken, c
 
 }  // namespace
 
-void settleFluidWall(const HuVolume& volume, WallField::Levels levels, int pieces, InsideVolume& inside)
+void settleFluidWall(const HuVolume& volume, const WallDensities& densities, int pieces, InsideVolume& inside)
 {
     std::vector<std::size_t> taken, last;
     {
-        const WallField wall(volume, inside, levels);
+        const WallField wall(volume, inside, densities);
         for (int layer = 0; layer < kMostLayers; ++layer) {
-            const std::vector<std::size_t> faint = layer == 0 ? tooFaint(wall, levels.tissue_hu, inside)
-                                                              : tooFaintBeside(last, wall, levels.tissue_hu, inside);
+            const std::vector<std::size_t> faint = layer == 0 ? tooFaint(wall, densities.tissue_hu, inside)
+                                                              : tooFaintBeside(last, wall, densities.tissue_hu, inside);
             for (const std::size_t n : faint)
                 inside.voxels[n] = kOutside;
             taken.insert(taken.end(), faint.begin(), faint.end());

@@ -166,11 +166,11 @@ std::vector<std::size_t> foldsIn(const WallField& wall, double tissue_hu, const 
 
 }  // namespace
 
-void keepThinFolds(const HuVolume& volume, WallField::Levels levels, int pieces, InsideVolume& inside)
+void keepThinFolds(const HuVolume& volume, const WallDensities& densities, int pieces, InsideVolume& inside)
 {
-    const WallField wall(volume, inside, levels);
-    const Folds of_blur(volume, latticeOffset(inside.grid, volume.grid), levels.tissue_hu);
-    const std::vector<std::size_t> folds = onTheWall(foldsIn(wall, levels.tissue_hu, of_blur, inside), inside);
+    const WallField wall(volume, inside, densities);
+    const Folds of_blur(volume, latticeOffset(inside.grid, volume.grid), densities.tissue_hu);
+    const std::vector<std::size_t> folds = onTheWall(foldsIn(wall, densities.tissue_hu, of_blur, inside), inside);
     for (const std::size_t n : folds)
         inside.voxels[n] = kOutside;
     trimLumen(folds, pieces, inside);
