@@ -126,12 +126,11 @@ bool WallField::besideThinFold(Index3 fluid) const
 /// proportion, so that its surface too lies half-way between bottom and fluid.
 double WallField::asThickFold(Index3 v, Index3 fluid, double density) const
 {
-    constexpr int kBottom_voxels = 2;
     const double fluid_hu = pool_hu_[pools_.at(fluid)];
     if (density <= (densities_.tissue_hu + fluid_hu) / 2)
         return density;
     double bottom = density;
-    forEachInCube(v, kBottom_voxels, [&](Index3 n) { bottom = std::min(bottom, hu(n, density)); });
+    forEachInCube(v, kFoldBottom_voxels, [&](Index3 n) { bottom = std::min(bottom, hu(n, density)); });
     return density - (std::max(bottom, densities_.tissue_hu) - densities_.tissue_hu) / 2;
 }
 

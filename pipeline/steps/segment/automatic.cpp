@@ -7,6 +7,7 @@
 
 #include "grid/allocate.h"
 #include "segment/body.h"
+#include "segment/constants.h"
 #include "segment/cut.h"
 #include "segment/field_of_view.h"
 #include "segment/fluid/fluid.h"
@@ -24,14 +25,10 @@
 namespace vicon::steps {
 namespace {
 
-// Holes in thin walls between pools are smaller than this radius; passages of the colon itself are wider, and gas keeps
-// narrower ones open. Chosen on the prone scan of the reference data, where 1.5 mm leaves small bowel attached.
-constexpr double kLeak_mm = 3;
 // Half-way densities of pools that differ by no more than this lie a tenth of a voxel apart.
 constexpr double kSameFluid_hu = 60;
 constexpr int kMostCandidates = 10;  // the exact ordering takes 2^n steps
-constexpr int kMargin_voxels = 2;    // of the result around the lumen
-constexpr double kSameEnd_mm = 15;   // between ends of the lumen: nearer, they are one
+constexpr double kSameEnd_mm = 15;   // between ends of the lumen: nearer, they are one; case not recorded
 
 /// The parts that a person's cuts separate from the larger rest.
 std::set<int> separated(const RunLabels& lumen, const std::vector<std::vector<Index3>>& around_cuts)
@@ -160,7 +157,7 @@ public:
         orderThePieces();
         keepOrdered();
         refineWall();
-        followCords(volume_, result_.inside, options_.longest_sure_bridge_mm, result_.plan, progress_);
+        followCords(volume_, result_.inside, options_, result_.plan, progress_);
         judge();
         return std::move(result_);
     }
@@ -189,7 +186,7 @@ private:
     /// Pools and loops that touch through a thin wall fall apart while the rim of their fluid is set aside.
     void findPieces()
     {
-        rim_layers_ = rimLayers(labels_.grid, kLeak_mm);
+        rim_layers_ = rimLayers(labels_.grid, options_.leak_mm);
         markFluidRim(labels_, rim_layers_);
         lumen_ = labelLumen(labels_, Neighbours::faces);
         findAllCandidates();
@@ -225,10 +222,10 @@ private:
         for (std::size_t n = 0; n < candidates_.size(); ++n)
             if (std::find(added_.begin(), added_.end(), int(candidates_[n].label)) != added_.end())
                 required.push_back(int(n));
-        ordering_ = orderPieces(
-            candidates_, rectum_, required, body_, labels_,
-            [&](Point3 from, Point3 to) { return fatBetween_mm(volume_, labels_, from, to, progress_); },
-            options_.longest_sure_bridge_mm, progress_);
+        const auto fat_mm = [&](Point3 from, Point3 to) {
+            return fatBetween_mm(volume_, labels_, options_.densities, from, to, progress_);
+        };
+        ordering_ = orderPieces(candidates_, rectum_, required, body_, labels_, fat_mm, options_, progress_);
         for (const OrderedPiece& p : ordering_.pieces)
             result_.plan.pieces.push_back(pieceFor(candidates_[std::size_t(p.candidate)], p.reversed));
         result_.plan.bridges = ordering_.bridges;
@@ -261,7 +258,7 @@ private:
         result_.measures["fluid_faintest_hu"] = faintest;
         result_.measures["fluid_brightest_hu"] = brightest;
         result_.measures["candidates"] = describe(candidates_, ordering_);
-        judgeSegmentation(result_, body_, lumenCut_mm2(volume_, result_.inside));
+        judgeSegmentation(result_, options_, body_, lumenCut_mm2(volume_, result_.inside));
         describeIlea(ilea_, result_);
         for (const Point3 p : options_.add)
             if (componentsAt(lumen_, labels_.grid, {p}).empty())

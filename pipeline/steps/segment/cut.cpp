@@ -14,8 +14,8 @@
 namespace vicon::steps {
 namespace {
 
-constexpr double kReach_mm = 45;  // no colon is wider
-constexpr double kHalfGap_mm = 1.5;
+constexpr double kReach_mm = 45;        // no colon is wider
+constexpr double kHalfGap_mm = 1.5;     // half of what is cut out, so that its sides do not touch
 constexpr int kDirections = 200;        // some 10 degrees apart: an area is at most 2 % too large
 constexpr double kTowardsMiddle = 0.5;  // the wall distance grows by about 1 a mm towards the middle, by less along it
 

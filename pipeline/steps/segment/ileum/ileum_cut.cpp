@@ -10,6 +10,7 @@
 #include "grid/check_only.h"
 #include "grid/lumen_graph.h"
 #include "grid/neighbours.h"
+#include "segment/constants.h"
 #include "segment/fluid/rim.h"
 #include "segment/ileum/side_branch.h"
 #include "segment/points.h"
@@ -30,7 +31,6 @@ constexpr double kShortest_mm = 20;
 constexpr double kNarrowest_mm = 3, kWidest_mm = 12;  // radius of the ileum; an appendix is narrower
 constexpr double kPouch_mm = 12;                      // from the way to the neck to the caecum's end
 constexpr double kNearEnd_mm = 160;                   // a valve lies at most so far from there
-constexpr double kMargin_mm = 1.5;                    // of the cut beyond the neck's own radius
 constexpr double kLeastColon_ml = 50;                 // of a piece that ends in a caecum
 constexpr double kTipOff_mm = 6;                      // of a tip from lumen: it may lie in the rim of fluid
 // A tail behind the caecum; the prone scan of the reference data (70 mm of small bowel, 8 mm wide, behind 22 mm).
@@ -171,7 +171,7 @@ std::vector<Gate> passageThrough(const LumenGraph& graph, const LumenTree& tree,
 double takeOut(InsideVolume& inside, Index3 offset, const LumenGraph& graph, const Gate& gate, const Branch& branch,
                const std::vector<Point3>& keep, double most_ml)
 {
-    const double radius = 2 * gate.radius_mm + kMargin_mm;
+    const double radius = 2 * gate.radius_mm + kNeckMargin_mm;
     const double voxel_ml = inside.grid.voxelVolume_mm3() / 1000;
     const auto most = std::size_t(most_ml / voxel_ml);
     std::vector<std::pair<std::size_t, std::uint8_t>> taken;  // with the labels they had

@@ -13,6 +13,7 @@
 namespace vicon::steps {
 namespace {
 
+// Sizes from anatomy; cases not recorded.
 constexpr double kRectumRadius_mm = 5;         // a rectal tube is narrower, a rectum with gas wider
 constexpr double kSmallBowelRadius_mm = 8;     // gas-filled small bowel is rarely wider than 16 mm across
 constexpr std::size_t kLarge_voxels = 400000;  // at half resolution small pieces are cheap, large ones wide

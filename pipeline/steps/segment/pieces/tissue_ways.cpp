@@ -1,6 +1,7 @@
 #include "segment/pieces/tissue_ways.h"
 #include "grid/cheapest_ways.h"
 #include "grid/neighbours.h"
+#include "segment/constants.h"
 
 #include <tbb/parallel_for.h>
 
@@ -13,9 +14,7 @@
 namespace vicon::steps {
 namespace {
 
-constexpr double kBoneHu = 250;   // mean of a coarse voxel that holds no lumen
-constexpr double kFatHu = -30;    // below: fat around the bowel, not its wall
-constexpr double kLungHu = -400;  // below, and not lumen: lung, or gas that is no bowel
+// Per millimetre of a way. Cases not recorded; how the order comes out is held by chain_family_test.
 constexpr float kLumenCost = 0.8F, kTissueCost = 1, kFatCost = 2, kGasCost = 4;
 constexpr double kLeastCost = 0.75;  // of a way's millimetre: a start that is closed itself shortens the first step
 constexpr double kHorizon = 150;     // beyond, a way is not looked for but guessed as straight
@@ -77,7 +76,7 @@ std::vector<Point3> pulledStraight(const Volume<float>& costs, const std::vector
 
 }  // namespace
 
-Volume<float> tissueCosts(const Body& body, const InsideVolume& labels)
+Volume<float> tissueCosts(const Body& body, const InsideVolume& labels, const WallDensities& densities)
 {
     Volume<float> costs(body.inside.grid, 0);
     std::vector<std::uint8_t> lumen(costs.voxels.size(), 0);
@@ -96,10 +95,10 @@ Volume<float> tissueCosts(const Body& body, const InsideVolume& labels)
         const double hu = body.mean_hu.voxels[n];
         if (lumen[n])
             costs.voxels[n] = kLumenCost;
-        else if (!body.inside.voxels[n] || hu > kBoneHu)
+        else if (!body.inside.voxels[n] || hu > kBone_hu)
             costs.voxels[n] = 0;
         else
-            costs.voxels[n] = hu < kLungHu ? kGasCost : hu < kFatHu ? kFatCost : kTissueCost;
+            costs.voxels[n] = hu < kBody_hu ? kGasCost : hu < softFrom_hu(densities) ? kFatCost : kTissueCost;
     }
     return costs;
 }

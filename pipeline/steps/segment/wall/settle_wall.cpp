@@ -11,6 +11,8 @@
 namespace vicon::steps {
 namespace {
 
+// Reckoned from the blur of the scanner; cases not recorded.
+
 /// How deep the wall under fluid is moved inwards at most, in voxels: the faintest pool's half-way density lies at most
 /// that far out on a blurred edge.
 constexpr int kMostLayers = 2;

@@ -21,9 +21,6 @@ constexpr double kReach_mm = 4;
 constexpr double kDark = 0.3;
 /// In a pool whose contrast is less than this many times its noise, valleys are noise.
 constexpr double kLeastContrast_noises = 7;
-/// The bottom of a valley lies this near to its slopes; what is tissue this near is no thin fold.
-constexpr int kBottom_voxels = 2;
-
 /// Gas this near may be a wedge or bubble thinner than the blur, which makes valleys of its own.
 constexpr int kGas_voxels = 3;
 
@@ -38,7 +35,7 @@ public:
           offset_(offset),
           row_(volume.grid.size[0]),
           slice_(row_ * volume.grid.size[1]),
-          margin_(std::max(int(kReach_mm / volume.grid.spacing_mm[0]), kBottom_voxels + 1)),
+          margin_(std::max(int(kReach_mm / volume.grid.spacing_mm[0]), WallField::kFoldBottom_voxels + 1)),
           tissue_hu_(tissue_hu)
     {
     }
@@ -96,7 +93,7 @@ private:
         for (int k = -1; k <= 1; ++k)
             for (int j = -1; j <= 1; ++j)
                 for (int i = -1; i <= 1; ++i)
-                    bottom = std::min(bottom, smooth(at + kBottom_voxels * (i + j * row_ + k * slice_)));
+                    bottom = std::min(bottom, smooth(at + WallField::kFoldBottom_voxels * (i + j * row_ + k * slice_)));
         return std::max(bottom, tissue_hu_);
     }
 

@@ -19,8 +19,12 @@ struct SegmentOptions {
     WallDensities densities;
     double fluid_above_hu = 200;
     double smallest_piece_ml = 2;
+    double leak_mm = 3;
     double catheter_radius_mm = 3;
     double longest_sure_bridge_mm = 60;
+    double shortest_mm = 250;
+    double usual_mm = 900;
+    double least_ml = 20;
     std::vector<Point3> add;
     std::vector<Point3> cut;
     std::vector<Point3> drop;
@@ -38,10 +42,17 @@ struct SegmentOptions {
         v("segment.fluid_above_hu", fluid_above_hu, "HU", "Tagged fluid has at least this density.", {100, 1000});
         v("segment.smallest_piece_ml", smallest_piece_ml, "ml",
           "Smaller pieces of gas are not taken as pieces of the colon.", {0.1, 50});
+        // On the prone scan of the reference data 1.5 mm leaves small bowel attached.
+        v("segment.leak_mm", leak_mm, "mm",
+          "Passages between pools of fluid of a smaller radius than this are holes in a thin wall, not bowel.",
+          {0.5, 10});
         v("segment.catheter_radius_mm", catheter_radius_mm, "mm",
           "What is narrower than this below the rectum is catheter, not lumen.", {0, 8});
         v("segment.longest_sure_bridge_mm", longest_sure_bridge_mm, "mm",
           "A longer bridge over a collapsed part is reported as uncertain.", {0, 500});
+        v("segment.shortest_mm", shortest_mm, "mm", "A shorter run of gas and fluid is no colon.", {0, 1000});
+        v("segment.usual_mm", usual_mm, "mm", "A shorter colon is doubted; lower it after a resection.", {0, 2000});
+        v("segment.least_ml", least_ml, "ml", "Less gas and fluid is no colon.", {0, 500});
         v("segment.add", add, "mm", "Points (LPS) whose gas or fluid belongs to the colon.");
         v("segment.cut", cut, "mm", "Points (LPS) where the lumen is cut; the smaller part is dropped.");
         v("segment.drop", drop, "mm", "Points (LPS) whose piece does not belong to the colon.");
