@@ -1,7 +1,9 @@
 #include "step_table.h"
 
 #include <algorithm>
+#include <functional>
 #include <future>
+#include <iterator>
 
 #include "vicon/scan_files/cells_file.h"
 #include "vicon/scan_files/projections_file.h"
