@@ -6,7 +6,7 @@ namespace vicon::steps {
 
 // Densities and sizes that several files of the segmentation share. Where no case is named, none is recorded: they come
 // from anatomy and from the scanner's blur, and stood before there was a phantom to choose them on. chain_family_test
-// holds them on phantoms that nothing was chosen on (seeds 201 to 220, later 231 to 291).
+// holds them on phantoms that nothing was chosen on.
 
 /// Gas, in HU, as scanners give it.
 inline constexpr double kAir_hu = -1000;
