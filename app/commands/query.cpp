@@ -60,7 +60,8 @@ Subcommand queryCommand()
                 command.option("PEER", *peer, "Name of a peer in the configuration").required();
                 command.option("--patient", wanted->patient_id, "Patient ID; * and ? match anything");
                 command.option("--name", wanted->patient_name, "Patient's name, as 'FAMILY*'");
-                command.option("--date", wanted->dates, "YYYYMMDD, or YYYYMMDD-YYYYMMDD with an end left out");
+                command.option("--date", wanted->dates,
+                               "2024-01-10 or 20240110; or two of them with - between, an end left out or not");
                 command.option("--accession", wanted->accession_number, "Accession number");
                 command.option("--study", wanted->study_uid, "Study Instance UID");
                 command.option("--modality", wanted->modality, "That some series has; empty: any").captureDefault();
