@@ -213,7 +213,7 @@ void StudyImport::chooseRoles()
     std::vector<Assembled*> owners;
     for (Assembled& scan : scans_) {
         const std::size_t slices = scan.stack.slices.size();
-        scan.record.role = scan.plan.refused.empty() ? "kept" : "refused";
+        scan.record.role = scan.plan.refused.empty() ? ScanRole::kept : ScanRole::refused;
         if (scan.plan.refused.empty() && slices < std::size_t(options_.min_slices))
             scan.record.ingest["kept_because"] = std::to_string(slices) + (slices == 1 ? " slice" : " slices") +
                                                  ", fewer than the " + std::to_string(options_.min_slices) +
@@ -226,7 +226,7 @@ void StudyImport::chooseRoles()
     const std::vector<std::size_t> chosen = chooseScans(usable);
     for (std::size_t n = 0; n < chosen.size(); ++n) {
         if (chosen[n] == n) {
-            owners[n]->record.role = "scan";
+            owners[n]->record.role = ScanRole::scan;
             continue;
         }
         const Series& other = owners[chosen[n]]->stack.slices.front().object->series;
@@ -292,7 +292,7 @@ void StudyImport::store(Assembled& scan)
     if (!copies.empty())
         copyDurably(folder, copies, progress_);
     if (grew || new_words)
-        store_.addScan(case_, scan.record, instances, scan.record.role == "scan" && (grew || new_role));
+        store_.addScan(case_, scan.record, instances, scan.record.role == ScanRole::scan && (grew || new_role));
     else if (const fs::path file = folder.parent_path() / "scan.json";
              !fs::exists(file) || readFile(file) != store_.describeScan(case_.id, scan.record.id).dump(2) + "\n")
         store_.writeScanFile(case_.id, scan.record.id);  // killed between the commit and the copy
@@ -307,8 +307,8 @@ void StudyImport::tell(const Assembled& scan, bool changed)
 {
     using Kind = ImportLine::Kind;
     const ScanRecord& record = scan.record;
-    const bool refused = record.role == "refused";
-    Kind kind = record.role == "scan" ? Kind::stored : refused ? Kind::refused : Kind::kept;
+    const bool refused = record.role == ScanRole::refused;
+    Kind kind = record.role == ScanRole::scan ? Kind::stored : refused ? Kind::refused : Kind::kept;
     if (refused)
         report_.refused += int(scan.objects.size());
     else if (!changed)
