@@ -54,8 +54,8 @@ void sumUp(WorklistCase& a_case)
         a_case.reason = found->reason;
         break;
     }
-    if (a_case.reason.empty() && !a_case.record.flags.empty())
-        a_case.reason = a_case.record.flags.front();
+    for (const std::string& flag : a_case.record.flags)  // a person must decide, whatever else there is to say
+        a_case.reason += (a_case.reason.empty() ? "" : "; ") + flag;
     int jobs = 0;
     for (const WorklistScan& scan : a_case.scans)
         if (scan.state != WorkState::kept) {
