@@ -51,7 +51,7 @@ Corrections readCorrections(const fs::path& scan_folder)
         return correctionsFromJson(json::parse(readFile(file)));
     } catch (const json::exception&) {
         throw Error(ErrorCode::bad_input, "these corrections cannot be understood", file.string(),
-                    "take them back with 'vicon work --case CASE --undo-corrections'");
+                    "take them back with 'vicon work --case CASE --forget-corrections'");
     }
 }
 
