@@ -62,7 +62,8 @@ ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
     grid->addWidget(stop_, 2, kButtons - 1);
     connect(table_, &QTableWidget::itemSelectionChanged, this, &ColonPanel::updateButtons);
     for (const auto chosen : {&QTableWidget::cellClicked, &QTableWidget::cellActivated})
-        connect(table_, chosen, this, [this](int row, int) { emit flyWanted(bridges_[std::size_t(row)].from_mm); });
+        connect(table_, chosen, this,
+                [this](int row, int) { emit flyWanted(bridges_[std::size_t(row)].bridge.from_mm); });
     for (QPushButton* verdict : {confirm_, reject_})
         connect(verdict, &QPushButton::clicked, this, [this, verdict] {
             if (const auto bridge = selected())
