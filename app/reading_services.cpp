@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <vector>
 
 #include "correcting.h"
 #include "marking.h"
@@ -88,11 +89,18 @@ void runQueue(CaseStore& store, const Config& config, const std::atomic<bool>& s
 {
     auto options = config.get<pipeline::WorkOptions>();
     options.until_idle = true;
-    pipeline::WorkSummary summary;
+    std::vector<Job> done;
+    pipeline::WorkerEvents events;
+    events.ended = [&](const Job& job, JobState state, const std::string&) {
+        if (state == JobState::done)
+            done.push_back(job);
+    };
     do {
-        requeueOutdated(store, config);
-        summary = pipeline::runWorker(store, config.get<QueueOptions>(), options, scanWork(store, config), {}, stop);
-    } while (!stop && summary.done > 0);
+        done.clear();
+        pipeline::runWorker(store, config.get<QueueOptions>(), options, scanWork(store, config), events, stop);
+        for (const Job& job : done)
+            requeueOutdated(store, config, job.case_id, job.scan_id);
+    } while (!stop && !done.empty());
 }
 
 void addCorrections(viewer::ReadingServices& services, const Config& config)
@@ -104,7 +112,7 @@ void addCorrections(viewer::ReadingServices& services, const Config& config)
     services.correct = [&config](CaseStore& store, const ScanRecord& scan, const viewer::ScanCorrections& all) {
         constexpr bool kForget = true;  // what was said before: it is among them, or was taken back
         correctScan(store, config, scan, {all.add, all.cut, all.drop}, kForget);
-        requeueOutdated(store, config);
+        requeueOutdated(store, config, scan.case_id, scan.id);
     };
     services.bridges = bridgesOf;
     services.review_bridge = [](CaseStore& store, const ScanRecord& scan, const viewer::BridgeRow& bridge) {
@@ -122,7 +130,7 @@ void retry(CaseStore& store, const Config& config, const std::string& case_id)
             queue.retry(case_id, scan.record.id);
         else if (scan.spoiled())
             correctScan(store, config, scan.record, {}, true);
-    requeueOutdated(store, config);
+    requeueOutdated(store, config, case_id);
 }
 
 std::string receiverOf(const Config& config)
