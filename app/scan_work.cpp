@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "marking.h"
+#include "vicon/cases/placing.h"
 #include "vicon/ingest/load_scan.h"
 
 namespace vicon::app {
