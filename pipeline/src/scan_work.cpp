@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "memory_room.h"
-#include "scan_artefacts.h"
+#include "scan_results.h"
 #include "step_runner.h"
 #include "step_table.h"
 #include "vicon/cases/corrections.h"
 #include "vicon/cases/organs.h"
+#include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/pipeline/corrections.h"
@@ -68,7 +69,7 @@ bool isCurrent(const StepRecord& record, const std::string& digest, const fs::pa
 
 bool endsHere(const StepRecord& record)
 {
-    return record.result.is_object() && record.result.value("verdict", "").starts_with("no ");
+    return record.step == "segment" && segmentFoundFromJson(record.result).verdict == Verdict::absent;
 }
 
 /// Voxels of the scan once it is isotropic; 0 when import did not say how large it is.
@@ -112,7 +113,7 @@ public:
           scan_(store.requireScan(context.job().case_id, context.job().scan_id)),
           folder_(store.scanFolder(scan_.case_id, scan_.id)),
           inputs_{configFor(config, folder_), loader, gravityFor(scan_.series.patient_position), folder_ / "dicom"},
-          artefacts_(folder_),
+          results_(folder_),
           loader_parameters_(loader_parameters),
           instances_(store.instances(scan_.case_id, scan_.id)),
           records_(recordsOf(store, scan_))
@@ -129,7 +130,7 @@ public:
                     .made = [this](const Step& step, json result) { records_[step.name].result = std::move(result); },
                     .ends = [this](const Step& step) { return endsHere(records_[step.name]); },
                     .written = [this](const Step& step, double seconds) { record(step, seconds); }},
-                   inputs_, artefacts_, records_, context_, inputs_.config.get<StepOptions>().at_once)
+                   inputs_, results_, records_, context_, inputs_.config.get<StepOptions>().at_once)
             .run();
         for (const Step& step : stepTable())
             if (endsHere(records_[step.name]))
@@ -182,7 +183,7 @@ private:
     ScanRecord scan_;
     fs::path folder_;
     StepInputs inputs_;
-    ScanArtefacts artefacts_;
+    ScanResults results_;
     const json& loader_parameters_;
     std::vector<InstanceRecord> instances_;
     StepRecords records_;

@@ -198,7 +198,7 @@ LumenPiece endsOf(const InsideVolume& mask, const OrganOptions& options, Point3 
 Segmentation none(const OrganOptions& options, const std::string& reason)
 {
     Segmentation result = noColon(reason);
-    result.verdict = "no " + options.title;
+    result.verdict = Verdict::absent;
     return result;
 }
 
@@ -245,10 +245,10 @@ Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, P
         std::replace(result.inside.voxels.begin(), result.inside.voxels.end(), std::uint8_t(kGas),
                      std::uint8_t(kFluid));
     result.confidence = 1;
-    result.verdict = options.title;
+    result.verdict = Verdict::found;
     if (ml > options.largest_ml) {
         result.confidence = 0.3;
-        result.verdict = "unsure";
+        result.verdict = Verdict::unsure;
         note(result, "what was found holds " + whole(ml) + " ml: a leak");
     }
     note(result, whole(ml) + " ml, up to " + whole(piece.length_mm) + " mm from the root");

@@ -37,7 +37,7 @@ void note(Segmentation& result, const std::string& what)
 Segmentation noColon(const std::string& reason)
 {
     Segmentation result;
-    result.verdict = "no colon";
+    result.verdict = Verdict::absent;
     result.confidence = 0.9;
     result.reason = reason;
     return result;
@@ -81,7 +81,7 @@ void judgeSegmentation(Segmentation& result, const SegmentOptions& options, cons
         doubt(result, 0.45, "the lumen goes on beyond the end of the scan, over " + round(lumen_cut_mm2) + " mm2");
     if (result.confidence < 0.5 && bodyIsCut(body))
         note(result, "the field of view cuts the body");
-    result.verdict = result.confidence >= 0.5 ? "colon" : "unsure";
+    result.verdict = result.confidence >= 0.5 ? Verdict::found : Verdict::unsure;
     if (result.reason.empty())
         // Without a length: these are ways through voxels, longer than the skeleton's, which readers are shown.
         result.reason = "one run of gas and fluid from the rectum to the patient's right";

@@ -20,12 +20,12 @@
 
 namespace vicon::pipeline {
 
-/// The artefacts of a scan as the steps hand them on: kept in memory when they were just made, read when they were made
+/// The results of a scan as the steps hand them on: kept in memory when they were just made, read when they were made
 /// by an earlier run. Steps that run at the same time share it. Volumes are written in the background, so that the
 /// next step need not wait for the disk; finish() does.
-class ScanArtefacts {
+class ScanResults {
 public:
-    explicit ScanArtefacts(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    explicit ScanResults(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
     const std::filesystem::path& folder() const { return folder_; }
 
