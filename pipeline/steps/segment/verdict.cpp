@@ -34,7 +34,7 @@ void note(Segmentation& result, const std::string& what)
     result.reason += (result.reason.empty() ? "" : "; ") + what;
 }
 
-Segmentation noColon(const std::string& reason)
+Segmentation organAbsent(const std::string& reason)
 {
     Segmentation result;
     result.verdict = Verdict::absent;
@@ -56,8 +56,9 @@ void judgeSegmentation(Segmentation& result, const SegmentOptions& options, cons
     const Point3 start = result.plan.pieces.front().rectal_end_mm, end = result.plan.pieces.back().caecal_end_mm;
     const double height = (start.z - body.lower_mm.z) / std::max(1.0, body.upper_mm.z - body.lower_mm.z);
     if (length < options.shortest_mm || volume < options.least_ml || widest < kNarrowest_mm) {
-        result = noColon("the longest run of gas in the body is " + round(length) + " mm long, holds " + round(volume) +
-                         " ml and is at most " + round(2 * widest) + " mm wide: too little for a colon");
+        result =
+            organAbsent("the longest run of gas in the body is " + round(length) + " mm long, holds " + round(volume) +
+                        " ml and is at most " + round(2 * widest) + " mm wide: too little for a colon");
         if (lumen_cut_mm2 > kLargestCut_mm2) {
             result.confidence = kStumpConfidence;
             note(result, "but it goes on beyond the end of the scan, over " + round(lumen_cut_mm2) +
