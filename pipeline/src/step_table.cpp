@@ -130,8 +130,8 @@ json runTree(const steps::LumenPlan& plan, const StepInputs& inputs, ScanResults
                                {{"branches", found.tree.branches.size()},
                                 {"tips", tips.size()},
                                 {"total_length_mm", found.tree.totalLength_mm()}}};
-    scan_files::writeSkeletonVoxels(results.folder() / "skeleton_voxels.vtp", found.voxels);
-    scan_files::writeSkeletonTree(results.folder() / "skeleton.vtp", found.tree);
+    scan_files::writeSkeletonVoxels(results.target("skeleton_voxels.vtp"), found.voxels);
+    scan_files::writeSkeletonTree(results.target("skeleton.vtp"), found.tree);
     return toJson(result);
 }
 
@@ -153,7 +153,7 @@ json runSkeleton(const StepInputs& inputs, ScanResults& results, const StepRecor
     steps::SkeletonResult found =
         steps::findSkeleton(results.inside(), plan, inputs.config.get<steps::SkeletonOptions>(), progress, hooks);
     const SkeletonFound result{found.curve.length_mm(), found.measures};
-    scan_files::writeSkeletonVoxels(results.folder() / "skeleton_voxels.vtp", found.voxels);
+    scan_files::writeSkeletonVoxels(results.target("skeleton_voxels.vtp"), found.voxels);
     results.put(std::move(found.curve));
     return toJson(result);
 }
@@ -178,20 +178,19 @@ json runSubdivide(const StepInputs& inputs, ScanResults& results, const StepReco
     const InsideVolume& inside = results.inside();
     const auto contour = results.surface(inputs.config.get<steps::WallDensities>());
     auto options = inputs.config.get<steps::SubdivideOptions>();
-    const SkeletonTree tree = scan_files::readSkeletonTree(results.folder() / "skeleton.vtp");
+    const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));
     if (!tree.empty())
         options.method = "flood";  // planes across one path do not part branches
-    steps::Subdivided divided = steps::subdivide(
-        inside, tree.empty() ? results.skeleton() : tree.allBranches(),
-        scan_files::readSkeletonVoxels(results.folder() / "skeleton_voxels.vtp"), options, divide, results.takeFlood());
+    steps::Subdivided divided = steps::subdivide(inside, tree.empty() ? results.skeleton() : tree.allBranches(),
+                                                 scan_files::readSkeletonVoxels(results.source("skeleton_voxels.vtp")),
+                                                 options, divide, results.takeFlood());
     results.put(std::move(divided.segments));
     const CellSurface surface = contour.get().cellsOf(results.segments(), tell);
     steps::countTriangles(surface, divided.description);
-    auto cells =
-        std::async(std::launch::async, [&] { scan_files::writeCells(results.folder() / "cells.vtp", surface); });
-    scan_files::writeProjections(results.folder() / "projections",
+    auto cells = std::async(std::launch::async, [&] { scan_files::writeCells(results.target("cells.vtp"), surface); });
+    scan_files::writeProjections(results.target("projections"),
                                  steps::project(surface, inputs.config.get<steps::ProjectionOptions>(), project));
-    scan_files::writeSubdivision(results.folder() / "subdivision.json", divided.description);
+    scan_files::writeSubdivision(results.target("subdivision.json"), divided.description);
     cells.get();
     return toJson(SubdivideFound{divided.description.method, surface.triangleCount(), divided.description.statistics});
 }
@@ -207,7 +206,7 @@ json runPotential(const StepInputs& inputs, ScanResults& results, const StepReco
     FieldVolume from_wall_mm = steps::wallDistance(results.inside(), surface.get().nearWall(), wall);
     found.largest_wall_distance_mm = largest(from_wall_mm);
     results.write("wall_distance.mha", std::move(from_wall_mm));
-    const SkeletonTree tree = scan_files::readSkeletonTree(results.folder() / "skeleton.vtp");
+    const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));
     FieldVolume from_exit_mm = tree.empty() ? steps::exitDistance(results.inside(), results.skeleton(), exit)
                                             : steps::exitDistance(results.inside(), tree, exit);
     found.largest_exit_distance_mm = largest(from_exit_mm);
