@@ -14,8 +14,9 @@ namespace vicon::pipeline {
 namespace {
 
 constexpr double kMega = 1e6;
-// Least resident set of the steps, docs/performance.md: 4.6 bytes a voxel where the colon is small, 8 where it is
-// large, and what libraries and tables take in a scan of no size. The least counts: who has it is not refused.
+// Least resident set of the steps, docs/evaluation/time-and-memory.md: 4.6 bytes a voxel where the colon is small, 8
+// where it is large, and what libraries and tables take in a scan of no size. The least counts: who has it is not
+// refused.
 constexpr double kResident_bytes = 60 * kMega, kResidentPerVoxel_bytes = 4.6;
 // Address space is also taken by what is never touched: stacks and arenas of threads. Measured on the 160 x 160 x 134
 // phantom: the work ends in a plain error from 200 MB of free addresses on, and succeeds from 400 MB on.

@@ -1,5 +1,6 @@
 // From the DICOM files of a synthetic scan to the last artefact, `vicon import` and `vicon work`, against the chain of
-// stock filters: in turn, several times, each in processes of its own. Prints a table for docs/performance.md.
+// stock filters: in turn, several times, each in processes of its own. Prints a table for
+// docs/evaluation/time-and-memory.md.
 //
 // vicon_chain_bench VICON [--size COLUMNSxROWSxSLICES]... [--repeats N] [--folder DIR]
 #include <algorithm>

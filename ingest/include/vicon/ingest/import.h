@@ -10,7 +10,7 @@
 
 namespace vicon::ingest {
 
-/// What import accepts, and how far it repairs. docs/import-rules.md explains each.
+/// What import accepts, and how far it repairs. docs/admin/import-rules.md explains each.
 struct ImportOptions {
     /// Ten slices are what the design calls the least a scan can have.
     int min_slices = 10;

@@ -11,7 +11,7 @@
 
 namespace vicon::phantom {
 
-/// A chest with an airway tree, or a trunk with an aorta; see docs/organs.md. The same options give the same study.
+/// A chest with an airway tree, or a trunk with an aorta; see docs/dev/organs.md. The same options give the same study.
 struct OrganPhantomOptions {
     std::string organ = "airway";  ///< "airway" or "aorta"
     std::uint64_t seed = 1;

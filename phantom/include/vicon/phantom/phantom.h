@@ -137,7 +137,7 @@ std::vector<std::string> positionsOf(const PhantomOptions& options);
 /// "supine", "prone", "decubitus-left" or "decubitus-right".
 std::string nameOfPosition(const std::string& patient_position);
 
-/// The truth as JSON, keys with units; see docs/phantom.md.
+/// The truth as JSON, keys with units; see docs/dev/phantom.md.
 nlohmann::json describeTruth(const PhantomTruth& truth);
 
 /// Writes a study into the folder `out`, which is made and must be empty: one folder of DICOM files per series, and

@@ -11,7 +11,7 @@
 namespace vicon::steps {
 
 /// What a hollow organ looks like that is no colon: a tube or a tree of tubes around a tube that runs from head to
-/// feet. The presets of config/organs set them; docs/organs.md tells how to add one.
+/// feet. The presets of config/organs set them; docs/dev/organs.md tells how to add one.
 struct OrganOptions {
     std::string name = "colon";
     std::string title = "colon";

@@ -56,7 +56,7 @@ struct ScanQuality {
 ScanQuality measureQuality(const InsideVolume& inside, const Skeleton& skeleton, const ColonPartRanges& parts,
                            double noise_hu, const QualityOptions& options, Progress& progress);
 
-/// As scan.json has it under "quality"; see docs/quality.md.
+/// As scan.json has it under "quality"; see docs/dev/steps.md.
 nlohmann::json toJson(const ScanQuality& quality, const QualityOptions& options);
 
 }  // namespace vicon::steps

@@ -1,0 +1,266 @@
+#include <algorithm>
+#include <cmath>
+
+#include "grid/lumen_graph.h"
+#include "organ/tube_seed.h"
+#include "segment/body.h"
+#include "segment/field_of_view.h"
+#include "segment/points.h"
+#include "segment/verdict.h"
+#include "vicon/steps/organ.h"
+#include "vicon/steps/wall_distance.h"
+
+namespace vicon::steps {
+namespace {
+
+constexpr int kMargin_voxels = 3;
+constexpr double kRaise_hu = 10;     // a step of the explosion control
+constexpr double kBack_hu = 20;      // below the limit at which it leaked: the leak begins earlier, in small
+constexpr double kLeastJump_ml = 3;  // a tube that is only just begun grows by large shares
+constexpr double kEdge_mm = 2.1;     // of the blurred wall, as for the colon
+constexpr double kRising_hu = 40;    // the density still changes towards the wall, by more than noise
+constexpr double kLargestCut_mm2 = 30;
+
+bool isBright(const OrganOptions& options)
+{
+    return options.wall_hu < options.low_hu;
+}
+
+/// What lies in the body between two densities.
+RunLabels label(const HuVolume& volume, const Body& body, double low_hu, double high_hu)
+{
+    const auto scan = [&](int j, int k, std::vector<VoxelRun>& runs) {
+        const std::int16_t* hu = &volume.voxels[volume.grid.offset({0, j, k})];
+        const std::size_t first = runs.size();
+        for (int i = 0; i < volume.grid.size[0]; ++i) {
+            if (hu[i] < low_hu || hu[i] > high_hu || hu[i] == kPaddingHu || !body.holds(j, k, i / body.factor))
+                continue;
+            if (runs.size() == first || runs.back().end != i)
+                runs.push_back({i, i, 0, 0});
+            ++runs.back().end;
+        }
+    };
+    return labelRuns(volume.grid.size, scan, Neighbours::faces);
+}
+
+/// The largest component that holds one of the points; -1 when none does.
+int largestAt(const RunLabels& labels, const Grid& grid, const std::vector<Point3>& points)
+{
+    int best = -1;
+    for (const int n : componentsAt(labels, grid, points))
+        if (best < 0 || labels.components[std::size_t(n)].voxels > labels.components[std::size_t(best)].voxels)
+            best = n;
+    return best;
+}
+
+/// One component, cropped.
+InsideVolume maskOf(const RunLabels& labels, const Grid& whole, int chosen, int margin)
+{
+    const RunComponent& c = labels.components[std::size_t(chosen)];
+    const std::array<int, 3> low{c.lower.i, c.lower.j, c.lower.k}, high{c.upper.i, c.upper.j, c.upper.k};
+    std::array<int, 3> from{};
+    Grid grid = whole;
+    for (std::size_t a = 0; a < 3; ++a) {
+        from[a] = std::max(0, low[a] - margin);
+        grid.size[a] = std::min(whole.size[a], high[a] + margin + 1) - from[a];
+    }
+    grid.origin_mm = whole.pointAt(Index3{from[0], from[1], from[2]});
+    InsideVolume mask(grid);
+    labels.forEachRun([&](const VoxelRun& run, int j, int k) {
+        if (int(run.label) == chosen)
+            std::fill_n(&mask.at({run.begin - from[0], j - from[1], k - from[2]}), run.end - run.begin,
+                        std::uint8_t(kGas));
+    });
+    return mask;
+}
+
+/// The seed's component, grown as far as it does not leak.
+struct Growth {
+    RunLabels labels;
+    int chosen = -1;
+    double limit_hu = 0, leaked_at_hu = 0;
+};
+
+Growth grow(const HuVolume& volume, const Body& body, const OrganOptions& options, const std::vector<Point3>& seeds,
+            Progress& progress)
+{
+    const double voxel_ml = volume.grid.voxelVolume_mm3() / 1000;
+    const auto at = [&](double limit_hu) {
+        Growth growth{label(volume, body, options.low_hu, limit_hu), -1, limit_hu, 0};
+        growth.chosen = largestAt(growth.labels, volume.grid, seeds);
+        return growth;
+    };
+    const auto ml = [&](const Growth& g) {
+        return g.chosen < 0 ? 0 : double(g.labels.components[std::size_t(g.chosen)].voxels) * voxel_ml;
+    };
+    Growth best = at(options.high_hu);
+    if (options.explosion <= 0)
+        return best;
+    double last_ml = ml(best), leaked_at_hu = 0;
+    for (double limit_hu = options.high_hu + kRaise_hu; limit_hu <= options.growth_hu; limit_hu += kRaise_hu) {
+        progress.check();
+        Growth next = at(limit_hu);
+        const double now_ml = ml(next);
+        if (now_ml > options.largest_ml || now_ml > last_ml * (1 + options.explosion) + kLeastJump_ml) {
+            leaked_at_hu = limit_hu;
+            break;
+        }
+        last_ml = now_ml;
+        best = std::move(next);
+    }
+    if (leaked_at_hu != 0 && best.limit_hu - kBack_hu >= options.high_hu)
+        best = at(best.limit_hu - kBack_hu);
+    best.leaked_at_hu = leaked_at_hu;
+    return best;
+}
+
+/// Cuts passages narrower than a radius: what a ball of that radius reaches from the seeds stays, and no more.
+void openNecks(InsideVolume& mask, double radius_mm, const std::vector<Point3>& seeds, Progress& progress)
+{
+    const double voxel_mm = mask.grid.spacing_mm[0];
+    const FieldVolume wall_mm = wallDistance(mask, progress);
+    const auto scan = [&](int j, int k, std::vector<VoxelRun>& runs) {
+        const float* row = &wall_mm.voxels[mask.grid.offset({0, j, k})];
+        const std::size_t first = runs.size();
+        for (int i = 0; i < mask.grid.size[0]; ++i) {
+            if (row[i] < radius_mm)
+                continue;
+            if (runs.size() == first || runs.back().end != i)
+                runs.push_back({i, i, 0, 0});
+            ++runs.back().end;
+        }
+    };
+    const RunLabels wide = labelRuns(mask.grid.size, scan, Neighbours::faces);
+    const int chosen = largestAt(wide, mask.grid, seeds);
+    InsideVolume beside(mask.grid, kGas);
+    wide.forEachRun([&](const VoxelRun& run, int j, int k) {
+        if (int(run.label) == chosen)
+            std::fill_n(&beside.at({run.begin, j, k}), run.end - run.begin, std::uint8_t(kOutside));
+    });
+    const FieldVolume away_mm = wallDistance(beside, progress);
+    // Beyond the grid counts as outside for that distance: only what the mask holds is asked.
+    for (std::size_t n = 0; n < mask.voxels.size(); ++n)
+        if (mask.voxels[n] && beside.voxels[n] && away_mm.voxels[n] > radius_mm + voxel_mm)
+            mask.voxels[n] = kOutside;
+}
+
+/// Over the blurred edge to the half-way density, as long as the density still changes towards the wall: where a thin
+/// wall never reaches that density, the lumen ends at the wall's middle.
+void growToWall(const HuVolume& volume, const OrganOptions& options, InsideVolume& mask)
+{
+    const double sign = isBright(options) ? -1 : 1;
+    const Index3 offset = volume.grid.indexAt(mask.grid.origin_mm);
+    const auto hu = [&](Index3 v) {
+        return sign * volume.valueOr({v.i + offset.i, v.j + offset.j, v.k + offset.k}, kPaddingHu);
+    };
+    const double wall_hu = sign * options.wall_hu;
+    const int steps = std::max(1, int(kEdge_mm / mask.grid.spacing_mm[0]));
+    for (int step = 0; step < steps; ++step) {
+        std::vector<Index3> added;
+        for (std::size_t n = 0; n < mask.voxels.size(); ++n) {
+            if (!mask.voxels[n])
+                continue;
+            const Index3 v = mask.grid.indexOf(n);
+            for (const auto& [i, j, k] :
+                 {std::array{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}) {
+                const Index3 to{v.i + i, v.j + j, v.k + k}, beyond{v.i + 2 * i, v.j + 2 * j, v.k + 2 * k};
+                if (mask.valueOr(to, kGas) == kOutside && hu(to) < wall_hu && hu(beyond) > hu(to) + kRising_hu)
+                    added.push_back(to);
+            }
+        }
+        for (const Index3 v : added)
+            mask.at(v) = kGas;
+    }
+}
+
+/// The ends of the organ's longest way: the root, and what lies farthest from it.
+LumenPiece endsOf(const InsideVolume& mask, const OrganOptions& options, Point3 head_mm, Progress& progress)
+{
+    const LumenGraph graph = makeWholeGraph(wallDistance(mask, progress), 2, progress);
+    const auto farthestFrom = [&](std::int32_t node) { return farthestNode(centralTree(graph, node, {}, progress)); };
+    std::int32_t root = graph.nearest(head_mm);
+    if (options.root == "far_from_feet") {
+        std::int32_t lowest = 0;
+        const LumenTree from_seed = centralTree(graph, root, {}, progress);
+        for (std::int32_t n = 0; n < std::int32_t(graph.count()); ++n)
+            if (from_seed.reaches(n) && (!from_seed.reaches(lowest) || graph.point(n).z < graph.point(lowest).z))
+                lowest = n;
+        root = farthestFrom(lowest);
+    }
+    const LumenTree tree = centralTree(graph, root, {}, progress);
+    const std::int32_t tip = farthestNode(tree);
+    LumenPiece piece{.rectal_end_mm = graph.point(root), .caecal_end_mm = graph.point(tip)};
+    piece.length_mm = double(tree.length_mm[std::size_t(tip)]);
+    piece.max_radius_mm = double(graph.node(widestNode(graph)).wall_mm);
+    return piece;
+}
+
+Segmentation none(const OrganOptions& options, const std::string& reason)
+{
+    Segmentation result = noColon(reason);
+    result.verdict = "no " + options.title;
+    return result;
+}
+
+std::string whole(double value)
+{
+    return std::to_string(std::lround(value));
+}
+
+}  // namespace
+
+Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, Progress& progress)
+{
+    std::vector<Point3> seeds = parsePoints(options.seed, "organ.seed");
+    progress.report(0, "body");
+    const Body body = findBody(volume, progress);
+    if (body.empty())
+        return none(options, "there is no body in the scan");
+    if (seeds.empty()) {
+        progress.report(0.2, "seed");
+        seeds = findSeedTube(volume, body, options, progress).middle_mm;
+        if (seeds.empty())
+            return none(options, "there is no round tube of " + whole(options.seed_from_radius_mm) + " to " +
+                                     whole(options.seed_to_radius_mm) + " mm radius and " +
+                                     whole(options.seed_length_mm) + " mm length near the body's midline");
+    }
+    progress.report(0.4, "lumen");
+    const Growth growth = grow(volume, body, options, seeds, progress);
+    if (growth.chosen < 0)
+        return none(options, "the density at the seed is not that of the organ's inside");
+    Segmentation result;
+    result.inside = maskOf(growth.labels, volume.grid, growth.chosen, kMargin_voxels);
+    if (options.neck_mm > 0)
+        openNecks(result.inside, options.neck_mm, seeds, progress);
+    growToWall(volume, options, result.inside);
+    progress.report(0.8, "ends");
+    const double ml = double(std::count(result.inside.voxels.begin(), result.inside.voxels.end(), kGas)) *
+                      result.inside.grid.voxelVolume_mm3() / 1000;
+    if (ml < options.smallest_ml)
+        return none(options, "what was found holds " + std::to_string(ml).substr(0, 4) + " ml: too little");
+    LumenPiece piece = endsOf(result.inside, options, seeds.front(), progress);
+    piece.volume_ml = ml;
+    result.plan.pieces = {piece};
+    if (isBright(options))  // the surface then lies half-way between tissue and the contrast's own density
+        std::replace(result.inside.voxels.begin(), result.inside.voxels.end(), std::uint8_t(kGas),
+                     std::uint8_t(kFluid));
+    result.confidence = 1;
+    result.verdict = options.title;
+    if (ml > options.largest_ml) {
+        result.confidence = 0.3;
+        result.verdict = "unsure";
+        note(result, "what was found holds " + whole(ml) + " ml: a leak");
+    }
+    note(result, whole(ml) + " ml, up to " + whole(piece.length_mm) + " mm from the root");
+    if (const double cut_mm2 = lumenCut_mm2(volume, result.inside); cut_mm2 > kLargestCut_mm2)
+        note(result, "the lumen goes on beyond the end of the scan, over " + whole(cut_mm2) + " mm2");
+    result.measures["organ"] = options.name;
+    result.measures["limit_hu"] = growth.limit_hu;
+    if (growth.leaked_at_hu != 0)
+        result.measures["leaked_at_hu"] = growth.leaked_at_hu;
+    result.measures["volume_ml"] = ml;
+    progress.report(1, "segmented");
+    return result;
+}
+
+}  // namespace vicon::steps

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/lumen_graph.h"
+#include "grid/run_labels.h"
+#include "segment/body.h"
+#include "vicon/core/progress.h"
+#include "vicon/core/volume.h"
+
+namespace vicon::steps {
+
+/// A connected part of gas and fluid that may be a piece of the colon.
+struct Candidate {
+    std::uint32_t label = 0;  ///< its component
+    double volume_ml = 0;
+    double fluid_ml = 0;
+    double max_radius_mm = 0;
+    double length_mm = 0;              ///< between its tips, along the middle
+    Point3 tip_mm[2];                  ///< its two ends; of the piece with the rectum the first is the rectal one
+    double tip_radius_mm[2] = {0, 0};  ///< widest radius within 40 mm of each tip
+    Point3 lower_mm;                   ///< bounding box
+    Point3 upper_mm;
+    double colon_likeness = 1;  ///< 0 to 1, from shape and place
+    std::string kind = "colon";
+    /// Of the component with the rim of fluid that belongs to it, at half resolution.
+    LumenGraph graph;
+};
+
+/// Measures the components that are large enough to matter, largest first, at most `most` of them; those in `always`
+/// come before all others, whatever their size.
+std::vector<Candidate> findCandidates(const InsideVolume& labels, const RunLabels& lumen, const Body& body,
+                                      double smallest_ml, int most, const std::vector<int>& always, Progress& progress);
+
+/// The candidate that holds the rectum: low, near the midline, and wide; -1 when there is none. Its first tip becomes
+/// the rectal end, above what is narrower than a rectal catheter; the second tip the farthest point from there.
+int findRectum(std::vector<Candidate>& candidates, const Body& body, double catheter_radius_mm, Progress& progress);
+
+}  // namespace vicon::steps

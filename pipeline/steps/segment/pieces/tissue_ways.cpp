@@ -1,0 +1,175 @@
+#include "segment/pieces/tissue_ways.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "grid/cheapest_first.h"
+
+namespace vicon::steps {
+namespace {
+
+constexpr double kBoneHu = 250;   // mean of a coarse voxel that holds no lumen
+constexpr double kFatHu = -30;    // below: fat around the bowel, not its wall
+constexpr double kLungHu = -400;  // below, and not lumen: lung, or gas that is no bowel
+constexpr float kLumenCost = 0.8F, kTissueCost = 1, kFatCost = 2, kGasCost = 4;
+constexpr double kLeastCost = 0.75;  // of a way's millimetre: a start that is closed itself shortens the first step
+constexpr double kHorizon = 150;     // beyond, a way is not looked for but guessed as straight
+constexpr double kGuess = 2;         // cost per millimetre of a guessed way
+
+/// To one of the 26 voxels around.
+struct Step {
+    Index3 by;
+    std::ptrdiff_t offset;
+    float length_mm;
+};
+
+std::vector<Step> stepsOf(const Grid& grid)
+{
+    const std::ptrdiff_t row = grid.size[0], slice = row * grid.size[1];
+    std::vector<Step> steps;
+    for (int k = -1; k <= 1; ++k)
+        for (int j = -1; j <= 1; ++j)
+            for (int i = -1; i <= 1; ++i)
+                if (i || j || k)
+                    steps.push_back({{i, j, k},
+                                     i + j * row + k * slice,
+                                     float(std::sqrt(double(i * i + j * j + k * k)) * grid.spacing_mm[0])});
+    return steps;
+}
+
+/// What a straight way costs; infinite where it cannot be gone.
+double straightCost(const Volume<float>& costs, Point3 a, Point3 b)
+{
+    const double length_mm = distance(a, b);
+    const int steps = std::max(1, int(std::ceil(length_mm / (costs.grid.spacing_mm[0] / 2))));
+    double sum = 0;
+    for (int n = 0; n <= steps; ++n) {
+        const float here = costs.valueOr(costs.grid.indexAt(interpolate(a, b, double(n) / steps)), 0);
+        if (here <= 0)
+            return std::numeric_limits<double>::infinity();
+        sum += here;
+    }
+    return sum / (steps + 1) * length_mm;
+}
+
+/// A chain of voxels goes in steps of 45 degrees: replaces stretches of it by straight lines that cost no more.
+std::vector<Point3> pulledStraight(const Volume<float>& costs, const std::vector<Point3>& path)
+{
+    std::vector<Point3> out{path.front()};
+    for (std::size_t from = 0; from + 1 < path.size();) {
+        std::size_t to = from + 1;
+        double along = straightCost(costs, path[from], path[to]);
+        for (std::size_t n = from + 2; n < path.size(); ++n) {
+            along += straightCost(costs, path[n - 1], path[n]);
+            if (straightCost(costs, path[from], path[n]) <= along)
+                to = n;
+        }
+        out.push_back(path[to]);
+        from = to;
+    }
+    return out;
+}
+
+}  // namespace
+
+Volume<float> tissueCosts(const Body& body, const InsideVolume& labels)
+{
+    Volume<float> costs(body.inside.grid, 0);
+    std::vector<std::uint8_t> lumen(costs.voxels.size(), 0);
+    const auto [nx, ny, nz] = labels.grid.size;
+    tbb::parallel_for(0, costs.grid.size[2], [&, nx = nx, ny = ny, nz = nz, factor = body.factor](int ck) {
+        for (int k = ck * factor; k < std::min(nz, (ck + 1) * factor); ++k)
+            for (int j = 0; j < ny; ++j) {
+                const std::uint8_t* row = &labels.voxels[labels.grid.offset({0, j, k})];
+                std::uint8_t* out = &lumen[costs.grid.offset({0, j / factor, ck})];
+                for (int i = 0; i < nx; ++out)
+                    for (const int end = std::min(nx, i + factor); i < end; ++i)
+                        *out |= row[i];
+            }
+    });
+    for (std::size_t n = 0; n < costs.voxels.size(); ++n) {
+        const double hu = body.mean_hu.voxels[n];
+        if (lumen[n])
+            costs.voxels[n] = kLumenCost;
+        else if (!body.inside.voxels[n] || hu > kBoneHu)
+            costs.voxels[n] = 0;
+        else
+            costs.voxels[n] = hu < kLungHu ? kGasCost : hu < kFatHu ? kFatCost : kTissueCost;
+    }
+    return costs;
+}
+
+std::vector<TissueWay> waysFrom(const Volume<float>& costs, Point3 from, const std::vector<Point3>& to,
+                                Progress& progress)
+{
+    const Grid& grid = costs.grid;
+    const auto clamped = [&](Point3 p) {
+        const Index3 v = grid.indexAt(p);
+        return Index3{std::clamp(v.i, 0, grid.size[0] - 1), std::clamp(v.j, 0, grid.size[1] - 1),
+                      std::clamp(v.k, 0, grid.size[2] - 1)};
+    };
+    struct Site {
+        float cost = std::numeric_limits<float>::infinity();
+        std::int32_t parent = -1;
+    };
+    std::vector<Site> sites(costs.voxels.size());
+    CheapestFirst queue;
+    const std::size_t start = grid.offset(clamped(from));
+    sites[start].cost = 0;
+    queue.push(0, std::uint32_t(start));
+    std::vector<std::size_t> goals;
+    std::set<std::size_t> near;  // those that may lie within the horizon: the search ends when all are reached
+    for (const Point3 p : to) {
+        goals.push_back(grid.offset(clamped(p)));
+        if (kLeastCost * distance(grid.pointAt(clamped(from)), grid.pointAt(clamped(p))) <= kHorizon)
+            near.insert(goals.back());
+    }
+    const std::vector<Step> steps = stepsOf(grid);
+    for (std::size_t count = 0; !queue.empty(); ++count) {
+        if (count % 65536 == 0)
+            progress.check();
+        const auto [so_far, n] = queue.pop();
+        if (so_far > sites[n].cost)
+            continue;
+        if (so_far > kHorizon || (near.erase(n) > 0 && near.empty()))
+            break;
+        const Index3 v = grid.indexOf(n);
+        const bool within =
+            v.i > 0 && v.j > 0 && v.k > 0 && v.i + 1 < grid.size[0] && v.j + 1 < grid.size[1] && v.k + 1 < grid.size[2];
+        for (const Step& step : steps) {
+            if (!within && !grid.contains({v.i + step.by.i, v.j + step.by.j, v.k + step.by.k}))
+                continue;
+            const std::size_t m = std::size_t(std::ptrdiff_t(n) + step.offset);
+            Site& there = sites[m];
+            if (costs.voxels[m] <= 0 || there.cost <= so_far)
+                continue;
+            const float reached = so_far + step.length_mm * 0.5F * (std::max(costs.voxels[n], 0.1F) + costs.voxels[m]);
+            if (reached < there.cost) {
+                there = {reached, std::int32_t(n)};
+                queue.push(reached, std::uint32_t(m));
+            }
+        }
+    }
+    std::vector<TissueWay> ways(to.size());
+    for (std::size_t g = 0; g < goals.size(); ++g) {
+        if (sites[goals[g]].cost > kHorizon) {
+            ways[g] = {std::max(kHorizon, kGuess * distance(from, to[g])), {from, to[g]}};
+            continue;
+        }
+        ways[g].cost = sites[goals[g]].cost;
+        for (auto n = std::int32_t(goals[g]); n >= 0; n = sites[std::size_t(n)].parent)
+            ways[g].path_mm.push_back(grid.pointAt(grid.indexOf(std::size_t(n))));
+        std::reverse(ways[g].path_mm.begin(), ways[g].path_mm.end());
+        ways[g].path_mm.front() = from;
+        ways[g].path_mm.back() = to[g];
+        ways[g].path_mm = pulledStraight(costs, ways[g].path_mm);
+    }
+    return ways;
+}
+
+}  // namespace vicon::steps

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "segment/body.h"
+#include "vicon/steps/segment.h"
+
+namespace vicon::steps {
+
+/// Sets verdict, confidence and reason from the plan and from where it lies in the body.
+void judgeSegmentation(Segmentation& result, const Body& body, double lumen_cut_mm2);
+
+/// A result without a colon.
+Segmentation noColon(const std::string& reason);
+
+/// Adds what a person should know to the reason.
+void note(Segmentation& result, const std::string& what);
+
+}  // namespace vicon::steps

@@ -1,0 +1,310 @@
+#include "vicon/steps/cells.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+#include <vtkCellArray.h>
+#include <vtkFlyingEdges3D.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkShortArray.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "grid/wall_values.h"
+#include "vicon/core/error.h"
+
+namespace vicon::steps {
+namespace {
+
+/// Where the densities' gradient is further than this from the surface's own normal (cosine), it belongs to something
+/// else, a fluid level or a neighbouring loop, and the surface's normal is taken.
+constexpr double kAgree = 0.5;
+
+/// The contour in units of voxels of the labels' grid.
+struct Contour {
+    std::vector<float> points;             ///< x, y, z
+    std::vector<std::uint32_t> triangles;  ///< front side towards lower values of the field: the lumen
+    std::size_t pointCount() const { return points.size() / 3; }
+    std::size_t triangleCount() const { return triangles.size() / 3; }
+};
+
+Contour contour(Volume<std::int16_t> field)
+{
+    vtkNew<vtkShortArray> values;
+    values->SetArray(field.voxels.data(), vtkIdType(field.voxels.size()), 1);
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(field.grid.size.data());
+    image->SetOrigin(-1, -1, -1);
+    image->GetPointData()->SetScalars(values);
+    vtkNew<vtkFlyingEdges3D> edges;
+    edges->SetInputData(image);
+    edges->SetValue(0, 0);
+    edges->ComputeNormalsOff();
+    edges->ComputeScalarsOff();
+    edges->Update();
+    vtkPolyData* found = edges->GetOutput();
+    Contour out;
+    out.points.resize(std::size_t(found->GetNumberOfPoints()) * 3);
+    for (vtkIdType n = 0; n < found->GetNumberOfPoints(); ++n) {
+        double p[3];
+        found->GetPoint(n, p);
+        std::copy(p, p + 3, &out.points[std::size_t(3 * n)]);
+    }
+    out.triangles.reserve(std::size_t(found->GetNumberOfPolys()) * 3);
+    vtkIdType count = 0;
+    const vtkIdType* corners = nullptr;
+    auto* polys = found->GetPolys();
+    for (polys->InitTraversal(); polys->GetNextCell(count, corners);)
+        for (vtkIdType n = 0; n < 3; ++n)
+            out.triangles.push_back(std::uint32_t(corners[n]));
+    return out;
+}
+
+/// The edge between an inside and an outside voxel that a point of the contour lies on.
+struct Edge {
+    Index3 inside, outside;
+    double to_outside = 0;  ///< 0 at the inside voxel, 1 at the outside one
+};
+
+Edge edgeAt(const float* p, const InsideVolume& inside)
+{
+    Index3 low{int(std::floor(p[0])), int(std::floor(p[1])), int(std::floor(p[2]))}, high = low;
+    const double part[3] = {double(p[0]) - low.i, double(p[1]) - low.j, double(p[2]) - low.k};
+    // Exactly one coordinate lies between voxels; the others are whole numbers, which floats hold exactly.
+    const int along = part[0] > 0 ? 0 : part[1] > 0 ? 1 : 2;
+    (along == 0 ? high.i : along == 1 ? high.j : high.k) += 1;
+    if (inside.valueOr(low, kOutside) != kOutside)
+        return {low, high, part[along]};
+    return {high, low, 1 - part[along]};
+}
+
+/// The segment of each triangle: that of the inside voxel, among those its corners belong to, nearest to its middle.
+std::vector<std::uint16_t> tagTriangles(const Contour& contour, const InsideVolume& inside,
+                                        const SegmentVolume& segments)
+{
+    std::vector<std::uint16_t> tags(contour.triangleCount());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tags.size(), 4096), [&](const auto& range) {
+        for (std::size_t t = range.begin(); t < range.end(); ++t) {
+            const float* corner[3];
+            double middle[3] = {};
+            for (std::size_t n = 0; n < 3; ++n) {
+                corner[n] = &contour.points[3 * std::size_t(contour.triangles[3 * t + n])];
+                for (int d = 0; d < 3; ++d)
+                    middle[d] += double(corner[n][d]) / 3;
+            }
+            double nearest = std::numeric_limits<double>::max();
+            for (const float* p : corner) {
+                const Index3 v = edgeAt(p, inside).inside;
+                const double away = std::hypot(v.i - middle[0], v.j - middle[1], v.k - middle[2]);
+                if (away < nearest) {
+                    nearest = away;
+                    tags[t] = segments.at(v);
+                }
+            }
+        }
+    });
+    return tags;
+}
+
+Vector3 toPatient(const Grid& grid, Vector3 per_voxel)
+{
+    return grid.axis[0] * (per_voxel.x / grid.spacing_mm[0]) + grid.axis[1] * (per_voxel.y / grid.spacing_mm[1]) +
+           grid.axis[2] * (per_voxel.z / grid.spacing_mm[2]);
+}
+
+/// The low 16 bits with two zeros before each.
+std::uint64_t spread(std::uint64_t x)
+{
+    x &= 0xFFFF;
+    x = (x | x << 16) & 0x0000FF0000FFULL;
+    x = (x | x << 8) & 0x00F00F00F00FULL;
+    x = (x | x << 4) & 0x0C30C30C30C3ULL;
+    return (x | x << 2) & 0x249249249249ULL;
+}
+
+/// Triangles by segment, and within a segment along a curve that fills space (Morton's order of their first corners):
+/// any run of them is a compact patch.
+std::vector<std::uint32_t> drawingOrder(const Contour& contour, const std::vector<std::uint16_t>& tags)
+{
+    struct Place {
+        std::uint64_t key;
+        std::uint32_t triangle;
+        bool operator<(const Place& other) const
+        {
+            return key != other.key ? key < other.key : triangle < other.triangle;
+        }
+    };
+    // Counted from the surface's own corner, so that it does not matter how closely the grid is cropped.
+    std::array<float, 3> low{1e9F, 1e9F, 1e9F};
+    for (std::size_t n = 0; n < contour.points.size(); ++n)
+        low[n % 3] = std::min(low[n % 3], std::floor(contour.points[n]));
+    std::vector<Place> places(tags.size());
+    for (std::uint32_t t = 0; t < tags.size(); ++t) {
+        const float* p = &contour.points[3 * std::size_t(contour.triangles[3 * std::size_t(t)])];
+        const auto at = [&](std::size_t d) { return spread(std::uint64_t(std::floor(p[d]) - low[d])); };
+        places[t] = {std::uint64_t(tags[t]) << 48 | at(0) | at(1) << 1 | at(2) << 2, t};
+    }
+    tbb::parallel_sort(places.begin(), places.end());
+    std::vector<std::uint32_t> order(tags.size());
+    for (std::size_t n = 0; n < places.size(); ++n)
+        order[n] = places[n].triangle;
+    return order;
+}
+
+/// Puts triangles in drawing order and points in order of their first use, in patient coordinates.
+CellSurface arrange(const Contour& contour, const std::vector<std::uint16_t>& tags, const Grid& grid,
+                    std::vector<std::uint32_t>& point_source)
+{
+    const std::vector<std::uint32_t> order = drawingOrder(contour, tags);
+    constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> renumbered(contour.pointCount(), kUnused);
+    CellSurface surface;
+    surface.triangles.reserve(contour.triangles.size());
+    surface.segment.reserve(tags.size());
+    const bool right_handed = dot(cross(grid.axis[0], grid.axis[1]), grid.axis[2]) > 0;
+    for (const std::uint32_t t : order) {
+        surface.segment.push_back(tags[t]);
+        for (std::size_t n = 0; n < 3; ++n) {
+            const std::uint32_t p = contour.triangles[3 * std::size_t(t) + (right_handed ? n : 2 - n)];
+            if (renumbered[p] == kUnused) {
+                renumbered[p] = std::uint32_t(point_source.size());
+                point_source.push_back(p);
+            }
+            surface.triangles.push_back(renumbered[p]);
+        }
+    }
+    surface.points_mm.reserve(3 * point_source.size());
+    for (const std::uint32_t p : point_source) {
+        const float* c = &contour.points[3 * std::size_t(p)];
+        const Point3 at = grid.pointAt(ContinuousIndex3{c[0], c[1], c[2]});
+        for (const double x : {at.x, at.y, at.z})
+            surface.points_mm.push_back(float(x));
+    }
+    return surface;
+}
+
+/// Area-weighted normals of the triangles around each point; they point to the front side.
+std::vector<Vector3> surfaceNormals(const CellSurface& surface)
+{
+    std::vector<Vector3> normals(surface.pointCount());
+    for (std::size_t t = 0; t < surface.triangleCount(); ++t) {
+        const std::uint32_t* c = &surface.triangles[3 * t];
+        const Point3 p = surface.point(c[0]);
+        const Vector3 area = cross(surface.point(c[1]) - p, surface.point(c[2]) - p);
+        for (int n = 0; n < 3; ++n)
+            normals[c[n]] += area;
+    }
+    return normals;
+}
+
+void setNormals(CellSurface& surface, const Contour& contour, const std::vector<std::uint32_t>& point_source,
+                const WallField& field, const InsideVolume& inside)
+{
+    const auto geometric = surfaceNormals(surface);
+    surface.normals.resize(surface.points_mm.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, point_source.size(), 4096), [&](const auto& range) {
+        for (std::size_t n = range.begin(); n < range.end(); ++n) {
+            const Edge edge = edgeAt(&contour.points[3 * std::size_t(point_source[n])], inside);
+            const Vector3 per_voxel =
+                field.gradient(edge.inside) * (1 - edge.to_outside) + field.gradient(edge.outside) * edge.to_outside;
+            const double towards = inside.at(edge.inside) == kGas ? -1 : 1;
+            Vector3 normal = normalized(toPatient(inside.grid, per_voxel) * towards);
+            const Vector3 own = normalized(geometric[n]);
+            if (dot(normal, own) < kAgree || !field.densitiesTell(edge.inside))
+                normal = own;
+            surface.normals[3 * n] = float(normal.x);
+            surface.normals[3 * n + 1] = float(normal.y);
+            surface.normals[3 * n + 2] = float(normal.z);
+        }
+    });
+}
+
+}  // namespace
+
+struct LumenSurface::Parts {
+    Parts(const HuVolume& hu, const InsideVolume& mask, const CellOptions& options)
+        : inside(mask), field(hu, inside, {options.gas_wall_hu, options.tissue_hu})
+    {
+    }
+    const InsideVolume& inside;
+    WallField field;
+    Contour contour;
+    std::vector<NearWall> near_wall;
+};
+
+LumenSurface::LumenSurface(const HuVolume& hu, const InsideVolume& inside, const CellOptions& options,
+                           Progress& progress)
+{
+    progress.report(0, "surface");
+    auto parts = std::make_unique<Parts>(hu, inside, options);
+    auto values = wallValues(parts->field, inside);
+    parts->near_wall = findNearWall(values, inside);
+    parts->contour = contour(std::move(values));
+    parts_ = std::move(parts);
+    progress.check();
+    progress.report(1, "surface");
+}
+
+LumenSurface::~LumenSurface() = default;
+LumenSurface::LumenSurface(LumenSurface&&) noexcept = default;
+LumenSurface& LumenSurface::operator=(LumenSurface&&) noexcept = default;
+
+const std::vector<NearWall>& LumenSurface::nearWall() const
+{
+    return parts_->near_wall;
+}
+
+CellSurface LumenSurface::cellsOf(const SegmentVolume& segments, Progress& progress) const
+{
+    const InsideVolume& inside = parts_->inside;
+    if (segments.grid != inside.grid)
+        throw Error(ErrorCode::bad_input, "the segments do not lie on the grid of the labels", {},
+                    "run 'vicon work' to make them anew");
+    progress.report(0, "surface");
+    const auto tags = tagTriangles(parts_->contour, inside, segments);
+    std::vector<std::uint32_t> point_source;
+    CellSurface surface = arrange(parts_->contour, tags, inside.grid, point_source);
+    progress.check();
+    progress.report(0.6, "surface");
+    setNormals(surface, parts_->contour, point_source, parts_->field, inside);
+    progress.report(1, "surface");
+    return surface;
+}
+
+CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const SegmentVolume& segments,
+                         const CellOptions& options, Progress& progress)
+{
+    return LumenSurface(hu, inside, options, progress).cellsOf(segments, progress);
+}
+
+void countTriangles(const CellSurface& surface, Subdivision& description)
+{
+    for (auto& segment : description.segments)
+        segment.triangles = 0;
+    for (const std::uint16_t number : surface.segment)
+        if (number >= 1 && number <= description.segments.size())
+            ++description.segments[number - 1U].triangles;
+    std::size_t largest = 0, smallest = surface.triangleCount();
+    double square = 0;
+    const double average =
+        double(surface.triangleCount()) / double(std::max<std::size_t>(1, description.segments.size()));
+    for (const auto& segment : description.segments) {
+        largest = std::max(largest, segment.triangles);
+        smallest = std::min(smallest, segment.triangles);
+        square += std::pow(double(segment.triangles) - average, 2);
+    }
+    const auto cells = double(std::max<std::size_t>(1, description.segments.size()));
+    description.statistics["triangles"] = surface.triangleCount();
+    description.statistics["triangles_average"] = average;
+    description.statistics["triangles_largest"] = largest;
+    description.statistics["triangles_smallest"] = smallest;
+    description.statistics["triangles_standard_deviation"] = std::sqrt(square / cells);
+}
+
+}  // namespace vicon::steps

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "subdivide/thesis/portal.h"
+
+namespace vicon::steps {
+
+/// Sizes along a path: what lies nearest to the path's voxels up to and including the n-th.
+struct PathSizes {
+    std::vector<double> up_to;
+    double target = 0;  ///< of a segment
+
+    double between(std::size_t after, std::size_t at) const { return up_to[at] - up_to[after]; }
+};
+
+/// Algorithm 3.1: walks along the path, accepts the first portal that ends a segment of feasible size and is good;
+/// when the segment grows too large goes back to the best one passed, and when there is none takes the next.
+std::vector<CutPlane> walkLocally(const CutPlanes& planes, const PathSizes& sizes, Progress& progress);
+
+/// The selection of portals, no two that follow each other intersecting, with the least sum of badness and squared
+/// logarithmic deviation of the segments' sizes.
+std::vector<CutPlane> choosePortals(const CutPlanes& planes, const PathSizes& sizes, Progress& progress);
+
+}  // namespace vicon::steps
