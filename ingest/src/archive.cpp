@@ -71,11 +71,12 @@ std::string nameOf(archive_entry* entry)
 
 enum class Written { complete, damaged, too_large };
 
-Written writeEntry(archive* from, const fs::path& file, double& bytes_left)
+Written writeEntry(archive* from, const fs::path& file, double& bytes_left, Progress& progress)
 {
     std::ofstream out(file, std::ios::binary);
     std::vector<char> block(kBlockBytes);
     for (;;) {
+        progress.check();
         const la_ssize_t count = archive_read_data(from, block.data(), block.size());
         if (count < 0)
             return Written::damaged;
@@ -129,7 +130,7 @@ std::vector<InputFile> unpackZip(const InputFile& zip, UnpackFolder& folder, con
             continue;
         }
         const fs::path file = folder.nextFile();
-        const Written written = writeEntry(in.handle, file, bytes_left);
+        const Written written = writeEntry(in.handle, file, bytes_left, progress);
         if (written == Written::too_large) {
             refuse(zip.shown, by_ratio ? "unpacks to more than 200 times its size; the rest is left out"
                                        : "unpacks to more than import.archive_max_gb allows; the rest is left out");

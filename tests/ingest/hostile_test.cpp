@@ -114,6 +114,22 @@ TEST_F(Hostile, ADicomdirAloneIsSaid)
     EXPECT_TRUE(says(report, Kind::refused, "nothing to import")) << lines(report);
 }
 
+/// Without its head a file is read by a library or not at all: the walk over its elements does not know its encoding.
+TEST_F(Hostile, AFileThatKillsItsReaderIsRefusedAndKillsNothingElse)
+{
+    VICON_NEEDS_DATA("hostile");
+    constexpr std::size_t kMeta = 132, kGroupLength = 12;
+    for (const char* name : {"nest_d6000.dcm", "nest_u10000.dcm"}) {
+        const std::string whole = readFile(support::sharedData("hostile/03-nested-sequences-segv") / name);
+        const auto meta_bytes = std::uint8_t(whole[kMeta + 8]) + 256u * std::uint8_t(whole[kMeta + 9]);
+        std::ofstream(folder / name, std::ios::binary) << whole.substr(kMeta + kGroupLength + meta_bytes);
+        const auto report = import({folder / name});
+        ASSERT_EQ(report.lines.size(), 1u);
+        EXPECT_EQ(report.lines.front().kind, Kind::refused);
+        EXPECT_NE(report.lines.front().text.find("cannot be read safely"), std::string::npos) << lines(report);
+    }
+}
+
 TEST_F(Hostile, ZerosAreNoDicom)
 {
     const fs::path zeros = folder / "zeros.bin";
@@ -159,6 +175,19 @@ TEST_F(Hostile, TwoAcquisitionsInOneSeriesAreTwoScans)
         const auto report = ingest::importPaths(own, {root / name}, options, quiet);
         EXPECT_EQ(own.scans(own.cases().at(0).id).size(), 2u) << name << "\n" << lines(report);
     }
+}
+
+TEST_F(Hostile, ARefusedVolumeTellsOfNoInterpolation)
+{
+    SeriesSpec spec;
+    spec.slices = 20;
+    std::vector<int> with_gaps{0, 1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19};
+    writeSeries(folder / "in", spec, with_gaps);
+    import({folder / "in"});
+    const ScanRecord scan = onlyScan();
+    ASSERT_EQ(scan.role, "refused");
+    EXPECT_EQ(scan.ingest["repairs"].dump().find("interpolated"), std::string::npos) << scan.ingest.dump();
+    EXPECT_FALSE(scan.ingest["geometry"].contains("interpolated_slices"));
 }
 
 TEST_F(Hostile, OneFlagForACaseHoweverManyShareTheId)
