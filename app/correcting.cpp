@@ -96,7 +96,7 @@ void correctScan(CaseStore& store, const Config& config, const ScanRecord& scan,
     if (const std::string organ = organOf(store, scan); organ != "colon")
         throw Error(ErrorCode::wrong_use, "corrections are made to a colon; this scan shows the " + organ, scan.id,
                     "set organ.seed to a point inside it instead");
-    requireInside(folder, more.add, "--seed");
+    requireInside(folder, more.add, "--add");
     requireInside(folder, more.cut, "--cut");
     requireInside(folder, more.drop, "--drop");
     pipeline::Corrections all;

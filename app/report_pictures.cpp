@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
+#include <set>
 
 #include "correcting.h"
 #include "marking.h"
@@ -69,6 +71,37 @@ report::ScanEntry describeScan(CaseStore& store, const ScanRecord& scan)
     return entry;
 }
 
+/// The scan's files; nothing where it is not prepared (now): its markers are told without pictures.
+std::optional<viewer::PreparedScan> openPrepared(const fs::path& folder)
+{
+    if (!hasColon(folder))
+        return {};
+    return viewer::PreparedScan::open(folder);
+}
+
+void drawPictures(const viewer::PreparedScan& prepared, const std::pair<const CaseRecord&, const ScanRecord&>& of,
+                  const PictureFolder& pictures, report::MarkerEntry& entry)
+{
+    const auto& [record, scan] = of;
+    const Marker& marker = entry.marker;
+    const auto draw = [&](SnapshotRequest::View view, int width, int height, const std::string& name) {
+        auto request = requestFor(view, record, scan, width, height);
+        request.look_at_mm = marker.position_mm;
+        request.station_mm = marker.station_mm;
+        request.markers = {marker};
+        viewer::renderSnapshot(prepared, request, pictures / name);
+        return pictures / name;
+    };
+    entry.endoscopic_picture =
+        draw(SnapshotRequest::View::endo, kEndoscopicSide, kEndoscopicSide, marker.id + "-endo.png");
+    entry.slices_picture = draw(SnapshotRequest::View::slices, kSlicesWidth, kSlicesHeight, marker.id + "-slices.png");
+    if (const auto measures =
+            viewer::measuresPicture(prepared, marker, viewer::captionFor(record, scan), kMeasuresSide)) {
+        entry.measures_picture = pictures / (marker.id + "-measures.png");
+        viewer::writePng(entry.measures_picture, *measures);
+    }
+}
+
 }  // namespace
 
 PictureFolder::PictureFolder()
@@ -91,7 +124,7 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const CaseRecord& rec
     const viewer::Display display;
     std::vector<report::ScanEntry> entries;
     for (const ScanRecord& scan : store.scans(record.id)) {
-        if (scan.role != "scan")
+        if (scan.role != "scan" && markersOf(store, scan).empty())
             continue;
         progress.check();
         progress.report(0, "overview of " + scan.id);
@@ -118,39 +151,30 @@ std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const CaseRecord&
 {
     const viewer::Display display;
     std::vector<report::MarkerEntry> entries;
+    std::set<std::string> told;
     const double all = double(store.markers(record.id).size());
     for (const report::ScanEntry& scan_entry : scans) {
         const ScanRecord& scan = scan_entry.scan;
         const std::vector<Marker> markers = markersOf(store, scan);
         if (markers.empty())
             continue;
-        const auto prepared = viewer::PreparedScan::open(store.scanFolder(record.id, scan.id));
+        const auto prepared = openPrepared(store.scanFolder(record.id, scan.id));
         const ColonPartRanges parts = partsOf(store, scan);
         for (const Marker& marker : markers) {
             progress.check();
             progress.report(double(entries.size()) / all, "pictures of marker " + marker.id);
             report::MarkerEntry entry{.marker = marker, .scan_label = labelOf(scan)};
             entry.part_name = partNameAt(parts, marker.station_mm);
-            const auto draw = [&](SnapshotRequest::View view, int width, int height, const std::string& name) {
-                auto request = requestFor(view, record, scan, width, height);
-                request.look_at_mm = marker.position_mm;
-                request.station_mm = marker.station_mm;
-                request.markers = {marker};
-                viewer::renderSnapshot(prepared, request, pictures / name);
-                return pictures / name;
-            };
-            entry.endoscopic_picture =
-                draw(SnapshotRequest::View::endo, kEndoscopicSide, kEndoscopicSide, marker.id + "-endo.png");
-            entry.slices_picture =
-                draw(SnapshotRequest::View::slices, kSlicesWidth, kSlicesHeight, marker.id + "-slices.png");
-            if (const auto measures =
-                    viewer::measuresPicture(prepared, marker, viewer::captionFor(record, scan), kMeasuresSide)) {
-                entry.measures_picture = pictures / (marker.id + "-measures.png");
-                viewer::writePng(entry.measures_picture, *measures);
-            }
+            if (prepared)
+                drawPictures(*prepared, {record, scan}, pictures, entry);
+            told.insert(marker.id);
             entries.push_back(std::move(entry));
         }
     }
+    // A report never leaves a marker out, wherever its scan has gone.
+    for (const Marker& marker : store.markers(record.id))
+        if (!told.contains(marker.id))
+            entries.push_back({.marker = marker, .scan_label = "scan " + marker.scan_id + ", which is not there"});
     return entries;
 }
 

@@ -43,8 +43,8 @@ WorklistCase makeWorklistCase(CaseStore& store, const Config& config, const Case
         out.reason = found->reason;
         break;
     }
-    if (out.reason.empty() && !record.flags.empty())
-        out.reason = record.flags.front();
+    for (const std::string& flag : record.flags)  // a person must decide, whatever else there is to say
+        out.reason += (out.reason.empty() ? "" : "; ") + flag;
     out.markers = int(store.markers(record.id).size());
     return out;
 }

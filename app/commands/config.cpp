@@ -7,6 +7,7 @@
 #include "vicon/ingest/receiver.h"
 #include "vicon/pipeline/scan_work.h"
 #include "vicon/pipeline/worker.h"
+#include "vicon/report/options.h"
 
 namespace vicon::app {
 namespace {
@@ -46,6 +47,7 @@ Config declaredConfig()
     config.declare(specsOf<QueueOptions>());
     config.declare(specsOf<pipeline::WorkOptions>());
     config.declare(specsOf<MarkOptions>());
+    config.declare(specsOf<report::ReportOptions>());
     return config;
 }
 

@@ -60,7 +60,8 @@ Subcommand queryCommand()
                 command.add_option("PEER", *peer, "Name of a peer in the configuration")->required();
                 command.add_option("--patient", wanted->patient_id, "Patient ID; * and ? match anything");
                 command.add_option("--name", wanted->patient_name, "Patient's name, as 'FAMILY*'");
-                command.add_option("--date", wanted->dates, "YYYYMMDD, or YYYYMMDD-YYYYMMDD with an end left out");
+                command.add_option("--date", wanted->dates,
+                                   "2024-01-10 or 20240110; or two of them with - between, an end left out or not");
                 command.add_option("--accession", wanted->accession_number, "Accession number");
                 command.add_option("--study", wanted->study_uid, "Study Instance UID");
                 command.add_option("--modality", wanted->modality, "That some series has; empty: any")

@@ -1,7 +1,9 @@
+#include <chrono>
 #include <cstdio>
 #include <thread>
 
 #include "../command.h"
+#include "../peers.h"
 #include "../progress_line.h"
 #include "../scan_work.h"
 #include "spdlog/spdlog.h"
@@ -13,39 +15,55 @@
 namespace vicon::app {
 namespace {
 
-/// Works on the queue in the background, over a store connection of its own, until told to stop.
+/// Cancelled by a signal, so that a long import does not hold up the listener's end.
+class UntilStopped : public NoProgress {
+public:
+    bool cancelled() const override { return stopRequested(); }
+};
+
+/// Works on the queue in the background, over a store connection of its own, until told to stop. Whatever goes wrong
+/// with the store is said and tried again.
 void workInBackground(const std::filesystem::path& store_folder, const Config& config)
 {
-    try {
-        CaseStore store(store_folder);
-        pipeline::WorkerEvents events;
-        events.ended = [](const Job& job, JobState state, const std::string& reason) {
-            spdlog::info("{}/{}: {}{}", job.case_id, job.scan_id, nameOf(state), reason.empty() ? "" : ", " + reason);
-        };
-        pipeline::runWorker(store, config.get<QueueOptions>(), config.get<pipeline::WorkOptions>(),
-                            scanWork(store, config), events, stopRequested());
-    } catch (const std::exception& e) {
-        spdlog::error("the worker stopped: {}", e.what());
+    constexpr auto kPause = std::chrono::seconds(10), kLook = std::chrono::seconds(1);
+    while (!stopRequested()) {
+        try {
+            CaseStore store(store_folder);
+            pipeline::WorkerEvents events;
+            events.ended = [](const Job& job, JobState state, const std::string& reason) {
+                spdlog::info("{}/{}: {}{}", job.case_id, job.scan_id, nameOf(state),
+                             reason.empty() ? "" : ", " + reason);
+            };
+            pipeline::runWorker(store, config.get<QueueOptions>(), config.get<pipeline::WorkOptions>(),
+                                scanWork(store, config), events, stopRequested());
+        } catch (const std::exception& e) {
+            spdlog::error("the worker stopped and starts again: {}", e.what());
+            for (auto waited = kPause * 0; waited < kPause && !stopRequested(); waited += kLook)
+                std::this_thread::sleep_for(kLook);
+        }
     }
 }
 
-void importReceived(CaseStore& store, const Config& config, const std::vector<std::filesystem::path>& files)
+ingest::Receiver::Files importReceived(CaseStore& store, const Config& config, const ingest::Receiver::Files& files)
 {
-    NoProgress quiet;
+    UntilStopped quiet;
     const auto report = ingest::importPaths(store, files, config.get<ingest::ImportOptions>(), quiet);
     for (const ingest::ImportLine& line : report.lines)
         spdlog::info("{} {}: {}", ingest::nameOf(line.kind), line.subject, line.text);
+    return report.not_stored;
 }
 
 int receive(Context& context, bool no_work)
 {
     const Config& config = context.config();
+    const ingest::ReceiverOptions options = receiverOptions(config);
     CaseStore store(context.storeFolder());  // one of its own: the receiver imports on its own thread
     ingest::Receiver receiver(
-        config.get<ingest::ReceiverOptions>(), store.folder() / "incoming",
-        [&](const std::vector<std::filesystem::path>& files) { importReceived(store, config, files); },
-        [](const std::string& trouble) { spdlog::warn("{}", trouble); });
-    std::printf("listening on port %d\n", receiver.port());
+        options, store.folder() / "incoming",
+        [&](const ingest::Receiver::Files& files) { return importReceived(store, config, files); },
+        [](const std::string& trouble) { spdlog::warn("{}", trouble); },
+        [](const std::string& note) { spdlog::info("{}", note); });
+    std::printf("listening on port %d of %s\n", receiver.port(), options.address.c_str());
     std::fflush(stdout);
     std::thread worker;
     if (!no_work)
@@ -63,12 +81,15 @@ Subcommand receiveCommand()
     return {"receive", "Listen for DICOM (C-ECHO, C-STORE), import what comes, and run the queue",
             [](CLI::App& command) {
                 auto no_work = std::make_shared<bool>(false);
-                auto port = std::make_shared<std::string>();
+                auto port = std::make_shared<std::string>(), address = std::make_shared<std::string>();
                 command.add_flag("--no-work", *no_work, "Receive only; another process runs 'vicon work'");
                 command.add_option("--port", *port, "TCP port (receive.port)")->type_name("PORT");
-                return [no_work, port](Context& context) {
+                command.add_option("--address", *address, "Address to listen on (receive.address)")->type_name("IPV4");
+                return [no_work, port, address](Context& context) {
                     if (!port->empty())
                         context.assignments.push_back("receive.port=" + *port);
+                    if (!address->empty())
+                        context.assignments.push_back("receive.address=" + *address);
                     return receive(context, *no_work);
                 };
             }};

@@ -52,7 +52,7 @@ void printQuality(const nlohmann::json& scan)
 void printCorrections(const std::filesystem::path& scan_folder)
 {
     const pipeline::Corrections corrections = pipeline::readCorrections(scan_folder);
-    for (const auto& [name, points] : {std::pair{"seed", &corrections.add}, std::pair{"cut", &corrections.cut},
+    for (const auto& [name, points] : {std::pair{"add", &corrections.add}, std::pair{"cut", &corrections.cut},
                                        std::pair{"drop", &corrections.drop}})
         for (const Point3 p : *points)
             std::printf("  corrected: %s at %s,%s,%s\n", name, formatNumber(p.x, 1).c_str(),

@@ -18,10 +18,10 @@ struct WorkArguments {
     bool until_idle = false;
     bool retry = false;
     std::string case_id, scan_id, organ;
-    std::vector<std::string> seed, cut, drop;
-    bool undo_corrections = false;
+    std::vector<std::string> add, cut, drop;
+    bool forget_corrections = false;
 
-    bool correct() const { return undo_corrections || !seed.empty() || !cut.empty() || !drop.empty(); }
+    bool correct() const { return forget_corrections || !add.empty() || !cut.empty() || !drop.empty(); }
 };
 
 std::vector<Point3> pointsFrom(const std::vector<std::string>& texts, const char* option)
@@ -35,12 +35,12 @@ std::vector<Point3> pointsFrom(const std::vector<std::string>& texts, const char
 void correct(Context& context, CaseStore& store, const WorkArguments& arguments)
 {
     if (arguments.case_id.empty())
-        throw Error(ErrorCode::wrong_use, "corrections belong to one scan", "--seed, --cut, --drop",
+        throw Error(ErrorCode::wrong_use, "corrections belong to one scan", "--add, --cut, --drop",
                     "name its case with --case");
     const ScanRecord scan = store.requireScan(store.requireCase(arguments.case_id).id, arguments.scan_id);
-    const pipeline::Corrections more{pointsFrom(arguments.seed, "--seed"), pointsFrom(arguments.cut, "--cut"),
+    const pipeline::Corrections more{pointsFrom(arguments.add, "--add"), pointsFrom(arguments.cut, "--cut"),
                                      pointsFrom(arguments.drop, "--drop")};
-    correctScan(store, context.config(), scan, more, arguments.undo_corrections);
+    correctScan(store, context.config(), scan, more, arguments.forget_corrections);
 }
 
 /// What the pipeline says of a scan whose organ it is not sure of.
@@ -131,7 +131,7 @@ Subcommand workCommand()
                     ->type_name("CASE");
                 command.add_option("--scan", arguments->scan_id, "Its scan; needed where the case has several")
                     ->type_name("SCAN");
-                command.add_option("--seed", arguments->seed, "The gas or fluid here (LPS mm) belongs to the colon")
+                command.add_option("--add", arguments->add, "The gas or fluid here (LPS mm) belongs to the colon")
                     ->type_name("X,Y,Z")
                     ->allow_extra_args(false);
                 command.add_option("--cut", arguments->cut, "Cut the lumen here; the smaller part is dropped")
@@ -140,8 +140,8 @@ Subcommand workCommand()
                 command.add_option("--drop", arguments->drop, "The piece here does not belong to the colon")
                     ->type_name("X,Y,Z")
                     ->allow_extra_args(false);
-                command.add_flag("--undo-corrections", arguments->undo_corrections,
-                                 "Forget the scan's earlier seeds, cuts and drops");
+                command.add_flag("--forget-corrections", arguments->forget_corrections,
+                                 "Forget the scan's earlier additions, cuts and drops");
                 return [arguments](Context& context) { return work(context, *arguments); };
             }};
 }

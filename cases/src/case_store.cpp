@@ -130,9 +130,11 @@ std::vector<InstanceRecord> CaseStore::instances(const std::string& case_id, con
 }
 
 void CaseStore::addScan(const CaseRecord& a_case, const ScanRecord& scan, const std::vector<InstanceRecord>& instances,
-                        bool queue)
+                        bool queue, const std::function<void()>& require)
 {
     database_.write([&](soci::session& sql) {
+        if (require)
+            require();
         putCase(sql, a_case);
         putScan(sql, scan);
         putInstances(sql, instances);

@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "vicon/core/error.h"
@@ -31,6 +32,8 @@ std::string typeName(const nlohmann::json& value)
         return "true or false";
     if (value.is_number_integer())
         return "a whole number";
+    if (value.is_array())
+        return "points: [[x, y, z], ...], or \"x,y,z;x,y,z\"";
     return value.is_number() ? "a number" : "a text in quotes";
 }
 
@@ -44,7 +47,36 @@ nlohmann::json fromToml(const toml::node& node)
         return v->get();
     if (const auto* v = node.as_string())
         return v->get();
+    if (const auto* v = node.as_array()) {
+        nlohmann::json all = nlohmann::json::array();
+        for (const toml::node& entry : *v)
+            all.push_back(fromToml(entry));
+        return all;
+    }
     return nullptr;
+}
+
+bool isPoint(const nlohmann::json& value)
+{
+    return value.is_array() && value.size() == 3 && std::all_of(value.begin(), value.end(), [](const auto& coordinate) {
+               return coordinate.is_number() && std::isfinite(coordinate.template get<double>());
+           });
+}
+
+/// Points from "x,y,z;x,y,z"; the text itself where it is none.
+nlohmann::json pointsFrom(const std::string& text)
+{
+    nlohmann::json points = nlohmann::json::array();
+    std::istringstream list(text);
+    for (std::string entry; std::getline(list, entry, ';');) {
+        if (entry.find_first_not_of(" \t") == std::string::npos)
+            continue;
+        const auto point = nlohmann::json::parse("[" + entry + "]", nullptr, false);
+        if (!isPoint(point))
+            return text;
+        points.push_back(point);
+    }
+    return points;
 }
 
 nlohmann::json fromText(const std::string& text, const nlohmann::json& like)
@@ -52,6 +84,8 @@ nlohmann::json fromText(const std::string& text, const nlohmann::json& like)
     if (like.is_string())
         return text;
     const auto parsed = nlohmann::json::parse(text, nullptr, false);
+    if (like.is_array() && !parsed.is_array())
+        return pointsFrom(text);
     return parsed.is_discarded() ? nlohmann::json(text) : parsed;
 }
 
@@ -63,6 +97,8 @@ bool sameKind(const nlohmann::json& value, const nlohmann::json& like)
         return value.is_number_integer();
     if (like.is_number())
         return value.is_number();
+    if (like.is_array())
+        return value.is_array() && std::all_of(value.begin(), value.end(), isPoint);
     return value.is_string();
 }
 
@@ -103,6 +139,8 @@ const OptionSpec& Config::specFor(const std::string& key, const std::string& sou
 void Config::assign(const std::string& key, nlohmann::json value, const std::string& source)
 {
     const OptionSpec& spec = specFor(key, source);
+    if (spec.default_value.is_array() && value.is_string())
+        value = pointsFrom(value.get<std::string>());
     if (!sameKind(value, spec.default_value))
         throw Error(ErrorCode::wrong_use, "option '" + key + "' must be " + typeName(spec.default_value), source);
     if (value.is_number() && (value.get<double>() < spec.lowest || value.get<double>() > spec.highest)) {

@@ -5,6 +5,7 @@
 #include <dcmtk/dcmdata/dcdict.h>
 #include <dcmtk/oflog/oflog.h>
 
+#include <cstdlib>
 #include <mutex>
 
 namespace vicon::ingest {
@@ -13,6 +14,7 @@ void setUpDicom()
 {
     static std::once_flag once;
     std::call_once(once, [] {
+        ::setenv("TCP_NODELAY", "1", 0);            // DCMTK's own switch for connections that it opens
         OFLog::configure(OFLogger::OFF_LOG_LEVEL);  // a library prints nothing, and DCMTK's messages may name patients
         // Read now: its first use by several threads at once is not safe.
         dcmDataDict.rdlock();

@@ -137,8 +137,12 @@ private:
             study.push_back({std::move(object), found.file.shown});
             return;
         }
-        if (inspection.verdict == Verdict::directory)
-            return;  // says nothing that the files do not say
+        if (inspection.verdict == Verdict::directory) {  // says nothing that the files do not say
+            report_.not_stored.push_back(found.file.path);
+            return;
+        }
+        if (!found.file.unpacked)
+            report_.not_stored.push_back(found.file.path);
         const bool aside = inspection.verdict == Verdict::set_aside;
         reporter_.object(aside ? Kind::set_aside : Kind::refused, found.file.shown, object.series.uid,
                          inspection.reason);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -15,11 +16,17 @@
 namespace vicon::ingest {
 
 /// What has been received and waits to be taken: one folder below `incoming` for each association. A thread hands over
-/// what is complete, one call at a time.
+/// the objects of one study at a time, once no association sends it any more and a quiet time has passed. What cannot
+/// be taken is tried again; what no case takes goes to the store's quarantine.
 class Incoming {
 public:
+    struct Pauses {
+        double quiet_s = 5;  ///< after the last object of a study, once its associations are closed
+        double idle_s = 10;  ///< after the last object of a study whose association stays open
+    };
+
     /// Finds what an earlier run left. Throws Error{store} when another receiver uses the folder.
-    Incoming(std::filesystem::path folder, double idle_s, Receiver::OnReceived on_received,
+    Incoming(std::filesystem::path folder, Pauses pauses, Receiver::OnReceived on_received,
              Receiver::OnTrouble on_trouble);
     ~Incoming();
     Incoming(const Incoming&) = delete;
@@ -29,7 +36,7 @@ public:
     /// Hands over everything that is complete, and ends the thread.
     void finish();
 
-    /// A folder of its own for an association.
+    /// The name of a folder of its own for an association, which is made with its first object.
     std::filesystem::path open();
     /// A file that lies durably in the folder.
     void add(const std::filesystem::path& folder, const std::filesystem::path& file);
@@ -38,24 +45,38 @@ public:
     void trouble(const std::string& what) const;
 
 private:
+    using Time = std::chrono::steady_clock::time_point;
+    using Files = std::vector<std::filesystem::path>;
     struct Batch {
-        std::vector<std::filesystem::path> files;
-        std::chrono::steady_clock::time_point last;
-        bool closed = false;
+        Files files;
+        std::set<std::filesystem::path> open;  ///< associations that sent of it and are not over
+        Time last;
+        Time not_before;  ///< held back after a failure
+        int failures = 0;
+        int deaths = 0;  ///< of processes that were taking exactly these files
     };
+    void lockFolder();
     void findLeftovers();
     void work();
+    bool isReady(const Batch& batch) const;
     bool handOverOne(std::unique_lock<std::mutex>& lock);
+    /// False when it is to be tried again later.
+    bool take(const Files& files, int deaths);
+    bool takeInHalves(const Files& files, const std::string& why);
+    void quarantine(const Files& files, const std::string& why);
+    void removeEmptyFolders(const Files& files);
 
     std::filesystem::path folder_;
-    std::chrono::duration<double> idle_;
+    Pauses pauses_;
     Receiver::OnReceived on_received_;
     Receiver::OnTrouble on_trouble_;
     int lock_descriptor_ = -1;
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::map<std::filesystem::path, Batch> batches_;
+    std::map<std::string, Batch> batches_;  ///< by study
+    std::set<std::filesystem::path> open_;
     bool finishing_ = false;
+    bool told_to_stop_ = false;
     int count_ = 0;
     std::thread thread_;
 };

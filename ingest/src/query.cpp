@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <regex>
 #include <tuple>
 
 #include "association.h"
@@ -75,6 +76,32 @@ void find(const Peer& peer, DcmDataset& keys, const std::string& our_ae_title, P
     scu.releaseAssociation();
 }
 
+bool isDay(const std::string& date)
+{
+    const int month = std::stoi(date.substr(4, 2)), day = std::stoi(date.substr(6, 2));
+    return month >= 1 && month <= 12 && day >= 1 && day <= 31;
+}
+
+/// A day or a range as DICOM writes it. Throws Error{wrong_use}.
+std::string dicomDates(const std::string& text)
+{
+    if (text.empty())
+        return {};
+    static const std::regex kDates(R"((\d{4}-?\d{2}-?\d{2})?(-)?(\d{4}-?\d{2}-?\d{2})?)");
+    std::smatch parts;
+    const bool understood = std::regex_match(text, parts, kDates) && (parts[1].matched || parts[3].matched) &&
+                            (parts[2].matched || !parts[1].matched || !parts[3].matched);
+    std::string dates[2];
+    for (const int n : {0, 1}) {
+        dates[n] = understood ? parts[n == 0 ? 1 : 3].str() : "";
+        std::erase(dates[n], '-');
+    }
+    if (!understood || (!dates[0].empty() && !isDay(dates[0])) || (!dates[1].empty() && !isDay(dates[1])))
+        throw Error(ErrorCode::wrong_use, "neither a date nor a range of dates", "'" + text + "'",
+                    "write 2024-01-10, or 2024-01-01-2024-01-31 with an end left out");
+    return dates[0] + parts[2].str() + dates[1];
+}
+
 FoundStudy studyFrom(DcmDataset& match)
 {
     const Dataset d(match);
@@ -103,7 +130,7 @@ std::vector<FoundStudy> findStudies(const Peer& peer, const StudyQuery& query, c
     put(keys, DCM_QueryRetrieveLevel, "STUDY");
     put(keys, DCM_PatientID, query.patient_id);
     put(keys, DCM_PatientName, query.patient_name);
-    put(keys, DCM_StudyDate, query.dates);
+    put(keys, DCM_StudyDate, dicomDates(query.dates));
     put(keys, DCM_AccessionNumber, query.accession_number);
     put(keys, DCM_StudyInstanceUID, query.study_uid);
     put(keys, DCM_ModalitiesInStudy, query.modality);
@@ -134,6 +161,21 @@ std::vector<std::string> findSeries(const Peer& peer, const std::string& study_u
     });
     std::sort(series.begin(), series.end());
     return series;
+}
+
+std::vector<std::string> findObjects(const Peer& peer, const std::string& study_uid, const std::string& series_uid,
+                                     const std::string& our_ae_title, Progress& progress)
+{
+    DcmDataset keys;
+    put(keys, DCM_QueryRetrieveLevel, "IMAGE");
+    put(keys, DCM_StudyInstanceUID, study_uid);
+    put(keys, DCM_SeriesInstanceUID, series_uid);
+    askFor(keys, {DCM_SOPInstanceUID});
+    std::vector<std::string> objects;
+    find(peer, keys, our_ae_title, progress,
+         [&](DcmDataset& match) { objects.push_back(Dataset(match).raw(DCM_SOPInstanceUID)); });
+    std::sort(objects.begin(), objects.end());
+    return objects;
 }
 
 }  // namespace vicon::ingest

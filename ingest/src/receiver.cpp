@@ -1,167 +1,91 @@
 #include "vicon/ingest/receiver.h"
 
-#include <dcmtk/config/osconfig.h>
-
-#include <arpa/inet.h>
-#include <dcmtk/dcmnet/dcmlayer.h>
-#include <dcmtk/dcmnet/scpthrd.h>
-#include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <list>
+#include <mutex>
+#include <thread>
 
+#include "caller_rules.h"
 #include "dicom_setup.h"
 #include "incoming.h"
+#include "listening_socket.h"
+#include "lobby.h"
+#include "storage_association.h"
 #include "vicon/core/error.h"
-#include "vicon/core/file.h"
 
 namespace fs = std::filesystem;
 
 namespace vicon::ingest {
 namespace {
 
-constexpr Uint32 kPduBytes = 131072;  // the largest that DCMTK receives
-constexpr int kAcceptSeconds = 1;     // how soon a stop is noticed
-constexpr Uint16 kOutOfResources = STATUS_STORE_Refused_OutOfResources;
+using SteadyClock = std::chrono::steady_clock;
 
-/// In order of preference where a peer offers several at once: what is not compressed first, so that nobody compresses
-/// for VICON; what loses nothing before what does.
-const char* const kTransferSyntaxes[] = {
-    UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax,
-    UID_BigEndianExplicitTransferSyntax,    UID_DeflatedExplicitVRLittleEndianTransferSyntax,
-    UID_JPEGProcess14SV1TransferSyntax,     UID_JPEGProcess14TransferSyntax,
-    UID_JPEGLSLosslessTransferSyntax,       UID_JPEG2000LosslessOnlyTransferSyntax,
-    UID_RLELosslessTransferSyntax,          UID_JPEG2000TransferSyntax,
-    UID_JPEGLSLossyTransferSyntax,          UID_JPEGProcess2_4TransferSyntax,
-    UID_JPEGProcess6_8TransferSyntax,       UID_JPEGProcess10_12TransferSyntax,
-    UID_JPEGProcess1TransferSyntax};
+constexpr Uint32 kPduBytes = 131072;
+constexpr int kLookMilliseconds = 200;  // how soon a stop is noticed
+constexpr int kAcceptedAtOnce = 64;
+/// What a peer must send within receive.timeout_s: a thousandth of what the slowest line brings, more than a trickle.
+constexpr unsigned long long kLeastBytes = 4096;
+constexpr std::size_t kMostRefusing = 16;  // threads that tell too many peers that they are too many
 
-DcmSCPConfig configFor(const ReceiverOptions& options)
-{
-    DcmSCPConfig config;
-    config.setAETitle(options.ae_title.c_str());
-    config.setMaxReceivePDULength(kPduBytes);
-    config.setHostLookupEnabled(OFFalse);
-    config.setDIMSEBlockingMode(DIMSE_NONBLOCKING);
-    config.setDIMSETimeout(Uint32(options.timeout_s));
-    config.setACSETimeout(Uint32(options.timeout_s));
-    OFList<OFString> syntaxes;
-    for (const char* syntax : kTransferSyntaxes)
-        syntaxes.push_back(syntax);
-    config.addPresentationContext(UID_VerificationSOPClass, syntaxes);
-    for (int n = 0; n < numberOfDcmAllStorageSOPClassUIDs; ++n)
-        config.addPresentationContext(dcmAllStorageSOPClassUIDs[n], syntaxes);
-    return config;
-}
-
-/// A loopback of bind() tells a free port; DCMTK takes numbers only.
-int freePort()
-{
-    const int descriptor = ::socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_ANY);
-    socklen_t length = sizeof address;
-    int port = 0;
-    if (::bind(descriptor, reinterpret_cast<sockaddr*>(&address), length) == 0 &&
-        ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &length) == 0)
-        port = ntohs(address.sin_port);
-    ::close(descriptor);
-    return port;
-}
-
-/// Remembers the socket of the connection that was accepted last, so that a stop can end it.
-class SocketRememberingLayer : public DcmTransportLayer {
+/// DCMTK takes a socket that it did not accept itself from a variable of the process, which threads share.
+class LentSocket {
 public:
-    DcmTransportConnection* createConnection(DcmNativeSocketType socket, OFBool secure) override
-    {
-        last_ = socket;
-        return DcmTransportLayer::createConnection(socket, secure);
-    }
-    int last() const { return int(last_); }
+    explicit LentSocket(int socket) : lock_(mutex()) { dcmExternalSocketHandle.set(socket); }
+    ~LentSocket() { dcmExternalSocketHandle.set(-1); }
+    LentSocket(const LentSocket&) = delete;
+    LentSocket& operator=(const LentSocket&) = delete;
 
 private:
-    DcmNativeSocketType last_ = -1;
+    static std::mutex& mutex()
+    {
+        static std::mutex shared;
+        return shared;
+    }
+    std::lock_guard<std::mutex> lock_;
 };
 
-/// Serves one association.
-class StorageAssociation : public DcmThreadSCP {
-public:
-    StorageAssociation(Incoming& incoming, const ReceiverOptions& options) : incoming_(incoming), options_(options) {}
-
-    void serve(T_ASC_Association* association)
-    {
-        folder_ = incoming_.open();
-        run(association);
-        incoming_.close(folder_);
-    }
-
-protected:
-    OFBool checkCalledAETitleAccepted(const OFString& called) override
-    {
-        return options_.any_called_title || called == options_.ae_title.c_str();
-    }
-
-    OFCondition handleIncomingCommand(T_DIMSE_Message* message, const DcmPresentationContextInfo& context) override
-    {
-        if (message->CommandField != DIMSE_C_STORE_RQ)
-            return DcmThreadSCP::handleIncomingCommand(message, context);
-        T_DIMSE_C_StoreRQ& request = message->msg.CStoreRQ;
-        Uint16 status = STATUS_Success;
-        const OFCondition received = receive(request, context.presentationContextID, status);
-        if (received.bad())
-            return received;
-        return sendSTOREResponse(context.presentationContextID, request, status);
-    }
-
-private:
-    OFCondition receive(T_DIMSE_C_StoreRQ& request, T_ASC_PresentationContextID context, Uint16& status)
-    {
-        OFCondition received = EC_Normal;
-        const fs::path file = folder_ / (std::to_string(count_++) + ".dcm");
-        struct NotReceived {};
-        try {
-            replaceFile(file, [&](const fs::path& temporary) {
-                received = receiveSTORERequest(request, context, OFString(temporary.c_str()));
-                if (received.bad())
-                    throw NotReceived{};
-            });
-            incoming_.add(folder_, file);
-        } catch (const NotReceived&) {
-            incoming_.trouble("an object was not received completely: " + std::string(received.text()));
-        } catch (const std::exception& e) {
-            status = kOutOfResources;
-            incoming_.trouble(e.what());
-        }
-        return received;
-    }
-
-    Incoming& incoming_;
-    const ReceiverOptions& options_;
-    fs::path folder_;
-    int count_ = 0;
+/// One association and the thread that serves it.
+struct Served {
+    std::thread thread;
+    std::string host;
+    int socket = -1;  ///< a duplicate of DCMTK's, so that it cannot name another connection
+    bool crowded = false;
+    bool ended = false;
+    std::atomic<bool> finished = false;
+    SteadyClock::time_point alive = SteadyClock::now();  ///< when it last had sent enough
+    unsigned long long bytes = 0;                        ///< that it had sent then
 };
+
+void requireTitle(const std::string& title)
+{
+    constexpr std::size_t kLongestTitle = 16;
+    if (title.empty() || title.size() > kLongestTitle)
+        throw Error(ErrorCode::wrong_use, "an application entity title has 1 to 16 characters", title,
+                    "set receive.ae_title");
+}
 
 }  // namespace
 
 class Receiver::Implementation {
 public:
-    Implementation(const ReceiverOptions& options, const fs::path& folder, OnReceived on_received, OnTrouble on_trouble)
-        : options_(options),
-          port_(options.port > 0 ? options.port : freePort()),
-          incoming_(folder, options.idle_s, std::move(on_received), std::move(on_trouble))
+    Implementation(const ReceiverOptions& options, const fs::path& folder, OnReceived on_received, OnTrouble on_trouble,
+                   OnNote on_note)
+        : options_((requireTitle(options.ae_title), options)),
+          rules_(options.allow),
+          incoming_(folder, {options.quiet_s, options.idle_s}, std::move(on_received), std::move(on_trouble)),
+          note_(std::move(on_note)),
+          listening_(options.address, options.port),
+          lobby_(options.max_half_open, options.request_s)
     {
-        constexpr std::size_t kLongestTitle = 16;
-        if (options_.ae_title.empty() || options_.ae_title.size() > kLongestTitle)
-            throw Error(ErrorCode::wrong_use, "an application entity title has 1 to 16 characters", options_.ae_title,
-                        "set receive.ae_title");
         setUpDicom();
-        const OFCondition opened = ASC_initializeNetwork(NET_ACCEPTOR, port_, int(options_.timeout_s), &network_);
-        if (opened.bad())
-            throw Error(ErrorCode::peer, "the port cannot be listened on", std::to_string(port_),
-                        "another program may use it: set receive.port");
-        ASC_setTransportLayer(network_, &layer_, 0);
+        const LentSocket none_is_opened(0);
+        if (ASC_initializeNetwork(NET_ACCEPTOR, port(), int(options_.timeout_s), &network_).bad())
+            throw Error(ErrorCode::peer, "the network cannot be used", std::to_string(port()));
         shared_config_ = DcmSharedSCPConfig(configFor(options_));
     }
 
@@ -176,89 +100,178 @@ public:
         incoming_.start();
         while (!stop) {
             joinFinished();
-            acceptOne();
+            waitForNews();
+            acceptCallers();
+            std::vector<std::string> ended;
+            for (const Caller& caller : lobby_.takeReady(ended))
+                serve(caller);
+            for (const std::string& line : ended)
+                incoming_.trouble(line);
+            endSilent();
         }
         endAssociations();
         incoming_.finish();
     }
 
-    int port() const { return port_; }
+    int port() const { return listening_.port(); }
 
 private:
-    struct Open {
-        std::thread thread;
-        int socket = -1;  ///< a duplicate of DCMTK's, so that it cannot name another connection
-        std::atomic<bool> finished = false;
-    };
-
-    void acceptOne()
+    void waitForNews() const
     {
+        std::vector<pollfd> watched{{listening_.descriptor(), POLLIN, 0}};
+        lobby_.addTo(watched);
+        ::poll(watched.data(), watched.size(), kLookMilliseconds);
+    }
+
+    void acceptCallers()
+    {
+        for (int n = 0; n < kAcceptedAtOnce; ++n)
+            if (const auto caller = listening_.accept())
+                lobby_.enter(*caller);
+            else
+                return;
+    }
+
+    /// The request is there as a whole: reading it does not wait.
+    T_ASC_Association* readRequest(const Caller& caller)
+    {
+        constexpr int kNoWait = 1;
         T_ASC_Association* association = nullptr;
-        const OFCondition accepted = ASC_receiveAssociation(network_, &association, kPduBytes, nullptr, nullptr,
-                                                            OFFalse, DUL_NOBLOCK, kAcceptSeconds);
-        if (accepted.bad() || open_.size() >= std::size_t(options_.max_associations)) {
-            if (accepted.good()) {
-                const T_ASC_RejectParameters busy{ASC_RESULT_REJECTEDTRANSIENT,
-                                                  ASC_SOURCE_SERVICEPROVIDER_PRESENTATION_RELATED,
-                                                  ASC_REASON_SP_PRES_LOCALLIMITEXCEEDED};
-                ASC_rejectAssociation(association, &busy);
-            }
-            if (association) {
-                ASC_dropSCPAssociation(association);
-                ASC_destroyAssociation(&association);
-            }
+        const LentSocket lent(caller.socket);
+        const OFCondition received =
+            ASC_receiveAssociation(network_, &association, kPduBytes, nullptr, nullptr, OFFalse, DUL_NOBLOCK, kNoWait);
+        if (received.good())
+            return association;
+        incoming_.trouble("a connection from " + caller.host + " made no proper association request");
+        if (association) {
+            ASC_dropSCPAssociation(association);
+            ASC_destroyAssociation(&association);
+        }
+        return nullptr;
+    }
+
+    void serve(const Caller& caller)
+    {
+        const bool crowded = !makeRoomFor(caller.host);
+        if (crowded && refusing() >= kMostRefusing) {
+            ::close(caller.socket);
             return;
         }
-        Open& open = open_.emplace_back();
-        open.socket = ::dup(layer_.last());
-        open.thread = std::thread([this, &open, association] {
+        const int socket = ::dup(caller.socket);
+        T_ASC_Association* association = readRequest(caller);
+        if (!association || socket < 0) {
+            ::close(socket);
+            return;
+        }
+        Served& served = served_.emplace_back();
+        served.host = caller.host;
+        served.socket = socket;
+        served.crowded = crowded;
+        served.thread = std::thread([this, &served, association] {
             try {
-                StorageAssociation scp(incoming_, options_);
+                const StorageService service{options_, rules_, incoming_, note_};
+                StorageAssociation scp(service, served.host);
                 scp.setSharedConfig(shared_config_);
-                scp.serve(association);
+                scp.serve(association, served.crowded);
             } catch (const std::exception& e) {
                 incoming_.trouble(e.what());
             }
-            ::close(open.socket);
-            open.finished = true;
+            ::shutdown(served.socket, SHUT_RDWR);
+            served.finished = true;
         });
+    }
+
+    std::size_t refusing() const
+    {
+        return std::size_t(std::count_if(served_.begin(), served_.end(), [](const Served& s) { return s.crowded; }));
+    }
+
+    /// Whether one more of this host can be served; where there are too many, one that is idle ends for it.
+    bool makeRoomFor(const std::string& host)
+    {
+        const auto counts = [](const Served& s) { return !s.crowded && !s.ended && !s.finished; };
+        const auto of_host = [&](const Served& s) { return counts(s) && s.host == host; };
+        if (std::count_if(served_.begin(), served_.end(), of_host) >= options_.max_per_host)
+            return endIdlest(of_host);
+        if (std::count_if(served_.begin(), served_.end(), counts) >= options_.max_associations)
+            return endIdlest(counts);
+        return true;
+    }
+
+    template <class Which>
+    bool endIdlest(Which which)
+    {
+        Served* idlest = nullptr;
+        for (Served& one : served_)
+            if (which(one) && (!idlest || one.alive < idlest->alive))
+                idlest = &one;
+        if (!idlest || SteadyClock::now() - idlest->alive < std::chrono::duration<double>(options_.idle_s))
+            return false;
+        end(*idlest, "was idle, and another peer needs its place");
+        return true;
+    }
+
+    /// Ends associations that bring next to nothing: silent, idle or trickling.
+    void endSilent()
+    {
+        const auto now = SteadyClock::now();
+        for (Served& one : served_) {
+            if (one.ended || one.finished)
+                continue;
+            const unsigned long long bytes = bytesReceived(one.socket);
+            if (bytes - one.bytes >= kLeastBytes) {
+                one.bytes = bytes;
+                one.alive = now;
+            } else if (now - one.alive > std::chrono::duration<double>(options_.timeout_s)) {
+                end(one, "sent next to nothing for " + std::to_string(int(options_.timeout_s)) + " s");
+            }
+        }
+    }
+
+    void end(Served& one, const std::string& why)
+    {
+        incoming_.trouble("an association from " + one.host + " was ended: it " + why);
+        one.ended = true;
+        ::shutdown(one.socket, SHUT_RDWR);
     }
 
     void joinFinished()
     {
-        for (auto it = open_.begin(); it != open_.end();) {
-            if (it->finished) {
-                it->thread.join();
-                it = open_.erase(it);
-            } else {
-                ++it;
-            }
-        }
+        served_.remove_if([](Served& one) {
+            if (!one.finished)
+                return false;
+            one.thread.join();
+            ::close(one.socket);
+            return true;
+        });
     }
 
     void endAssociations()
     {
-        for (Open& open : open_) {
-            if (!open.finished)
-                ::shutdown(open.socket, SHUT_RDWR);
-            open.thread.join();
+        for (const Served& one : served_)
+            ::shutdown(one.socket, SHUT_RDWR);
+        for (Served& one : served_) {
+            one.thread.join();
+            ::close(one.socket);
         }
-        open_.clear();
+        served_.clear();
     }
 
-    ReceiverOptions options_;
-    int port_;
+    const ReceiverOptions options_;
+    const CallerRules rules_;
     Incoming incoming_;
-    SocketRememberingLayer layer_;
+    const OnNote note_;
+    const ListeningSocket listening_;
+    Lobby lobby_;
     T_ASC_Network* network_ = nullptr;
     DcmSharedSCPConfig shared_config_;
-    std::list<Open> open_;
+    std::list<Served> served_;
 };
 
 Receiver::Receiver(const ReceiverOptions& options, const fs::path& incoming_folder, OnReceived on_received,
-                   OnTrouble on_trouble)
-    : implementation_(
-          std::make_unique<Implementation>(options, incoming_folder, std::move(on_received), std::move(on_trouble)))
+                   OnTrouble on_trouble, OnNote on_note)
+    : implementation_(std::make_unique<Implementation>(options, incoming_folder, std::move(on_received),
+                                                       std::move(on_trouble), std::move(on_note)))
 {
 }
 

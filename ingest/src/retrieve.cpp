@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <iterator>
+#include <map>
 
 #include "association.h"
 #include "dicom_setup.h"
@@ -102,6 +104,67 @@ RetrieveResult retrieveOne(Retrieving& scu, const Peer& peer, const char* model,
     return scu.result;
 }
 
+void offerImages(DcmSCU& scu)
+{
+    for (const char* kind : kKinds)
+        for (const char* syntax : kSyntaxes) {
+            OFList<OFString> alone;
+            alone.push_back(syntax);
+            scu.addPresentationContext(kind, alone, ASC_SC_ROLE_SCP);
+        }
+}
+
+/// SOP Instance UIDs of what an earlier try left. The last one may be half there, and is removed.
+std::set<std::string> objectsIn(const fs::path& folder)
+{
+    std::map<fs::path, fs::file_time_type> files;
+    for (const auto& entry : fs::directory_iterator(folder))
+        files[entry.path()] = entry.last_write_time();
+    const auto last =
+        std::max_element(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (last != files.end()) {
+        fs::remove(last->first);
+        files.erase(last);
+    }
+    std::set<std::string> uids;
+    for (const auto& [file, time] : files) {
+        DcmMetaInfo meta;
+        OFString uid;
+        if (meta.loadFile(file.c_str()).good() && meta.findAndGetOFString(DCM_MediaStorageSOPInstanceUID, uid).good())
+            uids.insert(uid.c_str());
+    }
+    return uids;
+}
+
+/// What to ask for: the whole series where nothing of it is here, else what is missing, some at a time.
+std::vector<DcmDataset> requestsFor(const Peer& peer, const std::string& study_uid, const std::string& series_uid,
+                                    const std::set<std::string>& here, const std::string& our_ae_title,
+                                    Progress& progress)
+{
+    constexpr std::size_t kAtOnce = 100;  // a list of so many UIDs stays below the 64 kB of a short length
+    std::vector<DcmDataset> requests(1);
+    fillKeys(requests.front(), study_uid, series_uid);
+    if (here.empty())
+        return requests;
+    const std::vector<std::string> objects = findObjects(peer, study_uid, series_uid, our_ae_title, progress);
+    std::vector<std::string> missing;
+    std::copy_if(objects.begin(), objects.end(), std::back_inserter(missing),
+                 [&](const std::string& uid) { return !here.contains(uid); });
+    if (missing.size() == objects.size() && !objects.empty())
+        return requests;
+    requests.clear();
+    for (std::size_t from = 0; from < missing.size(); from += kAtOnce) {
+        std::string uids;
+        for (std::size_t n = from; n < std::min(from + kAtOnce, missing.size()); ++n)
+            uids += (uids.empty() ? "" : "\\") + missing[n];
+        DcmDataset& keys = requests.emplace_back();
+        fillKeys(keys, study_uid, series_uid);
+        keys.putAndInsertString(DCM_QueryRetrieveLevel, "IMAGE");
+        keys.putAndInsertString(DCM_SOPInstanceUID, uids.c_str());
+    }
+    return requests;
+}
+
 void add(RetrieveResult& all, const RetrieveResult& one)
 {
     all.completed += one.completed;
@@ -112,29 +175,25 @@ void add(RetrieveResult& all, const RetrieveResult& one)
 }  // namespace
 
 RetrieveResult getSeries(const Peer& peer, const std::string& study_uid, const std::vector<std::string>& series_uids,
-                         const fs::path& folder, const std::string& our_ae_title, Progress& progress)
+                         const fs::path& folder, const std::string& our_ae_title, Progress& progress,
+                         const std::set<std::string>& have)
 {
     setUpDicom();
     makePrivateFolder(folder);
+    std::set<std::string> here = objectsIn(folder);
+    here.insert(have.begin(), have.end());
     RetrieveResult all;
     for (std::size_t n = 0; n < series_uids.size(); ++n) {
-        Retrieving scu(progress, n, series_uids.size());
-        scu.setStorageMode(DCMSCU_STORAGE_BIT_PRESERVING);
-        scu.setStorageDir(folder.c_str());
-        DcmDataset keys;
-        fillKeys(keys, study_uid, series_uids[n]);
-        const RetrieveResult one = retrieveOne(
-            scu, peer, UID_GETStudyRootQueryRetrieveInformationModel, our_ae_title, progress,
-            [&] {
-                for (const char* kind : kKinds)
-                    for (const char* syntax : kSyntaxes) {
-                        OFList<OFString> alone;
-                        alone.push_back(syntax);
-                        scu.addPresentationContext(kind, alone, ASC_SC_ROLE_SCP);
-                    }
-            },
-            [&](T_ASC_PresentationContextID context) { return scu.sendCGETRequest(context, &keys, nullptr); });
-        add(all, one);
+        for (DcmDataset& keys : requestsFor(peer, study_uid, series_uids[n], here, our_ae_title, progress)) {
+            Retrieving scu(progress, n, series_uids.size());
+            scu.setStorageMode(DCMSCU_STORAGE_BIT_PRESERVING);
+            scu.setStorageDir(folder.c_str());
+            const RetrieveResult one = retrieveOne(
+                scu, peer, UID_GETStudyRootQueryRetrieveInformationModel, our_ae_title, progress,
+                [&] { offerImages(scu); },
+                [&](T_ASC_PresentationContextID context) { return scu.sendCGETRequest(context, &keys, nullptr); });
+            add(all, one);
+        }
     }
     return all;
 }

@@ -8,10 +8,12 @@
 #include "inspect.h"
 #include "patient_match.h"
 #include "pixels.h"
+#include "same_object.h"
 #include "scan_description.h"
 #include "scan_reader.h"
 #include "stored_files.h"
 #include "text.h"
+#include "vicon/cases/said_of_scan.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
@@ -46,7 +48,8 @@ void StudyImport::run(std::vector<Arrival> arrivals, std::map<std::string, Serie
     for (Assembled& scan : scans_)
         store(scan);
     for (const auto& old : old_scans_)
-        if (std::none_of(scans_.begin(), scans_.end(), [&](const Assembled& s) { return s.record.id == old.first; }))
+        if (!isFixed(old.first) &&
+            std::none_of(scans_.begin(), scans_.end(), [&](const Assembled& s) { return s.record.id == old.first; }))
             store_.removeScan(case_.id, old.first);  // all its objects belong to other scans now
     flagSharedIds();
 }
@@ -68,8 +71,11 @@ void StudyImport::loadStored()
     for (ScanRecord& scan : store_.scans(case_.id)) {
         for (InstanceRecord& instance : store_.instances(case_.id, scan.id)) {
             fs::path file = store_.scanFolder(case_.id, scan.id) / kDicomFolder / instance.file;
+            scan_of_[instance.sop_uid] = scan.id;
             stored.emplace_back(std::move(instance), std::move(file));
         }
+        if (isSpokenOf(store_, scan))
+            fixed_.insert(scan.id);
         old_scans_[scan.id] = std::move(scan);
     }
     std::vector<Inspection> inspected(stored.size());
@@ -98,12 +104,15 @@ void StudyImport::admit(std::vector<Arrival> arrivals, std::map<std::string, Ser
         const auto recorded = store_.findInstance(object.sop_uid);
         const auto here = objects_.find(object.sop_uid);
         const std::string first = recorded ? recorded->sha256 : here != objects_.end() ? here->second.sha256 : "";
-        if (!first.empty() && first != object.sha256) {
+        if (!first.empty() && first != object.sha256 && !isSameAsStored(object, recorded)) {
+            report_.not_stored.push_back(object.file);
             const std::string why = "the same SOP Instance UID with other content is stored; the first is kept";
             reporter_.object(ImportLine::Kind::refused, arrival.shown, object.series.uid, why, case_.id);
             addOnce(notes[object.series.uid].refused, {{"object", object.sop_uid}, {"why", why}});
             continue;
         }
+        if (recorded && first != object.sha256)
+            arrival.object.sha256 = first;  // the same object with another meta header
         if (here != objects_.end())
             continue;
         shown_[object.sop_uid] = arrival.shown;
@@ -111,6 +120,16 @@ void StudyImport::admit(std::vector<Arrival> arrivals, std::map<std::string, Ser
         objects_[uid] = std::move(arrival.object);
     }
     quarantine(strangers);
+}
+
+/// The same object that came over another way has another meta header.
+bool StudyImport::isSameAsStored(const ImageObject& object, const std::optional<InstanceRecord>& recorded)
+{
+    const auto here = objects_.find(object.sop_uid);
+    if (here != objects_.end())
+        return isSameObject(object.file, here->second.file);
+    return recorded && isSameObject(object.file, store_.scanFolder(recorded->case_id, recorded->scan_id) /
+                                                     kDicomFolder / recorded->file);
 }
 
 void StudyImport::quarantine(const std::vector<Arrival>& strangers)
@@ -171,6 +190,7 @@ void StudyImport::dropUndecodable(std::map<std::string, SeriesNotes>& notes)
         if (why[n].empty())
             continue;
         const std::string uid = small[n]->sop_uid, series = small[n]->series.uid;
+        report_.not_stored.push_back(small[n]->file);
         reporter_.object(ImportLine::Kind::refused, shown_[uid], series, why[n], case_.id);
         addOnce(notes[series].refused, {{"object", uid}, {"why", why[n]}});
         objects_.erase(uid);
@@ -179,35 +199,60 @@ void StudyImport::dropUndecodable(std::map<std::string, SeriesNotes>& notes)
 
 void StudyImport::assemble()
 {
-    std::map<std::string, std::vector<const ImageObject*>> series;
-    for (const auto& [uid, object] : objects_)
-        series[object.series.uid].push_back(&object);
-    for (const auto& [series_uid, members] : series) {
-        std::set<const ImageObject*> taken;
-        for (Stack& stack : splitSeries(members, haveSamePixels)) {
-            progress_.check();
-            std::set<const ImageObject*> of_stack;
-            for (const auto* refs : {&stack.slices, &stack.copies})
-                for (const SliceRef& ref : *refs)
-                    of_stack.insert(ref.object);
-            const bool shared = std::any_of(of_stack.begin(), of_stack.end(),
-                                            [&](const ImageObject* object) { return taken.contains(object); });
-            if (shared) {  // several stacks in one multi-frame object: the largest is used
-                scans_.back().plan.repairs.push_back(std::to_string(stack.slices.size()) +
-                                                     " frames that belong to another stack are not used");
-                continue;
-            }
-            taken.insert(of_stack.begin(), of_stack.end());
-            Assembled scan;
-            scan.plan = planStack(stack, options_);
-            scan.objects.assign(of_stack.begin(), of_stack.end());
-            std::sort(scan.objects.begin(), scan.objects.end(),
-                      [](const auto* a, const auto* b) { return a->sop_uid < b->sop_uid; });
-            scan.record.case_id = case_.id;
-            scan.record.id = CaseStore::scanIdFor(series_uid + stack.key);
-            scan.stack = std::move(stack);
-            scans_.push_back(std::move(scan));
+    std::map<std::string, std::vector<const ImageObject*>> series, fixed;
+    for (const auto& [uid, object] : objects_) {
+        const auto home = scan_of_.find(uid);
+        if (home != scan_of_.end() && isFixed(home->second))
+            fixed[home->second].push_back(&object);
+        else
+            series[object.series.uid].push_back(&object);
+    }
+    for (const auto& [scan_id, members] : fixed)
+        assembleFixed(scan_id, members);
+    for (const auto& [series_uid, members] : series)
+        assembleFree(series_uid, members);
+}
+
+void StudyImport::assembleFixed(const std::string& scan_id, const std::vector<const ImageObject*>& members)
+{
+    progress_.check();
+    Assembled scan;
+    scan.fixed = true;
+    scan.stack = splitSeries(members, haveSamePixels).front();
+    scan.plan = planStack(scan.stack, options_);
+    scan.objects = members;
+    scan.record = old_scans_.at(scan_id);
+    scans_.push_back(std::move(scan));
+}
+
+void StudyImport::assembleFree(const std::string& series_uid, const std::vector<const ImageObject*>& members)
+{
+    std::set<const ImageObject*> taken;
+    for (Stack& stack : splitSeries(members, haveSamePixels)) {
+        progress_.check();
+        std::set<const ImageObject*> of_stack;
+        for (const auto* refs : {&stack.slices, &stack.copies})
+            for (const SliceRef& ref : *refs)
+                of_stack.insert(ref.object);
+        const bool shared = std::any_of(of_stack.begin(), of_stack.end(),
+                                        [&](const ImageObject* object) { return taken.contains(object); });
+        if (shared) {  // several stacks in one multi-frame object: the largest is used
+            scans_.back().plan.repairs.push_back(std::to_string(stack.slices.size()) +
+                                                 " frames that belong to another stack are not used");
+            continue;
         }
+        taken.insert(of_stack.begin(), of_stack.end());
+        Assembled scan;
+        scan.plan = planStack(stack, options_);
+        scan.objects.assign(of_stack.begin(), of_stack.end());
+        std::sort(scan.objects.begin(), scan.objects.end(),
+                  [](const auto* a, const auto* b) { return a->sop_uid < b->sop_uid; });
+        scan.record.case_id = case_.id;
+        for (std::string key = series_uid + stack.key; scan.record.id.empty() || isFixed(scan.record.id);
+             key += "|later")
+            scan.record.id = CaseStore::scanIdFor(key);
+        scan.stack = std::move(stack);
+        scans_.push_back(std::move(scan));
     }
 }
 
@@ -216,57 +261,79 @@ void StudyImport::chooseRoles()
     std::vector<Reconstruction> usable;
     std::vector<Assembled*> owners;
     for (Assembled& scan : scans_) {
+        const bool usable_plan = scan.plan.refused.empty();
         const std::size_t slices = scan.stack.slices.size();
-        scan.record.role = scan.plan.refused.empty() ? "kept" : "refused";
-        if (scan.plan.refused.empty() && slices < std::size_t(options_.min_slices))
+        if (!scan.fixed)
+            scan.record.role = usable_plan ? "kept" : "refused";
+        if (!scan.fixed && usable_plan && slices < std::size_t(options_.min_slices))
             scan.record.ingest["kept_because"] = std::to_string(slices) + (slices == 1 ? " slice" : " slices") +
                                                  ", fewer than the " + std::to_string(options_.min_slices) +
                                                  " of a scan";
-        else if (scan.plan.refused.empty()) {
+        else if (usable_plan && (!scan.fixed || scan.record.role == "scan")) {
             usable.push_back({&scan.stack, &scan.plan});
             owners.push_back(&scan);
         }
     }
     const std::vector<std::size_t> chosen = chooseScans(usable);
+    std::map<std::size_t, const Assembled*> fixed;  // by what would be chosen if nobody had spoken
+    for (std::size_t n = 0; n < chosen.size(); ++n)
+        if (owners[n]->fixed)
+            fixed.try_emplace(chosen[n], owners[n]);
     for (std::size_t n = 0; n < chosen.size(); ++n) {
-        if (chosen[n] == n) {
+        if (owners[n]->fixed)
+            continue;
+        const auto marked = fixed.find(chosen[n]);
+        if (marked == fixed.end() && chosen[n] == n) {
             owners[n]->record.role = "scan";
             continue;
         }
-        const Series& other = owners[chosen[n]]->stack.slices.front().object->series;
+        const Assembled& other = marked == fixed.end() ? *owners[chosen[n]] : *marked->second;
         owners[n]->record.ingest["kept_because"] =
-            "another reconstruction of the acquisition of series " + std::to_string(other.number);
-        owners[n]->record.ingest["reconstruction_of"] = owners[chosen[n]]->record.id;
+            "another reconstruction of the acquisition of series " +
+            std::to_string(other.stack.slices.front().object->series.number) +
+            (marked == fixed.end() ? "" : ", which was marked or reported before");
+        owners[n]->record.ingest["reconstruction_of"] = other.record.id;
     }
 }
 
 void StudyImport::describe(Assembled& scan, const std::map<std::string, SeriesNotes>& notes)
 {
-    scan.record.series = seriesOf(scan.stack);
+    if (!scan.fixed) {
+        scan.record.series = seriesOf(scan.stack);
+        json& ingest = scan.record.ingest;
+        ingest["geometry"] = describeGeometry(scan.stack, scan.plan);
+        ingest["repairs"] = describeRepairs(scan.objects, scan.plan);
+        ingest["lossy"] = scan.record.series.lossy;
+        const auto old = old_scans_.find(scan.record.id);
+        scan.record.created = old == old_scans_.end() ? nowUtc() : old->second.created;
+    }
+    addNotes(scan, notes);
+}
+
+/// What was said about single objects stays said, in whichever import they came.
+void StudyImport::addNotes(Assembled& scan, const std::map<std::string, SeriesNotes>& notes)
+{
     json& ingest = scan.record.ingest;
-    ingest["geometry"] = describeGeometry(scan.stack, scan.plan);
-    ingest["repairs"] = describeRepairs(scan.objects, scan.plan);
-    ingest["lossy"] = scan.record.series.lossy;
-    ingest["refused"] = json::array();
-    ingest["set_aside"] = json::array();
-    if (!scan.plan.refused.empty())
-        ingest["refused"].push_back({{"why", scan.plan.refused}});
-    // What was said about single objects stays said, in whichever import they came.
     const auto old = old_scans_.find(scan.record.id);
     const auto now = notes.find(scan.record.series.uid);
     for (const char* list : {"refused", "set_aside"}) {
-        json said = json::array();
+        json said = json::array(), of_scan = json::array();
         if (old != old_scans_.end() && old->second.ingest.contains(list))
-            for (const json& entry : old->second.ingest[list])
+            for (const json& entry : old->second.ingest[list]) {
                 if (entry.contains("object"))
                     addOnce(said, entry);
+                else if (scan.fixed)
+                    of_scan.push_back(entry);
+            }
         if (now != notes.end())
             for (const json& entry : list == std::string("refused") ? now->second.refused : now->second.set_aside)
                 addOnce(said, entry);
+        if (!scan.fixed && !scan.plan.refused.empty() && list == std::string("refused"))
+            of_scan.push_back({{"why", scan.plan.refused}});
         std::sort(said.begin(), said.end());
+        ingest[list] = std::move(of_scan);
         ingest[list].insert(ingest[list].end(), said.begin(), said.end());
     }
-    scan.record.created = old == old_scans_.end() ? nowUtc() : old->second.created;
 }
 
 void StudyImport::store(Assembled& scan)
@@ -295,8 +362,12 @@ void StudyImport::store(Assembled& scan)
         new_role || old->second.ingest != scan.record.ingest || json(old->second.series) != json(scan.record.series);
     if (!copies.empty())
         copyDurably(folder, copies, progress_);
-    if (grew || new_words)
-        store_.addScan(case_, scan.record, instances, scan.record.role == "scan" && (grew || new_role));
+    const std::string flag = scan.fixed || !grew ? "" : flagFor(scan);
+    if (!flag.empty())
+        case_.flags.push_back(flag);  // saved with the scan: no kill parts them
+    if (scan.fixed ? new_words : grew || new_words)
+        store_.addScan(case_, scan.record, instances, !scan.fixed && scan.record.role == "scan" && (grew || new_role),
+                       [&] { requireUnspoken(scan); });
     else if (const fs::path file = folder.parent_path() / "scan.json";
              !fs::exists(file) || readFile(file) != store_.describeScan(case_.id, scan.record.id).dump(2) + "\n")
         store_.writeScanFile(case_.id, scan.record.id);  // killed between the commit and the copy
@@ -304,7 +375,50 @@ void StudyImport::store(Assembled& scan)
         std::error_code ignored;
         fs::remove(file, ignored);
     }
-    tell(scan, grew || new_role);
+    tell(scan, !scan.fixed && (grew || new_role));
+    if (!flag.empty())
+        tellFlag(case_.id, flag);
+}
+
+/// A reader may have spoken of the scan since this import began.
+void StudyImport::requireUnspoken(const Assembled& scan)
+{
+    const auto old = old_scans_.find(scan.record.id);
+    if (!scan.fixed && old != old_scans_.end() && isSpokenOf(store_, old->second))
+        throw Error(ErrorCode::database, "a reader marked this scan while its images were imported; nothing was saved",
+                    case_.id + "/" + scan.record.id, "import them again");
+}
+
+/// What comes after people have spoken of a case changes nothing of that, and they must hear of it; empty when nobody
+/// need.
+std::string StudyImport::flagFor(const Assembled& scan)
+{
+    if (fixed_.empty())
+        return {};
+    const auto same_series = std::find_if(scans_.begin(), scans_.end(), [&](const Assembled& other) {
+        return other.fixed && other.record.series.uid == scan.record.series.uid;
+    });
+    const bool late = same_series != scans_.end();
+    const std::string beside = late ? same_series->record.id : scan.record.ingest.value("reconstruction_of", "");
+    const std::string series = (late ? "images of series " : "series ") + std::to_string(scan.record.series.number);
+    const std::string line =
+        isFixed(beside)
+            ? series + " came after scan " + beside + " was marked or reported: beside it as scan " + scan.record.id
+            : series + " came after this case was marked or reported: scan " + scan.record.id;
+    return isNewFlag(line) ? line : "";
+}
+
+/// A flag that a person took away does not come back.
+bool StudyImport::isNewFlag(const std::string& line)
+{
+    return std::find(case_.flags.begin(), case_.flags.end(), line) == case_.flags.end() &&
+           !store_.wasFlagged(case_.id, line);
+}
+
+void StudyImport::tellFlag(const std::string& case_id, const std::string& line)
+{
+    store_.audit("flagged", case_id, {}, line);
+    reporter_.line({ImportLine::Kind::flagged, case_id, line + "; a person must decide", case_id, {}});
 }
 
 void StudyImport::tell(const Assembled& scan, bool changed)

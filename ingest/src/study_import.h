@@ -2,6 +2,8 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -63,6 +65,8 @@ private:
         StackPlan plan;
         ScanRecord record;
         std::vector<const ImageObject*> objects;
+        /// People have spoken of it: its objects, its role and its words stay as they are.
+        bool fixed = false;
     };
     struct Home {
         std::string scan_id;
@@ -72,12 +76,21 @@ private:
     void openCase(const Patient& patient, const Study& study);
     void loadStored();
     void admit(std::vector<Arrival> arrivals, std::map<std::string, SeriesNotes>& notes);
+    bool isSameAsStored(const ImageObject& object, const std::optional<InstanceRecord>& recorded);
     void quarantine(const std::vector<Arrival>& strangers);
     void dropUndecodable(std::map<std::string, SeriesNotes>& notes);
     void assemble();
+    void assembleFixed(const std::string& scan_id, const std::vector<const ImageObject*>& members);
+    void assembleFree(const std::string& series_uid, const std::vector<const ImageObject*>& members);
+    bool isFixed(const std::string& scan_id) const { return fixed_.contains(scan_id); }
     void chooseRoles();
     void describe(Assembled& scan, const std::map<std::string, SeriesNotes>& notes);
+    void addNotes(Assembled& scan, const std::map<std::string, SeriesNotes>& notes);
     void store(Assembled& scan);
+    void requireUnspoken(const Assembled& scan);
+    std::string flagFor(const Assembled& scan);
+    bool isNewFlag(const std::string& line);
+    void tellFlag(const std::string& case_id, const std::string& line);
     void tell(const Assembled& scan, bool changed);
     void flagSharedIds();
 
@@ -91,7 +104,9 @@ private:
     std::map<std::string, ImageObject> objects_;   ///< by SOP Instance UID: stored ones and arrivals
     std::map<std::string, std::string> shown_;     ///< of arrivals, by SOP Instance UID
     std::map<std::string, Home> stored_at_;        ///< by SOP Instance UID
+    std::map<std::string, std::string> scan_of_;   ///< by SOP Instance UID: where it is recorded, damaged ones too
     std::map<std::string, ScanRecord> old_scans_;  ///< by id
+    std::set<std::string> fixed_;                  ///< ids of scans that people have spoken of
     std::vector<Assembled> scans_;
 };
 

@@ -1,11 +1,10 @@
 #include "vicon/pipeline/corrections.h"
 
-#include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/point_json.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -15,47 +14,21 @@ namespace {
 
 constexpr const char* kFile = "corrections.json";
 
-json listOf(const std::vector<Point3>& points)
-{
-    json list = json::array();
-    for (const Point3 p : points)
-        list.push_back({p.x, p.y, p.z});
-    return list;
-}
-
-std::vector<Point3> pointsIn(const json& all, const char* name)
-{
-    std::vector<Point3> points;
-    for (const json& p : all.value(name, json::array()))
-        points.push_back({p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()});
-    return points;
-}
-
-/// "x,y,z;x,y,z", to a micrometre.
-std::string textOf(const std::vector<Point3>& points)
-{
-    std::string text;
-    for (const Point3 p : points) {
-        char buffer[128];
-        std::snprintf(buffer, sizeof buffer, "%s%.3f,%.3f,%.3f", text.empty() ? "" : ";", p.x, p.y, p.z);
-        text += buffer;
-    }
-    return text;
-}
-
 void append(Config& config, const std::string& key, const std::vector<Point3>& points)
 {
     if (points.empty())
         return;
-    const std::string before = config.at(key).value.get<std::string>();
-    config.set(key + "=" + before + (before.empty() ? "" : ";") + textOf(points));
+    json all = config.at(key).value;
+    for (const Point3 p : points)
+        all.push_back(p);
+    config.set(key + "=" + all.dump());
 }
 
 }  // namespace
 
 json toJson(const Corrections& corrections)
 {
-    return {{"add", listOf(corrections.add)}, {"cut", listOf(corrections.cut)}, {"drop", listOf(corrections.drop)}};
+    return {{"add", corrections.add}, {"cut", corrections.cut}, {"drop", corrections.drop}};
 }
 
 Corrections readCorrections(const fs::path& scan_folder)
@@ -65,10 +38,13 @@ Corrections readCorrections(const fs::path& scan_folder)
         return {};
     try {
         const json all = json::parse(readFile(file));
-        return {pointsIn(all, "add"), pointsIn(all, "cut"), pointsIn(all, "drop")};
+        const auto points = [&](const char* name) {
+            return all.value(name, json::array()).get<std::vector<Point3>>();
+        };
+        return {points("add"), points("cut"), points("drop")};
     } catch (const json::exception&) {
         throw Error(ErrorCode::bad_input, "these corrections cannot be understood", file.string(),
-                    "take them back with 'vicon work --case CASE --undo-corrections'");
+                    "take them back with 'vicon work --case CASE --forget-corrections'");
     }
 }
 

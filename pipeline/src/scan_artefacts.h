@@ -70,20 +70,20 @@ public:
     }
 
     /// Begins to contour the lumen, unless that was begun, or the densities around it are not in memory.
-    void beginSurface(const steps::CellOptions& options)
+    void beginSurface(const steps::WallDensities& wall)
     {
         const std::lock_guard lock(mutex_);
         if (around_lumen_ && inside_ && !surface_.valid())
-            surface_ = std::async(std::launch::async, [&densities = *around_lumen_, &inside = *inside_, options] {
+            surface_ = std::async(std::launch::async, [&densities = *around_lumen_, &inside = *inside_, wall] {
                            NoProgress quiet;
-                           return steps::LumenSurface(densities, inside, options, quiet);
+                           return steps::LumenSurface(densities, inside, wall, quiet);
                        }).share();
     }
     /// The lumen's surface; reads the densities where an earlier run made them.
-    std::shared_future<steps::LumenSurface> surface(const steps::CellOptions& options)
+    std::shared_future<steps::LumenSurface> surface(const steps::WallDensities& wall)
     {
         densitiesAroundLumen();
-        beginSurface(options);
+        beginSurface(wall);
         const std::lock_guard lock(mutex_);
         return surface_;
     }

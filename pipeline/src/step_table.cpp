@@ -1,7 +1,9 @@
 #include "step_table.h"
 
 #include <algorithm>
+#include <functional>
 #include <future>
+#include <iterator>
 
 #include "vicon/scan_files/cells_file.h"
 #include "vicon/scan_files/projections_file.h"
@@ -136,7 +138,7 @@ json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepR
         return runTree(plan, inputs, artefacts, progress);
     // Two thirds of dividing the lumen need no curve, and cores are free here.
     const steps::SkeletonHooks hooks{
-        .core_free = [&] { artefacts.beginSurface(inputs.config.get<steps::CellOptions>()); },
+        .core_free = [&] { artefacts.beginSurface(inputs.config.get<steps::WallDensities>()); },
         .paths_found =
             [&](const std::vector<std::vector<Index3>>& paths) {
                 if (inputs.config.get<steps::SubdivideOptions>().method == "flood")
@@ -174,7 +176,7 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
 {
     PartOfProgress divide(progress, 0, 0.6), tell(progress, 0.6, 0.9), project(progress, 0.9, 1);
     const InsideVolume& inside = artefacts.inside();
-    const auto contour = artefacts.surface(inputs.config.get<steps::CellOptions>());
+    const auto contour = artefacts.surface(inputs.config.get<steps::WallDensities>());
     auto options = inputs.config.get<steps::SubdivideOptions>();
     const SkeletonTree tree = scan_files::readSkeletonTree(artefacts.folder() / "skeleton.vtp");
     if (!tree.empty())
@@ -205,7 +207,7 @@ json runPotential(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
         return *std::max_element(field.voxels.begin(), field.voxels.end());
     };
     json result;
-    const auto surface = artefacts.surface(inputs.config.get<steps::CellOptions>());
+    const auto surface = artefacts.surface(inputs.config.get<steps::WallDensities>());
     FieldVolume from_wall_mm = steps::wallDistance(artefacts.inside(), surface.get().nearWall(), wall);
     result["largest_wall_distance_mm"] = largest(from_wall_mm);
     artefacts.write("wall_distance.mha", std::move(from_wall_mm));
@@ -267,7 +269,7 @@ const std::vector<Step>& stepTable()
          Densities::around_lumen,
          always({"segments.mha", "subdivision.json", "cells.vtp", "projections/coronal.png",
                  "projections/transverse.png", "projections/sagittal.png", "projections/projections.json"}),
-         parametersFrom<SubdivideOptions, CellOptions, ProjectionOptions>,
+         parametersFrom<SubdivideOptions, WallDensities, ProjectionOptions>,
          runSubdivide},
         {"potential",
          3,
@@ -276,7 +278,7 @@ const std::vector<Step>& stepTable()
          {"resample", "segment", "skeleton"},
          Densities::around_lumen,
          always({"exit_distance.mha", "wall_distance.mha"}),
-         parametersFrom<CellOptions>,
+         parametersFrom<WallDensities>,
          runPotential},
     };
     return kTable;
@@ -285,7 +287,13 @@ const std::vector<Step>& stepTable()
 std::vector<OptionSpec> stepOptionSpecs()
 {
     std::vector<OptionSpec> all;
-    const auto add = [&](std::vector<OptionSpec> specs) { all.insert(all.end(), specs.begin(), specs.end()); };
+    // Several steps use the wall's densities; each option is declared once.
+    const auto known = [&](const OptionSpec& spec) {
+        return std::any_of(all.begin(), all.end(), [&](const OptionSpec& other) { return other.key == spec.key; });
+    };
+    const auto add = [&](const std::vector<OptionSpec>& specs) {
+        std::copy_if(specs.begin(), specs.end(), std::back_inserter(all), std::not_fn(known));
+    };
     add(specsOf<StepOptions>());
     add(specsOf<steps::ResampleOptions>());
     add(specsOf<steps::SegmentOptions>());
@@ -293,7 +301,6 @@ std::vector<OptionSpec> stepOptionSpecs()
     add(specsOf<steps::SkeletonOptions>());
     add(specsOf<steps::QualityOptions>());
     add(specsOf<steps::SubdivideOptions>());
-    add(specsOf<steps::CellOptions>());
     add(specsOf<steps::ProjectionOptions>());
     return all;
 }

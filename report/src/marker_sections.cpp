@@ -48,11 +48,7 @@ TextLine cutTo(Typesetter& type, const std::string& text, TextStyle style, doubl
         return lines.front();
     const TextLine dots = type.line("\u2026", style);
     TextLine cut = type.lines(text, style, width - dots.width).front();
-    for (TextRun run : dots.runs) {
-        run.x = cut.width;
-        cut.runs.push_back(run);
-    }
-    cut.width += dots.width;
+    cut.append(dots);
     return cut;
 }
 

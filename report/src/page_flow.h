@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "pdf_document.h"
-#include "text.h"
 
 namespace vicon::report {
 

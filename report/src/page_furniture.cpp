@@ -23,14 +23,12 @@ std::string orNone(const std::string& text, const char* otherwise)
 }
 
 /// At most `most` lines, the last one marked when there were more.
-std::vector<TextLine> shortened(std::vector<TextLine> lines, std::size_t most, TextLine dots)
+std::vector<TextLine> shortened(std::vector<TextLine> lines, std::size_t most, const TextLine& dots)
 {
     if (lines.size() <= most)
         return lines;
     lines.resize(most);
-    for (TextRun& run : dots.runs)
-        run.x = lines.back().width;
-    lines.back().runs.insert(lines.back().runs.end(), dots.runs.begin(), dots.runs.end());
+    lines.back().append(dots);
     return lines;
 }
 

@@ -3,11 +3,12 @@
 #include <memory>
 #include <string>
 
-#include "fonts.h"
 #include "picture.h"
-#include "text.h"
+#include "vicon/text/typesetter.h"
 
 namespace vicon::report {
+
+using text::TextLine, text::TextStyle, text::Typesetter;
 
 struct Color {
     float red = 0, green = 0, blue = 0;
@@ -26,7 +27,7 @@ struct PdfInfo {
 /// A PDF in memory, drawn on with libharu. Throws Error{no_memory} and Error{internal}.
 class PdfDocument {
 public:
-    PdfDocument(const FontSet& fonts, const PdfInfo& info);
+    PdfDocument(text::FontSet& fonts, const PdfInfo& info);
     ~PdfDocument();
     PdfDocument(const PdfDocument&) = delete;
     PdfDocument& operator=(const PdfDocument&) = delete;

@@ -4,8 +4,6 @@
 #include <hpdf_fontdef.h>
 #include <hpdf_objects.h>
 #include <hpdf_streams.h>
-#include <unicode/normalizer2.h>
-#include <unicode/unistr.h>
 
 #include <array>
 #include <cstdio>
@@ -49,25 +47,18 @@ std::vector<std::uint8_t> predicted(const Picture& picture)
     return out;
 }
 
-std::string hex(char16_t code)
+std::string hex(char32_t code)
 {
-    std::array<char, 8> digits{};
+    std::array<char, 12> digits{};
     std::snprintf(digits.data(), digits.size(), "%04X", unsigned(code));
     return digits.data();
 }
 
-/// What a glyph stands for: itself, or the letter of a presentation form, as the text had it. A ligature of several
-/// letters stays its own character (compatible with them by NFKC): readers that reverse right-to-left text would swap
-/// them.
-char16_t meaningOf(char16_t code)
+/// UTF-16: above the basic plane as two surrogates.
+std::string hexUtf16(char32_t c)
 {
-    const bool presentation_form = (code >= 0xfb1d && code <= 0xfdff) || (code >= 0xfe70 && code <= 0xfefc);
-    UErrorCode status = U_ZERO_ERROR;
-    const icu::Normalizer2* nfkc = presentation_form ? icu::Normalizer2::getNFKCInstance(status) : nullptr;
-    if (!nfkc)
-        return code;
-    const icu::UnicodeString letters = nfkc->normalize(icu::UnicodeString(code), status);
-    return U_SUCCESS(status) && letters.length() == 1 ? letters.charAt(0) : code;
+    constexpr char32_t kBeyond = 0x10000;
+    return c < kBeyond ? hex(c) : hex(0xd800 + ((c - kBeyond) >> 10)) + hex(0xdc00 + ((c - kBeyond) & 0x3ff));
 }
 
 }  // namespace
@@ -104,7 +95,7 @@ void embedGlyphs(HPDF_Font font, const std::vector<unsigned>& glyphs)
             attributes->glyph_tbl.flgs[glyph] = 1;
 }
 
-void setToUnicode(HPDF_Font font, const std::set<char16_t>& codes)
+void setToUnicode(HPDF_Font font, const std::map<char16_t, char32_t>& meaning)
 {
     auto* map = static_cast<HPDF_Dict>(HPDF_Dict_GetItem(font, "ToUnicode", HPDF_OCLASS_DICT));
     if (!map || !map->stream)
@@ -115,12 +106,12 @@ void setToUnicode(HPDF_Font font, const std::set<char16_t>& codes)
         "/CMapName /Adobe-Identity-UCS def\n/CMapType 2 def\n"
         "1 begincodespacerange\n<0000> <FFFF>\nendcodespacerange\n";
     constexpr std::size_t kMostInBlock = 100;  // a limit of the format
-    std::vector<char16_t> list(codes.begin(), codes.end());
+    const std::vector<std::pair<char16_t, char32_t>> list(meaning.begin(), meaning.end());
     for (std::size_t from = 0; from < list.size(); from += kMostInBlock) {
         const std::size_t to = std::min(from + kMostInBlock, list.size());
         text += std::to_string(to - from) + " beginbfchar\n";
         for (std::size_t n = from; n < to; ++n)
-            text += "<" + hex(list[n]) + "> <" + hex(meaningOf(list[n])) + ">\n";
+            text += "<" + hex(list[n].first) + "> <" + hexUtf16(list[n].second) + ">\n";
         text += "endbfchar\n";
     }
     text += "endcmap\nCMapName currentdict /CMap defineresource pop\nend\nend\n";

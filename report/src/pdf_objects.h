@@ -2,7 +2,7 @@
 
 #include <hpdf.h>
 
-#include <set>
+#include <map>
 #include <vector>
 
 #include "picture.h"
@@ -18,7 +18,7 @@ HPDF_Image embedPicture(HPDF_Doc document, const Picture& picture);
 void embedGlyphs(HPDF_Font font, const std::vector<unsigned>& glyphs);
 
 /// Replaces the ToUnicode map that libharu gives a "UTF-8" font, which is no such map (it has begincidrange), by one of
-/// the codes used. Arabic presentation forms map to their letters.
-void setToUnicode(HPDF_Font font, const std::set<char16_t>& codes);
+/// the codes used and the characters that they stand for.
+void setToUnicode(HPDF_Font font, const std::map<char16_t, char32_t>& meaning);
 
 }  // namespace vicon::report

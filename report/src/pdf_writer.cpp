@@ -5,6 +5,7 @@
 
 #include "page_furniture.h"
 #include "sections.h"
+#include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
 namespace vicon::report {
@@ -33,7 +34,10 @@ std::string missingWords(char32_t c)
 
 PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pdf, const ReportOptions& options)
 {
-    const FontSet fonts(options.font_folder);
+    text::FontSet fonts({options.font_folder}, text::FontSet::Medium::paper);
+    if (!fonts.find(U'A'))
+        throw Error(ErrorCode::not_found, "no font for the report is installed here", options.font_folder,
+                    "install the packages fonts-noto-core and fonts-dejavu-core, or set report.font_folder");
     Typesetter typesetter(fonts);
     PdfDocument document(fonts, {"CT colonography report", "VICON " + content.software_version, content.created});
     PageFlow::Paper paper = paperOf(options.paper);

@@ -1,17 +1,10 @@
 #include "picture.h"
 
-#include <png.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "vicon/core/error.h"
-
 namespace vicon::report {
 namespace {
-
-/// No picture that VICON makes comes near; a file that claims more is broken.
-constexpr std::int64_t kMostPixels = 100'000'000;
 
 bool isGrey(const std::vector<std::uint8_t>& rgb)
 {
@@ -50,29 +43,6 @@ std::vector<Cover> covers(int from_size, int to_size)
     return out;
 }
 
-}  // namespace
-
-Picture readPng(const std::filesystem::path& file)
-{
-    if (!std::filesystem::exists(file))
-        throw Error(ErrorCode::not_found, "the picture does not exist", file.string());
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    if (!png_image_begin_read_from_file(&image, file.c_str()))
-        throw Error(ErrorCode::bad_input, "the picture cannot be read", file.string());
-    if (std::int64_t(image.width) * image.height > kMostPixels) {
-        png_image_free(&image);
-        throw Error(ErrorCode::bad_input, "the picture is too large", file.string());
-    }
-    image.format = PNG_FORMAT_RGB;
-    Picture picture{int(image.width), int(image.height), 3, {}};
-    picture.pixels.resize(PNG_IMAGE_SIZE(image));
-    const png_color white{255, 255, 255};
-    if (!png_image_finish_read(&image, &white, picture.pixels.data(), 0, nullptr))
-        throw Error(ErrorCode::bad_input, "the picture cannot be read", file.string());
-    return isGrey(picture.pixels) ? inGrey(std::move(picture)) : picture;
-}
-
 Picture reduced(Picture picture, int max_width)
 {
     if (picture.width <= max_width)
@@ -96,6 +66,14 @@ Picture reduced(Picture picture, int max_width)
                 out.pixels.push_back(std::uint8_t(std::lround(sum)));
             }
     return out;
+}
+
+}  // namespace
+
+Picture readForPrint(const std::filesystem::path& file, int max_width)
+{
+    Picture picture = picture::readPng(file);
+    return reduced(isGrey(picture.pixels) ? inGrey(std::move(picture)) : std::move(picture), max_width);
 }
 
 }  // namespace vicon::report

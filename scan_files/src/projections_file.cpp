@@ -4,14 +4,16 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "png_file.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/picture/png_file.h"
 
 namespace fs = std::filesystem;
 
 namespace vicon::scan_files {
 namespace {
+
+constexpr int kCompression = 3;  // of zlib's 9: the projections of the 512 x 512 x 430 phantom in half the time of 6
 
 template <class Triple>
 nlohmann::json triple(const Triple& t)
@@ -50,6 +52,20 @@ Projection described(const nlohmann::json& all, const std::string& name)
     return {};
 }
 
+std::vector<std::uint8_t> readPixels(const fs::path& file, int width, int height)
+{
+    if (!fs::exists(file))
+        throw Error(ErrorCode::not_found, "no such file", file.string(), "run 'vicon work' to make it");
+    try {
+        picture::Picture read = picture::readPng(file, 4);
+        if (read.width == width && read.height == height)
+            return std::move(read.pixels);
+    } catch (const Error&) {
+    }
+    throw Error(ErrorCode::bad_input, "is damaged, or not the picture that its description speaks of", file.string(),
+                "run 'vicon work' to make it anew");
+}
+
 }  // namespace
 
 void writeProjections(const fs::path& folder, std::span<const Projection> projections)
@@ -60,7 +76,8 @@ void writeProjections(const fs::path& folder, std::span<const Projection> projec
     for (const Projection& p : projections) {
         const nlohmann::json one = mappingOf(p);
         pictures.push_back(std::async(std::launch::async, [&folder, &p, text = one.dump()] {
-            writePng(folder / (p.name + ".png"), p.width, p.height, p.rgba, "vicon:mapping", text);
+            picture::writePng(folder / (p.name + ".png"), p.width, p.height, p.rgba,
+                              {.compression = kCompression, .keyword = "vicon:mapping", .text = text});
         }));
         mapping["projections"].push_back(one);
     }
@@ -80,7 +97,7 @@ Projection readProjection(const fs::path& folder, const std::string& name)
     if (projection.width <= 0 || projection.height <= 0 || !(projection.pixel_mm > 0))
         throw Error(ErrorCode::bad_input, "does not describe the " + name + " projection", file.string(),
                     "run 'vicon work' to make it anew");
-    projection.rgba = readPng(folder / (name + ".png"), projection.width, projection.height);
+    projection.rgba = readPixels(folder / (name + ".png"), projection.width, projection.height);
     return projection;
 }
 

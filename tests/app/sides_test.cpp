@@ -1,55 +1,32 @@
 #include <gmock/gmock.h>
-#include <png.h>
 
 #include <fstream>
 
 #include "study.h"
+#include "vicon/picture/png_file.h"
 
 namespace fs = std::filesystem;
 
 namespace vicon::support {
 namespace {
 
-struct Picture {
-    int width = 0, height = 0;
-    std::vector<png_byte> rgb;
-    const png_byte* at(int x, int y) const { return &rgb[3 * (std::size_t(y) * std::size_t(width) + std::size_t(x))]; }
-};
-
-Picture readPng(const fs::path& file)
-{
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    Picture picture;
-    if (!png_image_begin_read_from_file(&image, file.c_str())) {
-        ADD_FAILURE() << file << ": " << image.message;
-        return picture;
-    }
-    image.format = PNG_FORMAT_RGB;
-    picture.width = int(image.width);
-    picture.height = int(image.height);
-    picture.rgb.resize(PNG_IMAGE_SIZE(image));
-    png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr);
-    return picture;
-}
-
-bool isGreen(const png_byte* c)
+bool isGreen(const std::uint8_t* c)
 {
     return c[1] > 150 && c[0] < 110 && c[2] < 110;
 }
-bool isDark(const png_byte* c)
+bool isDark(const std::uint8_t* c)
 {
     return c[0] < 60 && c[1] < 60 && c[2] < 60;
 }
 
 /// Mean column of the pixels that `is` holds for, as a part of the width; -1 when there are fewer than `least`.
-double meanColumn(const Picture& picture, bool (*is)(const png_byte*), int least)
+double meanColumn(const picture::Picture& picture, bool (*is)(const std::uint8_t*), int least)
 {
     double sum = 0;
     int count = 0;
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x)
-            if (is(picture.at(x, y))) {
+            if (is(&picture.pixels[3 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x))])) {
                 sum += x;
                 ++count;
             }
@@ -92,7 +69,7 @@ TEST_P(Sides, AMarkerOnThePatientsLeftIsOnTheRightOfOverviewAndReport)
     viconOn(store, "mark " + scans[0].case_id + " --color green --at=" + at);
 
     viconOn(store, "snapshot " + scans[0].case_id + " --view overview --out " + (folder / "overview.png").string());
-    const double in_overview = meanColumn(readPng(folder / "overview.png"), isGreen, 10);
+    const double in_overview = meanColumn(picture::readPng(folder / "overview.png"), isGreen, 10);
     EXPECT_GT(in_overview, 0.55);
 
     viconOn(store, "report " + scans[0].case_id + " --out " + (folder / "report.pdf").string());
@@ -105,7 +82,7 @@ TEST_P(Sides, AMarkerOnThePatientsLeftIsOnTheRightOfOverviewAndReport)
     for (const auto& entry : fs::directory_iterator(folder.path())) {
         if (entry.path().extension() != ".png" || !entry.path().filename().string().starts_with("page"))
             continue;
-        const Picture page = readPng(entry.path());
+        const picture::Picture page = picture::readPng(entry.path());
         const double green = meanColumn(page, isGreen, 5),
                      picture = meanColumn(page, isDark, page.width * page.height / 20);
         if (entry.path().filename().string().find("1.png") == std::string::npos || green < 0 || picture < 0)

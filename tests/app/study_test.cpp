@@ -116,19 +116,19 @@ TEST_F(Study, ACorrectionIsKeptWithTheScanAndRedoesWhatDependsOnIt)
     viconOn(store(), "work --until-idle");
     EXPECT_EQ(stepsOf()["segment"]["digest"], second["segment"]["digest"]) << "kept for every later run";
 
-    viconOn(store(), "work --until-idle --undo-corrections --case " + scan_.case_id);
+    viconOn(store(), "work --until-idle --forget-corrections --case " + scan_.case_id);
     EXPECT_TRUE(artefactsOf(store()) == before) << "and back";
 }
 
 TEST_F(Study, RefusesCorrectionsThatCannotBeMeant)
 {
-    for (const std::string arguments : {" --seed=1,2", " --cut=5000,0,0", " --drop=a,b,c"}) {
+    for (const std::string arguments : {" --add=1,2", " --cut=5000,0,0", " --drop=a,b,c"}) {
         const auto refused =
             runVicon("work --until-idle --case " + scan_.case_id + arguments + " --store " + store().string());
         EXPECT_NE(refused.exit_code, 0) << arguments;
         EXPECT_THAT(refused.output, HasSubstr(arguments.substr(1, 5))) << "names the option";
     }
-    EXPECT_NE(runVicon("work --until-idle --seed=1,2,3 --store " + store().string()).exit_code, 0) << "of which case?";
+    EXPECT_NE(runVicon("work --until-idle --add=1,2,3 --store " + store().string()).exit_code, 0) << "of which case?";
 }
 
 TEST_F(Study, RedoesAnArtefactThatIsMissing)

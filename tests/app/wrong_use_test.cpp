@@ -69,6 +69,8 @@ TEST(Config, SaysWhereEachValueComesFrom)
     EXPECT_THAT(json["queue.lease_s"]["source"].get<std::string>(), HasSubstr("c.toml:2"));
     EXPECT_EQ(json["queue.most_attempts"]["source"], "command line");
     EXPECT_EQ(json["queue.most_drops"]["source"], "default");
+    EXPECT_EQ(json["report.paper"]["value"], "a4");
+    EXPECT_EQ(json["segment.add"]["value"], nlohmann::json::array());
 }
 
 TEST(Doctor, FindsNothingWrongHere)

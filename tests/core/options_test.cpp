@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "vicon/core/error.h"
+#include "vicon/core/point_json.h"
 #include "vicon/support/support.h"
 
 namespace vicon {
@@ -17,6 +18,7 @@ struct Sample {
     int rays = 64;
     bool fast = true;
     std::string method = "auto";
+    std::vector<Point3> seeds;
 
     template <class Visitor>
     void visit(Visitor&& v)
@@ -25,6 +27,7 @@ struct Sample {
         v("sample.rays", rays, "", "Rays.", {8, 512});
         v("sample.fast", fast, "", "Be fast.");
         v("sample.method", method, "", "How.", {.choices = {"auto", "binary"}});
+        v("sample.seeds", seeds, "mm", "Where.");
     }
 };
 
@@ -81,9 +84,35 @@ TEST(Options, RefuseWhatIsWrongWithOneLineThatNamesIt)
         {"sample.rays=2.5", "a whole number"},
         {"sample.fast=maybe", "true or false"},
         {"sample.method=magic", "auto, binary"},
+        {"sample.seeds=1,2", "must be points"},
+        {"sample.seeds=a,b,c", "must be points"},
+        {"sample.seeds=[[1,2]]", "must be points"},
+        {"sample.seeds=1,2,3,4", "must be points"},
     };
     for (const auto& [assignment, words] : cases)
         EXPECT_THAT(messageOf([&] { config.set(assignment); }), HasSubstr(words)) << assignment;
+}
+
+TEST(Options, TakePointsAsAListOrAsAText)
+{
+    const support::TemporaryFolder folder;
+    const std::vector<Point3> two{{1.5, -2, 3}, {4, 5, 6}};
+    for (const std::string text : {"1.5,-2,3;4,5,6", "[[1.5, -2, 3], [4, 5, 6]]", " 1.5, -2, 3 ; 4, 5, 6;"}) {
+        Config config = declared();
+        config.set("sample.seeds=" + text);
+        EXPECT_EQ(config.get<Sample>().seeds, two) << text;
+    }
+    for (const std::string text : {"[[1.5, -2, 3], [4, 5, 6]]", "\"1.5,-2,3;4,5,6\""}) {
+        std::ofstream(folder / "c.toml") << "[sample]\nseeds = " << text << "\n";
+        Config config = declared();
+        config.readFile(folder / "c.toml");
+        EXPECT_EQ(config.get<Sample>().seeds, two) << text;
+        EXPECT_EQ(config.at("sample.seeds").value.dump(), "[[1.5,-2,3],[4,5,6]]");
+    }
+    Config config = declared();
+    config.set("sample.seeds=1,2,3");
+    config.set("sample.seeds=");
+    EXPECT_TRUE(config.get<Sample>().seeds.empty());
 }
 
 TEST(Options, NameFileAndLineOfAMistake)

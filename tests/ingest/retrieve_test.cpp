@@ -1,4 +1,5 @@
 // Query and retrieve against a PACS that is not ours.
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <set>
@@ -51,6 +52,11 @@ TEST_F(Retrieve, FindsStudiesByWhatTheyAreAskedFor)
     EXPECT_EQ(uidsOf({.patient_name = "DOE*"}), Uids{wanted.study_uid});
     EXPECT_EQ(uidsOf({.dates = "20260101-20260103"}).size(), 2U);
     EXPECT_EQ(uidsOf({.dates = "-20251231"}), Uids{});
+    EXPECT_EQ(uidsOf({.dates = "2026-01-02"}).size(), 2U);
+    EXPECT_EQ(uidsOf({.dates = "2026-01-01-2026-01-03"}).size(), 2U);
+    EXPECT_EQ(uidsOf({.dates = "2026-01-03-"}), Uids{});
+    for (const char* none : {"tomorrow", "2026-13-01", "20260102-20260103-20260104", "-"})
+        EXPECT_THROW(uidsOf({.dates = none}), Error) << none;
     EXPECT_EQ(uidsOf({.study_uid = wanted.study_uid}), Uids{wanted.study_uid});
     EXPECT_EQ(uidsOf({.modality = "MR"}), Uids{});
     const auto study = ingest::findStudies(orthanc.peer(), {.patient_id = "P1"}, "VICON", quiet).at(0);
@@ -73,15 +79,42 @@ TEST_F(Retrieve, GetsASeriesElementByElement)
     EXPECT_EQ(import({folder / "got"}).scans_stored, 1);
 }
 
+TEST_F(Retrieve, GoesOnWhereItStopped)
+{
+    fs::create_directories(folder / "got");
+    const auto get = [&](const std::set<std::string>& have = {}) {
+        return ingest::getSeries(orthanc.peer(), wanted.study_uid, {wanted.series_uid}, folder / "got", "VICON", quiet,
+                                 have);
+    };
+    ASSERT_EQ(get().completed, wanted.slices);
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder / "got"))
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (std::size_t n = 0; n < 5; ++n)
+        fs::remove(files[n]);
+    fs::resize_file(files[5], 700);  // where it broke off
+    EXPECT_EQ(get().completed, 6);
+    std::set<std::string> all;
+    for (int n = 0; n < wanted.slices; ++n)
+        all.insert(wanted.sopUid(n));
+    std::multiset<std::string> got;
+    for (const auto& entry : fs::directory_iterator(folder / "got"))
+        got.insert(fingerprint(readFile(entry.path())));
+    EXPECT_EQ(got, sent);
+    EXPECT_EQ(get(all).completed, 0) << "what the store has is not fetched again";
+}
+
 TEST_F(Retrieve, HasASeriesMovedToTheReceiver)
 {
     std::multiset<std::string> got;
     ingest::ReceiverOptions options;
     options.port = port;
     std::atomic<bool> stop = false;
-    ingest::Receiver receiver(options, store.folder() / "incoming", [&](const std::vector<fs::path>& files) {
+    ingest::Receiver receiver(options, store.folder() / "incoming", [&](const ingest::Receiver::Files& files) {
         for (const fs::path& file : files)
             got.insert(fingerprint(readFile(file)));
+        return ingest::Receiver::Files{};
     });
     std::thread thread([&] { receiver.run(stop); });
     const auto result =

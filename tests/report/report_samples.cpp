@@ -1,13 +1,12 @@
 #include "report_samples.h"
 
-#include <png.h>
-
 #include <algorithm>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
 
 #include "vicon/core/file.h"
+#include "vicon/picture/png_file.h"
 #include "vicon/support/support.h"
 
 namespace vicon::report::samples {
@@ -44,13 +43,7 @@ void writeQuarters(const std::filesystem::path& file, int width, int height,
             const auto& color = colors[std::size_t(2 * (2 * y >= height) + (2 * x >= width))];
             rgb.insert(rgb.end(), color.begin(), color.end());
         }
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = png_uint_32(width);
-    image.height = png_uint_32(height);
-    image.format = PNG_FORMAT_RGB;
-    if (!png_image_write_to_file(&image, file.c_str(), 0, rgb.data(), 0, nullptr))
-        throw std::runtime_error("cannot write " + file.string());
+    picture::writePng(file, width, height, rgb);
 }
 
 ReportContent plainCase(const std::filesystem::path& folder)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
 
 #include "field_shapes.h"
@@ -100,6 +101,24 @@ void expectClosed(const CellSurface& s)
     for (const auto& [edge, count] : edges) {
         ASSERT_EQ(count, 1);
         ASSERT_TRUE(edges.contains({edge.second, edge.first}));
+    }
+}
+
+/// The blurred edge of a ball passes each density at a known place.
+TEST(Cells, LieWhereTheDensityIsTheWalls)
+{
+    const double radius_mm = 18, sigma_mm = 0.7;
+    for (const double off_mm : {-0.5, 0.0, 0.5}) {
+        Scan scan = ball(radius_mm, kGas);
+        const double wall_hu = kGasHu + (kTissueHu - kGasHu) * beyond(off_mm, sigma_mm);
+        for (std::size_t n = 0; n < scan.inside.voxels.size(); ++n) {
+            scan.inside.voxels[n] = scan.hu.voxels[n] < wall_hu ? kGas : kOutside;
+            scan.segments.voxels[n] = scan.inside.voxels[n] ? 1 : 0;
+        }
+        const WallDensities densities{.wall_hu = wall_hu, .tissue_hu = kTissueHu};
+        const auto surface = extractCells(scan.hu, scan.inside, scan.segments, densities, quiet);
+        const double found_mm = std::cbrt(measure(surface).volume_mm3 * 3 / (4 * std::numbers::pi));
+        EXPECT_NEAR(found_mm, radius_mm + off_mm, 0.05) << wall_hu;
     }
 }
 

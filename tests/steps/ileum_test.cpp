@@ -149,11 +149,11 @@ TEST(Ileum, WhatMayBeItIsKeptAndSaid)
     EXPECT_NE(result.reason.find("may be terminal ileum and was kept"), std::string::npos) << result.reason;
 }
 
-TEST(Ileum, WithASeedInItIsKept)
+TEST(Ileum, WithAnAddedPointInItIsKept)
 {
     std::vector<Tube> tubes = withIleum(2, 6.5);
     NoProgress progress;
-    const Segmentation result = segmentColon(drawn(tubes), {0, 1, 0}, {.add = "0,5,0"}, progress);
+    const Segmentation result = segmentColon(drawn(tubes), {0, 1, 0}, {.add = {{0, 5, 0}}}, progress);
     EXPECT_TRUE(result.measures["ileum"].empty());
     tubes[1].colon = tubes[2].colon = true;
     EXPECT_EQ(errorsOf(result.inside, tubes).missed_ml, 0);

@@ -238,6 +238,7 @@ TEST(Organ, PresetsAreKnownByNameAndYieldToWhatAPersonSets)
     config.set("organ.branch_mm=21");
     EXPECT_EQ(pipeline::withOrgan(config, "aorta").get<OrganOptions>().branch_mm, 21);
     EXPECT_EQ(pipeline::withOrgan(config, "aorta").get<OrganOptions>().low_hu, 180);
+    EXPECT_EQ(pipeline::withOrgan(config, "aorta").get<WallDensities>().wall_hu, 170);
     EXPECT_TRUE(pipeline::withOrgan(config, "").get<OrganOptions>().isColon());
     try {
         (void)pipeline::withOrgan(config, "spleen");

@@ -354,18 +354,11 @@ TEST(Segment, BinaryMethodTakesWhatTheSeedPointLiesIn)
     SegmentOptions options;
     options.method = "binary";
     options.iso_hu = -480;
-    options.seed = "45,0,0";
+    options.seed = {{45, 0, 0}};
     const Segmentation result = segment(scan.draw(kGrid), scan.gravity, options);
     EXPECT_GE(dice(result.inside, kGrid, scan), 0.985);
-    options.seed = "0,-20,0";
+    options.seed = {{0, -20, 0}};
     EXPECT_EQ(segment(scan.draw(kGrid), scan.gravity, options).verdict, "no colon");
-}
-
-TEST(Segment, RefusesAMalformedPoint)
-{
-    SegmentOptions options;
-    options.cut = "1,2";
-    EXPECT_THROW(segment(smallColon().draw(kGrid), {0, 1, 0}, options), Error);
 }
 
 TEST(LumenPlan, SurvivesJson)

@@ -113,53 +113,49 @@ struct Correctable {
         }
         return volume;
     }
-    static std::string text(Point3 p)
-    {
-        return std::to_string(p.x) + "," + std::to_string(p.y) + "," + std::to_string(p.z);
-    }
     static bool holds(const Segmentation& s, Point3 p)
     {
         return s.inside.valueOr(s.inside.grid.indexAt(p), kOutside) != kOutside;
     }
 };
 
-TEST(Correction, ASeedAddsWhatIsTooSmallToBeTakenAlone)
+TEST(Correction, APointAddsWhatIsTooSmallToBeTakenAlone)
 {
     const Correctable colon;
     const HuVolume volume = colon.draw();
     EXPECT_FALSE(Correctable::holds(segment(volume), colon.bubble));
     SegmentOptions options;
-    options.add = Correctable::text(colon.bubble);
+    options.add = {colon.bubble};
     const Segmentation result = segment(volume, options);
     EXPECT_TRUE(Correctable::holds(result, colon.bubble));
     EXPECT_EQ(result.plan.pieces.size(), 2U);
 }
 
-TEST(Correction, ASeedAddsFluidThatNoGasLiesAbove)
+TEST(Correction, APointAddsFluidThatNoGasLiesAbove)
 {
     const Correctable colon;
     const HuVolume volume = colon.draw();
     EXPECT_FALSE(Correctable::holds(segment(volume), colon.pool));
     SegmentOptions options;
-    options.add = Correctable::text(colon.pool);
+    options.add = {colon.pool};
     const Segmentation result = segment(volume, options);
     EXPECT_TRUE(Correctable::holds(result, colon.pool));
     EXPECT_EQ(result.inside.valueOr(result.inside.grid.indexAt(colon.pool), kOutside), kFluid);
 }
 
-TEST(Correction, ASeedInTissueIsReported)
+TEST(Correction, AnAddedPointInTissueIsReported)
 {
     const Correctable colon;
     SegmentOptions options;
-    options.add = Correctable::text(colon.nothing);
-    EXPECT_THAT(segment(colon.draw(), options).reason, HasSubstr("no gas or fluid at the seed 0,30,30"));
+    options.add = {colon.nothing};
+    EXPECT_THAT(segment(colon.draw(), options).reason, HasSubstr("no gas or fluid at the added point 0,30,30"));
 }
 
 TEST(Correction, ACutDropsTheSmallerPart)
 {
     const Correctable colon;
     SegmentOptions options;
-    options.cut = "-45,0,12";
+    options.cut = {{-45, 0, 12}};
     const Segmentation result = segment(colon.draw(), options);
     EXPECT_TRUE(Correctable::holds(result, {45, 0, 0}));
     EXPECT_TRUE(Correctable::holds(result, {-20, 0, 45}));
@@ -174,14 +170,14 @@ TEST(Correction, ACutTakesTheWholeCrossSectionAway)
     const HuVolume volume = scan.draw(kGrid);
     const Segmentation whole = segment(volume);
     ASSERT_EQ(whole.plan.pieces.size(), 1U);
-    for (const char* at :
-         {"-45,0,12", "-40,0,12", "-54,1,12", "-45,9,10", "-45,-17,14", "-38,3,0", "-44,0,-3", "-32.5,0,-4"}) {
+    for (const Point3 at : {Point3{-45, 0, 12}, Point3{-40, 0, 12}, Point3{-54, 1, 12}, Point3{-45, 9, 10},
+                            Point3{-45, -17, 14}, Point3{-38, 3, 0}, Point3{-44, 0, -3}, Point3{-32.5, 0, -4}}) {
         SegmentOptions options;
-        options.cut = at;
+        options.cut = {at};
         const Segmentation result = segment(volume, options);
-        EXPECT_TRUE(Correctable::holds(result, {45, 0, 0})) << at;
-        EXPECT_TRUE(Correctable::holds(result, {-20, 0, 45})) << at;
-        EXPECT_FALSE(Correctable::holds(result, {-45, 0, -15})) << at;
+        EXPECT_TRUE(Correctable::holds(result, {45, 0, 0})) << at.x << ", " << at.y;
+        EXPECT_TRUE(Correctable::holds(result, {-20, 0, 45})) << at.x << ", " << at.y;
+        EXPECT_FALSE(Correctable::holds(result, {-45, 0, -15})) << at.x << ", " << at.y;
     }
 }
 
@@ -192,7 +188,7 @@ TEST(Correction, ADroppedPieceIsLeftOut)
     const HuVolume volume = scan.draw(kGrid);
     ASSERT_EQ(segment(volume).plan.pieces.size(), 2U);
     SegmentOptions options;
-    options.drop = "-45,0,-40";
+    options.drop = {{-45, 0, -40}};
     const Segmentation result = segment(volume, options);
     EXPECT_EQ(result.plan.pieces.size(), 1U);
     EXPECT_FALSE(Correctable::holds(result, {-45, 0, -40}));

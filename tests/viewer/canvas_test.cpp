@@ -48,9 +48,15 @@ TEST(Text, OfEveryScriptHasGlyphs)
 
 TEST(Text, FromRightToLeftIsInOrder)
 {
-    // The same letters, their order forced from left to right by U+202D.
-    EXPECT_EQ(written("אבג").rgb, written("\u202Dגבא").rgb);
-    EXPECT_NE(written("אבג").rgb, written("\u202Dאבג").rgb);
+    // The last letter stands at the left, and an override of the direction cannot turn the word.
+    const Picture word = written("אבג"), last = written("ג");
+    OverlayText letter;
+    letter.text = "ג";
+    letter.height_px = 24;
+    const int end = 5 + int(textSize(letter).width_px) - 2;
+    EXPECT_EQ(inked(word, 0, end), inked(last, 0, end));
+    EXPECT_NE(inked(word, 0, end), inked(written("א"), 0, end));
+    EXPECT_EQ(word.rgb, written("\u202Dאבג").rgb);
     // Arabic letters join: three of them side by side are wider when kept apart by U+200C.
     OverlayText joined, apart;
     joined.text = "ببب";

@@ -1,11 +1,11 @@
 #include "vicon/viewer/scene/snapshot.h"
 
 #include <gmock/gmock.h>
-#include <png.h>
 
 #include "scan_fixture.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/picture/png_file.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/slice_image.h"
 #include "vicon/viewer/scene/canvas.h"
@@ -17,12 +17,9 @@ namespace {
 
 Picture readPng(const std::filesystem::path& file)
 {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    EXPECT_NE(png_image_begin_read_from_file(&image, file.c_str()), 0);
-    image.format = PNG_FORMAT_RGB;
-    Picture picture(int(image.width), int(image.height));
-    EXPECT_NE(png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr), 0);
+    const picture::Picture read = picture::readPng(file);
+    Picture picture(read.width, read.height);
+    picture.rgb = read.pixels;
     return picture;
 }
 

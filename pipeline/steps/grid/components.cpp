@@ -1,4 +1,5 @@
 #include "grid/components.h"
+#include "vicon/core/disjoint_sets.h"
 
 #include <tbb/parallel_for.h>
 
@@ -6,17 +7,6 @@
 #include <numeric>
 
 namespace vicon::steps {
-namespace {
-
-std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t n)
-{
-    while (parent[n] != n)
-        n = parent[n] = parent[parent[n]];
-    return n;
-}
-
-}  // namespace
-
 template <class AddRow>
 void Components::addRows(AddRow addRow)
 {
@@ -67,17 +57,13 @@ Components::Components(const InsideVolume& labels, std::uint8_t wanted) : size_(
 
 void Components::numberComponents()
 {
-    std::vector<std::uint32_t> parent(runs_.size());
-    std::iota(parent.begin(), parent.end(), 0);
+    DisjointSets sets(runs_.size());
     forTouchingRuns([&](const Run& a, const Run& b) {
-        if (a.label != b.label)
-            return;
-        const std::uint32_t x = rootOf(parent, std::uint32_t(&a - runs_.data()));
-        const std::uint32_t y = rootOf(parent, std::uint32_t(&b - runs_.data()));
-        parent[std::max(x, y)] = std::min(x, y);
+        if (a.label == b.label)
+            sets.join(std::uint32_t(&a - runs_.data()), std::uint32_t(&b - runs_.data()));
     });
     for (std::uint32_t n = 0; n < runs_.size(); ++n) {
-        const std::uint32_t root = rootOf(parent, n);
+        const std::uint32_t root = sets.rootOf(n);
         runs_[n].component = root == n ? count_++ : runs_[root].component;
     }
 }

@@ -12,6 +12,9 @@
 #include <limits>
 
 #include "grid/allocate.h"
+#include "grid/neighbours.h"
+#include "vicon/core/error.h"
+#include "vicon/core/nearest_voxel.h"
 
 namespace vicon::steps {
 namespace {
@@ -204,12 +207,11 @@ template <class Visit>
 void forNeighbours(const Grid& grid, std::size_t voxel, Visit visit)
 {
     const Index3 v = grid.indexOf(voxel);
-    for (int k = v.k - 1; k <= v.k + 1; ++k)
-        for (int j = v.j - 1; j <= v.j + 1; ++j)
-            for (int i = v.i - 1; i <= v.i + 1; ++i)
-                if (const Index3 n{i, j, k}; n != v && grid.contains(n))
-                    visit(grid.offset(n), std::hypot((i - v.i) * grid.spacing_mm[0], (j - v.j) * grid.spacing_mm[1],
-                                                     (k - v.k) * grid.spacing_mm[2]));
+    forEachInCube(v, 1, [&](Index3 n) {
+        if (n != v && grid.contains(n))
+            visit(grid.offset(n), std::hypot((n.i - v.i) * grid.spacing_mm[0], (n.j - v.j) * grid.spacing_mm[1],
+                                             (n.k - v.k) * grid.spacing_mm[2]));
+    });
 }
 
 }  // namespace
@@ -310,46 +312,11 @@ std::vector<std::uint16_t> LumenFront::labels() const
 
 std::size_t nearestInside(const InsideVolume& inside, Point3 point)
 {
-    const Grid& grid = inside.grid;
-    const Index3 c = grid.indexAt(point);
-    const double smallest_mm = *std::min_element(grid.spacing_mm.begin(), grid.spacing_mm.end());
-    double best_mm = std::numeric_limits<double>::max();
-    std::size_t best = 0;
-    const auto clampedRange = [&](int centre, int r, std::size_t d) {
-        return std::pair(std::max(centre - r, 0), std::min(centre + r, grid.size[d] - 1));
-    };
-    int reach = 1;
-    for (std::size_t d = 0; d < 3; ++d) {
-        const int at = d == 0 ? c.i : d == 1 ? c.j : c.k;
-        reach = std::max({reach, at + 1, grid.size[d] - at});
-    }
-    for (int r = 0; r <= reach && (r - 1) * smallest_mm <= best_mm; ++r) {
-        const auto [k0, k1] = clampedRange(c.k, r, 2);
-        for (int k = k0; k <= k1; ++k) {
-            const auto [j0, j1] = clampedRange(c.j, r, 1);
-            for (int j = j0; j <= j1; ++j) {
-                const auto [i0, i1] = clampedRange(c.i, r, 0);
-                const bool shell = std::abs(k - c.k) == r || std::abs(j - c.j) == r;
-                for (int i = i0; i <= i1; ++i) {
-                    if (!shell && std::abs(i - c.i) != r) {
-                        // Inside the shell: searched already; go on at its far side.
-                        i = std::max(i, c.i + r - 1);
-                        continue;
-                    }
-                    const Index3 v{i, j, k};
-                    if (!inside.at(v))
-                        continue;
-                    if (const double d = distance(grid.pointAt(v), point); d < best_mm) {
-                        best_mm = d;
-                        best = grid.offset(v);
-                    }
-                }
-            }
-        }
-    }
-    if (best_mm == std::numeric_limits<double>::max())
+    const auto nearest =
+        nearestVoxel(inside.grid, point, kAnyDistance_mm, [&](Index3 v) { return inside.at(v) != kOutside; });
+    if (!nearest)
         throw Error(ErrorCode::bad_input, "the mask holds no inside voxel");
-    return best;
+    return inside.grid.offset(nearest->voxel);
 }
 
 }  // namespace vicon::steps

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -35,6 +36,21 @@ struct LumenGraph {
     std::int32_t nearest(Point3 p) const;
 };
 
+/// Calls use(neighbour, which) for every node joined to the one with these links, `which` of the 27 blocks around.
+template <class Use>
+void forEachJoined(const LumenGraph::Links& links, Use use)
+{
+    for (std::size_t row = 0; row < links.first.size(); ++row) {
+        const std::uint32_t there = links.there >> 3 * row, joined = links.joined >> 3 * row;
+        std::size_t n = links.first[row];
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (joined >> i & 1)
+                use(n, 3 * row + i);
+            n += there >> i & 1;
+        }
+    }
+}
+
 /// @param wall_mm distance to the wall, 0 outside the lumen
 /// Neighbouring nodes are joined where their balls up to the wall overlap or a straight line between them stays inside,
 /// so that no edge crosses a thin wall.
@@ -48,6 +64,14 @@ LumenGraph makeWholeGraph(const FieldVolume& wall_mm, int coarsest, Progress& pr
 /// The node farthest from the wall, -1 without nodes.
 std::int32_t widestNode(const LumenGraph& graph);
 
+/// What a millimetre costs a central way at a place so far from the wall: (5 mm / wall distance)^4. The 5 mm only scale
+/// the cost.
+inline float centralCost(float wall_mm)
+{
+    const float ratio = 5 / std::max(0.1F, wall_mm);
+    return ratio * ratio * ratio * ratio;
+}
+
 /// Shortest paths from a root to every node that it reaches.
 struct LumenTree {
     std::int32_t root = -1;
@@ -58,7 +82,7 @@ struct LumenTree {
     std::vector<std::int32_t> pathTo(std::int32_t node) const;  ///< from the root, both included
 };
 
-/// Dijkstra with an edge cost of length x (5 mm / wall distance)^4: the tree keeps to the middle and avoids contacts
+/// Dijkstra with an edge cost of length x centralCost(): the tree keeps to the middle and avoids contacts
 /// between loops, which are narrow.
 /// @param blocked nodes that must not be used; empty: none
 /// @param goal a node at which the search may end: then only the way to it is whole; -1: none

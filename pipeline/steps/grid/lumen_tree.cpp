@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "grid/cheapest_first.h"
+#include "grid/cheapest_ways.h"
 
 namespace vicon::steps {
 namespace {
 
-constexpr double kReference_mm = 5;  // only scales the cost
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 /// Where a node lies in its block. What a front looks at most often is kept by itself, in the fewest bytes: the looks
@@ -17,21 +16,6 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 struct Place {
     std::array<std::uint8_t, 3> in_block{};  ///< of the node's voxel
 };
-
-/// Calls use(neighbour, which) for every node joined to the one with these links, `which` of the 27 blocks around.
-template <class Use>
-void forEachJoined(const LumenGraph::Links& links, Use use)
-{
-    for (std::size_t row = 0; row < links.first.size(); ++row) {
-        const std::uint32_t there = links.there >> 3 * row, joined = links.joined >> 3 * row;
-        std::size_t n = links.first[row];
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (joined >> i & 1)
-                use(n, 3 * row + i);
-            n += there >> i & 1;
-        }
-    }
-}
 
 /// Asks for the memory that is looked at when the nodes come out of the queue that wait at its head: they lie anywhere
 /// in the lumen, so nothing of them is in a cache.
@@ -82,12 +66,6 @@ private:
     std::array<std::array<int, 3>, 27> step_{};  ///< voxels from a block to those around
 };
 
-float weight(float wall_mm)
-{
-    const float ratio = float(kReference_mm) / std::max(0.1F, wall_mm);
-    return ratio * ratio * ratio * ratio;
-}
-
 }  // namespace
 
 std::vector<std::int32_t> LumenTree::pathTo(std::int32_t node) const
@@ -111,38 +89,39 @@ LumenTree centralTree(const LumenGraph& graph, std::int32_t root, const std::vec
     };
     std::vector<Site> sites(graph.count());
     for (std::size_t n = 0; n < sites.size(); ++n)
-        sites[n] = {EdgeLengths::placeOf(graph, n), weight(graph.nodes[n].wall_mm)};
+        sites[n] = {EdgeLengths::placeOf(graph, n), centralCost(graph.nodes[n].wall_mm)};
     std::vector<Way> ways(sites.size());
     LumenTree tree{root, {}, std::vector<float>(sites.size(), kInfinite), {}};
     const EdgeLengths lengths(graph);
     CheapestFirst queue;
     tree.cost[std::size_t(root)] = 0;
     queue.push(0, std::uint32_t(root));
-    for (std::size_t count = 0; !queue.empty(); ++count) {
-        if (count % 65536 == 0)
+    std::size_t count = 0;
+    const auto known = [&](std::uint32_t n) { return tree.cost[n]; };
+    // Not CheapestWays: what is looked at most often lies in arrays of its own here, fetched ahead.
+    runFront(queue, known, [&](std::uint32_t node, float so_far) {
+        if (count++ % 65536 == 0)
             progress.check();
-        const auto [cost, node] = queue.pop();
-        if (cost > tree.cost[node])
-            continue;
         if (std::int32_t(node) == goal)
-            break;
+            return false;
         fetchAhead(graph, queue, tree.cost, sites);
         const Site own = sites[node];
         const float length_mm = ways[node].length_mm;
-        forEachJoined(graph.links[node], [&, so_far = cost, n = node](std::size_t m, std::size_t which) {
-            float& known = tree.cost[m];
-            if (known <= so_far)
+        forEachJoined(graph.links[node], [&](std::size_t m, std::size_t which) {
+            float& cost = tree.cost[m];
+            if (cost <= so_far)
                 return;
             const Site& other = sites[m];
             const float apart = lengths.of(which, own, other);
             const float to = so_far + apart * 0.5F * (own.weight + other.weight);
-            if (to < known && (blocked.empty() || !blocked[m])) {
-                known = to;
-                ways[m] = {std::int32_t(n), length_mm + apart};
+            if (to < cost && (blocked.empty() || !blocked[m])) {
+                cost = to;
+                ways[m] = {std::int32_t(node), length_mm + apart};
                 queue.push(to, std::uint32_t(m));
             }
         });
-    }
+        return true;
+    });
     tree.parent.reserve(ways.size());
     tree.length_mm.reserve(ways.size());
     for (const Way& way : ways) {
@@ -165,25 +144,24 @@ LumenFeet feetOn(const LumenGraph& graph, const std::vector<std::int32_t>& sourc
         feet.foot[std::size_t(sources[s])] = std::int32_t(s);
         queue.push(0, std::uint32_t(sources[s]));
     }
-    while (!queue.empty()) {
-        const auto [so_far, node] = queue.pop();
-        if (so_far > feet.distance_mm[node])
-            continue;
+    const auto known = [&](std::uint32_t n) { return feet.distance_mm[n]; };
+    runFront(queue, known, [&](std::uint32_t node, float so_far) {
         fetchAhead(graph, queue, feet.distance_mm, sites);
         const Place own = sites[node];
         const std::int32_t foot = feet.foot[node];
-        forEachJoined(graph.links[node], [&, here = so_far](std::size_t m, std::size_t which) {
-            float& known = feet.distance_mm[m];
-            if (known <= here)
+        forEachJoined(graph.links[node], [&](std::size_t m, std::size_t which) {
+            float& distance_mm = feet.distance_mm[m];
+            if (distance_mm <= so_far)
                 return;
-            const float to = here + lengths.of(which, own, sites[m]);
-            if (to < known) {
-                known = to;
+            const float to = so_far + lengths.of(which, own, sites[m]);
+            if (to < distance_mm) {
+                distance_mm = to;
                 feet.foot[m] = foot;
                 queue.push(to, std::uint32_t(m));
             }
         });
-    }
+        return true;
+    });
     return feet;
 }
 

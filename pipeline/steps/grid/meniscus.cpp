@@ -6,7 +6,7 @@
 #include <array>
 #include <cstring>
 
-#include "grid/wall_field.h"
+#include "grid/mask.h"
 
 namespace vicon::steps {
 namespace {

@@ -1,4 +1,5 @@
 #include "grid/run_labels.h"
+#include "vicon/core/disjoint_sets.h"
 
 #include <tbb/parallel_for.h>
 
@@ -7,28 +8,6 @@
 
 namespace vicon::steps {
 namespace {
-
-/// Disjoint sets in which the root is always the smallest member, so labels do not depend on the order of joins.
-class Forest {
-public:
-    explicit Forest(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-    std::uint32_t root(std::uint32_t n)
-    {
-        while (parent_[n] != n)
-            n = parent_[n] = parent_[parent_[n]];
-        return n;
-    }
-    void join(std::uint32_t a, std::uint32_t b)
-    {
-        a = root(a);
-        b = root(b);
-        if (a != b)
-            parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 void collectRuns(RunLabels& labels, const RowScanner& scan)
 {
@@ -53,14 +32,14 @@ void collectRuns(RunLabels& labels, const RowScanner& scan)
 }
 
 /// Joins the runs of two rows that overlap; with reach 1 also those that touch at a corner.
-void joinRows(const RunLabels& labels, Forest& forest, std::size_t row_a, std::size_t row_b, int reach)
+void joinRows(const RunLabels& labels, DisjointSets& sets, std::size_t row_a, std::size_t row_b, int reach)
 {
     std::size_t a = labels.row_begin[row_a], b = labels.row_begin[row_b];
     const std::size_t a_end = labels.row_begin[row_a + 1], b_end = labels.row_begin[row_b + 1];
     while (a < a_end && b < b_end) {
         const VoxelRun &ra = labels.runs[a], &rb = labels.runs[b];
         if (ra.begin < rb.end + reach && rb.begin < ra.end + reach)
-            forest.join(std::uint32_t(a), std::uint32_t(b));
+            sets.join(std::uint32_t(a), std::uint32_t(b));
         if (ra.end < rb.end)
             ++a;
         else
@@ -68,7 +47,7 @@ void joinRows(const RunLabels& labels, Forest& forest, std::size_t row_a, std::s
     }
 }
 
-void joinNeighbours(const RunLabels& labels, Forest& forest, Neighbours neighbours)
+void joinNeighbours(const RunLabels& labels, DisjointSets& sets, Neighbours neighbours)
 {
     const int ny = labels.size[1], nz = labels.size[2];
     const bool all = neighbours == Neighbours::all;
@@ -77,15 +56,15 @@ void joinNeighbours(const RunLabels& labels, Forest& forest, Neighbours neighbou
         for (int j = 0; j < ny; ++j) {
             const std::size_t row = labels.row(j, k);
             if (j > 0)
-                joinRows(labels, forest, row, row - 1, reach);
+                joinRows(labels, sets, row, row - 1, reach);
             if (k == 0)
                 continue;
             const std::size_t below = row - std::size_t(ny);
-            joinRows(labels, forest, row, below, reach);
+            joinRows(labels, sets, row, below, reach);
             if (all && j > 0)
-                joinRows(labels, forest, row, below - 1, reach);
+                joinRows(labels, sets, row, below - 1, reach);
             if (all && j + 1 < ny)
-                joinRows(labels, forest, row, below + 1, reach);
+                joinRows(labels, sets, row, below + 1, reach);
         }
 }
 
@@ -103,7 +82,7 @@ void addTo(RunComponent& component, const VoxelRun& run, int j, int k)
     component.centre.k += count * k;
 }
 
-void numberComponents(RunLabels& labels, Forest& forest)
+void numberComponents(RunLabels& labels, DisjointSets& sets)
 {
     constexpr auto kNone = ~std::uint32_t(0);
     std::vector<std::uint32_t> number(labels.runs.size(), kNone);
@@ -111,7 +90,7 @@ void numberComponents(RunLabels& labels, Forest& forest)
         for (int j = 0; j < labels.size[1]; ++j) {
             const std::size_t row = labels.row(j, k);
             for (std::size_t r = labels.row_begin[row]; r < labels.row_begin[row + 1]; ++r) {
-                std::uint32_t& own = number[forest.root(std::uint32_t(r))];
+                std::uint32_t& own = number[sets.rootOf(std::uint32_t(r))];
                 if (own == kNone) {
                     own = std::uint32_t(labels.components.size());
                     labels.components.emplace_back();
@@ -152,9 +131,9 @@ RunLabels labelRuns(const std::array<int, 3>& size, const RowScanner& scan, Neig
     RunLabels labels;
     labels.size = size;
     collectRuns(labels, scan);
-    Forest forest(labels.runs.size());
-    joinNeighbours(labels, forest, neighbours);
-    numberComponents(labels, forest);
+    DisjointSets sets(labels.runs.size());
+    joinNeighbours(labels, sets, neighbours);
+    numberComponents(labels, sets);
     return labels;
 }
 

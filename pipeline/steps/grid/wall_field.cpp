@@ -4,14 +4,13 @@
 #include <cmath>
 
 #include "grid/lattice.h"
+#include "grid/neighbours.h"
 
 namespace vicon::steps {
 namespace {
 
 /// A pool's density must differ from tissue by this much to place a wall; less is taken as this.
 constexpr double kLeastContrast_hu = 50;
-
-constexpr int kFaces[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
 
 }  // namespace
 
@@ -30,27 +29,10 @@ RowsNearLumen::RowsNearLumen(const InsideVolume& inside)
         }
 }
 
-bool besideOther(const InsideVolume& inside, Index3 v)
-{
-    const Grid& grid = inside.grid;
-    const auto [nx, ny, nz] = grid.size;
-    if (v.i > 0 && v.j > 0 && v.k > 0 && v.i + 1 < nx && v.j + 1 < ny && v.k + 1 < nz) {
-        const std::uint8_t* at = &inside.voxels[grid.offset(v)];
-        const std::ptrdiff_t row = nx, slice = row * ny;
-        const int around =
-            (at[-1] != 0) + (at[1] != 0) + (at[-row] != 0) + (at[row] != 0) + (at[-slice] != 0) + (at[slice] != 0);
-        return *at ? around < 6 : around > 0;
-    }
-    const bool here = inside.valueOr(v, kOutside) != kOutside;
-    return std::any_of(std::begin(kFaces), std::end(kFaces), [&](const int* f) {
-        return (inside.valueOr({v.i + f[0], v.j + f[1], v.k + f[2]}, kOutside) != kOutside) != here;
-    });
-}
-
-WallField::WallField(const HuVolume& hu, const InsideVolume& inside, Levels levels)
+WallField::WallField(const HuVolume& hu, const InsideVolume& inside, const WallDensities& densities)
     : hu_(hu),
       inside_(inside),
-      levels_(levels),
+      densities_(densities),
       offset_(latticeOffset(inside.grid, hu.grid)),
       pools_(inside, kFluid),
       meniscus_(inside)
@@ -65,10 +47,10 @@ void WallField::measurePools()
     for (const Run& run : pools_.runs())
         for (int i = run.begin; i < run.end; ++i) {
             const Index3 v{i, run.j, run.k};
-            const auto density = std::int16_t(hu(v, levels_.tissue_hu));
+            const auto density = std::int16_t(hu(v, densities_.tissue_hu));
             all[run.component].push_back(density);
-            const bool surrounded = std::all_of(std::begin(kFaces), std::end(kFaces), [&](const int* f) {
-                return inside_.valueOr({v.i + f[0], v.j + f[1], v.k + f[2]}, kOutside) == kFluid;
+            const bool surrounded = std::all_of(kFaces.begin(), kFaces.end(), [&](Index3 face) {
+                return inside_.valueOr(shifted(v, face), kOutside) == kFluid;
             });
             if (surrounded)
                 deep[run.component].push_back(density);
@@ -93,7 +75,7 @@ double WallField::hu(Index3 v, double otherwise) const
 
 Vector3 WallField::gradient(Index3 v) const
 {
-    const double here = hu(v, levels_.tissue_hu);
+    const double here = hu(v, densities_.tissue_hu);
     const auto along = [&](int di, int dj, int dk) {
         return 0.5 * (hu({v.i + di, v.j + dj, v.k + dk}, here) - hu({v.i - di, v.j - dj, v.k - dk}, here));
     };
@@ -103,9 +85,9 @@ Vector3 WallField::gradient(Index3 v) const
 double WallField::valueBeside(Index3 labelled, std::uint8_t label, double density) const
 {
     if (label == kGas)
-        return (density - levels_.gas_wall_hu) / (levels_.tissue_hu - levels_.gas_wall_hu);
-    const double contrast = std::max(pool_hu_[pools_.at(labelled)] - levels_.tissue_hu, kLeastContrast_hu);
-    return (levels_.tissue_hu + contrast / 2 - density) / (contrast / 2);
+        return (density - densities_.wall_hu) / (densities_.tissue_hu - densities_.wall_hu);
+    const double contrast = std::max(pool_hu_[pools_.at(labelled)] - densities_.tissue_hu, kLeastContrast_hu);
+    return (densities_.tissue_hu + contrast / 2 - density) / (contrast / 2);
 }
 
 /// The value that the densities tell, whichever voxel it is.
@@ -119,9 +101,9 @@ float WallField::fromDensities(Index3 v) const
     }
     double sum = 0;
     int count = 0;
-    const double density = hu(v, levels_.tissue_hu);
-    for (const auto& f : kFaces) {
-        const Index3 n{v.i + f[0], v.j + f[1], v.k + f[2]};
+    const double density = hu(v, densities_.tissue_hu);
+    for (const Index3 face : kFaces) {
+        const Index3 n = shifted(v, face);
         if (const std::uint8_t label = inside_.valueOr(n, kOutside)) {
             sum += valueBeside(n, label, label == kFluid ? asThickFold(v, n, density) : density);
             ++count;
@@ -133,10 +115,10 @@ float WallField::fromDensities(Index3 v) const
 /// Whether fluid lies beside a voxel of wall that is brighter than half-way.
 bool WallField::besideThinFold(Index3 fluid) const
 {
-    const double half_hu = (levels_.tissue_hu + pool_hu_[pools_.at(fluid)]) / 2;
-    return std::any_of(std::begin(kFaces), std::end(kFaces), [&](const int* f) {
-        const Index3 n{fluid.i + f[0], fluid.j + f[1], fluid.k + f[2]};
-        return inside_.valueOr(n, kOutside) == kOutside && hu(n, levels_.tissue_hu) > half_hu;
+    const double half_hu = (densities_.tissue_hu + pool_hu_[pools_.at(fluid)]) / 2;
+    return std::any_of(kFaces.begin(), kFaces.end(), [&](Index3 face) {
+        const Index3 n = shifted(fluid, face);
+        return inside_.valueOr(n, kOutside) == kOutside && hu(n, densities_.tissue_hu) > half_hu;
     });
 }
 
@@ -144,16 +126,12 @@ bool WallField::besideThinFold(Index3 fluid) const
 /// proportion, so that its surface too lies half-way between bottom and fluid.
 double WallField::asThickFold(Index3 v, Index3 fluid, double density) const
 {
-    constexpr int kBottom_voxels = 2;
     const double fluid_hu = pool_hu_[pools_.at(fluid)];
-    if (density <= (levels_.tissue_hu + fluid_hu) / 2)
+    if (density <= (densities_.tissue_hu + fluid_hu) / 2)
         return density;
     double bottom = density;
-    for (int k = v.k - kBottom_voxels; k <= v.k + kBottom_voxels; ++k)
-        for (int j = v.j - kBottom_voxels; j <= v.j + kBottom_voxels; ++j)
-            for (int i = v.i - kBottom_voxels; i <= v.i + kBottom_voxels; ++i)
-                bottom = std::min(bottom, hu({i, j, k}, density));
-    return density - (std::max(bottom, levels_.tissue_hu) - levels_.tissue_hu) / 2;
+    forEachInCube(v, kFoldBottom_voxels, [&](Index3 n) { bottom = std::min(bottom, hu(n, density)); });
+    return density - (std::max(bottom, densities_.tissue_hu) - densities_.tissue_hu) / 2;
 }
 
 /// The binomial mean around a voxel where gas, fluid and wall meet: of the mask there, of the densities' values beyond.

@@ -6,6 +6,7 @@
 #include "grid/components.h"
 #include "grid/meniscus.h"
 #include "vicon/core/volume.h"
+#include "vicon/steps/wall_densities.h"
 
 namespace vicon::steps {
 
@@ -21,9 +22,6 @@ private:
     std::vector<std::uint8_t> near_;
 };
 
-/// Whether one of the six neighbours of a voxel lies on the other side of the mask; beyond the grid is outside.
-bool besideOther(const InsideVolume& inside, Index3 v);
-
 /// Where the wall lies between an inside and an outside voxel, from the densities: a signed value of each voxel beside
 /// the wall, below 0 inside, above 0 outside, about -1 and +1 away from the wall, linear in the density. Beside gas it
 /// is 0 at the wall's density, under fluid half-way between tissue and the pool's own density, so one level serves
@@ -31,13 +29,8 @@ bool besideOther(const InsideVolume& inside, Index3 v);
 /// with what the densities tell around. The mask decides the sign.
 class WallField {
 public:
-    struct Levels {
-        double gas_wall_hu = -480;
-        double tissue_hu = 40;
-    };
-
     /// References must outlive the field. Throws Error{bad_input} when the grids do not fit together.
-    WallField(const HuVolume& hu, const InsideVolume& inside, Levels levels);
+    WallField(const HuVolume& hu, const InsideVolume& inside, const WallDensities& densities);
 
     /// The value of an inside voxel, in [-1, -kLeast].
     float ofInside(Index3 v) const;
@@ -60,6 +53,10 @@ public:
     /// The gradient of the densities by central differences, in HU per voxel along the grid's axes.
     Vector3 gradient(Index3 v) const;
 
+    /// The bottom of a thin fold lies this near to its slopes. Chosen on ctc-prone and on the default phantom's seeds
+    /// 301, 303 and 310 (low dose).
+    static constexpr int kFoldBottom_voxels = 2;
+
     /// The wall keeps this part of an edge away from both its voxels.
     static constexpr float kLeast = 0.02F;
 
@@ -73,7 +70,7 @@ private:
 
     const HuVolume& hu_;
     const InsideVolume& inside_;
-    Levels levels_;
+    WallDensities densities_;
     Index3 offset_;
     Components pools_;
     Meniscus meniscus_;

@@ -1,8 +1,8 @@
 #include "organ/branches.h"
+#include "grid/cheapest_ways.h"
 
 #include <algorithm>
 #include <map>
-#include <queue>
 
 namespace vicon::steps {
 namespace {
@@ -10,22 +10,15 @@ namespace {
 // Chosen on phantoms 1 and 2 of both organs.
 constexpr float kCover = 1.5F;        // of the local radius: what lies nearer to a path belongs to its tube
 constexpr float kRootEnd_mm = 20;     // the tube's width at the root is that of this stretch
-constexpr float kReference_mm = 5;    // only scales the cost
 constexpr double kLeastLength = 0.8;  // of its radius: a shorter stretch between two forks is one fork
 
 /// Calls use(neighbour, length_mm) for every node joined to `n`.
 template <class Use>
 void forEachNeighbour(const LumenGraph& graph, std::int32_t n, Use use)
 {
-    const LumenGraph::Links& links = graph.links[std::size_t(n)];
-    for (std::size_t row = 0; row < links.first.size(); ++row) {
-        auto m = std::int32_t(links.first[row]);
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (links.joined >> (3 * row + i) & 1U)
-                use(m, float(distance(graph.point(n), graph.point(m))));
-            m += std::int32_t(links.there >> (3 * row + i) & 1U);
-        }
-    }
+    forEachJoined(graph.links[std::size_t(n)], [&](std::size_t m, std::size_t) {
+        use(std::int32_t(m), float(distance(graph.point(n), graph.point(std::int32_t(m)))));
+    });
 }
 
 /// Marks what belongs to the tube around a path: within kCover radii of it, inside the lumen.
@@ -33,28 +26,25 @@ void forEachNeighbour(const LumenGraph& graph, std::int32_t n, Use use)
 void cover(const LumenGraph& graph, const std::vector<std::int32_t>& path, std::vector<float>& left_mm,
            float least_mm = 0)
 {
-    using Item = std::pair<float, std::int32_t>;  // the most left first
-    std::priority_queue<Item> queue;
+    CheapestFirstWide queue;  // of what is left, below 0: the most left first
     const auto voxel_mm = float(graph.grid.spacing_mm[0]);
     const auto offer = [&](std::int32_t n, float mm) {
         if (mm > left_mm[std::size_t(n)]) {
             left_mm[std::size_t(n)] = mm;
-            queue.push({mm, n});
+            queue.push(-double(mm), std::uint32_t(n));
         }
     };
     for (const std::int32_t n : path)
         offer(n, std::max(least_mm, kCover * graph.node(n).wall_mm + voxel_mm));
-    while (!queue.empty()) {
-        const auto [mm, n] = queue.top();
-        queue.pop();
-        if (mm < left_mm[std::size_t(n)])
-            continue;
-        const float left = mm;
-        forEachNeighbour(graph, n, [&](std::int32_t m, float apart_mm) {
+    const auto known = [&](std::uint32_t n) { return -double(left_mm[n]); };
+    runFront(queue, known, [&](std::uint32_t n, double cost) {
+        const auto left = float(-cost);
+        forEachNeighbour(graph, std::int32_t(n), [&](std::int32_t m, float apart_mm) {
             if (left > apart_mm)
                 offer(m, left - apart_mm);
         });
-    }
+        return true;
+    });
 }
 
 /// How far a tip reaches beyond the tubes at its fork: beyond the ball to the wall of every path node that holds the
@@ -79,12 +69,6 @@ struct Ways {
     std::vector<float> length_mm;      ///< from the root
 };
 
-float weight(float wall_mm)
-{
-    const float ratio = kReference_mm / std::max(0.1F, wall_mm);
-    return ratio * ratio * ratio * ratio;
-}
-
 /// Finds ways from tips; keeps its memory between them.
 class WayFinder {
 public:
@@ -100,24 +84,26 @@ public:
         for (const std::int32_t n : touched_)
             cost_[std::size_t(n)] = kUnreached;
         touched_.clear();
+        queue_.clear();
         reach(tip, 0, -1);
-        while (!queue_.empty()) {
-            const auto [cost, n] = queue_.top();
-            queue_.pop();
-            if (cost > cost_[std::size_t(n)])
-                continue;
-            if (ways.on[std::size_t(n)])
-                return wayTo(n);
-            const float so_far = cost, own = weight(graph_.node(n).wall_mm);
-            forEachNeighbour(graph_, n, [&, n = n](std::int32_t m, float apart_mm) {
-                reach(m, so_far + apart_mm * 0.5F * (own + weight(graph_.node(m).wall_mm)), n);
+        std::int32_t met = tip;
+        const auto known = [&](std::uint32_t n) { return cost_[n]; };
+        runFront(queue_, known, [&](std::uint32_t number, float so_far) {
+            const auto n = std::int32_t(number);
+            if (ways.on[number]) {
+                met = n;
+                return false;
+            }
+            const float own = centralCost(graph_.node(n).wall_mm);
+            forEachNeighbour(graph_, n, [&](std::int32_t m, float apart_mm) {
+                reach(m, so_far + apart_mm * 0.5F * (own + centralCost(graph_.node(m).wall_mm)), n);
             });
-        }
-        return {tip};
+            return true;
+        });
+        return wayTo(met);
     }
 
 private:
-    using Item = std::pair<float, std::int32_t>;
     static constexpr float kUnreached = 1e30F;
 
     void reach(std::int32_t n, float cost, std::int32_t from)
@@ -129,12 +115,11 @@ private:
             touched_.push_back(n);
         known = cost;
         from_[std::size_t(n)] = from;
-        queue_.push({cost, n});
+        queue_.push(cost, std::uint32_t(n));
     }
     /// From the tip to the node, in that order.
-    std::vector<std::int32_t> wayTo(std::int32_t n)
+    std::vector<std::int32_t> wayTo(std::int32_t n) const
     {
-        queue_ = {};
         std::vector<std::int32_t> way;
         for (; n >= 0; n = from_[std::size_t(n)])
             way.push_back(n);
@@ -145,7 +130,7 @@ private:
     const LumenGraph& graph_;
     std::vector<float> cost_;
     std::vector<std::int32_t> from_, touched_;
-    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue_;
+    CheapestFirst queue_;
 };
 
 /// Covers the root's end of the tube: where the end of the scan cuts it, the rim of the cut is no tip.

@@ -13,8 +13,6 @@ namespace vicon::steps {
 namespace {
 
 constexpr int kAverage_mm = 10;  // half of the triangle over which a cross-section is averaged: the flood goes in steps
-// "Whole colon: 1.1-2.7 m is plausible".
-constexpr double kShortestColon_mm = 1100, kLongestColon_mm = 2700;
 
 std::string text(const char* pattern, double value)
 {
@@ -85,7 +83,7 @@ void judge(ScanQuality& quality, const QualityOptions& options)
     if (quality.parts.empty() && !quality.whole.adequate)
         add(quality.reason, text("collapsed over %.0f mm", quality.whole.longest_collapsed_mm));
     const double length_mm = quality.whole.to_mm;
-    if (length_mm < kShortestColon_mm || length_mm > kLongestColon_mm) {
+    if (length_mm < options.shortest_mm || length_mm > options.longest_mm) {
         quality.whole.adequate = false;
         add(quality.reason, text("a length of %.0f mm is not plausible for a whole colon", length_mm));
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "segment/body.h"
+#include "segment/constants.h"
 #include "segment/field_of_view.h"
 #include "segment/lumen.h"
 #include "segment/points.h"
@@ -11,8 +12,6 @@
 
 namespace vicon::steps {
 namespace {
-
-constexpr int kMargin_voxels = 2;
 
 /// The component of the seed, or the largest that is no lung; -1 when there is none.
 int chosenComponent(const RunLabels& gas, const Grid& grid, const std::vector<Point3>& seeds)
@@ -51,22 +50,21 @@ InsideVolume cropped(const RunLabels& gas, const Grid& grid, int chosen)
 
 Segmentation segmentBinary(const HuVolume& volume, const SegmentOptions& options, Progress& progress)
 {
-    const std::vector<Point3> seeds = parsePoints(options.seed, "segment.seed");
     progress.report(0, "body");
     const Body body = findBody(volume, progress);
     if (body.empty())
         return noColon("there is no body in the scan");
     const RunLabels gas = findGas(volume, body, options.iso_hu);
-    const int chosen = chosenComponent(gas, volume.grid, seeds);
+    const int chosen = chosenComponent(gas, volume.grid, options.seed);
     if (chosen < 0)
-        return noColon(seeds.empty() ? "nothing in the body lies below the iso value"
-                                     : "nothing at the seed point lies below the iso value");
+        return noColon(options.seed.empty() ? "nothing in the body lies below the iso value"
+                                            : "nothing at the seed point lies below the iso value");
     Segmentation result;
     result.inside = cropped(gas, volume.grid, chosen);
     result.measures["noise_hu"] = softTissueNoise(volume);
     progress.report(0.7, "ends");
     result.plan = planForMask(result.inside);
-    judgeSegmentation(result, body, lumenCut_mm2(volume, result.inside));
+    judgeSegmentation(result, options, body, lumenCut_mm2(volume, result.inside));
     return result;
 }
 

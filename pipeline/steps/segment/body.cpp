@@ -6,12 +6,13 @@
 #include <cmath>
 
 #include "grid/run_labels.h"
+#include "segment/constants.h"
 
 namespace vicon::steps {
 namespace {
 
-constexpr double kBodyAboveHu = -400;  // half-way between air and the fat of the skin
-// 2.7 mm: blocks of 4 at the usual 0.68 mm; an opening by one block then removes table tops and blankets, not limbs.
+// 2.7 mm: blocks of 4 at the usual 0.68 mm; an opening by one block then removes table tops and blankets, not
+// limbs.
 constexpr double kCoarse_mm = 2.7;
 
 using Mask = Volume<std::uint8_t>;
@@ -173,7 +174,7 @@ Body findBody(const HuVolume& volume, Progress& progress)
     progress.check();
     Mask mask(body.mean_hu.grid);
     for (std::size_t n = 0; n < mask.voxels.size(); ++n)
-        mask.voxels[n] = body.mean_hu.voxels[n] > kBodyAboveHu ? 1 : 0;
+        mask.voxels[n] = body.mean_hu.voxels[n] > kBody_hu ? 1 : 0;
     mask = largestComponent(box(box(mask, true), false));
     tbb::parallel_for(0, mask.grid.size[2], [&](int k) { fillSlice(mask, k); });
     body.inside = box(mask, true);

@@ -4,25 +4,20 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "grid/allocate.h"
+#include "grid/neighbours.h"
 #include "segment/points.h"
+#include "vicon/core/nearest_voxel.h"
 #include "vicon/steps/wall_distance.h"
 
 namespace vicon::steps {
 namespace {
 
-constexpr double kReach_mm = 45;  // no colon is wider
-constexpr double kHalfGap_mm = 1.5;
+constexpr double kReach_mm = 45;        // no colon is wider
+constexpr double kHalfGap_mm = 1.5;     // half of what is cut out, so that its sides do not touch
 constexpr int kDirections = 200;        // some 10 degrees apart: an area is at most 2 % too large
 constexpr double kTowardsMiddle = 0.5;  // the wall distance grows by about 1 a mm towards the middle, by less along it
-constexpr std::array<Index3, 6> kFaces{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
-
-Index3 plus(Index3 a, Index3 b)
-{
-    return {a.i + b.i, a.j + b.j, a.k + b.k};
-}
 
 /// The lumen as far as a cut may reach.
 InsideVolume blockAround(const InsideVolume& labels, Point3 point)
@@ -36,21 +31,8 @@ InsideVolume blockAround(const InsideVolume& labels, Point3 point)
     grid.origin_mm = labels.grid.pointAt(lower);
     auto block = makeVolume<std::uint8_t>(grid);
     for (std::size_t n = 0; n < block.voxels.size(); ++n)
-        block.voxels[n] = labels.valueOr(plus(lower, grid.indexOf(n)), kOutside);
+        block.voxels[n] = labels.valueOr(shifted(lower, grid.indexOf(n)), kOutside);
     return block;
-}
-
-std::optional<Index3> nearestLumen(const InsideVolume& block, Point3 point)
-{
-    std::optional<Index3> nearest;
-    double least_mm = kCatch_mm;
-    for (std::size_t n = 0; n < block.voxels.size(); ++n)
-        if (block.voxels[n] != kOutside)
-            if (const double d = distance(block.grid.pointAt(block.grid.indexOf(n)), point); d <= least_mm) {
-                least_mm = d;
-                nearest = block.grid.indexOf(n);
-            }
-    return nearest;
 }
 
 /// Away from the wall until the middle is reached, but not on along it.
@@ -60,16 +42,15 @@ Index3 middleBeside(const InsideVolume& block, Index3 start, Progress& progress)
     for (Index3 at = start;;) {
         Index3 best = at;
         double steepest = kTowardsMiddle;
-        for (int n = 0; n < 27; ++n) {
-            const Index3 next = plus(at, {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1});
+        forEachInCube(at, 1, [&](Index3 next) {
             if (next == at || !block.grid.contains(next))
-                continue;
+                return;
             const double step_mm = distance(block.grid.pointAt(next), block.grid.pointAt(at));
             if (const double slope = (wall_mm.at(next) - wall_mm.at(at)) / step_mm; slope > steepest) {
                 steepest = slope;
                 best = next;
             }
-        }
+        });
         if (best == at)
             return at;
         at = best;
@@ -128,10 +109,10 @@ Vector3 smallestSection(const InsideVolume& block, Point3 middle)
 std::vector<Index3> cutAcross(InsideVolume& labels, Point3 point, Progress& progress)
 {
     const InsideVolume block = blockAround(labels, point);
-    const auto start = nearestLumen(block, point);
+    const auto start = nearestVoxel(block.grid, point, kCatch_mm, [&](Index3 v) { return block.at(v) != kOutside; });
     if (!start)
         return {};
-    const Point3 middle = block.grid.pointAt(middleBeside(block, *start, progress));
+    const Point3 middle = block.grid.pointAt(middleBeside(block, start->voxel, progress));
     const Vector3 normal = smallestSection(block, middle);
     const auto& spacing = labels.grid.spacing_mm;
     const double half_mm = std::max(kHalfGap_mm, *std::max_element(spacing.begin(), spacing.end()));
@@ -141,7 +122,7 @@ std::vector<Index3> cutAcross(InsideVolume& labels, Point3 point, Progress& prog
         const Index3 at = front.back();
         front.pop_back();
         for (const Index3 face : kFaces) {
-            const Index3 next = plus(at, face);
+            const Index3 next = shifted(at, face);
             if (labels.valueOr(next, kOutside) == kOutside)
                 continue;
             const Vector3 off = labels.grid.pointAt(next) - middle;

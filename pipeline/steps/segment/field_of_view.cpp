@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "grid/lattice.h"
+#include "segment/constants.h"
 
 namespace vicon::steps {
 namespace {
 
-constexpr int kTissue_hu = -400;
+// Of the places at the edge of what was measured. Case not recorded.
 constexpr double kCutShare = 0.05;
 
 }  // namespace
@@ -56,7 +57,7 @@ bool bodyIsCut(const Body& body)
         if (!blocks.grid.contains(next))
             return;
         ++all;
-        cut += blocks.at(next) > kTissue_hu ? 1 : 0;
+        cut += blocks.at(next) > kBody_hu ? 1 : 0;
     };
     for (int k = 0; k < nz; ++k) {
         for (int i = 0; i < nx; ++i) {

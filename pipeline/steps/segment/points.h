@@ -11,9 +11,6 @@ namespace vicon::steps {
 /// How far a person's point may lie beside what it means.
 inline constexpr double kCatch_mm = 3;
 
-/// "x,y,z;x,y,z" in mm. Throws Error{wrong_use} naming the option.
-std::vector<Point3> parsePoints(const std::string& text, const std::string& option);
-
 /// "x,y,z" for a person, in whole mm.
 std::string textOf(Point3 point);
 

@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "segment/constants.h"
 #include "segment/field_of_view.h"
 
 namespace vicon::steps {
 namespace {
 
 // A whole colon with gas holds 0.5 to 4 l and is 1.1 to 2.7 m long; the limits leave room for short phantoms and
-// colons that are half collapsed.
-constexpr double kShortest_mm = 250;
-constexpr double kUsual_mm = 900;
+// colons that are half collapsed. Cases not recorded.
 constexpr double kLongest_mm = 3000;
-constexpr double kLeast_ml = 20;
-constexpr double kNarrowest_mm = 6;
-constexpr double kLargestCut_mm2 = 30;    // of lumen at the end of the scan: a lumen of 6 mm
+constexpr double kNarrowest_mm = 6;       // largest radius
 constexpr double kStumpConfidence = 0.5;  // that there is no colon where gas leaves the scan
 constexpr double kLowestStart = 0.4;  // of the body's height in the scan: a rectum lies at the lower end of an abdomen
 
@@ -46,7 +43,7 @@ Segmentation noColon(const std::string& reason)
     return result;
 }
 
-void judgeSegmentation(Segmentation& result, const Body& body, double lumen_cut_mm2)
+void judgeSegmentation(Segmentation& result, const SegmentOptions& options, const Body& body, double lumen_cut_mm2)
 {
     double length = 0, volume = 0, widest = 0;
     for (const LumenPiece& piece : result.plan.pieces) {
@@ -58,7 +55,7 @@ void judgeSegmentation(Segmentation& result, const Body& body, double lumen_cut_
         length += bridge.length_mm;
     const Point3 start = result.plan.pieces.front().rectal_end_mm, end = result.plan.pieces.back().caecal_end_mm;
     const double height = (start.z - body.lower_mm.z) / std::max(1.0, body.upper_mm.z - body.lower_mm.z);
-    if (length < kShortest_mm || volume < kLeast_ml || widest < kNarrowest_mm) {
+    if (length < options.shortest_mm || volume < options.least_ml || widest < kNarrowest_mm) {
         result = noColon("the longest run of gas in the body is " + round(length) + " mm long, holds " + round(volume) +
                          " ml and is at most " + round(2 * widest) + " mm wide: too little for a colon");
         if (lumen_cut_mm2 > kLargestCut_mm2) {
@@ -71,7 +68,7 @@ void judgeSegmentation(Segmentation& result, const Body& body, double lumen_cut_
     result.confidence = 1;
     if (height > kLowestStart)
         doubt(result, 0.4, "the lowest piece of gas does not lie where a rectum does");
-    if (length < kUsual_mm)
+    if (length < options.usual_mm)
         doubt(result, 0.6, "only " + round(length) + " mm of colon were found");
     if (length > kLongest_mm)
         doubt(result, 0.6, "the colon found is " + round(length) + " mm long");

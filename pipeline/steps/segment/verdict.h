@@ -8,7 +8,7 @@
 namespace vicon::steps {
 
 /// Sets verdict, confidence and reason from the plan and from where it lies in the body.
-void judgeSegmentation(Segmentation& result, const Body& body, double lumen_cut_mm2);
+void judgeSegmentation(Segmentation& result, const SegmentOptions& options, const Body& body, double lumen_cut_mm2);
 
 /// A result without a colon.
 Segmentation noColon(const std::string& reason);

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <queue>
-#include <unordered_map>
-#include <unordered_set>
 
+#include "grid/cheapest_ways.h"
+#include "grid/neighbours.h"
 #include "vicon/core/error.h"
 
 namespace vicon::steps {
@@ -152,68 +150,51 @@ CoarsePath coarsePath(const LumenGraph& graph, std::int32_t from, std::int32_t t
     return best;
 }
 
-/// Voxels in and around the blocks of a stretch of the path: the room in which it is refined.
-std::unordered_set<std::size_t> roomAround(const LumenGraph& graph, const FieldVolume& wall_mm,
-                                           const std::int32_t* node, const std::int32_t* end)
+/// Voxels in and around the blocks of a stretch of the path, as sorted offsets: the room in which it is refined.
+std::vector<std::size_t> roomAround(const LumenGraph& graph, const FieldVolume& wall_mm, const std::int32_t* node,
+                                    const std::int32_t* end)
 {
-    std::unordered_set<std::size_t> room;
+    std::vector<std::size_t> room;
     const int reach = graph.block + graph.block / 2;
-    for (; node != end; ++node) {
-        const Index3 c = graph.node(*node).voxel;
-        for (int k = c.k - reach; k <= c.k + reach; ++k)
-            for (int j = c.j - reach; j <= c.j + reach; ++j)
-                for (int i = c.i - reach; i <= c.i + reach; ++i)
-                    if (wall_mm.valueOr({i, j, k}, 0) > 0)
-                        room.insert(graph.grid.offset({i, j, k}));
-    }
+    for (; node != end; ++node)
+        forEachInCube(graph.node(*node).voxel, reach, [&](Index3 v) {
+            if (wall_mm.valueOr(v, 0) > 0)
+                room.push_back(graph.grid.offset(v));
+        });
+    std::sort(room.begin(), room.end());
+    room.erase(std::unique(room.begin(), room.end()), room.end());
     return room;
 }
 
 /// The central 26-connected path between two voxels inside a room; without `from` itself.
-std::vector<Index3> refine(const FieldVolume& wall_mm, const std::unordered_set<std::size_t>& room, Index3 from,
-                           Index3 to)
+std::vector<Index3> refine(const FieldVolume& wall_mm, const std::vector<std::size_t>& room, Index3 from, Index3 to)
 {
-    struct State {
-        double cost = std::numeric_limits<double>::infinity();
-        std::size_t parent = 0;
-    };
     const Grid& grid = wall_mm.grid;
-    std::unordered_map<std::size_t, State> states;
-    std::priority_queue<std::pair<double, std::size_t>, std::vector<std::pair<double, std::size_t>>, std::greater<>>
-        queue;
-    const std::size_t start = grid.offset(from), goal = grid.offset(to);
-    states[start] = {0, start};
-    queue.push({0, start});
-    while (!queue.empty()) {
-        const auto [cost, n] = queue.top();
-        queue.pop();
-        if (cost > states[n].cost)
-            continue;
-        if (n == goal)
-            break;
-        const Index3 v = grid.indexOf(n);
-        for (int k = -1; k <= 1; ++k)
-            for (int j = -1; j <= 1; ++j)
-                for (int i = -1; i <= 1; ++i) {
-                    const Index3 w{v.i + i, v.j + j, v.k + k};
-                    if ((!i && !j && !k) || !grid.contains(w) || !room.contains(grid.offset(w)))
-                        continue;
-                    const double ratio = 5 / double(wall_mm.at(w));
-                    const double to_here =
-                        cost + std::sqrt(double(i * i + j * j + k * k)) * ratio * ratio * ratio * ratio;
-                    State& state = states[grid.offset(w)];
-                    if (to_here < state.cost) {
-                        state = {to_here, n};
-                        queue.push({to_here, grid.offset(w)});
-                    }
-                }
-    }
+    const auto numberOf = [&](Index3 v) {
+        const auto at = std::lower_bound(room.begin(), room.end(), grid.offset(v));
+        return at != room.end() && *at == grid.offset(v) ? std::size_t(at - room.begin()) : room.size();
+    };
+    const std::size_t goal = numberOf(to);
+    CheapestWays<CheapestFirstWide> ways(room.size(), numberOf(from));
+    ways.run([&](std::uint32_t n, double) { return n == goal; },
+             [&](std::uint32_t n, auto offer) {
+                 const Index3 v = grid.indexOf(room[n]);
+                 forEachInCube(v, 1, [&](Index3 w) {
+                     const std::size_t m = w != v && grid.contains(w) ? numberOf(w) : room.size();
+                     if (m == room.size())
+                         return;
+                     const double ratio = 5 / double(wall_mm.at(w));
+                     const Index3 by{w.i - v.i, w.j - v.j, w.k - v.k};
+                     offer(m,
+                           std::sqrt(double(by.i * by.i + by.j * by.j + by.k * by.k)) * ratio * ratio * ratio * ratio);
+                 });
+             });
     std::vector<Index3> path;
-    if (!states.contains(goal))
+    if (!ways.reaches(goal))
         return path;
-    for (std::size_t n = goal; n != start; n = states[n].parent)
-        path.push_back(grid.indexOf(n));
-    std::reverse(path.begin(), path.end());
+    for (const std::size_t n : ways.wayTo(goal))
+        path.push_back(grid.indexOf(room[n]));
+    path.erase(path.begin());
     return path;
 }
 

@@ -228,8 +228,8 @@ void setNormals(CellSurface& surface, const Contour& contour, const std::vector<
 }  // namespace
 
 struct LumenSurface::Parts {
-    Parts(const HuVolume& hu, const InsideVolume& mask, const CellOptions& options)
-        : inside(mask), field(hu, inside, {options.gas_wall_hu, options.tissue_hu})
+    Parts(const HuVolume& hu, const InsideVolume& mask, const WallDensities& densities)
+        : inside(mask), field(hu, mask, densities)
     {
     }
     const InsideVolume& inside;
@@ -238,11 +238,11 @@ struct LumenSurface::Parts {
     std::vector<NearWall> near_wall;
 };
 
-LumenSurface::LumenSurface(const HuVolume& hu, const InsideVolume& inside, const CellOptions& options,
+LumenSurface::LumenSurface(const HuVolume& hu, const InsideVolume& inside, const WallDensities& densities,
                            Progress& progress)
 {
     progress.report(0, "surface");
-    auto parts = std::make_unique<Parts>(hu, inside, options);
+    auto parts = std::make_unique<Parts>(hu, inside, densities);
     auto values = wallValues(parts->field, inside);
     parts->near_wall = findNearWall(values, inside);
     parts->contour = contour(std::move(values));
@@ -278,9 +278,9 @@ CellSurface LumenSurface::cellsOf(const SegmentVolume& segments, Progress& progr
 }
 
 CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const SegmentVolume& segments,
-                         const CellOptions& options, Progress& progress)
+                         const WallDensities& densities, Progress& progress)
 {
-    return LumenSurface(hu, inside, options, progress).cellsOf(segments, progress);
+    return LumenSurface(hu, inside, densities, progress).cellsOf(segments, progress);
 }
 
 void countTriangles(const CellSurface& surface, Subdivision& description)

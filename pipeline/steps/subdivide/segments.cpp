@@ -7,6 +7,7 @@
 
 #include "grid/allocate.h"
 #include "grid/components.h"
+#include "grid/mask.h"
 
 namespace vicon::steps {
 namespace {
@@ -96,13 +97,6 @@ std::vector<std::uint16_t> numbersFor(const std::vector<Component>& found, const
     return number;
 }
 
-bool isSurface(const InsideVolume& inside, Index3 v)
-{
-    const auto outside = [&](int i, int j, int k) { return inside.valueOr({i, j, k}, kOutside) == kOutside; };
-    return outside(v.i - 1, v.j, v.k) || outside(v.i + 1, v.j, v.k) || outside(v.i, v.j - 1, v.k) ||
-           outside(v.i, v.j + 1, v.k) || outside(v.i, v.j, v.k - 1) || outside(v.i, v.j, v.k + 1);
-}
-
 struct Extent {
     Index3 low{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
     Index3 high{-1, -1, -1};
@@ -160,7 +154,7 @@ NumberedSegments numberSegments(const InsideVolume& inside, const std::vector<st
         extents[segment - 1U].add(run);
         for (int i = run.begin; i < run.end; ++i) {
             out.segments.at({i, run.j, run.k}) = segment;
-            info.surface_voxels += isSurface(inside, {i, run.j, run.k});
+            info.surface_voxels += besideOther(inside, {i, run.j, run.k});
         }
     }
     for (auto& info : out.infos) {

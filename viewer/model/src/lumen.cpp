@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "vicon/core/error.h"
+#include "vicon/core/nearest_voxel.h"
 
 namespace vicon::viewer {
 
@@ -81,23 +82,10 @@ Lumen::Nearest Lumen::nearestInside(Point3 p, double within_mm) const
 {
     if (inside(p))
         return {true, p, 0};
-    Nearest best;
-    best.distance_mm = within_mm;
-    const Grid& g = inside_.grid;
-    const Index3 middle = g.indexAt(p);
-    const std::array<int, 3> reach{int(within_mm / g.spacing_mm[0]) + 1, int(within_mm / g.spacing_mm[1]) + 1,
-                                   int(within_mm / g.spacing_mm[2]) + 1};
-    for (int k = middle.k - reach[2]; k <= middle.k + reach[2]; ++k)
-        for (int j = middle.j - reach[1]; j <= middle.j + reach[1]; ++j)
-            for (int i = middle.i - reach[0]; i <= middle.i + reach[0]; ++i) {
-                if (inside_.valueOr({i, j, k}, std::uint8_t(kOutside)) == kOutside)
-                    continue;
-                const Point3 q = g.pointAt(Index3{i, j, k});
-                const double d = distance(p, q);
-                if (d <= best.distance_mm)
-                    best = {true, q, d};
-            }
-    return best;
+    const auto nearest = nearestVoxel(inside_.grid, p, within_mm, [&](Index3 v) { return inside_.at(v) != kOutside; });
+    if (!nearest)
+        return {false, {}, within_mm};
+    return {true, inside_.grid.pointAt(nearest->voxel), nearest->distance_mm};
 }
 
 }  // namespace vicon::viewer

@@ -1,34 +1,12 @@
 #include "vicon/viewer/model/unseen.h"
 
 #include <algorithm>
-#include <numeric>
 
+#include "vicon/core/disjoint_sets.h"
 #include "vicon/core/error.h"
 
 namespace vicon::viewer {
 namespace {
-
-/// Which unseen triangles hang together.
-class Pieces {
-public:
-    explicit Pieces(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-    std::uint32_t rootOf(std::uint32_t n)
-    {
-        while (parent_[n] != n)
-            n = parent_[n] = parent_[parent_[n]];
-        return n;
-    }
-    void join(std::uint32_t a, std::uint32_t b)
-    {
-        a = rootOf(a);
-        b = rootOf(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 /// An edge by its two points, and a triangle that has it.
 struct Edge {
@@ -56,7 +34,7 @@ std::vector<std::vector<std::uint32_t>> piecesOf(const std::vector<std::uint32_t
     for (std::size_t t = 0; t < corners.size() / 3; ++t)
         if (!coverage.seen(t))
             unseen.push_back(std::uint32_t(t));
-    Pieces joined(corners.size() / 3);
+    DisjointSets joined(corners.size() / 3);
     const std::vector<Edge> edges = edgesOf(corners, unseen);
     for (std::size_t n = 1; n < edges.size(); ++n)
         if (edges[n].points == edges[n - 1].points)

@@ -1,14 +1,11 @@
 #include "vicon/viewer/scene/canvas.h"
 
-#include <png.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "mask.h"
 #include "text.h"
-#include "vicon/core/error.h"
-#include "vicon/core/file.h"
+#include "vicon/picture/png_file.h"
 
 namespace vicon::viewer {
 namespace {
@@ -69,15 +66,15 @@ void paintDisc(Picture& picture, Mask& mask, const OverlayDisc& disc)
 }
 
 // A marker's name beside its ring, at the picture's edge.
-TextLine movedInto(const Picture& picture, TextLine line, Pixel at)
+PlacedText movedInto(const Picture& picture, PlacedText text, Pixel at)
 {
     if (at.x < 0 || at.y < 0 || at.x > picture.width || at.y > picture.height)
-        return line;
-    const Area area = areaOf(line);
-    line.begin.x += std::max(0.0, -area.x) - std::clamp(area.right() - picture.width, 0.0, std::max(0.0, area.x));
-    line.begin.y += std::max(0.0, -area.y) - std::clamp(area.bottom() - picture.height, 0.0, std::max(0.0, area.y));
-    line.begin = {std::round(line.begin.x), std::round(line.begin.y)};
-    return line;
+        return text;
+    const Area area = areaOf(text);
+    text.begin.x += std::max(0.0, -area.x) - std::clamp(area.right() - picture.width, 0.0, std::max(0.0, area.x));
+    text.begin.y += std::max(0.0, -area.y) - std::clamp(area.bottom() - picture.height, 0.0, std::max(0.0, area.y));
+    text.begin = {std::round(text.begin.x), std::round(text.begin.y)};
+    return text;
 }
 
 }  // namespace
@@ -108,7 +105,7 @@ void Picture::set(int x, int y, Rgb color)
 void paint(Picture& picture, const Overlay& overlay)
 {
     Mask mask(picture.width, picture.height), rim(picture.width, picture.height);
-    std::vector<TextLine> texts;
+    std::vector<PlacedText> texts;
     for (const OverlayText& text : overlay.texts)
         texts.push_back(movedInto(picture, layOut(text), text.at));
     paintGround(picture, texts, mask);  // not over lines and discs: markers stay as bright as they are
@@ -116,7 +113,7 @@ void paint(Picture& picture, const Overlay& overlay)
         paintLine(picture, mask, line);
     for (const OverlayDisc& disc : overlay.discs)
         paintDisc(picture, mask, disc);
-    for (const TextLine& text : texts)
+    for (const PlacedText& text : texts)
         paintText(picture, text, mask, rim);
 }
 
@@ -140,16 +137,7 @@ void copyInto(Picture& target, const Picture& source, int x, int y)
 
 void writePng(const std::filesystem::path& file, const Picture& picture)
 {
-    replaceFile(file, [&](const std::filesystem::path& temporary) {
-        png_image image{};
-        image.version = PNG_IMAGE_VERSION;
-        image.width = png_uint_32(picture.width);
-        image.height = png_uint_32(picture.height);
-        image.format = PNG_FORMAT_RGB;
-        if (!png_image_write_to_file(&image, temporary.c_str(), 0, picture.rgb.data(), 0, nullptr))
-            throw Error(ErrorCode::store, std::string("the picture cannot be written (") + image.message + ")",
-                        file.string(), "check the folder and the disk's free space");
-    });
+    picture::writePng(file, picture.width, picture.height, picture.rgb, {.says_srgb = true});
 }
 
 }  // namespace vicon::viewer

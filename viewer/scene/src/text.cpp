@@ -1,15 +1,13 @@
 #include "text.h"
 
-#include <ft2build.h>
-#include FT_OUTLINE_H
-
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <utility>
 
-#include "fonts.h"
 #include "mask.h"
+#include "vicon/core/error.h"
+#include "vicon/text/glyph.h"
 
 namespace vicon::viewer {
 namespace {
@@ -25,25 +23,24 @@ constexpr double kLeastGroundEdge = 0.35, kMostGroundEdge = 0.9, kGroundEdgePerW
 constexpr double kLeastSize_px = 6, kLeastShare = 0.6;  // of the wanted height: a name is read, not merely there
 constexpr double kAscent = 0.95, kDescent = 0.25;       // of the size: room for accents and tails in every script
 
+/// The installed fonts, shared by all threads.
 struct Library {
     std::mutex mutex;
-    Fonts fonts;
+    text::FontSet fonts{{"/usr/share/fonts", "/usr/local/share/fonts"}, text::FontSet::Medium::screen};
+    text::Typesetter type{fonts};
+
+    Library()
+    {
+        if (!fonts.find(U'A'))
+            throw Error(ErrorCode::no_display, "no fonts are installed", "/usr/share/fonts",
+                        "install the Debian package 'fonts-dejavu-core'");
+    }
 };
 
 Library& library()
 {
     static Library one;
     return one;
-}
-
-TextLine inOneRow(Fonts& fonts, const std::string& utf8, double size_px)
-{
-    GlyphRow row = shaped(fonts, utf8, size_px);
-    TextLine line;
-    line.size = size_px;
-    line.glyphs = std::move(row.glyphs);
-    line.width = row.width;
-    return line;
 }
 
 std::string firstCharacters(const std::string& utf8, std::size_t count)
@@ -56,29 +53,29 @@ std::string firstCharacters(const std::string& utf8, std::size_t count)
 }
 
 /// So much of the text as fits at this size, with a sign that there is more.
-TextLine cutOff(Fonts& fonts, const OverlayText& text, double size_px, double whole_width_px)
+text::TextLine cutOff(text::Typesetter& type, const OverlayText& text, double size_px, double whole_width_px)
 {
     const auto all = std::count_if(text.text.begin(), text.text.end(), [](char c) { return (c & 0xC0) != 0x80; });
     for (auto count = std::size_t(double(all) * text.most_width_px / whole_width_px);; --count) {
-        TextLine line = inOneRow(fonts, firstCharacters(text.text, count) + "…", size_px);
+        text::TextLine line = type.line(firstCharacters(text.text, count) + "…", {.size = size_px});
         if (line.width <= text.most_width_px || count == 0)
             return line;
     }
 }
 
-TextLine fitted(Fonts& fonts, const OverlayText& text)
+text::TextLine fitted(text::Typesetter& type, const OverlayText& text)
 {
-    TextLine wanted = inOneRow(fonts, text.text, text.height_px);
+    text::TextLine wanted = type.line(text.text, {.size = text.height_px});
     if (wanted.width <= text.most_width_px)
         return wanted;
     const double smaller = text.height_px * text.most_width_px / wanted.width;
     const double least = std::max(kLeastSize_px, kLeastShare * text.height_px);
     if (smaller >= least)
-        return inOneRow(fonts, text.text, smaller);
-    return cutOff(fonts, text, least, wanted.width * least / text.height_px);
+        return type.line(text.text, {.size = smaller});
+    return cutOff(type, text, least, wanted.width * least / text.height_px);
 }
 
-Pixel beginOf(const OverlayText& text, const TextLine& line)
+Pixel beginOf(const OverlayText& text, const text::TextLine& line)
 {
     Pixel p = text.at;
     if (text.across == Across::centre)
@@ -94,68 +91,58 @@ Pixel beginOf(const OverlayText& text, const TextLine& line)
     return {std::round(p.x), std::round(p.y)};
 }
 
-void draw(Mask& mask, const PlacedGlyph& placed, Pixel begin, double size_px)
+void draw(Mask& mask, int font, const text::PlacedGlyph& glyph, const PlacedText& text)
 {
-    FT_Face face = placed.glyph.face;
-    setSize(face, size_px);
-    if (FT_Load_Glyph(face, placed.glyph.glyph, FT_LOAD_NO_HINTING) != 0)
-        return;
-    const double x = begin.x + placed.x, whole = std::floor(x);
-    FT_Outline_Translate(&face->glyph->outline, FT_Pos((x - whole) * 64), FT_Pos(placed.y * 64));
-    if (FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL) != 0)
-        return;
-    const FT_Bitmap& bitmap = face->glyph->bitmap;
-    for (unsigned row = 0; row < bitmap.rows; ++row)
-        for (unsigned column = 0; column < bitmap.width; ++column)
-            mask.add(int(whole) + face->glyph->bitmap_left + int(column),
-                     int(begin.y) - face->glyph->bitmap_top + int(row),
-                     bitmap.buffer[std::ptrdiff_t(row) * bitmap.pitch + column]);
+    const double x = text.begin.x + glyph.x, whole = std::floor(x);
+    const text::Coverage drawn = coverageOf(library().fonts, font, glyph.glyph, text.line.size, x - whole, glyph.y);
+    for (int row = 0; row < drawn.height; ++row)
+        for (int column = 0; column < drawn.width; ++column)
+            mask.add(int(whole) + drawn.left + column, int(text.begin.y) - drawn.top + row,
+                     drawn.cover[std::size_t(row) * std::size_t(drawn.width) + std::size_t(column)]);
 }
 
 }  // namespace
 
-TextLine layOut(const OverlayText& text)
+PlacedText layOut(const OverlayText& text)
 {
     const std::lock_guard lock(library().mutex);
-    TextLine line = fitted(library().fonts, text);
-    line.begin = beginOf(text, line);
-    line.color = text.color;
-    return line;
+    PlacedText placed{fitted(library().type, text), {}, text.color};
+    placed.begin = beginOf(text, placed.line);
+    return placed;
 }
 
-TextSize sizeOf(const TextLine& line)
+TextSize sizeOf(const PlacedText& text)
 {
-    return {line.width, (kAscent + kDescent) * line.size};
+    return {text.line.width, (kAscent + kDescent) * text.line.size};
 }
 
-Area areaOf(const TextLine& line)
+Area areaOf(const PlacedText& text)
 {
-    const TextSize size = sizeOf(line);
-    return {line.begin.x, line.begin.y - kAscent * line.size, size.width_px, size.height_px};
+    const TextSize size = sizeOf(text);
+    return {text.begin.x, text.begin.y - kAscent * text.line.size, size.width_px, size.height_px};
 }
 
-void paintGround(Picture& picture, const std::vector<TextLine>& lines, Mask& mask)
+void paintGround(Picture& picture, const std::vector<PlacedText>& texts, Mask& mask)
 {
     mask.clear();
-    for (const TextLine& line : lines)
-        if (!line.glyphs.empty())
-            mask.addBox({line.begin.x, line.begin.y - kLetterTop * line.size, line.width,
-                         (kLetterTop + kLetterBottom) * line.size},
-                        std::clamp(kGroundEdgePerWidth * line.width, kLeastGroundEdge * line.size,
-                                   kMostGroundEdge * line.size));
+    for (const PlacedText& text : texts)
+        if (const auto& [runs, width, size, right_to_left] = text.line; !runs.empty())
+            mask.addBox({text.begin.x, text.begin.y - kLetterTop * size, width, (kLetterTop + kLetterBottom) * size},
+                        std::clamp(kGroundEdgePerWidth * width, kLeastGroundEdge * size, kMostGroundEdge * size));
     mask.blendInto(picture, kGround, kGroundStrength);
 }
 
-void paintText(Picture& picture, const TextLine& line, Mask& letters, Mask& rim)
+void paintText(Picture& picture, const PlacedText& text, Mask& letters, Mask& rim)
 {
     const std::lock_guard lock(library().mutex);
     letters.clear();
-    for (const PlacedGlyph& placed : line.glyphs)
-        draw(letters, placed, line.begin, line.size);
+    for (const text::GlyphRun& run : text.line.runs)
+        for (const text::PlacedGlyph& glyph : run.glyphs)
+            draw(letters, run.font, glyph, text);
     rim.clear();
-    letters.growInto(rim, std::max(1.0, kRimShare * line.size));
+    letters.growInto(rim, std::max(1.0, kRimShare * text.line.size));
     rim.blendInto(picture, kGround, kRimStrength);
-    letters.blendInto(picture, line.color, 1);
+    letters.blendInto(picture, text.color, 1);
 }
 
 }  // namespace vicon::viewer

@@ -3,25 +3,24 @@
 #include <vector>
 
 #include "mask.h"
-#include "shaping.h"
+#include "vicon/text/typesetter.h"
 
 namespace vicon::viewer {
 
 /// A text as it will be painted.
-struct TextLine {
-    std::vector<PlacedGlyph> glyphs;
-    double width = 0, size = 0;
+struct PlacedText {
+    text::TextLine line;
     Pixel begin;  ///< on its base line
     Rgb color;
 };
 
-TextLine layOut(const OverlayText& text);
-TextSize sizeOf(const TextLine& line);
-Area areaOf(const TextLine& line);
+PlacedText layOut(const OverlayText& text);
+TextSize sizeOf(const PlacedText& text);
+Area areaOf(const PlacedText& text);
 
-/// Darkens what lies below the lines, once where they overlap, so that they read on bright tissue as on air. The masks
+/// Darkens what lies below the texts, once where they overlap, so that they read on bright tissue as on air. The masks
 /// are room to work in, as large as the picture.
-void paintGround(Picture& picture, const std::vector<TextLine>& lines, Mask& mask);
-void paintText(Picture& picture, const TextLine& line, Mask& letters, Mask& rim);
+void paintGround(Picture& picture, const std::vector<PlacedText>& texts, Mask& mask);
+void paintText(Picture& picture, const PlacedText& text, Mask& letters, Mask& rim);
 
 }  // namespace vicon::viewer

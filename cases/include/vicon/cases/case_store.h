@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,9 +51,10 @@ public:
 
     /// Adds or replaces a case, its scan and the scan's instances in one transaction, after their files were written;
     /// then rewrites scan.json. `queue` puts a job for the scan into the queue; a scan whose role is no longer "scan"
-    /// leaves it unless its job is done.
+    /// leaves it unless its job is done. `require` runs first, within the transaction: when it throws, nothing is
+    /// written.
     void addScan(const CaseRecord& a_case, const ScanRecord& scan, const std::vector<InstanceRecord>& instances,
-                 bool queue);
+                 bool queue, const std::function<void()>& require = {});
     /// Forgets a scan and removes its folder, unless a marker lies in it: then it stays as it is.
     void removeScan(const std::string& case_id, const std::string& scan_id);
     /// Adds a line for a person to the case; the same line is kept once.

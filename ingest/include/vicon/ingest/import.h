@@ -75,6 +75,8 @@ struct ImportReport {
     int images_kept = 0;      ///< series that were stored without being queued
     int set_aside = 0;        ///< objects
     int refused = 0;          ///< objects, quarantined ones among them
+    /// Files that were read and of which the store now holds no copy. Files out of zip files are not among them.
+    std::vector<std::filesystem::path> not_stored;
     /// Whether at least one scan or image was stored or was there already: exit code 0.
     bool anythingStored() const { return scans_stored + scans_unchanged + images_kept > 0; }
 };

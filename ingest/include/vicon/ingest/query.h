@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace vicon::ingest {
 struct StudyQuery {
     std::string patient_id;
     std::string patient_name;
-    std::string dates;  ///< YYYYMMDD, or a range YYYYMMDD-YYYYMMDD with either end left out
+    /// YYYYMMDD or YYYY-MM-DD, or a range of two such dates with "-" between, with either end left out
+    std::string dates;
     std::string accession_number;
     std::string study_uid;
     std::string modality = "CT";  ///< that some series of the study has
@@ -27,13 +29,18 @@ struct FoundStudy {
 };
 
 /// Asks a peer for studies (C-FIND, study root), in order of date, then UID.
-/// @throws Error{peer} when no association can be made, or the peer refuses or does not answer; Error{cancelled}
+/// @throws Error{wrong_use} for dates that are none, Error{peer} when no association can be made, or the peer refuses
+/// or does not answer; Error{cancelled}
 std::vector<FoundStudy> findStudies(const Peer& peer, const StudyQuery& query, const std::string& our_ae_title,
                                     Progress& progress);
 
 /// The series of a study that have this modality: their Series Instance UIDs, sorted. Throws as findStudies().
 std::vector<std::string> findSeries(const Peer& peer, const std::string& study_uid, const std::string& modality,
                                     const std::string& our_ae_title, Progress& progress);
+
+/// The objects of a series: their SOP Instance UIDs, sorted. Throws as findStudies().
+std::vector<std::string> findObjects(const Peer& peer, const std::string& study_uid, const std::string& series_uid,
+                                     const std::string& our_ae_title, Progress& progress);
 
 /// What a peer sent, or says that it sent.
 struct RetrieveResult {
@@ -44,9 +51,12 @@ struct RetrieveResult {
 
 /// Fetches series over the association that asks for them (C-GET, study root); no port has to be open here. CT images
 /// and secondary captures in every encoding, kept as they come. The files lie in `folder`, which is made private.
-/// @throws Error{peer} when no association can be made, or it breaks; Error{store}, Error{cancelled}
+/// Objects of `have` (SOP Instance UIDs), and those that an earlier try left whole in the folder, are not fetched.
+/// @throws Error{peer} when no association can be made, or it breaks: what came lies in the folder, and the same call
+///         goes on; Error{store}, Error{cancelled}
 RetrieveResult getSeries(const Peer& peer, const std::string& study_uid, const std::vector<std::string>& series_uids,
-                         const std::filesystem::path& folder, const std::string& our_ae_title, Progress& progress);
+                         const std::filesystem::path& folder, const std::string& our_ae_title, Progress& progress,
+                         const std::set<std::string>& have = {});
 
 /// Has a peer send series to the listener `destination_ae_title` (C-MOVE, study root), which the peer must know and
 /// which must be listening: see Receiver. Throws Error{peer}, Error{cancelled}.

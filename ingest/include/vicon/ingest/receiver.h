@@ -13,41 +13,67 @@ namespace vicon::ingest {
 
 struct ReceiverOptions {
     int port = 11112;
+    /// Nobody else reaches the listener until a site says from where it shall be reached.
+    std::string address = "127.0.0.1";
     std::string ae_title = "VICON";
     bool any_called_title = true;
+    std::string allow;
+    /// Between two associations of one study a scanner pauses for a second or two.
+    double quiet_s = 5;
     /// A sender that keeps its association open between images pauses for less than a second.
     double idle_s = 10;
-    int max_associations = 8;
+    int max_associations = 64;
+    int max_per_host = 32;
+    int max_half_open = 256;
+    double request_s = 10;
     double timeout_s = 60;
 
     template <class Visitor>
     void visit(Visitor&& v)
     {
         v("receive.port", port, "", "TCP port of the DICOM listener; 0 takes any free one.", {0, 65535});
+        v("receive.address", address, "",
+          "IPv4 address of this machine that is listened on; 0.0.0.0: all of them, 127.0.0.1: this machine alone.");
         v("receive.ae_title", ae_title, "", "Application entity title of the listener, up to 16 characters.");
         v("receive.any_called_title", any_called_title, "",
           "Accept associations that call another title than receive.ae_title.");
-        v("receive.idle_s", idle_s, "s", "Images are handed over when an open association was silent for so long.",
+        v("receive.allow", allow, "",
+          "Who may call: TITLE, TITLE@HOST, @HOST, or peers for all of [peers], separated by commas; empty: anybody.");
+        v("receive.quiet_s", quiet_s, "s",
+          "A study is handed over when its associations are over and no more of it came for so long.", {0, 3600});
+        v("receive.idle_s", idle_s, "s", "A study is handed over when its open association was silent for so long.",
           {0.1, 3600});
         v("receive.max_associations", max_associations, "", "Associations served at the same time.", {1, 1000});
-        v("receive.timeout_s", timeout_s, "s", "A peer that stops within a message is dropped after this time.",
+        v("receive.max_per_host", max_per_host, "", "Associations of one host served at the same time.", {1, 1000});
+        v("receive.max_half_open", max_half_open, "",
+          "Connections that have not yet asked for an association; the oldest of the busiest host goes first.",
+          {8, 10000});
+        v("receive.request_s", request_s, "s", "An association request that is not complete after this time is ended.",
           {1, 3600});
+        v("receive.timeout_s", timeout_s, "s", "A peer that sends next to nothing for so long is dropped.", {1, 3600});
     }
 };
 
 /// A storage SCP: C-ECHO and C-STORE, every storage class, every transfer syntax as it comes. An image lies durably in
-/// the incoming folder before its C-STORE is answered with success.
+/// the incoming folder before its C-STORE is answered with success, and stays in the store, with a case or in
+/// quarantine. No peer keeps others waiting: requests are read beside the accepting thread, every phase has a limit.
 class Receiver {
 public:
-    /// Takes what was received; runs on a thread of the receiver, one call at a time. When it returns, the files have
-    /// been taken and are removed; when it throws, they stay and are handed over again when a Receiver starts next.
-    using OnReceived = std::function<void(std::vector<std::filesystem::path>)>;
-    /// Told of what went wrong with one object or one hand-over, without a patient's name. May be empty.
+    using Files = std::vector<std::filesystem::path>;
+    /// Takes what was received of a study; runs on a thread of the receiver, one call at a time. When it returns, the
+    /// files have been taken and are removed, but for those that it returns: they are in no case, and are kept in the
+    /// store's quarantine. When it throws Error{store}, {database} or {no_memory}, they are handed over again later;
+    /// Error{cancelled}: when a Receiver starts next; anything else: in parts, to part the bad object from the others.
+    using OnReceived = std::function<Files(const Files&)>;
+    /// Told of what went wrong with one object, association or hand-over, without a patient's name. May be empty.
     using OnTrouble = std::function<void(const std::string&)>;
+    /// Told of each association and its sender. May be empty.
+    using OnNote = std::function<void(const std::string&)>;
 
-    /// Starts to listen on the port. Throws Error{peer} when the port cannot be had, Error{wrong_use} for a bad title.
+    /// Starts to listen on the port. Throws Error{peer} when the port cannot be had, Error{wrong_use} for a bad title
+    /// or rule.
     Receiver(const ReceiverOptions& options, const std::filesystem::path& incoming_folder, OnReceived on_received,
-             OnTrouble on_trouble = {});
+             OnTrouble on_trouble = {}, OnNote on_note = {});
     ~Receiver();
     Receiver(const Receiver&) = delete;
     Receiver& operator=(const Receiver&) = delete;

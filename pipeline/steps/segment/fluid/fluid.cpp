@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/meniscus.h"
+#include "grid/neighbours.h"
 #include "segment/fluid/layer.h"
 #include "segment/fluid/levels.h"
 #include "segment/fluid/specks.h"
@@ -18,28 +19,15 @@ Index3 below(Index3 v, Down down, int steps)
     return v;
 }
 
-/// Marks everything above `half_hu` that the stacked voxels reach over faces.
-void flood(const HuVolume& volume, double half_hu, InsideVolume& labels, std::vector<std::size_t>& stack)
+/// Marks everything above `half_hu` that the voxels of `front` reach over faces.
+void flood(const HuVolume& volume, double half_hu, InsideVolume& labels, std::vector<std::size_t> front)
 {
-    const auto [nx, ny, nz] = labels.grid.size;
-    const std::array<std::ptrdiff_t, 3> stride{1, nx, std::ptrdiff_t(nx) * ny};
-    while (!stack.empty()) {
-        const std::size_t n = stack.back();
-        stack.pop_back();
-        const Index3 v = labels.grid.indexOf(n);
-        const std::array<int, 3> at{v.i, v.j, v.k};
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            for (const int step : {-1, 1}) {
-                const int to = at[axis] + step;
-                if (to < 0 || to >= labels.grid.size[axis])
-                    continue;
-                const std::size_t m = std::size_t(std::ptrdiff_t(n) + step * stride[axis]);
-                if (labels.voxels[m] || volume.voxels[m] < half_hu)
-                    continue;
-                labels.voxels[m] = kFluid;
-                stack.push_back(m);
-            }
-    }
+    floodOverFaces(labels.grid, std::move(front), [&](std::size_t n) {
+        if (labels.voxels[n] || volume.voxels[n] < half_hu)
+            return false;
+        labels.voxels[n] = kFluid;
+        return true;
+    });
 }
 
 }  // namespace
@@ -56,9 +44,9 @@ FluidResult addTaggedFluid(const HuVolume& volume, Vector3 gravity, const FluidD
     // voxel is visited once and the order of the levels does not matter.
     std::stable_sort(patches.begin(), patches.end(),
                      [](const ContactPatch& a, const ContactPatch& b) { return a.density_hu < b.density_hu; });
-    std::vector<std::size_t> stack;
     for (const ContactPatch& patch : patches) {
-        const double half_hu = (patch.density_hu + densities.tissue_hu) / 2;
+        std::vector<std::size_t> front;
+        const double half_hu = (patch.density_hu + densities.wall.tissue_hu) / 2;
         FluidLevel level{patch.density_hu, 0, {}};
         Vector3 sum;
         for (const Contact& contact : patch.contacts) {
@@ -67,17 +55,17 @@ FluidResult addTaggedFluid(const HuVolume& volume, Vector3 gravity, const FluidD
             std::uint8_t& label = labels.at(v);
             if (!label && volume.at(v) >= half_hu) {
                 label = kFluid;
-                stack.push_back(labels.grid.offset(v));
+                front.push_back(labels.grid.offset(v));
             }
         }
-        flood(volume, half_hu, labels, stack);
+        flood(volume, half_hu, labels, std::move(front));
         level.centre_mm = Point3{} + sum / double(patch.contacts.size());
         level.area_mm2 = double(patch.contacts.size()) * labels.grid.voxelVolume_mm3() /
                          labels.grid.spacing_mm[std::size_t(down.axis)];
         result.levels.push_back(level);
         progress.check();
     }
-    closeFluidLayer(volume, down, patches, densities.tissue_hu, labels);
+    closeFluidLayer(volume, down, patches, densities.wall.tissue_hu, labels);
     // Where noise cannot have made them, holes are what is left of a wall between two pools, and keep them apart.
     if (std::any_of(patches.begin(), patches.end(), [](const ContactPatch& patch) { return patch.noisy; }))
         fillFluidSpecks(labels);
@@ -93,19 +81,17 @@ void addFluidAt(const HuVolume& volume, Point3 point, const FluidDensities& dens
         return;
     double sum = 0;
     int count = 0;
-    for (int k = -1; k <= 1; ++k)
-        for (int j = -1; j <= 1; ++j)
-            for (int i = -1; i <= 1; ++i)
-                if (const Index3 n{v.i + i, v.j + j, v.k + k}; volume.grid.contains(n)) {
-                    sum += volume.at(n);
-                    ++count;
-                }
+    forEachInCube(v, 1, [&](Index3 n) {
+        if (volume.grid.contains(n)) {
+            sum += volume.at(n);
+            ++count;
+        }
+    });
     const double density_hu = sum / count;
     if (density_hu < densities.fluid_above_hu)
         return;
     labels.at(v) = kFluid;
-    std::vector<std::size_t> stack{labels.grid.offset(v)};
-    flood(volume, (density_hu + densities.tissue_hu) / 2, labels, stack);
+    flood(volume, (density_hu + densities.wall.tissue_hu) / 2, labels, {labels.grid.offset(v)});
 }
 
 }  // namespace vicon::steps

@@ -5,14 +5,14 @@
 
 #include "vicon/core/progress.h"
 #include "vicon/core/volume.h"
+#include "vicon/steps/wall_densities.h"
 
 namespace vicon::steps {
 
 /// Densities by which fluid is told from the wall.
 struct FluidDensities {
-    double fluid_above_hu = 200;
-    double tissue_hu = 40;
-    double wall_hu = -480;  ///< half-way between gas and the wall
+    double fluid_above_hu = 0;  ///< tagged fluid has at least this density
+    WallDensities wall;
 };
 
 /// A flat surface between gas and tagged fluid.

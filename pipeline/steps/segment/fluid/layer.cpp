@@ -1,4 +1,5 @@
 #include "segment/fluid/layer.h"
+#include "segment/constants.h"
 
 #include <algorithm>
 #include <array>
@@ -9,12 +10,11 @@
 namespace vicon::steps {
 namespace {
 
-// Two sigma of the widest point spread, 0.8 mm: farther from the level gas and fluid have their own densities.
-constexpr double kHalfLayer_mm = 1.6;
+// The widest point spread that is reckoned with; two sigma of it from the level gas and fluid have their own densities.
+constexpr double kSigma_mm = 0.8;
+constexpr double kHalfLayer_mm = 2 * kSigma_mm;
 // How far the wall beside a level may reach into the layer's columns; the shape is sought as far.
 constexpr int kBeside_voxels = 3;
-// The widest point spread that is reckoned with.
-constexpr double kSigma_mm = 0.8;
 // Where a level's own blur is this far from tissue, a voxel nearer to tissue than to it is wall: half of it is two
 // standard deviations of a low-dose scan's noise.
 constexpr double kTelling_hu = 300;
@@ -63,7 +63,7 @@ private:
     void fill(Index3 v, double density_hu)
     {
         if (std::uint8_t& label = labels_.at(v); !label)
-            label = volume_.at(v) < (density_hu - 1000) / 2 ? kGas : kFluid;
+            label = volume_.at(v) < (density_hu + kAir_hu) / 2 ? kGas : kFluid;
     }
 
     Index3 below(Index3 v, int steps) const
@@ -129,7 +129,7 @@ private:
     Tells density(Index3 v, double below_voxels, double fluid_hu) const
     {
         const double sigmas = below_voxels * labels_.grid.spacing_mm[std::size_t(down_.axis)] / kSigma_mm;
-        const double level_hu = std::lerp(-1000, fluid_hu, (1 + std::erf(sigmas / std::sqrt(2))) / 2);
+        const double level_hu = std::lerp(kAir_hu, fluid_hu, (1 + std::erf(sigmas / std::sqrt(2))) / 2);
         const double contrast = level_hu - tissue_hu_;
         if (std::abs(contrast) <= kTelling_hu)
             return Tells::nothing;

@@ -1,23 +1,24 @@
 #include "segment/fluid/levels.h"
+#include "vicon/core/disjoint_sets.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
 
 namespace vicon::steps {
 namespace {
 
-constexpr int kFarthestStep = 5;   // partial-volume layer: at most five voxels at a point spread up to 1 mm
+// What a fluid level looks like. From the scanner's point spread, up to 1 mm, and from gravity; cases not recorded.
+constexpr int kFarthestStep = 5;   // voxels of the partial-volume layer
 constexpr double kDeepest_mm = 4;  // how far under the level the fluid's own density is read
-constexpr double kThickestStep_mm =
-    1.6;  // half-way to half-way of a blurred step is 1.1 mm at sigma 0.8; a wall is thicker
-constexpr double kFlatWithin_voxels = 1;
-constexpr double kFlatShare = 0.7;
-constexpr double kSmallestLevel_mm2 = 20;
+// Half-way to half-way of a blurred step is 1.1 mm at sigma 0.8; a wall is thicker.
+constexpr double kThickestStep_mm = 1.6;
+constexpr double kFlatWithin_voxels = 1;   // of the level's median
+constexpr double kFlatShare = 0.7;         // of a patch's columns that must be flat
+constexpr double kSmallestLevel_mm2 = 20;  // of a level's area
 /// Half-way density less than this many standard deviations below a pool's own: one voxel in 160 is a hole. A pool of
 /// 300 HU at a noise of 60 HU, low dose, has 2.2; the prone scan of the reference data, 28 HU, has at least 2.7 in any
 /// pool.
@@ -68,14 +69,14 @@ std::optional<Contact> contactBelow(const HuVolume& volume, Down down, const Flu
     }
     if (!first_bright)
         return std::nullopt;
-    const double half = (densities.tissue_hu + brightest) / 2;
+    const double half = (densities.wall.tissue_hu + brightest) / 2;
     double leave_gas = 0, enter_fluid = 0, level = 0;
     const double middle = (hu[0] + brightest) / 2;
     int n = 1;
     for (; n <= count; ++n) {
         const double a = hu[std::size_t(n - 1)], b = hu[std::size_t(n)];
-        if (a <= densities.wall_hu && b > densities.wall_hu)
-            leave_gas = crossing(a, b, n, densities.wall_hu);
+        if (a <= densities.wall.wall_hu && b > densities.wall.wall_hu)
+            leave_gas = crossing(a, b, n, densities.wall.wall_hu);
         if (a <= middle && b > middle)
             level = crossing(a, b, n, middle);
         if (b >= half) {
@@ -119,13 +120,7 @@ std::vector<std::uint32_t> joinContacts(const std::vector<Contact>& contacts, co
     at.reserve(contacts.size() * 2);
     for (std::size_t n = 0; n < contacts.size(); ++n)
         at[grid.offset(contacts[n].gas)] = std::uint32_t(n);
-    std::vector<std::uint32_t> parent(contacts.size());
-    std::iota(parent.begin(), parent.end(), 0U);
-    const auto root = [&](std::uint32_t n) {
-        while (parent[n] != n)
-            n = parent[n] = parent[parent[n]];
-        return n;
-    };
+    DisjointSets levels(contacts.size());
     for (std::size_t n = 0; n < contacts.size(); ++n)
         for (int axis = 0; axis < 3; ++axis)
             for (int step = -1; axis != down.axis && step <= 1; ++step) {
@@ -133,14 +128,13 @@ std::vector<std::uint32_t> joinContacts(const std::vector<Contact>& contacts, co
                 along(v, axis) += 1;
                 along(v, down.axis) += step;
                 const auto found = grid.contains(v) ? at.find(grid.offset(v)) : at.end();
-                if (found == at.end())
-                    continue;
-                const auto a = root(std::uint32_t(n)), b = root(found->second);
-                parent[std::max(a, b)] = std::min(a, b);
+                if (found != at.end())
+                    levels.join(std::uint32_t(n), found->second);
             }
-    for (std::size_t n = 0; n < parent.size(); ++n)
-        parent[n] = root(std::uint32_t(n));
-    return parent;
+    std::vector<std::uint32_t> roots(contacts.size());
+    for (std::size_t n = 0; n < roots.size(); ++n)
+        roots[n] = levels.rootOf(std::uint32_t(n));
+    return roots;
 }
 
 template <class Value>
@@ -225,7 +219,7 @@ std::vector<ContactPatch> findFluidLevels(const HuVolume& volume, Down down, con
     }
     std::erase_if(patches, [&](ContactPatch& patch) { return !isLevel(patch, volume, down); });
     for (ContactPatch& patch : patches)
-        measureDensity(patch, volume, down, densities.tissue_hu, noise_hu);
+        measureDensity(patch, volume, down, densities.wall.tissue_hu, noise_hu);
     return patches;
 }
 

@@ -9,7 +9,8 @@
 namespace vicon::steps {
 namespace {
 
-/// Whether a voxel has a neighbour whose label satisfies `wanted`; over faces, or over edges and corners as well.
+/// Whether a voxel has a neighbour whose label satisfies `wanted`; over faces, or over edges and corners as well. Its
+/// own loop, not forEachOverFaces(): it is asked of every voxel of fluid, layer by layer, and ends at the first.
 template <class Wanted>
 bool touches(const InsideVolume& labels, std::size_t n, bool all, Wanted wanted)
 {

@@ -1,9 +1,9 @@
 #include "segment/fluid/specks.h"
+#include "grid/neighbours.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 namespace vicon::steps {
@@ -14,14 +14,11 @@ namespace {
 constexpr std::size_t kLargest_voxels = 64;
 constexpr int kLeastFaces = 4;  // of a voxel where a search begins: every small enclosed set has one
 
-constexpr std::array<std::array<int, 3>, 6> kFaces{
-    {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
-
 bool isSeed(const InsideVolume& labels, Index3 v)
 {
     int lumen = 0, fluid = 0;
-    for (const auto& f : kFaces) {
-        const std::uint8_t label = labels.valueOr({v.i + f[0], v.j + f[1], v.k + f[2]}, kOutside);
+    for (const Index3 face : kFaces) {
+        const std::uint8_t label = labels.valueOr(shifted(v, face), kOutside);
         lumen += label != kOutside ? 1 : 0;
         fluid += label == kFluid ? 1 : 0;
     }
@@ -33,8 +30,8 @@ std::vector<Index3> enclosed(const InsideVolume& labels, Index3 v)
 {
     std::vector<Index3> found{v};
     for (std::size_t n = 0; n < found.size(); ++n)
-        for (const auto& f : kFaces) {
-            const Index3 next{found[n].i + f[0], found[n].j + f[1], found[n].k + f[2]};
+        for (const Index3 face : kFaces) {
+            const Index3 next = shifted(found[n], face);
             if (!labels.grid.contains(next))
                 return {};
             if (labels.at(next) != kOutside || std::find(found.begin(), found.end(), next) != found.end())

@@ -9,9 +9,12 @@
 
 #include "grid/check_only.h"
 #include "grid/lumen_graph.h"
+#include "grid/neighbours.h"
+#include "segment/constants.h"
 #include "segment/fluid/rim.h"
 #include "segment/ileum/side_branch.h"
 #include "segment/points.h"
+#include "vicon/core/nearest_voxel.h"
 #include "vicon/steps/wall_distance.h"
 
 namespace vicon::steps {
@@ -28,19 +31,21 @@ constexpr double kShortest_mm = 20;
 constexpr double kNarrowest_mm = 3, kWidest_mm = 12;  // radius of the ileum; an appendix is narrower
 constexpr double kPouch_mm = 12;                      // from the way to the neck to the caecum's end
 constexpr double kNearEnd_mm = 160;                   // a valve lies at most so far from there
-constexpr double kMargin_mm = 1.5;                    // of the cut beyond the neck's own radius
 constexpr double kLeastColon_ml = 50;                 // of a piece that ends in a caecum
-constexpr double kTipOff_mm = 6;
-constexpr double kSeedCatch_mm = 3;
+constexpr double kTipOff_mm = 6;                      // of a tip from lumen: it may lie in the rim of fluid
 // A tail behind the caecum; the prone scan of the reference data (70 mm of small bowel, 8 mm wide, behind 22 mm).
 constexpr double kTailShare = 0.45, kShortestTail_mm = 30, kWideColon_mm = 15, kTailStart_mm = 15;
 constexpr std::size_t kBehindNeck = 4;  // nodes of the graph
 constexpr int kBlock = 2, kMostTries = 12;
 
+bool isLumen(std::uint8_t label)
+{
+    return label == kGas || label == kFluid;
+}
+
 bool isLumen(const InsideVolume& labels, Index3 v)
 {
-    const std::uint8_t label = labels.valueOr(v, kOutside);
-    return label == kGas || label == kFluid;
+    return isLumen(labels.valueOr(v, kOutside));
 }
 
 /// Whether a place is where a caecum lies: on the patient's right, in the lower half.
@@ -48,25 +53,6 @@ bool liesLowRight(Point3 p, const Body& body)
 {
     const Point3 middle = interpolate(body.lower_mm, body.upper_mm, 0.5);
     return p.x < middle.x && p.z < middle.z;
-}
-
-/// The voxel of lumen nearest to a point; none farther away than a tip may lie in the rim of fluid.
-std::optional<Index3> nearestLumen(const InsideVolume& labels, Point3 p)
-{
-    const Index3 c = labels.grid.indexAt(p);
-    const int reach = int(std::ceil(kTipOff_mm / labels.grid.spacing_mm[0]));
-    std::optional<Index3> best;
-    double least = kTipOff_mm;
-    for (int k = c.k - reach; k <= c.k + reach; ++k)
-        for (int j = c.j - reach; j <= c.j + reach; ++j)
-            for (int i = c.i - reach; i <= c.i + reach; ++i) {
-                const double d = distance(labels.grid.pointAt(Index3{i, j, k}), p);
-                if (d <= least && isLumen(labels, {i, j, k})) {
-                    least = d;
-                    best = Index3{i, j, k};
-                }
-            }
-    return best;
 }
 
 /// The lumen around the far end, as a volume of its own.
@@ -80,10 +66,10 @@ struct Zone {
 std::optional<Zone> zoneAt(const InsideVolume& inside, Point3 end_mm, Point3 start_mm, int rim_layers)
 {
     const Grid& grid = inside.grid;
-    const std::optional<Index3> found = nearestLumen(inside, end_mm);
+    const auto found = nearestVoxel(grid, end_mm, kTipOff_mm, [&](Index3 v) { return isLumen(inside, v); });
     if (!found)
         return std::nullopt;
-    const Index3 seed = *found;
+    const Index3 seed = found->voxel;
     std::vector<bool> seen(grid.voxelCount());
     std::vector<std::size_t> front{grid.offset(seed)}, next, all;
     seen[front[0]] = true;
@@ -96,12 +82,12 @@ std::optional<Zone> zoneAt(const InsideVolume& inside, Point3 end_mm, Point3 sta
             const Index3 v = grid.indexOf(n);
             lower = {std::min(lower.i, v.i), std::min(lower.j, v.j), std::min(lower.k, v.k)};
             upper = {std::max(upper.i, v.i), std::max(upper.j, v.j), std::max(upper.k, v.k)};
-            for (const Index3 w : {Index3{v.i - 1, v.j, v.k}, Index3{v.i + 1, v.j, v.k}, Index3{v.i, v.j - 1, v.k},
-                                   Index3{v.i, v.j + 1, v.k}, Index3{v.i, v.j, v.k - 1}, Index3{v.i, v.j, v.k + 1}})
-                if (isLumen(inside, w) && !seen[grid.offset(w)]) {
-                    seen[grid.offset(w)] = true;
-                    next.push_back(grid.offset(w));
+            forEachOverFaces(grid, n, [&](std::size_t beside) {
+                if (isLumen(inside.voxels[beside]) && !seen[beside]) {
+                    seen[beside] = true;
+                    next.push_back(beside);
                 }
+            });
         }
         front.swap(next);
     }
@@ -185,33 +171,27 @@ std::vector<Gate> passageThrough(const LumenGraph& graph, const LumenTree& tree,
 double takeOut(InsideVolume& inside, Index3 offset, const LumenGraph& graph, const Gate& gate, const Branch& branch,
                const std::vector<Point3>& keep, double most_ml)
 {
-    const double radius = 2 * gate.radius_mm + kMargin_mm;
+    const double radius = 2 * gate.radius_mm + kNeckMargin_mm;
     const double voxel_ml = inside.grid.voxelVolume_mm3() / 1000;
     const auto most = std::size_t(most_ml / voxel_ml);
     std::vector<std::pair<std::size_t, std::uint8_t>> taken;  // with the labels they had
-    const auto take = [&](Index3 v) {
-        if (!isLumen(inside, v))
+    const auto take = [&](std::size_t n) {
+        if (!isLumen(inside.voxels[n]))
             return;
-        const Vector3 d = inside.grid.pointAt(v) - gate.at_mm;
+        const Vector3 d = inside.grid.pointAt(inside.grid.indexOf(n)) - gate.at_mm;
         if (dot(d, gate.outward) < 0 && length(d) <= radius)
             return;  // the colon's side of the mouth
-        const std::size_t n = inside.grid.offset(v);
         taken.emplace_back(n, std::exchange(inside.voxels[n], std::uint8_t(kOutside)));
     };
     for (std::size_t n = 0; n < graph.count(); ++n) {
-        const Index3 v = graph.nodes[n].voxel;
         if (branch.beyond[n])
-            take({v.i + offset.i, v.j + offset.j, v.k + offset.k});
+            take(inside.grid.offset(shifted(graph.nodes[n].voxel, offset)));
     }
-    for (std::size_t n = 0; n < taken.size() && taken.size() <= most; ++n) {
-        const Index3 v = inside.grid.indexOf(taken[n].first);
-        for (const Index3 w : {Index3{v.i - 1, v.j, v.k}, Index3{v.i + 1, v.j, v.k}, Index3{v.i, v.j - 1, v.k},
-                               Index3{v.i, v.j + 1, v.k}, Index3{v.i, v.j, v.k - 1}, Index3{v.i, v.j, v.k + 1}})
-            take(w);
-    }
+    for (std::size_t n = 0; n < taken.size() && taken.size() <= most; ++n)
+        forEachOverFaces(inside.grid, taken[n].first, take);
     const bool wanted = std::any_of(taken.begin(), taken.end(), [&](const auto& voxel) {
         const Point3 p = inside.grid.pointAt(inside.grid.indexOf(voxel.first));
-        return std::any_of(keep.begin(), keep.end(), [&](Point3 q) { return distance(p, q) < kSeedCatch_mm; });
+        return std::any_of(keep.begin(), keep.end(), [&](Point3 q) { return distance(p, q) < kCatch_mm; });
     });
     if (taken.size() <= most && !wanted)
         return double(taken.size()) * voxel_ml;
@@ -305,7 +285,7 @@ IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, const Surroundings& aroun
             for (std::size_t n = 0; n < gates.size() && result.removed_ml == 0; ++n)
                 result.removed_ml = takeOut(labels, offset, graph, gates[n], *branch, keep, 1.3 * neck.behind_ml + 2);
             if (result.removed_ml == 0)
-                doubt = "it comes round to the colon again, or holds a seed";
+                doubt = "it comes round to the colon again, or holds an added point";
         }
         result.cut = result.removed_ml > 0;
         if (result.cut)

@@ -1,4 +1,5 @@
 #include "segment/ileum/side_branch.h"
+#include "segment/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +8,12 @@
 namespace vicon::steps {
 namespace {
 
-constexpr double kMargin_mm = 1.5;  // by which a neck is closed beyond its own radius
-
 /// 1 for nodes in a ball that closes a neck: wide enough that no edge of the graph leaps over it.
 std::vector<std::uint8_t> closedAt(const LumenGraph& graph, const Neck& neck)
 {
     const Point3 centre = graph.point(neck.node);
-    const double radius = graph.node(neck.node).wall_mm + kMargin_mm + 0.87 * graph.block * graph.grid.spacing_mm[0];
+    const double radius =
+        graph.node(neck.node).wall_mm + kNeckMargin_mm + 0.87 * graph.block * graph.grid.spacing_mm[0];
     std::vector<std::uint8_t> closed(graph.count(), 0);
     for (std::size_t n = 0; n < graph.count(); ++n)
         closed[n] = distance(graph.point(std::int32_t(n)), centre) <= radius ? 1 : 0;

@@ -2,19 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <queue>
 
+#include "grid/cheapest_ways.h"
+#include "grid/neighbours.h"
+#include "segment/constants.h"
 #include "segment/pieces/cord_middle.h"
 #include "skeleton/smooth.h"
+#include "vicon/core/nearest_voxel.h"
 #include "vicon/steps/wall_distance.h"
 
 namespace vicon::steps {
 namespace {
 
-// Densities of averaged voxels: a collapsed wall with some fluid and tag in it, against fat (-100 HU) and bone.
-constexpr double kSoftFrom_hu = -30, kSoftTo_hu = 250;
-constexpr double kAir_hu = -400;      // below, and not lumen of the pieces: other gas
+// Of the way through a collapsed part. Cases not recorded but where one is named.
 constexpr double kCell_mm = 1.5;      // of the grid on which the way is sought: averages out noise
 constexpr double kMargin_mm = 25;     // of that grid around the two tips
 constexpr double kReach_mm = 40;      // lumen farther from the tips is no part of the way
@@ -70,44 +70,30 @@ double meanIn(const HuVolume& volume, const Grid& grid, Index3 cell)
     for (int k = 0; k < factor[2]; ++k)
         for (int j = 0; j < factor[1]; ++j)
             for (int i = 0; i < factor[0]; ++i)
-                sum += volume.valueOr({v.i + i, v.j + j, v.k + k}, -1000);
+                sum += volume.valueOr({v.i + i, v.j + j, v.k + k}, std::int16_t(kAir_hu));
     return sum / (factor[0] * factor[1] * factor[2]);
 }
 
 /// The lumen about a tip: connected, and near enough to it to lead into the collapsed part.
 void markLumen(Cord& cord, const std::vector<std::uint8_t>& lumen, Point3 tip, Cell as)
 {
-    const auto nearest = [&] {
-        std::size_t best = cord.cells.size();
-        double least = 1e300;
-        for (std::size_t n = 0; n < lumen.size(); ++n)
-            if (const double d = lumen[n] ? distance(cord.grid.pointAt(cord.grid.indexOf(n)), tip) : 1e300; d < least) {
-                least = d;
-                best = n;
-            }
-        return best;
-    }();
-    if (nearest == cord.cells.size())
+    const Grid& grid = cord.grid;
+    const auto nearest = nearestVoxel(grid, tip, kAnyDistance_mm, [&](Index3 v) { return lumen[grid.offset(v)] != 0; });
+    if (!nearest)
         return;
-    std::vector<std::size_t> queue{nearest};
-    cord.cells[nearest] = as;
-    while (!queue.empty()) {
-        const Index3 v = cord.grid.indexOf(queue.back());
-        queue.pop_back();
-        for (const Index3 w : {Index3{v.i - 1, v.j, v.k}, Index3{v.i + 1, v.j, v.k}, Index3{v.i, v.j - 1, v.k},
-                               Index3{v.i, v.j + 1, v.k}, Index3{v.i, v.j, v.k - 1}, Index3{v.i, v.j, v.k + 1}}) {
-            if (!cord.grid.contains(w) || distance(cord.grid.pointAt(w), tip) > kReach_mm)
-                continue;
-            const std::size_t n = cord.grid.offset(w);
-            if (lumen[n] && cord.cells[n] != kBefore && cord.cells[n] != kAfter) {
-                cord.cells[n] = as;
-                queue.push_back(n);
-            }
-        }
-    }
+    const auto take = [&](std::size_t n) {
+        if (!lumen[n] || cord.cells[n] == kBefore || cord.cells[n] == kAfter ||
+            distance(grid.pointAt(grid.indexOf(n)), tip) > kReach_mm)
+            return false;
+        cord.cells[n] = as;
+        return true;
+    };
+    cord.cells[grid.offset(nearest->voxel)] = as;
+    floodOverFaces(grid, {grid.offset(nearest->voxel)}, take);
 }
 
-Cord cordBetween(const HuVolume& volume, const InsideVolume& inside, Point3 from, Point3 to, Progress& progress)
+Cord cordBetween(const HuVolume& volume, const InsideVolume& inside, const WallDensities& densities, Point3 from,
+                 Point3 to, Progress& progress)
 {
     Cord cord;
     cord.grid = gridAround(volume.grid, from, to);
@@ -117,7 +103,8 @@ Cord cordBetween(const HuVolume& volume, const InsideVolume& inside, Point3 from
         const Index3 v = cord.grid.indexOf(n);
         lumen[n] = inside.valueOr(inside.grid.indexAt(cord.grid.pointAt(v)), 0) ? 1 : 0;
         const double hu = meanIn(volume, cord.grid, v);
-        cord.cells[n] = lumen[n] || hu < kAir_hu || hu > kSoftTo_hu ? kBarred : hu > kSoftFrom_hu ? kSoft : kFat;
+        const bool barred = lumen[n] || hu < kBody_hu || hu > kBone_hu;
+        cord.cells[n] = barred ? kBarred : hu > softFrom_hu(densities) ? kSoft : kFat;
     }
     progress.check();
     markLumen(cord, lumen, from, kBefore);
@@ -148,43 +135,23 @@ std::vector<std::size_t> cheapest(const Cord& cord, Point3 from, Point3 to, Prog
                             std::clamp(v.k, 0, grid.size[2] - 1)});
     };
     const std::size_t start = cellAt(from), goal = cellAt(to);
-    std::vector<double> cost(cord.cells.size(), std::numeric_limits<double>::infinity());
-    std::vector<std::size_t> parent(cord.cells.size(), start);
-    std::priority_queue<std::pair<double, std::size_t>, std::vector<std::pair<double, std::size_t>>, std::greater<>>
-        queue;
-    cost[start] = 0;
-    queue.push({0, start});
-    while (!queue.empty()) {
-        const auto [so_far, n] = queue.top();
-        queue.pop();
-        if (n == goal)
-            break;
-        if (so_far > cost[n])
-            continue;
-        if (queue.size() % 4096 == 0)
+    CheapestWays<CheapestFirstWide> ways(cord.cells.size(), start);
+    std::size_t count = 0;
+    const auto isGoal = [&](std::uint32_t n, double) {
+        if (++count % 4096 == 0)
             progress.check();
+        return n == goal;
+    };
+    ways.run(isGoal, [&](std::uint32_t n, auto offer) {
         const Index3 v = grid.indexOf(n);
-        for (int k = -1; k <= 1; ++k)
-            for (int j = -1; j <= 1; ++j)
-                for (int i = -1; i <= 1; ++i) {
-                    const Index3 w{v.i + i, v.j + j, v.k + k};
-                    if ((!i && !j && !k) || !grid.contains(w))
-                        continue;
-                    const std::size_t m = grid.offset(w);
-                    const double step = distance(grid.pointAt(v), grid.pointAt(w));
-                    const double reached = so_far + step * 0.5 * (costOf(cord, n) + costOf(cord, m));
-                    if (reached < cost[m]) {
-                        cost[m] = reached;
-                        parent[m] = n;
-                        queue.push({reached, m});
-                    }
-                }
-    }
-    std::vector<std::size_t> chain{goal};
-    while (chain.back() != start)
-        chain.push_back(parent[chain.back()]);
-    std::reverse(chain.begin(), chain.end());
-    return chain;
+        forEachInCube(v, 1, [&](Index3 w) {
+            if (w == v || !grid.contains(w))
+                return;
+            const std::size_t m = grid.offset(w);
+            offer(m, distance(grid.pointAt(v), grid.pointAt(w)) * 0.5 * (costOf(cord, n) + costOf(cord, m)));
+        });
+    });
+    return ways.wayTo(goal);
 }
 
 /// The cells of the chain that lie between the two lumens, with one of each.
@@ -232,7 +199,7 @@ Polyline outsideLumen(const Polyline& line, const InsideVolume& inside)
 }
 
 Crossing crossing(const Cord& cord, const std::vector<std::size_t>& chain, const HuVolume& volume,
-                  const InsideVolume& inside, Progress& progress)
+                  const InsideVolume& inside, const WallDensities& densities, Progress& progress)
 {
     const auto [first, last, soft] = betweenLumens(cord, chain);
     std::vector<Point3> line;
@@ -251,7 +218,7 @@ Crossing crossing(const Cord& cord, const std::vector<std::size_t>& chain, const
         std::swap(begin, end);
     const auto lead = std::min(kLead, begin - smooth.begin()), tail = std::min(kLead, smooth.end() - 1 - end);
     const double share = double(soft) / double(last - first + 1);
-    const Polyline centred = middleOfCord(volume, inside, {begin - lead, end + tail + 1}, progress);
+    const Polyline centred = middleOfCord(volume, inside, densities, {begin - lead, end + tail + 1}, progress);
     if (Polyline way = outsideLumen(centred, inside); way.size() > 1)
         return {std::move(way), share};
     Crossing out{{begin, end + 1}, share};
@@ -271,9 +238,10 @@ void judgeBridge(Bridge& bridge, double soft_share, double longest_sure_mm)
                                                        : "a short gap through soft tissue";
 }
 
-double fatBetween_mm(const HuVolume& volume, const InsideVolume& inside, Point3 from, Point3 to, Progress& progress)
+double fatBetween_mm(const HuVolume& volume, const InsideVolume& inside, const WallDensities& densities, Point3 from,
+                     Point3 to, Progress& progress)
 {
-    const Cord cord = cordBetween(volume, inside, from, to, progress);
+    const Cord cord = cordBetween(volume, inside, densities, from, to, progress);
     const std::vector<std::size_t> chain = cheapest(cord, from, to, progress);
     const Stretch stretch = betweenLumens(cord, chain);
     double fat_mm = 0;
@@ -286,20 +254,20 @@ double fatBetween_mm(const HuVolume& volume, const InsideVolume& inside, Point3 
     return fat_mm;
 }
 
-void followCords(const HuVolume& volume, const InsideVolume& inside, double longest_sure_mm, LumenPlan& plan,
+void followCords(const HuVolume& volume, const InsideVolume& inside, const SegmentOptions& options, LumenPlan& plan,
                  Progress& progress)
 {
     for (Bridge& bridge : plan.bridges) {
-        const Cord cord = cordBetween(volume, inside, bridge.from_mm, bridge.to_mm, progress);
-        const Crossing way =
-            crossing(cord, cheapest(cord, bridge.from_mm, bridge.to_mm, progress), volume, inside, progress);
+        const Cord cord = cordBetween(volume, inside, options.densities, bridge.from_mm, bridge.to_mm, progress);
+        const Crossing way = crossing(cord, cheapest(cord, bridge.from_mm, bridge.to_mm, progress), volume, inside,
+                                      options.densities, progress);
         bridge.path_mm = way.path_mm;
         bridge.from_mm = way.path_mm.front();
         bridge.to_mm = way.path_mm.back();
         bridge.length_mm = 0;
         for (std::size_t n = 1; n < way.path_mm.size(); ++n)
             bridge.length_mm += distance(way.path_mm[n - 1], way.path_mm[n]);
-        judgeBridge(bridge, way.soft_share, longest_sure_mm);
+        judgeBridge(bridge, way.soft_share, options.longest_sure_bridge_mm);
     }
 }
 

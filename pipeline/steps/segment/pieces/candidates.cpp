@@ -6,12 +6,14 @@
 #include <cmath>
 
 #include "grid/check_only.h"
+#include "grid/neighbours.h"
 #include "segment/fluid/rim.h"
 #include "vicon/steps/wall_distance.h"
 
 namespace vicon::steps {
 namespace {
 
+// Sizes from anatomy; cases not recorded.
 constexpr double kRectumRadius_mm = 5;         // a rectal tube is narrower, a rectum with gas wider
 constexpr double kSmallBowelRadius_mm = 8;     // gas-filled small bowel is rarely wider than 16 mm across
 constexpr std::size_t kLarge_voxels = 400000;  // at half resolution small pieces are cheap, large ones wide
@@ -60,10 +62,8 @@ void takeRim(InsideVolume& mask)
     for (int layer = 0; layer < 2; ++layer) {
         std::vector<std::size_t> taken;
         std::erase_if(rim, [&](std::size_t n) {
-            const Index3 v = mask.grid.indexOf(n);
-            const bool touches = mask.valueOr({v.i - 1, v.j, v.k}, 0) || mask.valueOr({v.i + 1, v.j, v.k}, 0) ||
-                                 mask.valueOr({v.i, v.j - 1, v.k}, 0) || mask.valueOr({v.i, v.j + 1, v.k}, 0) ||
-                                 mask.valueOr({v.i, v.j, v.k - 1}, 0) || mask.valueOr({v.i, v.j, v.k + 1}, 0);
+            bool touches = false;
+            forEachOverFaces(mask.grid, n, [&](std::size_t m) { touches = touches || mask.voxels[m] != 0; });
             if (touches)
                 taken.push_back(n);
             return touches;

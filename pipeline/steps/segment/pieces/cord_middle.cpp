@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "segment/constants.h"
 #include "skeleton/section.h"
 #include "skeleton/section_fit.h"
 #include "vicon/steps/wall_distance.h"
@@ -14,9 +15,6 @@
 namespace vicon::steps {
 namespace {
 
-// Half-way between fat (-100 HU) and the bowel's wall (40 HU).
-constexpr double kSoftFrom_hu = -30;
-constexpr double kWall_hu = 40;  // what the lumen and the blurred rim around it count as
 // Chosen on phantoms 302, 304 and 305, full size.
 constexpr double kMargin_mm = 20;  // of the box around the line
 constexpr double kReach_mm = 15;   // wall farther away is not the cord's
@@ -28,8 +26,10 @@ constexpr double kLeastSeen = 0.5;       // of the rays that must end in fat
 constexpr double kMostIrregular = 0.25;  // spread of the wall about the fit, in radii
 constexpr double kMostMoved_mm = 3;      // in a round
 
-/// What lies around the line, bowel and lumen as one, noise averaged out.
-InsideVolume bowelAround(const HuVolume& volume, const InsideVolume& inside, const Polyline& line)
+/// What lies around the line, bowel and lumen as one, noise averaged out. The lumen and the blurred rim around it count
+/// as the bowel's wall.
+InsideVolume bowelAround(const HuVolume& volume, const InsideVolume& inside, const WallDensities& densities,
+                         const Polyline& line)
 {
     Grid grid = volume.grid;
     int first[3], last[3];
@@ -57,7 +57,7 @@ InsideVolume bowelAround(const HuVolume& volume, const InsideVolume& inside, con
                     lumen = inside.valueOr({off.i + i + d % 3 - 1, off.j + j + d / 3 % 3 - 1, off.k + k + d / 9 - 1},
                                            kOutside) != kOutside;
                 density.at({i, j, k}) =
-                    lumen ? float(kWall_hu) : float(volume.at({first[0] + i, first[1] + j, first[2] + k}));
+                    lumen ? float(densities.tissue_hu) : float(volume.at({first[0] + i, first[1] + j, first[2] + k}));
             }
     });
     InsideVolume bowel(grid);
@@ -66,8 +66,8 @@ InsideVolume bowelAround(const HuVolume& volume, const InsideVolume& inside, con
             for (int i = 0; i < grid.size[0]; ++i) {
                 double sum = 0;
                 for (int d = 0; d < 27; ++d)
-                    sum += density.valueOr({i + d % 3 - 1, j + d / 3 % 3 - 1, k + d / 9 - 1}, -1000);
-                bowel.at({i, j, k}) = sum > 27 * kSoftFrom_hu ? kGas : kOutside;
+                    sum += density.valueOr({i + d % 3 - 1, j + d / 3 % 3 - 1, k + d / 9 - 1}, float(kAir_hu));
+                bowel.at({i, j, k}) = sum > 27 * softFrom_hu(densities) ? kGas : kOutside;
             }
     });
     return bowel;
@@ -112,9 +112,10 @@ Polyline moved(const Polyline& line, const DistanceProbe& bowel)
 
 }  // namespace
 
-Polyline middleOfCord(const HuVolume& volume, const InsideVolume& inside, const Polyline& line, Progress& progress)
+Polyline middleOfCord(const HuVolume& volume, const InsideVolume& inside, const WallDensities& densities,
+                      const Polyline& line, Progress& progress)
 {
-    const FieldVolume distance_mm = wallDistance(bowelAround(volume, inside, line), progress);
+    const FieldVolume distance_mm = wallDistance(bowelAround(volume, inside, densities, line), progress);
     const DistanceProbe bowel(distance_mm);
     Polyline out = line;
     for (int n = 0; n < kRounds; ++n)

@@ -3,6 +3,7 @@
 #include "skeleton/smooth.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/volume.h"
+#include "vicon/steps/wall_densities.h"
 
 namespace vicon::steps {
 
@@ -10,6 +11,7 @@ namespace vicon::steps {
 /// wall: where the lumen closes it often does so in a corner, and the cheapest way through a bent cord cuts the bend.
 /// @param line evenly spaced, 1 mm, from lumen to lumen
 /// @param inside the lumen; it counts as bowel
-Polyline middleOfCord(const HuVolume& volume, const InsideVolume& inside, const Polyline& line, Progress& progress);
+Polyline middleOfCord(const HuVolume& volume, const InsideVolume& inside, const WallDensities& densities,
+                      const Polyline& line, Progress& progress);
 
 }  // namespace vicon::steps

@@ -12,6 +12,7 @@
 namespace vicon::steps {
 namespace {
 
+// Costs of an order, in mm of soft tissue. Cases not recorded but for kFat.
 constexpr double kWrongEnd = 60;  // a last end that is not in the patient's right lower half, in mm of tissue
 constexpr double kTurn = 15;      // a bridge that leaves a piece backwards
 constexpr double kOneMore = 20;   // every further piece: none is added without need
@@ -25,9 +26,10 @@ struct Ways {
     std::vector<std::vector<bool>> judged;         // the same: whether the cost holds what the fat on the way costs
 };
 
-Ways allWays(const std::vector<Candidate>& candidates, const Body& body, const InsideVolume& labels, Progress& progress)
+Ways allWays(const std::vector<Candidate>& candidates, const Body& body, const InsideVolume& labels,
+             const WallDensities& densities, Progress& progress)
 {
-    const Volume<float> costs = tissueCosts(body, labels);
+    const Volume<float> costs = tissueCosts(body, labels, densities);
     std::vector<Point3> tips;
     for (const Candidate& c : candidates)
         tips.insert(tips.end(), {c.tip_mm[0], c.tip_mm[1]});
@@ -153,8 +155,8 @@ bool judgeBridges(const TipOrder& order, const FatBetween& fat_mm, Ways& ways)
 }  // namespace
 
 Ordering orderPieces(const std::vector<Candidate>& candidates, int rectum, const std::vector<int>& required,
-                     const Body& body, const InsideVolume& labels, const FatBetween& fat_mm, double longest_sure_mm,
-                     Progress& progress)
+                     const Body& body, const InsideVolume& labels, const FatBetween& fat_mm,
+                     const SegmentOptions& options, Progress& progress)
 {
     Ordering ordering;
     const auto wide =
@@ -164,7 +166,7 @@ Ordering orderPieces(const std::vector<Candidate>& candidates, int rectum, const
         ordering.pieces.push_back({rectum, false});
         return ordering;
     }
-    Ways ways = allWays(candidates, body, labels, progress);
+    Ways ways = allWays(candidates, body, labels, options.densities, progress);
     // To look closely at a way takes long and only adds to its cost: when all bridges of the cheapest order have been
     // looked at, no other order can be cheaper.
     TipOrder order = cheapestOrder(candidates, rectum, required, body, ways);
@@ -173,7 +175,8 @@ Ordering orderPieces(const std::vector<Candidate>& candidates, int rectum, const
     for (std::size_t n = 0; n < order.size(); n += 2) {
         ordering.pieces.push_back({int(order[n] / 2), order[n] % 2 == 1});
         if (n > 0)
-            ordering.bridges.push_back(makeBridge(ways.from_tip[order[n - 1]][order[n]], longest_sure_mm));
+            ordering.bridges.push_back(
+                makeBridge(ways.from_tip[order[n - 1]][order[n]], options.longest_sure_bridge_mm));
     }
     return ordering;
 }

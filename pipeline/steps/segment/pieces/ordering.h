@@ -7,6 +7,7 @@
 #include "segment/pieces/candidates.h"
 #include "vicon/core/progress.h"
 #include "vicon/steps/lumen_plan.h"
+#include "vicon/steps/segment.h"
 
 namespace vicon::steps {
 
@@ -29,7 +30,7 @@ using FatBetween = std::function<double(Point3, Point3)>;
 /// that way when looked at closely, what is left out (length x likeness), and a last end that is not where a caecum
 /// lies. `required` candidates must be part of it.
 Ordering orderPieces(const std::vector<Candidate>& candidates, int rectum, const std::vector<int>& required,
-                     const Body& body, const InsideVolume& labels, const FatBetween& fat_mm, double longest_sure_mm,
-                     Progress& progress);
+                     const Body& body, const InsideVolume& labels, const FatBetween& fat_mm,
+                     const SegmentOptions& options, Progress& progress);
 
 }  // namespace vicon::steps

@@ -1,4 +1,7 @@
 #include "segment/pieces/tissue_ways.h"
+#include "grid/cheapest_ways.h"
+#include "grid/neighbours.h"
+#include "segment/constants.h"
 
 #include <tbb/parallel_for.h>
 
@@ -8,14 +11,10 @@
 #include <set>
 #include <vector>
 
-#include "grid/cheapest_first.h"
-
 namespace vicon::steps {
 namespace {
 
-constexpr double kBoneHu = 250;   // mean of a coarse voxel that holds no lumen
-constexpr double kFatHu = -30;    // below: fat around the bowel, not its wall
-constexpr double kLungHu = -400;  // below, and not lumen: lung, or gas that is no bowel
+// Per millimetre of a way. Cases not recorded; how the order comes out is held by chain_family_test.
 constexpr float kLumenCost = 0.8F, kTissueCost = 1, kFatCost = 2, kGasCost = 4;
 constexpr double kLeastCost = 0.75;  // of a way's millimetre: a start that is closed itself shortens the first step
 constexpr double kHorizon = 150;     // beyond, a way is not looked for but guessed as straight
@@ -77,7 +76,7 @@ std::vector<Point3> pulledStraight(const Volume<float>& costs, const std::vector
 
 }  // namespace
 
-Volume<float> tissueCosts(const Body& body, const InsideVolume& labels)
+Volume<float> tissueCosts(const Body& body, const InsideVolume& labels, const WallDensities& densities)
 {
     Volume<float> costs(body.inside.grid, 0);
     std::vector<std::uint8_t> lumen(costs.voxels.size(), 0);
@@ -96,10 +95,10 @@ Volume<float> tissueCosts(const Body& body, const InsideVolume& labels)
         const double hu = body.mean_hu.voxels[n];
         if (lumen[n])
             costs.voxels[n] = kLumenCost;
-        else if (!body.inside.voxels[n] || hu > kBoneHu)
+        else if (!body.inside.voxels[n] || hu > kBone_hu)
             costs.voxels[n] = 0;
         else
-            costs.voxels[n] = hu < kLungHu ? kGasCost : hu < kFatHu ? kFatCost : kTissueCost;
+            costs.voxels[n] = hu < kBody_hu ? kGasCost : hu < softFrom_hu(densities) ? kFatCost : kTissueCost;
     }
     return costs;
 }
@@ -113,15 +112,7 @@ std::vector<TissueWay> waysFrom(const Volume<float>& costs, Point3 from, const s
         return Index3{std::clamp(v.i, 0, grid.size[0] - 1), std::clamp(v.j, 0, grid.size[1] - 1),
                       std::clamp(v.k, 0, grid.size[2] - 1)};
     };
-    struct Site {
-        float cost = std::numeric_limits<float>::infinity();
-        std::int32_t parent = -1;
-    };
-    std::vector<Site> sites(costs.voxels.size());
-    CheapestFirst queue;
     const std::size_t start = grid.offset(clamped(from));
-    sites[start].cost = 0;
-    queue.push(0, std::uint32_t(start));
     std::vector<std::size_t> goals;
     std::set<std::size_t> near;  // those that may lie within the horizon: the search ends when all are reached
     for (const Point3 p : to) {
@@ -130,41 +121,34 @@ std::vector<TissueWay> waysFrom(const Volume<float>& costs, Point3 from, const s
             near.insert(goals.back());
     }
     const std::vector<Step> steps = stepsOf(grid);
-    for (std::size_t count = 0; !queue.empty(); ++count) {
-        if (count % 65536 == 0)
+    CheapestWays<CheapestFirst> reached(costs.voxels.size(), start);
+    std::size_t count = 0;
+    const auto isOver = [&](std::uint32_t n, float so_far) {
+        if (count++ % 65536 == 0)
             progress.check();
-        const auto [so_far, n] = queue.pop();
-        if (so_far > sites[n].cost)
-            continue;
-        if (so_far > kHorizon || (near.erase(n) > 0 && near.empty()))
-            break;
+        return so_far > kHorizon || (near.erase(n) > 0 && near.empty());
+    };
+    reached.run(isOver, [&](std::uint32_t n, auto offer) {
         const Index3 v = grid.indexOf(n);
         const bool within =
             v.i > 0 && v.j > 0 && v.k > 0 && v.i + 1 < grid.size[0] && v.j + 1 < grid.size[1] && v.k + 1 < grid.size[2];
         for (const Step& step : steps) {
-            if (!within && !grid.contains({v.i + step.by.i, v.j + step.by.j, v.k + step.by.k}))
+            if (!within && !grid.contains(shifted(v, step.by)))
                 continue;
             const std::size_t m = std::size_t(std::ptrdiff_t(n) + step.offset);
-            Site& there = sites[m];
-            if (costs.voxels[m] <= 0 || there.cost <= so_far)
-                continue;
-            const float reached = so_far + step.length_mm * 0.5F * (std::max(costs.voxels[n], 0.1F) + costs.voxels[m]);
-            if (reached < there.cost) {
-                there = {reached, std::int32_t(n)};
-                queue.push(reached, std::uint32_t(m));
-            }
+            if (costs.voxels[m] > 0)
+                offer(m, step.length_mm * 0.5F * (std::max(costs.voxels[n], 0.1F) + costs.voxels[m]));
         }
-    }
+    });
     std::vector<TissueWay> ways(to.size());
     for (std::size_t g = 0; g < goals.size(); ++g) {
-        if (sites[goals[g]].cost > kHorizon) {
+        if (reached.costOf(goals[g]) > kHorizon) {
             ways[g] = {std::max(kHorizon, kGuess * distance(from, to[g])), {from, to[g]}};
             continue;
         }
-        ways[g].cost = sites[goals[g]].cost;
-        for (auto n = std::int32_t(goals[g]); n >= 0; n = sites[std::size_t(n)].parent)
-            ways[g].path_mm.push_back(grid.pointAt(grid.indexOf(std::size_t(n))));
-        std::reverse(ways[g].path_mm.begin(), ways[g].path_mm.end());
+        ways[g].cost = reached.costOf(goals[g]);
+        for (const std::size_t n : reached.wayTo(goals[g]))
+            ways[g].path_mm.push_back(grid.pointAt(grid.indexOf(n)));
         ways[g].path_mm.front() = from;
         ways[g].path_mm.back() = to[g];
         ways[g].path_mm = pulledStraight(costs, ways[g].path_mm);

@@ -5,6 +5,7 @@
 #include "segment/body.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/volume.h"
+#include "vicon/steps/wall_densities.h"
 
 namespace vicon::steps {
 
@@ -15,8 +16,8 @@ struct TissueWay {
 };
 
 /// What a millimetre costs in each coarse voxel of the body: gas and fluid little, a collapsed bowel's soft tissue 1,
-/// fat more; bone and lung cannot be crossed (0).
-Volume<float> tissueCosts(const Body& body, const InsideVolume& labels);
+/// fat more, lung and gas that is no bowel most; bone cannot be crossed (0).
+Volume<float> tissueCosts(const Body& body, const InsideVolume& labels, const WallDensities& densities);
 
 /// Cheapest ways from one point to several.
 std::vector<TissueWay> waysFrom(const Volume<float>& costs, Point3 from, const std::vector<Point3>& to,

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 
+#include "grid/mask.h"
+#include "grid/neighbours.h"
 #include "segment/wall/trim_lumen.h"
 
 namespace vicon::steps {
 namespace {
+
+// Reckoned from the blur of the scanner; cases not recorded.
 
 /// How deep the wall under fluid is moved inwards at most, in voxels: the faintest pool's half-way density lies at most
 /// that far out on a blurred edge.
@@ -20,11 +24,10 @@ constexpr int kNear_voxels = 2;
 double brightestNear(const WallField& wall, const InsideVolume& inside, Index3 v)
 {
     double hu = -1e9;
-    for (int k = v.k - kNear_voxels; k <= v.k + kNear_voxels; ++k)
-        for (int j = v.j - kNear_voxels; j <= v.j + kNear_voxels; ++j)
-            for (int i = v.i - kNear_voxels; i <= v.i + kNear_voxels; ++i)
-                if (inside.valueOr({i, j, k}, kOutside) == kFluid)
-                    hu = std::max(hu, wall.hu({i, j, k}, hu));
+    forEachInCube(v, kNear_voxels, [&](Index3 n) {
+        if (inside.valueOr(n, kOutside) == kFluid)
+            hu = std::max(hu, wall.hu(n, hu));
+    });
     return hu;
 }
 
@@ -32,12 +35,7 @@ double brightestNear(const WallField& wall, const InsideVolume& inside, Index3 v
 bool besideGas(const InsideVolume& inside, Index3 v, double contrast_hu)
 {
     const int reach = contrast_hu < kBright_hu ? 2 : 1;
-    for (int k = v.k - reach; k <= v.k + reach; ++k)
-        for (int j = v.j - reach; j <= v.j + reach; ++j)
-            for (int i = v.i - reach; i <= v.i + reach; ++i)
-                if (inside.valueOr({i, j, k}, kOutside) == kGas)
-                    return true;
-    return false;
+    return anyInCube(v, reach, [&](Index3 n) { return inside.valueOr(n, kOutside) == kGas; });
 }
 
 /// Whether a voxel is fluid beside the outside whose density is nearer to tissue's than to its own pool's.
@@ -70,13 +68,11 @@ std::vector<std::size_t> tooFaintBeside(const std::vector<std::size_t>& taken, c
                                         const InsideVolume& inside)
 {
     std::vector<std::size_t> beside;
-    for (const std::size_t n : taken) {
-        const Index3 v = inside.grid.indexOf(n);
-        for (const Index3 w : {Index3{v.i - 1, v.j, v.k}, Index3{v.i + 1, v.j, v.k}, Index3{v.i, v.j - 1, v.k},
-                               Index3{v.i, v.j + 1, v.k}, Index3{v.i, v.j, v.k - 1}, Index3{v.i, v.j, v.k + 1}})
-            if (inside.valueOr(w, kOutside) == kFluid)
-                beside.push_back(inside.grid.offset(w));
-    }
+    for (const std::size_t n : taken)
+        forEachOverFaces(inside.grid, n, [&](std::size_t m) {
+            if (inside.voxels[m] == kFluid)
+                beside.push_back(m);
+        });
     std::sort(beside.begin(), beside.end());
     beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
     std::erase_if(beside, [&](std::size_t n) { return !isTooFaint(wall, tissue_hu, inside, inside.grid.indexOf(n)); });
@@ -85,14 +81,14 @@ std::vector<std::size_t> tooFaintBeside(const std::vector<std::size_t>& taken, c
 
 }  // namespace
 
-void settleFluidWall(const HuVolume& volume, WallField::Levels levels, int pieces, InsideVolume& inside)
+void settleFluidWall(const HuVolume& volume, const WallDensities& densities, int pieces, InsideVolume& inside)
 {
     std::vector<std::size_t> taken, last;
     {
-        const WallField wall(volume, inside, levels);
+        const WallField wall(volume, inside, densities);
         for (int layer = 0; layer < kMostLayers; ++layer) {
-            const std::vector<std::size_t> faint = layer == 0 ? tooFaint(wall, levels.tissue_hu, inside)
-                                                              : tooFaintBeside(last, wall, levels.tissue_hu, inside);
+            const std::vector<std::size_t> faint = layer == 0 ? tooFaint(wall, densities.tissue_hu, inside)
+                                                              : tooFaintBeside(last, wall, densities.tissue_hu, inside);
             for (const std::size_t n : faint)
                 inside.voxels[n] = kOutside;
             taken.insert(taken.end(), faint.begin(), faint.end());

@@ -10,6 +10,6 @@ namespace vicon::steps {
 /// away only: two layers of voxels at most, none beside gas, nothing that would part a piece.
 /// @param inside the chosen pieces, gas and fluid; on the lattice of `volume`
 /// @param pieces how many connected parts `inside` has
-void settleFluidWall(const HuVolume& volume, WallField::Levels levels, int pieces, InsideVolume& inside);
+void settleFluidWall(const HuVolume& volume, const WallDensities& densities, int pieces, InsideVolume& inside);
 
 }  // namespace vicon::steps

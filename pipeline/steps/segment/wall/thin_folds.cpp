@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "grid/lattice.h"
+#include "grid/neighbours.h"
 #include "segment/wall/trim_lumen.h"
 
 namespace vicon::steps {
@@ -20,9 +21,6 @@ constexpr double kReach_mm = 4;
 constexpr double kDark = 0.3;
 /// In a pool whose contrast is less than this many times its noise, valleys are noise.
 constexpr double kLeastContrast_noises = 7;
-/// The bottom of a valley lies this near to its slopes; what is tissue this near is no thin fold.
-constexpr int kBottom_voxels = 2;
-
 /// Gas this near may be a wedge or bubble thinner than the blur, which makes valleys of its own.
 constexpr int kGas_voxels = 3;
 
@@ -37,7 +35,7 @@ public:
           offset_(offset),
           row_(volume.grid.size[0]),
           slice_(row_ * volume.grid.size[1]),
-          margin_(std::max(int(kReach_mm / volume.grid.spacing_mm[0]), kBottom_voxels + 1)),
+          margin_(std::max(int(kReach_mm / volume.grid.spacing_mm[0]), WallField::kFoldBottom_voxels + 1)),
           tissue_hu_(tissue_hu)
     {
     }
@@ -95,7 +93,7 @@ private:
         for (int k = -1; k <= 1; ++k)
             for (int j = -1; j <= 1; ++j)
                 for (int i = -1; i <= 1; ++i)
-                    bottom = std::min(bottom, smooth(at + kBottom_voxels * (i + j * row_ + k * slice_)));
+                    bottom = std::min(bottom, smooth(at + WallField::kFoldBottom_voxels * (i + j * row_ + k * slice_)));
         return std::max(bottom, tissue_hu_);
     }
 
@@ -108,24 +106,13 @@ private:
 
 bool besideGas(const InsideVolume& inside, Index3 v)
 {
-    for (int k = v.k - kGas_voxels; k <= v.k + kGas_voxels; ++k)
-        for (int j = v.j - kGas_voxels; j <= v.j + kGas_voxels; ++j)
-            for (int i = v.i - kGas_voxels; i <= v.i + kGas_voxels; ++i)
-                if (inside.valueOr({i, j, k}, kOutside) == kGas)
-                    return true;
-    return false;
+    return anyInCube(v, kGas_voxels, [&](Index3 n) { return inside.valueOr(n, kOutside) == kGas; });
 }
 
 /// Those that hang together with the wall over faces, edges or corners.
 std::vector<std::size_t> onTheWall(const std::vector<std::size_t>& found, const InsideVolume& inside)
 {
-    const auto around = [&](std::size_t n, auto visit) {
-        const Index3 v = inside.grid.indexOf(n);
-        for (int k = v.k - 1; k <= v.k + 1; ++k)
-            for (int j = v.j - 1; j <= v.j + 1; ++j)
-                for (int i = v.i - 1; i <= v.i + 1; ++i)
-                    visit(Index3{i, j, k});
-    };
+    const auto around = [&](std::size_t n, auto visit) { forEachInCube(inside.grid.indexOf(n), 1, visit); };
     std::vector<std::uint8_t> reached(found.size(), 0);
     std::vector<std::size_t> front, kept;
     for (std::size_t n = 0; n < found.size(); ++n) {
@@ -176,11 +163,11 @@ std::vector<std::size_t> foldsIn(const WallField& wall, double tissue_hu, const 
 
 }  // namespace
 
-void keepThinFolds(const HuVolume& volume, WallField::Levels levels, int pieces, InsideVolume& inside)
+void keepThinFolds(const HuVolume& volume, const WallDensities& densities, int pieces, InsideVolume& inside)
 {
-    const WallField wall(volume, inside, levels);
-    const Folds of_blur(volume, latticeOffset(inside.grid, volume.grid), levels.tissue_hu);
-    const std::vector<std::size_t> folds = onTheWall(foldsIn(wall, levels.tissue_hu, of_blur, inside), inside);
+    const WallField wall(volume, inside, densities);
+    const Folds of_blur(volume, latticeOffset(inside.grid, volume.grid), densities.tissue_hu);
+    const std::vector<std::size_t> folds = onTheWall(foldsIn(wall, densities.tissue_hu, of_blur, inside), inside);
     for (const std::size_t n : folds)
         inside.voxels[n] = kOutside;
     trimLumen(folds, pieces, inside);

@@ -11,6 +11,6 @@ namespace vicon::steps {
 /// Takes away only, and nothing that would part a piece.
 /// @param inside the chosen pieces, gas and fluid; on the lattice of `volume`
 /// @param pieces how many connected parts `inside` has
-void keepThinFolds(const HuVolume& volume, WallField::Levels levels, int pieces, InsideVolume& inside);
+void keepThinFolds(const HuVolume& volume, const WallDensities& densities, int pieces, InsideVolume& inside);
 
 }  // namespace vicon::steps

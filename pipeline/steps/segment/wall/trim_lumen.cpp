@@ -2,17 +2,15 @@
 
 #include <algorithm>
 
+#include "segment/constants.h"
 #include "segment/lumen.h"
 
 namespace vicon::steps {
 namespace {
 
-/// Crumbs are smaller than the smallest component of gas that is taken for lumen.
-constexpr double kCrumb_ml = 0.05;
-
 bool isCrumb(const RunComponent& part, const Grid& grid)
 {
-    return double(part.voxels) * grid.voxelVolume_mm3() / 1000 < kCrumb_ml;
+    return double(part.voxels) * grid.voxelVolume_mm3() / 1000 < kSpeck_ml;
 }
 
 void clearCrumbs(const RunLabels& lumen, InsideVolume& inside)

@@ -1,4 +1,5 @@
 #include "subdivide/thesis/portal.h"
+#include "grid/neighbours.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,11 +76,10 @@ std::optional<CutPlane> CutPlanes::cut(std::size_t n, Vector3 normal) const
         const Index3 v = grid.indexOf(plane.voxels[m]);
         plane.low = {std::min(plane.low.i, v.i), std::min(plane.low.j, v.j), std::min(plane.low.k, v.k)};
         plane.high = {std::max(plane.high.i, v.i), std::max(plane.high.j, v.j), std::max(plane.high.k, v.k)};
-        for (int s = 0; s < 27; ++s) {
-            const Index3 w{v.i + s % 3 - 1, v.j + s / 3 % 3 - 1, v.k + s / 9 - 1};
+        forEachInCube(v, 1, [&](Index3 w) {
             if (inPlane(w) && seen.insert(std::uint32_t(grid.offset(w))).second)
                 plane.voxels.push_back(std::uint32_t(grid.offset(w)));
-        }
+        });
         if (plane.voxels.size() > kMostVoxels)
             return std::nullopt;
     }

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "grid/lumen_front.h"
-#include "grid/wall_field.h"
+#include "grid/mask.h"
 #include "subdivide/thesis/walk.h"
 #include "vicon/core/error.h"
 

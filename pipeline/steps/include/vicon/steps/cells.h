@@ -4,45 +4,31 @@
 #include <vector>
 
 #include "vicon/core/cell_surface.h"
-#include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/subdivision.h"
 #include "vicon/core/volume.h"
+#include "vicon/steps/wall_densities.h"
 #include "vicon/steps/wall_distance.h"
 
 namespace vicon::steps {
-
-struct CellOptions {
-    double gas_wall_hu = -480;
-    double tissue_hu = 40;
-
-    template <class Visitor>
-    void visit(Visitor&& v)
-    {
-        v("cells.gas_wall_hu", gas_wall_hu, "HU", "The wall beside gas lies at this density.", OptionLimits{-950, 0});
-        v("cells.tissue_hu", tissue_hu, "HU",
-          "Density of the wall; under fluid the surface lies half-way between it and the fluid.",
-          OptionLimits{-200, 200});
-    }
-};
 
 /// The surface of the lumen, contoured once for all segments: closed, every edge in exactly two triangles, triangles in
 /// order of their segment and within it in such an order that any run of them is a compact patch, front sides and unit
 /// normals towards the lumen.
 ///
 /// The mask decides which voxel is inside, the densities where between two voxels the wall lies: beside gas at
-/// `gas_wall_hu`, under fluid half-way between tissue and the local fluid. Between gas and fluid there is no surface.
+/// `wall_hu`, under fluid half-way between tissue and the local fluid. Between gas and fluid there is no surface.
 /// Normals are the gradient of the densities. `hu` must lie on the lattice of `inside` and may be larger; `segments`
 /// has the grid of `inside`, and each triangle takes the segment of the inside voxel that it is nearest to.
 /// The result does not depend on the number of threads. Throws Error{bad_input} when the grids do not fit together.
 CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const SegmentVolume& segments,
-                         const CellOptions& options, Progress& progress);
+                         const WallDensities& densities, Progress& progress);
 
 /// The same in two parts: the contour needs no segments and can be made while the lumen is divided.
 class LumenSurface {
 public:
     /// `hu` and `inside` must outlive the surface. Throws Error{bad_input} when their grids do not fit together.
-    LumenSurface(const HuVolume& hu, const InsideVolume& inside, const CellOptions& options, Progress& progress);
+    LumenSurface(const HuVolume& hu, const InsideVolume& inside, const WallDensities& densities, Progress& progress);
     ~LumenSurface();
     LumenSurface(LumenSurface&&) noexcept;
     LumenSurface& operator=(LumenSurface&&) noexcept;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "vicon/core/options.h"
+#include "vicon/core/point_json.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/skeleton_tree.h"
 #include "vicon/core/volume.h"
 #include "vicon/steps/segment.h"
 #include "vicon/steps/skeleton.h"
+#include "vicon/steps/wall_densities.h"
 
 namespace vicon::steps {
 
@@ -17,13 +19,13 @@ struct OrganOptions {
     std::string title = "colon";
     double low_hu = -1100;
     double high_hu = -930;
-    double wall_hu = -480;
+    WallDensities densities;
     double growth_hu = -1100;
     double explosion = 0;
     double largest_ml = 1000;
     double smallest_ml = 2;
     double neck_mm = 0;
-    std::string seed;
+    std::vector<Point3> seed;
     double seed_from_radius_mm = 4;
     double seed_to_radius_mm = 14;
     double seed_length_mm = 20;
@@ -38,8 +40,7 @@ struct OrganOptions {
         v("organ.title", title, "", "The organ in words.");
         v("organ.low_hu", low_hu, "HU", "Least density of what fills the organ.", OptionLimits{-1100, 3000});
         v("organ.high_hu", high_hu, "HU", "Largest density of what fills the organ.", OptionLimits{-1100, 3000});
-        v("organ.wall_hu", wall_hu, "HU", "Half-way density to the wall, where the lumen ends.",
-          OptionLimits{-1000, 3000});
+        densities.visit(v);
         v("organ.growth_hu", growth_hu, "HU", "The largest density is raised up to this while nothing leaks.",
           OptionLimits{-1100, 3000});
         v("organ.explosion", explosion, "",
@@ -49,7 +50,7 @@ struct OrganOptions {
         v("organ.smallest_ml", smallest_ml, "ml", "A smaller volume is not the organ.", OptionLimits{0, 1000});
         v("organ.neck_mm", neck_mm, "mm", "Passages of a smaller radius than this are leaks; 0: none are.",
           OptionLimits{0, 20});
-        v("organ.seed", seed, "", "Point 'x,y,z' in LPS mm inside the organ; empty: a round tube is sought.");
+        v("organ.seed", seed, "mm", "Points (LPS) inside the organ; none: a round tube is sought.");
         v("organ.seed_from_radius_mm", seed_from_radius_mm, "mm", "Least radius of the tube that is sought.",
           OptionLimits{0.5, 100});
         v("organ.seed_to_radius_mm", seed_to_radius_mm, "mm", "Largest radius of the tube that is sought.",
@@ -69,7 +70,7 @@ struct OrganOptions {
 
 /// Finds the lumen of an organ that is no colon, labelled kGas. The plan has one piece: from the root, as its rectal
 /// end, to the point that is farthest from it. The verdict is the organ's title, "unsure", or "no " and the title;
-/// then `inside` is empty (size 0). Throws Error{cancelled}, and Error{wrong_use} for a malformed seed.
+/// then `inside` is empty (size 0). Throws Error{cancelled}.
 /// Method: a tube is sought whose sections in axial slices are round; all that hangs together with it between
 /// `low_hu` and `high_hu` is grown from it; leaks show as a sudden growth when the limit is raised (explosion control:
 /// Mori et al., ICPR 1996), or are cut at their necks by an opening.

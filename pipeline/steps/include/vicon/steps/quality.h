@@ -16,6 +16,8 @@ struct QualityOptions {
     double collapsed_radius_mm = 3;
     double longest_collapsed_mm = 10;
     double usual_noise_hu = 40;
+    double shortest_mm = 1100;
+    double longest_mm = 2700;
 
     template <class Visitor>
     void visit(Visitor&& v)
@@ -25,6 +27,9 @@ struct QualityOptions {
         v("quality.longest_collapsed_mm", longest_collapsed_mm, "mm",
           "A longer collapsed stretch could hide a lesion of 10 mm: the part is not adequate (C-RADS C0).", {1, 100});
         v("quality.usual_noise_hu", usual_noise_hu, "HU", "More noise than this is pointed out.", {5, 200});
+        v("quality.shortest_mm", shortest_mm, "mm",
+          "A shorter skeleton is not plausible for a whole colon; lower it after a resection.", {0, 3000});
+        v("quality.longest_mm", longest_mm, "mm", "A longer skeleton is not plausible.", {1000, 5000});
     }
 };
 

@@ -2,27 +2,34 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "vicon/core/options.h"
+#include "vicon/core/point_json.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/volume.h"
 #include "vicon/steps/lumen_plan.h"
+#include "vicon/steps/wall_densities.h"
 
 namespace vicon::steps {
 
 struct SegmentOptions {
     std::string method = "auto";
     double gas_below_hu = -800;
-    double wall_hu = -480;
-    double tissue_hu = 40;
+    WallDensities densities;
     double fluid_above_hu = 200;
     double smallest_piece_ml = 2;
+    double leak_mm = 3;
     double catheter_radius_mm = 3;
     double longest_sure_bridge_mm = 60;
-    std::string add;
-    std::string cut;
-    std::string drop;
+    double shortest_mm = 250;
+    double usual_mm = 900;
+    double least_ml = 20;
+    std::vector<Point3> add;
+    std::vector<Point3> cut;
+    std::vector<Point3> drop;
     double iso_hu = -800;
-    std::string seed;
+    std::vector<Point3> seed;
 
     template <class Visitor>
     void visit(Visitor&& v)
@@ -31,24 +38,28 @@ struct SegmentOptions {
           "auto: gas and tagged fluid of the whole colon; binary: what lies below iso_hu around the seed point.",
           {.choices = {"auto", "binary"}});
         v("segment.gas_below_hu", gas_below_hu, "HU", "Voxels below this density are the core of gas.", {-1000, -500});
-        v("segment.wall_hu", wall_hu, "HU", "Half-way density between gas and the wall, where the lumen ends.",
-          {-900, -100});
-        v("segment.tissue_hu", tissue_hu, "HU", "Density of the wall, for the half-way density between it and fluid.",
-          {-100, 150});
+        densities.visit(v);
         v("segment.fluid_above_hu", fluid_above_hu, "HU", "Tagged fluid has at least this density.", {100, 1000});
         v("segment.smallest_piece_ml", smallest_piece_ml, "ml",
           "Smaller pieces of gas are not taken as pieces of the colon.", {0.1, 50});
+        // On the prone scan of the reference data 1.5 mm leaves small bowel attached.
+        v("segment.leak_mm", leak_mm, "mm",
+          "Passages between pools of fluid of a smaller radius than this are holes in a thin wall, not bowel.",
+          {0.5, 10});
         v("segment.catheter_radius_mm", catheter_radius_mm, "mm",
           "What is narrower than this below the rectum is catheter, not lumen.", {0, 8});
         v("segment.longest_sure_bridge_mm", longest_sure_bridge_mm, "mm",
           "A longer bridge over a collapsed part is reported as uncertain.", {0, 500});
-        v("segment.add", add, "", "Points 'x,y,z;x,y,z' in LPS mm whose gas or fluid belongs to the colon.");
-        v("segment.cut", cut, "",
-          "Points 'x,y,z;x,y,z' in LPS mm where the lumen is cut; the smaller part is dropped.");
-        v("segment.drop", drop, "", "Points 'x,y,z;x,y,z' in LPS mm whose piece does not belong to the colon.");
+        v("segment.shortest_mm", shortest_mm, "mm", "A shorter run of gas and fluid is no colon.", {0, 1000});
+        v("segment.usual_mm", usual_mm, "mm", "A shorter colon is doubted; lower it after a resection.", {0, 2000});
+        v("segment.least_ml", least_ml, "ml", "Less gas and fluid is no colon.", {0, 500});
+        v("segment.add", add, "mm", "Points (LPS) whose gas or fluid belongs to the colon.");
+        v("segment.cut", cut, "mm", "Points (LPS) where the lumen is cut; the smaller part is dropped.");
+        v("segment.drop", drop, "mm", "Points (LPS) whose piece does not belong to the colon.");
         v("segment.iso_hu", iso_hu, "HU", "Iso value of the binary method.", {-1000, 3000});
-        v("segment.seed", seed, "",
-          "Seed point 'x,y,z' in LPS mm of the binary method; empty: the largest piece inside the body.");
+        v("segment.seed", seed, "mm",
+          "Point (LPS) at which method binary alone begins, the first of several; none: the largest piece inside the "
+          "body. It corrects nothing: see segment.add.");
     }
 };
 
@@ -64,7 +75,7 @@ struct Segmentation {
 
 /// Finds the lumen of the colon, gas and tagged fluid, from rectum to caecum.
 /// A scan without a colon is no error: the verdict says so, and `inside` is empty (size 0).
-/// Throws Error{cancelled} only, and Error{wrong_use} for a malformed point in the options.
+/// Throws Error{cancelled} only.
 /// @param volume isotropic densities in HU; axes near +x left, +y posterior, +z head; padding kPaddingHu
 /// @param gravity unit vector along which fluid falls, see vicon::gravityFor()
 Segmentation segmentColon(const HuVolume& volume, Vector3 gravity, const SegmentOptions& options, Progress& progress);

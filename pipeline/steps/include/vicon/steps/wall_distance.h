@@ -5,6 +5,7 @@
 
 #include "vicon/core/progress.h"
 #include "vicon/core/volume.h"
+#include "vicon/steps/wall_densities.h"
 
 namespace vicon::steps {
 
@@ -26,9 +27,9 @@ struct NearWall {
 /// @param wall all voxels beside the wall, inside and outside, each once
 FieldVolume wallDistance(const InsideVolume& inside, const std::vector<NearWall>& wall, Progress& progress);
 
-/// The same from the densities, with the wall at -480 HU beside gas and half-way between tissue (40 HU) and the local
-/// fluid under fluid. `hu` must lie on the lattice of `inside` and may be larger. Throws Error{bad_input} when the
+/// The same from the densities, with the wall where extractCells() has it. `hu` must lie on the lattice of `inside` and may be larger. Throws Error{bad_input} when the
 /// lattices do not fit together.
-FieldVolume wallDistance(const InsideVolume& inside, const HuVolume& hu, Progress& progress);
+FieldVolume wallDistance(const InsideVolume& inside, const HuVolume& hu, Progress& progress,
+                         const WallDensities& densities = {});
 
 }  // namespace vicon::steps

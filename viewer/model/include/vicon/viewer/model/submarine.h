@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "vicon/core/options.h"
 #include "vicon/viewer/model/view_pose.h"
 
 namespace vicon::viewer {
@@ -12,37 +11,16 @@ class FreeSpace;
 /// How the guided camera moves. Defaults chosen on bent tubes of 8 to 25 mm radius with folds, and on a real prone
 /// scan.
 struct SubmarineOptions {
-    double camera_radius_mm = 2;
-    double wall_share = 0.6;
-    double wall_strength_mm2_s2 = 100;
-    double cruise_mm_s = 30;
-    double thrust_mm_s = 30;
-    double friction_per_s = 4;
-    double homing_per_s = 6;
-    double turning_deg_s = 90;
-    double righting_per_s = 4;
-    double look_ahead_mm = 10;
-
-    template <class Visitor>
-    void visit(Visitor&& v)
-    {
-        v("submarine.camera_radius_mm", camera_radius_mm, "mm", "The eye never comes nearer to the wall.",
-          OptionLimits{0.5, 10});
-        v("submarine.wall_share", wall_share, "", "The wall pushes below this part of the lumen's radius.",
-          OptionLimits{0, 1});
-        v("submarine.wall_strength_mm2_s2", wall_strength_mm2_s2, "mm2/s2", "How hard the wall pushes.",
-          OptionLimits{0, 10000});
-        v("submarine.cruise_mm_s", cruise_mm_s, "mm/s", "Speed at full pull.", OptionLimits{1, 200});
-        v("submarine.thrust_mm_s", thrust_mm_s, "mm/s", "Speed at full thrust by the user.", OptionLimits{1, 200});
-        v("submarine.friction_per_s", friction_per_s, "1/s", "How fast speed fades.", OptionLimits{0.5, 20});
-        v("submarine.homing_per_s", homing_per_s, "1/s", "How fast a camera that was let go is back on its path.",
-          OptionLimits{1, 20});
-        v("submarine.turning_deg_s", turning_deg_s, "degrees/s", "Speed of turning at full steering.",
-          OptionLimits{5, 360});
-        v("submarine.righting_per_s", righting_per_s, "1/s", "How fast the view turns back along the path.",
-          OptionLimits{0.5, 20});
-        v("submarine.look_ahead_mm", look_ahead_mm, "mm", "Looks this far ahead along the path.", OptionLimits{0, 50});
-    }
+    double camera_radius_mm = 2;        ///< the eye never comes nearer to the wall
+    double wall_share = 0.6;            ///< the wall pushes below this part of the lumen's radius
+    double wall_strength_mm2_s2 = 100;  ///< how hard the wall pushes
+    double cruise_mm_s = 30;            ///< speed at full pull
+    double thrust_mm_s = 30;            ///< speed at full thrust by the user
+    double friction_per_s = 4;          ///< how fast speed fades
+    double homing_per_s = 6;            ///< how fast a camera that was let go is back on its path
+    double turning_deg_s = 90;          ///< speed of turning at full steering
+    double righting_per_s = 4;          ///< how fast the view turns back along the path
+    double look_ahead_mm = 10;          ///< looks this far ahead along the path
 };
 
 /// What the user does with mouse and keys; each from -1 to 1. All zero: let go.

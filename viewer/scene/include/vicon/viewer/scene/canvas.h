@@ -21,7 +21,7 @@ struct Picture {
 
 /// Paints lines, discs and texts over a picture, smoothed. Texts may be in any script for which a font is installed;
 /// right-to-left ones are ordered and joined. A text that begins in the picture is moved until it ends there, too, as
-/// far as it fits. A character that no font has is painted as U+FFFD or "?".
+/// far as it fits. A character that no font has is called by its number, as [U+0378].
 void paint(Picture& picture, const Overlay& overlay);
 
 /// Width and height of a line of text as paint() would draw it, in pixels.

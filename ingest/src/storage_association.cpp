@@ -1,0 +1,158 @@
+#include "storage_association.h"
+
+#include <chrono>
+#include <cstdio>
+
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::ingest {
+namespace {
+
+constexpr Uint32 kPduBytes = 131072;  // the largest that DCMTK receives
+constexpr Uint16 kOutOfResources = STATUS_STORE_Refused_OutOfResources;
+
+/// In order of preference where a peer offers several at once: what is not compressed first, so that nobody compresses
+/// for VICON; what loses nothing before what does.
+const char* const kTransferSyntaxes[] = {
+    UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax,
+    UID_BigEndianExplicitTransferSyntax,    UID_DeflatedExplicitVRLittleEndianTransferSyntax,
+    UID_JPEGProcess14SV1TransferSyntax,     UID_JPEGProcess14TransferSyntax,
+    UID_JPEGLSLosslessTransferSyntax,       UID_JPEG2000LosslessOnlyTransferSyntax,
+    UID_RLELosslessTransferSyntax,          UID_JPEG2000TransferSyntax,
+    UID_JPEGLSLossyTransferSyntax,          UID_JPEGProcess2_4TransferSyntax,
+    UID_JPEGProcess6_8TransferSyntax,       UID_JPEGProcess10_12TransferSyntax,
+    UID_JPEGProcess1TransferSyntax};
+
+/// A title as it may stand in a log.
+std::string printable(std::string title)
+{
+    for (char& c : title)
+        if (c < ' ' || c > '~')
+            c = '?';
+    return title;
+}
+
+/// Whether the store has no room for more objects: the sender is told before one of them fails half-way.
+bool isFull(const fs::path& folder)
+{
+    constexpr std::uintmax_t kLeastFree = 32U << 20U;
+    std::error_code unknown;
+    const fs::space_info space = fs::space(folder, unknown);
+    return !unknown && space.available < kLeastFree;
+}
+
+void refuseCrowded(T_ASC_Association* association)
+{
+    const T_ASC_RejectParameters busy{ASC_RESULT_REJECTEDTRANSIENT, ASC_SOURCE_SERVICEPROVIDER_PRESENTATION_RELATED,
+                                      ASC_REASON_SP_PRES_LOCALLIMITEXCEEDED};
+    ASC_rejectAssociation(association, &busy);
+    ASC_dropSCPAssociation(association);
+    ASC_destroyAssociation(&association);
+}
+
+}  // namespace
+
+DcmSCPConfig configFor(const ReceiverOptions& options)
+{
+    DcmSCPConfig config;
+    config.setAETitle(options.ae_title.c_str());
+    config.setMaxReceivePDULength(kPduBytes);
+    config.setHostLookupEnabled(OFFalse);
+    config.setDIMSEBlockingMode(DIMSE_NONBLOCKING);
+    config.setDIMSETimeout(Uint32(options.timeout_s));
+    config.setACSETimeout(Uint32(options.timeout_s));
+    OFList<OFString> syntaxes;
+    for (const char* syntax : kTransferSyntaxes)
+        syntaxes.push_back(syntax);
+    config.addPresentationContext(UID_VerificationSOPClass, syntaxes);
+    for (int n = 0; n < numberOfDcmAllStorageSOPClassUIDs; ++n)
+        config.addPresentationContext(dcmAllStorageSOPClassUIDs[n], syntaxes);
+    return config;
+}
+
+std::string StorageAssociation::sender() const
+{
+    return "'" + printable(calling_) + "' at " + host_;
+}
+
+void StorageAssociation::serve(T_ASC_Association* association, bool crowded)
+{
+    calling_ = association->params->DULparams.callingAPTitle;
+    if (crowded) {
+        service_.incoming.trouble("refused " + sender() + ": too many associations are open");
+        refuseCrowded(association);
+        return;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    folder_ = service_.incoming.open();
+    run(association);
+    service_.incoming.close(folder_);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%.1f s", took.count());
+    if (!refused_.empty())
+        service_.incoming.trouble("refused " + sender() + ": " + refused_);
+    else if (service_.note)
+        service_.note("association of " + sender() + ": " + std::to_string(count_) + " objects in " + seconds);
+}
+
+OFBool StorageAssociation::checkCalledAETitleAccepted(const OFString& called)
+{
+    const bool ours = service_.options.any_called_title || called == service_.options.ae_title.c_str();
+    if (!ours)
+        refused_ = "it calls '" + printable(called.c_str()) + "', not us";
+    return ours;
+}
+
+OFBool StorageAssociation::checkCallingAETitleAccepted(const OFString& calling)
+{
+    const bool known = service_.rules.allows(calling.c_str(), host_);
+    if (!known)
+        refused_ = "receive.allow does not name it";
+    return known;
+}
+
+OFCondition StorageAssociation::handleIncomingCommand(T_DIMSE_Message* message,
+                                                      const DcmPresentationContextInfo& context)
+{
+    if (message->CommandField != DIMSE_C_STORE_RQ)
+        return DcmThreadSCP::handleIncomingCommand(message, context);
+    T_DIMSE_C_StoreRQ& request = message->msg.CStoreRQ;
+    Uint16 status = STATUS_Success;
+    const OFCondition received = receive(request, context.presentationContextID, status);
+    if (received.bad())
+        return received;
+    return sendSTOREResponse(context.presentationContextID, request, status);
+}
+
+OFCondition StorageAssociation::receive(T_DIMSE_C_StoreRQ& request, T_ASC_PresentationContextID context, Uint16& status)
+{
+    OFCondition received = EC_Normal;
+    if (isFull(folder_.parent_path())) {
+        status = kOutOfResources;
+        service_.incoming.trouble("an object of " + sender() + " was refused: the store's disk is full");
+        return receiveSTORERequest(request, context, "/dev/null");
+    }
+    const fs::path file = folder_ / (std::to_string(count_) + ".dcm");
+    struct NotReceived {};
+    try {
+        makePrivateFolder(folder_);
+        replaceFile(file, [&](const fs::path& temporary) {
+            received = receiveSTORERequest(request, context, OFString(temporary.c_str()));
+            if (received.bad())
+                throw NotReceived{};
+        });
+        service_.incoming.add(folder_, file);
+        ++count_;
+    } catch (const NotReceived&) {
+        service_.incoming.trouble("an object of " + sender() + " was not received completely: " + received.text());
+    } catch (const std::exception& e) {
+        status = kOutOfResources;
+        service_.incoming.trouble("an object of " + sender() + " was refused: " + e.what());
+    }
+    return received;
+}
+
+}  // namespace vicon::ingest
