@@ -1,7 +1,7 @@
 #include "organs.h"
 
 #include "text_table.h"
-#include "vicon/cases/job_queue.h"
+#include "vicon/cases/organs.h"
 #include "vicon/core/error.h"
 #include "vicon/pipeline/organs.h"
 #include "vicon/scan_files/skeleton_file.h"
@@ -23,25 +23,12 @@ double meanRadius_mm(const SkeletonBranch& branch)
 
 }  // namespace
 
-std::string organOf(CaseStore& store, const ScanRecord& scan)
-{
-    return store.describeScan(scan.case_id, scan.id).value("organ", "colon");
-}
-
-std::string verdictWarning(const StepRecord& step)
-{
-    const std::string verdict = step.result.value("verdict", "");
-    if (verdict != "unsure" && !verdict.starts_with("no "))
-        return {};
-    return verdict + ": " + step.result.value("reason", "");
-}
-
 void setOrgan(CaseStore& store, const Config& config, const std::string& organ, const std::string& case_id,
               const std::string& scan_id)
 {
-    (void)pipeline::withOrgan(config, organ);
+    (void)pipeline::withOrgan(config, Organ(organ));
     const auto say = [&](const ScanRecord& scan) {
-        pipeline::writeOrgan(store.scanFolder(scan.case_id, scan.id), organ);
+        writeOrgan(store.scanFolder(scan.case_id, scan.id), Organ(organ));
         store.audit("organ", scan.case_id, scan.id, organ);
     };
     if (!scan_id.empty() && case_id.empty())
@@ -52,7 +39,7 @@ void setOrgan(CaseStore& store, const Config& config, const std::string& organ, 
     }
     for (const CaseRecord& record : case_id.empty() ? store.cases() : std::vector{store.requireCase(case_id)})
         for (const ScanRecord& scan : store.scans(record.id))
-            if (scan.role == "scan" && (!case_id.empty() || store.steps(record.id, scan.id).empty()))
+            if (scan.role == ScanRole::scan && (!case_id.empty() || store.steps(record.id, scan.id).empty()))
                 say(scan);
 }
 

@@ -8,12 +8,6 @@
 
 namespace vicon::app {
 
-/// Which organ a scan was worked on as: "colon" where nobody said otherwise.
-std::string organOf(CaseStore& store, const ScanRecord& scan);
-
-/// What the pipeline says of a scan whose organ it has not found, or is not sure of; empty where all is well.
-std::string verdictWarning(const StepRecord& step);
-
 /// Says of scans that they show an organ: of one scan of a case, of all its scans, or, without a case, of every scan
 /// that no step has been done on. Throws Error{wrong_use} for an organ that there is no preset for.
 void setOrgan(CaseStore& store, const Config& config, const std::string& organ, const std::string& case_id,

@@ -5,9 +5,10 @@
 #include <optional>
 #include <set>
 
-#include "correcting.h"
-#include "marking.h"
-#include "organs.h"
+#include "vicon/cases/bridges.h"
+#include "vicon/cases/organs.h"
+#include "vicon/cases/placing.h"
+#include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
 #include "vicon/viewer/scene/display.h"
 #include "vicon/viewer/scene/measures_picture.h"
@@ -57,17 +58,17 @@ SnapshotRequest requestFor(SnapshotRequest::View view, const CaseRecord& record,
 report::ScanEntry describeScan(CaseStore& store, const ScanRecord& scan)
 {
     report::ScanEntry entry{.scan = scan};
-    const nlohmann::json about = store.describeScan(scan.case_id, scan.id);
-    entry.verdict = about.value("verdict", "");
-    entry.confidence = about.value("confidence", 0.0);
-    entry.quality = about.value("quality", nlohmann::json::object());
-    entry.bridges = reviewedBridges(store, scan);
-    for (const StepRecord& step : store.steps(scan.case_id, scan.id)) {
-        if (step.step == "segment")
-            entry.reason = step.result.value("reason", "");
-        if (step.step == "skeleton")
-            entry.skeleton_length_mm = step.result.value("length_mm", 0.0);
+    const StepResults results = resultsOf(store.steps(scan.case_id, scan.id));
+    if (results.segment) {
+        entry.verdict = results.segment->verdictText();
+        entry.confidence = results.segment->confidence;
+        entry.reason = results.segment->reason;
     }
+    if (results.skeleton)
+        entry.skeleton_length_mm = results.skeleton->length_mm;
+    if (results.quality)
+        entry.quality = results.quality->quality;
+    entry.bridges = reviewedBridges(store, scan);
     return entry;
 }
 
@@ -124,14 +125,14 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const CaseRecord& rec
     const viewer::Display display;
     std::vector<report::ScanEntry> entries;
     for (const ScanRecord& scan : store.scans(record.id)) {
-        if (scan.role != "scan" && markersOf(store, scan).empty())
+        if (scan.role != ScanRole::scan && markersOf(store, scan).empty())
             continue;
         progress.check();
         progress.report(0, "overview of " + scan.id);
         report::ScanEntry entry = describeScan(store, scan);
         const fs::path folder = store.scanFolder(record.id, scan.id);
-        if (const std::string organ = organOf(store, scan); organ != "colon") {
-            entry.verdict = organ;
+        if (const Organ organ = organOf(store, scan); !organ.isColon()) {
+            entry.verdict = organ.name();
             entry.reason = "not a colon, and no part of this report";
             entry.skeleton_length_mm = 0;
         } else if (hasColon(folder)) {

@@ -1,6 +1,6 @@
 #include "scan_work.h"
 
-#include "marking.h"
+#include "vicon/cases/placing.h"
 #include "vicon/ingest/load_scan.h"
 
 namespace vicon::app {

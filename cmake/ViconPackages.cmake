@@ -38,16 +38,22 @@ function(vicon_itk NAME)
   add_library(${NAME} INTERFACE)
   target_include_directories(${NAME} SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
   target_link_libraries(${NAME} INTERFACE ${ITK_LIBRARIES})
+  set_target_properties(${NAME} PROPERTIES VICON_MODULES "${ARGN}")
 endfunction()
-vicon_itk(vicon_itk_io ITKCommon ITKIOMeta ITKIOImageBase)
-vicon_itk(vicon_itk_dicom ITKCommon ITKIOImageBase ITKIOGDCM)
-vicon_itk(vicon_itk_filters ITKCommon ITKImageFunction ITKImageGrid ITKImageFilterBase ITKSmoothing ITKThresholding
-          ITKConnectedComponents ITKDistanceMap ITKFastMarching ITKMathematicalMorphology ITKBinaryMathematicalMorphology)
+vicon_itk(vicon_itk_io ITKIOMeta)
+vicon_itk(vicon_itk_filters ITKCommon ITKImageFunction ITKImageGrid ITKMathematicalMorphology ITKRegionGrowing ITKThresholding)
+if(VICON_BUILD_TESTS)
+  vicon_itk(vicon_itk_references ITKCommon ITKDistanceMap ITKFastMarching ITKImageFunction ITKImageGrid)
+endif()
+if(VICON_BUILD_BENCHMARKS)
+  vicon_itk(vicon_itk_rivals ITKCommon ITKConnectedComponents ITKDistanceMap ITKFastMarching ITKImageFunction
+            ITKImageGrid ITKMathematicalMorphology)
+  vicon_itk(vicon_itk_chain ITKCommon ITKConnectedComponents ITKDistanceMap ITKFastMarching ITKImageGrid ITKIOGDCM
+            ITKIOImageBase ITKThresholding)
+endif()
 
-find_package(VTK 9 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMath CommonTransforms CommonExecutionModel
-             FiltersCore FiltersGeneral FiltersSources FiltersModeling IOXML IOImage IOCore ImagingCore RenderingCore
-             RenderingOpenGL2 RenderingFreeType RenderingAnnotation RenderingVolume RenderingVolumeOpenGL2
-             InteractionStyle GUISupportQt IOOggTheora)
+find_package(VTK 9 REQUIRED COMPONENTS CommonCore CommonDataModel FiltersCore IOOggTheora IOXML RenderingCore
+             RenderingFreeType RenderingOpenGL2)
 if(VICON_BUILD_VIEWER)
   find_package(Qt5 REQUIRED COMPONENTS Core Gui Widgets Test)
 endif()

@@ -2,7 +2,7 @@
 
 #include "../command.h"
 #include "../text_table.h"
-#include "../worklist.h"
+#include "vicon/cases/worklist.h"
 
 namespace vicon::app {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 int cases(Context& context)
 {
     CaseStore& store = context.existingStore();
-    const auto worklist = makeWorklist(store, context.config());
+    const auto worklist = makeWorklist(store, context.config().get<QueueOptions>());
     if (context.json) {
         std::printf("%s\n", toJson(worklist).dump(2).c_str());
         return 0;
@@ -22,7 +22,7 @@ int cases(Context& context)
     std::vector<std::vector<std::string>> rows;
     for (const WorklistCase& c : worklist)
         rows.push_back({c.record.id, c.record.patient.name, c.record.patient.id, c.record.study.date,
-                        std::to_string(c.scans.size()), std::to_string(c.markers), c.state, c.reason});
+                        std::to_string(c.scans.size()), std::to_string(c.markers), nameOf(c.state), c.reason});
     std::printf("%s", formatTable({"CASE", "PATIENT", "ID", "DATE", "SCANS", "MARKERS", "STATE", ""}, rows).c_str());
     return 0;
 }

@@ -1,8 +1,8 @@
 #include <cstdio>
 
 #include "../command.h"
-#include "../marking.h"
 #include "../text_table.h"
+#include "vicon/cases/placing.h"
 #include "vicon/ingest/import.h"
 #include "vicon/ingest/receiver.h"
 #include "vicon/pipeline/scan_work.h"

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "../command.h"
-#include "../marking.h"
 #include "../progress_line.h"
+#include "vicon/cases/placing.h"
 #include "vicon/core/error.h"
 
 namespace vicon::app {

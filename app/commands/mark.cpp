@@ -4,10 +4,10 @@
 #include <sstream>
 
 #include "../command.h"
-#include "../marking.h"
+#include "../point_argument.h"
 #include "../text_table.h"
+#include "vicon/cases/placing.h"
 #include "vicon/core/error.h"
-#include "vicon/core/file.h"
 
 namespace vicon::app {
 namespace {
@@ -17,13 +17,6 @@ struct MarkArguments {
     double biopsy_mm = 0;  // 0: none
 };
 
-/// "-" where it is not known, or another program wrote something else there.
-std::string partOf(const Marker& marker)
-{
-    const auto part = marker.extra.find("part");
-    return part != marker.extra.end() && part->is_string() ? part->get<std::string>() : "-";
-}
-
 void printMarkers(const std::vector<Marker>& markers)
 {
     std::vector<std::vector<std::string>> rows;
@@ -32,7 +25,7 @@ void printMarkers(const std::vector<Marker>& markers)
                         formatNumber(m.position_mm.x, 1) + ", " + formatNumber(m.position_mm.y, 1) + ", " +
                             formatNumber(m.position_mm.z, 1),
                         formatNumber(m.station_mm, 0), formatNumber(m.from_caecum_mm, 0),
-                        formatNumber(m.fraction * 100, 0) + " %", partOf(m), m.note});
+                        formatNumber(m.fraction * 100, 0) + " %", m.part ? nameOf(*m.part) : "-", m.note});
     std::printf("%s", formatTable({"ID", "SCAN", "COLOR", "LPS MM", "FROM RECTUM MM", "FROM CAECUM MM", "FRACTION",
                                    "PART", "NOTE"},
                                   rows)
@@ -45,14 +38,6 @@ void tellOfCopy(const CaseStore& store)
     if (!store.markerFileTrouble().empty())
         std::fprintf(stderr, "vicon: saved in the database; markers.json will be written later: %s\n",
                      store.markerFileTrouble().c_str());
-}
-
-nlohmann::json listOf(const std::vector<Marker>& markers)
-{
-    nlohmann::json list = nlohmann::json::array();
-    for (const Marker& m : markers)
-        list.push_back(toJson(m));
-    return {{"markers", list}};
 }
 
 int mark(Context& context, const MarkArguments& arguments)
@@ -117,9 +102,9 @@ int markers(Context& context, const MarkersArguments& arguments)
     tellOfCopy(store);
     const auto list = store.markers(case_id);
     if (!arguments.export_file.empty())
-        replaceFile(arguments.export_file, listOf(list).dump(2) + "\n");
+        writeMarkers(arguments.export_file, list);
     if (context.json)
-        std::printf("%s\n", listOf(list).dump(2).c_str());
+        std::printf("%s\n", toJson(list).dump(2).c_str());
     else if (list.empty())
         std::printf("no markers; 'vicon mark %s --at X,Y,Z' adds one\n", case_id.c_str());
     else

@@ -3,8 +3,9 @@
 #include "../command.h"
 #include "../organs.h"
 #include "../text_table.h"
-#include "../worklist.h"
-#include "vicon/pipeline/corrections.h"
+#include "vicon/cases/corrections.h"
+#include "vicon/cases/step_results.h"
+#include "vicon/cases/worklist.h"
 #include "vicon/scan_files/subdivision_file.h"
 
 namespace vicon::app {
@@ -17,31 +18,25 @@ struct ShowArguments {
 };
 
 /// Parts of the colon and how well the scan shows them.
-void printQuality(const nlohmann::json& scan)
+void printQuality(const QualityFound& found)
 {
-    if (!scan.contains("quality"))
+    if (!found.quality)
         return;
-    const nlohmann::json& quality = scan["quality"];
-    const std::string reason = quality.value("reason", "");
-    std::printf("  quality: %s%s%s, noise %s HU\n", quality.value("adequate", false) ? "adequate" : "not adequate",
-                reason.empty() ? "" : ": ", reason.c_str(), formatNumber(quality.value("noise_hu", 0.0), 0).c_str());
+    const ScanQuality& quality = *found.quality;
+    std::printf("  quality: %s%s%s, noise %s HU\n", quality.whole.adequate ? "adequate" : "not adequate",
+                quality.reason.empty() ? "" : ": ", quality.reason.c_str(), formatNumber(quality.noise_hu, 0).c_str());
     std::vector<std::vector<std::string>> rows;
-    const auto addRow = [&](const std::string& name, const std::string& stations, const nlohmann::json& q) {
-        const auto number = [&](const char* key, double factor = 1) {
-            return formatNumber(factor * q.value(key, 0.0), 0);
-        };
-        rows.push_back({"  " + name, stations, number("median_radius_mm"), number("collapsed_mm"),
-                        number("collapsed_fraction", 100) + " %", number("volume_ml"), number("fluid_ml"),
-                        number("fluid_fraction", 100) + " %", q.value("adequate", false) ? "yes" : "no"});
+    const auto addRow = [&](const std::string& name, const std::string& stations, const StretchQuality& q) {
+        const auto number = [](double value) { return formatNumber(value, 0); };
+        rows.push_back({"  " + name, stations, number(q.median_radius_mm), number(q.collapsed_mm),
+                        number(100 * q.collapsed_fraction) + " %", number(q.volume_ml), number(q.fluid_ml),
+                        number(100 * q.fluidFraction()) + " %", q.adequate ? "yes" : "no"});
     };
-    const nlohmann::json none = nlohmann::json::array();
-    const nlohmann::json& parts = scan.contains("parts") ? scan["parts"] : none;
-    const nlohmann::json& measured = quality.contains("parts") ? quality["parts"] : none;
-    for (std::size_t n = 0; n < parts.size() && n < measured.size(); ++n)
-        addRow(parts[n].value("name", ""),
-               formatNumber(parts[n].value("from_mm", 0.0), 0) + " - " + formatNumber(parts[n].value("to_mm", 0.0), 0),
-               measured[n]);
-    addRow("whole colon", "", quality);
+    for (std::size_t n = 0; n < found.parts.size() && n < quality.parts.size(); ++n)
+        addRow(nameOf(found.parts[n].part),
+               formatNumber(found.parts[n].from_mm, 0) + " - " + formatNumber(found.parts[n].to_mm, 0),
+               quality.parts[n]);
+    addRow("whole colon", "", quality.whole);
     std::printf("%s", formatTable({"  PART", "STATIONS MM", "MEDIAN RADIUS MM", "COLLAPSED MM", "SHARE", "VOLUME ML",
                                    "FLUID ML", "SHARE", "ADEQUATE"},
                                   rows)
@@ -51,11 +46,10 @@ void printQuality(const nlohmann::json& scan)
 /// What a person said about the lumen.
 void printCorrections(const std::filesystem::path& scan_folder)
 {
-    const pipeline::Corrections corrections = pipeline::readCorrections(scan_folder);
-    for (const auto& [name, points] : {std::pair{"add", &corrections.add}, std::pair{"cut", &corrections.cut},
-                                       std::pair{"drop", &corrections.drop}})
-        for (const Point3 p : *points)
-            std::printf("  corrected: %s at %s,%s,%s\n", name, formatNumber(p.x, 1).c_str(),
+    const Corrections corrections = readCorrections(scan_folder);
+    for (const Correction kind : kCorrections)
+        for (const Point3 p : corrections.of(kind))
+            std::printf("  corrected: %s at %s,%s,%s\n", nameOf(kind).c_str(), formatNumber(p.x, 1).c_str(),
                         formatNumber(p.y, 1).c_str(), formatNumber(p.z, 1).c_str());
 }
 
@@ -63,11 +57,13 @@ void printScan(CaseStore& store, const WorklistScan& scan)
 {
     const ScanRecord& r = scan.record;
     std::printf("\nscan %s: %s, series %d '%s', %s%s\n", r.id.c_str(), positionName(r.series.patient_position).c_str(),
-                r.series.number, r.series.description.c_str(), scan.state.c_str(),
+                r.series.number, r.series.description.c_str(), nameOf(scan.state).c_str(),
                 scan.reason.empty() ? "" : (" (" + scan.reason + ")").c_str());
     std::printf("  %s\n", scan.folder.c_str());
     std::vector<std::vector<std::string>> rows;
-    for (const StepRecord& step : store.steps(r.case_id, r.id)) {
+    const std::vector<StepRecord> steps = store.steps(r.case_id, r.id);
+    const StepResults results = resultsOf(steps);
+    for (const StepRecord& step : steps) {
         std::string measures;
         for (const auto& [key, value] : step.result.items())
             if (value.is_number() || value.is_string())
@@ -79,10 +75,11 @@ void printScan(CaseStore& store, const WorklistScan& scan)
     }
     if (!rows.empty())
         std::printf("%s", formatTable({"  STEP", "TIME", "MEASURES"}, rows).c_str());
-    if (const std::string organ = organOf(store, r); organ != "colon")
-        std::printf("  organ: %s\n%s", organ.c_str(), branchTable(scan.folder).c_str());
+    if (!results.organ().isColon())
+        std::printf("  organ: %s\n%s", results.organ().name().c_str(), branchTable(scan.folder).c_str());
     printCorrections(scan.folder);
-    printQuality(store.describeScan(r.case_id, r.id));
+    if (results.quality)
+        printQuality(*results.quality);
     for (const char* list : {"repairs", "refused", "set_aside"})
         for (const auto& line : r.ingest.value(list, nlohmann::json::array()))
             std::printf("  %s: %s\n", list, (line.is_string() ? line.get<std::string>() : line.dump()).c_str());
@@ -114,7 +111,7 @@ int show(Context& context, const ShowArguments& arguments)
 {
     CaseStore& store = context.existingStore();
     const CaseRecord record = store.requireCase(arguments.case_id);
-    const WorklistCase c = makeWorklistCase(store, context.config(), record);
+    const WorklistCase c = makeWorklistCase(store, context.config().get<QueueOptions>(), record);
     if (arguments.subdivision_table)
         return printSubdivisionTable(store, c, arguments.scan_id);
     if (context.json) {
@@ -124,9 +121,10 @@ int show(Context& context, const ShowArguments& arguments)
         std::printf("%s\n", out.dump(2).c_str());
         return 0;
     }
-    std::printf("case %s: %s\npatient %s, ID %s, born %s, sex %s\nstudy %s %s\n", record.id.c_str(), c.state.c_str(),
-                record.patient.name.c_str(), record.patient.id.c_str(), record.patient.birth_date.c_str(),
-                record.patient.sex.c_str(), record.study.date.c_str(), record.study.description.c_str());
+    std::printf("case %s: %s\npatient %s, ID %s, born %s, sex %s\nstudy %s %s\n", record.id.c_str(),
+                nameOf(c.state).c_str(), record.patient.name.c_str(), record.patient.id.c_str(),
+                record.patient.birth_date.c_str(), record.patient.sex.c_str(), record.study.date.c_str(),
+                record.study.description.c_str());
     for (const std::string& flag : record.flags)
         std::printf("! %s\n", flag.c_str());
     for (const WorklistScan& scan : c.scans)

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "../command.h"
-#include "../marking.h"
+#include "vicon/cases/placing.h"
 #include "vicon/core/error.h"
 
 namespace vicon::app {

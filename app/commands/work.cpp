@@ -3,11 +3,12 @@
 #include <cstdio>
 
 #include "../command.h"
-#include "../correcting.h"
-#include "../marking.h"
 #include "../organs.h"
+#include "../point_argument.h"
 #include "../progress_line.h"
 #include "../scan_work.h"
+#include "vicon/cases/corrections.h"
+#include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
 #include "vicon/pipeline/worker.h"
 
@@ -38,18 +39,19 @@ void correct(Context& context, CaseStore& store, const WorkArguments& arguments)
         throw Error(ErrorCode::wrong_use, "corrections belong to one scan", "--add, --cut, --drop",
                     "name its case with --case");
     const ScanRecord scan = store.requireScan(store.requireCase(arguments.case_id).id, arguments.scan_id);
-    const pipeline::Corrections more{pointsFrom(arguments.add, "--add"), pointsFrom(arguments.cut, "--cut"),
-                                     pointsFrom(arguments.drop, "--drop")};
-    correctScan(store, context.config(), scan, more, arguments.forget_corrections);
+    const Corrections more{pointsFrom(arguments.add, "--add"), pointsFrom(arguments.cut, "--cut"),
+                           pointsFrom(arguments.drop, "--drop")};
+    const auto queue = context.config().get<QueueOptions>();
+    if (arguments.forget_corrections)
+        replaceCorrections(store, queue, scan, more);
+    else
+        addCorrections(store, queue, scan, more);
 }
 
 /// What the pipeline says of a scan whose organ it is not sure of.
 std::string warningOf(CaseStore& store, const Job& job)
 {
-    for (const StepRecord& step : store.steps(job.case_id, job.scan_id))
-        if (step.step == "segment")
-            return verdictWarning(step);
-    return {};
+    return resultsOf(store.steps(job.case_id, job.scan_id)).warning();
 }
 
 void retryFailed(CaseStore& store, const QueueOptions& options)

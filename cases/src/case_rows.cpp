@@ -24,7 +24,7 @@ ScanRecord scanFrom(const soci::row& row)
     s.id = row.get<std::string>("id");
     s.case_id = row.get<std::string>("case_id");
     s.series = json::parse(row.get<std::string>("series")).get<Series>();
-    s.role = row.get<std::string>("role");
+    s.role = scanRoleFrom(row.get<std::string>("role"));
     s.ingest = json::parse(row.get<std::string>("ingest"));
     s.created = row.get<std::string>("created");
     return s;
@@ -60,12 +60,12 @@ void putCase(soci::session& sql, const CaseRecord& c)
 
 void putScan(soci::session& sql, const ScanRecord& s)
 {
-    const std::string series = json(s.series).dump(), ingest = s.ingest.dump();
+    const std::string series = json(s.series).dump(), ingest = s.ingest.dump(), role = nameOf(s.role);
     sql << "INSERT INTO scans (id, case_id, series_uid, series, role, ingest, created)"
            " VALUES (:id, :case, :uid, :series, :role, :ingest, :created)"
            " ON CONFLICT (case_id, id) DO UPDATE SET series = excluded.series, role = excluded.role,"
            " ingest = excluded.ingest",
-        soci::use(s.id), soci::use(s.case_id), soci::use(s.series.uid), soci::use(series), soci::use(s.role),
+        soci::use(s.id), soci::use(s.case_id), soci::use(s.series.uid), soci::use(series), soci::use(role),
         soci::use(ingest), soci::use(s.created);
 }
 

@@ -102,7 +102,7 @@ ScanRecord CaseStore::requireScan(const std::string& case_id, const std::string&
 {
     std::vector<ScanRecord> candidates;
     for (ScanRecord& scan : scans(case_id))
-        if (scan_id.empty() ? scan.role == "scan" : scan.id.starts_with(scan_id))
+        if (scan_id.empty() ? scan.role == ScanRole::scan : scan.id.starts_with(scan_id))
             candidates.push_back(std::move(scan));
     if (candidates.size() == 1)
         return candidates.front();
@@ -140,7 +140,7 @@ void CaseStore::addScan(const CaseRecord& a_case, const ScanRecord& scan, const 
         putInstances(sql, instances);
         if (queue)
             enqueueJob(sql, scan.case_id, scan.id);
-        else if (scan.role != "scan")
+        else if (scan.role != ScanRole::scan)
             withdrawJob(sql, scan.case_id, scan.id);
         putAudit(sql, "imported", scan.case_id, scan.id, std::to_string(instances.size()) + " objects");
     });
@@ -200,9 +200,14 @@ json CaseStore::describeScan(const std::string& case_id, const std::string& scan
 {
     const CaseRecord c = requireCase(case_id);
     const ScanRecord scan = requireScan(case_id, scan_id);
-    json out = {{"case", c.id},      {"scan", scan.id},        {"patient", c.patient},
-                {"study", c.study},  {"series", scan.series},  {"position", positionName(scan.series.patient_position)},
-                {"role", scan.role}, {"created", scan.created}};
+    json out = {{"case", c.id},
+                {"scan", scan.id},
+                {"patient", c.patient},
+                {"study", c.study},
+                {"series", scan.series},
+                {"position", positionName(scan.series.patient_position)},
+                {"role", nameOf(scan.role)},
+                {"created", scan.created}};
     out.update(scan.ingest);
     json& done = out["steps"] = json::object();
     for (const StepRecord& step : steps(case_id, scan_id)) {

@@ -105,14 +105,14 @@ public:
     /// Parts the markers that name this one although it no longer names them; these edits follow at the end.
     void partFormer(const MarkerEdit& edit, std::vector<MarkerEdit>& done)
     {
-        const std::string partner = edit.after ? pairOf(*edit.after) : "";
-        if (!edit.before || (edit.after && partner == pairOf(*edit.before)))
+        const std::string partner = edit.after ? edit.after->pair : "";
+        if (!edit.before || (edit.after && partner == edit.before->pair))
             return;
         for (const Marker& other : all()) {
-            if (pairOf(other) != edit.before->id || other.id == partner)
+            if (other.pair != edit.before->id || other.id == partner)
                 continue;
             MarkerEdit parting{other, other};
-            parting.after->extra.erase("pair");
+            parting.after->pair.clear();
             put(*parting.after);
             done.push_back(parting);
         }
@@ -140,12 +140,6 @@ void requireAsSeen(const MarkerRows& rows, const MarkerEdit& edit)
 }
 
 }  // namespace
-
-std::string pairOf(const Marker& marker)
-{
-    const auto entry = marker.extra.find("pair");
-    return entry != marker.extra.end() && entry->is_string() ? entry->get<std::string>() : std::string();
-}
 
 std::vector<Marker> CaseStore::markers(const std::string& case_id)
 {
@@ -245,11 +239,11 @@ void CaseStore::writeMarkerFiles(const std::string& case_id)
 {
     const std::vector<Marker> all = markers(case_id);
     const auto write = [&](const fs::path& folder, const std::string& scan_id) {
-        json list = json::array();
+        std::vector<Marker> some;
         for (const Marker& marker : all)
             if (scan_id.empty() || marker.scan_id == scan_id)
-                list.push_back(toJson(marker));
-        replaceFile(folder / "markers.json", json{{"markers", list}}.dump(2) + "\n");
+                some.push_back(marker);
+        writeMarkers(folder / "markers.json", some);
     };
     write(caseFolder(case_id), "");
     for (const ScanRecord& scan : scans(case_id))

@@ -29,69 +29,25 @@ Vector3 gravityFor(const std::string& position)
     return {0, 1, 0};
 }
 
-std::string nameOf(MarkerColor color)
+std::string nameOf(ScanRole role)
 {
-    switch (color) {
-        case MarkerColor::red:
-            return "red";
-        case MarkerColor::yellow:
-            return "yellow";
-        case MarkerColor::green:
-            return "green";
+    switch (role) {
+        case ScanRole::scan:
+            return "scan";
+        case ScanRole::kept:
+            return "kept";
+        case ScanRole::refused:
+            return "refused";
     }
-    return "red";
+    return "refused";
 }
 
-MarkerColor markerColorFrom(const std::string& name)
+ScanRole scanRoleFrom(const std::string& name)
 {
-    for (const MarkerColor color : {MarkerColor::red, MarkerColor::yellow, MarkerColor::green})
-        if (nameOf(color) == name)
-            return color;
-    throw Error(ErrorCode::wrong_use, "a marker's color must be red, yellow or green", "'" + name + "'");
-}
-
-nlohmann::json toJson(const Marker& m)
-{
-    nlohmann::json out = m.extra.is_object() ? m.extra : nlohmann::json::object();
-    out["id"] = m.id;
-    out["scan"] = m.scan_id;
-    out["position_mm"] = {m.position_mm.x, m.position_mm.y, m.position_mm.z};
-    out["color"] = nameOf(m.color);
-    out["note"] = m.note;
-    out["station_mm"] = m.station_mm;
-    out["from_caecum_mm"] = m.from_caecum_mm;
-    out["fraction"] = m.fraction;
-    out["created"] = m.created;
-    out["changed"] = m.changed;
-    return out;
-}
-
-Marker markerFromJson(const nlohmann::json& json)
-{
-    static const char* const kKnown[] = {"id",         "scan",           "position_mm", "color",   "note",
-                                         "station_mm", "from_caecum_mm", "fraction",    "created", "changed"};
-    try {
-        Marker m;
-        m.id = json.value("id", "");
-        m.scan_id = json.value("scan", "");
-        const auto& p = json.at("position_mm");
-        if (!p.is_array() || p.size() != 3)
-            throw Error(ErrorCode::bad_input, "position_mm must be three numbers", "marker");
-        m.position_mm = {p[0].get<double>(), p[1].get<double>(), p[2].get<double>()};
-        m.color = markerColorFrom(json.at("color").get<std::string>());
-        m.note = json.value("note", "");
-        m.station_mm = json.value("station_mm", 0.0);
-        m.from_caecum_mm = json.value("from_caecum_mm", 0.0);
-        m.fraction = json.value("fraction", 0.0);
-        m.created = json.value("created", "");
-        m.changed = json.value("changed", "");
-        m.extra = json;
-        for (const char* key : kKnown)
-            m.extra.erase(key);
-        return m;
-    } catch (const nlohmann::json::exception& e) {
-        throw Error(ErrorCode::bad_input, std::string("not a marker: ") + e.what(), "marker");
-    }
+    for (const ScanRole role : {ScanRole::scan, ScanRole::kept, ScanRole::refused})
+        if (nameOf(role) == name)
+            return role;
+    throw Error(ErrorCode::bad_input, "a scan has no such role", "'" + name + "'");
 }
 
 }  // namespace vicon

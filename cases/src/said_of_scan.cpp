@@ -2,28 +2,28 @@
 
 #include <soci/soci.h>
 
-#include <algorithm>
-
-#include "vicon/core/file.h"
+#include "bridge_reviews_file.h"
+#include "vicon/cases/corrections.h"
+#include "vicon/core/error.h"
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace vicon {
 namespace {
 
-/// What people say about a scan lies in these files of its folder, each an object of lists.
-constexpr const char* kSaidInFiles[] = {"corrections.json", "bridge_reviews.json"};
-
 /// A file that cannot be understood says something that is not known: true.
-bool saysSomething(const fs::path& file)
-{
-    if (!fs::exists(file))
-        return false;
-    const json content = json::parse(readFile(file), nullptr, false);
-    if (!content.is_object())
-        return true;
-    return std::any_of(content.begin(), content.end(), [](const json& list) { return !list.empty(); });
+bool isCorrected(const fs::path& scan_folder)
+try {
+    return !readCorrections(scan_folder).empty();
+} catch (const Error&) {
+    return true;
+}
+
+bool isReviewed(const fs::path& scan_folder)
+try {
+    return !readBridgeReviews(scan_folder).empty();
+} catch (const Error&) {
+    return true;
 }
 
 bool hasMarkers(CaseStore& store, const ScanRecord& scan)
@@ -47,10 +47,8 @@ bool hasReport(CaseStore& store, const std::string& case_id)
 bool isSpokenOf(CaseStore& store, const ScanRecord& scan)
 {
     const fs::path folder = store.scanFolder(scan.case_id, scan.id);
-    return hasMarkers(store, scan) ||
-           std::any_of(std::begin(kSaidInFiles), std::end(kSaidInFiles),
-                       [&](const char* file) { return saysSomething(folder / file); }) ||
-           (scan.role == "scan" && hasReport(store, scan.case_id));
+    return hasMarkers(store, scan) || isCorrected(folder) || isReviewed(folder) ||
+           (scan.role == ScanRole::scan && hasReport(store, scan.case_id));
 }
 
 }  // namespace vicon

@@ -70,7 +70,7 @@ std::string describeInWords(const ScanRecord& record, const StackPlan& plan)
     std::string words = text.data() + positionName(record.series.patient_position);
     if (record.series.lossy)
         words += ", lossy compression";
-    if (record.role == "scan")
+    if (record.role == ScanRole::scan)
         words += "; queued";
     if (record.ingest.contains("kept_because"))
         words += "; not queued: " + record.ingest["kept_because"].get<std::string>();

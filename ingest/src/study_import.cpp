@@ -264,12 +264,12 @@ void StudyImport::chooseRoles()
         const bool usable_plan = scan.plan.refused.empty();
         const std::size_t slices = scan.stack.slices.size();
         if (!scan.fixed)
-            scan.record.role = usable_plan ? "kept" : "refused";
+            scan.record.role = usable_plan ? ScanRole::kept : ScanRole::refused;
         if (!scan.fixed && usable_plan && slices < std::size_t(options_.min_slices))
             scan.record.ingest["kept_because"] = std::to_string(slices) + (slices == 1 ? " slice" : " slices") +
                                                  ", fewer than the " + std::to_string(options_.min_slices) +
                                                  " of a scan";
-        else if (usable_plan && (!scan.fixed || scan.record.role == "scan")) {
+        else if (usable_plan && (!scan.fixed || scan.record.role == ScanRole::scan)) {
             usable.push_back({&scan.stack, &scan.plan});
             owners.push_back(&scan);
         }
@@ -284,7 +284,7 @@ void StudyImport::chooseRoles()
             continue;
         const auto marked = fixed.find(chosen[n]);
         if (marked == fixed.end() && chosen[n] == n) {
-            owners[n]->record.role = "scan";
+            owners[n]->record.role = ScanRole::scan;
             continue;
         }
         const Assembled& other = marked == fixed.end() ? *owners[chosen[n]] : *marked->second;
@@ -366,7 +366,8 @@ void StudyImport::store(Assembled& scan)
     if (!flag.empty())
         case_.flags.push_back(flag);  // saved with the scan: no kill parts them
     if (scan.fixed ? new_words : grew || new_words)
-        store_.addScan(case_, scan.record, instances, !scan.fixed && scan.record.role == "scan" && (grew || new_role),
+        store_.addScan(case_, scan.record, instances,
+                       !scan.fixed && scan.record.role == ScanRole::scan && (grew || new_role),
                        [&] { requireUnspoken(scan); });
     else if (const fs::path file = folder.parent_path() / "scan.json";
              !fs::exists(file) || readFile(file) != store_.describeScan(case_.id, scan.record.id).dump(2) + "\n")
@@ -425,8 +426,8 @@ void StudyImport::tell(const Assembled& scan, bool changed)
 {
     using Kind = ImportLine::Kind;
     const ScanRecord& record = scan.record;
-    const bool refused = record.role == "refused";
-    Kind kind = record.role == "scan" ? Kind::stored : refused ? Kind::refused : Kind::kept;
+    const bool refused = record.role == ScanRole::refused;
+    Kind kind = record.role == ScanRole::scan ? Kind::stored : refused ? Kind::refused : Kind::kept;
     if (refused)
         report_.refused += int(scan.objects.size());
     else if (!changed)

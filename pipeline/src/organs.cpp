@@ -3,20 +3,13 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "organ_presets.h"
 #include "vicon/core/error.h"
-#include "vicon/core/file.h"
-
-namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace vicon::pipeline {
 namespace {
-
-constexpr const char* kFile = "organ.json";
 
 const OrganPreset& presetOf(const std::string& name)
 {
@@ -55,27 +48,9 @@ std::vector<std::string> organNames()
     return names;
 }
 
-std::string readOrgan(const fs::path& scan_folder)
+Config withOrgan(Config config, const std::optional<Organ>& organ)
 {
-    const fs::path file = scan_folder / kFile;
-    if (!fs::exists(file))
-        return {};
-    const json said = json::parse(readFile(file), nullptr, false);
-    if (!said.is_object() || !said.value("organ", json()).is_string())
-        throw Error(ErrorCode::bad_input, "this does not name an organ", file.string(),
-                    "name it again with 'vicon work --organ NAME --case CASE'");
-    return said["organ"].get<std::string>();
-}
-
-void writeOrgan(const fs::path& scan_folder, const std::string& name)
-{
-    presetOf(name);
-    replaceFile(scan_folder / kFile, json{{"organ", name}}.dump(2) + "\n");
-}
-
-Config withOrgan(Config config, const std::string& name)
-{
-    const OrganPreset& preset = presetOf(name.empty() ? config.at("organ.name").value.get<std::string>() : name);
+    const OrganPreset& preset = presetOf(organ ? organ->name() : config.at("organ.name").value.get<std::string>());
     const toml::table root = toml::parse(preset.toml);
     for (const auto& [room, table] : root)
         for (const auto& [key, node] : *table.as_table()) {

@@ -8,6 +8,8 @@
 #include "scan_artefacts.h"
 #include "step_runner.h"
 #include "step_table.h"
+#include "vicon/cases/corrections.h"
+#include "vicon/cases/organs.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/pipeline/corrections.h"

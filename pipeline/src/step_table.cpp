@@ -94,7 +94,7 @@ json runSegment(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRe
     result["reason"] = found.reason;
     result["plan"] = toJson(found.plan);
     json& bridges = result["bridges"] = json::array();
-    for (const steps::Bridge& bridge : found.plan.bridges)
+    for (const Bridge& bridge : found.plan.bridges)
         bridges.push_back({{"from_mm", {bridge.from_mm.x, bridge.from_mm.y, bridge.from_mm.z}},
                            {"to_mm", {bridge.to_mm.x, bridge.to_mm.y, bridge.to_mm.z}},
                            {"length_mm", bridge.length_mm},

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "page_flow.h"
+#include "vicon/cases/printed.h"
 #include "vicon/report/statements.h"
 #include "vicon/report/wording.h"
 
@@ -47,14 +48,13 @@ PageFurniture::PageFurniture(const ReportContent& content, Typesetter& type, dou
 {
     const Patient& patient = content.a_case.patient;
     const double width = page_width - 2 * look::kMargin - kStudyWidth - look::kGap;
-    name_ = shortened(type.lines(orNone(personName(patient.name), "name not given"), kName, width), kMostNameLines,
-                      type.line(" \u2026", kName));
+    name_ = shortened(type.lines(patientName(patient.name), kName, width), kMostNameLines, type.line(" \u2026", kName));
     const std::string sex = sexWords(patient.sex);
     details_ = type.lines("ID " + orNone(patient.id, "not given") + "  \u00b7  born " +
-                              orNone(dateWords(patient.birth_date), "(date not given)") +
+                              orNone(printedDate(patient.birth_date), "(date not given)") +
                               (sex.empty() ? "" : "  \u00b7  " + sex),
                           look::kBody, width);
-    study_ = {type.line("Study of " + orNone(dateWords(content.a_case.study.date), "(date not given)"), look::kBold),
+    study_ = {type.line("Study of " + orNone(printedDate(content.a_case.study.date), "(date not given)"), look::kBold),
               type.line("CT colonography report " + std::to_string(content.number), look::kBody)};
     if (content.draft)
         draft_ = type.line(kDraftLine, look::kBold);

@@ -4,10 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "describe_json.h"
 #include "vicon/report/wording.h"
-
-using nlohmann::json;
 
 namespace vicon::report {
 namespace {
@@ -19,24 +16,14 @@ std::string whole(double value, const char* unit)
     return text.data();
 }
 
-QualityCells cellsOf(const json& q)
+QualityCells cellsOf(const StretchQuality& q)
 {
     QualityCells out;
-    out.radius = whole(numberAt(q, "median_radius_mm"), "mm");
-    out.fluid = whole(numberAt(q, "fluid_ml"), "ml") + ", " + percent(numberAt(q, "fluid_fraction"), 0);
-    const double collapsed_mm = numberAt(q, "collapsed_mm");
-    out.collapsed =
-        collapsed_mm > 0 ? whole(collapsed_mm, "mm") + ", " + percent(numberAt(q, "collapsed_fraction"), 0) : "none";
-    out.adequate = flagAt(q, "adequate");
+    out.radius = whole(q.median_radius_mm, "mm");
+    out.fluid = whole(q.fluid_ml, "ml") + ", " + percent(q.fluidFraction(), 0);
+    out.collapsed = q.collapsed_mm > 0 ? whole(q.collapsed_mm, "mm") + ", " + percent(q.collapsed_fraction, 0) : "none";
+    out.adequate = q.adequate;
     return out;
-}
-
-const json* partsOf(const ScanEntry& entry)
-{
-    if (!entry.quality.is_object() || !entry.quality.contains("median_radius_mm"))
-        return nullptr;
-    const auto found = entry.quality.find("parts");
-    return found != entry.quality.end() && found->is_array() && !found->empty() ? &*found : nullptr;
 }
 
 QualityRow& rowOf(std::vector<QualityRow>& rows, const std::string& part, std::size_t scans)
@@ -54,13 +41,12 @@ std::vector<QualityRow> qualityRows(const std::vector<const ScanEntry*>& scans)
     std::vector<QualityRow> rows;
     QualityRow total{"whole colon", std::vector<std::optional<QualityCells>>(scans.size())};
     for (std::size_t n = 0; n < scans.size(); ++n) {
-        const json* parts = partsOf(*scans[n]);
-        if (parts == nullptr)
+        const auto& quality = scans[n]->quality;
+        if (!quality || quality->parts.empty())
             continue;
-        total.scans[n] = cellsOf(scans[n]->quality);
-        for (const json& part : *parts)
-            if (part.is_object())
-                rowOf(rows, textAt(part, "name"), scans.size()).scans[n] = cellsOf(part);
+        total.scans[n] = cellsOf(quality->whole);
+        for (const StretchQuality& part : quality->parts)
+            rowOf(rows, part.part ? nameOf(*part.part) : "", scans.size()).scans[n] = cellsOf(part);
     }
     if (!rows.empty())
         rows.push_back(std::move(total));

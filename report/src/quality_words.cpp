@@ -3,21 +3,15 @@
 #include <array>
 #include <cstdio>
 
-#include "describe_json.h"
-
-using nlohmann::json;
-
 namespace vicon::report {
 
-std::string qualityWords(const json& quality)
+std::string qualityWords(const ScanQuality& quality)
 {
-    if (!quality.is_object() || !quality.contains("adequate") || !quality.contains("median_radius_mm"))
-        return joinedLines(describeMeasures(quality));
-    std::string out = flagAt(quality, "adequate") ? "adequate" : "NOT ADEQUATE";
-    if (const std::string reason = textAt(quality, "reason"); !reason.empty())
-        out += ": " + reason;
+    std::string out = quality.whole.adequate ? "adequate" : "NOT ADEQUATE";
+    if (!quality.reason.empty())
+        out += ": " + quality.reason;
     std::array<char, 48> noise{};
-    std::snprintf(noise.data(), noise.size(), "\nnoise %.0f HU", numberAt(quality, "noise_hu"));
+    std::snprintf(noise.data(), noise.size(), "\nnoise %.0f HU", quality.noise_hu);
     return out + noise.data();
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "vicon/core/scan_quality.h"
 
 namespace vicon::report {
 
-/// What scan.json's "quality" says of the scan as lines: adequate or why not, and its noise; the table of quality has
-/// the rest. Measures of another form are listed as they are.
-std::string qualityWords(const nlohmann::json& quality);
+/// Adequate or why not, and the noise, as lines; the table of quality has the rest.
+std::string qualityWords(const ScanQuality& quality);
 
 }  // namespace vicon::report

@@ -5,7 +5,7 @@
 
 #include "describe_json.h"
 #include "quality_words.h"
-#include "vicon/cases/case_store.h"
+#include "vicon/cases/printed.h"
 #include "vicon/report/wording.h"
 
 using nlohmann::json;
@@ -76,52 +76,41 @@ std::string resultWords(const ScanEntry& entry)
     return out;
 }
 
-std::string bridgeWords(const json& bridges)
+std::string bridgeWords(const std::vector<ReviewedBridge>& bridges)
 {
-    if (!bridges.is_array() || bridges.empty())
+    if (bridges.empty())
         return "none";
     std::string out;
-    for (const json& bridge : bridges) {
-        out += (out.empty() ? "" : "\n") + millimetres(numberAt(bridge, "length_mm"));
-        const bool certain = bridge.is_object() && bridge.value("certain", true);
-        out += certain ? ", certain" : ", uncertain";
-        if (bridge.is_object() && bridge.contains("confidence"))
-            out += ", confidence " + percent(numberAt(bridge, "confidence"), 0);
-        if (const std::string reason = textAt(bridge, "reason"); !reason.empty())
-            out += ": " + reason;
-        if (const json review = bridge.is_object() ? bridge.value("review", json::object()) : json::object();
-            !textAt(review, "verdict").empty())
-            out += "; " + textAt(review, "verdict") + " by " + textAt(review, "by") + ", " + textAt(review, "at");
+    for (const auto& [bridge, review] : bridges) {
+        out += (out.empty() ? "" : "\n") + millimetres(bridge.length_mm);
+        out += bridge.certain ? ", certain" : ", uncertain";
+        out += ", confidence " + percent(bridge.confidence, 0);
+        if (!bridge.reason.empty())
+            out += ": " + bridge.reason;
+        if (review)
+            out += "; " + nameOf(review->verdict) + " by " + review->by + ", " + review->at;
     }
     return std::to_string(bridges.size()) + (bridges.size() == 1 ? " collapsed part: " : " collapsed parts:\n") + out;
 }
 
-/// Of a virtual biopsy; nothing where another program wrote something else there.
-std::string densityWords(const json& density)
+std::string densityWords(const DensitySample& sample)
 {
-    const auto given = [&](const char* key) { return density.contains(key) && density[key].is_number(); };
-    if (!density.is_object() || !given("mean_hu") || !given("sd_hu") || !given("radius_mm") || !given("voxels"))
-        return {};
-    std::string words = number(numberAt(density, "mean_hu"), "%.0f") + " \u00b1 " +
-                        number(numberAt(density, "sd_hu"), "%.0f") + " HU, of " +
-                        number(numberAt(density, "voxels"), "%.0f") + " voxels within " +
-                        millimetres(numberAt(density, "radius_mm"), 1);
+    std::string words = number(sample.mean_hu, "%.0f") + " \u00b1 " + number(sample.sd_hu, "%.0f") + " HU, of " +
+                        std::to_string(sample.voxels) + " voxels within " + millimetres(sample.radius_mm, 1);
     constexpr double kWorthSaying = 0.2;
-    if (const double fat = numberAt(density, "fat_fraction"); fat >= kWorthSaying)
-        words += "; " + percent(fat, 0) + " of them are as light as fat";
+    if (sample.fat_fraction >= kWorthSaying)
+        words += "; " + percent(sample.fat_fraction, 0) + " of them are as light as fat";
     return words;
 }
 
-/// What the reader measured; nothing where that was not done.
-std::string sizeWords(const json& size)
+/// What the reader measured.
+std::string sizeWords(const MarkerSize& size)
 {
-    if (!size.is_object() || !size.contains("straight_mm") || !size["straight_mm"].is_number())
-        return {};
-    std::string words = millimetres(size["straight_mm"].get<double>(), 1) + " straight";
-    if (size.contains("along_mm") && size["along_mm"].is_number())
-        words += ", " + millimetres(size["along_mm"].get<double>(), 1) + " along the wall";
-    if (const json plane = size.value("plane", json()); numberAt(plane, "diameter_mm") > 0)
-        words += ", " + millimetres(numberAt(plane, "diameter_mm"), 1) + " largest in the best plane";
+    std::string words = millimetres(size.straight_mm, 1) + " straight";
+    if (size.along_mm)
+        words += ", " + millimetres(*size.along_mm, 1) + " along the wall";
+    if (size.plane)
+        words += ", " + millimetres(size.plane->diameter_mm, 1) + " largest in the best plane";
     return words;
 }
 
@@ -132,7 +121,7 @@ std::vector<Statement> patientStatements(const CaseRecord& a_case)
     const Patient& patient = a_case.patient;
     return {{"Name", orNotGiven(personName(patient.name))},
             {"Patient ID", orNotGiven(patient.id)},
-            {"Birth date", orNotGiven(dateWords(patient.birth_date))},
+            {"Birth date", orNotGiven(printedDate(patient.birth_date))},
             {"Sex", orNotGiven(sexWords(patient.sex))}};
 }
 
@@ -169,7 +158,8 @@ std::vector<Statement> scanStatements(const ScanEntry& entry)
         out.push_back({"Colon length", millimetres(entry.skeleton_length_mm) + " along the skeleton"});
         out.push_back({"Bridges", bridgeWords(entry.bridges)});
     }
-    addGiven(out, "Quality", qualityWords(entry.quality));
+    if (entry.quality)
+        out.push_back({"Quality", qualityWords(*entry.quality)});
     if (ingest.is_object()) {
         addGiven(out, "Repaired", joinedLines(describeNotes(ingest.value("repairs", json::array()))));
         addGiven(out, "Refused", joinedLines(describeNotes(ingest.value("refused", json::array()))));
@@ -188,9 +178,11 @@ std::vector<Statement> markerStatements(const MarkerEntry& entry)
     out.push_back({"From caecal end", millimetres(marker.from_caecum_mm) + " along the skeleton"});
     out.push_back(
         {"Fraction", percent(marker.fraction) + " of the whole, " + millimetres(length_mm) + ", from the rectal end"});
-    addGiven(out, "Size", sizeWords(marker.extra.value("size", json())));
-    addGiven(out, "Density", densityWords(marker.extra.value("density", json())));
-    addGiven(out, "Same finding", pairOf(marker));
+    if (marker.size)
+        out.push_back({"Size", sizeWords(*marker.size)});
+    if (marker.density)
+        out.push_back({"Density", densityWords(*marker.density)});
+    addGiven(out, "Same finding", marker.pair);
     out.push_back({"By endoscope", "estimated: " + endoscopeEstimate(marker.station_mm, entry.part_name)});
     return out;
 }

@@ -1,16 +1,10 @@
 #include "vicon/report/wording.h"
 
-#include <unicode/uchar.h>
-#include <unicode/uscript.h>
-#include <unicode/utf8.h>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <initializer_list>
-#include <vector>
 
+#include "vicon/cases/printed.h"
 #include "vicon/cases/records.h"
 
 namespace vicon::report {
@@ -19,59 +13,6 @@ namespace {
 /// Factors from the distance along a CT skeleton to that along a colonoscope, as published: the endoscope pleats the
 /// bowel. They are averages over patients, not chosen on any case here.
 constexpr double kCaecumFactor = 0.57, kRightColonFactor = 0.59, kLeftColonFactor = 0.78;
-
-std::vector<std::string> split(std::string_view text, char separator)
-{
-    std::vector<std::string> parts(1);
-    for (const char c : text)
-        if (c == separator)
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    return parts;
-}
-
-std::string trimmed(const std::string& text)
-{
-    const auto first = text.find_first_not_of(' ');
-    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
-
-std::string joined(const std::vector<std::string>& parts, const char* separator)
-{
-    std::string out;
-    for (const std::string& part : parts)
-        if (!part.empty())
-            out += (out.empty() ? "" : separator) + part;
-    return out;
-}
-
-/// Whether a letter of one of these scripts is in the text.
-bool hasScript(std::string_view text, std::initializer_list<UScriptCode> scripts)
-{
-    for (std::int32_t at = 0, size = std::int32_t(text.size()); at < size;) {
-        UChar32 c = 0;
-        U8_NEXT(text.data(), at, size, c);
-        UErrorCode status = U_ZERO_ERROR;
-        const UScriptCode script = c < 0 ? USCRIPT_COMMON : uscript_getScript(c, &status);
-        if (std::find(scripts.begin(), scripts.end(), script) != scripts.end())
-            return true;
-    }
-    return false;
-}
-
-/// One group of a person name: alphabetic, ideographic or phonetic.
-std::string nameGroup(const std::string& group)
-{
-    std::vector<std::string> part = split(group, '^');
-    part.resize(5);
-    for (std::string& p : part)
-        p = trimmed(p);
-    const std::string given = joined({part[3], part[1], part[2]}, " ");
-    const bool east_asian = hasScript(group, {USCRIPT_HAN, USCRIPT_HIRAGANA, USCRIPT_KATAKANA, USCRIPT_HANGUL});
-    const char* comma = east_asian ? " " : hasScript(group, {USCRIPT_ARABIC}) ? "\u060c " : ", ";
-    return joined({part[0], given, part[4]}, comma);
-}
 
 bool isNumber(std::string_view text)
 {
@@ -103,35 +44,9 @@ std::string wholeCentimetres(double length_mm)
 
 }  // namespace
 
-std::string personName(std::string_view dicom_name)
-{
-    std::vector<std::string> groups;
-    for (const std::string& group : split(dicom_name, '='))
-        if (std::string words = nameGroup(group); !words.empty())
-            groups.push_back(std::move(words));
-    if (groups.empty())
-        return {};
-    const std::string first = groups.front();
-    groups.erase(groups.begin());
-    return groups.empty() ? first : first + " (" + joined(groups, ", ") + ")";
-}
-
-std::string dateWords(std::string_view dicom_date)
-{
-    static constexpr std::array<const char*, 12> kMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
-                                                            "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-    std::string text(dicom_date);
-    if (text.size() != 8 || !isNumber(text))
-        return text;
-    const int month = std::stoi(text.substr(4, 2)), day = std::stoi(text.substr(6, 2));
-    if (month < 1 || month > 12 || day < 1 || day > 31)
-        return text;
-    return std::to_string(day) + " " + kMonths[std::size_t(month - 1)] + " " + text.substr(0, 4);
-}
-
 std::string dateTimeWords(std::string_view dicom_date, std::string_view dicom_time)
 {
-    std::string out = dateWords(dicom_date);
+    std::string out = printedDate(dicom_date);
     if (dicom_time.size() >= 4 && isNumber(dicom_time.substr(0, 4)))
         out += (out.empty() ? "" : ", ") + std::string(dicom_time.substr(0, 2)) + ":" +
                std::string(dicom_time.substr(2, 2));
@@ -142,9 +57,7 @@ std::string utcWords(std::string_view utc)
 {
     if (utc.size() != 20 || utc[4] != '-' || utc[7] != '-' || utc[10] != 'T' || utc[19] != 'Z')
         return std::string(utc);
-    const std::string date =
-        std::string(utc.substr(0, 4)) + std::string(utc.substr(5, 2)) + std::string(utc.substr(8, 2));
-    return dateWords(date) + " " + std::string(utc.substr(11, 5)) + " UTC";
+    return std::string(utc.substr(0, 10)) + " " + std::string(utc.substr(11, 5)) + " UTC";
 }
 
 std::string sexWords(std::string_view dicom_sex)

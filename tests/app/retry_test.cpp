@@ -5,7 +5,7 @@
 #include "dicom_writer.h"
 #include "reading_services.h"
 #include "study.h"
-#include "vicon/pipeline/corrections.h"
+#include "vicon/cases/corrections.h"
 
 namespace vicon::support {
 namespace {
@@ -28,10 +28,10 @@ TEST(RetryOfTheWorklist, ForgetsCorrectionsThatLeftNoColonAndLeavesOthers)
     const ScanRecord record = scan().record;
     services.correct(store, record, {{}, {}, {{0, 0, 0}}});
     viconOn(path, "work --until-idle");
-    EXPECT_TRUE(scan().spoiled()) << scan().state << ": " << scan().reason;
+    EXPECT_TRUE(scan().spoiled()) << nameOf(scan().state) << ": " << scan().reason;
     services.retry(store, record.case_id);
-    EXPECT_EQ(scan().state, "queued");
-    EXPECT_TRUE(pipeline::readCorrections(store.scanFolder(record.case_id, record.id)).empty());
+    EXPECT_EQ(scan().state, WorkState::queued);
+    EXPECT_TRUE(readCorrections(store.scanFolder(record.case_id, record.id)).empty());
 }
 
 }  // namespace

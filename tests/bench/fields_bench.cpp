@@ -1,8 +1,10 @@
-// Resample, distances, subdivision and surface against the stock ITK and VTK filters that do the same, on a tube as
-// long and wide as a colon: 45 million voxels around 3 million inside voxels.
+// Resample, distances, subdivision and surface against the stock ITK and VTK filters that do the same, on 45 million
+// voxels around 3 million inside voxels.
 #include <benchmark/benchmark.h>
+#include <itkBSplineInterpolateImageFunction.h>
 #include <itkFastMarchingImageFilter.h>
 #include <itkImage.h>
+#include <itkLinearInterpolateImageFunction.h>
 #include <itkResampleImageFilter.h>
 #include <itkSignedMaurerDistanceMapImageFilter.h>
 #include <vtkImageData.h>
@@ -14,8 +16,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "bench_support.h"
 #include "vicon/steps/cells.h"
 #include "vicon/steps/exit_distance.h"
 #include "vicon/steps/resample.h"
@@ -25,122 +27,77 @@
 namespace {
 
 using namespace vicon;
+using namespace vicon::bench;
 
 NoProgress quiet;
 
-constexpr int kWidth = 300, kDepth = 300, kHeight = 500;
-constexpr double kVoxel_mm = 0.7, kRadius_mm = 16;
-
-/// A folded tube in a box of 300 x 300 x 500 voxels: four limbs up and down, joined by bends.
-struct Tube {
-    InsideVolume inside{Grid{.size = {kWidth, kDepth, kHeight}, .spacing_mm = {kVoxel_mm, kVoxel_mm, kVoxel_mm}}};
-    HuVolume hu{inside.grid, 40};
-    Skeleton skeleton;
-    SkeletonVoxels path;
-
-    Tube()
-    {
-        const std::vector<Point3> corners{{30, 40, 40},  {30, 40, 310},  {90, 160, 310},  {90, 160, 40},
-                                          {150, 40, 40}, {150, 40, 310}, {180, 160, 310}, {180, 160, 40}};
-        SkeletonPiece piece;
-        double station = 0;
-        for (std::size_t n = 0; n + 1 < corners.size(); ++n) {
-            const double length_mm = distance(corners[n], corners[n + 1]);
-            for (double s = 0; s < length_mm; s += 1)
-                piece.points.push_back(
-                    {interpolate(corners[n], corners[n + 1], s / length_mm), station + s, kRadius_mm});
-            station += length_mm;
-        }
-        skeleton.pieces.push_back(piece);
-        std::vector<float> away2(inside.voxels.size(), std::numeric_limits<float>::max());
-        for (const SkeletonPoint& p : piece.points)
-            addBall(p, away2);
-        for (std::size_t n = 0; n < away2.size(); ++n) {
-            const double beyond = std::min(std::sqrt(double(away2[n])), 1e3) - kRadius_mm;
-            hu.voxels[n] = std::int16_t(std::lround(-1000 + 1040 * std::clamp(0.5 + beyond / 2, 0.0, 1.0)));
-            inside.voxels[n] = hu.voxels[n] < -480 ? kGas : kOutside;
-        }
-        path.emplace_back();
-        for (double s = 0; s < station - 1; s += 0.3) {
-            const Point3 p = inside.grid.pointAt(inside.grid.indexAt(skeleton.at(s).position_mm));
-            if (path[0].empty() || path[0].back() != p)
-                path[0].push_back(p);
-        }
-    }
-
-    void addBall(const SkeletonPoint& p, std::vector<float>& away2) const
-    {
-        const Index3 c = inside.grid.indexAt(p.position_mm);
-        const int reach = int((kRadius_mm + 2) / kVoxel_mm) + 1;
-        for (int k = c.k - reach; k <= c.k + reach; ++k)
-            for (int j = c.j - reach; j <= c.j + reach; ++j)
-                for (int i = c.i - reach; i <= c.i + reach; ++i)
-                    if (const Index3 v{i, j, k}; inside.grid.contains(v)) {
-                        const Vector3 d = inside.grid.pointAt(v) - p.position_mm;
-                        auto& least = away2[inside.grid.offset(v)];
-                        least = std::min(least, float(dot(d, d)));
-                    }
-    }
-};
-
-const Tube& tube()
+/// Noise in 200 slices.
+HuVolume slices(double slice_mm)
 {
-    static const Tube the_tube;
-    return the_tube;
-}
-
-template <class T>
-typename itk::Image<T, 3>::Pointer itkImage(const Volume<T>& volume)
-{
-    auto image = itk::Image<T, 3>::New();
-    image->SetRegions(
-        {std::size_t(volume.grid.size[0]), std::size_t(volume.grid.size[1]), std::size_t(volume.grid.size[2])});
-    image->SetSpacing(volume.grid.spacing_mm.data());
-    image->Allocate();
-    std::copy(volume.voxels.begin(), volume.voxels.end(), image->GetBufferPointer());
-    return image;
-}
-
-template <class Work>
-void repeat(benchmark::State& state, Work work)
-{
-    tube();  // made outside the time measured
-    for ([[maybe_unused]] auto unused : state)
-        benchmark::DoNotOptimize(work());
-}
-
-HuVolume thickSlices()
-{
-    HuVolume volume(Grid{.size = {512, 512, 200}, .spacing_mm = {0.7, 0.7, 1}});
+    HuVolume volume(Grid{.size = {512, 512, 200}, .spacing_mm = {0.7, 0.7, slice_mm}});
     for (std::size_t n = 0; n < volume.voxels.size(); ++n)
         volume.voxels[n] = std::int16_t(int(n * 2654435761U >> 20) % 1400 - 1000);
     return volume;
 }
 
-void resampleVicon(benchmark::State& state)
+void resampleVicon(benchmark::State& state, const char* interpolation, double slice_mm)
 {
-    const HuVolume acquired = thickSlices();
+    const HuVolume acquired = slices(slice_mm);
     for ([[maybe_unused]] auto unused : state) {
         state.PauseTiming();
         HuVolume copy = acquired;
         state.ResumeTiming();
-        benchmark::DoNotOptimize(steps::resample(std::move(copy), {}, quiet));
+        benchmark::DoNotOptimize(steps::resample(std::move(copy), {.interpolation = interpolation}, quiet));
     }
 }
 
-void resampleItk(benchmark::State& state)
+template <class Interpolator>
+void resampleItk(benchmark::State& state, double slice_mm)
 {
-    const auto image = itkImage(thickSlices());
+    const HuVolume acquired = slices(slice_mm);
+    const auto image = itkImage(acquired);
     using Image = itk::Image<std::int16_t, 3>;
+    const double finest_mm = std::min(0.7, slice_mm);
+    itk::Size<3> size;
+    for (unsigned d = 0; d < 3; ++d) {
+        const std::size_t a = d;
+        size[d] = itk::SizeValueType((acquired.grid.size[a] - 1) * acquired.grid.spacing_mm[a] / finest_mm + 1e-6) + 1;
+    }
     repeat(state, [&] {
         auto filter = itk::ResampleImageFilter<Image, Image>::New();
         filter->SetInput(image);
-        filter->SetSize({512, 512, 285});
-        const double spacing_mm[3] = {0.7, 0.7, 0.7};
+        filter->SetInterpolator(Interpolator::New());
+        filter->SetSize(size);
+        const double spacing_mm[3] = {finest_mm, finest_mm, finest_mm};
         filter->SetOutputSpacing(spacing_mm);
         filter->Update();
         return filter->GetOutput()->GetBufferPointer()[0];
     });
+}
+
+void thickVicon(benchmark::State& state)
+{
+    resampleVicon(state, "linear", 1);
+}
+void thickItk(benchmark::State& state)
+{
+    resampleItk<itk::LinearInterpolateImageFunction<itk::Image<std::int16_t, 3>>>(state, 1);
+}
+void thinVicon(benchmark::State& state)
+{
+    resampleVicon(state, "linear", 0.5);
+}
+void thinItk(benchmark::State& state)
+{
+    resampleItk<itk::LinearInterpolateImageFunction<itk::Image<std::int16_t, 3>>>(state, 0.5);
+}
+void bsplineVicon(benchmark::State& state)
+{
+    resampleVicon(state, "bspline", 1);
+}
+void bsplineItk(benchmark::State& state)
+{
+    resampleItk<itk::BSplineInterpolateImageFunction<itk::Image<std::int16_t, 3>>>(state, 1);
 }
 
 void wallVicon(benchmark::State& state)
@@ -224,18 +181,13 @@ void cellsVtk(benchmark::State& state)
     });
 }
 
-void addBenchmark(const char* name, void (*work)(benchmark::State&))
-{
-    benchmark::RegisterBenchmark(name, work)
-        ->Unit(benchmark::kMillisecond)
-        ->MeasureProcessCPUTime()
-        ->UseRealTime()
-        ->MinTime(0.5);
-}
-
 const bool registered = [] {
-    addBenchmark("resample/vicon", resampleVicon);
-    addBenchmark("resample/itk_ResampleImageFilter", resampleItk);
+    addBenchmark("resample/vicon", thickVicon);
+    addBenchmark("resample/itk_ResampleImageFilter", thickItk);
+    addBenchmark("resample_thin/vicon", thinVicon);
+    addBenchmark("resample_thin/itk_ResampleImageFilter", thinItk);
+    addBenchmark("resample_bspline/vicon", bsplineVicon);
+    addBenchmark("resample_bspline/itk_ResampleImageFilter", bsplineItk);
     addBenchmark("wall_distance/vicon", wallVicon);
     addBenchmark("wall_distance/itk_SignedMaurer", wallItk);
     addBenchmark("wall_distance_fine/vicon", wallFineVicon);

@@ -140,17 +140,17 @@ ReadingServices servicesFor(const std::filesystem::path& folder)
     ReadingServices services;
     services.store = folder;
     services.worklist = [](CaseStore& store) {
-        std::vector<WorklistRow> rows;
+        std::vector<WorklistCase> rows;
         for (const CaseRecord& record : store.cases()) {
-            WorklistRow row{record, "done", "", 1, 0, 0, {}};
+            WorklistCase row{record, WorkState::done, "", 1, 0, 0, {}};
             for (const ScanRecord& scan : store.scans(record.id))
-                if (scan.role == "scan")
-                    row.scans.push_back({scan, "done", "", 1, "", store.scanFolder(record.id, scan.id), {}});
+                if (scan.role == ScanRole::scan)
+                    row.scans.push_back({scan, WorkState::done, "", 1, "", store.scanFolder(record.id, scan.id), {}});
             rows.push_back(row);
         }
         return rows;
     };
-    services.bridges = [](CaseStore&, const ScanRecord&) { return std::vector<BridgeRow>(); };
+    services.bridges = [](CaseStore&, const ScanRecord&) { return std::vector<ReviewedBridge>(); };
     return services;
 }
 

@@ -39,7 +39,7 @@ protected:
     {
         Marker marker{.scan_id = scan_id, .note = note};
         if (!pair.empty())
-            marker.extra["pair"] = pair;
+            marker.pair = pair;
         return store_.saveMarker("c1", marker);
     }
     static Marker with(Marker marker, const std::string& note)
@@ -49,7 +49,7 @@ protected:
     }
     static Marker paired(Marker marker, const std::string& partner)
     {
-        marker.extra["pair"] = partner;
+        marker.pair = partner;
         return marker;
     }
     /// "id note pair" of every marker.
@@ -57,7 +57,7 @@ protected:
     {
         std::vector<std::string> out;
         for (const Marker& m : store_.markers("c1"))
-            out.push_back(m.id + " " + m.note + " " + pairOf(m));
+            out.push_back(m.id + " " + m.note + " " + m.pair);
         return out;
     }
     std::size_t inFile() const
@@ -121,7 +121,7 @@ TEST_F(Markers, ArePartedOnBothSidesByWhateverEndsAPair)
         {"parted",
          [](CaseStore& s, const Marker& a, const Marker&) {
              Marker after = a;
-             after.extra.erase("pair");
+             after.pair.clear();
              s.editMarkers("c1", {{a, after}});
          },
          {"m1 a ", "m2 b ", "m3 c "}},
@@ -152,8 +152,9 @@ TEST_F(Markers, WhosePairIsNotTextHaveNone)
 {
     Marker marker{.scan_id = "s1"};
     marker.extra["pair"] = 7;
-    EXPECT_EQ(pairOf(marker), "");
-    EXPECT_EQ(pairOf(store_.saveMarker("c1", marker)), "");
+    const Marker saved = store_.saveMarker("c1", marker);
+    EXPECT_EQ(store_.requireMarker("c1", saved.id).pair, "");
+    EXPECT_EQ(store_.requireMarker("c1", saved.id).extra["pair"], 7);
 }
 
 TEST_F(Markers, OfADeletedCaseAreRefused)

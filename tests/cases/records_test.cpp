@@ -25,24 +25,11 @@ TEST(PatientPosition, NamesThePositionAndTheWayFluidFalls)
     }
 }
 
-TEST(Marker, SurvivesJsonWithKeysOfOthers)
+TEST(ScanRole, HasAName)
 {
-    Marker m{
-        .id = "m1", .scan_id = "s1", .position_mm = {1.5, -2, 3}, .color = MarkerColor::green, .note = "Größe 5 мм"};
-    m.extra["size_mm"] = 5.5;
-    const Marker back = markerFromJson(toJson(m));
-    EXPECT_EQ(back.position_mm, m.position_mm);
-    EXPECT_EQ(back.color, MarkerColor::green);
-    EXPECT_EQ(back.note, m.note);
-    EXPECT_EQ(back.extra, m.extra);
-}
-
-TEST(Marker, RefusesWhatIsNone)
-{
-    EXPECT_THROW(markerFromJson({{"color", "red"}}), Error);
-    EXPECT_THROW(markerFromJson({{"color", "blue"}, {"position_mm", {1, 2, 3}}}), Error);
-    EXPECT_THROW(markerFromJson({{"color", "red"}, {"position_mm", {1, 2}}}), Error);
-    EXPECT_THROW(markerFromJson({{"color", "red"}, {"position_mm", "1,2,3"}}), Error);
+    for (const ScanRole role : {ScanRole::scan, ScanRole::kept, ScanRole::refused})
+        EXPECT_EQ(scanRoleFrom(nameOf(role)), role);
+    EXPECT_THROW(scanRoleFrom("scout"), Error);
 }
 
 }  // namespace

@@ -196,7 +196,7 @@ TEST_P(Gaps, AreInterpolatedUpToTheLimitAndAlwaysNamed)
     const std::string file = readFile(store.scanFolder(scan.case_id, scan.id) / "scan.json");
     EXPECT_THAT(file, testing::HasSubstr(GetParam().words));
     if (GetParam().refused) {
-        EXPECT_EQ(scan.role, "refused");
+        EXPECT_EQ(scan.role, ScanRole::refused);
         EXPECT_THROW(load(scan), Error);
         return;
     }

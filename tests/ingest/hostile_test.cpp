@@ -84,7 +84,7 @@ TEST_P(EachReproducer, HasItsLineAndTheRestOfTheImportIsDone)
         EXPECT_NO_THROW((void)nlohmann::json(line.subject + line.text).dump()) << c.path;
     for (const CaseRecord& a_case : store.cases())
         for (const ScanRecord& scan : store.scans(a_case.id)) {
-            if (scan.role == "refused")
+            if (scan.role == ScanRole::refused)
                 continue;
             EXPECT_NO_THROW(load(scan)) << c.path;
         }
@@ -185,7 +185,7 @@ TEST_F(Hostile, ARefusedVolumeTellsOfNoInterpolation)
     writeSeries(folder / "in", spec, with_gaps);
     import({folder / "in"});
     const ScanRecord scan = onlyScan();
-    ASSERT_EQ(scan.role, "refused");
+    ASSERT_EQ(scan.role, ScanRole::refused);
     EXPECT_EQ(scan.ingest["repairs"].dump().find("interpolated"), std::string::npos) << scan.ingest.dump();
     EXPECT_FALSE(scan.ingest["geometry"].contains("interpolated_slices"));
 }

@@ -20,7 +20,7 @@ protected:
         for (const CaseRecord& c : store.cases()) {
             state["case " + c.id] = nlohmann::json(c.patient).dump() + nlohmann::json(c.flags).dump();
             for (const ScanRecord& s : store.scans(c.id)) {
-                state["scan " + c.id + s.id] = s.role + s.ingest.dump() + nlohmann::json(s.series).dump();
+                state["scan " + c.id + s.id] = nameOf(s.role) + s.ingest.dump() + nlohmann::json(s.series).dump();
                 for (const InstanceRecord& i : store.instances(c.id, s.id))
                     state["instance " + i.sop_uid] = i.scan_id + i.file + i.sha256;
             }

@@ -77,14 +77,14 @@ TEST_F(MarkedScan, KeepsItsRoleWhenAnotherImageComesAtAnOccupiedPlace)
 {
     mark();
     expectUntouched(importOtherPixelsAtItsPlaces(5));
-    EXPECT_EQ(others()[0].role, "kept");
+    EXPECT_EQ(others()[0].role, ScanRole::kept);
 }
 
 TEST_F(MarkedScan, StaysTheScanWhenAThinnerReconstructionComes)
 {
     mark();
     expectUntouched(importThinner());
-    EXPECT_EQ(others()[0].role, "kept");
+    EXPECT_EQ(others()[0].role, ScanRole::kept);
     EXPECT_EQ(others()[0].ingest["reconstruction_of"], scan.id);
 }
 
@@ -156,8 +156,8 @@ TEST_F(MarkedScan, ALostFileOfItIsMendedByTheSameImage)
 TEST_F(MarkedScan, WithoutMarksAThinnerReconstructionTakesItsPlaceAsEver)
 {
     importThinner();
-    EXPECT_EQ(now().role, "kept");
-    EXPECT_EQ(others()[0].role, "scan");
+    EXPECT_EQ(now().role, ScanRole::kept);
+    EXPECT_EQ(others()[0].role, ScanRole::scan);
     EXPECT_TRUE(store.requireCase(scan.case_id).flags.empty());
 }
 
@@ -170,8 +170,8 @@ TEST_F(MarkedScan, AnotherAcquisitionIsAScanOfItsOwnBesideIt)
     prone.acquisition_time = "102500";
     writeSeries(folder / "prone", prone);
     const auto report = import({folder / "prone"});
-    EXPECT_EQ(now().role, "scan");
-    EXPECT_EQ(others().at(0).role, "scan");
+    EXPECT_EQ(now().role, ScanRole::scan);
+    EXPECT_EQ(others().at(0).role, ScanRole::scan);
     EXPECT_EQ(jobs(), 1);
     EXPECT_TRUE(says(report, Kind::flagged, "came after this case was marked")) << lines(report);
 }

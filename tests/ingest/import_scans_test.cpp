@@ -28,17 +28,17 @@ TEST_F(Import, OfTheReconstructionsOfAnAcquisitionTheThinnestSoftOneIsTheScan)
     prone.acquisition_number = "2";
     prone.acquisition_time = "102500";
     // In an order in which each import changes what is the scan.
-    std::map<std::string, std::string> roles;
+    std::map<std::string, ScanRole> roles;
     for (const SeriesSpec& spec : {thin_sharp, thick, prone, thin_soft}) {
         writeSeries(folder / spec.series_uid, spec);
         import({folder / spec.series_uid});
     }
     for (const ScanRecord& scan : store.scans(CaseStore::caseIdFor(thick.study_uid)))
         roles[scan.series.uid] = scan.role;
-    EXPECT_EQ(roles[thick.series_uid], "kept");
-    EXPECT_EQ(roles[thin_sharp.series_uid], "kept");
-    EXPECT_EQ(roles[thin_soft.series_uid], "scan");
-    EXPECT_EQ(roles[prone.series_uid], "scan");
+    EXPECT_EQ(roles[thick.series_uid], ScanRole::kept);
+    EXPECT_EQ(roles[thin_sharp.series_uid], ScanRole::kept);
+    EXPECT_EQ(roles[thin_soft.series_uid], ScanRole::scan);
+    EXPECT_EQ(roles[prone.series_uid], ScanRole::scan);
     EXPECT_EQ(jobs(), 2);
 }
 
@@ -61,7 +61,7 @@ TEST_F(Import, FewerThanTenSlicesAreKeptAndNotQueued)
     EXPECT_EQ(report.images_kept, 1);
     EXPECT_TRUE(report.anythingStored());
     EXPECT_TRUE(says(report, Kind::kept, "9 slices, fewer than the 10 of a scan")) << lines(report);
-    EXPECT_EQ(onlyScan().role, "kept");
+    EXPECT_EQ(onlyScan().role, ScanRole::kept);
     EXPECT_EQ(jobs(), 0);
     EXPECT_EQ(load(onlyScan()).grid.size[2], 9);
 }

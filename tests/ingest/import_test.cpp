@@ -20,7 +20,7 @@ TEST_F(Import, StoresTheBytesAsTheyCamePrivatelyAndQueuesTheScan)
     const auto report = import({folder / "in"});
     EXPECT_EQ(report.scans_stored, 1) << lines(report);
     const ScanRecord scan = onlyScan();
-    EXPECT_EQ(scan.role, "scan");
+    EXPECT_EQ(scan.role, ScanRole::scan);
     EXPECT_EQ(scan.case_id, CaseStore::caseIdFor(SeriesSpec{}.study_uid));
     EXPECT_EQ(jobs(), 1);
     std::multiset<std::string> sent, stored;

@@ -96,7 +96,7 @@ TEST_P(EachFile, IsImportedSetAsideOrRefusedAsTheRulesSay)
     EXPECT_EQ(report.anythingStored(), c.kind == Kind::stored || c.kind == Kind::kept) << lines(report);
     for (const CaseRecord& a_case : store.cases())
         for (const ScanRecord& scan : store.scans(a_case.id)) {
-            if (scan.role == "refused")
+            if (scan.role == ScanRole::refused)
                 EXPECT_THROW(load(scan), Error);
             else
                 EXPECT_EQ(load(scan).grid.size, (scan.ingest["geometry"]["size"].get<std::array<int, 3>>()));

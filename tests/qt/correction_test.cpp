@@ -141,7 +141,7 @@ TEST_F(Correcting, MarkersGetTheirStationsOnTheNewPathAndEarlierStepsCanStillBeU
     EXPECT_EQ(corrections().cut.size(), 1U);
     key(Qt::Key_Z, Qt::ControlModifier);
     ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); })) << warning();
-    EXPECT_EQ(corrections(), ScanCorrections{});
+    EXPECT_EQ(corrections(), Corrections{});
     waitForNewScan();
     showList(0);
     ASSERT_TRUE(eventually([] { return settled(); }));
@@ -208,10 +208,10 @@ TEST_F(Correcting, WorkThatIsStoppedLeavesTheWindowAsItWas)
     };
     services.worklist = [&stopped, before = services.worklist](CaseStore& store) {
         auto rows = before(store);
-        for (WorklistRow& row : rows)
-            for (WorklistScanRow& scan : row.scans)
-                if (scan.state == "running" && stopped)
-                    scan.state = "queued";
+        for (WorklistCase& row : rows)
+            for (WorklistScan& scan : row.scans)
+                if (scan.state == WorkState::running && stopped)
+                    scan.state = WorkState::queued;
         return rows;
     };
     room_.reset();
@@ -234,14 +234,14 @@ TEST_F(Correcting, ACorrectionThatAnotherReaderChangedIsNotTakenBack)
     showList(2);
     correctAlongThePath("correctCut");
     waitForNewScan();
-    const auto corrections = [&](const ScanCorrections* set) {
+    const auto corrections = [&](const Corrections* set) {
         CaseStore other(store_);
         const ScanRecord scan = other.requireScan(test::kCase, test::kSupine);
         if (set)
             services_.correct(other, scan, *set);
         return services_.corrections(other, scan);
     };
-    ScanCorrections his = corrections(nullptr);
+    Corrections his = corrections(nullptr);
     ASSERT_EQ(his.cut.size(), 1U);
     his.drop.push_back({0, 0, 0});
     corrections(&his);
@@ -260,9 +260,8 @@ TEST_F(Correcting, ACorrectionThatAnotherReaderChangedIsNotTakenBack)
     {
         CaseStore other(store_);
         const ScanRecord scan = other.requireScan(test::kCase, test::kSupine);
-        BridgeRow bridge = services_.bridges(other, scan).front();
-        bridge.verdict = "confirmed";
-        bridge.by = "bert";
+        ReviewedBridge bridge = services_.bridges(other, scan).front();
+        bridge.review = {BridgeVerdict::confirmed, "bert", "2026-01-04"};
         services_.review_bridge(other, scan, bridge);
     }
     key(Qt::Key_Z, Qt::ControlModifier);

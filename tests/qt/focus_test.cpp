@@ -264,7 +264,7 @@ TEST_F(Reading, ACaseIsReadWithoutAMouse)
     const auto anyHas = [&](const char* what) {
         const auto all = stored();
         return settled() &&
-               std::any_of(all.begin(), all.end(), [&](const Marker& m) { return m.extra.contains(what); });
+               std::any_of(all.begin(), all.end(), [&](const Marker& m) { return toJson(m).contains(what); });
     };
     type(Qt::Key_L);
     type(Qt::Key_Return);

@@ -22,7 +22,7 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1; }));
     ASSERT_EQ(stored().size(), 1U);
     EXPECT_EQ(stored()[0].color, MarkerColor::yellow);
-    EXPECT_TRUE(stored()[0].extra.contains("view"));
+    EXPECT_TRUE(stored()[0].view.has_value());
     EXPECT_EQ(stored()[0].scan_id, test::kSupine);
     screenshot("marker");
 
@@ -70,11 +70,11 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     choose(1);
     press(window(), "markerPair");
     choose(0);
-    ASSERT_TRUE(eventually([&] { return stored()[0].extra.value("pair", "") == stored()[1].id; }));
-    EXPECT_TRUE(eventually([&] { return stored()[1].extra.value("pair", "") == stored()[0].id && settled(); }));
+    ASSERT_TRUE(eventually([&] { return stored()[0].pair == stored()[1].id; }));
+    EXPECT_TRUE(eventually([&] { return stored()[1].pair == stored()[0].id && settled(); }));
     // One step: one undo parts both.
     const auto paired = [&](bool both) {
-        return settled() && stored()[0].extra.contains("pair") == both && stored()[1].extra.contains("pair") == both;
+        return settled() && stored()[0].pair != "" == both && stored()[1].pair != "" == both;
     };
     press(window(), "undo");
     ASSERT_TRUE(eventually([&] { return paired(false); }));
@@ -139,20 +139,20 @@ TEST_F(Reading, ASizeIsMeasuredBetweenTwoClicksAndKeptWithTheMarkerBesideIt)
     key(Qt::Key_M);
     click("endoscopic", first);
     click("endoscopic", second);
-    ASSERT_TRUE(eventually([&] { return stored()[0].extra.contains("size") && settled(); }));
-    const auto size = stored()[0].extra["size"];
-    EXPECT_GT(size["straight_mm"].get<double>(), 1);
-    EXPECT_GE(size["along_mm"].get<double>(), size["straight_mm"].get<double>() - 1e-9);
-    EXPECT_EQ(cell(0, 5), QString::number(size["straight_mm"].get<double>(), 'f', 1));
-    if (size.contains("plane")) {
-        EXPECT_GE(size["plane"]["diameter_mm"].get<double>(), size["straight_mm"].get<double>() - 0.5);
+    ASSERT_TRUE(eventually([&] { return stored()[0].size.has_value() && settled(); }));
+    const auto size = stored()[0].size.value();
+    EXPECT_GT(size.straight_mm, 1);
+    EXPECT_GE(size.along_mm.value(), size.straight_mm - 1e-9);
+    EXPECT_EQ(cell(0, 5), QString::number(size.straight_mm, 'f', 1));
+    if (size.plane) {
+        EXPECT_GE(size.plane->diameter_mm, size.straight_mm - 0.5);
     }
     screenshot("measured");
     EXPECT_NE(pictureOf("endoscopic"), without_line);
     key(Qt::Key_Escape);
     EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == without_line; }));
     press(window(), "undo");
-    ASSERT_TRUE(eventually([&] { return !stored()[0].extra.contains("size"); }));
+    ASSERT_TRUE(eventually([&] { return !stored()[0].size.has_value(); }));
 }
 
 TEST_F(Reading, AnAreaThatIsCircledIsPeeledAloneAndItsDensityKeptWithTheMarkerUntilUndone)
@@ -170,11 +170,11 @@ TEST_F(Reading, AnAreaThatIsCircledIsPeeledAloneAndItsDensityKeptWithTheMarkerUn
         QTest::mouseMove(view, at + QPoint(22 * n, 0));
     screenshot("circling");
     QTest::mouseRelease(view, Qt::LeftButton, {}, at + QPoint(110, 0));
-    ASSERT_TRUE(eventually([&] { return stored()[0].extra.contains("density") && settled(); })) << warning();
-    const auto density = stored()[0].extra["density"];
-    EXPECT_GE(density["voxels"].get<int>(), 20);
-    EXPECT_GT(density["mean_hu"].get<double>(), -90) << "a wall of 40 HU before fat of -90";
-    EXPECT_LT(density["mean_hu"].get<double>(), 45);
+    ASSERT_TRUE(eventually([&] { return stored()[0].density.has_value() && settled(); })) << warning();
+    const auto density = stored()[0].density.value();
+    EXPECT_GE(density.voxels, 20U);
+    EXPECT_GT(density.mean_hu, -90) << "a wall of 40 HU before fat of -90";
+    EXPECT_LT(density.mean_hu, 45);
     EXPECT_TRUE(the<QLabel>("histogram")->isVisible());
     settle();
     screenshot("biopsy");
@@ -196,9 +196,9 @@ TEST_F(Reading, AnAreaThatIsCircledIsPeeledAloneAndItsDensityKeptWithTheMarkerUn
     box->grab().save(VICON_SCREENSHOTS "/biopsy_information.png");
     box->close();
     press(window(), "undo");
-    ASSERT_TRUE(eventually([&] { return !stored()[0].extra.contains("density") && settled(); }));
+    ASSERT_TRUE(eventually([&] { return !stored()[0].density.has_value() && settled(); }));
     press(window(), "redo");
-    ASSERT_TRUE(eventually([&] { return stored()[0].extra.contains("density") && settled(); }));
+    ASSERT_TRUE(eventually([&] { return stored()[0].density.has_value() && settled(); }));
     window()->activateWindow();
     ASSERT_TRUE(eventually([] { return window()->isActiveWindow(); }));
     key(Qt::Key_Escape);

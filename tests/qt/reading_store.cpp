@@ -64,15 +64,15 @@ void addCorrections(ReadingServices& services)
     struct State {
         std::mutex mutex;
         std::string queued;  // the scan
-        std::map<std::string, ScanCorrections> corrections;
-        BridgeRow bridge;
+        std::map<std::string, Corrections> corrections;
+        std::optional<BridgeReview> review;
     };
     const auto state = std::make_shared<State>();
     services.corrections = [state](CaseStore&, const ScanRecord& scan) {
         const std::lock_guard lock(state->mutex);
         return state->corrections[scan.id];
     };
-    services.correct = [state](CaseStore&, const ScanRecord& scan, const ScanCorrections& all) {
+    services.correct = [state](CaseStore&, const ScanRecord& scan, const Corrections& all) {
         const std::lock_guard lock(state->mutex);
         state->corrections[scan.id] = all;
         state->queued = scan.id;
@@ -80,16 +80,15 @@ void addCorrections(ReadingServices& services)
     services.bridges = [state](CaseStore& store, const ScanRecord& scan) {
         const Skeleton path = scan_files::readSkeleton(store.scanFolder(scan.case_id, scan.id) / "skeleton.vtp");
         const std::lock_guard lock(state->mutex);
-        const BridgeRow& judged = state->bridge;
-        return std::vector<BridgeRow>{{path.at(180).position_mm, path.at(200).position_mm, 20, 0.7, true, "a short gap",
-                                       judged.verdict, judged.by, judged.at}};
+        const Bridge bridge{path.at(180).position_mm, path.at(200).position_mm, {}, 20, 0.7, "a short gap", true};
+        return std::vector<ReviewedBridge>{{bridge, state->review}};
     };
-    services.review_bridge = [state](CaseStore&, const ScanRecord&, const BridgeRow& bridge) {
+    services.review_bridge = [state](CaseStore&, const ScanRecord&, const ReviewedBridge& bridge) {
         const std::lock_guard lock(state->mutex);
-        state->bridge = bridge;
-        if (bridge.by.empty() && !bridge.verdict.empty()) {
-            state->bridge.by = "anna";
-            state->bridge.at = "2026-01-03";
+        state->review = bridge.review;
+        if (state->review && state->review->by.empty()) {
+            state->review->by = "anna";
+            state->review->at = "2026-01-03";
         }
     };
     services.work = [state](CaseStore& store, const std::atomic<bool>&) {
@@ -99,7 +98,7 @@ void addCorrections(ReadingServices& services)
         {
             const std::lock_guard lock(state->mutex);
             scan = state->queued;
-            corrected = state->corrections[scan] != ScanCorrections{};
+            corrected = state->corrections[scan] != Corrections{};
             cut = !state->corrections[scan].cut.empty();
         }
         TestColon colon = corrected ? TestColon(storages().front(), kCoarser_mm) : TestColon();
@@ -112,10 +111,10 @@ void addCorrections(ReadingServices& services)
     services.worklist = [state, before = services.worklist](CaseStore& store) {
         auto rows = before(store);
         const std::lock_guard lock(state->mutex);
-        for (WorklistRow& row : rows)
-            for (WorklistScanRow& scan : row.scans)
+        for (WorklistCase& row : rows)
+            for (WorklistScan& scan : row.scans)
                 if (scan.record.id == state->queued)
-                    scan.state = "running";
+                    scan.state = WorkState::running;
         return rows;
     };
     services.import_markers = [place = services.place](CaseStore& store, const std::string& case_id,
@@ -138,12 +137,12 @@ ReadingServices servicesFor(const fs::path& folder)
     services.store = folder;
     const auto retried = std::make_shared<std::atomic<bool>>(false);
     services.worklist = [retried](CaseStore& store) {
-        std::vector<WorklistRow> rows;
+        std::vector<WorklistCase> rows;
         for (const CaseRecord& record : store.cases()) {
             const bool ready = record.id == kCase;
-            const std::string state = ready ? "done" : *retried ? "queued" : "failed";
-            const std::string reason = state == "failed" ? "the series has a gap of 40 mm" : "";
-            WorklistRow row{record, state, reason, ready ? 1.0 : 0.0, int(store.markers(record.id).size()), 0, {}};
+            const WorkState state = ready ? WorkState::done : *retried ? WorkState::queued : WorkState::failed;
+            const std::string reason = state == WorkState::failed ? "the series has a gap of 40 mm" : "";
+            WorklistCase row{record, state, reason, ready ? 1.0 : 0.0, int(store.markers(record.id).size()), 0, {}};
             for (const ScanRecord& scan : store.scans(record.id))
                 row.scans.push_back({scan, state, "", row.progress, reason, store.scanFolder(record.id, scan.id),
                                      ready ? "radius 18 mm, fluid 7 %, sigmoid collapsed over 38 mm" : "",

@@ -160,9 +160,8 @@ void StudyWalk::measure()
     key(Qt::Key_M);
     click("endoscopic", first);
     click("endoscopic", first + QPoint(24, 24));
-    ASSERT_TRUE(eventually([&] { return stored(case_id_.c_str())[0].extra.contains("size") && settled(); }))
-        << warning();
-    EXPECT_GT(stored(case_id_.c_str())[0].extra["size"]["straight_mm"].get<double>(), 0.5);
+    ASSERT_TRUE(eventually([&] { return stored(case_id_.c_str())[0].size.has_value() && settled(); })) << warning();
+    EXPECT_GT(stored(case_id_.c_str())[0].size->straight_mm, 0.5);
     screenshot("measured");
     key(Qt::Key_Escape);
 }
@@ -191,8 +190,7 @@ void StudyWalk::circleAndTakeDensity()
     for (int n = 1; n <= 5; ++n)
         QTest::mouseMove(view, at + QPoint(16 * n, 0));
     QTest::mouseRelease(view, Qt::LeftButton, {}, at + QPoint(80, 0));
-    ASSERT_TRUE(eventually([&] { return stored(case_id_.c_str())[0].extra.contains("density") && settled(); }))
-        << warning();
+    ASSERT_TRUE(eventually([&] { return stored(case_id_.c_str())[0].density.has_value() && settled(); })) << warning();
     QTest::qWait(3 * kSettle_ms);
     screenshot("biopsy");
     key(Qt::Key_Escape);

@@ -18,8 +18,8 @@ ReadingServices withScans(ReadingServices services, Change change)
 {
     services.worklist = [change, before = services.worklist](CaseStore& store) {
         auto rows = before(store);
-        for (WorklistRow& row : rows)
-            for (WorklistScanRow& scan : row.scans)
+        for (WorklistCase& row : rows)
+            for (WorklistScan& scan : row.scans)
                 change(row, scan);
         return rows;
     };
@@ -64,7 +64,7 @@ TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
 TEST_F(Reading, AScanThatItsCorrectionsSpoiledIsRetriedWithoutThem)
 {
     std::atomic<bool> retried = false;
-    auto services = withScans(test::servicesFor(store_), [&](const WorklistRow& row, WorklistScanRow& scan) {
+    auto services = withScans(test::servicesFor(store_), [&](const WorklistCase& row, WorklistScan& scan) {
         if (row.record.id == test::kCase && !retried) {
             scan.reason = "no colon: the longest run of gas is 61 mm long";
             scan.corrected = scan.record.id == test::kProne;
@@ -88,9 +88,9 @@ TEST_F(Reading, AScanThatItsCorrectionsSpoiledIsRetriedWithoutThem)
 TEST_F(Reading, AWorklistThatIsStillTheSameIsNotReadAgain)
 {
     std::atomic<int> asked = 0, read = 0, version = 0;
-    auto services = withScans(test::servicesFor(store_), [&](const WorklistRow& row, WorklistScanRow& scan) {
+    auto services = withScans(test::servicesFor(store_), [&](const WorklistCase& row, WorklistScan& scan) {
         if (row.record.id == test::kFailedCase)
-            scan.organ = version == 0 ? "colon" : "aorta";
+            scan.organ = version == 0 ? Organ() : Organ("aorta");
     });
     services.worklist = [&, before = services.worklist](CaseStore& store) {
         ++read;
@@ -114,7 +114,7 @@ TEST_F(Reading, AWorklistThatIsStillTheSameIsNotReadAgain)
 TEST_F(Reading, AnEmptyWorklistSaysWhatToDoAndOneInWhichNothingIsFoundToo)
 {
     auto empty = services_;
-    empty.worklist = [](CaseStore&) { return std::vector<WorklistRow>(); };
+    empty.worklist = [](CaseStore&) { return std::vector<WorklistCase>(); };
     empty.receiver = "VICON (reading-host, port 11112)";
     const auto room = makeReadingRoom(empty, {});
     room->show();
@@ -141,9 +141,9 @@ TEST_F(Reading, AnEmptyWorklistSaysWhatToDoAndOneInWhichNothingIsFoundToo)
 TEST_F(Reading, AScanThatBecomesReadyWhileItsCaseIsReadIsOffered)
 {
     std::atomic<bool> ready = false;
-    const auto services = withScans(test::servicesFor(store_), [&ready](const WorklistRow&, WorklistScanRow& scan) {
+    const auto services = withScans(test::servicesFor(store_), [&ready](const WorklistCase&, WorklistScan& scan) {
         if (scan.record.id == test::kProne && !ready)
-            scan.state = "running";
+            scan.state = WorkState::running;
     });
     room_.reset();
     openRoom(services);
@@ -164,8 +164,8 @@ TEST_F(Reading, AScanThatBecomesReadyWhileItsCaseIsReadIsOffered)
 TEST_F(Reading, ACaseOpenedTooEarlyIsReadAsSoonAsItCanBe)
 {
     std::atomic<bool> ready = false;
-    const auto services = withScans(test::servicesFor(store_), [&ready](const WorklistRow& row, WorklistScanRow& scan) {
-        scan.state = ready && row.record.id == test::kCase ? "done" : "running";
+    const auto services = withScans(test::servicesFor(store_), [&ready](const WorklistCase& row, WorklistScan& scan) {
+        scan.state = ready && row.record.id == test::kCase ? WorkState::done : WorkState::running;
     });
     room_.reset();
     openRoom(services, test::kCase);

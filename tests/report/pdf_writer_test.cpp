@@ -27,9 +27,9 @@ void expectFurniture(const fs::path& pdf, int pages, const std::string& name)
     ASSERT_EQ(int(texts.size()), pages);
     for (int page = 1; page <= pages; ++page)
         for (const std::string& what :
-             {name, std::string("ID PID-4711"), std::string("born 12 Apr 1961"), std::string("Study of 20 Nov 2026"),
+             {name, std::string("ID PID-4711"), std::string("born 1961-04-12"), std::string("Study of 2026-11-20"),
               std::string(kDraftLine), "Page " + std::to_string(page) + " of " + std::to_string(pages),
-              std::string("21 Nov 2026 08:15 UTC with VICON 0.1.0")})
+              std::string("2026-11-21 08:15 UTC with VICON 0.1.0")})
             EXPECT_THAT(texts[std::size_t(page - 1)], HasSubstr(what)) << "page " << page;
 }
 

@@ -19,13 +19,21 @@ ScanEntry supineScan()
     entry.scan.series.number = 1;
     entry.scan.series.patient_position = "HFS";
     entry.skeleton_length_mm = 1600;
-    entry.quality = nlohmann::json::parse(
-        R"({"adequate": false, "reason": "sigmoid collapsed over 14 mm", "median_radius_mm": 16.2, "fluid_ml": 212.4,
-            "fluid_fraction": 0.125, "collapsed_mm": 14, "collapsed_fraction": 0.0088, "noise_hu": 14.25,
-            "parts": [{"name": "rectum", "adequate": true, "median_radius_mm": 20, "fluid_ml": 0, "fluid_fraction": 0,
-                       "collapsed_mm": 0},
-                      {"name": "sigmoid", "adequate": false, "median_radius_mm": 12, "fluid_ml": 3,
-                       "fluid_fraction": 0.02, "collapsed_mm": 14, "collapsed_fraction": 0.03}]})");
+    ScanQuality& quality = entry.quality.emplace();
+    quality.whole = {.median_radius_mm = 16.2,
+                     .collapsed_mm = 14,
+                     .collapsed_fraction = 0.0088,
+                     .volume_ml = 1699.2,
+                     .fluid_ml = 212.4};
+    quality.parts = {{.part = ColonPart::rectum, .median_radius_mm = 20, .volume_ml = 100, .adequate = true},
+                     {.part = ColonPart::sigmoid,
+                      .median_radius_mm = 12,
+                      .collapsed_mm = 14,
+                      .collapsed_fraction = 0.03,
+                      .volume_ml = 150,
+                      .fluid_ml = 3}};
+    quality.reason = "sigmoid collapsed over 14 mm";
+    quality.noise_hu = 14.25;
     return entry;
 }
 
@@ -34,9 +42,9 @@ ScanEntry proneScan()
     ScanEntry entry = supineScan();
     entry.scan.series.number = 2;
     entry.scan.series.patient_position = "HFP";
-    entry.quality["parts"][0]["name"] = "caecum";
-    entry.quality["parts"][1]["adequate"] = true;
-    entry.quality["parts"][1]["collapsed_mm"] = 0;
+    entry.quality->parts[0].part = ColonPart::caecum;
+    entry.quality->parts[1].adequate = true;
+    entry.quality->parts[1].collapsed_mm = 0;
     return entry;
 }
 
@@ -61,11 +69,11 @@ TEST(QualityTable, PutsThePartsOfBothPositionsBesideEachOtherAndTheWholeLast)
     EXPECT_EQ(rows[3].scans[0]->fluid, "212 ml, 12 %");
 }
 
-TEST(QualityTable, IsEmptyForScansWithoutPartsOrOfAnotherShape)
+TEST(QualityTable, IsEmptyForScansWithoutParts)
 {
-    ScanEntry none, odd = supineScan();
-    odd.quality["parts"] = 5;
-    EXPECT_TRUE(qualityRows({&none, &odd}).empty());
+    ScanEntry none, whole = supineScan();
+    whole.quality->parts.clear();
+    EXPECT_TRUE(qualityRows({&none, &whole}).empty());
 }
 
 TEST_F(PdfWriter, TheTableOfQualityShowsBothPositionsAndStaysAwayWhereNothingWasMeasured)

@@ -32,9 +32,9 @@ TEST(Statements, PatientAndStudyComeFromTheCase)
     c.patient = {"PID-1", "Adams^John", "19610412", "M"};
     c.study = {"1.2.3", "S7", "20261120", "101530", "CT colonography", "A-99", "Dorian^Ruth^^Dr.", "St. Mary's"};
     EXPECT_THAT(patientStatements(c), ElementsAre(Statement{"Name", "Adams, John"}, Statement{"Patient ID", "PID-1"},
-                                                  Statement{"Birth date", "12 Apr 1961"}, Statement{"Sex", "male"}));
+                                                  Statement{"Birth date", "1961-04-12"}, Statement{"Sex", "male"}));
     EXPECT_THAT(studyStatements(c),
-                ElementsAre(Statement{"Study date", "20 Nov 2026, 10:15"}, Statement{"Description", "CT colonography"},
+                ElementsAre(Statement{"Study date", "2026-11-20, 10:15"}, Statement{"Description", "CT colonography"},
                             Statement{"Accession", "A-99"}, Statement{"Study ID", "S7"},
                             Statement{"Referred by", "Dorian, Dr. Ruth"}, Statement{"Institution", "St. Mary's"}));
 }
@@ -53,10 +53,10 @@ ScanEntry preparedScan()
     entry.verdict = "colon";
     entry.confidence = 0.86;
     entry.reason = "three pieces of gas";
-    entry.bridges = nlohmann::json::parse(R"([{"length_mm": 14.2, "confidence": 0.93, "certain": true},
-        {"length_mm": 31, "confidence": 0.4, "certain": false, "reason": "the gap is long"}])");
-    entry.quality = nlohmann::json::parse(
-        R"({"residual_fluid_ml": 212.4, "noise_hu": 14.25, "parts": {"sigmoid": {"collapsed_mm": 14, "wet_fraction": 0.125}}})");
+    entry.bridges = {{{.length_mm = 14.2, .confidence = 0.93, .certain = true}, {}},
+                     {{.length_mm = 31, .confidence = 0.4, .reason = "the gap is long"},
+                      BridgeReview{BridgeVerdict::confirmed, "anna", "2026-01-03"}}};
+    entry.quality = ScanQuality{.whole = {.adequate = true}, .noise_hu = 14.25};
     return entry;
 }
 
@@ -72,8 +72,9 @@ TEST(Statements, AScanSaysWhatWasFoundAndWhatWasDoneToIt)
     EXPECT_EQ(said(s, "Colon length"), "1595 mm along the skeleton");
     EXPECT_EQ(
         said(s, "Bridges"),
-        "2 collapsed parts:\n14 mm, certain, confidence 93 %\n31 mm, uncertain, confidence 40 %: the gap is long");
-    EXPECT_EQ(said(s, "Quality"), "noise 14.2 HU, residual fluid 212 ml\nsigmoid: collapsed 14 mm, wet 12.5 %");
+        "2 collapsed parts:\n14 mm, certain, confidence 93 %\n31 mm, uncertain, confidence 40 %: the gap is long; "
+        "confirmed by anna, 2026-01-03");
+    EXPECT_EQ(said(s, "Quality"), "adequate\nnoise 14 HU");
     EXPECT_EQ(said(s, "Repaired"), "1 slice missing at F 120.0 mm");
     EXPECT_EQ(said(s, "Refused"), "truncated (2 times)");
     EXPECT_EQ(said(s, "Compression"), "(nothing)");
@@ -82,8 +83,7 @@ TEST(Statements, AScanSaysWhatWasFoundAndWhatWasDoneToIt)
 TEST(Statements, QualitySaysWhetherAdequateWhyNotAndTheNoise)
 {
     ScanEntry entry = preparedScan();
-    entry.quality = nlohmann::json::parse(
-        R"({"adequate": false, "reason": "sigmoid collapsed over 14 mm", "median_radius_mm": 16.2, "noise_hu": 14.25})");
+    entry.quality = ScanQuality{.noise_hu = 14.25, .reason = "sigmoid collapsed over 14 mm"};
     EXPECT_EQ(said(scanStatements(entry), "Quality"), "NOT ADEQUATE: sigmoid collapsed over 14 mm\nnoise 14 HU");
 }
 
@@ -116,12 +116,8 @@ TEST(Statements, JsonOfAnotherShapeIsPassedOver)
     entry.skeleton_length_mm = 1;
     entry.scan.ingest = nlohmann::json::parse(
         R"({"geometry": {"slices": "many", "spacing_mm": [1, 2]}, "repairs": 3, "refused": [7, null, {"object": "1"}]})");
-    entry.bridges = nlohmann::json::parse(R"([5, {}])");
-    entry.quality = nlohmann::json::parse(R"([1, null])");
     EXPECT_EQ(said(scanStatements(entry), "Refused"), "(nothing)");
-    EXPECT_THAT(said(scanStatements(entry), "Bridges"), HasSubstr("2 collapsed parts"));
     entry.scan.ingest = nullptr;
-    entry.bridges = "none";
     EXPECT_NO_THROW(scanStatements(entry));
 }
 
@@ -150,12 +146,15 @@ TEST(Statements, AMarkerGivesTheMeasuredDistanceFirstAndTheEstimateLast)
             Statement{"From caecal end", "1183 mm along the skeleton"},
             Statement{"Fraction", "25.8 % of the whole, 1595 mm, from the rectal end"},
             Statement{"By endoscope", "estimated: about 32 cm (0.78 × CT distance, left colon)"}));
-    entry.marker.extra["size"] = {{"straight_mm", 6.24}, {"along_mm", 8.0}};
-    entry.marker.extra["pair"] = "m7";
+    entry.marker.size = MarkerSize{.straight_mm = 6.24, .along_mm = 8};
+    entry.marker.pair = "m7";
     EXPECT_EQ(said(markerStatements(entry), "Size"), "6.2 mm straight, 8.0 mm along the wall");
     EXPECT_EQ(said(markerStatements(entry), "Same finding"), "m7");
-    entry.marker.extra["size"] = "what another program wrote";
-    entry.marker.extra["pair"] = 7;
+    entry.marker.size->plane = PlaneSize{.diameter_mm = 9.04};
+    EXPECT_EQ(said(markerStatements(entry), "Size"),
+              "6.2 mm straight, 8.0 mm along the wall, 9.0 mm largest in the best plane");
+    entry.marker.size.reset();
+    entry.marker.pair.clear();
     EXPECT_EQ(said(markerStatements(entry), "Same finding"), "(nothing)");
     EXPECT_EQ(said(markerStatements(entry), "Size"), "(nothing)");
     entry.part_name.clear();
@@ -166,17 +165,14 @@ TEST(Statements, AMarkerGivesTheMeasuredDistanceFirstAndTheEstimateLast)
 TEST(Statements, AMarkerGivesTheDensityOfItsBiopsy)
 {
     MarkerEntry entry;
-    nlohmann::json& density = entry.marker.extra["density"];
-    density = {{"radius_mm", 4}, {"mean_hu", 41.6}, {"sd_hu", 18.2}, {"voxels", 31}, {"fat_fraction", 0.1}};
+    DensitySample& density = entry.marker.density.emplace();
+    density = {.radius_mm = 4, .voxels = 31, .mean_hu = 41.6, .sd_hu = 18.2, .fat_fraction = 0.1};
     EXPECT_EQ(said(markerStatements(entry), "Density"), "42 \u00b1 18 HU, of 31 voxels within 4.0 mm");
-    density["fat_fraction"] = 0.45;
+    density.fat_fraction = 0.45;
     EXPECT_EQ(said(markerStatements(entry), "Density"),
               "42 \u00b1 18 HU, of 31 voxels within 4.0 mm; 45 % of them are as light as fat");
-    for (const nlohmann::json& foreign :
-         {nlohmann::json("41 HU"), nlohmann::json{{"mean_hu", 40}}, nlohmann::json{{"mean_hu", "40"}, {"sd_hu", 1}}}) {
-        density = foreign;
-        EXPECT_EQ(said(markerStatements(entry), "Density"), "(nothing)") << foreign;
-    }
+    entry.marker.density.reset();
+    EXPECT_EQ(said(markerStatements(entry), "Density"), "(nothing)");
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ Config configOf(const std::string& organ)
 {
     Config config;
     config.declare(pipeline::stepOptionSpecs());
-    return pipeline::withOrgan(config, organ);
+    return pipeline::withOrgan(config, Organ(organ));
 }
 
 /// A scan and all that the steps make of it.
@@ -236,12 +236,12 @@ TEST(Organ, PresetsAreKnownByNameAndYieldToWhatAPersonSets)
     Config config;
     config.declare(pipeline::stepOptionSpecs());
     config.set("organ.branch_mm=21");
-    EXPECT_EQ(pipeline::withOrgan(config, "aorta").get<OrganOptions>().branch_mm, 21);
-    EXPECT_EQ(pipeline::withOrgan(config, "aorta").get<OrganOptions>().low_hu, 180);
-    EXPECT_EQ(pipeline::withOrgan(config, "aorta").get<WallDensities>().wall_hu, 170);
-    EXPECT_TRUE(pipeline::withOrgan(config, "").get<OrganOptions>().isColon());
+    EXPECT_EQ(pipeline::withOrgan(config, Organ("aorta")).get<OrganOptions>().branch_mm, 21);
+    EXPECT_EQ(pipeline::withOrgan(config, Organ("aorta")).get<OrganOptions>().low_hu, 180);
+    EXPECT_EQ(pipeline::withOrgan(config, Organ("aorta")).get<WallDensities>().wall_hu, 170);
+    EXPECT_TRUE(pipeline::withOrgan(config, std::nullopt).get<OrganOptions>().isColon());
     try {
-        (void)pipeline::withOrgan(config, "spleen");
+        (void)pipeline::withOrgan(config, Organ("spleen"));
         FAIL() << "there is no such preset";
     } catch (const Error& e) {
         EXPECT_EQ(e.code(), ErrorCode::wrong_use);

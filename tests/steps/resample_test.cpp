@@ -1,8 +1,10 @@
 #include "vicon/steps/resample.h"
 
 #include <gtest/gtest.h>
+#include <itkBSplineInterpolateImageFunction.h>
 #include <itkImage.h>
 #include <itkImportImageFilter.h>
+#include <itkMultiThreaderBase.h>
 #include <itkResampleImageFilter.h>
 #include <tbb/global_control.h>
 
@@ -62,21 +64,29 @@ HuVolume restored(const HuVolume& volume, std::array<std::size_t, 3> order, std:
     return out;
 }
 
-TEST(Resample, IsBitForBitTheSameWhateverTheStorageOrderAndMirroring)
+class ResampleByEach : public testing::TestWithParam<const char*> {
+protected:
+    ResampleOptions by(double spacing_mm = 0) const { return {.spacing_mm = spacing_mm, .interpolation = GetParam()}; }
+};
+INSTANTIATE_TEST_SUITE_P(Interpolation, ResampleByEach, testing::Values("linear", "bspline", "windowed_sinc"),
+                         [](const auto& about) { return std::string(about.param); });
+
+TEST_P(ResampleByEach, IsBitForBitTheSameWhateverTheStorageOrderAndMirroring)
 {
-    for (const double degrees : {0.0, 17.0}) {
-        const Grid grid{.size = {13, 11, 9},
+    // Rows of sixteen voxels are taken together, others are not.
+    for (const int columns : {13, 16}) {
+        const Grid grid{.size = {columns, 11, 9},
                         .origin_mm = {-71.37, 12.5, 803.125},
                         .spacing_mm = {0.7, 0.7, 1.25},
-                        .axis = rotated(degrees)};
+                        .axis = rotated(columns == 13 ? 17 : 0)};
         HuVolume measured = randomVolume(grid);
         measured.at({3, 4, 5}) = kPaddingHu;
-        const HuVolume expected = resample(measured, {}, quiet);
+        const HuVolume expected = resample(measured, by(), quiet);
         std::array<std::size_t, 3> order{0, 1, 2};
         do
             for (int flips = 0; flips < 8; ++flips) {
                 const HuVolume stored = restored(measured, order, {bool(flips & 1), bool(flips & 2), bool(flips & 4)});
-                const HuVolume got = resample(stored, {}, quiet);
+                const HuVolume got = resample(stored, by(), quiet);
                 ASSERT_EQ(got.voxels, expected.voxels) << flips;
                 ASSERT_EQ(got.grid, expected.grid) << flips;
             }
@@ -108,7 +118,7 @@ TEST(Resample, AgreesWithItk)
     for (const double spacing_mm : {0.0, 0.5, 1.1}) {
         const Grid grid{.size = {21, 17, 14}, .spacing_mm = {0.9, 0.7, 1.6}, .axis = rotated(11)};
         const HuVolume acquired = randomVolume(grid, 3);
-        const HuVolume out = resample(acquired, {spacing_mm}, quiet);
+        const HuVolume out = resample(acquired, {.spacing_mm = spacing_mm}, quiet);
 
         auto image = Image::New();
         image->SetRegions(Image::SizeType{21, 17, 14});
@@ -135,24 +145,131 @@ TEST(Resample, AgreesWithItk)
     }
 }
 
-TEST(Resample, KeepsPaddingOutOfTheInterpolation)
+TEST_P(ResampleByEach, KeepsPaddingOutOfTheInterpolation)
 {
-    HuVolume acquired(Grid{.size = {4, 4, 3}, .spacing_mm = {1, 1, 2}}, 100);
-    acquired.at({1, 1, 1}) = kPaddingHu;
-    const HuVolume out = resample(acquired, {}, quiet);
-    ASSERT_EQ(out.grid.size[2], 5);
+    HuVolume acquired(Grid{.size = {24, 20, 18}, .spacing_mm = {1, 1, 2}}, 100);
+    for (const Index3 v : {Index3{11, 11, 11}, {12, 11, 11}, {0, 0, 3}})
+        acquired.at(v) = kPaddingHu;
+    const HuVolume out = resample(acquired, by(), quiet);
+    ASSERT_EQ(out.grid.size[2], 35);
     for (std::size_t n = 0; n < out.grid.voxelCount(); ++n)
         EXPECT_TRUE(out.voxels[n] == 100 || out.voxels[n] == kPaddingHu) << out.voxels[n];
-    EXPECT_EQ(out.at({1, 1, 2}), kPaddingHu);
-    EXPECT_EQ(out.at({2, 1, 2}), 100);
+    EXPECT_EQ(out.at({11, 11, 22}), kPaddingHu);
+    EXPECT_EQ(out.at({13, 11, 22}), 100);
+    EXPECT_EQ(out.at({11, 11, 21}), kPaddingHu) << "half-way: the voxel above is the nearest";
+    EXPECT_EQ(out.at({11, 11, 23}), 100);
 }
 
-TEST(Resample, DoesNotDependOnTheNumberOfThreads)
+TEST_P(ResampleByEach, NeverMakesPaddingOfAnOvershoot)
+{
+    // Gas beside bone: a smooth curve through both goes below the gas.
+    HuVolume acquired(Grid{.size = {16, 16, 40}, .spacing_mm = {1, 1, 1.3}}, -1000);
+    for (std::size_t n = 0; n < acquired.voxels.size(); ++n)
+        if (const Index3 v = acquired.grid.indexOf(n); v.k > 15 + v.i)
+            acquired.voxels[n] = std::int16_t(v.j * 60 - 700);
+    const HuVolume out = resample(acquired, by(), quiet);
+    EXPECT_EQ(std::count(out.voxels.begin(), out.voxels.end(), kPaddingHu), 0);
+}
+
+TEST_P(ResampleByEach, DoesNotDependOnTheNumberOfThreads)
 {
     const HuVolume acquired = randomVolume(Grid{.size = {40, 30, 50}, .spacing_mm = {0.7, 0.7, 1}});
-    const HuVolume both = resample(acquired, {}, quiet);
+    const HuVolume both = resample(acquired, by(), quiet);
     tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_EQ(resample(acquired, {}, quiet).voxels, both.voxels);
+    const auto threads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(1);
+    EXPECT_EQ(resample(acquired, by(), quiet).voxels, both.voxels);
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
+}
+
+TEST_P(ResampleByEach, KeepsAConstantDensity)
+{
+    const HuVolume acquired(Grid{.size = {19, 18, 30}, .spacing_mm = {0.9, 0.7, 1.6}}, 700);
+    for (const double spacing_mm : {0.0, 0.6, 1.1}) {
+        const HuVolume out = resample(acquired, by(spacing_mm), quiet);
+        EXPECT_EQ(std::count(out.voxels.begin(), out.voxels.end(), 700), std::ptrdiff_t(out.voxels.size()));
+    }
+}
+
+/// Densities of a function of the place in voxels.
+template <class Function>
+HuVolume sampled(const Grid& grid, Function function)
+{
+    HuVolume volume(grid);
+    for (std::size_t n = 0; n < grid.voxelCount(); ++n) {
+        const Index3 v = grid.indexOf(n);
+        volume.voxels[n] = std::int16_t(std::lround(function(v.i, v.j, v.k)));
+    }
+    return volume;
+}
+
+/// The largest error of a resampled function, in HU, at least `margin` acquired voxels away from the border.
+template <class Function>
+double largestError(const Grid& grid, const ResampleOptions& options, double margin, Function function)
+{
+    const HuVolume out = resample(sampled(grid, function), options, quiet);
+    double most = 0;
+    for (std::size_t n = 0; n < out.grid.voxelCount(); ++n) {
+        const ContinuousIndex3 at = grid.continuousIndexAt(out.grid.pointAt(out.grid.indexOf(n)));
+        const std::array<double, 3> place{at.i, at.j, at.k};
+        bool within = true;
+        for (std::size_t d = 0; d < 3; ++d)
+            within = within && place[d] >= margin && place[d] <= grid.size[d] - 1 - margin;
+        if (within)
+            most = std::max(most, std::abs(out.voxels[n] - function(at.i, at.j, at.k)));
+    }
+    return most;
+}
+
+const Grid kBlock{.size = {32, 27, 26}, .spacing_mm = {0.8, 0.8, 1.2}};
+
+TEST(ResampleLinearly, GivesATrilinearFunctionBack)
+{
+    // Its slopes are whole numbers, so the acquired voxels hold it without rounding.
+    const auto trilinear = [](double i, double j, double k) { return 2 * i - 3 * j + k + i * j - j * k; };
+    for (const double spacing_mm : {0.0, 0.5, 1.1})
+        EXPECT_LE(largestError(kBlock, {.spacing_mm = spacing_mm}, 0, trilinear), 0.501);
+}
+
+TEST(ResampleByBSpline, GivesACubicBackAwayFromTheBorder)
+{
+    const auto cubic = [](double i, double j, double k) {
+        const double x = i - 16, y = j - 13, z = k - 13;
+        return 10000 + x * x * x - z * z * z + x * y * z - 3 * y * y;  // nowhere the density of padding
+    };
+    EXPECT_LE(largestError(kBlock, {.interpolation = "bspline"}, 9, cubic), 0.6);
+    EXPECT_LE(largestError(kBlock, {.spacing_mm = 0.5, .interpolation = "bspline"}, 9, cubic), 0.6);
+    EXPECT_GT(largestError(kBlock, {}, 9, cubic), 2);
+}
+
+TEST(ResampleByWindowedSinc, GivesAWaveOfFourVoxelsBackToAHundredth)
+{
+    const auto wave = [](double i, double j, double k) {
+        return 1000 * std::cos(M_PI * k / 2 + 0.3) * std::cos(M_PI * i / 8) * std::cos(M_PI * j / 8);
+    };
+    const double by_sinc = largestError(kBlock, {.interpolation = "windowed_sinc"}, 3, wave);
+    const double linearly = largestError(kBlock, {}, 3, wave);
+    EXPECT_LT(by_sinc, 30);
+    EXPECT_GT(linearly, 200);
+}
+
+TEST(ResampleByBSpline, IsTheSameInSlabsAsInOnePiece)
+{
+    const Grid grid{.size = {12, 10, 90}, .spacing_mm = {0.7, 0.7, 1}};
+    const HuVolume acquired = randomVolume(grid, 5);
+    const HuVolume out = resample(acquired, {.interpolation = "bspline"}, quiet);
+    using Image = itk::Image<std::int16_t, 3>;
+    auto image = Image::New();
+    image->SetRegions(Image::SizeType{12, 10, 90});
+    image->Allocate();
+    std::copy(acquired.voxels.begin(), acquired.voxels.end(), image->GetBufferPointer());
+    auto whole = itk::BSplineInterpolateImageFunction<Image>::New();
+    whole->SetInputImage(image);
+    for (std::size_t n = 0; n < out.grid.voxelCount(); ++n) {
+        const Index3 v = out.grid.indexOf(n);
+        const double at[3] = {double(v.i), double(v.j), v.k * 0.7};
+        ASSERT_NEAR(out.voxels[n], whole->EvaluateAtContinuousIndex(at), 0.55);
+    }
 }
 
 ErrorCode codeOf(const HuVolume& acquired, ResampleOptions options)
@@ -168,8 +285,8 @@ ErrorCode codeOf(const HuVolume& acquired, ResampleOptions options)
 TEST(Resample, RefusesWhatCannotBeHad)
 {
     const HuVolume small(Grid{.size = {60, 60, 60}});
-    EXPECT_EQ(codeOf(small, {0.001}), ErrorCode::no_memory);
-    EXPECT_EQ(codeOf(small, {1e-9}), ErrorCode::no_memory);
+    EXPECT_EQ(codeOf(small, {.spacing_mm = 0.001}), ErrorCode::no_memory);
+    EXPECT_EQ(codeOf(small, {.spacing_mm = 1e-9}), ErrorCode::no_memory);
     EXPECT_EQ(codeOf(HuVolume{}, {}), ErrorCode::bad_input);
     EXPECT_EQ(codeOf(HuVolume(Grid{.size = {2, 2, 2}, .spacing_mm = {1, 1, 0}}), {}), ErrorCode::bad_input);
 }

@@ -114,7 +114,7 @@ struct Pairs : History {
     {
         std::vector<std::string> all;
         for (const Marker& m : store.markers("c1"))
-            all.push_back(m.note + (pairOf(m).empty() ? "" : store.requireMarker("c1", pairOf(m)).note));
+            all.push_back(m.note + (m.pair.empty() ? "" : store.requireMarker("c1", m.pair).note));
         std::sort(all.begin(), all.end());
         return all;
     }

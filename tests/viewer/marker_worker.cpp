@@ -125,14 +125,14 @@ private:
 
     static Marker parted(Marker marker)
     {
-        marker.extra.erase("pair");
+        marker.pair.clear();
         return marker;
     }
 
     State withoutPairOf(const Marker& marker) const
     {
         State wanted{{marker.id, parted(marker)}};
-        if (const auto other = mine_.find(pairOf(marker)); other != mine_.end())
+        if (const auto other = mine_.find(marker.pair); other != mine_.end())
             wanted[other->first] = parted(other->second);
         return wanted;
     }
@@ -140,14 +140,14 @@ private:
     void pairOrPart()
     {
         const Marker a = any(), b = any();
-        if (!pairOf(a).empty()) {
+        if (!a.pair.empty()) {
             step(withoutPairOf(a), [&] { history_.part(store_, a); });
         } else if (a.scan_id != b.scan_id) {
             State wanted = withoutPairOf(b);
             wanted[a.id] = a;
             wanted[b.id] = b;
-            wanted[a.id]->extra["pair"] = b.id;
-            wanted[b.id]->extra["pair"] = a.id;
+            wanted[a.id]->pair = b.id;
+            wanted[b.id]->pair = a.id;
             step(wanted, [&] { history_.pair(store_, a, b); });
         }
     }

@@ -64,21 +64,6 @@ std::size_t characters(const std::string& utf8)
 {
     return std::size_t(std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
-
-// Family, given, middle, prefix, suffix.
-std::string groupText(const std::string& group, const char* between)
-{
-    const auto parts = split(group, '^');
-    const auto part = [&](std::size_t n) { return n < parts.size() ? trimmed(parts[n]) : std::string(); };
-    std::string others;
-    for (const std::size_t n : {3, 1, 2, 4})
-        if (!part(n).empty())
-            others += (others.empty() ? "" : " ") + part(n);
-    if (part(0).empty() || others.empty())
-        return part(0) + others;
-    return part(0) + between + others;
-}
-
 }  // namespace
 
 Rgb colorOf(MarkerColor color)
@@ -255,25 +240,6 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t most, std:
         out.back() += (out.back().empty() ? "" : " ") + word;
     }
     return out;
-}
-
-std::string personName(const std::string& dicom_name)
-{
-    std::string name;
-    const auto groups = split(dicom_name, '=');
-    for (std::size_t n = 0; n < groups.size(); ++n) {
-        const std::string words = groupText(groups[n], n == 0 ? ", " : " ");  // ideographic names take no comma
-        if (!words.empty())
-            name += (name.empty() ? "" : " / ") + words;
-    }
-    return name.empty() ? "name not given" : name;
-}
-
-std::string dateText(const std::string& d)
-{
-    if (d.size() != 8 || d.find_first_not_of("0123456789") != std::string::npos)
-        return d;
-    return d.substr(0, 4) + "-" + d.substr(4, 2) + "-" + d.substr(6);
 }
 
 }  // namespace vicon::viewer

@@ -19,10 +19,7 @@ std::vector<MarkerEdit> inverse(const std::vector<MarkerEdit>& step)
 
 Marker named(Marker marker, const std::string& partner)
 {
-    if (partner.empty())
-        marker.extra.erase("pair");
-    else
-        marker.extra["pair"] = partner;
+    marker.pair = partner;
     return marker;
 }
 

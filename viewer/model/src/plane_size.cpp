@@ -176,17 +176,6 @@ private:
     bool bounded_ = true;
 };
 
-nlohmann::json jsonOf(double x, double y, double z)
-{
-    return {x, y, z};
-}
-
-template <class Triple>
-Triple tripleFrom(const nlohmann::json& json)
-{
-    return {json.at(0), json.at(1), json.at(2)};
-}
-
 }  // namespace
 
 std::optional<PlaneSize> sizeOnBestPlane(const InsideView& inside, Point3 a, Point3 b, Point3 eye)
@@ -222,30 +211,6 @@ std::optional<PlaneSize> sizeOnBestPlane(const InsideView& inside, Point3 a, Poi
 PlaneView viewOf(const PlaneSize& size, int width, int height, double field_mm)
 {
     return {size.middle_mm, size.along, -size.up, field_mm / std::min(width, height), width, height};
-}
-
-nlohmann::json toJson(const PlaneSize& s)
-{
-    return {{"diameter_mm", s.diameter_mm},
-            {"from_mm", jsonOf(s.from_mm.x, s.from_mm.y, s.from_mm.z)},
-            {"to_mm", jsonOf(s.to_mm.x, s.to_mm.y, s.to_mm.z)},
-            {"area_mm2", s.area_mm2},
-            {"middle_mm", jsonOf(s.middle_mm.x, s.middle_mm.y, s.middle_mm.z)},
-            {"along", jsonOf(s.along.x, s.along.y, s.along.z)},
-            {"up", jsonOf(s.up.x, s.up.y, s.up.z)}};
-}
-
-std::optional<PlaneSize> planeSizeFromJson(const nlohmann::json& json)
-try {
-    return PlaneSize{json.at("diameter_mm"),
-                     tripleFrom<Point3>(json.at("from_mm")),
-                     tripleFrom<Point3>(json.at("to_mm")),
-                     json.at("area_mm2"),
-                     tripleFrom<Point3>(json.at("middle_mm")),
-                     tripleFrom<Vector3>(json.at("along")),
-                     tripleFrom<Vector3>(json.at("up"))};
-} catch (const nlohmann::json::exception&) {  // another program's
-    return std::nullopt;
 }
 
 }  // namespace vicon::viewer

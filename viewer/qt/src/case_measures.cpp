@@ -24,7 +24,7 @@ void CaseSession::measure(Point3 from, Point3 to, Point3 eye)
 void CaseSession::takeBiopsy(Point3 centre, double radius_mm)
 {
     loader_.post("biopsy", [this, scan = scan_, centre, radius_mm]() -> Worker::Work {
-        const Biopsy biopsy = viewer::takeBiopsy(scan->files.volume(), scan->files.inside(), centre, radius_mm);
+        const DensitySample biopsy = sampleDensity(scan->files.volume(), scan->files.inside(), centre, radius_mm);
         return [this, scan, biopsy] {
             if (scan == scan_)
                 emit biopsied(biopsy);

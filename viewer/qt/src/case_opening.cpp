@@ -103,7 +103,7 @@ void CaseSession::load(const std::string& work, const std::string& scan_id, int 
                        const std::shared_ptr<const std::atomic<bool>>& stop)
 {
     const auto row = std::find_if(row_.scans.begin(), row_.scans.end(),
-                                  [&](const WorklistScanRow& scan) { return scan.record.id == scan_id; });
+                                  [&](const WorklistScan& scan) { return scan.record.id == scan_id; });
     if (row == row_.scans.end())
         return;
     constexpr int kStages = 3;

@@ -8,18 +8,10 @@
 namespace vicon::viewer {
 namespace {
 
-nlohmann::json jsonOf(const std::vector<Marker>& markers)
-{
-    nlohmann::json list = nlohmann::json::array();
-    for (const Marker& marker : markers)
-        list.push_back(toJson(marker));
-    return list;
-}
-
 /// What a reader makes of markers; where they lie along the path follows from the scan.
 nlohmann::json withoutPlaces(const std::vector<Marker>& markers)
 {
-    nlohmann::json list = jsonOf(markers);
+    nlohmann::json list = toJson(markers)["markers"];
     for (nlohmann::json& marker : list)
         for (const char* key : {"station_mm", "from_caecum_mm", "fraction", "part", "changed"})
             marker.erase(key);
@@ -36,7 +28,7 @@ QString caseIsGone()
 
 }  // namespace
 
-CaseSession::CaseSession(const ReadingServices& services, const WorklistRow& row)
+CaseSession::CaseSession(const ReadingServices& services, const WorklistCase& row)
     : services_(services), row_(row), history_(row.record.id)
 {
     renew(row);
@@ -45,11 +37,11 @@ CaseSession::CaseSession(const ReadingServices& services, const WorklistRow& row
     refresh();
 }
 
-std::vector<ScanRecord> CaseSession::renew(const WorklistRow& row)
+std::vector<ScanRecord> CaseSession::renew(const WorklistCase& row)
 {
     row_.scans = row.scans;  // the case's record stays: the workers read it
     std::vector<ScanRecord> added;
-    for (const WorklistScanRow& scan : row.scans)
+    for (const WorklistScan& scan : row.scans)
         if (scan.ready() && std::none_of(scans_.begin(), scans_.end(),
                                          [&](const ScanRecord& known) { return known.id == scan.record.id; }))
             added.push_back(scan.record);
@@ -173,8 +165,7 @@ void CaseSession::loadMarkers(const std::filesystem::path& file)
 void CaseSession::saveMarkers(const std::filesystem::path& file)
 {
     worker_.postAlways([this, file]() -> Worker::Work {
-        const nlohmann::json all{{"markers", jsonOf(store().markers(row_.record.id))}};
-        replaceFile(file, all.dump(2) + "\n");
+        writeMarkers(file, store().markers(row_.record.id));
         return
             [this, name = QString::fromStdString(file.string())] { emit saved(tr("Markers written: %1").arg(name)); };
     });
@@ -232,7 +223,7 @@ void CaseSession::refresh()
         if (!store().findCase(row_.record.id))
             return [this] { emit warned(caseIsGone()); };
         return [this, markers = store().markers(row_.record.id)] {
-            if (markers_known_ && jsonOf(markers) == jsonOf(markers_))
+            if (markers_known_ && toJson(markers) == toJson(markers_))
                 return;
             const bool by_other = markers_known_ && withoutPlaces(markers) != withoutPlaces(markers_);
             markers_known_ = true;

@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "vicon/viewer/model/biopsy.h"
+#include "vicon/cases/density_sample.h"
 #include "vicon/viewer/model/marker_history.h"
 #include "vicon/viewer/model/navigator.h"
 #include "vicon/viewer/model/plane_size.h"
@@ -47,13 +47,13 @@ std::filesystem::file_time_type madeAt(const std::filesystem::path& folder);
 class CaseSession : public QObject {
     Q_OBJECT
 public:
-    CaseSession(const ReadingServices& services, const WorklistRow& row);
+    CaseSession(const ReadingServices& services, const WorklistCase& row);
 
     const CaseRecord& record() const { return row_.record; }
     /// Those that can be shown: their jobs are done and found a colon.
     const std::vector<ScanRecord>& scans() const { return scans_; }
     /// As the worklist shows the case by now. Returns the scans that can be shown since.
-    std::vector<ScanRecord> renew(const WorklistRow& row);
+    std::vector<ScanRecord> renew(const WorklistCase& row);
     const std::vector<Marker>& markers() const { return markers_; }
     std::vector<Marker> markersOf(const std::string& scan_id) const;
     /// Nothing when it was deleted.
@@ -117,8 +117,8 @@ signals:
     void busyChanged(bool busy);
     void saved(const QString& what);
     void warned(const QString& message);
-    void measured(const vicon::viewer::WallDistance& size, const std::optional<vicon::viewer::PlaneSize>& plane);
-    void biopsied(const vicon::viewer::Biopsy& biopsy);
+    void measured(const vicon::viewer::WallDistance& size, const std::optional<vicon::PlaneSize>& plane);
+    void biopsied(const vicon::DensitySample& biopsy);
     void measuresDrawn(const QString& marker, const vicon::viewer::Picture& picture);
     void filmNamed(const QString& file);
     void reportWritten(const QString& file);
@@ -138,7 +138,7 @@ private:
     std::string wordsFor(const Error& error);                        // on the worker's thread
 
     ReadingServices services_;
-    WorklistRow row_;
+    WorklistCase row_;
     std::vector<ScanRecord> scans_;
     std::vector<Marker> markers_;
     std::shared_ptr<OpenScan> scan_;

@@ -62,7 +62,8 @@ ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
     grid->addWidget(stop_, 2, kButtons - 1);
     connect(table_, &QTableWidget::itemSelectionChanged, this, &ColonPanel::updateButtons);
     for (const auto chosen : {&QTableWidget::cellClicked, &QTableWidget::cellActivated})
-        connect(table_, chosen, this, [this](int row, int) { emit flyWanted(bridges_[std::size_t(row)].from_mm); });
+        connect(table_, chosen, this,
+                [this](int row, int) { emit flyWanted(bridges_[std::size_t(row)].bridge.from_mm); });
     for (QPushButton* verdict : {confirm_, reject_})
         connect(verdict, &QPushButton::clicked, this, [this, verdict] {
             if (const auto bridge = selected())
@@ -77,22 +78,21 @@ ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
     updateButtons();
 }
 
-void ColonPanel::show(const std::vector<BridgeRow>& bridges, const Skeleton& skeleton)
+void ColonPanel::show(const std::vector<ReviewedBridge>& bridges, const Skeleton& skeleton)
 {
     bridges_ = bridges;
     table_->setRowCount(int(bridges.size()));
     for (int row = 0; row < int(bridges.size()); ++row) {
-        const BridgeRow& bridge = bridges[std::size_t(row)];
-        const QString judged = bridge.verdict.empty() ? tr("no")
-                                                      : tr("%1, %2").arg(QString::fromStdString(bridge.verdict),
-                                                                         QString::fromStdString(bridge.by));
+        const auto& [bridge, review] = bridges[std::size_t(row)];
+        const QString judged = review ? tr("%1, %2").arg(QString::fromStdString(nameOf(review->verdict)),
+                                                         QString::fromStdString(review->by))
+                                      : tr("no");
         const QStringList cells{QString::number(skeleton.nearest(bridge.from_mm).station_mm, 'f', 0),
                                 tr("%1 mm").arg(bridge.length_mm, 0, 'f', 0),
                                 tr("%1 %").arg(100 * bridge.confidence, 0, 'f', 0), judged};
         for (int column = 0; column < kColumns; ++column) {
             auto* item = new QTableWidgetItem(cells[column]);
-            item->setToolTip(
-                QString::fromStdString(bridge.reason + (bridge.at.empty() ? "" : "; judged " + bridge.at)));
+            item->setToolTip(QString::fromStdString(bridge.reason + (review ? "; judged " + review->at : "")));
             if (!bridge.certain && column == kConfidence)
                 item->setForeground(QColor(255, 154, 74));
             table_->setItem(row, column, item);
@@ -113,7 +113,7 @@ void ColonPanel::showProgress(const QString& what, double fraction)
     bar_->setValue(int(100 * fraction));
 }
 
-std::optional<BridgeRow> ColonPanel::selected() const
+std::optional<ReviewedBridge> ColonPanel::selected() const
 {
     const auto rows = table_->selectionModel()->selectedRows();
     if (rows.empty() || rows.front().row() >= int(bridges_.size()))

@@ -20,23 +20,23 @@ class ColonPanel : public QWidget {
 public:
     explicit ColonPanel(QWidget* parent = nullptr);
     /// @param skeleton of the same scan
-    void show(const std::vector<BridgeRow>& bridges, const Skeleton& skeleton);
+    void show(const std::vector<ReviewedBridge>& bridges, const Skeleton& skeleton);
     /// @param fraction below 0: nothing is under way
     void showProgress(const QString& what, double fraction);
 
 signals:
     void flyWanted(vicon::Point3 point);
-    void reviewed(const vicon::viewer::BridgeRow& bridge, bool confirmed);
-    void correctionWanted(vicon::viewer::Correction kind);
+    void reviewed(const vicon::ReviewedBridge& bridge, bool confirmed);
+    void correctionWanted(vicon::Correction kind);
     void forgetWanted();
     void stopWanted();
 
 private:
     QPushButton* button(const QString& title, const char* name, const QString& tip);
-    std::optional<BridgeRow> selected() const;
+    std::optional<ReviewedBridge> selected() const;
     void updateButtons();
 
-    std::vector<BridgeRow> bridges_;
+    std::vector<ReviewedBridge> bridges_;
     QTableWidget* table_;
     QPushButton *confirm_, *reject_, *stop_;
     QLabel* state_;

@@ -7,12 +7,6 @@
 namespace vicon::viewer {
 namespace {
 
-bool sameBridge(const BridgeRow& a, const BridgeRow& b)
-{
-    constexpr double kSame_mm = 0.5;  // less than a voxel
-    return distance(a.from_mm, b.from_mm) < kSame_mm && distance(a.to_mm, b.to_mm) < kSame_mm;
-}
-
 [[noreturn]] void refuse(const std::string& what)
 {
     throw Error(ErrorCode::bad_input, what + " was changed by another reader meanwhile; it is left as it is now");
@@ -45,20 +39,19 @@ CorrectionHistory::Step CorrectionHistory::forget(CaseStore& store, const ScanRe
     Step step;
     step.scan = scan;
     step.before = services_.corrections(store, scan);
-    step.after = ScanCorrections{};
+    step.after = Corrections{};
     if (step.before == step.after)
         throw Error(ErrorCode::wrong_use, "this scan has no corrections");
     return take(store, std::move(step));
 }
 
-CorrectionHistory::Step CorrectionHistory::review(CaseStore& store, const ScanRecord& scan, const BridgeRow& bridge,
-                                                  bool confirmed)
+CorrectionHistory::Step CorrectionHistory::review(CaseStore& store, const ScanRecord& scan,
+                                                  const ReviewedBridge& bridge, bool confirmed)
 {
     Step step;
     step.scan = scan;
     step.bridge_before = step.bridge_after = bridge;
-    step.bridge_after->verdict = confirmed ? "confirmed" : "rejected";
-    step.bridge_after->by = step.bridge_after->at = "";
+    step.bridge_after->review = {confirmed ? BridgeVerdict::confirmed : BridgeVerdict::rejected, {}, {}};
     return take(store, std::move(step));
 }
 
@@ -72,14 +65,15 @@ void CorrectionHistory::apply(CaseStore& store, Step& step, bool back)
     }
     const auto find = [&] {
         const auto all = services_.bridges(store, step.scan);
-        const auto found = std::find_if(all.begin(), all.end(),
-                                        [&](const BridgeRow& row) { return sameBridge(row, *step.bridge_before); });
+        const auto found = std::find_if(all.begin(), all.end(), [&](const ReviewedBridge& other) {
+            return isSameBridge(other.bridge, step.bridge_before->bridge);
+        });
         if (found == all.end())
             throw Error(ErrorCode::not_found, "the scan has no such bridge any more", step.scan.id);
         return *found;
     };
-    const BridgeRow &expected = back ? *step.bridge_after : *step.bridge_before, now = find();
-    if (now.verdict != expected.verdict || now.by != expected.by || now.at != expected.at)
+    const ReviewedBridge &expected = back ? *step.bridge_after : *step.bridge_before, now = find();
+    if (now.review != expected.review)
         refuse("this bridge's verdict");
     services_.review_bridge(store, step.scan, back ? *step.bridge_before : *step.bridge_after);
     if (!back)

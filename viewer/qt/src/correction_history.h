@@ -15,8 +15,8 @@ public:
     /// One of two: corrections of a scan, or the verdict on a bridge.
     struct Step {
         ScanRecord scan;
-        std::optional<ScanCorrections> before, after;
-        std::optional<BridgeRow> bridge_before, bridge_after;
+        std::optional<Corrections> before, after;
+        std::optional<ReviewedBridge> bridge_before, bridge_after;
         StepNumber number = 0;
 
         bool ofBridge() const { return bridge_after.has_value(); }
@@ -27,7 +27,7 @@ public:
     /// Adds a correction to those that the scan has.
     Step correct(CaseStore& store, const ScanRecord& scan, Correction kind, Point3 point);
     Step forget(CaseStore& store, const ScanRecord& scan);
-    Step review(CaseStore& store, const ScanRecord& scan, const BridgeRow& bridge, bool confirmed);
+    Step review(CaseStore& store, const ScanRecord& scan, const ReviewedBridge& bridge, bool confirmed);
     /// What was undone or redone. There must be something.
     Step undo(CaseStore& store);
     Step redo(CaseStore& store);

@@ -95,7 +95,7 @@ void Corrector::findBridges(const ScanRecord& scan)
     });
 }
 
-void Corrector::review(const ScanRecord& scan, const BridgeRow& bridge, bool confirmed)
+void Corrector::review(const ScanRecord& scan, const ReviewedBridge& bridge, bool confirmed)
 {
     change(
         confirmed
@@ -125,21 +125,21 @@ void Corrector::look()
 {
     worker_.post("look", [this]() -> Worker::Work {
         return [this, rows = services_.worklist(store())] {
-            for (const WorklistRow& row : rows)
-                for (const WorklistScanRow& scan : row.scans)
+            for (const WorklistCase& row : rows)
+                for (const WorklistScan& scan : row.scans)
                     if (row.record.id == case_id_ && scan.record.id == watched_)
                         show(scan);
         };
     });
 }
 
-void Corrector::show(const WorklistScanRow& row)
+void Corrector::show(const WorklistScan& row)
 {
     if (!watch_.isActive())
         return;
-    if (row.state == "running") {
+    if (row.state == WorkState::running) {
         emit progressed(QString::fromStdString(row.step), row.progress);
-    } else if (row.state == "queued") {
+    } else if (row.state == WorkState::queued) {
         emit progressed(tr("waiting"), row.progress);
         if (*stop_) {
             watch_.stop();

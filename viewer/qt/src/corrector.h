@@ -23,7 +23,7 @@ public:
     void forget(const ScanRecord& scan);
     /// bridgesFound() follows.
     void findBridges(const ScanRecord& scan);
-    void review(const ScanRecord& scan, const BridgeRow& bridge, bool confirmed);
+    void review(const ScanRecord& scan, const ReviewedBridge& bridge, bool confirmed);
     /// Corrections and verdicts of this reader, one by one. What another reader has changed meanwhile is left as it
     /// is, and failed() says so.
     void undo();
@@ -36,7 +36,7 @@ public:
     bool busy() const { return watch_.isActive(); }
 
 signals:
-    void bridgesFound(const std::vector<vicon::viewer::BridgeRow>& bridges, const QString& scan_id);
+    void bridgesFound(const std::vector<vicon::ReviewedBridge>& bridges, const QString& scan_id);
     /// @param fraction 0 to 1; below 0: nothing is under way
     void progressed(const QString& what, double fraction);
     void redone(const QString& scan_id);
@@ -49,7 +49,7 @@ private:
     void change(const QString& said, std::function<CorrectionHistory::Step(CorrectionHistory&, CaseStore&)> what);
     void doAgain(const std::string& scan_id);
     void look();
-    void show(const WorklistScanRow& row);
+    void show(const WorklistScan& row);
     CaseStore& store();  // on the worker's thread
 
     ReadingServices services_;

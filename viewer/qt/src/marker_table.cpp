@@ -24,21 +24,10 @@ QString text(const std::string& utf8)
     return QString::fromStdString(utf8);
 }
 
-/// Nothing where another program wrote something else there.
-QString textAt(const Marker& marker, const char* key)
-{
-    const auto value = marker.extra.find(key);
-    return value != marker.extra.end() && value->is_string() ? text(value->get<std::string>()) : QString();
-}
-
 /// Straight between its ends, in mm.
 QString sizeOf(const Marker& marker)
 {
-    const auto size = marker.extra.find("size");
-    if (size == marker.extra.end() || !size->is_object() || !size->contains("straight_mm") ||
-        !(*size)["straight_mm"].is_number())
-        return {};
-    return QString::number((*size)["straight_mm"].get<double>(), 'f', 1);
+    return marker.size ? QString::number(marker.size->straight_mm, 'f', 1) : QString();
 }
 
 QColor qtColor(MarkerColor color)
@@ -133,8 +122,8 @@ void MarkerTable::show(const std::vector<Marker>& markers, const std::map<std::s
         const QStringList cells{text(m.id),
                                 position == positions.end() ? text(m.scan_id) : text(position->second),
                                 QString::number(m.station_mm, 'f', 0),
-                                textAt(m, "part"),
-                                text(pairOf(m)),
+                                m.part ? text(nameOf(*m.part)) : QString(),
+                                text(m.pair),
                                 sizeOf(m),
                                 text(m.note)};
         for (int column = 0; column < kColumns; ++column) {

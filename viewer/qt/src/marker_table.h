@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "vicon/cases/records.h"
+#include "vicon/cases/marker.h"
 
 class QTableWidget;
 class QPushButton;

@@ -90,7 +90,7 @@ bool PeelingPanel::circleOnly() const
     return circle_->isChecked();
 }
 
-void PeelingPanel::showHistogram(const Biopsy& biopsy)
+void PeelingPanel::showHistogram(const DensitySample& biopsy)
 {
     histogram_->setVisible(biopsy.voxels > 0);
     if (biopsy.voxels == 0)

@@ -2,7 +2,7 @@
 
 #include <QWidget>
 
-#include "vicon/viewer/model/biopsy.h"
+#include "vicon/cases/density_sample.h"
 #include "vicon/viewer/scene/snapshot.h"
 
 class QCheckBox;
@@ -26,7 +26,7 @@ public:
     /// Puts the choice into a request for an endoscopic picture.
     void fill(SnapshotRequest& request) const;
     /// Of the biopsy that was taken last; one without voxels: none is shown.
-    void showHistogram(const Biopsy& biopsy);
+    void showHistogram(const DensitySample& biopsy);
 
 signals:
     void changed();

@@ -112,7 +112,7 @@ void ReadingWindow::clickedBeside(Pixel at, Qt::KeyboardModifiers modifiers)
 void ReadingWindow::showPairOf(const Marker& marker)
 {
     beside_place_.reset();
-    const auto partner = session_.marker(pairOf(marker));
+    const auto partner = session_.marker(marker.pair);
     if (!partner || !session_.beside() || partner->scan_id != session_.beside()->record.id)
         return;
     beside_place_ = viewFor(*session_.beside(), *partner);

@@ -62,7 +62,7 @@ void ReadingWindow::circledAt(Pixel centre, double radius_px)
     session_.takeBiopsy(*point + inwards * (radius_mm / 2), radius_mm);
 }
 
-void ReadingWindow::showBiopsy(const Biopsy& biopsy)
+void ReadingWindow::showBiopsy(const DensitySample& biopsy)
 {
     if (!circle_)
         return;
@@ -84,7 +84,7 @@ void ReadingWindow::showBiopsy(const Biopsy& biopsy)
         return;
     }
     Marker after = *marker;
-    after.extra["density"] = toJson(biopsy);
+    after.density = biopsy;
     session_.changeMarker(*marker, after, false, tr("%1; kept with %2").arg(text, QString::fromStdString(marker->id)));
 }
 

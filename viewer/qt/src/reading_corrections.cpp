@@ -40,7 +40,7 @@ void ReadingWindow::connectCorrections()
     });
     connect(&corrector_, &Corrector::progressed, colon_, &ColonPanel::showProgress);
     connect(&corrector_, &Corrector::bridgesFound, this,
-            [this](const std::vector<BridgeRow>& bridges, const QString& scan_id) {
+            [this](const std::vector<ReviewedBridge>& bridges, const QString& scan_id) {
                 if (session_.scan() && session_.scan()->record.id == scan_id.toStdString())
                     colon_->show(bridges, session_.scan()->files.skeleton());
             });
@@ -66,7 +66,7 @@ void ReadingWindow::connectCorrections()
         if (session_.scan())
             corrector_.forget(session_.scan()->record);
     });
-    connect(colon_, &ColonPanel::reviewed, this, [this](const BridgeRow& bridge, bool confirmed) {
+    connect(colon_, &ColonPanel::reviewed, this, [this](const ReviewedBridge& bridge, bool confirmed) {
         if (session_.scan())
             corrector_.review(session_.scan()->record, bridge, confirmed);
     });

@@ -29,57 +29,42 @@ QString words(const std::string& utf8)
     return QString::fromStdString(utf8);
 }
 
-QString textAt(const nlohmann::json& json, const char* key)
-{
-    const auto value = json.find(key);
-    return value != json.end() && value->is_string() ? words(value->get<std::string>()) : QString();
-}
-
-double numberAt(const nlohmann::json& json, const char* key)
-{
-    const auto value = json.find(key);
-    return value != json.end() && value->is_number() ? value->get<double>() : 0;
-}
-
 QString sizeWords(const Marker& marker)
 {
-    const auto size = marker.extra.find("size");
-    if (size == marker.extra.end() || !size->is_object() || numberAt(*size, "straight_mm") <= 0)
+    if (!marker.size)
         return {};
-    const double along = numberAt(*size, "along_mm");
-    QString text = QObject::tr("%1 straight").arg(mm(numberAt(*size, "straight_mm")));
-    if (along > 0)
-        text += QObject::tr(", %1 along the wall").arg(mm(along));
-    const auto plane = size->find("plane");
-    if (plane != size->end() && plane->is_object() && numberAt(*plane, "diameter_mm") > 0)
-        text += QObject::tr(", %1 largest in the best plane").arg(mm(numberAt(*plane, "diameter_mm")));
+    QString text = QObject::tr("%1 straight").arg(mm(marker.size->straight_mm));
+    if (marker.size->along_mm)
+        text += QObject::tr(", %1 along the wall").arg(mm(*marker.size->along_mm));
+    if (marker.size->plane)
+        text += QObject::tr(", %1 largest in the best plane").arg(mm(marker.size->plane->diameter_mm));
     return text;
 }
 
 QString densityWords(const Marker& marker)
 {
-    const auto density = marker.extra.find("density");
-    const Biopsy biopsy = density == marker.extra.end() ? Biopsy{} : biopsyFromJson(*density);
-    if (biopsy.voxels == 0)
+    if (!marker.density)
         return {};
+    const DensitySample& sample = *marker.density;
     return QObject::tr("%1 \u00b1 %2 HU, of %3 voxels within %4")
-        .arg(biopsy.mean_hu, 0, 'f', 0)
-        .arg(biopsy.sd_hu, 0, 'f', 0)
-        .arg(biopsy.voxels)
-        .arg(mm(biopsy.radius_mm));
+        .arg(sample.mean_hu, 0, 'f', 0)
+        .arg(sample.sd_hu, 0, 'f', 0)
+        .arg(sample.voxels)
+        .arg(mm(sample.radius_mm));
 }
 
 QString informationOf(const Marker& marker, const QString& scan, const OrganWords& organ)
 {
     const Point3 p = marker.position_mm;
     return "<table>" + row(QObject::tr("Marker"), words(marker.id + ", " + nameOf(marker.color))) +
-           row(QObject::tr("Scan"), scan) + row(QObject::tr("Part"), textAt(marker.extra, "part")) +
+           row(QObject::tr("Scan"), scan) +
+           row(QObject::tr("Part"), marker.part ? words(nameOf(*marker.part)) : QString()) +
            row(QObject::tr("From the %1").arg(words(organ.first_end)), mm(marker.station_mm)) +
            row(QObject::tr("From the %1").arg(words(organ.last_end)), mm(marker.from_caecum_mm)) +
            row(QObject::tr("LPS"),
                QObject::tr("%1, %2, %3 mm").arg(p.x, 0, 'f', 1).arg(p.y, 0, 'f', 1).arg(p.z, 0, 'f', 1)) +
            row(QObject::tr("Size"), sizeWords(marker)) + row(QObject::tr("Density"), densityWords(marker)) +
-           row(QObject::tr("Same finding"), words(pairOf(marker))) + row(QObject::tr("Note"), words(marker.note)) +
+           row(QObject::tr("Same finding"), words(marker.pair)) + row(QObject::tr("Note"), words(marker.note)) +
            row(QObject::tr("Placed"), words(marker.created)) + row(QObject::tr("Changed"), words(marker.changed)) +
            "</table>";
 }

@@ -79,7 +79,7 @@ bool ReadingWindow::placed(const OpenScan& scan, const SnapshotResult& from, Poi
         }
         Marker after = *before;
         after.position_mm = point;
-        after.extra.erase("view");
+        after.view.reset();
         session_.changeMarker(*before, after, true);
         return true;
     }
@@ -89,7 +89,7 @@ bool ReadingWindow::placed(const OpenScan& scan, const SnapshotResult& from, Poi
     marker.scan_id = scan.record.id;
     marker.position_mm = point;
     marker.color = armed_.value_or(MarkerColor::red);
-    marker.extra["view"] = viewOf(from);
+    marker.view = viewOf(from);
     session_.addMarker(marker);
     arm({});
     return true;
@@ -155,7 +155,7 @@ void ReadingWindow::clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers)
 
 void ReadingWindow::pair(const Marker& marker)
 {
-    if (pairOf(marker).empty()) {
+    if (marker.pair.empty()) {
         pairing_ = marker.id;
         tell(tr("Choose the same finding in the other scan"));
     } else {

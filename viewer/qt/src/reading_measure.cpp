@@ -12,11 +12,6 @@ QString mm(double length)
     return QObject::tr("%1 mm").arg(length, 0, 'f', 1);
 }
 
-nlohmann::json jsonOf(Point3 p)
-{
-    return {p.x, p.y, p.z};
-}
-
 }  // namespace
 
 void ReadingWindow::startMeasuring()
@@ -84,13 +79,11 @@ void ReadingWindow::showMeasured(const WallDistance& size, const std::optional<P
         return;
     }
     Marker after = *marker;
-    after.extra["size"] = {{"straight_mm", size.straight_mm},
-                           {"from_mm", jsonOf(size.way_mm.front())},
-                           {"to_mm", jsonOf(size.way_mm.back())}};
-    if (size.along_mm > 0)
-        after.extra["size"]["along_mm"] = size.along_mm;
-    if (plane)
-        after.extra["size"]["plane"] = toJson(*plane);
+    after.size = {.straight_mm = size.straight_mm,
+                  .along_mm = size.along_mm > 0 ? std::optional(size.along_mm) : std::nullopt,
+                  .from_mm = size.way_mm.front(),
+                  .to_mm = size.way_mm.back(),
+                  .plane = plane};
     session_.changeMarker(*marker, after, false, tr("%1; kept with %2").arg(text, QString::fromStdString(marker->id)));
 }
 

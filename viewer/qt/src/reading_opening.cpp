@@ -64,7 +64,7 @@ void ReadingWindow::openFirst(const std::vector<ScanRecord>& scans)
     openScan(scan_choice_->currentData().toString().toStdString(), false);
 }
 
-void ReadingWindow::renew(const WorklistRow& row)
+void ReadingWindow::renew(const WorklistCase& row)
 {
     const bool none_before = session_.scans().empty();
     const std::vector<ScanRecord> ready = session_.renew(row);
@@ -75,17 +75,17 @@ void ReadingWindow::renew(const WorklistRow& row)
         offer(ready);
         tell(tr("Another scan of this case can be read now (X; C: side by side)."));
     }
-    for (const WorklistScanRow& scan : row.scans)
+    for (const WorklistScan& scan : row.scans)
         if (session_.scan() && scan.record.id == session_.scan()->record.id)
             takeOver(scan);
 }
 
 /// Its old files are gone: what is marked gets its distances on the new path.
-void ReadingWindow::takeOver(const WorklistScanRow& row)
+void ReadingWindow::takeOver(const WorklistScan& row)
 {
     if (corrector_.busy())
         return;
-    if (row.state == "queued" || row.state == "running")
+    if (row.state == WorkState::queued || row.state == WorkState::running)
         done_elsewhere_ = true;
     else if (std::exchange(done_elsewhere_, false) && row.ready() && madeAt(row.folder) != session_.scan()->made) {
         fresh_ = redone_ = true;

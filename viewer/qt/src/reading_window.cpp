@@ -12,6 +12,7 @@
 #include "control_keys.h"
 #include "kept_settings.h"
 #include "second_window.h"
+#include "vicon/cases/printed.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/window_level.h"
 
@@ -22,11 +23,11 @@ constexpr int kStill_ms = 150;  // after the last movement the picture is drawn 
 constexpr int kPoll_ms = 2000;  // how often other readers' changes are looked for
 }  // namespace
 
-ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistRow& row)
+ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistCase& row)
     : session_(services, row), corrector_(services, row.record.id)
 {
     setObjectName("reading");
-    setWindowTitle(tr("%1 - VICON").arg(QString::fromStdString(personName(row.record.patient.name))));
+    setWindowTitle(tr("%1 - VICON").arg(QString::fromStdString(patientName(row.record.patient.name))));
     buildViews();
     addActions();
     useWords(wordsFor("colon"));  // until a scan is open

@@ -37,13 +37,13 @@ class SecondWindow;
 class ReadingWindow : public QMainWindow {
     Q_OBJECT
 public:
-    ReadingWindow(const ReadingServices& services, const WorklistRow& row);
+    ReadingWindow(const ReadingServices& services, const WorklistCase& row);
     ~ReadingWindow() override;
 
     const CaseSession& session() const { return session_; }
     /// As the worklist shows the case by now: scans that became ready are offered, one that was done again for another
     /// reader is shown anew.
-    void renew(const WorklistRow& row);
+    void renew(const WorklistCase& row);
 
 signals:
     /// The window is gone; it deletes itself when its threads have ended.
@@ -93,7 +93,7 @@ private:
     void openScan(const std::string& scan_id, bool fresh);
     void offer(const std::vector<ScanRecord>& scans);
     void openFirst(const std::vector<ScanRecord>& scans);
-    void takeOver(const WorklistScanRow& row);
+    void takeOver(const WorklistScan& row);
     void scanOpened();
     void cancelOpening();
     void stayWhereOneIs();
@@ -140,7 +140,7 @@ private:
     void startCircling();
     void forgetCircle();
     void circledAt(Pixel centre, double radius_px);
-    void showBiopsy(const Biopsy& biopsy);
+    void showBiopsy(const DensitySample& biopsy);
     /// Peels where the circle is, in a picture from this eye.
     void fillCircle(SnapshotRequest& request, const Pose& pose) const;
 

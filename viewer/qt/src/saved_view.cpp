@@ -1,41 +1,20 @@
 #include "saved_view.h"
 
 namespace vicon::viewer {
-namespace {
 
-nlohmann::json jsonOf(Vector3 v)
+MarkerView viewOf(const SnapshotResult& place)
 {
-    return {v.x, v.y, v.z};
-}
-
-Vector3 vectorFrom(const nlohmann::json& json)
-{
-    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
-
-}  // namespace
-
-nlohmann::json viewOf(const SnapshotResult& place)
-{
-    return {{"eye_mm", jsonOf(place.pose.eye_mm - Point3{})},
-            {"forward", jsonOf(place.pose.forward)},
-            {"up", jsonOf(place.pose.up)},
-            {"station_mm", place.station_mm}};
+    return {place.pose.eye_mm, place.pose.forward, place.pose.up, place.station_mm};
 }
 
 std::optional<SavedView> savedView(const Marker& marker)
 {
-    try {
-        const auto& view = marker.extra.at("view");
-        SavedView saved{{Point3{} + vectorFrom(view.at("eye_mm")), normalized(vectorFrom(view.at("forward"))), {}},
-                        view.at("station_mm").get<double>()};
-        saved.pose.up = uprightOn(saved.pose.forward, vectorFrom(view.at("up")));
-        if (length(saved.pose.forward) > 0.5)
-            return saved;
-    } catch (const nlohmann::json::exception&) {
-        // written by something else
-    }
-    return std::nullopt;
+    if (!marker.view)
+        return std::nullopt;
+    SavedView saved{{marker.view->eye_mm, normalized(marker.view->forward), {}}, marker.view->station_mm};
+    saved.pose.up = uprightOn(saved.pose.forward, marker.view->up);
+    constexpr double kUnit = 0.5;  // a direction of no length points nowhere
+    return length(saved.pose.forward) > kUnit ? std::optional(saved) : std::nullopt;
 }
 
 }  // namespace vicon::viewer

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "vicon/cases/records.h"
+#include "vicon/cases/marker.h"
 #include "vicon/viewer/scene/snapshot.h"
 
 namespace vicon::viewer {
@@ -14,8 +13,8 @@ struct SavedView {
     double station_mm = 0;
 };
 
-/// What is kept as the marker's "view".
-nlohmann::json viewOf(const SnapshotResult& place);
+/// What is kept as the marker's view.
+MarkerView viewOf(const SnapshotResult& place);
 
 /// Nothing where there is none or it makes no sense.
 std::optional<SavedView> savedView(const Marker& marker);

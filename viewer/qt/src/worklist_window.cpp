@@ -12,7 +12,7 @@
 #include <algorithm>
 
 #include "reading_window.h"
-#include "vicon/viewer/model/annotate.h"
+#include "vicon/cases/printed.h"
 #include "worklist_hint.h"
 
 namespace vicon::viewer {
@@ -27,32 +27,32 @@ QString text(const std::string& utf8)
 }
 
 /// Whether any of its scans can be read, others may still be in work.
-bool readable(const WorklistRow& row)
+bool readable(const WorklistCase& row)
 {
-    return std::any_of(row.scans.begin(), row.scans.end(), [](const WorklistScanRow& s) { return s.ready(); });
+    return std::any_of(row.scans.begin(), row.scans.end(), [](const WorklistScan& s) { return s.ready(); });
 }
 
-bool spoiled(const WorklistRow& row)
+bool spoiled(const WorklistCase& row)
 {
-    return std::any_of(row.scans.begin(), row.scans.end(), [](const WorklistScanRow& s) { return s.spoiled(); });
+    return std::any_of(row.scans.begin(), row.scans.end(), [](const WorklistScan& s) { return s.spoiled(); });
 }
 
-QString scansOf(const WorklistRow& row)
+QString scansOf(const WorklistCase& row)
 {
     QStringList names;
-    for (const WorklistScanRow& scan : row.scans)
-        if (scan.state != "kept")
+    for (const WorklistScan& scan : row.scans)
+        if (scan.state != WorkState::kept)
             names << text(positionName(scan.record.series.patient_position) +
-                          (scan.organ == "colon" ? "" : " (" + scan.organ + ")"));
+                          (scan.organ.isColon() ? "" : " (" + scan.organ.name() + ")"));
     return names.join(", ");
 }
 
 /// Enough to choose the next case by; the tooltip says it of each scan.
-QString qualityOf(const WorklistRow& row)
+QString qualityOf(const WorklistCase& row)
 {
     QStringList poor;
     bool known = false;
-    for (const WorklistScanRow& scan : row.scans) {
+    for (const WorklistScan& scan : row.scans) {
         if (scan.spoiled())
             continue;  // what is known of it is of another lumen
         known = known || !scan.quality.empty();
@@ -65,10 +65,10 @@ QString qualityOf(const WorklistRow& row)
 }
 
 /// A line a scan: how well it is distended, or what is wrong with it.
-QString wordsOf(const WorklistRow& row, bool with_reasons)
+QString wordsOf(const WorklistCase& row, bool with_reasons)
 {
     QStringList lines;
-    for (const WorklistScanRow& scan : row.scans) {
+    for (const WorklistScan& scan : row.scans) {
         const std::string& words = with_reasons && !scan.reason.empty() ? scan.reason : scan.quality;
         if (!words.empty())
             lines << text(positionName(scan.record.series.patient_position) + ": " + words) +
@@ -79,10 +79,10 @@ QString wordsOf(const WorklistRow& row, bool with_reasons)
     return lines.join("\n");
 }
 
-QString progressOf(const WorklistRow& row)
+QString progressOf(const WorklistCase& row)
 {
-    for (const WorklistScanRow& scan : row.scans)
-        if (scan.state == "running")
+    for (const WorklistScan& scan : row.scans)
+        if (scan.state == WorkState::running)
             return QString("%1 %, %2").arg(100 * row.progress, 0, 'f', 0).arg(text(scan.step));
     return QString("%1 %").arg(100 * row.progress, 0, 'f', 0);
 }
@@ -103,8 +103,8 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
     state_->setObjectName("state");
     state_->setAccessibleName(tr("State of the cases shown"));
     state_->addItem(tr("all"), "");
-    for (const char* state : {"done", "running", "queued", "failed"})
-        state_->addItem(tr(state), state);
+    for (const WorkState state : {WorkState::done, WorkState::running, WorkState::queued, WorkState::failed})
+        state_->addItem(text(nameOf(state)), text(nameOf(state)));
     table_ = new QTableWidget(0, kColumns, this);
     table_->setObjectName("cases");
     table_->setAccessibleName(tr("Cases"));
@@ -171,7 +171,7 @@ WorklistWindow::WorklistWindow(const ReadingServices& services, const std::strin
     connect(state_, qOverload<int>(&QComboBox::currentIndexChanged), this, &WorklistWindow::filter);
     connect(table_, &QTableWidget::itemSelectionChanged, this, &WorklistWindow::updateButtons);
     const auto open_selected = [this] {
-        if (const WorklistRow* row = selected(); row && readable(*row))
+        if (const WorklistCase* row = selected(); row && readable(*row))
             open(*row);
     };
     connect(table_, &QTableWidget::itemActivated, this, open_selected);
@@ -210,9 +210,9 @@ void WorklistWindow::refresh()
     });
 }
 
-void WorklistWindow::show(const std::vector<WorklistRow>& rows)
+void WorklistWindow::show(const std::vector<WorklistCase>& rows)
 {
-    const WorklistRow* chosen = selected();
+    const WorklistCase* chosen = selected();
     const std::string chosen_id = chosen ? chosen->record.id : "";
     const QSignalBlocker quiet(table_);
     rows_ = rows;
@@ -220,12 +220,12 @@ void WorklistWindow::show(const std::vector<WorklistRow>& rows)
     bool changed = table_->rowCount() != int(rows.size());
     table_->setRowCount(int(rows.size()));
     for (int n = 0; n < int(rows.size()); ++n) {
-        const WorklistRow& row = rows[std::size_t(n)];
-        const QStringList cells{text(personName(row.record.patient.name)),
+        const WorklistCase& row = rows[std::size_t(n)];
+        const QStringList cells{text(patientName(row.record.patient.name)),
                                 text(row.record.patient.id),
-                                text(dateText(row.record.study.date)),
+                                text(printedDate(row.record.study.date)),
                                 scansOf(row),
-                                text(row.state),
+                                text(nameOf(row.state)),
                                 progressOf(row),
                                 qualityOf(row),
                                 QString::number(row.markers),
@@ -246,10 +246,10 @@ void WorklistWindow::show(const std::vector<WorklistRow>& rows)
         table_->resizeColumnToContents(column);
     filter();
     updateButtons();
-    for (const WorklistRow& row : rows_)
+    for (const WorklistCase& row : rows_)
         if (const auto window = windows_.find(row.record.id); window != windows_.end())
             window->second->renew(row);
-    const auto wanted = std::find_if(rows_.begin(), rows_.end(), [&](const WorklistRow& row) {
+    const auto wanted = std::find_if(rows_.begin(), rows_.end(), [&](const WorklistCase& row) {
         return !open_case_.empty() && row.record.id == open_case_;
     });
     open_case_.clear();
@@ -288,7 +288,7 @@ void WorklistWindow::showHint()
                                                       int(rows_.size())));
 }
 
-const WorklistRow* WorklistWindow::selected() const
+const WorklistCase* WorklistWindow::selected() const
 {
     const auto chosen = table_->selectionModel()->selectedRows();
     if (chosen.empty() || chosen.front().row() >= int(rows_.size()) || table_->isRowHidden(chosen.front().row()))
@@ -298,14 +298,14 @@ const WorklistRow* WorklistWindow::selected() const
 
 void WorklistWindow::updateButtons()
 {
-    const WorklistRow* row = selected();
+    const WorklistCase* row = selected();
     open_->setEnabled(row && readable(*row));
     report_->setEnabled(row && readable(*row));
-    retry_->setEnabled(row && (row->state == "failed" || spoiled(*row)));
+    retry_->setEnabled(row && (row->state == WorkState::failed || spoiled(*row)));
     reason_->setText(row ? wordsOf(*row, true) : QString());
 }
 
-void WorklistWindow::open(const WorklistRow& row)
+void WorklistWindow::open(const WorklistCase& row)
 {
     const std::string id = row.record.id;
     if (const auto window = windows_.find(id); window != windows_.end()) {

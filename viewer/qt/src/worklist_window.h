@@ -30,19 +30,19 @@ public:
 
 private:
     void refresh();
-    void show(const std::vector<WorklistRow>& rows);
+    void show(const std::vector<WorklistCase>& rows);
     void filter();
     /// In the middle of a list that shows nothing: what can be done.
     void showHint();
-    const WorklistRow* selected() const;
+    const WorklistCase* selected() const;
     void updateButtons();
-    void open(const WorklistRow& row);
+    void open(const WorklistCase& row);
     void retry();
     void report();
 
     ReadingServices services_;
     std::string open_case_;  // to be opened as soon as the list is there
-    std::vector<WorklistRow> rows_;
+    std::vector<WorklistCase> rows_;
     bool listed_ = false;  // once, at least
     QLineEdit* search_;
     QComboBox* state_;

@@ -53,26 +53,26 @@ struct Axes {
     double y(double count) const { return area.bottom() - area.height * count / most; }
 };
 
-Axes axesFor(const Biopsy& biopsy, int width, int height, double text_px)
+Axes axesFor(const DensitySample& sample, int width, int height, double text_px)
 {
-    const double first = biopsy.from_hu, last = first + Biopsy::kBin_hu * double(biopsy.counts.size());
+    const double first = sample.from_hu, last = first + DensitySample::kBin_hu * double(sample.counts.size());
     const double spare = std::max(kLeastSpan_hu - (last - first), 0.0) / 2;
     Axes axes{{2 * text_px, 4.6 * text_px, width - 4 * text_px, height - 8.2 * text_px},
               first - spare,
               last + spare,
-              double(*std::max_element(biopsy.counts.begin(), biopsy.counts.end()))};
+              double(*std::max_element(sample.counts.begin(), sample.counts.end()))};
     return axes;
 }
 
-void addBars(Overlay& overlay, const Biopsy& biopsy, const Axes& axes)
+void addBars(Overlay& overlay, const DensitySample& sample, const Axes& axes)
 {
-    const double bar_px = std::max(1.0, axes.x(Biopsy::kBin_hu) - axes.x(0) - 1);
-    for (std::size_t n = 0; n < biopsy.counts.size(); ++n) {
-        if (biopsy.counts[n] == 0)
+    const double bar_px = std::max(1.0, axes.x(DensitySample::kBin_hu) - axes.x(0) - 1);
+    for (std::size_t n = 0; n < sample.counts.size(); ++n) {
+        if (sample.counts[n] == 0)
             continue;
-        const double x = axes.x(biopsy.from_hu + Biopsy::kBin_hu * (double(n) + 0.5));
+        const double x = axes.x(sample.from_hu + DensitySample::kBin_hu * (double(n) + 0.5));
         // Its ends are round, and end at the axis and at the count.
-        const double top = axes.y(double(biopsy.counts[n])), wide = std::min(bar_px, axes.area.bottom() - top);
+        const double top = axes.y(double(sample.counts[n])), wide = std::min(bar_px, axes.area.bottom() - top);
         overlay.lines.push_back({{{x, axes.area.bottom() - wide / 2}, {x, top + wide / 2}}, kBarColor, wide, 0});
     }
 }
@@ -106,27 +106,27 @@ void addAxis(Overlay& overlay, const Axes& axes, double text_px)
 
 }  // namespace
 
-Picture histogramPicture(const Biopsy& biopsy, int width, int height)
+Picture histogramPicture(const DensitySample& sample, int width, int height)
 {
     Picture picture(width, height, kGround);
-    if (biopsy.voxels == 0 || biopsy.counts.empty())
+    if (sample.voxels == 0 || sample.counts.empty())
         return picture;
     const double text_px = textHeightFor(width, height) * 1.15;
-    const Axes axes = axesFor(biopsy, width, height, text_px);
+    const Axes axes = axesFor(sample, width, height, text_px);
     Overlay overlay;
-    addBars(overlay, biopsy, axes);
+    addBars(overlay, sample, axes);
     addAxis(overlay, axes, text_px);
-    const double mean = axes.x(biopsy.mean_hu);
+    const double mean = axes.x(sample.mean_hu);
     overlay.lines.push_back({{{mean, axes.area.y}, {mean, axes.area.bottom()}}, kMeanColor, 2, 4});
     OverlayText line;
     line.color = kMeanColor;
-    line.text = text("%.0f", biopsy.mean_hu) + text(" \u00b1 %.0f HU", biopsy.sd_hu);
+    line.text = text("%.0f", sample.mean_hu) + text(" \u00b1 %.0f HU", sample.sd_hu);
     std::vector<OverlayText> lines{line};
     line.color = kTextColor;
-    line.text = std::to_string(biopsy.voxels) + " voxels within " + text("%.1f mm, ", biopsy.radius_mm) +
-                text("%.1f mm off the lumen", biopsy.margin_mm);
+    line.text = std::to_string(sample.voxels) + " voxels within " + text("%.1f mm, ", sample.radius_mm) +
+                text("%.1f mm off the lumen", sample.margin_mm);
     lines.push_back(line);
-    line.text = text("%.0f %% as light as fat", 100 * biopsy.fat_fraction);
+    line.text = text("%.0f %% as light as fat", 100 * sample.fat_fraction);
     lines.push_back(line);
     addLines(overlay, {0, 0, double(width), double(height)}, lines, text_px);
     paint(picture, overlay);
@@ -164,12 +164,10 @@ Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Capt
 std::optional<Picture> measuresPicture(const PreparedScan& scan, const Marker& marker, const Caption& caption, int side)
 {
     std::vector<Picture> parts;
-    const nlohmann::json none, sizes = marker.extra.value("size", none);
-    if (sizes.is_object())
-        if (const auto plane = planeSizeFromJson(sizes.value("plane", none)))
-            parts.push_back(planePicture(scan, *plane, caption, side, side));
-    if (const Biopsy biopsy = biopsyFromJson(marker.extra.value("density", none)); biopsy.voxels > 0)
-        parts.push_back(histogramPicture(biopsy, side, side));
+    if (marker.size && marker.size->plane)
+        parts.push_back(planePicture(scan, *marker.size->plane, caption, side, side));
+    if (marker.density && marker.density->voxels > 0)
+        parts.push_back(histogramPicture(*marker.density, side, side));
     if (parts.empty())
         return std::nullopt;
     Picture all(side * int(parts.size()), side);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "pictures.h"
+#include "vicon/cases/printed.h"
 #include "vicon/core/error.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/window_level.h"
@@ -92,10 +93,10 @@ std::vector<OverlayText> patientLines(const Caption& caption)
     const auto joined = [](const std::string& a, const std::string& b) {
         return a.empty() || b.empty() ? a + b : a + "   " + b;
     };
-    const std::string born = caption.birth_date.empty() ? "" : "born " + dateText(caption.birth_date);
+    const std::string born = caption.birth_date.empty() ? "" : "born " + printedDate(caption.birth_date);
     const std::string id = caption.patient_id.empty() ? "" : "ID " + caption.patient_id;
-    for (const std::string& text :
-         {personName(caption.patient_name), joined(id, born), joined(caption.position, dateText(caption.study_date))})
+    for (const std::string& text : {patientName(caption.patient_name), joined(id, born),
+                                    joined(caption.position, printedDate(caption.study_date))})
         if (!text.empty())
             lines.push_back(lineOf(text, kTextColor));
     return lines;

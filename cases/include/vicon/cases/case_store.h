@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vicon/cases/database.h"
+#include "vicon/cases/marker.h"
 #include "vicon/cases/records.h"
 
 namespace vicon {
@@ -16,9 +17,6 @@ namespace vicon {
 struct MarkerEdit {
     std::optional<Marker> before, after;
 };
-
-/// The id of the marker that shows the same finding in the other scan; empty where there is none.
-std::string pairOf(const Marker& marker);
 
 /// A store: its folder (data) and its database (state). Every method that changes something is one transaction.
 class CaseStore {

@@ -62,14 +62,23 @@ struct CaseRecord {
     std::string created;
 };
 
+/// What becomes of a scan.
+enum class ScanRole {
+    scan,     ///< goes through the pipeline
+    kept,     ///< stored and selectable, not queued: another reconstruction, too few slices
+    refused,  ///< its objects are stored, but make no volume: `ingest` says why, more objects may mend it
+};
+/// "scan", "kept", "refused".
+std::string nameOf(ScanRole role);
+/// Throws Error{bad_input} for any other name.
+ScanRole scanRoleFrom(const std::string& name);
+
 /// A scan and what ingest found out about it.
 struct ScanRecord {
     std::string id;
     std::string case_id;
     Series series;
-    /// "scan": goes through the pipeline; "kept": stored and selectable, not queued (another reconstruction, too few
-    /// slices); "refused": its objects are stored, but make no volume: `ingest` says why, more objects may mend it.
-    std::string role = "scan";
+    ScanRole role = ScanRole::scan;
     /// What ingest wrote: {"geometry": .., "repairs": [..], "refused": [..]}; goes into scan.json as it is.
     nlohmann::json ingest = nlohmann::json::object();
     std::string created;
@@ -94,28 +103,5 @@ struct StepRecord {
     double seconds = 0;
     std::string finished;
 };
-
-enum class MarkerColor { red, yellow, green };
-std::string nameOf(MarkerColor color);
-/// Throws Error{wrong_use} for any other name.
-MarkerColor markerColorFrom(const std::string& name);
-
-/// A point of interest.
-struct Marker {
-    std::string id;  ///< "m1", "m2", ... within the case
-    std::string scan_id;
-    Point3 position_mm;
-    MarkerColor color = MarkerColor::red;
-    std::string note;  ///< UTF-8
-    double station_mm = 0;
-    double from_caecum_mm = 0;
-    double fraction = 0;  ///< station / length of the skeleton
-    std::string created;
-    std::string changed;
-    nlohmann::json extra = nlohmann::json::object();  ///< further keys: measurements, saved view, name of the part
-};
-nlohmann::json toJson(const Marker& marker);
-/// Throws Error{bad_input} when a key is missing or of the wrong type.
-Marker markerFromJson(const nlohmann::json& json);
 
 }  // namespace vicon

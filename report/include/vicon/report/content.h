@@ -1,24 +1,26 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "vicon/cases/bridges.h"
+#include "vicon/cases/marker.h"
 #include "vicon/cases/records.h"
+#include "vicon/core/scan_quality.h"
 
 namespace vicon::report {
 
 /// A scan of the case and what the pipeline found out about it.
 struct ScanEntry {
     ScanRecord scan;
-    double skeleton_length_mm = 0;                      ///< rectal end to caecal end, bridges included; 0: not prepared
-    nlohmann::json quality = nlohmann::json::object();  ///< as scan.json has it; may be empty
-    std::string verdict;                                ///< of the segmentation: "colon", ...; empty: not prepared
-    std::string reason;                                 ///< why this verdict and confidence; may be empty
-    double confidence = 0;                              ///< 0 to 1
-    nlohmann::json bridges =
-        nlohmann::json::array();             ///< [{"length_mm", "confidence", "certain", "reason", "review", ..}]
+    double skeleton_length_mm = 0;           ///< rectal end to caecal end, bridges included; 0: not prepared
+    std::string verdict;                     ///< of the segmentation: "colon", ...; empty: not prepared
+    std::string reason;                      ///< why this verdict and confidence; may be empty
+    double confidence = 0;                   ///< 0 to 1
+    std::vector<ReviewedBridge> bridges;     ///< from the rectum
+    std::optional<ScanQuality> quality;      ///< absent: not measured
     std::filesystem::path overview_picture;  ///< PNG; empty: none was made
 };
 

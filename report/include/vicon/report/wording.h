@@ -7,18 +7,10 @@
 
 namespace vicon::report {
 
-/// A DICOM person name for people: "Yamada^Tarou=山田^太郎=やまだ^たろう" becomes "Yamada, Tarou (山田 太郎, やまだ
-/// たろう)". Family name first, then prefix, given and middle names, then the suffix; names in Han, kana and Hangul
-/// take no comma, Arabic ones their own. Empty when no component says anything.
-std::string personName(std::string_view dicom_name);
-
-/// "19610412" becomes "12 Apr 1961"; what is no such date is returned as it is.
-std::string dateWords(std::string_view dicom_date);
-
-/// "20261121" and "081530.25" become "21 Nov 2026, 08:15"; without a time only the date.
+/// "20261121" and "081530.25" become "2026-11-21, 08:15"; without a time only the date.
 std::string dateTimeWords(std::string_view dicom_date, std::string_view dicom_time);
 
-/// "2026-11-21T08:15:30Z" becomes "21 Nov 2026 08:15 UTC"; what is no such time is returned as it is.
+/// "2026-11-21T08:15:30Z" becomes "2026-11-21 08:15 UTC"; what is no such time is returned as it is.
 std::string utcWords(std::string_view utc);
 
 /// "M" becomes "male", "F" "female", "O" "other"; anything else is returned as it is.

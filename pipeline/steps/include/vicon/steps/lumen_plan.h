@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "vicon/core/bridge.h"
 #include "vicon/core/geometry.h"
 #include "vicon/core/volume.h"
 
@@ -17,17 +18,6 @@ struct LumenPiece {
     double fluid_ml = 0;
     double length_mm = 0;  ///< from tip to tip along the middle of the lumen, as a chain of voxels: a few per cent long
     double max_radius_mm = 0;  ///< of the largest inscribed sphere
-};
-
-/// The way over a collapsed part, from the caecal end of one piece to the rectal end of the next.
-struct Bridge {
-    Point3 from_mm;
-    Point3 to_mm;
-    std::vector<Point3> path_mm;  ///< from `from_mm` to `to_mm`, both included
-    double length_mm = 0;         ///< of the path
-    double confidence = 0;        ///< 0 to 1
-    std::string reason;           ///< why the confidence is what it is, for a person
-    bool certain = false;
 };
 
 /// What the skeleton step needs to know besides inside.mha.

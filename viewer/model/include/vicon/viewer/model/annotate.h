@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "vicon/cases/records.h"
+#include "vicon/cases/marker.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/viewer/model/organ_words.h"
 #include "vicon/viewer/model/overlay.h"
@@ -59,12 +59,5 @@ std::array<std::string, 2> stationTexts(double station_mm, double length_mm, con
 
 /// Cuts UTF-8 text between words into lines of at most `most` characters; what does not fit into `lines` ends in "…".
 std::vector<std::string> wrapped(const std::string& text, std::size_t most, std::size_t lines);
-
-/// A DICOM name ("Family^Given=…=…") as people write it: the component groups beside each other; "name not given" where
-/// there is none.
-std::string personName(const std::string& dicom_name);
-
-/// "20261121" as "2026-11-21"; anything else unchanged.
-std::string dateText(const std::string& dicom_date);
 
 }  // namespace vicon::viewer

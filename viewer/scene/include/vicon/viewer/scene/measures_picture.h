@@ -2,8 +2,7 @@
 
 #include <optional>
 
-#include "vicon/cases/records.h"
-#include "vicon/viewer/model/biopsy.h"
+#include "vicon/cases/marker.h"
 #include "vicon/viewer/model/plane_size.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/prepared_scan.h"
@@ -11,9 +10,9 @@
 
 namespace vicon::viewer {
 
-/// How many voxels of a biopsy have which density, with the mean and its spread; air, fat, soft tissue and tagging are
-/// named where the axis shows them. Needs no display.
-Picture histogramPicture(const Biopsy& biopsy, int width, int height);
+/// How many voxels of a density sample have which density, with the mean and its spread; air, fat, soft tissue and
+/// tagging are named where the axis shows them. Needs no display.
+Picture histogramPicture(const DensitySample& sample, int width, int height);
 
 /// The slice in which a finding is measured, with the diameter drawn in. Needs no display. Throws as PreparedScan does.
 Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Caption& caption, int width, int height);

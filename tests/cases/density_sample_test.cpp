@@ -1,4 +1,4 @@
-#include "vicon/viewer/model/biopsy.h"
+#include "vicon/cases/density_sample.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "vicon/core/error.h"
 
-namespace vicon::viewer {
+namespace vicon {
 namespace {
 
 /// Even tissue to the left of x = 0, gas or tagged fluid to the right, blurred with a sigma of 0.8 mm as by a soft
@@ -101,13 +101,13 @@ private:
 TEST(VirtualBiopsy, OfABallInTissueHasItsVolumeAndDensity)
 {
     const Wall wall(40);
-    const Biopsy biopsy = takeBiopsy(wall.volume, wall.inside, {-9, 0, 0}, 5);
-    EXPECT_NEAR(double(biopsy.voxels) * 0.5 * 0.75, 4.0 / 3 * std::numbers::pi * 125, 15);
-    EXPECT_DOUBLE_EQ(biopsy.mean_hu, 40);
-    EXPECT_NEAR(biopsy.sd_hu, 0, 1e-6);
-    EXPECT_EQ(biopsy.fat_fraction, 0);
-    EXPECT_EQ(biopsy.from_hu, 25);
-    EXPECT_EQ(biopsy.counts, std::vector<std::size_t>{biopsy.voxels});
+    const DensitySample sample = sampleDensity(wall.volume, wall.inside, {-9, 0, 0}, 5);
+    EXPECT_NEAR(double(sample.voxels) * 0.5 * 0.75, 4.0 / 3 * std::numbers::pi * 125, 15);
+    EXPECT_DOUBLE_EQ(sample.mean_hu, 40);
+    EXPECT_NEAR(sample.sd_hu, 0, 1e-6);
+    EXPECT_EQ(sample.fat_fraction, 0);
+    EXPECT_EQ(sample.from_hu, 25);
+    EXPECT_EQ(sample.counts, std::vector<std::size_t>{sample.voxels});
 }
 
 TEST(VirtualBiopsy, AtTheWallIsNotMixedWithTheGasOrTaggedFluidBesideIt)
@@ -115,13 +115,13 @@ TEST(VirtualBiopsy, AtTheWallIsNotMixedWithTheGasOrTaggedFluidBesideIt)
     for (const double lumen_hu : {-1000.0, 400.0, 1200.0})
         for (const double tissue_hu : {-100.0, 40.0, 90.0}) {
             const Wall wall(tissue_hu, lumen_hu);
-            const Biopsy biopsy = takeBiopsy(wall.volume, wall.inside, {0, 0, 0}, 6);
-            EXPECT_NEAR(biopsy.mean_hu, tissue_hu, 2) << lumen_hu;
-            EXPECT_LT(biopsy.sd_hu, 4) << lumen_hu;
+            const DensitySample sample = sampleDensity(wall.volume, wall.inside, {0, 0, 0}, 6);
+            EXPECT_NEAR(sample.mean_hu, tissue_hu, 2) << lumen_hu;
+            EXPECT_LT(sample.sd_hu, 4) << lumen_hu;
             // Half a ball, less a plate of two millimetres.
             const double part = std::numbers::pi * 16 * (3 * 6 - 4) / 3;
-            EXPECT_NEAR(double(biopsy.voxels) * 0.5 * 0.75, part, 0.2 * part);
-            EXPECT_EQ(biopsy.margin_mm, 2);
+            EXPECT_NEAR(double(sample.voxels) * 0.5 * 0.75, part, 0.2 * part);
+            EXPECT_EQ(sample.margin_mm, 2);
         }
 }
 
@@ -136,9 +136,9 @@ TEST(VirtualBiopsy, OfAPolypIsThePolypsDensityWhereverInItTheReaderPoints)
         const Polyp polyp(c.diameter_mm, c.tissue_hu, c.spacing_mm, c.blur_mm);
         const double radius = c.diameter_mm / 2, half = radius / 2;
         for (const Point3 at : {Point3{half, 0, 0}, Point3{0.7 * half, 0.7 * half, 0}, Point3{0, 0, 0}}) {
-            const Biopsy biopsy = takeBiopsy(polyp.volume, polyp.inside, at, radius);
-            ASSERT_GE(biopsy.voxels, Biopsy::kLeastVoxels) << c.diameter_mm << " mm at " << at.x;
-            EXPECT_NEAR(biopsy.mean_hu, c.tissue_hu, c.within_hu) << c.diameter_mm << " mm at " << at.x << ", " << at.y;
+            const DensitySample sample = sampleDensity(polyp.volume, polyp.inside, at, radius);
+            ASSERT_GE(sample.voxels, DensitySample::kLeastVoxels) << c.diameter_mm << " mm at " << at.x;
+            EXPECT_NEAR(sample.mean_hu, c.tissue_hu, c.within_hu) << c.diameter_mm << " mm at " << at.x << ", " << at.y;
         }
     }
 }
@@ -146,21 +146,21 @@ TEST(VirtualBiopsy, OfAPolypIsThePolypsDensityWhereverInItTheReaderPoints)
 TEST(VirtualBiopsy, OfALargePolypIsItsDensityFromItsTipAsWell)
 {
     const Polyp polyp(10, 40, 0.74, 0.8);
-    const Biopsy biopsy = takeBiopsy(polyp.volume, polyp.inside, {5, 0, 0}, 5);
-    EXPECT_NEAR(biopsy.mean_hu, 40, 12);
+    const DensitySample sample = sampleDensity(polyp.volume, polyp.inside, {5, 0, 0}, 5);
+    EXPECT_NEAR(sample.mean_hu, 40, 12);
 }
 
 TEST(VirtualBiopsy, OfWhatIsTooThinForTheVoxelsSaysNothingRatherThanSomethingWrong)
 {
     const Polyp polyp(6, 40, 2.4, 0.8);
-    EXPECT_EQ(takeBiopsy(polyp.volume, polyp.inside, {0, 0, 0}, 3).voxels, 0U);
+    EXPECT_EQ(sampleDensity(polyp.volume, polyp.inside, {0, 0, 0}, 3).voxels, 0U);
 }
 
 TEST(VirtualBiopsy, SaysHowMuchOfItIsFat)
 {
     const Polyp polyp(6, 40, 0.74, 0.65);
-    const Biopsy fitting = takeBiopsy(polyp.volume, polyp.inside, {3, 0, 0}, 3);
-    const Biopsy large = takeBiopsy(polyp.volume, polyp.inside, {0, 0, 0}, 9);
+    const DensitySample fitting = sampleDensity(polyp.volume, polyp.inside, {3, 0, 0}, 3);
+    const DensitySample large = sampleDensity(polyp.volume, polyp.inside, {0, 0, 0}, 9);
     EXPECT_LT(fitting.fat_fraction, 0.2);
     EXPECT_GT(large.fat_fraction, 0.5);
 }
@@ -174,11 +174,11 @@ TEST(VirtualBiopsy, IsTheSameWithTheInsideVoxelsOfAPartOfTheScan)
     InsideVolume inside(part, kOutside);
     for (std::size_t n = 0; n < inside.voxels.size(); ++n)
         inside.voxels[n] = wall.inside.at(wall.inside.grid.indexAt(part.pointAt(part.indexOf(n))));
-    const Biopsy whole = takeBiopsy(wall.volume, wall.inside, {-1, 0, 0}, 4);
-    const Biopsy cropped = takeBiopsy(wall.volume, inside, {-1, 0, 0}, 4);
+    const DensitySample whole = sampleDensity(wall.volume, wall.inside, {-1, 0, 0}, 4);
+    const DensitySample cropped = sampleDensity(wall.volume, inside, {-1, 0, 0}, 4);
     EXPECT_EQ(cropped.voxels, whole.voxels);
     EXPECT_EQ(cropped.counts, whole.counts);
-    EXPECT_LT(whole.voxels, takeBiopsy(wall.volume, wall.inside, {-8, 0, 0}, 4).voxels) << "the lumen counts";
+    EXPECT_LT(whole.voxels, sampleDensity(wall.volume, wall.inside, {-8, 0, 0}, 4).voxels) << "the lumen counts";
 }
 
 TEST(VirtualBiopsy, HistogramHoldsEveryVoxelWithinItsBin)
@@ -187,37 +187,37 @@ TEST(VirtualBiopsy, HistogramHoldsEveryVoxelWithinItsBin)
     for (std::size_t n = 0; n < wall.volume.voxels.size(); ++n)
         if (wall.inside.voxels[n] == kOutside)
             wall.volume.voxels[n] = n % 2 == 0 ? -30 : 70;
-    const Biopsy biopsy = takeBiopsy(wall.volume, wall.inside, {-8, 0, 0}, 5);
-    ASSERT_EQ(biopsy.from_hu, -50);
-    ASSERT_EQ(biopsy.counts.size(), 5U);  // -50, -25, 0, 25, 50
-    EXPECT_EQ(std::accumulate(biopsy.counts.begin(), biopsy.counts.end(), std::size_t{0}), biopsy.voxels);
-    EXPECT_EQ(biopsy.counts[1] + biopsy.counts[2] + biopsy.counts[3], 0U);
-    const double high = double(biopsy.counts[4]) / double(biopsy.voxels);
-    EXPECT_NEAR(biopsy.mean_hu, -30 + 100 * high, 1e-9);
-    EXPECT_NEAR(biopsy.sd_hu, 100 * std::sqrt(high * (1 - high)), 1e-9);
-    EXPECT_NEAR(biopsy.fat_fraction, 1 - high, 1e-9);
+    const DensitySample sample = sampleDensity(wall.volume, wall.inside, {-8, 0, 0}, 5);
+    ASSERT_EQ(sample.from_hu, -50);
+    ASSERT_EQ(sample.counts.size(), 5U);  // -50, -25, 0, 25, 50
+    EXPECT_EQ(std::accumulate(sample.counts.begin(), sample.counts.end(), std::size_t{0}), sample.voxels);
+    EXPECT_EQ(sample.counts[1] + sample.counts[2] + sample.counts[3], 0U);
+    const double high = double(sample.counts[4]) / double(sample.voxels);
+    EXPECT_NEAR(sample.mean_hu, -30 + 100 * high, 1e-9);
+    EXPECT_NEAR(sample.sd_hu, 100 * std::sqrt(high * (1 - high)), 1e-9);
+    EXPECT_NEAR(sample.fat_fraction, 1 - high, 1e-9);
 }
 
-TEST(VirtualBiopsy, IsReadBackAsItWasKeptAndNothingFromWhatAnotherProgramWrote)
+TEST(VirtualBiopsy, IsReadBackAsItWasKeptAndNothingElseIsTakenForOne)
 {
     const Wall wall(40);
-    const Biopsy biopsy = takeBiopsy(wall.volume, wall.inside, {0, 1, 2}, 6);
-    const Biopsy back = biopsyFromJson(toJson(biopsy));
-    EXPECT_EQ(toJson(back), toJson(biopsy));
-    EXPECT_EQ(back.counts, biopsy.counts);
+    const DensitySample sample = sampleDensity(wall.volume, wall.inside, {0, 1, 2}, 6);
+    const DensitySample back = densitySampleFromJson(toJson(sample));
+    EXPECT_EQ(toJson(back), toJson(sample));
+    EXPECT_EQ(back.counts, sample.counts);
     for (const nlohmann::json& foreign :
          {nlohmann::json(), nlohmann::json("41 HU"), nlohmann::json{{"mean_hu", 40}}, nlohmann::json::array({1})})
-        EXPECT_EQ(biopsyFromJson(foreign).voxels, 0U) << foreign;
+        EXPECT_THROW(densitySampleFromJson(foreign), nlohmann::json::exception) << foreign;
 }
 
 TEST(VirtualBiopsy, InGasOrOutsideTheScanHasNoTissueAndOddRadiiAreRefused)
 {
     const Wall wall(40);
-    EXPECT_EQ(takeBiopsy(wall.volume, wall.inside, {8, 0, 0}, 4).voxels, 0U);
-    EXPECT_EQ(takeBiopsy(wall.volume, wall.inside, {500, 0, 0}, 4).voxels, 0U);
-    EXPECT_THROW(takeBiopsy(wall.volume, wall.inside, {0, 0, 0}, 0), Error);
-    EXPECT_THROW(takeBiopsy(wall.volume, wall.inside, {0, 0, 0}, 26), Error);
+    EXPECT_EQ(sampleDensity(wall.volume, wall.inside, {8, 0, 0}, 4).voxels, 0U);
+    EXPECT_EQ(sampleDensity(wall.volume, wall.inside, {500, 0, 0}, 4).voxels, 0U);
+    EXPECT_THROW(sampleDensity(wall.volume, wall.inside, {0, 0, 0}, 0), Error);
+    EXPECT_THROW(sampleDensity(wall.volume, wall.inside, {0, 0, 0}, 26), Error);
 }
 
 }  // namespace
-}  // namespace vicon::viewer
+}  // namespace vicon

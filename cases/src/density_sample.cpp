@@ -1,4 +1,4 @@
-#include "vicon/viewer/model/biopsy.h"
+#include "vicon/cases/density_sample.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "vicon/core/error.h"
 
-namespace vicon::viewer {
+namespace vicon {
 namespace {
 
 constexpr double kLeastRadius_mm = 0.5, kMostRadius_mm = 25;
@@ -109,76 +109,47 @@ private:
 
 int binOf(int density_hu)
 {
-    return int(std::floor(double(density_hu) / Biopsy::kBin_hu));
+    return int(std::floor(double(density_hu) / DensitySample::kBin_hu));
 }
 
-void describe(Biopsy& biopsy, const std::vector<int>& densities)
+void describe(DensitySample& sample, const std::vector<int>& densities)
 {
-    biopsy.voxels = densities.size();
+    sample.voxels = densities.size();
     const auto [lowest, highest] = std::minmax_element(densities.begin(), densities.end());
-    biopsy.from_hu = binOf(*lowest) * Biopsy::kBin_hu;
-    biopsy.counts.assign(std::size_t(binOf(*highest) - binOf(*lowest)) + 1, 0);
+    sample.from_hu = binOf(*lowest) * DensitySample::kBin_hu;
+    sample.counts.assign(std::size_t(binOf(*highest) - binOf(*lowest)) + 1, 0);
     double sum = 0, squares = 0, fat = 0;
     for (const int hu : densities) {
-        ++biopsy.counts[std::size_t(binOf(hu) - binOf(*lowest))];
+        ++sample.counts[std::size_t(binOf(hu) - binOf(*lowest))];
         sum += hu;
         squares += double(hu) * hu;
         fat += hu >= kFatFrom_hu && hu <= kFatTo_hu ? 1 : 0;
     }
     const auto n = double(densities.size());
-    biopsy.mean_hu = sum / n;
-    biopsy.sd_hu = std::sqrt(std::max(0.0, squares / n - biopsy.mean_hu * biopsy.mean_hu));
-    biopsy.fat_fraction = fat / n;
+    sample.mean_hu = sum / n;
+    sample.sd_hu = std::sqrt(std::max(0.0, squares / n - sample.mean_hu * sample.mean_hu));
+    sample.fat_fraction = fat / n;
 }
 
 }  // namespace
 
-Biopsy takeBiopsy(const HuView& volume, const InsideView& inside, Point3 centre, double radius_mm)
+DensitySample sampleDensity(const HuView& volume, const InsideView& inside, Point3 centre, double radius_mm)
 {
     if (!(radius_mm >= kLeastRadius_mm && radius_mm <= kMostRadius_mm))
-        throw Error(ErrorCode::wrong_use, "a biopsy's radius is 0.5 to 25 mm", std::to_string(radius_mm));
+        throw Error(ErrorCode::wrong_use, "the radius of a density sample is 0.5 to 25 mm", std::to_string(radius_mm));
     const double voxel_mm = std::cbrt(volume.grid.voxelVolume_mm3()), least_mm = kMarginVoxels * voxel_mm;
     const Surroundings around(volume, inside, centre, radius_mm, std::max(kMargin_mm, least_mm) + voxel_mm);
-    Biopsy biopsy{centre, radius_mm};
+    DensitySample sample{centre, radius_mm};
     for (const double margin_mm : {std::max(kMargin_mm, least_mm), least_mm}) {
         // The lumen's border lies half a voxel outside the middles of its outermost voxels.
         const auto densities = around.densities(margin_mm + voxel_mm / 2);
-        if (densities.size() < Biopsy::kLeastVoxels)
+        if (densities.size() < DensitySample::kLeastVoxels)
             continue;
-        biopsy.margin_mm = margin_mm;
-        describe(biopsy, densities);
+        sample.margin_mm = margin_mm;
+        describe(sample, densities);
         break;
     }
-    return biopsy;
+    return sample;
 }
 
-nlohmann::json toJson(const Biopsy& b)
-{
-    return {{"position_mm", {b.centre_mm.x, b.centre_mm.y, b.centre_mm.z}},
-            {"radius_mm", b.radius_mm},
-            {"margin_mm", b.margin_mm},
-            {"voxels", b.voxels},
-            {"mean_hu", b.mean_hu},
-            {"sd_hu", b.sd_hu},
-            {"fat_fraction", b.fat_fraction},
-            {"histogram", {{"from_hu", b.from_hu}, {"bin_hu", Biopsy::kBin_hu}, {"counts", b.counts}}}};
-}
-
-Biopsy biopsyFromJson(const nlohmann::json& json)
-try {
-    const auto& at = json.at("position_mm");
-    const auto& histogram = json.at("histogram");
-    return {{at.at(0), at.at(1), at.at(2)},
-            json.at("radius_mm"),
-            json.at("margin_mm"),
-            json.at("voxels"),
-            json.at("mean_hu"),
-            json.at("sd_hu"),
-            json.at("fat_fraction"),
-            histogram.at("from_hu"),
-            histogram.at("counts")};
-} catch (const nlohmann::json::exception&) {  // another program's
-    return {};
-}
-
-}  // namespace vicon::viewer
+}  // namespace vicon

@@ -1,13 +1,15 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "vicon/cases/case_store.h"
 #include "vicon/core/colon_parts.h"
 #include "vicon/core/options.h"
 
-namespace vicon::app {
+namespace vicon {
 
 struct MarkOptions {
     double most_distance_mm = 10;
@@ -19,9 +21,6 @@ struct MarkOptions {
           {0, 100});
     }
 };
-
-/// "X,Y,Z" of the command line, LPS mm. Throws Error{wrong_use} naming the option.
-Point3 pointFrom(const std::string& text, const char* option);
 
 /// Where a point of space lies in a scan's colon.
 struct SnappedPoint {
@@ -38,9 +37,9 @@ std::optional<SnappedPoint> snapToSkeleton(const std::filesystem::path& scan_fol
 /// The parts of a scan's colon; empty where they are not known.
 ColonPartRanges partsOf(CaseStore& store, const ScanRecord& scan);
 
-/// Fills in scan, stations, fraction and part of the colon (`extra["part"]`, absent where not known) of a marker. An
-/// empty scan id is found: the only scan whose lumen is near the point. Throws Error{bad_input} when the point is
-/// outside, Error{wrong_use} when it could be in several scans.
+/// Fills in a marker's scan, stations, fraction and part of the colon, and takes off it what was measured at another
+/// place. An empty scan id is found: the only scan whose lumen is near the point. Throws Error{bad_input} when the
+/// point is outside, Error{wrong_use} when it could be in several scans.
 Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id, Marker marker);
 
 /// The change that adds the markers of a file, {"markers": [...]}, each placed as placeMarker() does; an id that the
@@ -52,13 +51,15 @@ std::vector<MarkerEdit> importOf(CaseStore& store, const MarkOptions& options, c
 /// somebody changes at the same time, stays as it is.
 void renewPlaces(CaseStore& store, const MarkOptions& options, const std::string& case_id, const std::string& scan_id);
 
-/// Fills in the density of the tissue around a placed marker as `extra["density"]`: mean, spread and histogram with the
-/// ball that they were taken from. Throws Error{wrong_use} where the radius is out of range or the ball holds no
-/// tissue.
+/// Takes a sample of the tissue around a placed marker and keeps it with the marker. Throws Error{wrong_use} where the
+/// radius is out of range or the ball holds no tissue.
 void addDensity(CaseStore& store, const std::string& case_id, Marker& marker, double radius_mm);
+
+/// Whether the pipeline made what markers and pictures need of a scan.
+bool isPrepared(const std::filesystem::path& scan_folder);
 
 /// The first scan of the case that has been through the pipeline; the named one when `scan_id` is not empty.
 /// Throws Error{not_ready} or Error{not_found}.
 ScanRecord requirePreparedScan(CaseStore& store, const std::string& case_id, const std::string& scan_id);
 
-}  // namespace vicon::app
+}  // namespace vicon

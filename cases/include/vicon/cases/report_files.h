@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "vicon/cases/case_store.h"
+
+namespace vicon {
+
+/// The file of a case's report in the store; its folder is made. Throws Error{store}.
+std::filesystem::path reportFile(CaseStore& store, const std::string& case_id, int number);
+
+/// How many reports of a case lie in the store.
+int countReports(const CaseStore& store, const std::string& case_id);
+
+/// Throws Error{unusable_scan} for a case whose scans all show other organs: a report tells of a colon.
+void requireReportable(CaseStore& store, const CaseRecord& record);
+
+}  // namespace vicon

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "vicon/cases/case_store.h"
+#include "vicon/cases/job_queue.h"
+#include "vicon/core/organ.h"
+
+namespace vicon {
+
+/// How far a scan is, or a case with its scans together.
+enum class WorkState {
+    kept,  ///< not for the pipeline
+    queued,
+    running,
+    done,
+    failed,
+};
+/// "kept", "queued", "running", "done", "failed".
+std::string nameOf(WorkState state);
+WorkState workStateOf(JobState state);
+
+/// A scan as the worklist shows it.
+struct WorklistScan {
+    ScanRecord record;
+    WorkState state = WorkState::kept;
+    std::string step;     ///< being worked on
+    double progress = 0;  ///< 0 to 1
+    std::string reason;   ///< why it failed, or the pipeline's verdict where it found no organ, or is not sure
+    std::filesystem::path folder;
+    std::string quality;     ///< how well it can be read, in a few words; empty where it is not known
+    bool adequate = true;    ///< its quality
+    bool corrected = false;  ///< by a person; told of scans that cannot be shown
+    Organ organ = {};        ///< what it shows
+
+    bool ready() const { return state == WorkState::done && reason.empty(); }  ///< it can be shown
+    /// Nothing that can be shown was left by its corrections.
+    bool spoiled() const { return state == WorkState::done && !reason.empty() && corrected; }
+};
+
+/// A case as the worklist shows it.
+struct WorklistCase {
+    CaseRecord record;
+    WorkState state = WorkState::kept;  ///< failed, running, queued or done: the first of these that any scan is in
+    std::string reason;
+    double progress = 0;  ///< of its jobs together, 0 to 1
+    int markers = 0;
+    int reports = 0;  ///< how many were written
+    std::vector<WorklistScan> scans;
+};
+
+std::vector<WorklistCase> makeWorklist(CaseStore& store, const QueueOptions& options);
+WorklistCase makeWorklistCase(CaseStore& store, const QueueOptions& options, const CaseRecord& record);
+
+/// {"cases":[{"id","patient","study_uid","state","scans":[{"id","series_uid","position","state","folder"}]}]} and more
+/// keys, as docs/dev/schemas/cases.schema.json has it.
+nlohmann::json toJson(const std::vector<WorklistCase>& worklist);
+
+/// Puts the failed jobs of a case back into the queue; spoiled scans as well, without their corrections.
+void retryCase(CaseStore& store, const QueueOptions& options, const std::string& case_id);
+
+}  // namespace vicon

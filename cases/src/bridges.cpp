@@ -1,0 +1,73 @@
+#include "vicon/cases/bridges.h"
+
+#include <algorithm>
+
+#include "bridge_reviews_file.h"
+#include "this_person.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+using nlohmann::json;
+
+namespace vicon {
+
+std::string nameOf(BridgeVerdict verdict)
+{
+    return verdict == BridgeVerdict::confirmed ? "confirmed" : "rejected";
+}
+
+BridgeVerdict bridgeVerdictFrom(const std::string& name)
+{
+    for (const BridgeVerdict verdict : {BridgeVerdict::confirmed, BridgeVerdict::rejected})
+        if (nameOf(verdict) == name)
+            return verdict;
+    throw Error(ErrorCode::bad_input, "a bridge is confirmed or rejected", "'" + name + "'");
+}
+
+json toJson(const ReviewedBridge& bridge)
+{
+    json out = toJson(bridge.bridge);
+    if (bridge.review)
+        out["review"] = {
+            {"verdict", nameOf(bridge.review->verdict)}, {"by", bridge.review->by}, {"at", bridge.review->at}};
+    return out;
+}
+
+std::vector<ReviewedBridge> reviewedBridges(CaseStore& store, const ScanRecord& scan)
+{
+    const std::vector<ReviewedBridge> reviews = readBridgeReviews(store.scanFolder(scan.case_id, scan.id));
+    std::vector<ReviewedBridge> bridges;
+    const json all = store.describeScan(scan.case_id, scan.id).value("bridges", json::array());
+    for (const json& entry : all) {
+        ReviewedBridge bridge{bridgeFromJson(entry), std::nullopt};
+        for (const ReviewedBridge& review : reviews)
+            if (isSameBridge(bridge.bridge, review.bridge))
+                bridge.review = review.review;
+        bridges.push_back(std::move(bridge));
+    }
+    return bridges;
+}
+
+void reviewBridge(CaseStore& store, const ScanRecord& scan, const ReviewedBridge& given)
+{
+    const auto same = [&](const ReviewedBridge& other) { return isSameBridge(other.bridge, given.bridge); };
+    const std::vector<ReviewedBridge> known = reviewedBridges(store, scan);
+    if (std::none_of(known.begin(), known.end(), same))
+        throw Error(ErrorCode::not_found, "the scan has no such bridge any more", scan.id);
+    BridgeReview told = given.review.value_or(BridgeReview{});
+    if (told.by.empty())
+        told.by = thisPerson();
+    if (told.at.empty())
+        told.at = nowUtc();
+    const auto folder = store.scanFolder(scan.case_id, scan.id);
+    std::vector<ReviewedBridge> reviews = readBridgeReviews(folder);
+    std::erase_if(reviews, same);
+    if (given.review)
+        reviews.push_back({given.bridge, told});
+    writeBridgeReviews(folder, reviews);
+    const std::string verdict = given.review ? nameOf(told.verdict) : "";
+    store.audit("bridge " + (verdict.empty() ? "unjudged" : verdict), scan.case_id, scan.id,
+                bridgeReviewJson(given.bridge, verdict, told.by, told.at).dump());
+}
+
+}  // namespace vicon

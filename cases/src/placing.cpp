@@ -1,0 +1,151 @@
+#include "vicon/cases/placing.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "vicon/cases/density_sample.h"
+#include "vicon/cases/step_results.h"
+#include "vicon/core/error.h"
+#include "vicon/scan_files/volume_file.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon {
+namespace {
+
+/// A density or a size belongs to a marker this near to where it was taken, as the reading room has it.
+constexpr double kMeasureNear_mm = 10;
+
+/// What was measured at another place is not this one's; what another program wrote under these names says no place.
+void forgetMeasuresElsewhere(Marker& marker)
+{
+    const auto near = [&](Point3 p) { return distance(marker.position_mm, p) <= kMeasureNear_mm; };
+    if (marker.density && !near(marker.density->centre_mm))
+        marker.density.reset();
+    if (marker.size && !near(marker.size->from_mm) && !near(marker.size->to_mm))
+        marker.size.reset();
+    for (const char* key : {"density", "size"})
+        marker.extra.erase(key);
+}
+
+std::string textOf(const char* pattern, double value)
+{
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(), pattern, value);
+    return text.data();
+}
+
+std::string formatPoint(Point3 p)
+{
+    char text[96];
+    std::snprintf(text, sizeof text, "%.1f,%.1f,%.1f", p.x, p.y, p.z);
+    return text;
+}
+
+}  // namespace
+
+ColonPartRanges partsOf(CaseStore& store, const ScanRecord& scan)
+{
+    return resultsOf(store.steps(scan.case_id, scan.id)).parts();
+}
+
+Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id, Marker marker)
+{
+    std::vector<std::pair<std::string, SnappedPoint>> places;
+    for (const ScanRecord& scan : store.scans(case_id)) {
+        const fs::path folder = store.scanFolder(case_id, scan.id);
+        const bool named = !marker.scan_id.empty() && scan.id.starts_with(marker.scan_id);
+        if (marker.scan_id.empty() ? !isPrepared(folder) : !named)
+            continue;
+        if (const auto place = snapToSkeleton(folder, marker.position_mm, options.most_distance_mm))
+            places.emplace_back(scan.id, *place);
+    }
+    if (places.empty() && !marker.scan_id.empty())
+        store.requireScan(case_id, marker.scan_id);
+    if (places.empty())
+        throw Error(ErrorCode::bad_input,
+                    "the point " + formatPoint(marker.position_mm) + " lies more than " +
+                        formatPoint({options.most_distance_mm, 0, 0}).substr(0, 4) +
+                        " mm outside the lumen of every prepared scan",
+                    case_id, "give LPS millimetres inside the lumen; 'vicon show " + case_id + "' shows the scans");
+    // A point in the lumen of one scan and merely near that of another belongs to the first.
+    const auto inside = [](const auto& place) { return place.second.outside_mm == 0; };
+    if (places.size() > 1 && std::count_if(places.begin(), places.end(), inside) == 1)
+        places = {*std::find_if(places.begin(), places.end(), inside)};
+    if (places.size() > 1)
+        throw Error(ErrorCode::wrong_use, "the point lies in the lumen of several scans", case_id,
+                    "name one with --scan; 'vicon show " + case_id + "' lists them");
+    const auto& [scan_id, place] = places.front();
+    marker.scan_id = scan_id;
+    marker.station_mm = place.station_mm;
+    marker.from_caecum_mm = place.length_mm - place.station_mm;
+    marker.fraction = place.length_mm > 0 ? place.station_mm / place.length_mm : 0;
+    forgetMeasuresElsewhere(marker);
+    const std::string part = partNameAt(partsOf(store, store.requireScan(case_id, scan_id)), place.station_mm);
+    marker.part = part.empty() ? std::nullopt : std::optional(colonPartFrom(part));
+    marker.extra.erase("part");
+    return marker;
+}
+
+std::vector<MarkerEdit> importOf(CaseStore& store, const MarkOptions& options, const std::string& case_id,
+                                 const fs::path& file)
+{
+    const std::vector<Marker> known = store.markers(case_id);
+    std::vector<MarkerEdit> edits;
+    for (const Marker& marker : readMarkers(file)) {
+        const Marker placed = placeMarker(store, options, case_id, marker);
+        const auto before =
+            std::find_if(known.begin(), known.end(), [&](const Marker& m) { return m.id == placed.id; });
+        edits.push_back({before == known.end() ? std::nullopt : std::optional(*before), placed});
+    }
+    return edits;
+}
+
+void renewPlaces(CaseStore& store, const MarkOptions& options, const std::string& case_id, const std::string& scan_id)
+{
+    for (const Marker& marker : store.markers(case_id)) {
+        if (marker.scan_id != scan_id)
+            continue;
+        try {
+            if (const Marker placed = placeMarker(store, options, case_id, marker); toJson(placed) != toJson(marker))
+                store.editMarkers(case_id, {{marker, placed}});
+        } catch (const Error& e) {
+            if (e.code() != ErrorCode::bad_input && e.code() != ErrorCode::not_ready)
+                throw;
+        }
+    }
+}
+
+void addDensity(CaseStore& store, const std::string& case_id, Marker& marker, double radius_mm)
+{
+    const fs::path folder = store.scanFolder(case_id, marker.scan_id);
+    const auto volume = scan_files::readVolume<std::int16_t>(folder / "volume.mha");
+    const auto inside = scan_files::readVolume<std::uint8_t>(folder / "inside.mha");
+    const DensitySample sample = sampleDensity(volume, inside, marker.position_mm, radius_mm);
+    if (sample.voxels == 0)
+        throw Error(ErrorCode::wrong_use,
+                    textOf("too little tissue lies within %.1f mm of the point and far enough from gas and fluid to "
+                           "measure its density",
+                           radius_mm),
+                    case_id, "mark a point on the wall or within the finding, or choose a larger ball");
+    marker.density = sample;
+}
+
+ScanRecord requirePreparedScan(CaseStore& store, const std::string& case_id, const std::string& scan_id)
+{
+    if (!scan_id.empty()) {
+        ScanRecord scan = store.requireScan(case_id, scan_id);
+        if (!isPrepared(store.scanFolder(case_id, scan.id)))
+            throw Error(ErrorCode::not_ready, "the scan has not been through the pipeline, or holds no colon",
+                        case_id + "/" + scan.id, "see 'vicon show " + case_id + "'; 'vicon work --until-idle' runs it");
+        return scan;
+    }
+    for (ScanRecord& scan : store.scans(case_id))
+        if (isPrepared(store.scanFolder(case_id, scan.id)))
+            return std::move(scan);
+    throw Error(ErrorCode::not_ready, "no scan of the case has been through the pipeline, or none holds a colon",
+                case_id, "see 'vicon show " + case_id + "'; 'vicon work --until-idle' runs it");
+}
+
+}  // namespace vicon

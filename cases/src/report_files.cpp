@@ -1,0 +1,51 @@
+#include "vicon/cases/report_files.h"
+
+#include "vicon/cases/organs.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon {
+namespace {
+
+fs::path folderOf(const CaseStore& store, const std::string& case_id)
+{
+    return store.caseFolder(case_id) / "report";
+}
+
+}  // namespace
+
+fs::path reportFile(CaseStore& store, const std::string& case_id, int number)
+{
+    const fs::path folder = folderOf(store, case_id);
+    makePrivateFolder(folder);
+    return folder / (std::to_string(number) + ".pdf");
+}
+
+int countReports(const CaseStore& store, const std::string& case_id)
+{
+    std::error_code none;
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(folderOf(store, case_id), none))
+        count += entry.path().extension() == ".pdf" ? 1 : 0;
+    return count;
+}
+
+void requireReportable(CaseStore& store, const CaseRecord& record)
+{
+    std::string others;
+    for (const ScanRecord& scan : store.scans(record.id)) {
+        if (scan.role != ScanRole::scan)
+            continue;
+        const Organ organ = organOf(store, scan);
+        if (organ.isColon())
+            return;
+        others += (others.empty() ? "" : ", ") + organ.name();
+    }
+    if (!others.empty())
+        throw Error(ErrorCode::unusable_scan, "a report tells of a colon; the scans of this case show the " + others,
+                    record.id, "'vicon show', 'vicon fly' and 'vicon snapshot' work on them");
+}
+
+}  // namespace vicon

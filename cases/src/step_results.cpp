@@ -1,0 +1,176 @@
+#include "vicon/cases/step_results.h"
+
+#include "vicon/core/error.h"
+
+using nlohmann::json;
+
+namespace vicon {
+namespace {
+
+/// Reads a key if it is there.
+template <class Value>
+void take(const json& from, const char* key, Value& into)
+{
+    if (const auto found = from.find(key); found != from.end())
+        into = found->get<Value>();
+}
+
+/// What is left of a result when its known keys are taken away.
+json without(json all, std::initializer_list<const char*> known)
+{
+    for (const char* key : known)
+        all.erase(key);
+    all.erase("files");  // the record's, not the step's
+    return all;
+}
+
+}  // namespace
+
+json toJson(const ResampleFound& found)
+{
+    return {{"acquired_size", found.acquired_size},
+            {"acquired_spacing_mm", found.acquired_spacing_mm},
+            {"size", found.size},
+            {"spacing_mm", found.spacing_mm}};
+}
+
+ResampleFound resampleFoundFromJson(const json& json)
+{
+    ResampleFound found;
+    take(json, "acquired_size", found.acquired_size);
+    take(json, "acquired_spacing_mm", found.acquired_spacing_mm);
+    take(json, "size", found.size);
+    take(json, "spacing_mm", found.spacing_mm);
+    return found;
+}
+
+json toJson(const SegmentFound& found)
+{
+    json out = found.measures;
+    out["verdict"] = found.verdictText();
+    out["confidence"] = found.confidence;
+    out["reason"] = found.reason;
+    out["plan"] = found.plan;
+    if (!found.organ.isColon())
+        out["organ"] = found.organ.name();
+    if (found.noise_hu)
+        out["noise_hu"] = *found.noise_hu;
+    json& bridges = out["bridges"] = json::array();
+    for (const Bridge& bridge : found.bridges)
+        bridges.push_back(toJson(bridge));
+    return out;
+}
+
+SegmentFound segmentFoundFromJson(const json& json)
+{
+    SegmentFound found;
+    const std::string verdict = json.value("verdict", "");
+    found.verdict = verdictFrom(verdict);
+    found.organ_title = titleIn(verdict);
+    take(json, "confidence", found.confidence);
+    take(json, "reason", found.reason);
+    found.organ = Organ(json.value("organ", Organ().name()));
+    if (json.contains("noise_hu"))
+        found.noise_hu = json["noise_hu"].get<double>();
+    for (const auto& bridge : json.value("bridges", nlohmann::json::array()))
+        found.bridges.push_back(bridgeFromJson(bridge));
+    take(json, "plan", found.plan);
+    found.measures = without(json, {"verdict", "confidence", "reason", "organ", "noise_hu", "bridges", "plan"});
+    return found;
+}
+
+json toJson(const SkeletonFound& found)
+{
+    json out = found.measures;
+    out["length_mm"] = found.length_mm;
+    return out;
+}
+
+SkeletonFound skeletonFoundFromJson(const json& json)
+{
+    return {json.value("length_mm", 0.0), without(json, {"length_mm"})};
+}
+
+json toJson(const QualityFound& found)
+{
+    if (!found.not_measured.empty())
+        return {{"not_measured", found.not_measured}};
+    json out = {{"parts", toJson(found.parts)}};
+    if (!found.parts_unknown.empty())
+        out["parts_unknown"] = found.parts_unknown;
+    if (found.quality)
+        out["quality"] = toJson(*found.quality);
+    return out;
+}
+
+QualityFound qualityFoundFromJson(const json& json)
+{
+    QualityFound found;
+    found.parts = colonPartsFromJson(json.value("parts", nlohmann::json::array()));
+    take(json, "parts_unknown", found.parts_unknown);
+    take(json, "not_measured", found.not_measured);
+    if (json.contains("quality"))
+        found.quality = scanQualityFromJson(json["quality"]);
+    return found;
+}
+
+json toJson(const SubdivideFound& found)
+{
+    json out = found.measures;
+    out["method"] = found.method;
+    out["triangles"] = found.triangles;
+    return out;
+}
+
+SubdivideFound subdivideFoundFromJson(const json& json)
+{
+    SubdivideFound found;
+    take(json, "method", found.method);
+    take(json, "triangles", found.triangles);
+    found.measures = without(json, {"method", "triangles"});
+    return found;
+}
+
+json toJson(const PotentialFound& found)
+{
+    return {{"largest_wall_distance_mm", found.largest_wall_distance_mm},
+            {"largest_exit_distance_mm", found.largest_exit_distance_mm}};
+}
+
+PotentialFound potentialFoundFromJson(const json& json)
+{
+    return {json.value("largest_wall_distance_mm", 0.0), json.value("largest_exit_distance_mm", 0.0)};
+}
+
+std::string StepResults::warning() const
+{
+    if (!segment || segment->verdict == Verdict::found)
+        return {};
+    return segment->verdictText() + ": " + segment->reason;
+}
+
+StepResults resultsOf(const std::vector<StepRecord>& steps)
+{
+    StepResults results;
+    for (const StepRecord& step : steps)
+        try {
+            if (step.step == "resample")
+                results.resample = resampleFoundFromJson(step.result);
+            else if (step.step == "segment")
+                results.segment = segmentFoundFromJson(step.result);
+            else if (step.step == "skeleton")
+                results.skeleton = skeletonFoundFromJson(step.result);
+            else if (step.step == "quality")
+                results.quality = qualityFoundFromJson(step.result);
+            else if (step.step == "subdivide")
+                results.subdivide = subdivideFoundFromJson(step.result);
+            else if (step.step == "potential")
+                results.potential = potentialFoundFromJson(step.result);
+        } catch (const json::exception& e) {
+            throw Error(ErrorCode::database, "what step '" + step.step + "' found cannot be read: " + e.what(), {},
+                        "'vicon work' does a step again whose parameters are changed");
+        }
+    return results;
+}
+
+}  // namespace vicon

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vicon/core/colon_parts.h"
+
+namespace vicon {
+
+/// Measures of the whole colon, or of one of its parts.
+struct StretchQuality {
+    std::optional<ColonPart> part;    ///< absent: the whole colon
+    double median_radius_mm = 0;      ///< of the disc as large as the cross-section
+    double collapsed_mm = 0;          ///< bridged, or narrower than quality.collapsed_radius_mm
+    double collapsed_fraction = 0;    ///< of the length
+    double longest_collapsed_mm = 0;  ///< without interruption
+    double volume_ml = 0;             ///< gas and tagged fluid
+    double fluid_ml = 0;              ///< tagged fluid
+    bool adequate = false;            ///< no collapsed stretch of quality.longest_collapsed_mm or more
+
+    double fluidFraction() const { return volume_ml > 0 ? fluid_ml / volume_ml : 0; }
+};
+
+/// What a reader must know of a scan's quality.
+enum class QualityReason {
+    collapsed,           ///< a part, or the whole where parts are not known, over a length
+    implausible_length,  ///< the colon's; it can hardly be the whole of it
+    noise,               ///< more than usual
+};
+/// "collapsed", "implausible_length", "noise".
+std::string nameOf(QualityReason reason);
+/// Throws Error{bad_input} for any other name.
+QualityReason qualityReasonFrom(const std::string& name);
+
+/// A reason with its figure.
+struct QualityNote {
+    QualityReason reason = QualityReason::collapsed;
+    std::optional<ColonPart> part;
+    double value = 0;  ///< mm, of noise HU
+};
+/// "sigmoid collapsed over 38 mm", "more noise than usual: 45 HU".
+std::string textOf(const QualityNote& note);
+
+struct ScanQuality {
+    StretchQuality whole;               ///< adequate when every part is, and the length is plausible
+    std::vector<StretchQuality> parts;  ///< from the rectum; empty where the parts are not known
+    double noise_hu = 0;                ///< standard deviation in soft tissue; 0: no homogeneous place
+    std::vector<QualityNote> notes;     ///< why not adequate, and what else a reader should know
+    nlohmann::json thresholds = nlohmann::json::object();  ///< the options that it was judged by
+    std::string reason;                                    ///< the notes in words; may be empty
+};
+
+/// As scan.json has it under "quality"; see docs/quality.md.
+nlohmann::json toJson(const ScanQuality& quality);
+/// What an earlier VICON did not write stays empty. Throws nlohmann::json::exception or Error{bad_input} for other
+/// content.
+ScanQuality scanQualityFromJson(const nlohmann::json& json);
+
+}  // namespace vicon

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "grid/itk_view.h"
+#include "resample/sampling.h"
+
+namespace vicon::steps {
+
+enum class Interpolation { linear, bspline, windowed_sinc };
+
+/// Acquired slices, along the oriented axes, and which they are.
+struct AcquiredSlab {
+    ItkHu::Pointer slices;
+    SliceRange range;
+};
+
+/// New slices by linear interpolation. Rows may be longer than asked for; what follows is of no meaning.
+ItkFloat::Pointer interpolateLinearly(const AcquiredSlab& acquired, const Sampling& sampling, SliceRange of_new);
+
+/// How many acquired voxels away a density still has a weight worth counting.
+int reachOf(Interpolation interpolation);
+
+/// New slices by the cubic B-spline through the densities, or by a sinc with a Lanczos window three voxels wide to each
+/// side. Padding is taken as a density: what lies within reachOf() of it must not be used.
+ItkFloat::Pointer interpolateSmoothly(const AcquiredSlab& acquired, const Sampling& sampling, SliceRange of_new,
+                                      Interpolation interpolation);
+
+}  // namespace vicon::steps

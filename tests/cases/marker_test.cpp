@@ -1,0 +1,73 @@
+#include "vicon/cases/marker.h"
+
+#include <gtest/gtest.h>
+
+#include "vicon/core/error.h"
+
+namespace vicon {
+namespace {
+
+TEST(Marker, SurvivesJsonWithKeysOfOthers)
+{
+    Marker m{
+        .id = "m1", .scan_id = "s1", .position_mm = {1.5, -2, 3}, .color = MarkerColor::green, .note = "Größe 5 мм"};
+    m.extra["size_mm"] = 5.5;
+    const Marker back = markerFromJson(toJson(m));
+    EXPECT_EQ(back.position_mm, m.position_mm);
+    EXPECT_EQ(back.color, MarkerColor::green);
+    EXPECT_EQ(back.note, m.note);
+    EXPECT_EQ(back.extra, m.extra);
+}
+
+Marker withEverything()
+{
+    Marker m{.id = "m1", .scan_id = "s1", .position_mm = {1.5, -2, 3}, .color = MarkerColor::yellow};
+    m.part = ColonPart::splenic_flexure;
+    m.pair = "m2";
+    m.size = {.straight_mm = 6.5, .along_mm = 8, .from_mm = {1, 2, 3}, .to_mm = {4, 5, 6}};
+    m.size->plane = PlaneSize{7, {1, 2, 3}, {4, 5, 6}, 20, {2, 3, 4}, {1, 0, 0}, {0, 1, 0}};
+    m.density = DensitySample{{1, 2, 3}, 4, 2, 31, 41.5, 18.25, 0.125, -25, {1, 30}};
+    m.view = MarkerView{{9, 8, 7}, {0, 0, 1}, {0, 1, 0}, 412.5};
+    return m;
+}
+
+TEST(Marker, KeepsAllThatWasMeasuredOfIt)
+{
+    const Marker m = withEverything(), back = markerFromJson(toJson(m));
+    EXPECT_EQ(toJson(back), toJson(m));
+    EXPECT_EQ(back.part, ColonPart::splenic_flexure);
+    EXPECT_EQ(back.pair, "m2");
+    ASSERT_TRUE(back.size && back.size->plane && back.density && back.view);
+    EXPECT_EQ(back.size->along_mm, 8);
+    EXPECT_EQ(back.size->plane->along, Vector3(1, 0, 0));
+    EXPECT_EQ(back.density->counts, (std::vector<std::size_t>{1, 30}));
+    EXPECT_EQ(back.view->station_mm, 412.5);
+    EXPECT_TRUE(back.extra.empty());
+}
+
+TEST(Marker, LeavesWhatOthersWroteUnderItsKeysAsItIs)
+{
+    for (const char* key : {"part", "pair", "size", "density", "view"}) {
+        nlohmann::json json = toJson(withEverything());
+        json[key] = {{"whatever", {1, 2, 3}}};
+        const Marker read = markerFromJson(json);
+        EXPECT_EQ(read.extra.size(), 1u) << key;
+        EXPECT_EQ(toJson(read), json) << key;
+    }
+    nlohmann::json json = toJson(withEverything());
+    json["part"] = "stomach";
+    EXPECT_FALSE(markerFromJson(json).part);
+    EXPECT_EQ(toJson(markerFromJson(json))["part"], "stomach");
+}
+
+TEST(Marker, RefusesWhatIsNone)
+{
+    EXPECT_THROW(markerFromJson({{"color", "red"}}), Error);
+    EXPECT_THROW(markerFromJson({{"color", "blue"}, {"position_mm", {1, 2, 3}}}), Error);
+    EXPECT_THROW(markerFromJson({{"color", "red"}, {"position_mm", {1, 2}}}), Error);
+    EXPECT_THROW(markerFromJson({{"color", "red"}, {"position_mm", {1, 2, 3, 4}}}), Error);
+    EXPECT_THROW(markerFromJson({{"color", "red"}, {"position_mm", "1,2,3"}}), Error);
+}
+
+}  // namespace
+}  // namespace vicon

@@ -1,0 +1,85 @@
+#include "vicon/cases/step_results.h"
+
+#include <gtest/gtest.h>
+
+#include "vicon/core/error.h"
+
+namespace vicon {
+namespace {
+
+using nlohmann::json;
+
+TEST(StepResults, HaveOneJsonFormThatIsReadBack)
+{
+    const json segment = json::parse(
+        R"({"verdict": "no airway tree", "confidence": 0.9, "reason": "no tube", "organ": "airway", "noise_hu": 21.5,
+            "plan": {"pieces": [], "bridges": []}, "limit_hu": -930,
+            "bridges": [{"from_mm": [1, 2, 3], "to_mm": [4, 5, 6], "length_mm": 7, "confidence": 0.5, "reason": "why",
+                         "certain": false}]})");
+    const SegmentFound found = segmentFoundFromJson(segment);
+    EXPECT_EQ(found.verdict, Verdict::absent);
+    EXPECT_EQ(found.organ_title, "airway tree");
+    EXPECT_EQ(found.organ, Organ("airway"));
+    EXPECT_EQ(found.bridges.at(0).to_mm, Point3(4, 5, 6));
+    EXPECT_EQ(toJson(found), segment);
+    for (const char* tree_or_path : {R"({"length_mm": 1600.5, "pieces": [{"path_voxels": 3}]})",
+                                     R"({"length_mm": 200, "branches": 9, "tips": 5, "total_length_mm": 900})"})
+        EXPECT_EQ(toJson(skeletonFoundFromJson(json::parse(tree_or_path))), json::parse(tree_or_path));
+    const json resample = json::parse(R"({"acquired_size": [512, 512, 400], "acquired_spacing_mm": [0.7, 0.7, 1],
+                                          "size": [512, 512, 570], "spacing_mm": 0.7})");
+    EXPECT_EQ(toJson(resampleFoundFromJson(resample)), resample);
+    const json subdivide = {{"method", "flood"}, {"triangles", 1000}, {"segments", 40}};
+    EXPECT_EQ(toJson(subdivideFoundFromJson(subdivide)), subdivide);
+    const json potential = {{"largest_wall_distance_mm", 31.5}, {"largest_exit_distance_mm", 1700.5}};
+    EXPECT_EQ(toJson(potentialFoundFromJson(potential)), potential);
+    for (const char* quality : {R"({"not_measured": "of a colon"})", R"({"parts": [], "parts_unknown": "too short"})"})
+        EXPECT_EQ(toJson(qualityFoundFromJson(json::parse(quality))), json::parse(quality));
+}
+
+TEST(StepResults, VerdictsAreToldByTheirTitles)
+{
+    for (const auto& [verdict, text] : {std::pair{Verdict::found, "colon"}, std::pair{Verdict::unsure, "unsure"},
+                                        std::pair{Verdict::absent, "no colon"}}) {
+        EXPECT_EQ(verdictText(verdict, "colon"), text);
+        EXPECT_EQ(verdictFrom(text), verdict);
+    }
+}
+
+TEST(StepResults, WarnOfAnOrganThatWasNotFoundOrNotSurely)
+{
+    const auto warning = [](const json& result) {
+        return resultsOf({{.step = "segment", .result = result}}).warning();
+    };
+    EXPECT_EQ(warning({{"verdict", "colon"}, {"reason", "three pieces"}}), "");
+    EXPECT_EQ(warning({{"verdict", "unsure"}, {"reason", "a gap"}}), "unsure: a gap");
+    EXPECT_EQ(warning({{"verdict", "no colon"}, {"reason", "a head"}}), "no colon: a head");
+    EXPECT_EQ(resultsOf({}).warning(), "");
+    EXPECT_TRUE(resultsOf({}).organ().isColon());
+}
+
+TEST(StepResults, OfAnotherShapeAreSaidToBe)
+{
+    EXPECT_THROW(resultsOf({{.step = "segment", .result = {{"confidence", "much"}}}}), Error);
+}
+
+TEST(ScanQuality, IsReadBackWithItsNotesAndWithoutThemFromBefore)
+{
+    ScanQuality quality;
+    quality.whole = {
+        .median_radius_mm = 16, .collapsed_mm = 40, .collapsed_fraction = 0.025, .volume_ml = 2000, .fluid_ml = 500};
+    quality.parts = {quality.whole};
+    quality.parts[0].part = ColonPart::sigmoid;
+    quality.notes = {{QualityReason::collapsed, ColonPart::sigmoid, 38.4}, {QualityReason::noise, {}, 45}};
+    quality.reason = "sigmoid collapsed over 38 mm; more noise than usual: 45 HU";
+    json written = toJson(quality);
+    EXPECT_EQ(written["fluid_fraction"], 0.25);
+    EXPECT_EQ(written["parts"][0]["name"], "sigmoid");
+    EXPECT_EQ(toJson(scanQualityFromJson(written)), written);
+    EXPECT_EQ(textOf(quality.notes[0]) + "; " + textOf(quality.notes[1]), quality.reason);
+    written.erase("notes");
+    EXPECT_EQ(scanQualityFromJson(written).reason, quality.reason);
+    EXPECT_TRUE(scanQualityFromJson(written).notes.empty());
+}
+
+}  // namespace
+}  // namespace vicon

@@ -1,0 +1,80 @@
+#include "vicon/cases/worklist.h"
+
+#include <gtest/gtest.h>
+
+#include "case_fixture.h"
+#include "vicon/cases/corrections.h"
+#include "vicon/cases/report_files.h"
+#include "vicon/core/scan_quality.h"
+#include "vicon/core/file.h"
+
+namespace vicon {
+namespace {
+
+class Worklist : public testing::Test {
+protected:
+    test::StoreOfOneScan one_;
+
+    WorklistCase listed() { return makeWorklist(one_.store, {}).at(0); }
+};
+
+TEST_F(Worklist, TellsHowFarACaseIsAndWhy)
+{
+    EXPECT_EQ(listed().state, WorkState::queued);
+    one_.record("segment", {{"verdict", "colon"}});
+    EXPECT_EQ(listed().state, WorkState::running);
+    EXPECT_FALSE(listed().scans[0].ready());
+    one_.complete();
+    EXPECT_EQ(listed().state, WorkState::done);
+    EXPECT_EQ(listed().progress, 1);
+    EXPECT_TRUE(listed().scans[0].ready());
+    EXPECT_TRUE(listed().scans[0].organ.isColon());
+}
+
+TEST_F(Worklist, TellsWhyAScanFailed)
+{
+    one_.fail();
+    EXPECT_EQ(listed().state, WorkState::failed);
+    EXPECT_EQ(listed().reason, "a gap of 40 mm");
+    retryCase(one_.store, {}, "c1");
+    EXPECT_EQ(listed().state, WorkState::queued);
+}
+
+TEST_F(Worklist, AScanWithoutAColonIsSpoiledWhereCorrectionsLeftNoneAndRetriedWithoutThem)
+{
+    one_.record("segment", {{"verdict", "no colon"}, {"reason", "a head"}});
+    one_.complete();
+    EXPECT_EQ(listed().scans[0].reason, "no colon: a head");
+    EXPECT_FALSE(listed().scans[0].spoiled());
+    replaceCorrections(one_.store, {}, one_.scan, {.drop = {{1, 2, 3}}});
+    EXPECT_TRUE(listed().scans[0].spoiled());
+    retryCase(one_.store, {}, "c1");
+    EXPECT_TRUE(readCorrections(one_.scanFolder()).empty());
+}
+
+TEST_F(Worklist, ShowsQualityReportsAndMarkers)
+{
+    ScanQuality quality;
+    quality.whole = {.median_radius_mm = 18.4, .volume_ml = 100, .fluid_ml = 7};
+    quality.reason = "sigmoid collapsed over 38 mm";
+    one_.record("quality", {{"parts", nlohmann::json::array()}, {"quality", toJson(quality)}});
+    replaceFile(reportFile(one_.store, "c1", 1), "a report");
+    one_.store.saveMarker("c1", {.scan_id = "s1"});
+    EXPECT_EQ(listed().scans[0].quality, "radius 18 mm, fluid 7 %, sigmoid collapsed over 38 mm");
+    EXPECT_FALSE(listed().scans[0].adequate);
+    EXPECT_EQ(listed().reports, 1);
+    EXPECT_EQ(listed().markers, 1);
+}
+
+TEST_F(Worklist, IsWrittenWithTheKeysThatOthersRelyOn)
+{
+    const nlohmann::json json = toJson(makeWorklist(one_.store, {}))["cases"][0];
+    for (const char* key : {"id", "patient", "study_uid", "state", "reason", "flags", "markers", "created", "scans"})
+        EXPECT_TRUE(json.contains(key)) << key;
+    EXPECT_EQ(json["state"], "queued");
+    EXPECT_EQ(json["scans"][0]["role"], "scan");
+    EXPECT_EQ(json["scans"][0]["folder"], one_.scanFolder().string());
+}
+
+}  // namespace
+}  // namespace vicon
