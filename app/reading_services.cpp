@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <vector>
 
 #include "report_writing.h"
 #include "scan_work.h"
@@ -24,11 +25,18 @@ void runQueue(CaseStore& store, const Config& config, const std::atomic<bool>& s
 {
     auto options = config.get<pipeline::WorkOptions>();
     options.until_idle = true;
-    pipeline::WorkSummary summary;
+    std::vector<Job> done;
+    pipeline::WorkerEvents events;
+    events.ended = [&](const Job& job, JobState state, const std::string&) {
+        if (state == JobState::done)
+            done.push_back(job);
+    };
     do {
-        requeueOutdated(store, config);
-        summary = pipeline::runWorker(store, config.get<QueueOptions>(), options, scanWork(store, config), {}, stop);
-    } while (!stop && summary.done > 0);
+        done.clear();
+        pipeline::runWorker(store, config.get<QueueOptions>(), options, scanWork(store, config), events, stop);
+        for (const Job& job : done)
+            requeueOutdated(store, config, job.case_id, job.scan_id);
+    } while (!stop && !done.empty());
 }
 
 void addCorrectionServices(viewer::ReadingServices& services, const Config& config)
@@ -38,7 +46,7 @@ void addCorrectionServices(viewer::ReadingServices& services, const Config& conf
     };
     services.correct = [&config](CaseStore& store, const ScanRecord& scan, const Corrections& all) {
         replaceCorrections(store, config.get<QueueOptions>(), scan, all);
-        requeueOutdated(store, config);
+        requeueOutdated(store, config, scan.case_id, scan.id);
     };
     services.bridges = reviewedBridges;
     services.review_bridge = reviewBridge;
@@ -65,7 +73,7 @@ viewer::ReadingServices readingServices(const fs::path& store, const Config& con
     services.worklist_version = [](CaseStore& store) { return store.database().version(); };
     services.retry = [&config](CaseStore& store, const std::string& case_id) {
         retryCase(store, config.get<QueueOptions>(), case_id);
-        requeueOutdated(store, config);
+        requeueOutdated(store, config, case_id);
     };
     services.place = [&config](CaseStore& store, const std::string& case_id, Marker marker) {
         return placeMarker(store, config.get<MarkOptions>(), case_id, std::move(marker));

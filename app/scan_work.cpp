@@ -1,9 +1,19 @@
 #include "scan_work.h"
 
+#include <algorithm>
+
 #include "vicon/cases/placing.h"
 #include "vicon/ingest/load_scan.h"
 
 namespace vicon::app {
+namespace {
+
+bool isOutdated(CaseStore& store, const Config& config, const Job& job)
+{
+    return pipeline::isOutdated(store, config, toJson(config.get<ingest::ImportOptions>()), job.case_id, job.scan_id);
+}
+
+}  // namespace
 
 pipeline::JobWork scanWork(CaseStore& store, const Config& config)
 {
@@ -14,20 +24,32 @@ pipeline::JobWork scanWork(CaseStore& store, const Config& config)
             return ingest::loadScan(folder, options, progress);
         },
         toJson(options));
-    // A new skeleton gives the markers of its scan new stations.
-    return [&store, mark = config.get<MarkOptions>(), work = std::move(work)](pipeline::JobContext& job_context) {
-        work(job_context);
-        renewPlaces(store, mark, job_context.job().case_id, job_context.job().scan_id);
+    // A new skeleton gives the markers of its scan new stations. What was corrected while the job ran is done again.
+    return [&store, config, mark = config.get<MarkOptions>(), work = std::move(work)](pipeline::JobContext& context) {
+        constexpr int kMostTimes = 5;
+        const Job& job = context.job();
+        work(context);
+        for (int n = 1; n < kMostTimes && isOutdated(store, config, job); ++n)
+            work(context);
+        renewPlaces(store, mark, job.case_id, job.scan_id);
     };
 }
 
-void requeueOutdated(CaseStore& store, const Config& config)
+void requeueOutdated(CaseStore& store, const Config& config, const std::string& case_id, const std::string& scan_id)
 {
     JobQueue queue(store.database(), config.get<QueueOptions>());
     for (const Job& job : queue.jobs())
-        if (job.state == JobState::done &&
-            pipeline::isOutdated(store, config, toJson(config.get<ingest::ImportOptions>()), job.case_id, job.scan_id))
+        if (job.state == JobState::done && (case_id.empty() || job.case_id == case_id) &&
+            (scan_id.empty() || job.scan_id == scan_id) && isOutdated(store, config, job))
             queue.retry(job.case_id, job.scan_id);
+}
+
+int countOutdated(CaseStore& store, const Config& config)
+{
+    const auto jobs = JobQueue(store.database(), config.get<QueueOptions>()).jobs();
+    return int(std::count_if(jobs.begin(), jobs.end(), [&](const Job& job) {
+        return job.state == JobState::done && isOutdated(store, config, job);
+    }));
 }
 
 }  // namespace vicon::app

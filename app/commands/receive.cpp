@@ -34,6 +34,7 @@ void workInBackground(const std::filesystem::path& store_folder, const Config& c
                 spdlog::info("{}/{}: {}{}", job.case_id, job.scan_id, nameOf(state),
                              reason.empty() ? "" : ", " + reason);
             };
+            events.trouble = [](const std::string& what) { spdlog::error("{}", what); };
             pipeline::runWorker(store, config.get<QueueOptions>(), config.get<pipeline::WorkOptions>(),
                                 scanWork(store, config), events, stopRequested());
         } catch (const std::exception& e) {

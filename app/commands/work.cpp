@@ -18,6 +18,7 @@ namespace {
 struct WorkArguments {
     bool until_idle = false;
     bool retry = false;
+    bool redo_outdated = false;
     std::string case_id, scan_id, organ;
     std::vector<std::string> add, cut, drop;
     bool forget_corrections = false;
@@ -46,6 +47,7 @@ void correct(Context& context, CaseStore& store, const WorkArguments& arguments)
         replaceCorrections(store, queue, scan, more);
     else
         addCorrections(store, queue, scan, more);
+    requeueOutdated(store, context.config(), scan.case_id, scan.id);
 }
 
 /// What the pipeline says of a scan whose organ it is not sure of.
@@ -80,11 +82,16 @@ int work(Context& context, const WorkArguments& arguments)
     const auto queue_options = context.config().get<QueueOptions>();
     if (arguments.retry)
         retryFailed(store, queue_options);
-    if (!arguments.organ.empty())
+    if (!arguments.organ.empty()) {
         setOrgan(store, context.config(), arguments.organ, arguments.case_id, arguments.scan_id);
+        if (!arguments.case_id.empty())
+            requeueOutdated(store, context.config(), store.requireCase(arguments.case_id).id);
+    }
     if (arguments.correct())
         correct(context, store, arguments);
-    requeueOutdated(store, context.config());
+    if (arguments.redo_outdated)
+        requeueOutdated(store, context.config(),
+                        arguments.case_id.empty() ? "" : store.requireCase(arguments.case_id).id);
     auto options = context.config().get<pipeline::WorkOptions>();
     options.until_idle = arguments.until_idle;
 
@@ -107,10 +114,17 @@ int work(Context& context, const WorkArguments& arguments)
     const auto summary =
         pipeline::runWorker(store, queue_options, options, scanWork(store, context.config()), events, stopRequested());
     progress.clear();
+    const int outdated = countOutdated(store, context.config());
     if (context.json)
-        std::printf("{\"done\": %d, \"failed\": %d, \"waiting\": %d}\n", summary.done, summary.failed, summary.waiting);
+        std::printf("{\"done\": %d, \"failed\": %d, \"waiting\": %d, \"outdated\": %d}\n", summary.done, summary.failed,
+                    summary.waiting, outdated);
     else
         std::printf("%d done, %d failed, %d waiting\n", summary.done, summary.failed, summary.waiting);
+    if (outdated > 0 && !context.json)
+        std::printf(
+            "%d finished scans are out of date (other options, another version, a lost file);"
+            " 'vicon work --redo-outdated' does them again\n",
+            outdated);
     return summary.failed > 0 ? 1 : 0;
 }
 
@@ -123,13 +137,18 @@ Subcommand workCommand()
                 auto arguments = std::make_shared<WorkArguments>();
                 command.add_flag("--until-idle", arguments->until_idle, "Stop when the queue is empty");
                 command.add_flag("--retry", arguments->retry, "Put failed jobs back into the queue first");
+                command.add_flag("--redo-outdated", arguments->redo_outdated,
+                                 "Put finished scans that other options or another version would make otherwise back "
+                                 "into the queue first; with --case those of one case");
                 command
                     .add_option(
                         "--organ", arguments->organ,
                         "What the scans of --case show, without it all that no step was done on: colon, airway or "
                         "aorta")
                     ->type_name("NAME");
-                command.add_option("--case", arguments->case_id, "The case that --organ and corrections speak of")
+                command
+                    .add_option("--case", arguments->case_id,
+                                "The case that --organ, --redo-outdated and corrections speak of")
                     ->type_name("CASE");
                 command.add_option("--scan", arguments->scan_id, "Its scan; needed where the case has several")
                     ->type_name("SCAN");

@@ -3,7 +3,6 @@
 #include <soci/soci.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "job_owner.h"
@@ -49,6 +48,22 @@ std::vector<Job> collect(const soci::rowset<soci::row>& rows)
     return jobs;
 }
 
+/// Whether the job was further when its worker stopped than it was whenever one stopped before.
+bool gotFurther(soci::session& sql, const Job& job)
+{
+    constexpr double kPerMille = 1000;
+    const std::string name = furthestName(job.case_id, job.scan_id);
+    const int now = int(job.progress * kPerMille);
+    int before = 0;
+    sql << "SELECT COALESCE(MAX(value), 0) FROM counters WHERE name = :name", soci::use(name), soci::into(before);
+    if (now <= before)
+        return false;
+    sql << "INSERT INTO counters (name, value) VALUES (:name, :value)"
+           " ON CONFLICT (name) DO UPDATE SET value = excluded.value",
+        soci::use(name), soci::use(now);
+    return true;
+}
+
 }  // namespace
 
 std::string nameOf(JobState state)
@@ -66,22 +81,32 @@ std::string nameOf(JobState state)
     return "failed";
 }
 
-double systemClock()
-{
-    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
 JobQueue::JobQueue(Database& database, QueueOptions options, Clock clock)
     : database_(database), options_(options), clock_(std::move(clock))
 {
+}
+
+double JobQueue::nowIn(soci::session& sql) const
+{
+    if (clock_)
+        return clock_();
+    double seconds = 0;
+    sql << "SELECT (julianday('now') - 2440587.5) * 86400.0", soci::into(seconds);
+    return seconds;
+}
+
+double JobQueue::now()
+{
+    return nowIn(database_.session());
 }
 
 std::optional<Job> JobQueue::claim(const std::string& owner)
 {
     std::optional<Job> claimed;
     database_.write([&](soci::session& sql) {
+        capTimes(sql);
         dropLost(sql);
-        const double now = clock_(), lease_until = now + options_.lease_s;
+        const double now = nowIn(sql), lease_until = now + options_.lease_s;
         const std::string changed = nowUtc();
         const soci::rowset<soci::row> rows =
             (sql.prepare
@@ -96,15 +121,26 @@ std::optional<Job> JobQueue::claim(const std::string& owner)
     return claimed;
 }
 
+/// A clock that ran ahead leaves times that no lease and no back-off can have; they must not hide a job.
+void JobQueue::capTimes(soci::session& sql)
+{
+    const double latest_lease = nowIn(sql) + options_.lease_s, latest_start = nowIn(sql) + options_.longest_backoff_s;
+    sql << "UPDATE jobs SET lease_until = :l WHERE state = 'running' AND lease_until > :limit", soci::use(latest_lease),
+        soci::use(latest_lease);
+    sql << "UPDATE jobs SET not_before = :n WHERE state = 'queued' AND not_before > :limit", soci::use(latest_start),
+        soci::use(latest_start);
+}
+
 void JobQueue::dropLost(soci::session& sql)
 {
+    const double now = nowIn(sql);
     const soci::rowset<soci::row> rows = (sql.prepare << "SELECT * FROM jobs WHERE state = 'running'");
     for (Job& job : collect(rows)) {
-        if (job.lease_until > clock_() && !ownerIsGone(job.owner))
+        if (job.lease_until > now && !ownerIsGone(job.owner))
             continue;
-        const int attempts = job.attempts + 1;
+        const int attempts = gotFurther(sql, job) ? 1 : job.attempts + 1;
         const bool last = attempts >= options_.most_drops;
-        settle(sql, job, last ? JobState::failed : JobState::queued, clock_(),
+        settle(sql, job, last ? JobState::failed : JobState::queued, now,
                "the worker stopped without a word" + (job.step.empty() ? "" : " in step " + job.step), attempts);
     }
 }
@@ -120,21 +156,31 @@ void JobQueue::requireFence(soci::session& sql, const Job& job)
 
 void JobQueue::renew(const Job& job, const std::string& step, double progress)
 {
-    const double lease_until = clock_() + options_.lease_s;
     database_.write([&](soci::session& sql) {
         requireFence(sql, job);
+        const double lease_until = nowIn(sql) + options_.lease_s;
         sql << "UPDATE jobs SET lease_until = :u, step = :step, progress = :p WHERE case_id = :c AND scan_id = :s",
             soci::use(lease_until), soci::use(step), soci::use(progress), soci::use(job.case_id),
             soci::use(job.scan_id);
     });
 }
 
-void JobQueue::commitStep(const Job& job, const StepRecord& step)
+void JobQueue::underFence(const Job& job, const std::function<void()>& action)
 {
-    const std::string parameters = step.parameters.dump(), result = step.result.dump();
-    const double lease_until = clock_() + options_.lease_s;
     database_.write([&](soci::session& sql) {
         requireFence(sql, job);
+        action();
+    });
+}
+
+void JobQueue::commitStep(const Job& job, const StepRecord& step, const std::function<void()>& publish)
+{
+    const std::string parameters = step.parameters.dump(), result = step.result.dump();
+    database_.write([&](soci::session& sql) {
+        requireFence(sql, job);
+        if (publish)
+            publish();
+        const double lease_until = nowIn(sql) + options_.lease_s;
         sql << "INSERT INTO steps (case_id, scan_id, step, version, digest, parameters, result, seconds, finished)"
                " VALUES (:c, :s, :step, :v, :d, :p, :r, :sec, :f) ON CONFLICT (case_id, scan_id, step) DO UPDATE SET"
                " version = excluded.version, digest = excluded.digest, parameters = excluded.parameters,"
@@ -178,7 +224,7 @@ void JobQueue::fail(const Job& job, const std::string& reason, bool permanent)
             return;
         }
         const double wait = std::min(options_.longest_backoff_s, options_.first_backoff_s * std::pow(2, attempts - 1));
-        settle(sql, job, JobState::queued, clock_() + wait, reason, attempts);
+        settle(sql, job, JobState::queued, nowIn(sql) + wait, reason, attempts);
     });
 }
 
@@ -186,7 +232,15 @@ void JobQueue::release(const Job& job)
 {
     database_.write([&](soci::session& sql) {
         requireFence(sql, job);
-        settle(sql, job, JobState::queued, clock_(), "", job.attempts);
+        settle(sql, job, JobState::queued, nowIn(sql), "", job.attempts);
+    });
+}
+
+void JobQueue::postpone(const Job& job, const std::string& reason, double wait_s)
+{
+    database_.write([&](soci::session& sql) {
+        requireFence(sql, job);
+        settle(sql, job, JobState::queued, nowIn(sql) + wait_s, reason, job.attempts);
     });
 }
 

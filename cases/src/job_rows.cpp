@@ -4,6 +4,11 @@
 
 namespace vicon {
 
+std::string furthestName(const std::string& case_id, const std::string& scan_id)
+{
+    return "furthest " + case_id + "/" + scan_id;
+}
+
 void enqueueJob(soci::session& sql, const std::string& case_id, const std::string& scan_id)
 {
     const std::string now = nowUtc();
@@ -12,6 +17,9 @@ void enqueueJob(soci::session& sql, const std::string& case_id, const std::strin
            " ON CONFLICT (case_id, scan_id) DO UPDATE SET state = 'queued', attempts = 0, not_before = 0,"
            " fence = fence + 1, owner = '', lease_until = 0, reason = '', changed = excluded.changed",
         soci::use(case_id), soci::use(scan_id), soci::use(now);
+    const std::string furthest = furthestName(case_id, scan_id);
+    sql << "DELETE FROM counters WHERE name = :name", soci::use(furthest);
+    sql << "UPDATE jobs SET progress = 0 WHERE case_id = :c AND scan_id = :s", soci::use(case_id), soci::use(scan_id);
 }
 
 void withdrawJob(soci::session& sql, const std::string& case_id, const std::string& scan_id)

@@ -8,6 +8,9 @@ namespace vicon {
 
 /// A scan's row in the queue's table, within a transaction of the caller.
 
+/// The counter of how far, in thousandths, workers that stopped without a word had got with the job.
+std::string furthestName(const std::string& case_id, const std::string& scan_id);
+
 /// Adds a job, or puts a finished one back into the queue.
 void enqueueJob(soci::session& sql, const std::string& case_id, const std::string& scan_id);
 /// Takes it out of the queue unless it is done.

@@ -55,7 +55,7 @@ Incoming::~Incoming()
 
 void Incoming::lockFolder()
 {
-    lock_descriptor_ = ::open((folder_ / "receiver.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    lock_descriptor_ = ::open((folder_ / kReceiverLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (lock_descriptor_ >= 0 && ::flock(lock_descriptor_, LOCK_EX | LOCK_NB) == 0)
         return;
     if (lock_descriptor_ >= 0)

@@ -15,6 +15,9 @@
 
 namespace vicon::ingest {
 
+/// In the incoming folder for as long as the store is there; locked while a receiver works for it.
+inline constexpr const char* kReceiverLock = "receiver.lock";
+
 /// What has been received and waits to be taken: one folder below `incoming` for each association. A thread hands over
 /// the objects of one study at a time, once no association sends it any more and a quiet time has passed. What cannot
 /// be taken is tried again; what no case takes goes to the store's quarantine.

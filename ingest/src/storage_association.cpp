@@ -34,13 +34,16 @@ std::string printable(std::string title)
     return title;
 }
 
-/// Whether the store has no room for more objects: the sender is told before one of them fails half-way.
-bool isFull(const fs::path& folder)
+/// Why the store takes no more objects; empty when it does. The sender is told before one of them fails half-way, or
+/// lands in a folder that was made anew where the store was deleted.
+std::string whyNoPlace(const fs::path& incoming)
 {
     constexpr std::uintmax_t kLeastFree = 32U << 20U;
+    if (!fs::exists(incoming / kReceiverLock))
+        return "the store is gone";
     std::error_code unknown;
-    const fs::space_info space = fs::space(folder, unknown);
-    return !unknown && space.available < kLeastFree;
+    const fs::space_info space = fs::space(incoming, unknown);
+    return !unknown && space.available < kLeastFree ? "the store's disk is full" : "";
 }
 
 void refuseCrowded(T_ASC_Association* association)
@@ -130,9 +133,9 @@ OFCondition StorageAssociation::handleIncomingCommand(T_DIMSE_Message* message,
 OFCondition StorageAssociation::receive(T_DIMSE_C_StoreRQ& request, T_ASC_PresentationContextID context, Uint16& status)
 {
     OFCondition received = EC_Normal;
-    if (isFull(folder_.parent_path())) {
+    if (const std::string why = whyNoPlace(folder_.parent_path()); !why.empty()) {
         status = kOutOfResources;
-        service_.incoming.trouble("an object of " + sender() + " was refused: the store's disk is full");
+        service_.incoming.trouble("an object of " + sender() + " was refused: " + why);
         return receiveSTORERequest(request, context, "/dev/null");
     }
     const fs::path file = folder_ / (std::to_string(count_) + ".dcm");

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "published_file.h"
+#include "vicon/core/file.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume.h"
 #include "vicon/scan_files/skeleton_file.h"
@@ -25,9 +27,36 @@ namespace vicon::pipeline {
 /// next step need not wait for the disk; finish() does.
 class ScanArtefacts {
 public:
-    explicit ScanArtefacts(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    /// @param folder of the scan
+    /// @param claim folder of the files that this claim of the job makes, until publish() puts them into the scan's
+    ScanArtefacts(std::filesystem::path folder, std::filesystem::path claim)
+        : folder_(std::move(folder)), claim_(std::move(claim))
+    {
+        makePrivateFolder(claim_ / "projections");
+    }
+    ~ScanArtefacts()
+    {
+        writing_.clear();  // waits
+        std::error_code ignored;
+        std::filesystem::remove_all(claim_, ignored);
+    }
+    ScanArtefacts(const ScanArtefacts&) = delete;
+    ScanArtefacts& operator=(const ScanArtefacts&) = delete;
 
-    const std::filesystem::path& folder() const { return folder_; }
+    /// Where a file is written.
+    std::filesystem::path target(const std::string& file) const { return claim_ / file; }
+    /// Where a file is read: as this claim made it, else as an earlier one did.
+    std::filesystem::path source(const std::string& file) const
+    {
+        return std::filesystem::exists(claim_ / file) ? claim_ / file : folder_ / file;
+    }
+    /// Puts files that are on the disk into the scan's folder, each whole. They stay readable where they were made.
+    void publish(const std::vector<std::string>& files) const
+    {
+        for (const std::string& file : files)
+            if (std::filesystem::exists(claim_ / file))
+                publishFile(claim_ / file, folder_ / file);
+    }
 
     const HuVolume& volume() { return get(volume_, "volume.mha"); }
     /// The part of volume() around inside(); the whole need not be kept for it.
@@ -38,7 +67,7 @@ public:
         if (!around_lumen_ && volume_)
             around_lumen_ = steps::densitiesAround(*volume_, lumen);
         if (!around_lumen_)
-            around_lumen_ = steps::densitiesAround(scan_files::readVolume<std::int16_t>(folder_ / "volume.mha"), lumen);
+            around_lumen_ = steps::densitiesAround(scan_files::readVolume<std::int16_t>(source("volume.mha")), lumen);
         return *around_lumen_;
     }
     const InsideVolume& inside() { return get(inside_, "inside.mha"); }
@@ -47,7 +76,7 @@ public:
     {
         const std::lock_guard lock(mutex_);
         if (!skeleton_)
-            skeleton_ = scan_files::readSkeleton(folder_ / "skeleton.vtp");
+            skeleton_ = scan_files::readSkeleton(source("skeleton.vtp"));
         return *skeleton_;
     }
 
@@ -57,14 +86,14 @@ public:
     void put(SegmentVolume v) { put(segments_, std::move(v), "segments.mha", scan_files::Packing::zlib); }
     void put(Skeleton s)
     {
-        scan_files::writeSkeleton(folder_ / "skeleton.vtp", s);
+        scan_files::writeSkeleton(target("skeleton.vtp"), s);
         const std::lock_guard lock(mutex_);
         skeleton_ = std::move(s);
     }
     /// Begins to write a field that no other step needs.
     void write(const std::string& file, FieldVolume field)
     {
-        begin(file, [path = folder_ / file, kept = std::make_shared<const FieldVolume>(std::move(field))] {
+        begin(file, [path = target(file), kept = std::make_shared<const FieldVolume>(std::move(field))] {
             scan_files::writeVolume(path, *kept, scan_files::Packing::raw);
         });
     }
@@ -140,7 +169,7 @@ private:
     {
         const std::lock_guard lock(mutex_);
         if (!kept)
-            kept = scan_files::readVolume<T>(folder_ / file);
+            kept = scan_files::readVolume<T>(source(file));
         return *kept;
     }
     template <class T>
@@ -150,7 +179,7 @@ private:
             const std::lock_guard lock(mutex_);
             kept = std::move(made);
         }
-        begin(file, [path = folder_ / file, &kept, packing] { scan_files::writeVolume(path, *kept, packing); });
+        begin(file, [path = target(file), &kept, packing] { scan_files::writeVolume(path, *kept, packing); });
     }
     template <class Write>
     void begin(const std::string& file, Write write)
@@ -160,7 +189,7 @@ private:
         writing_[file] = std::move(writing);
     }
 
-    std::filesystem::path folder_;
+    std::filesystem::path folder_, claim_;
     std::mutex mutex_;
     std::optional<HuVolume> volume_, around_lumen_;
     std::optional<InsideVolume> inside_;

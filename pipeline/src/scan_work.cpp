@@ -22,12 +22,19 @@ using nlohmann::json;
 namespace vicon::pipeline {
 namespace {
 
-json sizesOf(const fs::path& folder, const std::vector<std::string>& files)
+json sizesOf(const ScanArtefacts& artefacts, const std::vector<std::string>& files)
 {
     json sizes = json::object();
     for (const std::string& file : files)
-        sizes[file] = fs::file_size(folder / file);
+        sizes[file] = fs::file_size(artefacts.source(file));
     return sizes;
+}
+
+/// A worker that was thought dead and is not writes here, where it can spoil nothing of its successor's.
+fs::path claimFolder(const fs::path& scan_folder, const Job& job)
+{
+    removeTemporaries(scan_folder);  // of earlier claims
+    return scan_folder / (std::string(kTemporaryPrefix) + "claim-" + std::to_string(job.fence));
 }
 
 bool filesAreThere(const fs::path& folder, const json& sizes)
@@ -112,7 +119,7 @@ public:
           scan_(store.requireScan(context.job().case_id, context.job().scan_id)),
           folder_(store.scanFolder(scan_.case_id, scan_.id)),
           inputs_{configFor(config, folder_), loader, gravityFor(scan_.series.patient_position), folder_ / "dicom"},
-          artefacts_(folder_),
+          artefacts_(folder_, claimFolder(folder_, context.job())),
           loader_parameters_(loader_parameters),
           instances_(store.instances(scan_.case_id, scan_.id)),
           records_(recordsOf(store, scan_))
@@ -121,7 +128,6 @@ public:
 
     void run()
     {
-        removeTemporaries(folder_);
         makePrivateFolder(folder_ / "projections");
         removeTemporaries(folder_ / "projections");
         StepRunner(stepTable(),
@@ -133,7 +139,7 @@ public:
             .run();
         for (const Step& step : stepTable())
             if (endsHere(records_[step.name]))
-                removeFilesAfter(step);
+                context_.underFence([&] { removeFilesAfter(step); });
         store_.writeScanFile(scan_.case_id, scan_.id);
     }
 
@@ -155,10 +161,11 @@ private:
     void record(const Step& step, double seconds)
     {
         StepRecord& record = records_[step.name];
-        record.result["files"] = sizesOf(folder_, step.outputs(record.result));
+        const std::vector<std::string> files = step.outputs(record.result);
+        record.result["files"] = sizesOf(artefacts_, files);
         record.seconds = seconds;
         record.finished = nowUtc();
-        context_.commitStep(record);
+        context_.commitStep(record, [&] { artefacts_.publish(files); });
         store_.writeScanFile(scan_.case_id, scan_.id);
     }
 

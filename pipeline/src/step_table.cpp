@@ -126,8 +126,8 @@ json runTree(const steps::LumenPlan& plan, const StepInputs& inputs, ScanArtefac
                    {"tips", tips.size()},
                    {"length_mm", found.tree.pathTo(tips.front()).length_mm()},
                    {"total_length_mm", found.tree.totalLength_mm()}};
-    scan_files::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
-    scan_files::writeSkeletonTree(artefacts.folder() / "skeleton.vtp", found.tree);
+    scan_files::writeSkeletonVoxels(artefacts.target("skeleton_voxels.vtp"), found.voxels);
+    scan_files::writeSkeletonTree(artefacts.target("skeleton.vtp"), found.tree);
     return result;
 }
 
@@ -150,7 +150,7 @@ json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepR
         steps::findSkeleton(artefacts.inside(), plan, inputs.config.get<steps::SkeletonOptions>(), progress, hooks);
     json result = found.measures;
     result["length_mm"] = found.curve.length_mm();
-    scan_files::writeSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp", found.voxels);
+    scan_files::writeSkeletonVoxels(artefacts.target("skeleton_voxels.vtp"), found.voxels);
     artefacts.put(std::move(found.curve));
     return result;
 }
@@ -178,21 +178,21 @@ json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
     const InsideVolume& inside = artefacts.inside();
     const auto contour = artefacts.surface(inputs.config.get<steps::WallDensities>());
     auto options = inputs.config.get<steps::SubdivideOptions>();
-    const SkeletonTree tree = scan_files::readSkeletonTree(artefacts.folder() / "skeleton.vtp");
+    const SkeletonTree tree = scan_files::readSkeletonTree(artefacts.source("skeleton.vtp"));
     if (!tree.empty())
         options.method = "flood";  // planes across one path do not part branches
     steps::Subdivided divided =
         steps::subdivide(inside, tree.empty() ? artefacts.skeleton() : tree.allBranches(),
-                         scan_files::readSkeletonVoxels(artefacts.folder() / "skeleton_voxels.vtp"), options, divide,
+                         scan_files::readSkeletonVoxels(artefacts.source("skeleton_voxels.vtp")), options, divide,
                          artefacts.takeFlood());
     artefacts.put(std::move(divided.segments));
     const CellSurface surface = contour.get().cellsOf(artefacts.segments(), tell);
     steps::countTriangles(surface, divided.description);
     auto cells =
-        std::async(std::launch::async, [&] { scan_files::writeCells(artefacts.folder() / "cells.vtp", surface); });
-    scan_files::writeProjections(artefacts.folder() / "projections",
+        std::async(std::launch::async, [&] { scan_files::writeCells(artefacts.target("cells.vtp"), surface); });
+    scan_files::writeProjections(artefacts.target("projections"),
                                  steps::project(surface, inputs.config.get<steps::ProjectionOptions>(), project));
-    scan_files::writeSubdivision(artefacts.folder() / "subdivision.json", divided.description);
+    scan_files::writeSubdivision(artefacts.target("subdivision.json"), divided.description);
     cells.get();
     json result = divided.description.statistics;
     result["method"] = divided.description.method;
@@ -211,7 +211,7 @@ json runPotential(const StepInputs& inputs, ScanArtefacts& artefacts, const Step
     FieldVolume from_wall_mm = steps::wallDistance(artefacts.inside(), surface.get().nearWall(), wall);
     result["largest_wall_distance_mm"] = largest(from_wall_mm);
     artefacts.write("wall_distance.mha", std::move(from_wall_mm));
-    const SkeletonTree tree = scan_files::readSkeletonTree(artefacts.folder() / "skeleton.vtp");
+    const SkeletonTree tree = scan_files::readSkeletonTree(artefacts.source("skeleton.vtp"));
     FieldVolume from_exit_mm = tree.empty() ? steps::exitDistance(artefacts.inside(), artefacts.skeleton(), exit)
                                             : steps::exitDistance(artefacts.inside(), tree, exit);
     result["largest_exit_distance_mm"] = largest(from_exit_mm);

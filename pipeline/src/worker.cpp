@@ -1,10 +1,14 @@
 #include "vicon/pipeline/worker.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <condition_variable>
+#include <cstring>
 #include <mutex>
 #include <new>
+#include <optional>
+#include <set>
 #include <system_error>
 #include <thread>
 
@@ -14,6 +18,8 @@ namespace vicon::pipeline {
 namespace {
 
 constexpr double kIdlePoll_s = 0.5;
+constexpr double kSpaceWait_s = 30;  // until a full disk is looked at again
+constexpr double kFirstTroubleWait_s = 1, kLongestTroubleWait_s = 60;
 constexpr const char* kNoMemory =
     "not enough memory, or too many threads; close other programs, then 'vicon work --retry'";
 
@@ -112,7 +118,11 @@ public:
         tell(whole_, what);
     }
     bool cancelled() const override { return stop_ || heartbeat_.leaseLost(); }
-    void commitStep(const StepRecord& step) override { queue_.commitStep(job_, step); }
+    void commitStep(const StepRecord& step, const std::function<void()>& publish) override
+    {
+        queue_.commitStep(job_, step, publish);
+    }
+    void underFence(const std::function<void()>& action) override { queue_.underFence(job_, action); }
 
 private:
     void tell(double whole, std::string_view what)
@@ -145,8 +155,17 @@ bool isPermanent(ErrorCode code)
     }
 }
 
+/// Whether the disk had no room: somebody must make some, and then the work goes on.
+bool isFullDisk(const Error& e)
+{
+    const std::string what = e.what();
+    const auto says = [&](const char* words) { return what.find(words) != std::string::npos; };
+    return (e.code() == ErrorCode::store || e.code() == ErrorCode::database) &&
+           (says(std::strerror(ENOSPC)) || says(std::strerror(EDQUOT)) || says("disk is full"));
+}
+
 struct Outcome {
-    enum class Kind { done, failed, stopped, lost } kind = Kind::done;
+    enum class Kind { done, failed, no_space, stopped, lost } kind = Kind::done;
     std::string reason;
     bool permanent = false;
 };
@@ -161,6 +180,8 @@ Outcome doWork(const JobWork& work, Context& context)
             return {Outcome::Kind::lost, e.what()};
         if (e.code() == ErrorCode::cancelled)
             return {Outcome::Kind::stopped, e.what()};
+        if (isFullDisk(e))
+            return {Outcome::Kind::no_space, e.what()};
         return {Outcome::Kind::failed, e.what(), isPermanent(e.code())};
     } catch (const std::bad_alloc&) {
         return {Outcome::Kind::failed, kNoMemory};
@@ -192,6 +213,9 @@ std::optional<JobState> doJob(const Job& job, JobQueue& queue, const std::filesy
             case Outcome::Kind::failed:
                 queue.fail(job, outcome.reason, outcome.permanent);
                 break;
+            case Outcome::Kind::no_space:
+                queue.postpone(job, "waits for space: " + outcome.reason, kSpaceWait_s);
+                break;
             case Outcome::Kind::stopped:
                 queue.release(job);
                 break;
@@ -214,6 +238,16 @@ bool othersWork(JobQueue& queue)
     return std::any_of(jobs.begin(), jobs.end(), [](const Job& job) { return job.state == JobState::running; });
 }
 
+/// Each with its fence: one that fails again is another one.
+std::set<std::string> failedJobs(JobQueue& queue)
+{
+    std::set<std::string> failed;
+    for (const Job& job : queue.jobs())
+        if (job.state == JobState::failed)
+            failed.insert(job.case_id + "/" + job.scan_id + " " + std::to_string(job.fence));
+    return failed;
+}
+
 void sleepFor(double seconds, const std::atomic<bool>& stop)
 {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
@@ -228,25 +262,38 @@ WorkSummary runWorker(CaseStore& store, const QueueOptions& queue_options, const
 {
     JobQueue queue(store.database(), queue_options);
     const std::string owner = thisOwner();
+    std::optional<std::set<std::string>> failed_before;
     WorkSummary summary;
-    double waited_s = 0;
+    double waited_s = 0, trouble_wait_s = kFirstTroubleWait_s;
     while (!stop) {
-        if (const auto job = queue.claim(owner)) {
-            const auto end = doJob(*job, queue, store.folder() / "vicon.db", work, events, stop);
-            summary.done += end == JobState::done;
-            summary.failed += end == JobState::failed;
-            continue;
+        try {
+            if (!failed_before)
+                failed_before = failedJobs(queue);
+            if (const auto job = queue.claim(owner)) {
+                const auto end = doJob(*job, queue, store.folder() / "vicon.db", work, events, stop);
+                summary.done += end == JobState::done;
+                trouble_wait_s = kFirstTroubleWait_s;
+                continue;
+            }
+            const auto due = queue.nextDue();
+            if (options.until_idle && (!due || waited_s >= options.longest_wait_s))
+                break;
+            const double pause = std::clamp(due ? *due - queue.now() : kIdlePoll_s, 0.02, kIdlePoll_s);
+            sleepFor(pause, stop);
+            if (!othersWork(queue))
+                waited_s += pause;
+        } catch (const std::exception& e) {  // the database; a job's own troubles are its outcome
+            if (options.until_idle)
+                throw;
+            events.trouble(std::string("the queue cannot be used, the worker tries again: ") + e.what());
+            sleepFor(trouble_wait_s, stop);
+            trouble_wait_s = std::min(2 * trouble_wait_s, kLongestTroubleWait_s);
         }
-        const auto due = queue.nextDue();
-        if (options.until_idle && (!due || waited_s >= options.longest_wait_s))
-            break;
-        const double pause = std::clamp(due ? *due - systemClock() : kIdlePoll_s, 0.02, kIdlePoll_s);
-        sleepFor(pause, stop);
-        if (!othersWork(queue))
-            waited_s += pause;
     }
     for (const Job& job : queue.jobs())
         summary.waiting += job.state == JobState::queued;
+    for (const std::string& job : failedJobs(queue))
+        summary.failed += failed_before && failed_before->contains(job) ? 0 : 1;
     return summary;
 }
 

@@ -82,12 +82,15 @@ TEST_F(Study, WorkingAgainChangesNothingAndOtherParametersRedoWhatDependsOnThem)
         return times;
     };
     const auto first = timesOf();
-    viconOn(store(), "work --until-idle --set subdivide.length_mm=50");
+    const std::string other = "work --until-idle --set subdivide.length_mm=50";
+    EXPECT_THAT(viconOn(store(), other), HasSubstr("1 finished scans are out of date"));
+    EXPECT_EQ(timesOf(), first) << "nothing is done again unasked";
+    viconOn(store(), other + " --redo-outdated");
     const auto second = timesOf();
     for (const char* kept : {"resample", "segment", "skeleton", "potential"})
         EXPECT_EQ(second.at(kept), first.at(kept)) << kept;
     EXPECT_NE(second.at("subdivide"), first.at("subdivide"));
-    viconOn(store(), "work --until-idle");
+    viconOn(store(), "work --until-idle --redo-outdated");
     EXPECT_TRUE(artefactsOf(store()) == before) << "and back";
 }
 
@@ -135,7 +138,7 @@ TEST_F(Study, RedoesAnArtefactThatIsMissing)
 {
     const auto before = artefactsOf(store());
     fs::remove(scan_.folder / "skeleton.vtp");
-    viconOn(store(), "work --until-idle");
+    viconOn(store(), "work --until-idle --redo-outdated");
     EXPECT_TRUE(artefactsOf(store()) == before);
 }
 

@@ -1,6 +1,7 @@
 #include "vicon/cases/job_queue.h"
 
 #include <gmock/gmock.h>
+#include <soci/soci.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -139,6 +140,54 @@ TEST_F(Queue, FailsAJobThatKeepsKillingItsWorkers)
     }
     EXPECT_FALSE(queue_.claim("a"));
     EXPECT_EQ(queue_.find("c", "s0")->state, JobState::failed);
+}
+
+TEST_F(Queue, DoesNotCountWorkersThatDiedEachTimeFurtherOn)
+{
+    fake_.addJobs(1);
+    for (int n = 0; n < 20; ++n) {
+        const auto job = queue_.claim("a");
+        ASSERT_TRUE(job) << n;
+        queue_.renew(*job, "segment", 0.04 * n);
+        now_ += 11;
+    }
+    EXPECT_TRUE(queue_.claim("a"));
+}
+
+TEST_F(Queue, AWorkerWhoseClockIsAheadHidesNoJob)
+{
+    fake_.addJobs(2);
+    JobQueue ahead(fake_.store.database(), queue_.options(), [this] { return now_ + 3600; });
+    ASSERT_TRUE(ahead.claim("a"));
+    ahead.fail(*ahead.claim("a"), "busy", false);
+    EXPECT_FALSE(queue_.claim("b"));
+    now_ += queue_.options().lease_s + 1;
+    EXPECT_TRUE(queue_.claim("b")) << "one lease later, by the clock of those who wait";
+    now_ += queue_.options().longest_backoff_s;
+    EXPECT_TRUE(queue_.claim("b"));
+}
+
+TEST_F(Queue, TheDatabasesClockCounts)
+{
+    JobQueue queue(fake_.store.database(), queue_.options());
+    double seconds = 0;
+    fake_.store.database().session() << "SELECT CAST(strftime('%s', 'now') AS REAL)", soci::into(seconds);
+    EXPECT_NEAR(queue.now(), seconds, 5);
+}
+
+TEST_F(Queue, PublishesUnderTheFenceAndNotForAWorkerThatLostItsJob)
+{
+    fake_.addJobs(1);
+    const Job stale = *queue_.claim("a");
+    now_ += 11;
+    const Job current = *queue_.claim("b");
+    bool published = false;
+    const StepRecord step{.step = "segment", .version = 1, .digest = "d"};
+    EXPECT_EQ(codeOf([&] { queue_.commitStep(stale, step, [&] { published = true; }); }), ErrorCode::lease_lost);
+    EXPECT_EQ(codeOf([&] { queue_.underFence(stale, [&] { published = true; }); }), ErrorCode::lease_lost);
+    EXPECT_FALSE(published);
+    queue_.commitStep(current, step, [&] { published = true; });
+    EXPECT_TRUE(published);
 }
 
 TEST_F(Queue, ForgetsFailuresWhenAStepWasFinished)

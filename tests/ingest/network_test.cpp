@@ -551,6 +551,19 @@ TEST_F(Network, WhatCouldNotBeTakenIsTriedAgainWhileTheReceiverRuns)
     EXPECT_EQ(filesIn(incoming), 0u);
 }
 
+TEST_F(Network, AStoreThatIsGoneTakesNothing)
+{
+    const auto files = writeSeries(folder / "in", {});
+    RunningReceiver receiver(incoming, {});
+    fs::remove_all(store.folder());
+    const auto result = ingest::storeFiles(receiver.peer(), files, "SENDER", quiet);
+    EXPECT_EQ(result.sent, 0);
+    ASSERT_EQ(result.failures.size(), files.size());
+    EXPECT_NE(result.failures[0].reason.find("a700"), std::string::npos) << result.failures[0].reason;
+    EXPECT_TRUE(receiver.tells("the store is gone"));
+    EXPECT_FALSE(fs::exists(store.folder()));
+}
+
 TEST_F(Network, OneBadObjectDoesNotStrandItsCompanions)
 {
     const auto files = writeSeries(folder / "in", {});

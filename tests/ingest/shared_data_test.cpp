@@ -15,7 +15,7 @@ using Kind = ingest::ImportLine::Kind;
 
 namespace {
 
-/// What docs/admin/import-rules.md says of a file or folder, imported alone into an empty store.
+/// What the import rules (docs/admin/import-rules.md) make of a file or folder, imported alone into an empty store.
 struct DataCase {
     const char* path;
     Kind kind;

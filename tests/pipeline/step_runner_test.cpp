@@ -5,19 +5,22 @@
 #include <latch>
 
 #include "vicon/core/error.h"
+#include "vicon/core/file.h"
 #include "vicon/support/support.h"
 
 namespace vicon::pipeline {
 namespace {
 
 using nlohmann::json;
+namespace fs = std::filesystem;
 using Run = std::function<json(Progress&)>;
 
 class FakeContext : public JobContext {
 public:
     const Job& job() const override { return job_; }
     void enterStep(const std::string& step, double, double) override { entered.push_back(step); }
-    void commitStep(const StepRecord&) override {}
+    void commitStep(const StepRecord&, const std::function<void()>&) override {}
+    void underFence(const std::function<void()>&) override {}
     void report(double fraction, std::string_view) override
     {
         EXPECT_GE(fraction, last_);
@@ -50,7 +53,7 @@ struct Bench {
     void run(int at_once = 3)
     {
         const support::TemporaryFolder folder;
-        ScanArtefacts artefacts(folder.path());
+        ScanArtefacts artefacts(folder.path(), folder / "claim");
         StepRunner(table,
                    {.is_due = [&](const Step& step) { return !current.contains(step.name); },
                     .made = [&](const Step& step, const json&) { made.push_back(step.name); },
@@ -195,7 +198,7 @@ TEST(StepRunner, StopsWhenTheJobIsCancelled)
 TEST(ScanArtefacts, HandOnWhatIsStillBeingWrittenAndSayWhenItCannotBe)
 {
     const support::TemporaryFolder folder;
-    ScanArtefacts artefacts(folder.path());
+    ScanArtefacts artefacts(folder.path(), folder / "claim");
     HuVolume volume(Grid{.size = {40, 30, 20}}, 7);
     artefacts.put(std::move(volume));
     EXPECT_EQ(artefacts.volume().voxels.front(), 7);
@@ -211,9 +214,29 @@ TEST(ScanArtefacts, HandOnWhatIsStillBeingWrittenAndSayWhenItCannotBe)
     artefacts.dropDensitiesAroundLumen();
     EXPECT_EQ(artefacts.densitiesAroundLumen().voxels.size(), 21U * 22U * 19U) << "read back from the whole's file";
 
-    ScanArtefacts nowhere(folder / "missing");
+    ScanArtefacts nowhere(folder / "missing", folder / "missing/claim");
+    fs::remove_all(folder / "missing");
     nowhere.put(HuVolume(Grid{.size = {4, 3, 2}}));
     EXPECT_THROW(nowhere.finish({"volume.mha"}), Error);
+}
+
+TEST(ScanArtefacts, WhatAClaimMakesReachesTheScanOnlyWhenItIsPublished)
+{
+    const support::TemporaryFolder folder;
+    replaceFile(folder / "skeleton.vtp", "the successor's");
+    {
+        const ScanArtefacts stale(folder.path(), folder / ".vicon-tmp-claim-1");
+        EXPECT_EQ(stale.source("skeleton.vtp"), folder / "skeleton.vtp");
+        replaceFile(stale.target("skeleton.vtp"), "the stale one's");
+        EXPECT_EQ(readFile(stale.source("skeleton.vtp")), "the stale one's");
+        EXPECT_EQ(readFile(folder / "skeleton.vtp"), "the successor's");
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1) << "nothing of it stays";
+    const ScanArtefacts mine(folder.path(), folder / ".vicon-tmp-claim-2");
+    replaceFile(mine.target("skeleton.vtp"), "mine");
+    mine.publish({"skeleton.vtp", "not made.vtp"});
+    EXPECT_EQ(readFile(folder / "skeleton.vtp"), "mine");
+    EXPECT_EQ(readFile(mine.source("skeleton.vtp")), "mine") << "who reads it there goes on";
 }
 
 }  // namespace

@@ -6,7 +6,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include <soci/soci.h>
 #include "fake_jobs.h"
+
 #include "vicon/core/error.h"
 
 namespace vicon::pipeline {
@@ -92,7 +94,7 @@ TEST(Worker, StopsWhenItsJobWasTakenAndLeavesTheSuccessorAlone)
         work(fake,
              [&](JobContext& context) {
                  Database database(fake.store.folder() / "vicon.db");
-                 JobQueue later(database, kQuick, [] { return systemClock() + 100; });
+                 JobQueue later(database, kQuick, [&] { return JobQueue(database, kQuick).now() + 100; });
                  ASSERT_TRUE(later.claim("somebody/else/1/1"));
                  EXPECT_THROW(context.commitStep({.step = "segment", .version = 1, .digest = "d"}), Error);
                  for (int n = 0; n < 100 && !context.cancelled(); ++n)
@@ -166,6 +168,61 @@ TEST(Worker, GivesTheJobBackWhenToldToStop)
     const auto job = JobQueue(fake.store.database(), kQuick).find("c", "s0");
     EXPECT_EQ(job->state, JobState::queued);
     EXPECT_EQ(job->attempts, 0);
+}
+
+TEST(Worker, WaitsForSpaceOnAFullDiskWithoutCountingItAsAFailure)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    for (int n = 0; n < 5; ++n) {
+        const auto summary = work(
+            fake, [](JobContext&) { throw Error(ErrorCode::store, "cannot be written (No space left on device)"); }, {},
+            {.until_idle = true, .longest_wait_s = 0});
+        EXPECT_EQ(summary.failed, 0);
+        EXPECT_EQ(summary.waiting, 1);
+        fake.store.database().session() << "UPDATE jobs SET not_before = 0";
+    }
+    const auto job = JobQueue(fake.store.database(), kQuick).find("c", "s0");
+    EXPECT_EQ(job->state, JobState::queued);
+    EXPECT_EQ(job->attempts, 0);
+    EXPECT_THAT(job->reason, testing::HasSubstr("waits for space"));
+    EXPECT_EQ(work(fake, [](JobContext&) {}).done, 1);
+}
+
+TEST(Worker, GoesOnWhenTheDatabaseCanBeUsedAgain)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    Database other(fake.store.folder() / "vicon.db");
+    other.session() << "ALTER TABLE jobs RENAME TO lost";
+    std::atomic<bool> stop = false;
+    int troubles = 0;
+    WorkerEvents events;
+    events.trouble = [&](const std::string&) {
+        ++troubles;
+        other.session() << "ALTER TABLE lost RENAME TO jobs";
+    };
+    events.ended = [&](const Job&, JobState state, const std::string&) {
+        EXPECT_EQ(state, JobState::done);
+        stop = true;
+    };
+    runWorker(
+        fake.store, kQuick, {}, [](JobContext&) {}, events, stop);
+    EXPECT_EQ(troubles, 1);
+    EXPECT_TRUE(stop);
+}
+
+TEST(Worker, CountsAJobThatEndedFailedBecauseItsWorkersDied)
+{
+    FakeStore fake;
+    fake.addJobs(2);
+    fake.store.database().session()
+        << "UPDATE jobs SET state = 'running', owner = 'elsewhere/x/1/1', attempts = 9, lease_until = 1"
+           " WHERE scan_id = 's0'";
+    const auto summary = work(fake, [](JobContext&) {});
+    EXPECT_EQ(summary.done, 1);
+    EXPECT_EQ(summary.failed, 1);
+    EXPECT_EQ(work(fake, [](JobContext&) {}).failed, 0) << "of this run";
 }
 
 }  // namespace

@@ -200,8 +200,9 @@ TEST(Skeleton, StaysInTheMiddleBesideACollapsedPartInABend)
     ASSERT_EQ(result.curve.pieces.size(), 3U);
     for (const SkeletonPiece& piece : result.curve.pieces)
         for (const SkeletonPoint& p : piece.points)
-            if (std::abs(std::atan2(p.position_mm.y, p.position_mm.x)) * kBend_mm < 35)
+            if (std::abs(std::atan2(p.position_mm.y, p.position_mm.x)) * kBend_mm < 35) {
                 EXPECT_LT(off_ring(p.position_mm), 0.35);
+            }
 }
 
 TEST(Skeleton, OfNothingIsEmpty)

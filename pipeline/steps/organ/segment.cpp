@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "grid/lumen_graph.h"
 #include "grid/neighbours.h"
@@ -8,6 +9,7 @@
 #include "segment/constants.h"
 #include "segment/field_of_view.h"
 #include "segment/points.h"
+#include "segment/region_grower.h"
 #include "segment/verdict.h"
 #include "vicon/steps/organ.h"
 #include "vicon/steps/wall_distance.h"
@@ -27,23 +29,6 @@ bool isBright(const OrganOptions& options)
     return options.densities.wall_hu < options.low_hu;
 }
 
-/// What lies in the body between two densities.
-RunLabels label(const HuVolume& volume, const Body& body, double low_hu, double high_hu)
-{
-    const auto scan = [&](int j, int k, std::vector<VoxelRun>& runs) {
-        const std::int16_t* hu = &volume.voxels[volume.grid.offset({0, j, k})];
-        const std::size_t first = runs.size();
-        for (int i = 0; i < volume.grid.size[0]; ++i) {
-            if (hu[i] < low_hu || hu[i] > high_hu || hu[i] == kPaddingHu || !body.holds(j, k, i / body.factor))
-                continue;
-            if (runs.size() == first || runs.back().end != i)
-                runs.push_back({i, i, 0, 0});
-            ++runs.back().end;
-        }
-    };
-    return labelRuns(volume.grid.size, scan, Neighbours::faces);
-}
-
 /// The largest component that holds one of the points; -1 when none does.
 int largestAt(const RunLabels& labels, const Grid& grid, const std::vector<Point3>& points)
 {
@@ -54,31 +39,29 @@ int largestAt(const RunLabels& labels, const Grid& grid, const std::vector<Point
     return best;
 }
 
-/// One component, cropped.
-InsideVolume maskOf(const RunLabels& labels, const Grid& whole, int chosen, int margin)
+/// The largest region up to a density that holds one of the points.
+GrownRegion grownAt(RegionGrower& grower, const Grid& grid, const std::vector<Point3>& points, double low_hu,
+                    double high_hu)
 {
-    const RunComponent& c = labels.components[std::size_t(chosen)];
-    const std::array<int, 3> low{c.lower.i, c.lower.j, c.lower.k}, high{c.upper.i, c.upper.j, c.upper.k};
-    std::array<int, 3> from{};
-    Grid grid = whole;
-    for (std::size_t a = 0; a < 3; ++a) {
-        from[a] = std::max(0, low[a] - margin);
-        grid.size[a] = std::min(whole.size[a], high[a] + margin + 1) - from[a];
+    std::vector<GrownRegion> regions;
+    for (const Point3 point : points) {
+        const std::optional<Index3> seed = grower.seedAt(point, kCatch_mm, low_hu, high_hu);
+        if (!seed)
+            continue;
+        const auto holdsSeed = [&](const GrownRegion& region) {
+            return region.mask.valueOr(region.mask.grid.indexAt(grid.pointAt(*seed)), kOutside) != kOutside;
+        };
+        if (std::none_of(regions.begin(), regions.end(), holdsSeed))
+            regions.push_back(grower.grow(*seed, low_hu, high_hu, kAround_voxels));
     }
-    grid.origin_mm = whole.pointAt(Index3{from[0], from[1], from[2]});
-    InsideVolume mask(grid);
-    labels.forEachRun([&](const VoxelRun& run, int j, int k) {
-        if (int(run.label) == chosen)
-            std::fill_n(&mask.at({run.begin - from[0], j - from[1], k - from[2]}), run.end - run.begin,
-                        std::uint8_t(kGas));
-    });
-    return mask;
+    const auto largest = std::max_element(regions.begin(), regions.end(),
+                                          [](const auto& a, const auto& b) { return a.voxels < b.voxels; });
+    return largest == regions.end() ? GrownRegion{} : std::move(*largest);
 }
 
-/// The seed's component, grown as far as it does not leak.
+/// The seed's region, grown as far as it does not leak.
 struct Growth {
-    RunLabels labels;
-    int chosen = -1;
+    GrownRegion region;
     double limit_hu = 0, leaked_at_hu = 0;
 };
 
@@ -86,14 +69,11 @@ Growth grow(const HuVolume& volume, const Body& body, const OrganOptions& option
             Progress& progress)
 {
     const double voxel_ml = volume.grid.voxelVolume_mm3() / 1000;
+    RegionGrower grower(volume, body, RegionGrower::Padding::stops);
     const auto at = [&](double limit_hu) {
-        Growth growth{label(volume, body, options.low_hu, limit_hu), -1, limit_hu, 0};
-        growth.chosen = largestAt(growth.labels, volume.grid, seeds);
-        return growth;
+        return Growth{grownAt(grower, volume.grid, seeds, options.low_hu, limit_hu), limit_hu, 0};
     };
-    const auto ml = [&](const Growth& g) {
-        return g.chosen < 0 ? 0 : double(g.labels.components[std::size_t(g.chosen)].voxels) * voxel_ml;
-    };
+    const auto ml = [&](const Growth& g) { return double(g.region.voxels) * voxel_ml; };
     Growth best = at(options.high_hu);
     if (options.explosion <= 0)
         return best;
@@ -225,11 +205,11 @@ Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, P
                                      whole(options.seed_length_mm) + " mm length near the body's midline");
     }
     progress.report(0.4, "lumen");
-    const Growth growth = grow(volume, body, options, seeds, progress);
-    if (growth.chosen < 0)
+    Growth growth = grow(volume, body, options, seeds, progress);
+    if (growth.region.voxels == 0)
         return none(options, "the density at the seed is not that of the organ's inside");
     Segmentation result;
-    result.inside = maskOf(growth.labels, volume.grid, growth.chosen, kAround_voxels);
+    result.inside = std::move(growth.region.mask);
     if (options.neck_mm > 0)
         openNecks(result.inside, options.neck_mm, seeds, progress);
     growToWall(volume, options, result.inside);

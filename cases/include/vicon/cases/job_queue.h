@@ -49,7 +49,8 @@ struct QueueOptions {
         v("queue.lease_s", lease_s, "s", "A worker that is silent for this long is taken for dead.", {1, 86400});
         v("queue.most_attempts", most_attempts, "", "After so many failures a job is failed.", {1, 1000});
         v("queue.most_drops", most_drops, "",
-          "After so many workers died over a job without any progress it is failed.", {1, 1000});
+          "After so many workers died over a job, none of which got further than those before, it is failed.",
+          {1, 1000});
         v("queue.first_backoff_s", first_backoff_s, "s", "Wait before the first retry; doubled for each further one.",
           {0, 86400});
         v("queue.longest_backoff_s", longest_backoff_s, "s", "Longest wait before a retry.", {0, 86400});
@@ -58,7 +59,6 @@ struct QueueOptions {
 
 /// Seconds since the epoch; tests give their own.
 using Clock = std::function<double()>;
-double systemClock();
 
 /// Names this process so that others on the same machine can tell whether it still lives.
 std::string thisOwner();
@@ -66,21 +66,28 @@ std::string thisOwner();
 /// The queue's table. Every method is one transaction; any number of processes may share it.
 class JobQueue {
 public:
-    JobQueue(Database& database, QueueOptions options, Clock clock = systemClock);
+    /// @param clock empty: the database's, which all workers share
+    JobQueue(Database& database, QueueOptions options, Clock clock = {});
 
     const QueueOptions& options() const { return options_; }
+    double now();
 
     /// Takes the job that has waited longest and is due; first drops those whose worker is gone.
     std::optional<Job> claim(const std::string& owner);
     /// Extends the lease and shows where the job is. Throws Error{lease_lost} when another worker has the job.
     void renew(const Job& job, const std::string& step, double progress);
     /// Records a finished step, if the job is still this worker's; its failures are forgotten, for it got on.
-    void commitStep(const Job& job, const StepRecord& step);
+    /// `publish` runs before, in the same transaction: nobody else can take the job meanwhile.
+    void commitStep(const Job& job, const StepRecord& step, const std::function<void()>& publish = {});
+    /// Runs something while nobody else can take the job. Throws Error{lease_lost} when it is not this worker's.
+    void underFence(const Job& job, const std::function<void()>& action);
     void complete(const Job& job);
     /// @param permanent trying again cannot help
     void fail(const Job& job, const std::string& reason, bool permanent);
     /// Gives a job back untouched: the worker is told to stop.
     void release(const Job& job);
+    /// Gives a job back to be tried again after a while, as often as it takes: what it lacks is not its fault.
+    void postpone(const Job& job, const std::string& reason, double wait_s);
 
     /// Puts a failed or done job back. Throws Error{not_found} when the scan has no job.
     void retry(const std::string& case_id, const std::string& scan_id);
@@ -91,6 +98,8 @@ public:
     std::optional<double> nextDue();
 
 private:
+    double nowIn(soci::session& sql) const;
+    void capTimes(soci::session& sql);
     void dropLost(soci::session& sql);
     void settle(soci::session& sql, const Job& job, JobState state, double not_before, const std::string& reason,
                 int attempts);

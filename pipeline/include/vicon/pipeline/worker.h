@@ -17,7 +17,10 @@ public:
     virtual const Job& job() const = 0;
     /// Names the step that report() speaks of, and the part of the job it is: [from, to] of 0 to 1.
     virtual void enterStep(const std::string& step, double from, double to) = 0;
-    virtual void commitStep(const StepRecord& step) = 0;
+    /// @param publish puts the step's files in their place; runs while nobody else can take the job
+    virtual void commitStep(const StepRecord& step, const std::function<void()>& publish = {}) = 0;
+    /// Runs something while nobody else can take the job. Throws Error{lease_lost} when it is not this worker's.
+    virtual void underFence(const std::function<void()>& action) = 0;
 };
 
 /// The work itself. Throws Error{cancelled} when told to stop, anything else to fail.
@@ -27,6 +30,8 @@ using JobWork = std::function<void(JobContext&)>;
 struct WorkerEvents {
     std::function<void(const Job&, double fraction, const std::string& what)> progress = [](auto&&...) {};
     std::function<void(const Job&, JobState, const std::string& reason)> ended = [](auto&&...) {};
+    /// The store or its database cannot be used; the worker tries again.
+    std::function<void(const std::string& what)> trouble = [](auto&&...) {};
 };
 
 struct WorkOptions {
@@ -43,12 +48,13 @@ struct WorkOptions {
 
 struct WorkSummary {
     int done = 0;
-    int failed = 0;   ///< ended failed in this run
+    int failed = 0;   ///< ended failed in this run, also those that killed their workers
     int waiting = 0;  ///< still held back when the wait was over
 };
 
 /// Claims jobs and does them, one at a time, until the queue is idle or `stop` is set. A second connection to the
-/// database renews the lease while the work runs.
+/// database renews the lease while the work runs. A job that fails because the disk is full waits for space. Where the
+/// database refuses, it goes on when it can again, or throws when it is to stop at an idle queue.
 WorkSummary runWorker(CaseStore& store, const QueueOptions& queue_options, const WorkOptions& options,
                       const JobWork& work, const WorkerEvents& events, const std::atomic<bool>& stop);
 
