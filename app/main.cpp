@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "vicon/core/error.h"
+#include "vicon/core/printable.h"
 
 namespace vicon::app {
 namespace {
@@ -44,7 +45,7 @@ void addCommonOptions(CLI::App& command, Context& context)
 
 int fail(const std::string& line, int exit_code)
 {
-    std::fprintf(stderr, "vicon: %s\n", line.c_str());
+    std::fprintf(stderr, "vicon: %s\n", printable(line).c_str());
     return exit_code;
 }
 

@@ -52,6 +52,7 @@ function(vicon_test NAME)
   add_executable(${NAME} ${TEST_SOURCES})
   target_precompile_headers(${NAME} REUSE_FROM vicon_test_precompiled)
   target_link_libraries(${NAME} PRIVATE ${TEST_LINK} vicon_test_support GTest::gmock_main vicon_warnings)
+  add_dependencies(${NAME} vicon_decoder)  # whatever imports or decodes asks it
   if(NOT TEST_TIMEOUT)
     set(TEST_TIMEOUT 300)
   endif()
