@@ -1,6 +1,7 @@
 #include "vicon/cases/database.h"
 
 #include <fcntl.h>
+#include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -29,7 +29,7 @@ fs::path findProgram()
 {
     std::error_code failure;
     const fs::path self = fs::read_symlink("/proc/self/exe", failure);
-    if (const fs::path installed = self.parent_path() / "../libexec/vicon" / kProgram; fs::exists(installed, failure))
+    if (fs::path installed = self.parent_path() / "../libexec/vicon" / kProgram; fs::exists(installed, failure))
         return installed;
     constexpr int kLevels = 4;
     fs::path folder = self.parent_path();

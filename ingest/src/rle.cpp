@@ -33,7 +33,8 @@ void unpack(std::string_view segment, char* out, std::size_t stride, std::size_t
     while (done < count) {
         if (at >= segment.size())
             failed("its compressed pixels are cut off");
-        const int control = std::int8_t(segment[at++]);
+        const auto byte = static_cast<unsigned char>(segment[at++]);
+        const int control = byte < 128 ? byte : byte - 256;  // two's complement
         if (control == -128)
             continue;
         const bool repeated = control < 0;

@@ -75,17 +75,16 @@ TEST(ThesisWalk, GoesBackToTheBestEarlierCandidateWhenTheSegmentGrowsTooLarge)
 {
     auto portals = everywhere(40, {.badness = 0.9});
     portals[6].badness = 0.2;   // the best of those passed before 1.5 targets are exceeded
-    portals[16].badness = 0.5;  // where the walk stands then
-    EXPECT_THAT(walked(portals, 20), ElementsAre(6));
+    portals[17].badness = 0.1;  // the next one after that
+    EXPECT_THAT(walked(portals, 24), ElementsAre(6));
 }
 
 TEST(ThesisWalk, GoesOnFromTheEarlierCandidate)
 {
-    auto portals = everywhere(60, {.badness = 0.9});
+    auto portals = everywhere(40, {.badness = 0.9});
     portals[6].badness = 0.2;
-    portals[12] = {.badness = 0.3};                // 6 after the first: a candidate only if counted from there
-    portals[15] = {.badness = 0.1, .good = true};  // 9 after it: feasible; passed before going back
-    EXPECT_THAT(walked(portals, 24), ElementsAre(6, 15));
+    portals[12].badness = 0.3;  // passed before the walk went back to 6: a candidate only if it goes on from there
+    EXPECT_THAT(walked(portals, 28), ElementsAre(6, 12));
 }
 
 TEST(ThesisWalk, TakesTheNextPortalWhereNoneWasPassed)

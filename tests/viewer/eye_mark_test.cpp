@@ -65,7 +65,7 @@ const Vector3 kWays[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0},     {0, -1, 0},
 
 TEST(EyesMark, LiesInEverySliceWhereTheEyeIsAndPointsWhereItLooks)
 {
-    const HuVolume volume(Grid{.size = {4, 4, 4}, .spacing_mm = {100, 100, 100}, .origin_mm = {-150, -150, -150}}, 0);
+    const HuVolume volume(Grid{.size = {4, 4, 4}, .origin_mm = {-150, -150, -150}, .spacing_mm = {100, 100, 100}}, 0);
     struct Plane {
         SlicePlane plane;
         Vector3 right, down;
