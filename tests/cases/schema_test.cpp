@@ -20,6 +20,7 @@ TEST(Schemas, HoldForMarkersWithEverythingAndWithNothing)
 {
     test::StoreOfOneScan one;
     Marker all = test::markerWithEverything();
+    all.id.clear();  // both get numbers of their own
     all.extra["of_another_program"] = {1, 2, 3};
     one.store.saveMarker("c1", all);
     one.store.saveMarker("c1", {.scan_id = "s1"});
