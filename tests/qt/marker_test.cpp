@@ -74,7 +74,7 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     EXPECT_TRUE(eventually([&] { return stored()[1].pair == stored()[0].id && settled(); }));
     // One step: one undo parts both.
     const auto paired = [&](bool both) {
-        return settled() && stored()[0].pair != "" == both && stored()[1].pair != "" == both;
+        return settled() && (stored()[0].pair != "") == both && (stored()[1].pair != "") == both;
     };
     press(window(), "undo");
     ASSERT_TRUE(eventually([&] { return paired(false); }));
