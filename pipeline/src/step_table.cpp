@@ -104,7 +104,7 @@ json runSegment(const StepInputs& inputs, ScanResults& results, const StepRecord
                                     ? steps::segmentColon(results.volume(), inputs.gravity,
                                                           inputs.config.get<steps::SegmentOptions>(), progress)
                                     : steps::segmentOrgan(results.volume(), organ, progress);
-    const json result = toJson(foundBy(organ, found));
+    json result = toJson(foundBy(organ, found));
     if (found.verdict != Verdict::absent) {
         results.put(std::move(found.inside));
         results.densitiesAroundLumen();  // while the whole is there
