@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <filesystem>
 #include <functional>
@@ -8,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "vicon/cases/case_store.h"
 #include "vicon/core/options.h"
 
@@ -39,7 +39,7 @@ private:
 struct Subcommand {
     const char* name;
     const char* help;
-    std::function<std::function<int(Context&)>(CLI::App&)> declare;
+    std::function<std::function<int(Context&)>(CommandLine&)> declare;
 };
 
 /// Every option of every room, and the configuration file's place.

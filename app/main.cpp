@@ -1,11 +1,13 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <new>
 
 #include "command.h"
 #include "vicon/core/error.h"
+#include "vicon/core/printable.h"
 
 namespace vicon::app {
 namespace {
@@ -43,7 +45,7 @@ void addCommonOptions(CLI::App& command, Context& context)
 
 int fail(const std::string& line, int exit_code)
 {
-    std::fprintf(stderr, "vicon: %s\n", line.c_str());
+    std::fprintf(stderr, "vicon: %s\n", printable(line).c_str());
     return exit_code;
 }
 
@@ -61,7 +63,8 @@ int run(int argc, char** argv)
         CLI::App* sub = command.add_subcommand(row.name, row.help);
         sub->fallthrough();
         sub->footer(kCommonFooter);
-        sub->final_callback([&chosen, action = row.declare(*sub)] { chosen = action; });
+        CommandLine line(*sub);
+        sub->final_callback([&chosen, action = row.declare(line)] { chosen = action; });
     }
     try {
         command.parse(argc, argv);

@@ -83,7 +83,8 @@ std::optional<viewer::PreparedScan> openPrepared(const fs::path& folder)
 void drawPictures(const viewer::PreparedScan& prepared, const std::pair<const CaseRecord&, const ScanRecord&>& of,
                   const PictureFolder& pictures, report::MarkerEntry& entry)
 {
-    const auto& [record, scan] = of;
+    const CaseRecord& record = of.first;
+    const ScanRecord& scan = of.second;
     const Marker& marker = entry.marker;
     const auto draw = [&](SnapshotRequest::View view, int width, int height, const std::string& name) {
         auto request = requestFor(view, record, scan, width, height);

@@ -32,7 +32,7 @@ int cases(Context& context)
 Subcommand casesCommand()
 {
     return {"cases", "List the cases of the store: the worklist",
-            [](CLI::App&) { return [](Context& context) { return cases(context); }; }};
+            [](CommandLine&) { return [](Context& context) { return cases(context); }; }};
 }
 
 }  // namespace vicon::app

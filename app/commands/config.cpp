@@ -54,7 +54,7 @@ Config declaredConfig()
 Subcommand configCommand()
 {
     return {"config", "Print the effective configuration, and where each value comes from",
-            [](CLI::App&) { return [](Context& context) { return printConfig(context); }; }};
+            [](CommandLine&) { return [](Context& context) { return printConfig(context); }; }};
 }
 
 }  // namespace vicon::app

@@ -102,7 +102,7 @@ int doctor(Context& context)
 Subcommand doctorCommand()
 {
     return {"doctor", "Check that everything that VICON needs works here",
-            [](CLI::App&) { return [](Context& context) { return doctor(context); }; }};
+            [](CommandLine&) { return [](Context& context) { return doctor(context); }; }};
 }
 
 }  // namespace vicon::app

@@ -86,38 +86,36 @@ int fly(Context& context, const FlyArguments& arguments)
 Subcommand flyCommand()
 {
     return {
-        "fly", "Fly through a scan along its skeleton: frames, poses, coverage and figures", [](CLI::App& command) {
+        "fly", "Fly through a scan along its skeleton: frames, poses, coverage and figures", [](CommandLine& command) {
             auto arguments = std::make_shared<FlyArguments>();
             viewer::FlightRequest& request = arguments->request;
-            command.add_option("CASE", arguments->case_id, "The case's id")->required();
-            command.add_option("--scan", arguments->scan_id, "The scan (default: the first prepared one)")
-                ->type_name("SCAN");
+            command.option("CASE", arguments->case_id, "The case's id").required();
+            command.option("--scan", arguments->scan_id, "The scan (default: the first prepared one)").typeName("SCAN");
+            command.option("--to", arguments->direction, "Where to: caecum (of a tree: tip), rectum (root) or both")
+                .captureDefault();
             command
-                .add_option("--to", arguments->direction, "Where to: caecum (of a tree: tip), rectum (root) or both")
-                ->capture_default_str();
-            command
-                .add_option("--branch", arguments->branch,
-                            "Of an organ that branches: fly from its root to the end of this branch (default: to the "
-                            "farthest tip)")
-                ->check(CLI::Range(0, 65535));
-            command.add_option("--step", request.step_mm, "Distance between frames, mm")
-                ->check(CLI::Range(0.1, 1000.0))
-                ->capture_default_str();
-            command.add_option("--frames", request.frames, "Number of frames in each direction, instead of --step")
-                ->check(CLI::Range(2, 100000));
-            command.add_option("--width", request.width, "Pixels of a frame")->check(CLI::Range(200, 4096));
-            command.add_option("--height", request.height, "Pixels of a frame")->check(CLI::Range(200, 4096));
-            command.add_option("--angle", request.view_angle_deg, "Viewing angle, degrees")
-                ->check(CLI::Range(20, 150))
-                ->capture_default_str();
-            command.add_flag("--ambient-occlusion", request.ambient_occlusion,
-                             "Less light between folds and at the foot of what rises from the wall");
-            command.add_flag("!--no-coverage", request.measure_coverage, "Do not measure what is seen (faster)");
-            command.add_option("--unseen", request.least_unseen_mm2, "Least area of an unseen patch to be listed, mm2")
-                ->check(CLI::Range(0.0, 1e6))
-                ->capture_default_str();
-            command.add_flag("!--no-culling", request.cull, "Draw every cell in every frame");
-            command.add_option("--out", arguments->out, "Folder for the frames and flight.json")->type_name("DIR");
+                .option("--branch", arguments->branch,
+                        "Of an organ that branches: fly from its root to the end of this branch (default: to the "
+                        "farthest tip)")
+                .check(range(0, 65535));
+            command.option("--step", request.step_mm, "Distance between frames, mm")
+                .check(range(0.1, 1000.0))
+                .captureDefault();
+            command.option("--frames", request.frames, "Number of frames in each direction, instead of --step")
+                .check(range(2, 100000));
+            command.option("--width", request.width, "Pixels of a frame").check(range(200, 4096));
+            command.option("--height", request.height, "Pixels of a frame").check(range(200, 4096));
+            command.option("--angle", request.view_angle_deg, "Viewing angle, degrees")
+                .check(range(20, 150))
+                .captureDefault();
+            command.flag("--ambient-occlusion", request.ambient_occlusion,
+                         "Less light between folds and at the foot of what rises from the wall");
+            command.flag("!--no-coverage", request.measure_coverage, "Do not measure what is seen (faster)");
+            command.option("--unseen", request.least_unseen_mm2, "Least area of an unseen patch to be listed, mm2")
+                .check(range(0.0, 1e6))
+                .captureDefault();
+            command.flag("!--no-culling", request.cull, "Draw every cell in every frame");
+            command.option("--out", arguments->out, "Folder for the frames and flight.json").typeName("DIR");
             return [arguments](Context& context) { return fly(context, *arguments); };
         }};
 }

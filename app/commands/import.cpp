@@ -39,11 +39,11 @@ int import(Context& context, const std::vector<std::string>& paths)
 Subcommand importCommand()
 {
     return {"import", "Import DICOM files, folders, DICOMDIRs or zip files into cases and queue their scans",
-            [](CLI::App& command) {
+            [](CommandLine& command) {
                 auto paths = std::make_shared<std::vector<std::string>>();
-                command.add_option("PATH", *paths, "Files, folders (searched recursively), DICOMDIR or zip files")
-                    ->required()
-                    ->check(CLI::ExistingPath);
+                command.option("PATH", *paths, "Files, folders (searched recursively), DICOMDIR or zip files")
+                    .required()
+                    .check(existingPath());
                 return [paths](Context& context) { return import(context, *paths); };
             }};
 }

@@ -116,45 +116,43 @@ int markers(Context& context, const MarkersArguments& arguments)
 
 Subcommand markCommand()
 {
-    return {"mark", "Add a marker at a point of the colon", [](CLI::App& command) {
+    return {"mark", "Add a marker at a point of the colon", [](CommandLine& command) {
                 auto arguments = std::make_shared<MarkArguments>();
-                command.add_option("CASE", arguments->case_id, "The case's id")->required();
+                command.option("CASE", arguments->case_id, "The case's id").required();
                 command
-                    .add_option("--scan", arguments->scan_id,
-                                "The scan; needed where the point lies in the lumen of several")
-                    ->type_name("SCAN");
-                command.add_option("--at", arguments->at, "Position in LPS mm")->required()->type_name("X,Y,Z");
-                command.add_option("--color", arguments->color, "red, yellow or green")->capture_default_str();
-                command.add_option("--note", arguments->note, "What is seen there")->type_name("TEXT");
+                    .option("--scan", arguments->scan_id,
+                            "The scan; needed where the point lies in the lumen of several")
+                    .typeName("SCAN");
+                command.option("--at", arguments->at, "Position in LPS mm").required().typeName("X,Y,Z");
+                command.option("--color", arguments->color, "red, yellow or green").captureDefault();
+                command.option("--note", arguments->note, "What is seen there").typeName("TEXT");
                 command
-                    .add_option("--biopsy", arguments->biopsy_mm,
-                                "Keep mean density and histogram of the tissue within this many mm of the point")
-                    ->type_name("MM")
-                    ->check(CLI::Range(0.5, 25.0));
+                    .option("--biopsy", arguments->biopsy_mm,
+                            "Keep mean density and histogram of the tissue within this many mm of the point")
+                    .typeName("MM")
+                    .check(range(0.5, 25.0));
                 return [arguments](Context& context) { return mark(context, *arguments); };
             }};
 }
 
 Subcommand markersCommand()
 {
-    return {
-        "markers", "List, change, remove, import or export the markers of a case", [](CLI::App& command) {
-            auto arguments = std::make_shared<MarkersArguments>();
-            command.add_option("CASE", arguments->case_id, "The case's id")->required();
-            command.add_option("--remove", arguments->remove, "Remove this marker")->type_name("ID");
-            auto* change = command.add_option("--change", arguments->change, "Change this marker")->type_name("ID");
-            command.add_option("--color", arguments->color, "Its new color")->needs(change);
-            auto* note =
-                command.add_option("--note", arguments->note, "Its new note")->needs(change)->type_name("TEXT");
-            command.add_option("--at", arguments->at, "Its new position in LPS mm")->needs(change)->type_name("X,Y,Z");
-            command.add_option("--import", arguments->import_file, "Add the markers of a JSON file")->type_name("FILE");
-            command.add_option("--export", arguments->export_file, "Write all markers to a JSON file")
-                ->type_name("FILE");
-            return [arguments, note](Context& context) {
-                arguments->change_note = note->count() > 0;
-                return markers(context, *arguments);
-            };
-        }};
+    return {"markers", "List, change, remove, import or export the markers of a case", [](CommandLine& command) {
+                auto arguments = std::make_shared<MarkersArguments>();
+                command.option("CASE", arguments->case_id, "The case's id").required();
+                command.option("--remove", arguments->remove, "Remove this marker").typeName("ID");
+                const auto change = command.option("--change", arguments->change, "Change this marker").typeName("ID");
+                command.option("--color", arguments->color, "Its new color").needs(change);
+                const auto note =
+                    command.option("--note", arguments->note, "Its new note").needs(change).typeName("TEXT");
+                command.option("--at", arguments->at, "Its new position in LPS mm").needs(change).typeName("X,Y,Z");
+                command.option("--import", arguments->import_file, "Add the markers of a JSON file").typeName("FILE");
+                command.option("--export", arguments->export_file, "Write all markers to a JSON file").typeName("FILE");
+                return [arguments, note](Context& context) {
+                    arguments->change_note = note.given();
+                    return markers(context, *arguments);
+                };
+            }};
 }
 
 }  // namespace vicon::app

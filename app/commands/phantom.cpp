@@ -55,39 +55,34 @@ int makePhantom(const PhantomArguments& arguments)
 Subcommand phantomCommand()
 {
     return {
-        "phantom", "Write a synthetic CT colonography study in DICOM, with its ground truth", [](CLI::App& command) {
+        "phantom", "Write a synthetic CT colonography study in DICOM, with its ground truth", [](CommandLine& command) {
             auto arguments = std::make_shared<PhantomArguments>();
             phantom::PhantomOptions& options = arguments->options;
-            command.add_option("OUT", arguments->out, "Folder to write to; made, and must be empty")->required();
+            command.option("OUT", arguments->out, "Folder to write to; made, and must be empty").required();
             command
-                .add_option("--organ", arguments->organ,
-                            "Which organ; an airway and an aorta take --seed and --size alone")
-                ->check(CLI::IsMember({"colon", "airway", "aorta"}))
-                ->capture_default_str();
-            command.add_flag("--supine", arguments->supine, "Make the supine scan (default: supine and prone)");
-            command.add_flag("--prone", arguments->prone, "Make the prone scan");
-            command.add_option("--decubitus", options.decubitus, "One scan more, lying on this side")
-                ->check(CLI::IsMember({"none", "left", "right"}));
-            command.add_flag("--feet-first", options.feet_first, "The patient enters the scanner feet first");
-            command.add_option("--oblique", options.oblique_deg, "Turn the slices by so many degrees")
-                ->check(CLI::Range(-30, 30));
-            command.add_flag("--fluid,!--no-fluid", options.fluid, "Pools of tagged fluid (default: yes)");
-            command.add_option("--gap", options.gaps, "Collapsed parts in each scan; without a number: 1")
-                ->expected(0, 1)
-                ->default_str("1")
-                ->check(CLI::Range(0, 4));
-            command.add_option("--polyps", options.polyps, "Polyps of 5 to 10 mm")
-                ->check(CLI::Range(0, 12))
-                ->capture_default_str();
-            command.add_flag("--folds,!--no-folds", options.folds, "Haustra and folds (default: yes)");
-            command.add_flag("--catheter,!--no-catheter", options.catheter, "A rectal tube (default: yes)");
-            command.add_flag("--thin-walls", options.thin_walls, "Loops with 1 mm of wall between them");
-            command.add_flag("--self-contact", options.self_contact, "Two loops run into one another once");
-            command.add_flag("--ileum", options.ileum, "A terminal ileum filled through the ileocaecal valve");
-            command.add_flag("--low-dose", options.low_dose, "Noise of 50 to 80 HU");
-            command.add_option("--seed", options.seed, "Number that the study is drawn from")->capture_default_str();
-            command.add_option("--size", arguments->size, "Voxels (default: 512x512x430)")
-                ->type_name("COLUMNSxROWSxSLICES");
+                .option("--organ", arguments->organ, "Which organ; an airway and an aorta take --seed and --size alone")
+                .check(oneOf({"colon", "airway", "aorta"}))
+                .captureDefault();
+            command.flag("--supine", arguments->supine, "Make the supine scan (default: supine and prone)");
+            command.flag("--prone", arguments->prone, "Make the prone scan");
+            command.option("--decubitus", options.decubitus, "One scan more, lying on this side")
+                .check(oneOf({"none", "left", "right"}));
+            command.flag("--feet-first", options.feet_first, "The patient enters the scanner feet first");
+            command.option("--oblique", options.oblique_deg, "Turn the slices by so many degrees")
+                .check(range(-30, 30));
+            command.flag("--fluid,!--no-fluid", options.fluid, "Pools of tagged fluid (default: yes)");
+            command.option("--gap", options.gaps, "Collapsed parts in each scan; without a number: 1")
+                .valueIfBare("1")
+                .check(range(0, 4));
+            command.option("--polyps", options.polyps, "Polyps of 5 to 10 mm").check(range(0, 12)).captureDefault();
+            command.flag("--folds,!--no-folds", options.folds, "Haustra and folds (default: yes)");
+            command.flag("--catheter,!--no-catheter", options.catheter, "A rectal tube (default: yes)");
+            command.flag("--thin-walls", options.thin_walls, "Loops with 1 mm of wall between them");
+            command.flag("--self-contact", options.self_contact, "Two loops run into one another once");
+            command.flag("--ileum", options.ileum, "A terminal ileum filled through the ileocaecal valve");
+            command.flag("--low-dose", options.low_dose, "Noise of 50 to 80 HU");
+            command.option("--seed", options.seed, "Number that the study is drawn from").captureDefault();
+            command.option("--size", arguments->size, "Voxels (default: 512x512x430)").typeName("COLUMNSxROWSxSLICES");
             return [arguments](Context&) { return makePhantom(*arguments); };
         }};
 }

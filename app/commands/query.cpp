@@ -54,18 +54,17 @@ int query(Context& context, const std::string& peer_name, const ingest::StudyQue
 
 Subcommand queryCommand()
 {
-    return {"query", "Look for studies in a PACS (C-FIND)", [](CLI::App& command) {
+    return {"query", "Look for studies in a PACS (C-FIND)", [](CommandLine& command) {
                 auto peer = std::make_shared<std::string>();
                 auto wanted = std::make_shared<ingest::StudyQuery>();
-                command.add_option("PEER", *peer, "Name of a peer in the configuration")->required();
-                command.add_option("--patient", wanted->patient_id, "Patient ID; * and ? match anything");
-                command.add_option("--name", wanted->patient_name, "Patient's name, as 'FAMILY*'");
-                command.add_option("--date", wanted->dates,
-                                   "2024-01-10 or 20240110; or two of them with - between, an end left out or not");
-                command.add_option("--accession", wanted->accession_number, "Accession number");
-                command.add_option("--study", wanted->study_uid, "Study Instance UID");
-                command.add_option("--modality", wanted->modality, "That some series has; empty: any")
-                    ->capture_default_str();
+                command.option("PEER", *peer, "Name of a peer in the configuration").required();
+                command.option("--patient", wanted->patient_id, "Patient ID; * and ? match anything");
+                command.option("--name", wanted->patient_name, "Patient's name, as 'FAMILY*'");
+                command.option("--date", wanted->dates,
+                               "2024-01-10 or 20240110; or two of them with - between, an end left out or not");
+                command.option("--accession", wanted->accession_number, "Accession number");
+                command.option("--study", wanted->study_uid, "Study Instance UID");
+                command.option("--modality", wanted->modality, "That some series has; empty: any").captureDefault();
                 return [peer, wanted](Context& context) { return query(context, *peer, *wanted); };
             }};
 }

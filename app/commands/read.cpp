@@ -5,9 +5,9 @@ namespace vicon::app {
 
 Subcommand readCommand()
 {
-    return {"read", "The reading room: worklist and viewer", [](CLI::App& command) {
+    return {"read", "The reading room: worklist and viewer", [](CommandLine& command) {
                 auto case_id = std::make_shared<std::string>();
-                command.add_option("CASE", *case_id, "Open this case at once");
+                command.option("CASE", *case_id, "Open this case at once");
                 return [case_id](Context& context) {
                     const auto services = readingServices(context.existingStore().folder(), context.config());
                     const std::string id = case_id->empty() ? "" : context.existingStore().requireCase(*case_id).id;

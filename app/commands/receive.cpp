@@ -80,12 +80,12 @@ int receive(Context& context, bool no_work)
 Subcommand receiveCommand()
 {
     return {"receive", "Listen for DICOM (C-ECHO, C-STORE), import what comes, and run the queue",
-            [](CLI::App& command) {
+            [](CommandLine& command) {
                 auto no_work = std::make_shared<bool>(false);
                 auto port = std::make_shared<std::string>(), address = std::make_shared<std::string>();
-                command.add_flag("--no-work", *no_work, "Receive only; another process runs 'vicon work'");
-                command.add_option("--port", *port, "TCP port (receive.port)")->type_name("PORT");
-                command.add_option("--address", *address, "Address to listen on (receive.address)")->type_name("IPV4");
+                command.flag("--no-work", *no_work, "Receive only; another process runs 'vicon work'");
+                command.option("--port", *port, "TCP port (receive.port)").typeName("PORT");
+                command.option("--address", *address, "Address to listen on (receive.address)").typeName("IPV4");
                 return [no_work, port, address](Context& context) {
                     if (!port->empty())
                         context.assignments.push_back("receive.port=" + *port);

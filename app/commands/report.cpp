@@ -32,10 +32,10 @@ int report(Context& context, const std::string& case_id, std::string out)
 
 Subcommand reportCommand()
 {
-    return {"report", "Write a case's report as PDF", [](CLI::App& command) {
+    return {"report", "Write a case's report as PDF", [](CommandLine& command) {
                 auto case_id = std::make_shared<std::string>(), out = std::make_shared<std::string>();
-                command.add_option("CASE", *case_id, "The case's id")->required();
-                command.add_option("--out", *out, "The PDF file (default: in the store)")->type_name("FILE");
+                command.option("CASE", *case_id, "The case's id").required();
+                command.option("--out", *out, "The PDF file (default: in the store)").typeName("FILE");
                 return [case_id, out](Context& context) { return report(context, *case_id, *out); };
             }};
 }

@@ -236,20 +236,19 @@ int retrieve(Context& context, const Request& request)
 
 Subcommand retrieveCommand()
 {
-    return {
-        "retrieve", "Fetch the CT series of a study from a PACS (C-GET or C-MOVE) and import them",
-        [](CLI::App& command) {
-            auto request = std::make_shared<Request>();
-            command.add_option("PEER", request->peer, "Name of a peer in the configuration")->required();
-            command.add_option("STUDY", request->study_uid, "Study Instance UID; 'vicon query' prints it")->required();
-            command
-                .add_option("--method", request->method,
+    return {"retrieve", "Fetch the CT series of a study from a PACS (C-GET or C-MOVE) and import them",
+            [](CommandLine& command) {
+                auto request = std::make_shared<Request>();
+                command.option("PEER", request->peer, "Name of a peer in the configuration").required();
+                command.option("STUDY", request->study_uid, "Study Instance UID; 'vicon query' prints it").required();
+                command
+                    .option("--method", request->method,
                             "get: over our own association; move: the PACS sends to receive.port of receive.address, "
                             "to 'vicon receive' where it runs, and must know receive.ae_title")
-                ->check(CLI::IsMember({"get", "move"}))
-                ->capture_default_str();
-            return [request](Context& context) { return retrieve(context, *request); };
-        }};
+                    .check(oneOf({"get", "move"}))
+                    .captureDefault();
+                return [request](Context& context) { return retrieve(context, *request); };
+            }};
 }
 
 }  // namespace vicon::app

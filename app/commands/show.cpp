@@ -137,12 +137,12 @@ int show(Context& context, const ShowArguments& arguments)
 
 Subcommand showCommand()
 {
-    return {"show", "Show one case: its scans, steps, measures and faults", [](CLI::App& command) {
+    return {"show", "Show one case: its scans, steps, measures and faults", [](CommandLine& command) {
                 auto arguments = std::make_shared<ShowArguments>();
-                command.add_option("CASE", arguments->case_id, "The case's id")->required();
-                command.add_option("--scan", arguments->scan_id, "Only this scan")->type_name("SCAN");
-                command.add_flag("--subdivision-table", arguments->subdivision_table,
-                                 "Segments and triangles a cell, as in the thesis' Table 2");
+                command.option("CASE", arguments->case_id, "The case's id").required();
+                command.option("--scan", arguments->scan_id, "Only this scan").typeName("SCAN");
+                command.flag("--subdivision-table", arguments->subdivision_table,
+                             "Segments and triangles a cell, as in the thesis' Table 2");
                 return [arguments](Context& context) { return show(context, *arguments); };
             }};
 }

@@ -76,51 +76,48 @@ std::string peelingPresets()
 Subcommand snapshotCommand()
 {
     return {
-        "snapshot", "Write a picture of a scan to a PNG file, without a window", [](CLI::App& command) {
+        "snapshot", "Write a picture of a scan to a PNG file, without a window", [](CommandLine& command) {
             auto arguments = std::make_shared<SnapshotArguments>();
-            command.add_option("CASE", arguments->case_id, "The case's id")->required();
+            command.option("CASE", arguments->case_id, "The case's id").required();
             command
-                .add_option("--branch", arguments->branch,
-                            "Of an organ that branches: stations on the way to the end of this branch (default: to the "
-                            "farthest tip)")
-                ->check(CLI::Range(0, 65535));
+                .option("--branch", arguments->branch,
+                        "Of an organ that branches: stations on the way to the end of this branch (default: to the "
+                        "farthest tip)")
+                .check(range(0, 65535));
             command
-                .add_option("--scan", arguments->scan_id,
-                            "The scan (default: the marker's, else the first prepared one)")
-                ->type_name("SCAN");
+                .option("--scan", arguments->scan_id, "The scan (default: the marker's, else the first prepared one)")
+                .typeName("SCAN");
             command
-                .add_option("--view", arguments->view,
-                            "endo (from inside), slices (three planes) or overview (whole colon)")
-                ->required();
-            auto* marker = command.add_option("--marker", arguments->marker, "Look at this marker")->type_name("ID");
-            auto* station = command
-                                .add_option("--station", arguments->station_mm,
-                                            "Look along the colon at this distance from the rectum")
-                                ->type_name("MM")
-                                ->excludes(marker);
-            command.add_option("--out", arguments->out, "The PNG file")->required()->type_name("FILE");
-            command.add_option("--width", arguments->width, "Pixels")->check(CLI::Range(200, 4096));
-            command.add_option("--height", arguments->height, "Pixels")->check(CLI::Range(200, 4096));
-            command.add_option("--angle", arguments->angle_deg, "Viewing angle of the endoscopic view, degrees")
-                ->check(CLI::Range(20, 150))
-                ->capture_default_str();
-            command.add_flag("--ambient-occlusion", arguments->ambient_occlusion,
-                             "Endoscopic view: less light between folds and at the foot of what rises from the wall");
-            command.add_option("--window", arguments->window,
-                               "Window/level preset of the slices (default: the organ's)");
-            auto* peel =
+                .option("--view", arguments->view,
+                        "endo (from inside), slices (three planes) or overview (whole colon)")
+                .required();
+            const auto marker = command.option("--marker", arguments->marker, "Look at this marker").typeName("ID");
+            const auto station =
                 command
-                    .add_option("--peel", arguments->peel,
-                                "Endoscopic view: look below the wall, with this preset (" + peelingPresets() + ")")
-                    ->type_name("PRESET");
-            command
-                .add_option("--peel-offset", arguments->peel_offset_mm, "How far below the surface the look begins, mm")
-                ->check(CLI::Range(0, 20))
-                ->needs(peel)
-                ->capture_default_str();
-            command.add_flag("--peel-middle", arguments->peel_middle, "Peel only a circle in the middle")->needs(peel);
+                    .option("--station", arguments->station_mm, "Look along the colon at this distance from the rectum")
+                    .typeName("MM")
+                    .excludes(marker);
+            command.option("--out", arguments->out, "The PNG file").required().typeName("FILE");
+            command.option("--width", arguments->width, "Pixels").check(range(200, 4096));
+            command.option("--height", arguments->height, "Pixels").check(range(200, 4096));
+            command.option("--angle", arguments->angle_deg, "Viewing angle of the endoscopic view, degrees")
+                .check(range(20, 150))
+                .captureDefault();
+            command.flag("--ambient-occlusion", arguments->ambient_occlusion,
+                         "Endoscopic view: less light between folds and at the foot of what rises from the wall");
+            command.option("--window", arguments->window, "Window/level preset of the slices (default: the organ's)");
+            const auto peel =
+                command
+                    .option("--peel", arguments->peel,
+                            "Endoscopic view: look below the wall, with this preset (" + peelingPresets() + ")")
+                    .typeName("PRESET");
+            command.option("--peel-offset", arguments->peel_offset_mm, "How far below the surface the look begins, mm")
+                .check(range(0, 20))
+                .needs(peel)
+                .captureDefault();
+            command.flag("--peel-middle", arguments->peel_middle, "Peel only a circle in the middle").needs(peel);
             return [arguments, station](Context& context) {
-                arguments->at_station = station->count() > 0;
+                arguments->at_station = station.given();
                 return snapshot(context, *arguments);
             };
         }};

@@ -133,36 +133,35 @@ int work(Context& context, const WorkArguments& arguments)
 Subcommand workCommand()
 {
     return {"work", "Run the queue: resample, segment, skeleton, subdivide and potential of every waiting scan",
-            [](CLI::App& command) {
+            [](CommandLine& command) {
                 auto arguments = std::make_shared<WorkArguments>();
-                command.add_flag("--until-idle", arguments->until_idle, "Stop when the queue is empty");
-                command.add_flag("--retry", arguments->retry, "Put failed jobs back into the queue first");
-                command.add_flag("--redo-outdated", arguments->redo_outdated,
-                                 "Put finished scans that other options or another version would make otherwise back "
-                                 "into the queue first; with --case those of one case");
+                command.flag("--until-idle", arguments->until_idle, "Stop when the queue is empty");
+                command.flag("--retry", arguments->retry, "Put failed jobs back into the queue first");
+                command.flag("--redo-outdated", arguments->redo_outdated,
+                             "Put finished scans that other options or another version would make otherwise back "
+                             "into the queue first; with --case those of one case");
                 command
-                    .add_option(
-                        "--organ", arguments->organ,
-                        "What the scans of --case show, without it all that no step was done on: colon, airway or "
-                        "aorta")
-                    ->type_name("NAME");
+                    .option("--organ", arguments->organ,
+                            "What the scans of --case show, without it all that no step was done on: colon, airway or "
+                            "aorta")
+                    .typeName("NAME");
                 command
-                    .add_option("--case", arguments->case_id,
-                                "The case that --organ, --redo-outdated and corrections speak of")
-                    ->type_name("CASE");
-                command.add_option("--scan", arguments->scan_id, "Its scan; needed where the case has several")
-                    ->type_name("SCAN");
-                command.add_option("--add", arguments->add, "The gas or fluid here (LPS mm) belongs to the colon")
-                    ->type_name("X,Y,Z")
-                    ->allow_extra_args(false);
-                command.add_option("--cut", arguments->cut, "Cut the lumen here; the smaller part is dropped")
-                    ->type_name("X,Y,Z")
-                    ->allow_extra_args(false);
-                command.add_option("--drop", arguments->drop, "The piece here does not belong to the colon")
-                    ->type_name("X,Y,Z")
-                    ->allow_extra_args(false);
-                command.add_flag("--forget-corrections", arguments->forget_corrections,
-                                 "Forget the scan's earlier additions, cuts and drops");
+                    .option("--case", arguments->case_id,
+                            "The case that --organ, --redo-outdated and corrections speak of")
+                    .typeName("CASE");
+                command.option("--scan", arguments->scan_id, "Its scan; needed where the case has several")
+                    .typeName("SCAN");
+                command.option("--add", arguments->add, "The gas or fluid here (LPS mm) belongs to the colon")
+                    .typeName("X,Y,Z")
+                    .oneValueEach();
+                command.option("--cut", arguments->cut, "Cut the lumen here; the smaller part is dropped")
+                    .typeName("X,Y,Z")
+                    .oneValueEach();
+                command.option("--drop", arguments->drop, "The piece here does not belong to the colon")
+                    .typeName("X,Y,Z")
+                    .oneValueEach();
+                command.flag("--forget-corrections", arguments->forget_corrections,
+                             "Forget the scan's earlier additions, cuts and drops");
                 return [arguments](Context& context) { return work(context, *arguments); };
             }};
 }

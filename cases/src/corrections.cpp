@@ -28,7 +28,7 @@ void requireInside(const fs::path& scan_folder, const Corrections& corrections)
                 continue;
             std::array<char, 96> text{};
             std::snprintf(text.data(), text.size(), "the point %.1f,%.1f,%.1f lies outside the scan", p.x, p.y, p.z);
-            throw Error(ErrorCode::wrong_use, text.data(), nameOf(kind),
+            throw Error(ErrorCode::wrong_use, text.data(), "--" + nameOf(kind),
                         "give LPS mm, as 'vicon snapshot --view slices' shows them");
         }
 }

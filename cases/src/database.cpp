@@ -1,7 +1,10 @@
 #include "vicon/cases/database.h"
 
+#include <fcntl.h>
+#include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "vicon/core/error.h"
 
@@ -68,14 +71,50 @@ Error refusal(const soci::soci_error& e)
     }
 }
 
+/// The folder of a database, by a name without any sign that a connection string reads in its own way. SQLite finds the
+/// place behind it, and keeps that.
+class Folder {
+public:
+    explicit Folder(const std::filesystem::path& file)
+        : descriptor_(
+              ::open(file.has_parent_path() ? file.parent_path().c_str() : ".", O_PATH | O_DIRECTORY | O_CLOEXEC))
+    {
+    }
+    ~Folder()
+    {
+        if (descriptor_ >= 0)
+            ::close(descriptor_);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    std::string name(const std::filesystem::path& file) const
+    {
+        return "/proc/self/fd/" + std::to_string(descriptor_) + "/" + file.filename().string();
+    }
+
+private:
+    int descriptor_;
+};
+
+/// Nobody else may read the database, at no moment. SQLite gives its other files the same mode.
+void createPrivately(const std::filesystem::path& file)
+{
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (descriptor < 0)
+        return;  // SQLite says why
+    ::fchmod(descriptor, 0600);
+    ::close(descriptor);
+}
+
 }  // namespace
 
 Database::Database(const std::filesystem::path& file)
 {
     try {
+        const Folder folder(file);
+        createPrivately(file);
         session_ = std::make_unique<soci::session>(
-            soci::sqlite3, "dbname=" + file.string() + " timeout=" + std::to_string(kBusyTimeoutSeconds));
-        ::chmod(file.c_str(), 0600);
+            soci::sqlite3, "dbname=" + folder.name(file) + " timeout=" + std::to_string(kBusyTimeoutSeconds));
         *session_ << "PRAGMA journal_mode = WAL";
         *session_ << "PRAGMA synchronous = FULL";
         *session_ << "PRAGMA foreign_keys = ON";

@@ -92,7 +92,7 @@ std::string patientName(std::string_view dicom_name)
 
 std::string printedDate(std::string_view dicom_date)
 {
-    const std::string text(dicom_date);
+    std::string text(dicom_date);
     if (text.size() != 8 || !isNumber(text))
         return text;
     const std::string year = text.substr(0, 4), month = text.substr(4, 2), day = text.substr(6);

@@ -4,6 +4,24 @@
 
 namespace vicon {
 
+// As NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT, but here: in the header every file would compile it again.
+#define VICON_JSON_FORM(Type, ...)                                                              \
+    void to_json(nlohmann::json& nlohmann_json_j, const Type& nlohmann_json_t)                  \
+    {                                                                                           \
+        NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__))                \
+    }                                                                                           \
+    void from_json(const nlohmann::json& nlohmann_json_j, Type& nlohmann_json_t)                \
+    {                                                                                           \
+        const Type nlohmann_json_default_obj;                                                   \
+        NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_FROM_WITH_DEFAULT, __VA_ARGS__)) \
+    }
+
+VICON_JSON_FORM(Patient, id, name, birth_date, sex)
+VICON_JSON_FORM(Study, uid, id, date, time, description, accession_number, referring_physician, institution)
+VICON_JSON_FORM(Series, uid, number, description, modality, patient_position, frame_of_reference_uid, manufacturer,
+                kernel, kvp, slice_thickness_mm, lossy)
+#undef VICON_JSON_FORM
+
 std::string positionName(const std::string& position)
 {
     if (position.ends_with("DL"))

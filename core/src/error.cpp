@@ -1,5 +1,7 @@
 #include "vicon/core/error.h"
 
+#include "vicon/core/printable.h"
+
 namespace vicon {
 namespace {
 
@@ -11,7 +13,7 @@ std::string oneLine(const std::string& what_happened, const std::string& subject
     for (char& c : line)
         if (c == '\n' || c == '\r')
             c = ' ';
-    return line;
+    return printable(line);
 }
 
 }  // namespace

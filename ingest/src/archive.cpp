@@ -1,10 +1,12 @@
 #include <archive.h>
 #include <archive_entry.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "input_files.h"
 #include "vicon/core/error.h"
+#include "vicon/core/printable.h"
 
 namespace fs = std::filesystem;
 
@@ -13,6 +15,11 @@ namespace {
 
 constexpr double kBytesPerGb = 1e9;
 constexpr std::size_t kBlockBytes = 1 << 16;
+/// CT packs to a half or a third, and empty phantoms to a hundredth; what is packed a thousandfold was made to fill
+/// disks.
+constexpr double kLargestRatio = 200;
+/// An archive may unpack to this whatever its own size.
+constexpr double kSmallArchiveBytes = 100e6;
 
 struct ReadArchive {
     archive* handle = archive_read_new();
@@ -53,13 +60,23 @@ std::string whyNot(archive_entry* entry, const std::string& name)
     return {};
 }
 
+/// As it stands in the archive, in whatever character set; the archive's library knows one form or the other.
+std::string nameOf(archive_entry* entry)
+{
+    if (const char* name = archive_entry_pathname(entry))
+        return name;
+    const char* name = archive_entry_pathname_utf8(entry);
+    return name ? name : "(a name that cannot be read)";
+}
+
 enum class Written { complete, damaged, too_large };
 
-Written writeEntry(archive* from, const fs::path& file, double& bytes_left)
+Written writeEntry(archive* from, const fs::path& file, double& bytes_left, Progress& progress)
 {
     std::ofstream out(file, std::ios::binary);
     std::vector<char> block(kBlockBytes);
     for (;;) {
+        progress.check();
         const la_ssize_t count = archive_read_data(from, block.data(), block.size());
         if (count < 0)
             return Written::damaged;
@@ -90,15 +107,18 @@ std::vector<InputFile> unpackZip(const InputFile& zip, UnpackFolder& folder, con
         refuse(zip.shown, "the zip file cannot be opened (" + in.trouble() + ")");
         return files;
     }
-    double bytes_left = options.archive_max_gb * kBytesPerGb;
+    std::error_code unknown;
+    const double packed_bytes = double(fs::file_size(zip.path, unknown));
+    const double believable_bytes = std::max(kSmallArchiveBytes, unknown ? 0 : packed_bytes * kLargestRatio);
+    const bool by_ratio = believable_bytes < options.archive_max_gb * kBytesPerGb;
+    double bytes_left = by_ratio ? believable_bytes : options.archive_max_gb * kBytesPerGb;
     archive_entry* entry = nullptr;
     int status = ARCHIVE_OK;
     for (int count = 0;
          (status = archive_read_next_header(in.handle, &entry)) == ARCHIVE_OK || status == ARCHIVE_WARN;) {
         progress.check();
-        const char* stored_name = archive_entry_pathname(entry);
-        const std::string name = stored_name ? stored_name : "";
-        const std::string shown = zip.shown + ": " + name;
+        const std::string name = nameOf(entry);
+        const std::string shown = zip.shown + ": " + printable(name);
         if (archive_entry_filetype(entry) == AE_IFDIR)
             continue;
         if (++count > options.archive_max_files) {
@@ -110,9 +130,10 @@ std::vector<InputFile> unpackZip(const InputFile& zip, UnpackFolder& folder, con
             continue;
         }
         const fs::path file = folder.nextFile();
-        const Written written = writeEntry(in.handle, file, bytes_left);
+        const Written written = writeEntry(in.handle, file, bytes_left, progress);
         if (written == Written::too_large) {
-            refuse(zip.shown, "unpacks to more than import.archive_max_gb allows; the rest is left out");
+            refuse(zip.shown, by_ratio ? "unpacks to more than 200 times its size; the rest is left out"
+                                       : "unpacks to more than import.archive_max_gb allows; the rest is left out");
             return files;
         }
         if (written == Written::damaged)

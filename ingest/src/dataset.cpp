@@ -1,6 +1,12 @@
 #include "dataset.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+#include "vicon/core/printable.h"
 
 namespace vicon::ingest {
 namespace {
@@ -12,6 +18,90 @@ std::string trimmed(std::string text)
     text.erase(text.find_last_not_of(padding) + 1);
     text.erase(0, text.find_first_not_of(' ') == std::string::npos ? 0 : text.find_first_not_of(' '));
     return text;
+}
+
+/// What an element holds that was written without saying its kind.
+std::string bytesOf(DcmElement& element)
+{
+    Uint8* bytes = nullptr;
+    if (element.getLength() == 0 || element.getUint8Array(bytes).bad() || !bytes)
+        return {};
+    return {reinterpret_cast<const char*>(bytes), element.getLength()};
+}
+
+std::string valueAt(DcmElement& element, unsigned long index)
+{
+    OFString value;
+    if (element.getOFString(value, index).bad())
+        return {};
+    return trimmed({value.c_str(), value.size()});
+}
+
+/// Whether a text is a decimal string as the standard writes it.
+bool isDecimal(const std::string& text)
+{
+    double value = 0;
+    const char* begin = text.c_str() + (text.starts_with('+') ? 1 : 0);
+    const auto [end, failure] = std::from_chars(begin, text.c_str() + text.size(), value);
+    return failure == std::errc() && end == text.c_str() + text.size();
+}
+
+/// One comma and no point: what a program writes whose language has decimal commas.
+bool hasComma(const std::string& text)
+{
+    return std::count(text.begin(), text.end(), ',') == 1 && text.find('.') == std::string::npos;
+}
+
+std::optional<double> fromCommaDecimal(std::string text)
+{
+    if (!hasComma(text))
+        return {};
+    std::replace(text.begin(), text.end(), ',', '.');
+    if (!isDecimal(text))
+        return {};
+    const double value = std::strtod(text.c_str(), nullptr);
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+template <class T>
+std::optional<double> binaryAt(const std::string& bytes, unsigned long index)
+{
+    T value{};
+    if (bytes.size() < (index + 1) * sizeof value)
+        return {};
+    std::memcpy(&value, bytes.data() + index * sizeof value, sizeof value);  // little-endian, as this machine
+    return double(value);
+}
+
+/// A number of an element that was written as UN, by what the dictionary says of it.
+std::optional<double> numberFrom(const std::string& bytes, DcmEVR vr, unsigned long index)
+{
+    switch (vr) {
+        case EVR_US:
+        case EVR_xs:
+            return binaryAt<std::uint16_t>(bytes, index);
+        case EVR_SS:
+            return binaryAt<std::int16_t>(bytes, index);
+        case EVR_UL:
+            return binaryAt<std::uint32_t>(bytes, index);
+        case EVR_SL:
+            return binaryAt<std::int32_t>(bytes, index);
+        case EVR_FL:
+            return binaryAt<float>(bytes, index);
+        case EVR_FD:
+            return binaryAt<double>(bytes, index);
+        default:
+            break;
+    }
+    std::size_t from = 0;
+    for (; index > 0; --index) {
+        from = bytes.find('\\', from);
+        if (from == std::string::npos)
+            return {};
+        ++from;
+    }
+    const std::string text = trimmed(bytes.substr(from, std::min(bytes.find('\\', from), bytes.size()) - from));
+    return isDecimal(text) ? std::optional(std::strtod(text.c_str(), nullptr)) : fromCommaDecimal(text);
 }
 
 }  // namespace
@@ -26,6 +116,9 @@ Dataset::Dataset(DcmItem& item, std::vector<std::string> outer_character_sets)
 std::string Dataset::raw(const DcmTagKey& tag) const
 {
     OFString value;
+    DcmElement* element = nullptr;
+    if (item_->findAndGetElement(tag, element).good() && element && element->ident() == EVR_UN)
+        return bytesOf(*element);
     if (item_->findAndGetOFStringArray(tag, value).bad())
         return {};
     return {value.c_str(), value.size()};
@@ -33,13 +126,13 @@ std::string Dataset::raw(const DcmTagKey& tag) const
 
 std::vector<std::string> Dataset::values(const DcmTagKey& tag) const
 {
-    const std::string all = raw(tag);
+    const std::string all = toUtf8(raw(tag), character_sets_, TextKind::single_line);
     std::vector<std::string> out;
     if (all.empty())
         return out;
     for (std::size_t from = 0; from <= all.size();) {
         const std::size_t to = std::min(all.find('\\', from), all.size());
-        out.push_back(trimmed(all.substr(from, to - from)));
+        out.push_back(printable(trimmed(all.substr(from, to - from))));
         from = to + 1;
     }
     return out;
@@ -47,12 +140,12 @@ std::vector<std::string> Dataset::values(const DcmTagKey& tag) const
 
 std::string Dataset::text(const DcmTagKey& tag) const
 {
-    return trimmed(toUtf8(raw(tag), character_sets_, TextKind::single_line));
+    return printable(trimmed(toUtf8(raw(tag), character_sets_, TextKind::single_line)));
 }
 
 std::string Dataset::personName(const DcmTagKey& tag) const
 {
-    return tidyPersonName(toUtf8(raw(tag), character_sets_, TextKind::person_name));
+    return printable(tidyPersonName(toUtf8(raw(tag), character_sets_, TextKind::person_name)));
 }
 
 std::optional<double> Dataset::number(const DcmTagKey& tag, unsigned long index) const
@@ -61,6 +154,11 @@ std::optional<double> Dataset::number(const DcmTagKey& tag, unsigned long index)
     DcmElement* element = nullptr;
     if (item_->findAndGetElement(tag, element).bad() || !element || element->getLength() == 0)
         return {};
+    if (element->ident() == EVR_UN)
+        return numberFrom(bytesOf(*element), DcmTag(tag).getEVR(), index);
+    if (element->ident() == EVR_DS)
+        if (const auto written = valueAt(*element, index); !isDecimal(written))
+            return fromCommaDecimal(written);
     if (element->getFloat64(value, index).good())
         return std::isfinite(value) ? std::optional(value) : std::nullopt;
     Uint16 small = 0;
@@ -76,6 +174,11 @@ std::optional<double> Dataset::number(const DcmTagKey& tag, unsigned long index)
     if (element->getUint32(natural, index).good())
         return natural;
     return {};
+}
+
+bool Dataset::hasDecimalComma(const DcmTagKey& tag) const
+{
+    return hasComma(raw(tag).substr(0, raw(tag).find('\\')));
 }
 
 std::optional<int> Dataset::integer(const DcmTagKey& tag) const

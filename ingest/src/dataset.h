@@ -13,7 +13,8 @@
 
 namespace vicon::ingest {
 
-/// Reads elements of a data set or item: absent and malformed ones are empty.
+/// Reads elements of a data set or item: absent and malformed ones are empty. Texts are UTF-8 without control
+/// characters, see printable(). An element that was written as UN is read as what the dictionary says it is.
 class Dataset {
 public:
     /// @param outer_character_sets those of the surrounding data set, which an item inherits
@@ -25,7 +26,10 @@ public:
     std::vector<std::string> values(const DcmTagKey& tag) const;
     std::string text(const DcmTagKey& tag) const;
     std::string personName(const DcmTagKey& tag) const;
+    /// A decimal string may have a comma for its point; see hasDecimalComma().
     std::optional<double> number(const DcmTagKey& tag, unsigned long index = 0) const;
+    /// Whether the first value of a decimal string is written with a comma.
+    bool hasDecimalComma(const DcmTagKey& tag) const;
     std::optional<int> integer(const DcmTagKey& tag) const;
     bool has(const DcmTagKey& tag) const;
 

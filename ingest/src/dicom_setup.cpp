@@ -3,8 +3,6 @@
 #include <dcmtk/config/osconfig.h>
 
 #include <dcmtk/dcmdata/dcdict.h>
-#include <dcmtk/dcmdata/dcrledrg.h>
-#include <dcmtk/dcmjpeg/djdecode.h>
 #include <dcmtk/oflog/oflog.h>
 
 #include <cstdlib>
@@ -21,8 +19,6 @@ void setUpDicom()
         // Read now: its first use by several threads at once is not safe.
         dcmDataDict.rdlock();
         dcmDataDict.rdunlock();
-        DJDecoderRegistration::registerCodecs();
-        DcmRLEDecoderRegistration::registerCodecs();
     });
 }
 

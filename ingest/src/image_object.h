@@ -21,6 +21,8 @@ struct PixelFormat {
     bool is_signed = false;
     int frames = 1;
     std::optional<std::pair<int, int>> padding;  ///< lowest and highest stored value that means "not measured"
+    /// A padding value that does not fit the stored bits: all bits of a pixel, as they are allocated.
+    std::optional<std::uint16_t> padding_cell;
 
     friend bool operator==(const PixelFormat&, const PixelFormat&) = default;
 };
@@ -59,6 +61,8 @@ struct ImageObject {
     PixelFormat pixels;
     /// The compressed pixels do not begin and end as their encoding does: they must be decoded before they are trusted.
     bool doubtful = false;
+    /// Behind the pixels, at the end of the file, what is no element.
+    std::uint64_t trailing_bytes = 0;
     std::vector<Slice> slices;
     std::vector<std::string> repairs;  ///< what had to be assumed, without a patient's name
 };

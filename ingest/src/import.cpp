@@ -6,12 +6,14 @@
 #include <atomic>
 #include <mutex>
 
+#include "helper.h"
 #include "input_files.h"
 #include "inspect.h"
 #include "stored_files.h"
 #include "study_import.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/printable.h"
 
 namespace fs = std::filesystem;
 
@@ -26,6 +28,18 @@ struct Found {
     Inspection inspection;
 };
 
+/// A file may be gone, or become unreadable, after it was inspected.
+void hashImage(Found& found)
+{
+    if (found.inspection.verdict != Inspection::Verdict::image)
+        return;
+    try {
+        found.inspection.object.sha256 = sha256OfFile(found.file.path);
+    } catch (const Error& e) {
+        found.inspection = {Inspection::Verdict::refused, e.what(), {}};
+    }
+}
+
 /// Inspects and hashes all files, in parallel.
 std::vector<Found> inspectAll(const std::vector<InputFile>& files, const ImportOptions& options, Progress& progress)
 {
@@ -34,8 +48,7 @@ std::vector<Found> inspectAll(const std::vector<InputFile>& files, const ImportO
     std::mutex telling;
     tbb::parallel_for(std::size_t(0), files.size(), [&](std::size_t n) {
         found[n] = {files[n], inspectFile(files[n].path, options)};
-        if (found[n].inspection.verdict == Inspection::Verdict::image)
-            found[n].inspection.object.sha256 = sha256OfFile(files[n].path);
+        hashImage(found[n]);
         const std::lock_guard lock(telling);
         progress.check();
         progress.report(kReadingPart * double(++done) / double(files.size()), "reading DICOM files");
@@ -62,6 +75,19 @@ void openArchives(std::vector<Found>& found, UnpackFolder& folder, const ImportO
     found = std::move(all);
 }
 
+/// The decoder programs end with the import that asked them.
+struct EndHelpers {
+    ~EndHelpers() { endIdleHelpers(); }
+};
+
+std::string namesOf(const std::vector<fs::path>& paths)
+{
+    std::string names;
+    for (const fs::path& path : paths)
+        names += (names.empty() ? "" : ", ") + path.string();
+    return names;
+}
+
 class Import {
 public:
     Import(CaseStore& store, const ImportOptions& options, Progress& progress)
@@ -85,6 +111,13 @@ public:
         }
         for (Found& one : found)
             sort(std::move(one));
+        if (order_.empty() && reporter_.empty())
+            reporter_.line({ImportLine::Kind::refused,
+                            namesOf(paths),
+                            "nothing to import: no file there (links to folders are not followed, a DICOMDIR is no "
+                            "image)",
+                            {},
+                            {}});
         importStudies();
         reporter_.finish();
         return std::move(report_);
@@ -115,7 +148,8 @@ private:
                          inspection.reason);
         if (object.series.uid.empty())
             return;
-        const std::string name = object.sop_uid.empty() ? found.file.path.filename().string() : object.sop_uid;
+        const std::string name =
+            object.sop_uid.empty() ? printable(found.file.path.filename().string()) : object.sop_uid;
         SeriesNotes& notes = notes_[object.series.uid];
         auto& list = aside ? notes.set_aside : notes.refused;
         nlohmann::json entry = {{"object", name}, {"why", inspection.reason}};
@@ -128,9 +162,33 @@ private:
         for (std::size_t n = 0; n < order_.size(); ++n) {
             progress_.check();
             progress_.report(kReadingPart + (1 - kReadingPart) * double(n) / double(order_.size()), "storing studies");
-            StudyImport(store_, options_, report_, reporter_, progress_).run(std::move(studies_[order_[n]]), notes_);
+            importStudy(studies_[order_[n]]);
         }
         progress_.report(1, "imported");
+    }
+
+    /// What is wrong with the store or with VICON ends the import; what is wrong with a study costs that study.
+    void importStudy(std::vector<Arrival>& arrivals)
+    {
+        std::vector<std::string> shown;
+        for (const Arrival& arrival : arrivals)
+            shown.push_back(arrival.shown);
+        const std::string series = arrivals.front().object.series.uid;
+        try {
+            StudyImport(store_, options_, report_, reporter_, progress_).run(std::move(arrivals), notes_);
+        } catch (const Error& e) {
+            if (e.code() != ErrorCode::bad_input && e.code() != ErrorCode::no_memory)
+                throw;
+            refuseAll(shown, series, e.what());
+        } catch (const std::exception& e) {
+            refuseAll(shown, series, std::string("its study cannot be taken (") + e.what() + ")");
+        }
+    }
+
+    void refuseAll(const std::vector<std::string>& shown, const std::string& series, const std::string& why)
+    {
+        for (const std::string& file : shown)
+            reporter_.object(ImportLine::Kind::refused, file, series, why);
     }
 
     CaseStore& store_;
@@ -189,6 +247,8 @@ void Reporter::finish()
             counted.line.subject = counted.series_uid;
             counted.line.text += " (" + std::to_string(counted.count) + " files)";
         }
+        counted.line.subject = printable(counted.line.subject);
+        counted.line.text = printable(counted.line.text);
         report_.lines.push_back(std::move(counted.line));
     }
     lines_.clear();
@@ -197,6 +257,7 @@ void Reporter::finish()
 ImportReport importPaths(CaseStore& store, const std::vector<fs::path>& paths, const ImportOptions& options,
                          Progress& progress)
 {
+    const EndHelpers at_the_end;
     return Import(store, options, progress).run(paths);
 }
 

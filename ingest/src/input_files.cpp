@@ -7,8 +7,11 @@
 
 #include "dataset.h"
 #include "dicom_setup.h"
+#include "helper.h"
+#include "structure_scan.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/printable.h"
 
 namespace fs = std::filesystem;
 
@@ -26,9 +29,9 @@ bool isDicomdirName(const fs::path& file)
     return inCase(file.filename().string(), std::tolower) == "dicomdir";
 }
 
-void refuse(std::vector<ImportLine>& lines, std::string subject, std::string why)
+void refuse(std::vector<ImportLine>& lines, const std::string& subject, const std::string& why)
 {
-    lines.push_back({ImportLine::Kind::refused, std::move(subject), std::move(why), {}, {}});
+    lines.push_back({ImportLine::Kind::refused, printable(subject), printable(why), {}, {}});
 }
 
 /// The file that a DICOMDIR means; file systems of discs change the case of names. Empty when there is none.
@@ -51,6 +54,12 @@ fs::path referencedFile(const fs::path& folder, const std::vector<std::string>& 
 void listDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::vector<ImportLine>& lines)
 {
     setUpDicom();
+    const Structure structure = scanStructure(dicomdir);
+    if (structure.fate == Structure::Fate::refused)
+        return refuse(lines, dicomdir.string(), structure.why + "; import its folder instead");
+    if (structure.fate == Structure::Fate::odd)
+        if (const std::string why = whyHarmful(dicomdir); !why.empty())
+            return refuse(lines, dicomdir.string(), why + "; import its folder instead");
     DcmFileFormat format;
     if (format.loadFile(dicomdir.c_str()).bad())
         return refuse(lines, dicomdir.string(), "the DICOMDIR is damaged; import its folder instead");
@@ -68,7 +77,7 @@ void listDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::
         if (file.empty())
             refuse(lines, dicomdir.string(), "names a file that is not there: " + named);
         else
-            files.push_back({file, file.string(), false});
+            files.push_back({file, printable(file.string()), false});
     }
 }
 
@@ -88,7 +97,7 @@ void listFolder(const fs::path& folder, std::vector<InputFile>& files, std::vect
             if (!fs::is_symlink(fs::symlink_status(entry, failure)))  // a link may lead in circles
                 listFolder(entry, files, lines);
         } else if (fs::is_regular_file(status) && !isDicomdirName(entry)) {
-            files.push_back({entry, entry.string(), false});
+            files.push_back({entry, printable(entry.string()), false});
         }
     }
 }
@@ -140,7 +149,7 @@ std::vector<InputFile> listFiles(const std::vector<fs::path>& paths, std::vector
         else if (isDicomdirName(path))
             listDicomdir(path, files, lines);
         else
-            files.push_back({path, path.string(), false});
+            files.push_back({path, printable(path.string()), false});
     }
     return files;
 }

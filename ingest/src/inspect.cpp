@@ -1,11 +1,16 @@
 #include "inspect.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "dicom_setup.h"
+#include "helper.h"
 #include "pixel_format.h"
 #include "plane_reader.h"
 #include "stand_in_uid.h"
+#include "structure_scan.h"
+#include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
 namespace fs = std::filesystem;
@@ -33,8 +38,10 @@ std::optional<Inspection> inspectBeginning(const fs::path& file)
     std::string head(132, '\0');
     in.read(head.data(), std::streamsize(head.size()));
     head.resize(std::size_t(in.gcount()));
+    if (!in.is_open() || in.bad())
+        return refused("cannot be read (" + std::string(std::strerror(errno)) + ")");
     if (head.empty())
-        return refused(in.bad() ? "cannot be read" : "the file is empty");
+        return refused("the file is empty");
     if (head.starts_with("PK\x03\x04") || head.starts_with("PK\x05\x06"))
         return Inspection{Inspection::Verdict::archive, {}, {}};
     if (head.starts_with("\x1f\x8b"))
@@ -155,25 +162,33 @@ Inspection judge(const Dataset& dataset, const ImportOptions& options, ImageObje
     if (planes.slices.empty())
         return {Verdict::refused, std::move(planes.why), object};
     object.slices = std::move(planes.slices);
+    object.repairs.insert(object.repairs.end(), planes.repairs.begin(), planes.repairs.end());
     readPatientAndStudy(dataset, object);
     readSeries(dataset, object);
     fillStandInUids(object);
     return {Verdict::image, {}, std::move(object)};
 }
 
-}  // namespace
-
-Inspection inspectFile(const fs::path& file, const ImportOptions& options)
+OFCondition load(const fs::path& file, const Structure& structure, DcmFileFormat& format)
 {
-    setUpDicom();
-    if (auto known = inspectBeginning(file))
-        return std::move(*known);
-    DcmFileFormat format;
+    if (structure.fate == Structure::Fate::refused)  // for its UIDs
+        return format.loadFileUntilTag(file.c_str(), EXS_Unknown, EGL_noChange, kLargestElementInMemory, ERM_autoDetect,
+                                       DCM_PixelData);
     const OFCondition loaded = format.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, kLargestElementInMemory);
+    return structure.trailing_bytes > 0 ? EC_Normal : loaded;
+}
+
+/// Reads a file whose structure a library may see.
+Inspection inspectElements(const fs::path& file, const Structure& structure, const ImportOptions& options)
+{
+    DcmFileFormat format;
+    const OFCondition loaded = load(file, structure, format);
     ImageObject object;
     object.file = file;
     const Dataset dataset(*format.getDataset()), meta(*format.getMetaInfo());
     readIdentity(dataset, meta, object);
+    if (structure.fate == Structure::Fate::refused)
+        return {Inspection::Verdict::refused, structure.why, object};
     if (firstOf(meta.values(DCM_MediaStorageSOPClassUID)) == UID_MediaStorageDirectoryStorage)
         return {Inspection::Verdict::directory, {}, {}};
     if (loaded.bad() && (hasPreamble(file) || !object.sop_class.empty()))
@@ -181,9 +196,32 @@ Inspection inspectFile(const fs::path& file, const ImportOptions& options)
     if (loaded.bad() || (!hasPreamble(file) && object.sop_class.empty() && object.series.modality.empty()))
         return refused("no DICOM file, or damaged beyond reading");
     object.transfer_syntax = DcmXfer(format.getDataset()->getOriginalXfer()).getXferID();
+    object.trailing_bytes = structure.trailing_bytes;
+    if (structure.trailing_bytes > 0)
+        object.repairs.emplace_back("bytes behind the end of its data are not used");
+    return judge(dataset, options, std::move(object));
+}
+
+}  // namespace
+
+Inspection inspectFile(const fs::path& file, const ImportOptions& options)
+{
+    setUpDicom();
     try {
-        return judge(dataset, options, std::move(object));
-    } catch (const std::exception& e) {  // DCMTK itself does not throw; memory may be short for a header's claims
+        if (auto known = inspectBeginning(file))
+            return std::move(*known);
+        const Structure structure = scanStructure(file);
+        if (structure.fate == Structure::Fate::refused && !structure.clear_until_pixels)
+            return refused(structure.why);
+        if (structure.fate == Structure::Fate::odd)
+            if (std::string why = whyHarmful(file); !why.empty())
+                return refused(std::move(why));
+        return inspectElements(file, structure, options);
+    } catch (const Error& e) {
+        if (e.code() != ErrorCode::bad_input)
+            throw;
+        return refused(e.what());
+    } catch (const std::exception& e) {  // memory may be short for a header's claims
         return refused(std::string("its header cannot be read (") + e.what() + ")");
     }
 }

@@ -45,7 +45,7 @@ std::string addressOf(const std::string& host)
     wanted.ai_socktype = SOCK_STREAM;
     if (::getaddrinfo(host.c_str(), nullptr, &wanted, &found) != 0)
         return {};
-    const std::string digits = digitsOf(reinterpret_cast<const sockaddr_in*>(found->ai_addr)->sin_addr);
+    std::string digits = digitsOf(reinterpret_cast<const sockaddr_in*>(found->ai_addr)->sin_addr);
     ::freeaddrinfo(found);
     return digits;
 }

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "helper.h"
 #include "inspect.h"
 #include "scan_reader.h"
 #include "vicon/core/error.h"
@@ -45,6 +46,9 @@ std::vector<fs::path> storedFiles(const fs::path& folder)
 
 HuVolume loadScan(const fs::path& dicom_folder, const ImportOptions& options, Progress& progress)
 {
+    struct EndHelpers {
+        ~EndHelpers() { endIdleHelpers(); }
+    } const at_the_end;
     const std::vector<fs::path> files = storedFiles(dicom_folder);
     std::vector<Inspection> inspected(files.size());
     progress.report(0, "reading headers");

@@ -1,11 +1,13 @@
 #include "pixel_format.h"
 
-#include <dcmtk/dcmdata/dccodec.h>
 #include <dcmtk/dcmdata/dcpixel.h>
-#include <dcmtk/dcmdata/dcpixseq.h>
-#include <dcmtk/dcmdata/dcpxitem.h>
 
 #include <array>
+
+#include "compressed_frames.h"
+#include "encoding.h"
+#include "stream_guard.h"
+#include "vicon/core/error.h"
 
 namespace vicon::ingest {
 namespace {
@@ -18,54 +20,37 @@ std::string checkNative(DcmElement& pixels, const PixelFormat& format)
     if (pixels.getLengthField() < needed)
         return "its pixels are cut off (" + std::to_string(pixels.getLengthField()) + " of " + std::to_string(needed) +
                " bytes)";
+    if (pixels.getLengthField() > needed + needed % 2)
+        return "it has more pixels than its header says (" + std::to_string(pixels.getLengthField()) + " bytes, " +
+               std::to_string(needed) + " are described)";
     return {};
 }
 
-/// Whether a compressed frame begins and ends as JPEG, JPEG-LS or JPEG 2000 streams do; other encodings have no mark.
-bool hasMarks(DcmPixelItem& first, DcmPixelItem& last, const std::string& syntax)
+/// Whether a compressed frame ends as JPEG, JPEG-LS or JPEG 2000 streams do.
+bool hasEndMark(const std::string& stream)
 {
-    if (syntax == UID_RLELosslessTransferSyntax)
-        return true;
-    Uint8* begin = nullptr;
-    Uint8* end = nullptr;
-    constexpr Uint32 kLeast = 4;
-    if (first.getLength() < kLeast || last.getLength() < kLeast || first.getUint8Array(begin).bad() ||
-        last.getUint8Array(end).bad() || !begin || !end)
-        return false;
-    Uint32 length = last.getLength();
-    while (length > 2 && end[length - 1] == 0)  // padding to an even length; some writers pad more
+    std::size_t length = stream.size();
+    while (length > 2 && stream[length - 1] == 0)  // padding to an even length; some writers pad more
         --length;
-    const bool begins = begin[0] == 0xff && begin[1] == (isJpeg2000(syntax) ? 0x4f : 0xd8);
-    const bool ends = end[length - 2] == 0xff && end[length - 1] == 0xd9;
-    first.compact();
-    last.compact();
-    return begins && ends;
+    return length >= 2 && stream[length - 2] == '\xff' && stream[length - 1] == '\xd9';
 }
 
-std::string checkEncapsulated(DcmPixelData& pixels, const PixelFormat& format, const std::string& syntax,
-                              bool& doubtful)
+std::string checkEncapsulated(DcmPixelData& pixels, ImageObject& object)
 {
-    const DcmXfer xfer(syntax.c_str());
-    const bool known =
-        isDecodedByGdcm(syntax) || DcmCodecList::canChangeCoding(xfer.getXfer(), EXS_LittleEndianExplicit);
-    if (!known)
-        return "its encoding is not supported (" + std::string(xfer.getXferName()) + ")";
-    DcmPixelSequence* sequence = nullptr;
-    if (pixels.getEncapsulatedRepresentation(xfer.getXfer(), nullptr, sequence).bad() || !sequence)
-        return "its compressed pixels cannot be read";
-    if (sequence->card() < unsigned(format.frames) + 1)
-        return "its compressed pixels are cut off";
-    for (unsigned long n = 1; n < sequence->card(); ++n) {
-        DcmPixelItem* fragment = nullptr;
-        if (sequence->getItem(fragment, n).bad() || fragment->getLength() == 0)
-            return "a part of its compressed pixels is empty";
-    }
-    const bool fragment_is_frame = sequence->card() == unsigned(format.frames) + 1;
-    for (unsigned long n = 1; n < sequence->card() && !doubtful; n += fragment_is_frame ? 1 : sequence->card()) {
-        DcmPixelItem *first = nullptr, *last = nullptr;
-        sequence->getItem(first, n);
-        sequence->getItem(last, fragment_is_frame ? n : sequence->card() - 1);
-        doubtful = !hasMarks(*first, *last, syntax);
+    const std::string& syntax = object.transfer_syntax;
+    if (!isDecodable(syntax))
+        return "its encoding is not supported (" + std::string(DcmXfer(syntax.c_str()).getXferName()) + ")";
+    try {
+        const CompressedFrames frames(pixels, syntax, object.pixels.frames);
+        for (int frame = 0; frame < object.pixels.frames && !isRle(syntax); ++frame) {
+            const std::string stream = frames.stream(frame);
+            if (std::string why = whyNotDecodable(stream, object.pixels, syntax); !why.empty())
+                return why;
+            object.doubtful = object.doubtful || !hasEndMark(stream);
+        }
+        object.doubtful = object.doubtful || isRle(syntax);  // has no marks: its runs have to be counted
+    } catch (const Error& e) {
+        return e.what();
     }
     return {};
 }
@@ -79,11 +64,21 @@ std::string checkPixels(const Dataset& dataset, ImageObject& object)
     if (!xfer.isEncapsulated())
         return checkNative(*element, object.pixels);
     auto* pixels = dynamic_cast<DcmPixelData*>(element);
-    return pixels ? checkEncapsulated(*pixels, object.pixels, object.transfer_syntax, object.doubtful)
-                  : "its compressed pixels cannot be read";
+    return pixels ? checkEncapsulated(*pixels, object) : "its compressed pixels cannot be read";
 }
 
-/// A padding value as a stored value. Writers give it in two bytes, signed or not, whatever the pixels are.
+/// Whether a padding value, given in two bytes, signed or not, whatever the pixels are, can be a stored value.
+bool fitsStoredBits(int value, const PixelFormat& format)
+{
+    const int bits = value & 0xffff;
+    const int range = 1 << format.bits_stored;
+    if (!format.is_signed)
+        return bits < range;
+    const int number = bits >= 0x8000 ? bits - 0x10000 : bits;
+    return bits < range || (number < 0 && number >= -range / 2);
+}
+
+/// A padding value as a stored value.
 int asStoredValue(int value, const PixelFormat& format)
 {
     const int bits = value & ((1 << format.bits_stored) - 1);
@@ -91,28 +86,26 @@ int asStoredValue(int value, const PixelFormat& format)
     return negative ? bits - (1 << format.bits_stored) : bits;
 }
 
-void readPadding(const Dataset& dataset, PixelFormat& format)
+void readPadding(const Dataset& dataset, ImageObject& object)
 {
+    PixelFormat& format = object.pixels;
     const auto value = dataset.integer(DCM_PixelPaddingValue);
     if (!value)
         return;
+    const int limit = dataset.integer(DCM_PixelPaddingRangeLimit).value_or(*value);
+    if (!fitsStoredBits(*value, format) || !fitsStoredBits(limit, format)) {
+        format.padding_cell = std::uint16_t(*value & 0xffff);
+        object.repairs.emplace_back(
+            "the padding value does not fit the stored bits: only pixels that hold it as a whole "
+            "are padding");
+        return;
+    }
     const int first = asStoredValue(*value, format);
-    const int last = asStoredValue(dataset.integer(DCM_PixelPaddingRangeLimit).value_or(*value), format);
+    const int last = asStoredValue(limit, format);
     format.padding = std::minmax(first, last);
 }
 
 }  // namespace
-
-bool isJpeg2000(const std::string& transfer_syntax)
-{
-    return transfer_syntax == UID_JPEG2000LosslessOnlyTransferSyntax || transfer_syntax == UID_JPEG2000TransferSyntax;
-}
-
-bool isDecodedByGdcm(const std::string& transfer_syntax)
-{
-    return isJpeg2000(transfer_syntax) || transfer_syntax == UID_JPEGLSLosslessTransferSyntax ||
-           transfer_syntax == UID_JPEGLSLossyTransferSyntax;
-}
 
 bool isLossy(const Dataset& dataset, const std::string& transfer_syntax)
 {
@@ -144,6 +137,9 @@ std::string readPixelFormat(const Dataset& dataset, const ImportOptions& options
         return "it has no pixels";
     if (dataset.integer(DCM_SamplesPerPixel).value_or(1) != 1)
         return "its pixels are colours, not densities";
+    const auto meaning = dataset.values(DCM_PhotometricInterpretation);
+    if (!meaning.empty() && !meaning.front().empty() && !meaning.front().starts_with("MONOCHROME"))
+        return "its pixels are colours, not densities (" + meaning.front() + ")";
     if (format.rows < 2 || format.columns < 2 || format.frames < 1)
         return "it claims to have " + std::to_string(format.columns) + " x " + std::to_string(format.rows) + " pixels";
     if (format.rows > options.largest_matrix || format.columns > options.largest_matrix)
@@ -154,7 +150,7 @@ std::string readPixelFormat(const Dataset& dataset, const ImportOptions& options
         format.high_bit + 1 < format.bits_stored)
         return "its pixel format cannot be used (" + std::to_string(format.bits_stored) + " of " +
                std::to_string(format.bits_allocated) + " bits)";
-    readPadding(dataset, format);
+    readPadding(dataset, object);
     return checkPixels(dataset, object);
 }
 

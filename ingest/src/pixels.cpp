@@ -4,19 +4,21 @@
 
 #include <dcmtk/dcmdata/dcfcache.h>
 #include <dcmtk/dcmdata/dcpixel.h>
-#include <dcmtk/dcmdata/dcpixseq.h>
-#include <dcmtk/dcmdata/dcpxitem.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
+#include "compressed_frames.h"
 #include "dataset.h"
 #include "dicom_setup.h"
-#include "gdcm_codec.h"
-#include "pixel_format.h"
+#include "encoding.h"
+#include "helper.h"
+#include "rle.h"
+#include "stream_guard.h"
 #include "vicon/core/error.h"
 #include "vicon/core/volume.h"
 
@@ -52,22 +54,12 @@ std::vector<std::int16_t> densityTable(const PixelFormat& format, const Slice& s
         int stored = (int(pattern) >> shift) & (range - 1);
         if (format.is_signed && stored >= range / 2)
             stored -= range;
-        const bool padding = format.padding && stored >= format.padding->first && stored <= format.padding->second;
+        const bool padding = (format.padding_cell == pattern) ||
+                             (format.padding && stored >= format.padding->first && stored <= format.padding->second);
         const double hu = slice.slope * stored + slice.intercept;
         table[pattern] = padding || hu < kLightest_hu ? kPaddingHu : measured(hu);
     }
     return table;
-}
-
-/// Where the fragments of a frame begin and end in a pixel sequence (fragment 0 is the offset table).
-std::pair<unsigned long, unsigned long> fragmentsOfFrame(DcmPixelSequence& sequence, int frame, int frames)
-{
-    const unsigned long count = sequence.card() - 1;
-    if (frames == 1)
-        return {1, count + 1};
-    if (count == unsigned(frames))
-        return {1 + unsigned(frame), 2 + unsigned(frame)};
-    return {0, 0};
 }
 
 }  // namespace
@@ -76,35 +68,40 @@ struct FrameDecoder::Opened {
     DcmFileFormat format;
     DcmFileCache cache;
     DcmPixelData* pixels = nullptr;
+    std::optional<CompressedFrames> frames;
     std::vector<std::int16_t> table;
     double table_slope = 0, table_intercept = 0;
 
-    std::string compressedStream(const ImageObject& object, int frame)
+    /// DCMTK looks up the matrix by itself, and not in elements that were written as UN.
+    void tellDcmtk(const PixelFormat& f)
     {
-        DcmPixelSequence* sequence = nullptr;
-        const DcmXfer xfer(object.transfer_syntax.c_str());
-        if (pixels->getEncapsulatedRepresentation(xfer.getXfer(), nullptr, sequence).bad() || !sequence)
-            failed("its compressed pixels cannot be read");
-        const auto [first, last] = fragmentsOfFrame(*sequence, frame, object.pixels.frames);
-        if (first == last)
-            failed("its frames are split into parts, which is not supported for this encoding");
-        std::string stream;
-        for (unsigned long n = first; n < last; ++n) {
-            DcmPixelItem* item = nullptr;
-            Uint8* bytes = nullptr;
-            if (sequence->getItem(item, n).bad() || item->getUint8Array(bytes).bad() || !bytes)
-                failed("its compressed pixels cannot be read");
-            stream.append(reinterpret_cast<const char*>(bytes), item->getLength());
-            item->compact();
+        DcmItem& dataset = *format.getDataset();
+        for (const auto& [tag, value] : {std::pair(DCM_Rows, f.rows), std::pair(DCM_Columns, f.columns),
+                                         std::pair(DCM_BitsAllocated, f.bits_allocated)}) {
+            DcmElement* element = nullptr;
+            if (dataset.findAndGetElement(tag, element).good() && element->ident() == EVR_UN)
+                dataset.putAndInsertUint16(tag, Uint16(value));
         }
-        return stream;
+    }
+
+    /// A frame of compressed pixels. What its stream says is looked at first, whoever asks.
+    std::vector<char> decompressed(const ImageObject& object, int frame)
+    {
+        if (!frames)
+            frames.emplace(*pixels, object.transfer_syntax, object.pixels.frames);
+        const std::string stream = frames->stream(frame);
+        if (isRle(object.transfer_syntax))
+            return decodeRle(stream, object.pixels);
+        if (const std::string why = whyNotDecodable(stream, object.pixels, object.transfer_syntax); !why.empty())
+            failed(why);
+        return decodeInHelper(stream, object.pixels, object.transfer_syntax);
     }
 
     std::vector<char> decoded(const ImageObject& object, int frame)
     {
         const PixelFormat& f = object.pixels;
-        if (isDecodedByGdcm(object.transfer_syntax))
-            return decodeWithGdcm(compressedStream(object, frame), f, object.transfer_syntax);
+        if (DcmXfer(object.transfer_syntax.c_str()).isEncapsulated())
+            return decompressed(object, frame);
         const std::size_t needed = std::size_t(f.rows) * std::size_t(f.columns) * std::size_t(f.bits_allocated / 8);
         std::vector<char> bytes(needed + needed % 2);
         Uint32 start_fragment = 0;
@@ -123,12 +120,13 @@ FrameDecoder::FrameDecoder(const ImageObject& object) : object_(object), opened_
     DcmElement* element = nullptr;
     const OFCondition loaded =
         opened_->format.loadFile(object.file.c_str(), EXS_Unknown, EGL_noChange, kLargestElementInMemory);
-    if (loaded.bad())
+    if (loaded.bad() && object.trailing_bytes == 0)
         failed("cannot be read (" + std::string(loaded.text()) + ")");
     if (opened_->format.getDataset()->findAndGetElement(DCM_PixelData, element).good())
         opened_->pixels = dynamic_cast<DcmPixelData*>(element);
     if (!opened_->pixels)
         failed("it has no pixels");
+    opened_->tellDcmtk(object.pixels);
 }
 
 FrameDecoder::~FrameDecoder() = default;

@@ -1,12 +1,20 @@
 #include "plane_reader.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace vicon::ingest {
 namespace {
 
 /// Direction cosines are written with five or more decimals; beyond this a header is wrong, not rounded.
 constexpr double kDirectionTolerance = 0.01;
+/// No table is longer, and no patient lies farther from the origin.
+constexpr double kFarthest_mm = 10000;
+/// From the finest inner ear to the coarsest attenuation map.
+constexpr double kSmallestPixel_mm = 0.01, kLargestPixel_mm = 20;
+/// Beyond these a stored value of 1 would be denser than any metal.
+constexpr double kLargestSlope = 1000, kLargestIntercept_hu = 100000;
 
 /// Where a frame's attributes stand: in the functional groups of a multi-frame object, or in the data set itself.
 class Groups {
@@ -63,6 +71,8 @@ std::string readGeometry(const Groups& groups, Slice& slice, bool& absent)
     if (std::abs(length(*row) - 1) > kDirectionTolerance || std::abs(length(*column) - 1) > kDirectionTolerance ||
         std::abs(dot(*row, *column)) > kDirectionTolerance)
         return "its rows and columns are not orthogonal (Image Orientation Patient)";
+    if (std::max({std::abs(position->x), std::abs(position->y), std::abs(position->z)}) > kFarthest_mm)
+        return "it lies more than 10 m from the origin, where no scanner reaches (Image Position Patient)";
     slice.position_mm = Point3{} + *position;
     slice.row = normalized(*row);
     slice.column = normalized(*column - slice.row * dot(slice.row, *column));
@@ -70,14 +80,47 @@ std::string readGeometry(const Groups& groups, Slice& slice, bool& absent)
     const auto row_mm = measures.number(DCM_PixelSpacing, 0), pixel_mm = measures.number(DCM_PixelSpacing, 1);
     if (!row_mm || !pixel_mm || *row_mm <= 0 || *pixel_mm <= 0)
         return "the size of its pixels is not said (Pixel Spacing)";
+    if (std::min(*row_mm, *pixel_mm) < kSmallestPixel_mm || std::max(*row_mm, *pixel_mm) > kLargestPixel_mm)
+        return "its pixels have a size that no scanner has (Pixel Spacing)";
     slice.row_mm = *row_mm;
     slice.pixel_mm = *pixel_mm;
     slice.thickness_mm = measures.number(DCM_SliceThickness).value_or(0);
     return {};
 }
 
+std::string upper(std::string text)
+{
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::toupper(c)); });
+    return text;
+}
+
+/// The names under which writers mean Hounsfield units; US is "unspecified".
+bool meansHounsfield(const std::string& type)
+{
+    const std::string name = upper(type);
+    return name.empty() || name == "HU" || name == "US" || name.starts_with("HOUNSFIELD") ||
+           name.starts_with("HOUNDSFIELD");
+}
+
+/// Maps of blood flow, volume and the like, and of materials: numbers of their own, with a slope and an intercept too.
+bool isParametricMap(const std::string& image_type)
+{
+    static const std::set<std::string> kMaps{"CBF",           "CBV",          "MTT",          "TTP",
+                                             "TMAX",          "PBF",          "PBV",          "PERFUSION",
+                                             "PERFUSION_MAP", "RHO_Z",        "ZEFF",         "EFF_ATOMIC_NUM",
+                                             "BLOOD_FLOW",    "BLOOD_VOLUME", "FLOW_EXTRACT", "PERMEABILITY"};
+    std::size_t from = 0;
+    while (from <= image_type.size()) {
+        const std::size_t to = std::min(image_type.find('\\', from), image_type.size());
+        if (kMaps.contains(upper(image_type.substr(from, to - from))))
+            return true;
+        from = to + 1;
+    }
+    return false;
+}
+
 /// Fills slope and intercept; returns what is wrong with them.
-std::string readDensities(const Groups& groups, Slice& slice)
+std::string readDensities(const Groups& groups, Slice& slice, std::set<std::string>& repairs)
 {
     const Dataset transformation = groups.group(DCM_PixelValueTransformationSequence);
     const auto slope = transformation.number(DCM_RescaleSlope);
@@ -87,11 +130,25 @@ std::string readDensities(const Groups& groups, Slice& slice)
     if (*slope == 0)
         return "its densities are unknown (Rescale Slope is 0)";
     const std::string type = joined(transformation.values(DCM_RescaleType), 1);
-    if (!type.empty() && type != "HU" && type != "US")
+    if (std::abs(*slope) > kLargestSlope || std::abs(*intercept) > kLargestIntercept_hu)
+        return "its densities are none that a body has (Rescale Slope and Intercept)";
+    if (upper(type) == "US")
+        repairs.insert("Rescale Type unspecified (US): taken as HU");
+    if (!meansHounsfield(type))
         return "its values are no CT densities (Rescale Type " + type + ")";
     slice.slope = *slope;
     slice.intercept = *intercept;
     return {};
+}
+
+bool usesDecimalCommas(const Groups& groups)
+{
+    const Dataset measures = groups.group(DCM_PixelMeasuresSequence);
+    const Dataset transformation = groups.group(DCM_PixelValueTransformationSequence);
+    return groups.group(DCM_PlanePositionSequence).hasDecimalComma(DCM_ImagePositionPatient) ||
+           groups.group(DCM_PlaneOrientationSequence).hasDecimalComma(DCM_ImageOrientationPatient) ||
+           measures.hasDecimalComma(DCM_PixelSpacing) || measures.hasDecimalComma(DCM_SliceThickness) ||
+           transformation.hasDecimalComma(DCM_RescaleSlope) || transformation.hasDecimalComma(DCM_RescaleIntercept);
 }
 
 void readKind(const Dataset& dataset, const Groups& groups, bool multi_frame, Slice& slice)
@@ -109,7 +166,7 @@ void readKind(const Dataset& dataset, const Groups& groups, bool multi_frame, Sl
         slice.acquisition = std::to_string(*number);
     slice.phase = content.text(DCM_StackID);
     if (const auto index = content.integer(DCM_TemporalPositionIndex))
-        slice.phase += "/" + std::to_string(*index);
+        slice.phase.append("/").append(std::to_string(*index));
 }
 
 }  // namespace
@@ -133,12 +190,19 @@ Planes readPlanes(const Dataset& dataset, int frames)
         slice.frame = frame;
         planes.why = readGeometry(groups, slice, planes.without_geometry);
         if (planes.why.empty())
-            planes.why = readDensities(groups, slice);
+            planes.why = readDensities(groups, slice, planes.repairs);
+        if (planes.why.empty() && usesDecimalCommas(groups))
+            planes.repairs.insert("decimal commas read as points");
         if (!planes.why.empty()) {
             planes.slices.clear();
             return planes;
         }
         readKind(dataset, groups, multi_frame, slice);
+        if (isParametricMap(slice.image_type)) {
+            planes.why = "its values are no CT densities (Image Type " + slice.image_type + ")";
+            planes.slices.clear();
+            return planes;
+        }
         planes.slices.push_back(std::move(slice));
     }
     return planes;

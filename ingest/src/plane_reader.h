@@ -1,5 +1,9 @@
 #pragma once
 
+#include <set>
+#include <string>
+#include <vector>
+
 #include "dataset.h"
 #include "image_object.h"
 
@@ -12,6 +16,8 @@ struct Planes {
     std::string why;
     /// There is no position or orientation at all: what screen saves and dose sheets look like.
     bool without_geometry = false;
+    /// What had to be assumed.
+    std::set<std::string> repairs;
 };
 Planes readPlanes(const Dataset& dataset, int frames);
 

@@ -31,8 +31,11 @@ json describeGeometry(const Stack& stack, const StackPlan& plan)
     geometry["slices"] = stack.slices.size();
     geometry["columns"] = stack.slices.front().object->pixels.columns;
     geometry["rows"] = stack.slices.front().object->pixels.rows;
-    if (!plan.refused.empty())
+    if (!plan.refused.empty()) {
+        geometry.erase("interpolated_slices");
+        geometry.erase("largest_offset_mm");
         return geometry;
+    }
     const Grid grid = nearestToPatient(plan.grid).grid;
     geometry["size"] = grid.size;
     geometry["spacing_mm"] = grid.spacing_mm;
@@ -43,7 +46,8 @@ json describeGeometry(const Stack& stack, const StackPlan& plan)
 
 json describeRepairs(const std::vector<const ImageObject*>& objects, const StackPlan& plan)
 {
-    json repairs = plan.repairs;
+    // Of a volume that is not made nothing was interpolated or moved.
+    json repairs = plan.refused.empty() ? json(plan.repairs) : json::array();
     std::map<std::string, int> counts;
     for (const ImageObject* object : objects)
         for (const std::string& repair : object->repairs)

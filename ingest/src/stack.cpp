@@ -78,13 +78,21 @@ struct Distinction {
     const char* name;
     std::string (*of)(const SliceRef&);
     bool different_takes;
+    /// When images that share no place are told apart too: never, when they alternate, or always.
+    enum class Apart { never, alternating, always } apart = Apart::never;
 };
 const std::array kDistinctions{
     Distinction{"lossy", [](const SliceRef& r) { return r.object->series.lossy ? r.object->transfer_syntax : ""; },
-                false},
-    Distinction{"image type", [](const SliceRef& r) { return r.slice->image_type; }, false},
-    Distinction{"kernel", [](const SliceRef& r) { return r.slice->kernel; }, true},
-    Distinction{"acquisition", [](const SliceRef& r) { return r.slice->acquisition; }, true},
+                false, Distinction::Apart::never},
+    Distinction{"position", [](const SliceRef& r) { return r.object->series.patient_position; }, false,
+                Distinction::Apart::always},
+    Distinction{"image type", [](const SliceRef& r) { return r.slice->image_type; }, false,
+                Distinction::Apart::alternating},
+    Distinction{"kernel", [](const SliceRef& r) { return r.slice->kernel; }, true, Distinction::Apart::always},
+    Distinction{"acquisition", [](const SliceRef& r) { return r.slice->acquisition; }, true,
+                Distinction::Apart::alternating},
+    Distinction{"time", [](const SliceRef& r) { return r.object->acquisition_time; }, true,
+                Distinction::Apart::alternating},
     Distinction{"phase", [](const SliceRef& r) { return r.slice->phase; }, true},
 };
 
@@ -131,14 +139,40 @@ void dropCopies(Stack& stack, const SamePixels& same_pixels)
     stack.copies = std::move(copies);
 }
 
+/// Whether images of different kinds lie between each other along the normal, more than once. A scan that was taken in
+/// steps has many kinds, one after the other.
+bool alternates(const Stack& stack, const Distinction& distinction, std::size_t kinds)
+{
+    constexpr std::size_t kMostTakes = 4;
+    if (kinds > kMostTakes)
+        return false;
+    std::size_t runs = 0;
+    for (std::size_t n = 0; n < stack.slices.size(); ++n)
+        runs += n == 0 || distinction.of(stack.slices[n]) != distinction.of(stack.slices[n - 1]) ? 1 : 0;
+    return runs > kinds + 1;
+}
+
+bool tellsApart(const Stack& stack, const Distinction& distinction, std::size_t kinds, std::size_t most)
+{
+    using Apart = Distinction::Apart;
+    if (kinds < 2)
+        return false;
+    if (distinction.apart == Apart::always ||
+        (distinction.apart == Apart::alternating && alternates(stack, distinction, kinds)))
+        return true;
+    if (most < 2)
+        return false;
+    const bool one_place = places(stack).size() == 1;
+    return !distinction.different_takes || (!one_place && kinds <= most);
+}
+
 void resolve(Stack stack, std::size_t level, const SamePixels& same_pixels, std::vector<Stack>& out)
 {
     sortAlongNormal(stack);
     const std::size_t most = mostAtOnePlace(stack);
-    for (; most > 1 && level < kDistinctions.size(); ++level) {
+    for (; level < kDistinctions.size(); ++level) {
         auto parts = partition(stack, kDistinctions[level]);
-        const bool one_place = places(stack).size() == 1;
-        if (parts.size() == 1 || (kDistinctions[level].different_takes && (one_place || parts.size() > most)))
+        if (!tellsApart(stack, kDistinctions[level], parts.size(), most))
             continue;
         for (auto& [value, part] : parts)
             resolve(std::move(part), level + 1, same_pixels, out);

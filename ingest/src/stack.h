@@ -33,7 +33,9 @@ using SamePixels = std::function<bool(const SliceRef&, const SliceRef&)>;
 /// comes first.
 ///
 /// Images of different matrix, pixel size or orientation make stacks of their own. Where several images lie at one
-/// place, they are told apart by lossy encoding, image type, kernel, acquisition and phase, in this order; copies with
+/// place, they are told apart by lossy encoding, patient position, image type, kernel, acquisition number and time, and
+/// phase, in this order. Other positions and kernels make stacks of their own wherever their images lie; other image
+/// types, acquisitions and times do where they alternate along the normal. Copies with
 /// the same pixels are dropped; what then is left in one place refuses the stack.
 std::vector<Stack> splitSeries(const std::vector<const ImageObject*>& objects, const SamePixels& same_pixels);
 

@@ -179,7 +179,11 @@ void StudyImport::dropUndecodable(std::map<std::string, SeriesNotes>& notes)
             for (const Slice& slice : small[n]->slices)
                 decoder.densities(slice);
         } catch (const Error& e) {
+            if (e.code() != ErrorCode::bad_input)
+                throw;
             why[n] = e.what();
+        } catch (const std::bad_alloc&) {
+            why[n] = "its pixels need more memory than there is";
         }
     });
     for (std::size_t n = 0; n < small.size(); ++n) {
@@ -445,19 +449,27 @@ void StudyImport::flagSharedIds()
 {
     if (case_.patient.id.empty())
         return;
-    const auto once = [&](const std::string& case_id, const std::string& other) {
-        const std::string line = "the patient ID is also that of case " + other + ", with another name or birth date";
-        if (store_.wasFlagged(case_id, line))  // a flag that a person took away does not come back
+    const std::string begin = "the patient ID is also that of case ";
+    const auto once = [&](const CaseRecord& flagged, const std::string& other) {
+        const bool has_one = std::any_of(flagged.flags.begin(), flagged.flags.end(),
+                                         [&](const std::string& flag) { return flag.starts_with(begin); });
+        const std::string line = begin + other + ", with another name or birth date";
+        if (has_one || store_.wasFlagged(flagged.id, line))  // a flag that a person took away does not come back
             return;
-        store_.flag(case_id, line);
-        reporter_.line({ImportLine::Kind::flagged, case_id, line + "; a person must decide", case_id, {}});
+        store_.flag(flagged.id, line);
+        reporter_.line({ImportLine::Kind::flagged, flagged.id, line + "; a person must decide", flagged.id, {}});
     };
-    for (const CaseRecord& other : store_.findCasesByPatient(case_.patient.id)) {
-        if (other.id == case_.id || sameNameAndBirth(other.patient, case_.patient))
-            continue;
-        once(case_.id, other.id);
-        once(other.id, case_.id);
-    }
+    const auto self = store_.findCase(case_.id);
+    if (!self)
+        return;
+    const std::vector<CaseRecord> namesakes = store_.findCasesByPatient(case_.patient.id);
+    const auto other = std::find_if(namesakes.begin(), namesakes.end(), [&](const CaseRecord& c) {
+        return c.id != case_.id && !sameNameAndBirth(c.patient, case_.patient);
+    });
+    if (other == namesakes.end())
+        return;
+    once(*self, other->id);
+    once(*other, case_.id);
 }
 
 }  // namespace vicon::ingest

@@ -33,6 +33,7 @@ public:
     void object(ImportLine::Kind kind, const std::string& shown, const std::string& series_uid, const std::string& why,
                 const std::string& case_id = {});
     void line(ImportLine line) { lines_.push_back({std::move(line), 1, {}}); }
+    bool empty() const { return lines_.empty(); }
     /// Writes the lines into the report.
     void finish();
 

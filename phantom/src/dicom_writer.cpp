@@ -8,9 +8,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <vector>
 
+#include "dicom_object.h"
 #include "uid.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
@@ -23,63 +23,7 @@ namespace {
 constexpr std::int16_t kIntercept = -1024;
 constexpr std::int16_t kPaddingStored = -2000;
 
-/// A decimal string of at most 16 characters.
-std::string decimal(double value)
-{
-    if (std::abs(value) < 1e-9)
-        return "0";
-    std::array<char, 40> text{};
-    for (int digits = 12; digits > 0; --digits)
-        if (std::snprintf(text.data(), text.size(), "%.*g", digits, value) <= 16)
-            break;
-    return text.data();
-}
-
-std::string decimals(std::initializer_list<double> values)
-{
-    std::string text;
-    for (const double value : values)
-        text += (text.empty() ? "" : "\\") + decimal(value);
-    return text;
-}
-
-/// Fills a data set; the first failure ends it.
-class Dataset {
-public:
-    void set(const DcmTagKey& tag, const std::string& value) { check(set_->putAndInsertString(tag, value.c_str())); }
-    void setShort(const DcmTagKey& tag, std::uint16_t value) { check(set_->putAndInsertUint16(tag, value)); }
-    void setSigned(const DcmTagKey& tag, std::int16_t value)
-    {
-        auto element = std::make_unique<DcmSignedShort>(DcmTag(tag, EVR_SS));
-        check(element->putSint16(value));
-        check(set_->insert(element.release(), OFTrue));
-    }
-    void setWords(const DcmTagKey& tag, const std::vector<std::int16_t>& values)
-    {
-        std::vector<Uint16> words(values.begin(), values.end());
-        check(set_->putAndInsertUint16Array(tag, words.data(), words.size()));
-    }
-    void setBytes(const DcmTagKey& tag, const std::vector<Uint8>& values)
-    {
-        check(set_->putAndInsertUint8Array(tag, values.data(), values.size()));
-    }
-    void save(const fs::path& path)
-    {
-        if (file_.saveFile(path.string().c_str(), EXS_LittleEndianExplicit).bad())
-            throw Error(ErrorCode::store, "cannot write a DICOM file", path.string(), "check space and permissions");
-    }
-
-private:
-    static void check(const OFCondition& condition)
-    {
-        if (condition.bad())
-            throw Error(ErrorCode::internal, std::string("cannot fill a DICOM object: ") + condition.text());
-    }
-    DcmFileFormat file_;
-    DcmDataset* set_ = file_.getDataset();
-};
-
-void setStudy(Dataset& d, const StudyHeader& study, const SeriesHeader& series)
+void setStudy(DicomObject& d, const StudyHeader& study, const SeriesHeader& series)
 {
     d.set(DCM_SpecificCharacterSet, "ISO_IR 100");
     d.set(DCM_StudyDate, study.date);
@@ -106,14 +50,15 @@ void setStudy(Dataset& d, const StudyHeader& study, const SeriesHeader& series)
     d.set(DCM_SeriesNumber, std::to_string(series.number));
 }
 
-void setInstance(Dataset& d, const char* sop_class, const StudyHeader& study, const SeriesHeader& series, int number)
+void setInstance(DicomObject& d, const char* sop_class, const StudyHeader& study, const SeriesHeader& series,
+                 int number)
 {
     d.set(DCM_SOPClassUID, sop_class);
     d.set(DCM_SOPInstanceUID, uidFor(study.key, series.uid, std::uint64_t(number)));
     d.set(DCM_InstanceNumber, std::to_string(number));
 }
 
-void setCt(Dataset& d, const StudyHeader& study, const SeriesHeader& series)
+void setCt(DicomObject& d, const StudyHeader& study, const SeriesHeader& series)
 {
     d.set(DCM_Modality, "CT");
     d.set(DCM_PatientPosition, series.patient_position);
@@ -130,7 +75,7 @@ void setCt(Dataset& d, const StudyHeader& study, const SeriesHeader& series)
     d.set(DCM_RescaleSlope, "1");
 }
 
-void setPicture(Dataset& d, int rows, int columns, int bits, bool is_signed)
+void setPicture(DicomObject& d, int rows, int columns, int bits, bool is_signed)
 {
     d.setShort(DCM_SamplesPerPixel, 1);
     d.set(DCM_PhotometricInterpretation, "MONOCHROME2");
@@ -142,7 +87,8 @@ void setPicture(Dataset& d, int rows, int columns, int bits, bool is_signed)
     d.setShort(DCM_PixelRepresentation, is_signed ? 1 : 0);
 }
 
-void setPlane(Dataset& d, Point3 origin, Vector3 row, Vector3 column, double row_spacing_mm, double column_spacing_mm)
+void setPlane(DicomObject& d, Point3 origin, Vector3 row, Vector3 column, double row_spacing_mm,
+              double column_spacing_mm)
 {
     d.set(DCM_ImagePositionPatient, decimals({origin.x, origin.y, origin.z}));
     d.set(DCM_ImageOrientationPatient, decimals({row.x, row.y, row.z, column.x, column.y, column.z}));
@@ -150,11 +96,11 @@ void setPlane(Dataset& d, Point3 origin, Vector3 row, Vector3 column, double row
 }
 
 /// Values as the scanner stores them: offset by the intercept, padding as a value that no tissue has.
-std::vector<std::int16_t> stored(const std::int16_t* hu, std::size_t count)
+std::vector<std::uint16_t> stored(const std::int16_t* hu, std::size_t count)
 {
-    std::vector<std::int16_t> values(count);
+    std::vector<std::uint16_t> values(count);
     std::transform(hu, hu + count, values.begin(),
-                   [](std::int16_t v) { return v == kPaddingHu ? kPaddingStored : std::int16_t(v - kIntercept); });
+                   [](std::int16_t v) { return std::uint16_t(v == kPaddingHu ? kPaddingStored : v - kIntercept); });
     return values;
 }
 
@@ -168,7 +114,7 @@ void writeSlice(const fs::path& folder, const StudyHeader& study, const SeriesHe
     const Grid& grid = hu.grid;
     // Scanners count along the table's way; instances are numbered from the head.
     const int number = grid.axis[2].z > 0 ? grid.size[2] - k : k + 1;
-    Dataset d;
+    DicomObject d;
     setStudy(d, study, series);
     setInstance(d, UID_CTImageStorage, study, series, number);
     setCt(d, study, series);
@@ -209,15 +155,16 @@ void writeLocalizer(const fs::path& folder, const StudyHeader& study, const Seri
     const Grid& grid = hu.grid;
     const auto [nx, ny, nz] = grid.size;
     const bool head_last = grid.axis[2].z > 0;  // the head is at the picture's top
-    std::vector<std::int16_t> picture(std::size_t(nx) * std::size_t(nz));
+    std::vector<std::uint16_t> picture(std::size_t(nx) * std::size_t(nz));
     for (int row = 0; row < nz; ++row)
         for (int i = 0; i < nx; ++i) {
             long sum = 0;
             for (int j = 0; j < ny; ++j)
                 sum += hu.at({i, j, head_last ? nz - 1 - row : row});
-            picture[std::size_t(row) * std::size_t(nx) + std::size_t(i)] = std::int16_t(sum / ny - kIntercept);
+            picture[std::size_t(row) * std::size_t(nx) + std::size_t(i)] =
+                std::uint16_t(std::int16_t(sum / ny - kIntercept));
         }
-    Dataset d;
+    DicomObject d;
     setStudy(d, study, series);
     setInstance(d, UID_CTImageStorage, study, series, 1);
     setCt(d, study, series);
@@ -239,7 +186,7 @@ void writeDoseSheet(const fs::path& folder, const StudyHeader& study, const Seri
         for (int x = 40; x < kSize - 40; ++x)  // a ruled table
             if (y % 36 < 2 || (x - 40) % 108 < 2)
                 page[std::size_t(y) * kSize + std::size_t(x)] = 200;
-    Dataset d;
+    DicomObject d;
     setStudy(d, study, series);
     setInstance(d, UID_SecondaryCaptureImageStorage, study, series, 1);
     d.set(DCM_Modality, "CT");

@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "memory_room.h"
-#include "scan_artefacts.h"
+#include "scan_results.h"
 #include "step_runner.h"
 #include "step_table.h"
 #include "vicon/cases/corrections.h"
 #include "vicon/cases/organs.h"
+#include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/pipeline/corrections.h"
@@ -22,11 +23,11 @@ using nlohmann::json;
 namespace vicon::pipeline {
 namespace {
 
-json sizesOf(const ScanArtefacts& artefacts, const std::vector<std::string>& files)
+json sizesOf(const ScanResults& results, const std::vector<std::string>& files)
 {
     json sizes = json::object();
     for (const std::string& file : files)
-        sizes[file] = fs::file_size(artefacts.source(file));
+        sizes[file] = fs::file_size(results.source(file));
     return sizes;
 }
 
@@ -75,7 +76,7 @@ bool isCurrent(const StepRecord& record, const std::string& digest, const fs::pa
 
 bool endsHere(const StepRecord& record)
 {
-    return record.result.is_object() && record.result.value("verdict", "").starts_with("no ");
+    return record.step == "segment" && segmentFoundFromJson(record.result).verdict == Verdict::absent;
 }
 
 /// Voxels of the scan once it is isotropic; 0 when import did not say how large it is.
@@ -119,7 +120,7 @@ public:
           scan_(store.requireScan(context.job().case_id, context.job().scan_id)),
           folder_(store.scanFolder(scan_.case_id, scan_.id)),
           inputs_{configFor(config, folder_), loader, gravityFor(scan_.series.patient_position), folder_ / "dicom"},
-          artefacts_(folder_, claimFolder(folder_, context.job())),
+          results_(folder_, claimFolder(folder_, context.job())),
           loader_parameters_(loader_parameters),
           instances_(store.instances(scan_.case_id, scan_.id)),
           records_(recordsOf(store, scan_))
@@ -135,7 +136,7 @@ public:
                     .made = [this](const Step& step, json result) { records_[step.name].result = std::move(result); },
                     .ends = [this](const Step& step) { return endsHere(records_[step.name]); },
                     .written = [this](const Step& step, double seconds) { record(step, seconds); }},
-                   inputs_, artefacts_, records_, context_, inputs_.config.get<StepOptions>().at_once)
+                   inputs_, results_, records_, context_, inputs_.config.get<StepOptions>().at_once)
             .run();
         for (const Step& step : stepTable())
             if (endsHere(records_[step.name]))
@@ -162,10 +163,10 @@ private:
     {
         StepRecord& record = records_[step.name];
         const std::vector<std::string> files = step.outputs(record.result);
-        record.result["files"] = sizesOf(artefacts_, files);
+        record.result["files"] = sizesOf(results_, files);
         record.seconds = seconds;
         record.finished = nowUtc();
-        context_.commitStep(record, [&] { artefacts_.publish(files); });
+        context_.commitStep(record, [&] { results_.publish(files); });
         store_.writeScanFile(scan_.case_id, scan_.id);
     }
 
@@ -189,7 +190,7 @@ private:
     ScanRecord scan_;
     fs::path folder_;
     StepInputs inputs_;
-    ScanArtefacts artefacts_;
+    ScanResults results_;
     const json& loader_parameters_;
     std::vector<InstanceRecord> instances_;
     StepRecords records_;

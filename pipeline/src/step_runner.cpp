@@ -16,10 +16,10 @@ private:
     Task& task_;
 };
 
-StepRunner::StepRunner(const std::vector<Step>& table, Hooks hooks, const StepInputs& inputs, ScanArtefacts& artefacts,
+StepRunner::StepRunner(const std::vector<Step>& table, Hooks hooks, const StepInputs& inputs, ScanResults& results,
                        const StepRecords& records, JobContext& context, int at_once)
     : inputs_(inputs),
-      artefacts_(artefacts),
+      results_(results),
       records_(records),
       context_(context),
       at_once_(at_once),
@@ -157,10 +157,10 @@ void StepRunner::work(Task& task, const StepRecords& records)
     };
     try {
         StepProgress progress(*this, task);
-        task.result = task.step->run(inputs_, artefacts_, records, progress);
+        task.result = task.step->run(inputs_, results_, records, progress);
         const std::vector<std::string> files = task.step->outputs(task.result);
         become(State::made);
-        artefacts_.finish(files);
+        results_.finish(files);
         become(State::written);
     } catch (...) {
         const std::lock_guard lock(mutex_);
@@ -207,9 +207,9 @@ void StepRunner::dropWhatNobodyNeeds()
         });
     };
     if (!needed(Densities::whole))
-        artefacts_.dropVolume();
+        results_.dropVolume();
     if (!needed(Densities::around_lumen))
-        artefacts_.dropDensitiesAroundLumen();
+        results_.dropDensitiesAroundLumen();
 }
 
 }  // namespace vicon::pipeline

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "scan_artefacts.h"
+#include "scan_results.h"
 #include "step_table.h"
 #include "vicon/pipeline/worker.h"
 
@@ -34,7 +34,7 @@ public:
 
     /// @param table the steps, each after those it reads
     /// @param at_once steps that may be at work or being written at the same time, at least 1
-    StepRunner(const std::vector<Step>& table, Hooks hooks, const StepInputs& inputs, ScanArtefacts& artefacts,
+    StepRunner(const std::vector<Step>& table, Hooks hooks, const StepInputs& inputs, ScanResults& results,
                const StepRecords& records, JobContext& context, int at_once);
     /// Waits for the steps that are at work.
     ~StepRunner();
@@ -73,7 +73,7 @@ private:
     void dropWhatNobodyNeeds();
 
     const StepInputs& inputs_;
-    ScanArtefacts& artefacts_;
+    ScanResults& results_;
     const StepRecords& records_;
     JobContext& context_;
     int at_once_;

@@ -5,6 +5,7 @@
 #include <future>
 #include <iterator>
 
+#include "vicon/cases/step_results.h"
 #include "vicon/scan_files/cells_file.h"
 #include "vicon/scan_files/projections_file.h"
 #include "vicon/scan_files/skeleton_file.h"
@@ -70,153 +71,147 @@ private:
     double from_, to_;
 };
 
-json runResample(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
+json runResample(const StepInputs& inputs, ScanResults& results, const StepRecords&, Progress& progress)
 {
     PartOfProgress decode(progress, 0, 0.5), rest(progress, 0.5, 1);
     HuVolume acquired = inputs.loader(inputs.dicom_folder, decode);
-    json result = {{"acquired_size", acquired.grid.size}, {"acquired_spacing_mm", acquired.grid.spacing_mm}};
-    artefacts.put(steps::resample(std::move(acquired), inputs.config.get<steps::ResampleOptions>(), rest));
-    result["size"] = artefacts.volume().grid.size;
-    result["spacing_mm"] = artefacts.volume().grid.spacing_mm[0];
-    return result;
+    ResampleFound found{.acquired_size = acquired.grid.size, .acquired_spacing_mm = acquired.grid.spacing_mm};
+    results.put(steps::resample(std::move(acquired), inputs.config.get<steps::ResampleOptions>(), rest));
+    found.size = results.volume().grid.size;
+    found.spacing_mm = results.volume().grid.spacing_mm[0];
+    return toJson(found);
 }
 
-json runSegment(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
+SegmentFound foundBy(const steps::OrganOptions& organ, const steps::Segmentation& segmentation)
+{
+    SegmentFound found{.verdict = segmentation.verdict,
+                       .organ_title = organ.title,
+                       .confidence = segmentation.confidence,
+                       .reason = segmentation.reason,
+                       .organ = Organ(organ.name),
+                       .bridges = segmentation.plan.bridges,
+                       .plan = toJson(segmentation.plan),
+                       .measures = segmentation.measures};
+    for (Bridge& bridge : found.bridges)
+        bridge.path_mm.clear();
+    return found;
+}
+
+json runSegment(const StepInputs& inputs, ScanResults& results, const StepRecords&, Progress& progress)
 {
     const auto organ = inputs.config.get<steps::OrganOptions>();
     steps::Segmentation found = organ.isColon()
-                                    ? steps::segmentColon(artefacts.volume(), inputs.gravity,
+                                    ? steps::segmentColon(results.volume(), inputs.gravity,
                                                           inputs.config.get<steps::SegmentOptions>(), progress)
-                                    : steps::segmentOrgan(artefacts.volume(), organ, progress);
-    json result = found.measures;
-    result["verdict"] = found.verdict;
-    result["confidence"] = found.confidence;
-    result["reason"] = found.reason;
-    result["plan"] = toJson(found.plan);
-    json& bridges = result["bridges"] = json::array();
-    for (const Bridge& bridge : found.plan.bridges)
-        bridges.push_back({{"from_mm", {bridge.from_mm.x, bridge.from_mm.y, bridge.from_mm.z}},
-                           {"to_mm", {bridge.to_mm.x, bridge.to_mm.y, bridge.to_mm.z}},
-                           {"length_mm", bridge.length_mm},
-                           {"confidence", bridge.confidence},
-                           {"certain", bridge.certain},
-                           {"reason", bridge.reason}});
-    if (!found.verdict.starts_with("no ")) {
-        artefacts.put(std::move(found.inside));
-        artefacts.densitiesAroundLumen();  // while the whole is there
+                                    : steps::segmentOrgan(results.volume(), organ, progress);
+    json result = toJson(foundBy(organ, found));
+    if (found.verdict != Verdict::absent) {
+        results.put(std::move(found.inside));
+        results.densitiesAroundLumen();  // while the whole is there
     }
     return result;
 }
 
 std::vector<std::string> segmentFiles(const json& result)
 {
-    if (result.value("verdict", "").starts_with("no "))
+    if (segmentFoundFromJson(result).verdict == Verdict::absent)
         return {};
     return {"inside.mha"};
 }
 
 /// The skeleton of an organ that branches.
-json runTree(const steps::LumenPlan& plan, const StepInputs& inputs, ScanArtefacts& artefacts, Progress& progress)
+json runTree(const steps::LumenPlan& plan, const StepInputs& inputs, ScanResults& results, Progress& progress)
 {
-    steps::TreeResult found = steps::findTree(artefacts.inside(), plan.pieces.at(0).rectal_end_mm,
+    steps::TreeResult found = steps::findTree(results.inside(), plan.pieces.at(0).rectal_end_mm,
                                               inputs.config.get<steps::OrganOptions>().branch_mm,
                                               inputs.config.get<steps::SkeletonOptions>(), progress);
     const std::vector<int> tips = found.tree.tips();
-    json result = {{"branches", found.tree.branches.size()},
-                   {"tips", tips.size()},
-                   {"length_mm", found.tree.pathTo(tips.front()).length_mm()},
-                   {"total_length_mm", found.tree.totalLength_mm()}};
-    scan_files::writeSkeletonVoxels(artefacts.target("skeleton_voxels.vtp"), found.voxels);
-    scan_files::writeSkeletonTree(artefacts.target("skeleton.vtp"), found.tree);
-    return result;
+    const SkeletonFound result{found.tree.pathTo(tips.front()).length_mm(),
+                               {{"branches", found.tree.branches.size()},
+                                {"tips", tips.size()},
+                                {"total_length_mm", found.tree.totalLength_mm()}}};
+    scan_files::writeSkeletonVoxels(results.target("skeleton_voxels.vtp"), found.voxels);
+    scan_files::writeSkeletonTree(results.target("skeleton.vtp"), found.tree);
+    return toJson(result);
 }
 
-json runSkeleton(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords& records, Progress& progress)
+json runSkeleton(const StepInputs& inputs, ScanResults& results, const StepRecords& records, Progress& progress)
 {
     const steps::LumenPlan plan = steps::lumenPlanFromJson(records.at("segment").result.at("plan"));
     if (!isColon(inputs.config))
-        return runTree(plan, inputs, artefacts, progress);
+        return runTree(plan, inputs, results, progress);
     // Two thirds of dividing the lumen need no curve, and cores are free here.
     const steps::SkeletonHooks hooks{
-        .core_free = [&] { artefacts.beginSurface(inputs.config.get<steps::WallDensities>()); },
+        .core_free = [&] { results.beginSurface(inputs.config.get<steps::WallDensities>()); },
         .paths_found =
             [&](const std::vector<std::vector<Index3>>& paths) {
                 if (inputs.config.get<steps::SubdivideOptions>().method == "flood")
-                    artefacts.keepFlood(std::async(std::launch::async, [&inside = artefacts.inside(), paths] {
+                    results.keepFlood(std::async(std::launch::async, [&inside = results.inside(), paths] {
                         return steps::floodFromPaths(inside, paths);
                     }));
             }};
     steps::SkeletonResult found =
-        steps::findSkeleton(artefacts.inside(), plan, inputs.config.get<steps::SkeletonOptions>(), progress, hooks);
-    json result = found.measures;
-    result["length_mm"] = found.curve.length_mm();
-    scan_files::writeSkeletonVoxels(artefacts.target("skeleton_voxels.vtp"), found.voxels);
-    artefacts.put(std::move(found.curve));
-    return result;
+        steps::findSkeleton(results.inside(), plan, inputs.config.get<steps::SkeletonOptions>(), progress, hooks);
+    const SkeletonFound result{found.curve.length_mm(), found.measures};
+    scan_files::writeSkeletonVoxels(results.target("skeleton_voxels.vtp"), found.voxels);
+    results.put(std::move(found.curve));
+    return toJson(result);
 }
 
-json runQuality(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords& records, Progress& progress)
+json runQuality(const StepInputs& inputs, ScanResults& results, const StepRecords& records, Progress& progress)
 {
     if (!isColon(inputs.config))
-        return {{"not_measured", "parts and quality are those of a colon"}};
+        return toJson(QualityFound{.not_measured = "parts and quality are those of a colon"});
     const auto options = inputs.config.get<steps::QualityOptions>();
-    const steps::FoundParts found = steps::findColonParts(artefacts.skeleton());
-    json result = {{"parts", toJson(found.ranges)}};
-    if (!found.reason.empty())
-        result["parts_unknown"] = found.reason;
-    if (!artefacts.skeleton().empty())
-        result["quality"] =
-            toJson(steps::measureQuality(artefacts.inside(), artefacts.skeleton(), found.ranges,
-                                         records.at("segment").result.at("noise_hu").get<double>(), options, progress),
-                   options);
-    return result;
+    const steps::FoundParts parts = steps::findColonParts(results.skeleton());
+    QualityFound found{.parts = parts.ranges, .parts_unknown = parts.reason};
+    if (!results.skeleton().empty())
+        found.quality = steps::measureQuality(results.inside(), results.skeleton(), parts.ranges,
+                                              segmentFoundFromJson(records.at("segment").result).noise_hu.value(),
+                                              options, progress);
+    return toJson(found);
 }
 
-json runSubdivide(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
+json runSubdivide(const StepInputs& inputs, ScanResults& results, const StepRecords&, Progress& progress)
 {
     PartOfProgress divide(progress, 0, 0.6), tell(progress, 0.6, 0.9), project(progress, 0.9, 1);
-    const InsideVolume& inside = artefacts.inside();
-    const auto contour = artefacts.surface(inputs.config.get<steps::WallDensities>());
+    const InsideVolume& inside = results.inside();
+    const auto contour = results.surface(inputs.config.get<steps::WallDensities>());
     auto options = inputs.config.get<steps::SubdivideOptions>();
-    const SkeletonTree tree = scan_files::readSkeletonTree(artefacts.source("skeleton.vtp"));
+    const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));
     if (!tree.empty())
         options.method = "flood";  // planes across one path do not part branches
-    steps::Subdivided divided =
-        steps::subdivide(inside, tree.empty() ? artefacts.skeleton() : tree.allBranches(),
-                         scan_files::readSkeletonVoxels(artefacts.source("skeleton_voxels.vtp")), options, divide,
-                         artefacts.takeFlood());
-    artefacts.put(std::move(divided.segments));
-    const CellSurface surface = contour.get().cellsOf(artefacts.segments(), tell);
+    steps::Subdivided divided = steps::subdivide(inside, tree.empty() ? results.skeleton() : tree.allBranches(),
+                                                 scan_files::readSkeletonVoxels(results.source("skeleton_voxels.vtp")),
+                                                 options, divide, results.takeFlood());
+    results.put(std::move(divided.segments));
+    const CellSurface surface = contour.get().cellsOf(results.segments(), tell);
     steps::countTriangles(surface, divided.description);
-    auto cells =
-        std::async(std::launch::async, [&] { scan_files::writeCells(artefacts.target("cells.vtp"), surface); });
-    scan_files::writeProjections(artefacts.target("projections"),
+    auto cells = std::async(std::launch::async, [&] { scan_files::writeCells(results.target("cells.vtp"), surface); });
+    scan_files::writeProjections(results.target("projections"),
                                  steps::project(surface, inputs.config.get<steps::ProjectionOptions>(), project));
-    scan_files::writeSubdivision(artefacts.target("subdivision.json"), divided.description);
+    scan_files::writeSubdivision(results.target("subdivision.json"), divided.description);
     cells.get();
-    json result = divided.description.statistics;
-    result["method"] = divided.description.method;
-    result["triangles"] = surface.triangleCount();
-    return result;
+    return toJson(SubdivideFound{divided.description.method, surface.triangleCount(), divided.description.statistics});
 }
 
-json runPotential(const StepInputs& inputs, ScanArtefacts& artefacts, const StepRecords&, Progress& progress)
+json runPotential(const StepInputs& inputs, ScanResults& results, const StepRecords&, Progress& progress)
 {
     PartOfProgress wall(progress, 0, 0.3), exit(progress, 0.3, 1);
     const auto largest = [](const FieldVolume& field) {
         return *std::max_element(field.voxels.begin(), field.voxels.end());
     };
-    json result;
-    const auto surface = artefacts.surface(inputs.config.get<steps::WallDensities>());
-    FieldVolume from_wall_mm = steps::wallDistance(artefacts.inside(), surface.get().nearWall(), wall);
-    result["largest_wall_distance_mm"] = largest(from_wall_mm);
-    artefacts.write("wall_distance.mha", std::move(from_wall_mm));
-    const SkeletonTree tree = scan_files::readSkeletonTree(artefacts.source("skeleton.vtp"));
-    FieldVolume from_exit_mm = tree.empty() ? steps::exitDistance(artefacts.inside(), artefacts.skeleton(), exit)
-                                            : steps::exitDistance(artefacts.inside(), tree, exit);
-    result["largest_exit_distance_mm"] = largest(from_exit_mm);
-    artefacts.write("exit_distance.mha", std::move(from_exit_mm));
-    return result;
+    PotentialFound found;
+    const auto surface = results.surface(inputs.config.get<steps::WallDensities>());
+    FieldVolume from_wall_mm = steps::wallDistance(results.inside(), surface.get().nearWall(), wall);
+    found.largest_wall_distance_mm = largest(from_wall_mm);
+    results.write("wall_distance.mha", std::move(from_wall_mm));
+    const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));
+    FieldVolume from_exit_mm = tree.empty() ? steps::exitDistance(results.inside(), results.skeleton(), exit)
+                                            : steps::exitDistance(results.inside(), tree, exit);
+    found.largest_exit_distance_mm = largest(from_exit_mm);
+    results.write("exit_distance.mha", std::move(from_exit_mm));
+    return toJson(found);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scan_artefacts.h"
+#include "scan_results.h"
 #include "vicon/cases/records.h"
 #include "vicon/core/options.h"
 #include "vicon/pipeline/scan_work.h"
@@ -36,7 +36,7 @@ struct Step {
     std::function<std::vector<std::string>(const nlohmann::json& result)> outputs;  ///< its files in the scan's folder
     std::function<nlohmann::json(const Config&)> parameters;
     /// Does the work, writes the files, and returns the measures for scan.json.
-    std::function<nlohmann::json(const StepInputs&, ScanArtefacts&, const StepRecords&, Progress&)> run;
+    std::function<nlohmann::json(const StepInputs&, ScanResults&, const StepRecords&, Progress&)> run;
 };
 
 /// The steps in order.

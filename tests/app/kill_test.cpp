@@ -60,7 +60,7 @@ TEST(Kill, AtAnyMomentOfImportAndWorkLosesNothing)
     const auto start = std::chrono::steady_clock::now();
     ASSERT_EQ(runCommand(importAndWork(undisturbed.path())).exit_code, 0);
     double whole_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const auto expected = artefactsOf(undisturbed.path());
+    const auto expected = filesOf(undisturbed.path());
     ASSERT_TRUE(std::any_of(expected.begin(), expected.end(), [](const auto& entry) {
         return entry.first.ends_with("cells.vtp");
     })) << "the undisturbed run must have come to its end";
@@ -78,7 +78,7 @@ TEST(Kill, AtAnyMomentOfImportAndWorkLosesNothing)
             whole_s = moment_s;  // at its end by then: the machine has more time for it than for the first run
         viconOn(store.path(), "import " + smallStudy().string());
         viconOn(store.path(), "work --until-idle");
-        expectSame(artefactsOf(store.path()), expected);
+        expectSame(filesOf(store.path()), expected);
     }
     EXPECT_GT(killed, VICON_KILLS / 2) << "most kills must meet work";
     std::printf("%d of %d runs were killed while at work\n", killed, VICON_KILLS);

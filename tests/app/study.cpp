@@ -70,7 +70,7 @@ std::vector<ListedScan> listedScans(const fs::path& store)
     return scans;
 }
 
-std::map<std::string, std::string> artefactsOf(const fs::path& store)
+std::map<std::string, std::string> filesOf(const fs::path& store)
 {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(store / "cases")) {

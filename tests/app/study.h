@@ -25,7 +25,7 @@ struct ListedScan {
 };
 std::vector<ListedScan> listedScans(const std::filesystem::path& store);
 
-/// Every artefact of a store: path below STORE/cases to content, recorded times removed; dicom/ included.
-std::map<std::string, std::string> artefactsOf(const std::filesystem::path& store);
+/// Every file of a store: path below STORE/cases to content, recorded times removed; dicom/ included.
+std::map<std::string, std::string> filesOf(const std::filesystem::path& store);
 
 }  // namespace vicon::support

@@ -46,7 +46,7 @@ std::string Study::work_output_;
 ListedScan Study::scan_;
 nlohmann::json Study::truth_;
 
-TEST_F(Study, HasEveryArtefactOfTheContract)
+TEST_F(Study, HasEveryFileOfTheContract)
 {
     for (const char* file : {"scan.json", "volume.mha", "inside.mha", "skeleton.vtp", "skeleton_voxels.vtp",
                              "segments.mha", "subdivision.json", "cells.vtp", "exit_distance.mha", "wall_distance.mha",
@@ -70,9 +70,9 @@ TEST_F(Study, FindsTheColonsLength)
 
 TEST_F(Study, WorkingAgainChangesNothingAndOtherParametersRedoWhatDependsOnThem)
 {
-    const auto before = artefactsOf(store());
+    const auto before = filesOf(store());
     viconOn(store(), "work --until-idle");
-    EXPECT_TRUE(artefactsOf(store()) == before);
+    EXPECT_TRUE(filesOf(store()) == before);
 
     const auto timesOf = [&] {
         std::map<std::string, std::string> times;
@@ -91,12 +91,12 @@ TEST_F(Study, WorkingAgainChangesNothingAndOtherParametersRedoWhatDependsOnThem)
         EXPECT_EQ(second.at(kept), first.at(kept)) << kept;
     EXPECT_NE(second.at("subdivide"), first.at("subdivide"));
     viconOn(store(), "work --until-idle --redo-outdated");
-    EXPECT_TRUE(artefactsOf(store()) == before) << "and back";
+    EXPECT_TRUE(filesOf(store()) == before) << "and back";
 }
 
 TEST_F(Study, ACorrectionIsKeptWithTheScanAndRedoesWhatDependsOnIt)
 {
-    const auto before = artefactsOf(store());
+    const auto before = filesOf(store());
     const auto stepsOf = [&] {
         const auto show = viconJson(store(), "show " + scan_.case_id);
         return show["scans"][0]["steps"];
@@ -120,7 +120,7 @@ TEST_F(Study, ACorrectionIsKeptWithTheScanAndRedoesWhatDependsOnIt)
     EXPECT_EQ(stepsOf()["segment"]["digest"], second["segment"]["digest"]) << "kept for every later run";
 
     viconOn(store(), "work --until-idle --forget-corrections --case " + scan_.case_id);
-    EXPECT_TRUE(artefactsOf(store()) == before) << "and back";
+    EXPECT_TRUE(filesOf(store()) == before) << "and back";
 }
 
 TEST_F(Study, RefusesCorrectionsThatCannotBeMeant)
@@ -134,19 +134,19 @@ TEST_F(Study, RefusesCorrectionsThatCannotBeMeant)
     EXPECT_NE(runVicon("work --until-idle --add=1,2,3 --store " + store().string()).exit_code, 0) << "of which case?";
 }
 
-TEST_F(Study, RedoesAnArtefactThatIsMissing)
+TEST_F(Study, RedoesAFileThatIsMissing)
 {
-    const auto before = artefactsOf(store());
+    const auto before = filesOf(store());
     fs::remove(scan_.folder / "skeleton.vtp");
     viconOn(store(), "work --until-idle --redo-outdated");
-    EXPECT_TRUE(artefactsOf(store()) == before);
+    EXPECT_TRUE(filesOf(store()) == before);
 }
 
 TEST_F(Study, ImportingAgainChangesNothing)
 {
-    const auto before = artefactsOf(store());
+    const auto before = filesOf(store());
     viconOn(store(), "import " + smallStudy().string());
-    EXPECT_TRUE(artefactsOf(store()) == before);
+    EXPECT_TRUE(filesOf(store()) == before);
     EXPECT_EQ(listedScans(store()).front().state, "done") << "not queued again";
 }
 
@@ -285,6 +285,23 @@ TEST_F(Study, FliesTheWholeColon)
                                         [](const auto& entry) { return entry.path().extension() == ".png"; });
     EXPECT_EQ(std::size_t(pictures), frames);
     EXPECT_GT(report["coverage"].get<double>(), 0.3);
+}
+
+TEST_F(Study, WritesJsonAsItsSchemasSay)
+{
+    const std::string id =
+        viconJson(store(), "mark " + scan_.case_id + at(truth_["polyps"][0]["position_mm"]) + " --biopsy 12")["id"];
+    EXPECT_EQ(schemaFaults("scan", {scan_.folder / "scan.json"}), "");
+    EXPECT_EQ(schemaFaults("subdivision", {scan_.folder / "subdivision.json"}), "");
+    EXPECT_EQ(schemaFaults("projections", {scan_.folder / "projections/projections.json"}), "");
+    EXPECT_EQ(schemaFaults("markers", {scan_.folder / "markers.json", scan_.folder / "../markers.json"}), "");
+    const fs::path cases = folder_->path() / "cases.json", show = folder_->path() / "show.json";
+    std::ofstream(cases) << viconJson(store(), "cases");
+    std::ofstream(show) << viconJson(store(), "show " + scan_.case_id);
+    EXPECT_EQ(schemaFaults("cases", {cases}), "");
+    EXPECT_EQ(schemaFaults("show", {show}), "");
+    EXPECT_THAT(schemaFaults("cases", {show}), HasSubstr("'cases' is a required property")) << "the judge judges";
+    viconOn(store(), "markers " + scan_.case_id + " --remove " + id);
 }
 
 TEST_F(Study, NamesNoPatientInWhatWorkPrints)

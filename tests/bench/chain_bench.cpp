@@ -1,4 +1,4 @@
-// From the DICOM files of a synthetic scan to the last artefact, `vicon import` and `vicon work`, against the chain of
+// From the DICOM files of a synthetic scan to the last result, `vicon import` and `vicon work`, against the chain of
 // stock filters: in turn, several times, each in processes of its own. Prints a table for
 // docs/evaluation/time-and-memory.md.
 //

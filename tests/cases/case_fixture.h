@@ -17,8 +17,10 @@ public:
         CaseRecord a_case;
         a_case.id = "c1";
         a_case.study.uid = "1.2.3";
+        a_case.created = "2026-01-02T03:04:05Z";
         scan.id = "s1";
         scan.case_id = "c1";
+        scan.created = a_case.created;
         makePrivateFolder(scanFolder());
         store.addScan(a_case, scan, {}, true);
     }

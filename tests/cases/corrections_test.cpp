@@ -46,7 +46,7 @@ TEST_F(CorrectionsOfAScan, OutsideTheScanAreRefusedAndChangeNothing)
         FAIL() << "it was taken";
     } catch (const Error& e) {
         EXPECT_EQ(e.code(), ErrorCode::wrong_use);
-        EXPECT_EQ(e.subject(), "drop");
+        EXPECT_EQ(e.subject(), "--drop");
     }
     EXPECT_EQ(kept(), (Corrections{.cut = {{9, 9, 9}}}));
 }

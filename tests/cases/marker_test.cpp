@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "marker_samples.h"
 #include "vicon/core/error.h"
 
 namespace vicon {
@@ -19,21 +20,9 @@ TEST(Marker, SurvivesJsonWithKeysOfOthers)
     EXPECT_EQ(back.extra, m.extra);
 }
 
-Marker withEverything()
-{
-    Marker m{.id = "m1", .scan_id = "s1", .position_mm = {1.5, -2, 3}, .color = MarkerColor::yellow};
-    m.part = ColonPart::splenic_flexure;
-    m.pair = "m2";
-    m.size = {.straight_mm = 6.5, .along_mm = 8, .from_mm = {1, 2, 3}, .to_mm = {4, 5, 6}};
-    m.size->plane = PlaneSize{7, {1, 2, 3}, {4, 5, 6}, 20, {2, 3, 4}, {1, 0, 0}, {0, 1, 0}};
-    m.density = DensitySample{{1, 2, 3}, 4, 2, 31, 41.5, 18.25, 0.125, -25, {1, 30}};
-    m.view = MarkerView{{9, 8, 7}, {0, 0, 1}, {0, 1, 0}, 412.5};
-    return m;
-}
-
 TEST(Marker, KeepsAllThatWasMeasuredOfIt)
 {
-    const Marker m = withEverything(), back = markerFromJson(toJson(m));
+    const Marker m = test::markerWithEverything(), back = markerFromJson(toJson(m));
     EXPECT_EQ(toJson(back), toJson(m));
     EXPECT_EQ(back.part, ColonPart::splenic_flexure);
     EXPECT_EQ(back.pair, "m2");
@@ -48,13 +37,13 @@ TEST(Marker, KeepsAllThatWasMeasuredOfIt)
 TEST(Marker, LeavesWhatOthersWroteUnderItsKeysAsItIs)
 {
     for (const char* key : {"part", "pair", "size", "density", "view"}) {
-        nlohmann::json json = toJson(withEverything());
+        nlohmann::json json = toJson(test::markerWithEverything());
         json[key] = {{"whatever", {1, 2, 3}}};
         const Marker read = markerFromJson(json);
         EXPECT_EQ(read.extra.size(), 1u) << key;
         EXPECT_EQ(toJson(read), json) << key;
     }
-    nlohmann::json json = toJson(withEverything());
+    nlohmann::json json = toJson(test::markerWithEverything());
     json["part"] = "stomach";
     EXPECT_FALSE(markerFromJson(json).part);
     EXPECT_EQ(toJson(markerFromJson(json))["part"], "stomach");

@@ -5,8 +5,8 @@
 #include "case_fixture.h"
 #include "vicon/cases/corrections.h"
 #include "vicon/cases/report_files.h"
-#include "vicon/core/scan_quality.h"
 #include "vicon/core/file.h"
+#include "vicon/core/scan_quality.h"
 
 namespace vicon {
 namespace {

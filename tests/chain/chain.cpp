@@ -97,7 +97,8 @@ ChainResult runChain(HuVolume acquired, Vector3 gravity)
     ChainResult result = runResample(std::move(acquired));
     auto& bytes = result.bytes;
     steps::Segmentation found = steps::segmentColon(result.volume, gravity, {}, quiet);
-    bytes["plan"] = toJson(found.plan).dump() + found.measures.dump() + found.verdict + found.reason;
+    bytes["plan"] =
+        toJson(found.plan).dump() + found.measures.dump() + verdictText(found.verdict, "colon") + found.reason;
     result.inside = std::move(found.inside);
     bytes["inside"] = bytesOf(result.inside);
     const steps::SkeletonResult skeleton = steps::findSkeleton(result.inside, found.plan, {}, quiet);

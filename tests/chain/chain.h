@@ -16,7 +16,7 @@ struct ChainResult {
     HuVolume volume;
     InsideVolume inside;
     Skeleton curve;
-    std::map<std::string, std::string> bytes;  ///< everything made, by artefact, to compare bit for bit
+    std::map<std::string, std::string> bytes;  ///< everything made, by name, to compare bit for bit
 };
 
 /// Resample, segment, skeleton, subdivide, cells and both potentials, with their defaults.

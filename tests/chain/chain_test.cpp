@@ -1,4 +1,4 @@
-// From DICOM files to the last artefact: how a scan was stored and who computes must not matter.
+// From DICOM files to the last result: how a scan was stored and who computes must not matter.
 #include "chain.h"
 
 #include <gtest/gtest.h>
@@ -28,8 +28,8 @@ protected:
     static void expectTheSame(const ChainResult& got)
     {
         ASSERT_EQ(got.bytes.size(), expected_->bytes.size());
-        for (const auto& [artefact, bytes] : expected_->bytes)
-            EXPECT_TRUE(got.bytes.at(artefact) == bytes) << artefact;
+        for (const auto& [name, bytes] : expected_->bytes)
+            EXPECT_TRUE(got.bytes.at(name) == bytes) << name;
     }
 
     static HuVolume* measured_;
@@ -40,12 +40,12 @@ HuVolume* Chain::measured_ = nullptr;
 Vector3 Chain::gravity_;
 ChainResult* Chain::expected_ = nullptr;
 
-TEST_F(Chain, MakesEveryArtefactOfAColon)
+TEST_F(Chain, MakesEveryResultOfAColon)
 {
     ASSERT_FALSE(expected_->curve.empty());
     EXPECT_GT(expected_->curve.length_mm(), 1000);
-    for (const auto& [artefact, bytes] : expected_->bytes)
-        EXPECT_GT(bytes.size(), 100U) << artefact;
+    for (const auto& [name, bytes] : expected_->bytes)
+        EXPECT_GT(bytes.size(), 100U) << name;
 }
 
 TEST_F(Chain, IsBitForBitTheSameInWhateverOrderAndMirroringTheSeriesIsStored)

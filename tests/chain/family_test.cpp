@@ -195,7 +195,7 @@ TEST_P(Family, UnseenPhantomIsSegmentedAndFollowed)
     phantom::PhantomScan scan = phantom::makeScan(options, figures.position, quiet);
     const HuVolume volume = steps::resample(std::move(scan.hu), {}, quiet);
     const steps::Segmentation found = steps::segmentColon(volume, scan.truth.gravity, {}, quiet);
-    EXPECT_EQ(found.verdict, "colon") << found.reason;
+    EXPECT_EQ(found.verdict, Verdict::found) << found.reason;
     ASSERT_FALSE(found.inside.voxels.empty());
     const steps::SkeletonResult skeleton = steps::findSkeleton(found.inside, found.plan, {}, quiet);
     const Skeleton& curve = skeleton.curve;

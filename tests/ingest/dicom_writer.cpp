@@ -1,49 +1,33 @@
 #include "dicom_writer.h"
 
-#include <dcmtk/config/osconfig.h>
-
-#include <dcmtk/dcmdata/dctk.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
-#include <stdexcept>
+
+#include "dicom_object.h"
 
 namespace fs = std::filesystem;
 
 namespace vicon::test {
 namespace {
 
-std::string decimals(const std::vector<double>& values)
-{
-    std::ostringstream text;
-    text.precision(10);
-    for (std::size_t n = 0; n < values.size(); ++n)
-        text << (n ? "\\" : "") << values[n];
-    return text.str();
-}
+using phantom::DicomItem;
+using phantom::DicomObject;
 
 std::string decimals(Point3 p)
 {
-    return decimals(std::vector{p.x, p.y, p.z});
+    return phantom::decimals({p.x, p.y, p.z});
 }
 
 std::string directions(const SeriesSpec& spec)
 {
-    return decimals(std::vector{spec.row.x, spec.row.y, spec.row.z, spec.column.x, spec.column.y, spec.column.z});
-}
-
-void put(DcmItem& item, const DcmTagKey& tag, const std::string& value)
-{
-    if (item.putAndInsertString(tag, value.c_str()).bad())
-        throw std::runtime_error("cannot write an element");
+    return phantom::decimals({spec.row.x, spec.row.y, spec.row.z, spec.column.x, spec.column.y, spec.column.z});
 }
 
 /// Stored values of a slice: the inverse of what import computes, with rubbish in the bits that are not stored.
-std::vector<Uint16> storedPixels(const SeriesSpec& spec, int slice)
+std::vector<std::uint16_t> storedPixels(const SeriesSpec& spec, int slice)
 {
-    std::vector<Uint16> pixels;
+    std::vector<std::uint16_t> pixels;
     const int range = 1 << spec.bits_stored, shift = std::max(0, spec.high_bit + 1 - spec.bits_stored);
     const int used = (range - 1) << shift;
     for (int j = 0; j < spec.rows; ++j)
@@ -53,65 +37,56 @@ std::vector<Uint16> storedPixels(const SeriesSpec& spec, int slice)
             const int value =
                 std::isnan(hu) ? spec.padding.value() : int(std::lround((hu - spec.intercept) / spec.slope));
             const int rubbish = ((i * 7 + j * 13) & 0xffff) & ~used;
-            pixels.push_back(Uint16(((value & (range - 1)) << shift) | rubbish));
+            pixels.push_back(std::uint16_t(((value & (range - 1)) << shift) | rubbish));
         }
     return pixels;
 }
 
-void putCommon(DcmDataset& dataset, const SeriesSpec& spec)
+void setCommon(DicomItem& d, const SeriesSpec& spec)
 {
-    put(dataset, DCM_Modality, spec.modality);
-    put(dataset, DCM_StudyInstanceUID, spec.study_uid);
-    put(dataset, DCM_SeriesInstanceUID, spec.series_uid);
-    put(dataset, DCM_FrameOfReferenceUID, spec.frame_of_reference_uid);
-    put(dataset, DCM_PatientID, spec.patient_id);
-    put(dataset, DCM_PatientName, spec.patient_name);
-    put(dataset, DCM_PatientBirthDate, spec.birth_date);
-    put(dataset, DCM_PatientPosition, spec.patient_position);
-    put(dataset, DCM_ImageType, spec.image_type);
-    put(dataset, DCM_StudyDate, "20260102");
-    put(dataset, DCM_StudyTime, "101010");
-    put(dataset, DCM_AcquisitionDate, "20260102");
-    put(dataset, DCM_AcquisitionTime, spec.acquisition_time);
-    put(dataset, DCM_SeriesNumber, std::to_string(spec.series_number));
-    put(dataset, DCM_PhotometricInterpretation, "MONOCHROME2");
-    dataset.putAndInsertUint16(DCM_SamplesPerPixel, 1);
-    dataset.putAndInsertUint16(DCM_Rows, Uint16(spec.rows));
-    dataset.putAndInsertUint16(DCM_Columns, Uint16(spec.columns));
-    dataset.putAndInsertUint16(DCM_BitsAllocated, Uint16(spec.bits_allocated));
-    dataset.putAndInsertUint16(DCM_BitsStored, Uint16(spec.bits_stored));
-    dataset.putAndInsertUint16(DCM_HighBit, Uint16(spec.high_bit));
-    dataset.putAndInsertUint16(DCM_PixelRepresentation, spec.is_signed ? 1 : 0);
+    d.set(DCM_Modality, spec.modality);
+    d.set(DCM_StudyInstanceUID, spec.study_uid);
+    d.set(DCM_SeriesInstanceUID, spec.series_uid);
+    d.set(DCM_FrameOfReferenceUID, spec.frame_of_reference_uid);
+    d.set(DCM_PatientID, spec.patient_id);
+    d.set(DCM_PatientName, spec.patient_name);
+    d.set(DCM_PatientBirthDate, spec.birth_date);
+    d.set(DCM_PatientPosition, spec.patient_position);
+    d.set(DCM_ImageType, spec.image_type);
+    d.set(DCM_StudyDate, "20260102");
+    d.set(DCM_StudyTime, "101010");
+    d.set(DCM_AcquisitionDate, "20260102");
+    d.set(DCM_AcquisitionTime, spec.acquisition_time);
+    d.set(DCM_SeriesNumber, std::to_string(spec.series_number));
+    d.set(DCM_PhotometricInterpretation, "MONOCHROME2");
+    d.setShort(DCM_SamplesPerPixel, 1);
+    d.setShort(DCM_Rows, std::uint16_t(spec.rows));
+    d.setShort(DCM_Columns, std::uint16_t(spec.columns));
+    d.setShort(DCM_BitsAllocated, std::uint16_t(spec.bits_allocated));
+    d.setShort(DCM_BitsStored, std::uint16_t(spec.bits_stored));
+    d.setShort(DCM_HighBit, std::uint16_t(spec.high_bit));
+    d.setShort(DCM_PixelRepresentation, spec.is_signed ? 1 : 0);
     if (spec.padding && spec.is_signed)
-        dataset.putAndInsertSint16(DCM_PixelPaddingValue, Sint16(*spec.padding));
+        d.setSigned(DCM_PixelPaddingValue, Sint16(*spec.padding));
     else if (spec.padding)
-        dataset.putAndInsertUint16(DCM_PixelPaddingValue, Uint16(*spec.padding));
+        d.setShort(DCM_PixelPaddingValue, Uint16(*spec.padding));
 }
 
-void putPixels(DcmDataset& dataset, const SeriesSpec& spec, const std::vector<Uint16>& pixels)
+void setPixels(DicomItem& d, const SeriesSpec& spec, const std::vector<std::uint16_t>& pixels)
 {
     if (spec.bits_allocated == 16) {
-        dataset.putAndInsertUint16Array(DCM_PixelData, pixels.data(), pixels.size());
+        d.setWords(DCM_PixelData, pixels);
         return;
     }
-    std::vector<Uint8> bytes(pixels.begin(), pixels.end());
+    std::vector<std::uint8_t> bytes(pixels.begin(), pixels.end());
     bytes.resize(bytes.size() + bytes.size() % 2);
-    dataset.putAndInsertUint8Array(DCM_PixelData, bytes.data(), bytes.size());
+    d.setBytes(DCM_PixelData, bytes);
 }
 
-void save(DcmFileFormat& format, const fs::path& file)
+void save(DicomObject& object, const fs::path& file)
 {
     fs::create_directories(file.parent_path());
-    if (format.saveFile(file.c_str(), EXS_LittleEndianExplicit).bad())
-        throw std::runtime_error("cannot write " + file.string());
-}
-
-DcmItem& newItem(DcmItem& holder, const DcmTagKey& sequence)
-{
-    DcmItem* item = nullptr;
-    if (holder.findOrCreateSequenceItem(sequence, item, -2).bad())
-        throw std::runtime_error("cannot write a sequence");
-    return *item;
+    object.save(file);
 }
 
 }  // namespace
@@ -125,57 +100,55 @@ std::vector<fs::path> writeSeries(const fs::path& folder, const SeriesSpec& spec
     }
     std::vector<fs::path> files;
     for (const int slice : wanted) {
-        DcmFileFormat format;
-        DcmDataset& dataset = *format.getDataset();
-        putCommon(dataset, spec);
-        put(dataset, DCM_SOPClassUID, UID_CTImageStorage);
-        put(dataset, DCM_SOPInstanceUID, spec.sopUid(slice));
-        put(dataset, DCM_ImagePositionPatient, decimals(spec.position(slice)));
-        put(dataset, DCM_ImageOrientationPatient, directions(spec));
-        put(dataset, DCM_PixelSpacing, decimals(std::vector{spec.row_mm, spec.pixel_mm}));
-        put(dataset, DCM_SliceThickness, decimals(std::vector{spec.thickness_mm}));
-        put(dataset, DCM_RescaleSlope, decimals(std::vector{spec.slope}));
-        put(dataset, DCM_RescaleIntercept, decimals(std::vector{spec.intercept}));
-        put(dataset, DCM_ConvolutionKernel, spec.kernel);
-        put(dataset, DCM_AcquisitionNumber, spec.acquisition_number);
-        putPixels(dataset, spec, storedPixels(spec, slice));
+        DicomObject d;
+        setCommon(d, spec);
+        d.set(DCM_SOPClassUID, UID_CTImageStorage);
+        d.set(DCM_SOPInstanceUID, spec.sopUid(slice));
+        d.set(DCM_ImagePositionPatient, decimals(spec.position(slice)));
+        d.set(DCM_ImageOrientationPatient, directions(spec));
+        d.set(DCM_PixelSpacing, phantom::decimals({spec.row_mm, spec.pixel_mm}));
+        d.set(DCM_SliceThickness, phantom::decimals({spec.thickness_mm}));
+        d.set(DCM_RescaleSlope, phantom::decimals({spec.slope}));
+        d.set(DCM_RescaleIntercept, phantom::decimals({spec.intercept}));
+        d.set(DCM_ConvolutionKernel, spec.kernel);
+        d.set(DCM_AcquisitionNumber, spec.acquisition_number);
+        setPixels(d, spec, storedPixels(spec, slice));
         files.push_back(folder / (std::to_string(slice) + ".dcm"));
-        save(format, files.back());
+        save(d, files.back());
     }
     return files;
 }
 
 fs::path writeEnhanced(const fs::path& file, const SeriesSpec& spec, const std::vector<int>& order)
 {
-    DcmFileFormat format;
-    DcmDataset& dataset = *format.getDataset();
-    putCommon(dataset, spec);
-    put(dataset, DCM_SOPClassUID, UID_EnhancedCTImageStorage);
-    put(dataset, DCM_SOPInstanceUID, spec.series_uid + ".1");
-    put(dataset, DCM_NumberOfFrames, std::to_string(order.size()));
-    DcmItem& shared = newItem(dataset, DCM_SharedFunctionalGroupsSequence);
-    put(newItem(shared, DCM_PlaneOrientationSequence), DCM_ImageOrientationPatient, directions(spec));
-    DcmItem& measures = newItem(shared, DCM_PixelMeasuresSequence);
-    put(measures, DCM_PixelSpacing, decimals(std::vector{spec.row_mm, spec.pixel_mm}));
-    put(measures, DCM_SliceThickness, decimals(std::vector{spec.thickness_mm}));
-    put(newItem(shared, DCM_CTReconstructionSequence), DCM_ConvolutionKernel, spec.kernel);
-    newItem(shared, DCM_CTXRayDetailsSequence).putAndInsertFloat64(DCM_KVP, 110);
-    std::vector<Uint16> pixels;
+    DicomObject d;
+    setCommon(d, spec);
+    d.set(DCM_SOPClassUID, UID_EnhancedCTImageStorage);
+    d.set(DCM_SOPInstanceUID, spec.series_uid + ".1");
+    d.set(DCM_NumberOfFrames, std::to_string(order.size()));
+    DicomItem shared = d.append(DCM_SharedFunctionalGroupsSequence);
+    shared.append(DCM_PlaneOrientationSequence).set(DCM_ImageOrientationPatient, directions(spec));
+    DicomItem measures = shared.append(DCM_PixelMeasuresSequence);
+    measures.set(DCM_PixelSpacing, phantom::decimals({spec.row_mm, spec.pixel_mm}));
+    measures.set(DCM_SliceThickness, phantom::decimals({spec.thickness_mm}));
+    shared.append(DCM_CTReconstructionSequence).set(DCM_ConvolutionKernel, spec.kernel);
+    shared.append(DCM_CTXRayDetailsSequence).setDouble(DCM_KVP, 110);
+    std::vector<std::uint16_t> pixels;
     for (const int slice : order) {
-        DcmItem& frame = newItem(dataset, DCM_PerFrameFunctionalGroupsSequence);
-        put(newItem(frame, DCM_PlanePositionSequence), DCM_ImagePositionPatient, decimals(spec.position(slice)));
-        DcmItem& transformation = newItem(frame, DCM_PixelValueTransformationSequence);
+        DicomItem frame = d.append(DCM_PerFrameFunctionalGroupsSequence);
+        frame.append(DCM_PlanePositionSequence).set(DCM_ImagePositionPatient, decimals(spec.position(slice)));
+        DicomItem transformation = frame.append(DCM_PixelValueTransformationSequence);
         // Each frame with an intercept of its own, as the functional group allows.
         SeriesSpec own = spec;
         own.intercept = spec.intercept - slice;
-        put(transformation, DCM_RescaleSlope, decimals(std::vector{own.slope}));
-        put(transformation, DCM_RescaleIntercept, decimals(std::vector{own.intercept}));
-        put(transformation, DCM_RescaleType, "HU");
+        transformation.set(DCM_RescaleSlope, phantom::decimals({own.slope}));
+        transformation.set(DCM_RescaleIntercept, phantom::decimals({own.intercept}));
+        transformation.set(DCM_RescaleType, "HU");
         const auto frame_pixels = storedPixels(own, slice);
         pixels.insert(pixels.end(), frame_pixels.begin(), frame_pixels.end());
     }
-    putPixels(dataset, spec, pixels);
-    save(format, file);
+    setPixels(d, spec, pixels);
+    save(d, file);
     return file;
 }
 

@@ -45,7 +45,7 @@ struct Bench {
         table.push_back({name, 1, from, from + 0.1, std::move(inputs), Densities::none,
                          [](const json&) { return std::vector<std::string>{}; },
                          [](const Config&) { return json::object(); },
-                         [run](const StepInputs&, ScanArtefacts&, const StepRecords&, Progress& progress) {
+                         [run](const StepInputs&, ScanResults&, const StepRecords&, Progress& progress) {
                              progress.report(0.5, "half");
                              return run(progress);
                          }});
@@ -53,13 +53,13 @@ struct Bench {
     void run(int at_once = 3)
     {
         const support::TemporaryFolder folder;
-        ScanArtefacts artefacts(folder.path(), folder / "claim");
+        ScanResults results(folder.path(), folder / "claim");
         StepRunner(table,
                    {.is_due = [&](const Step& step) { return !current.contains(step.name); },
                     .made = [&](const Step& step, const json&) { made.push_back(step.name); },
                     .ends = [&](const Step& step) { return step.name == last; },
                     .written = [&](const Step& step, double) { recorded.push_back(step.name); }},
-                   inputs, artefacts, records, context, at_once)
+                   inputs, results, records, context, at_once)
             .run();
     }
 
@@ -195,44 +195,44 @@ TEST(StepRunner, StopsWhenTheJobIsCancelled)
     }
 }
 
-TEST(ScanArtefacts, HandOnWhatIsStillBeingWrittenAndSayWhenItCannotBe)
+TEST(ScanResults, HandOnWhatIsStillBeingWrittenAndSayWhenItCannotBe)
 {
     const support::TemporaryFolder folder;
-    ScanArtefacts artefacts(folder.path(), folder / "claim");
+    ScanResults results(folder.path(), folder / "claim");
     HuVolume volume(Grid{.size = {40, 30, 20}}, 7);
-    artefacts.put(std::move(volume));
-    EXPECT_EQ(artefacts.volume().voxels.front(), 7);
-    artefacts.finish({"volume.mha", "never-begun.mha"});
-    artefacts.dropVolume();
-    EXPECT_EQ(artefacts.volume().voxels.back(), 7) << "read back from its file";
+    results.put(std::move(volume));
+    EXPECT_EQ(results.volume().voxels.front(), 7);
+    results.finish({"volume.mha", "never-begun.mha"});
+    results.dropVolume();
+    EXPECT_EQ(results.volume().voxels.back(), 7) << "read back from its file";
 
-    artefacts.put(InsideVolume(Grid{.size = {5, 6, 7}, .origin_mm = {20, 10, 9}}, kGas));
-    artefacts.finish({"inside.mha"});
-    EXPECT_EQ(artefacts.densitiesAroundLumen().grid.size, (std::array<int, 3>{21, 22, 19}));
-    artefacts.dropVolume();
-    EXPECT_EQ(artefacts.densitiesAroundLumen().voxels.back(), 7) << "kept without the whole";
-    artefacts.dropDensitiesAroundLumen();
-    EXPECT_EQ(artefacts.densitiesAroundLumen().voxels.size(), 21U * 22U * 19U) << "read back from the whole's file";
+    results.put(InsideVolume(Grid{.size = {5, 6, 7}, .origin_mm = {20, 10, 9}}, kGas));
+    results.finish({"inside.mha"});
+    EXPECT_EQ(results.densitiesAroundLumen().grid.size, (std::array<int, 3>{21, 22, 19}));
+    results.dropVolume();
+    EXPECT_EQ(results.densitiesAroundLumen().voxels.back(), 7) << "kept without the whole";
+    results.dropDensitiesAroundLumen();
+    EXPECT_EQ(results.densitiesAroundLumen().voxels.size(), 21U * 22U * 19U) << "read back from the whole's file";
 
-    ScanArtefacts nowhere(folder / "missing", folder / "missing/claim");
+    ScanResults nowhere(folder / "missing", folder / "missing/claim");
     fs::remove_all(folder / "missing");
     nowhere.put(HuVolume(Grid{.size = {4, 3, 2}}));
     EXPECT_THROW(nowhere.finish({"volume.mha"}), Error);
 }
 
-TEST(ScanArtefacts, WhatAClaimMakesReachesTheScanOnlyWhenItIsPublished)
+TEST(ScanResults, WhatAClaimMakesReachesTheScanOnlyWhenItIsPublished)
 {
     const support::TemporaryFolder folder;
     replaceFile(folder / "skeleton.vtp", "the successor's");
     {
-        const ScanArtefacts stale(folder.path(), folder / ".vicon-tmp-claim-1");
+        const ScanResults stale(folder.path(), folder / ".vicon-tmp-claim-1");
         EXPECT_EQ(stale.source("skeleton.vtp"), folder / "skeleton.vtp");
         replaceFile(stale.target("skeleton.vtp"), "the stale one's");
         EXPECT_EQ(readFile(stale.source("skeleton.vtp")), "the stale one's");
         EXPECT_EQ(readFile(folder / "skeleton.vtp"), "the successor's");
     }
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1) << "nothing of it stays";
-    const ScanArtefacts mine(folder.path(), folder / ".vicon-tmp-claim-2");
+    const ScanResults mine(folder.path(), folder / ".vicon-tmp-claim-2");
     replaceFile(mine.target("skeleton.vtp"), "mine");
     mine.publish({"skeleton.vtp", "not made.vtp"});
     EXPECT_EQ(readFile(folder / "skeleton.vtp"), "mine");

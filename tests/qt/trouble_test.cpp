@@ -100,7 +100,7 @@ TEST_F(Reading, OnAFullDiskNothingIsShownAsSavedAndWhatWasSavedStays)
     EXPECT_EQ(stored().size(), 2U);
 }
 
-TEST_F(Reading, AMissingOrDamagedArtefactIsNamedAndTheOtherScanCanBeRead)
+TEST_F(Reading, AMissingOrDamagedFileIsNamedAndTheOtherScanCanBeRead)
 {
     const auto folder = store_ / "cases" / test::kCase / test::kSupine;
     std::filesystem::remove(folder / "segments.mha");

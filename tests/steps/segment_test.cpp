@@ -46,7 +46,7 @@ TEST(Segment, PutsTheWallAtTheHalfWayDensity)
 {
     const TubeScan scan = smallColon();
     const Segmentation result = segment(scan.draw(kGrid), scan.gravity);
-    EXPECT_NE(result.verdict, "no colon") << result.reason;
+    EXPECT_NE(result.verdict, Verdict::absent) << result.reason;
     EXPECT_GE(dice(result.inside, kGrid, scan), 0.985);
     ASSERT_EQ(result.plan.pieces.size(), 1U);
     EXPECT_LT(distance(result.plan.pieces[0].rectal_end_mm, scan.line.front()), 14);
@@ -62,7 +62,7 @@ TEST_P(FluidLevels, AreFoundInEveryPosition)
     scan.fluid_hu = 600;
     scan.level_mm = 4;
     const Segmentation result = segment(scan.draw(kGrid), scan.gravity);
-    EXPECT_NE(result.verdict, "no colon") << result.reason;
+    EXPECT_NE(result.verdict, Verdict::absent) << result.reason;
     EXPECT_GE(dice(result.inside, kGrid, scan), 0.97);
     EXPECT_GT(result.measures["fluid_ml"].get<double>(), 10);
 }
@@ -307,7 +307,7 @@ TEST_P(NoColon, IsAVerdictAndNoCrash)
 {
     const HuVolume volume(centredGrid(GetParam().size, 1), GetParam().hu);
     const Segmentation result = segment(volume, {0, 1, 0});
-    EXPECT_EQ(result.verdict, "no colon") << GetParam().name;
+    EXPECT_EQ(result.verdict, Verdict::absent) << GetParam().name;
     EXPECT_FALSE(result.reason.empty());
     EXPECT_TRUE(result.inside.voxels.empty());
     EXPECT_TRUE(result.plan.pieces.empty());
@@ -339,12 +339,12 @@ HuVolume chest(double lung_hu)
 TEST(Segment, LungsAloneAreNoColon)
 {
     const Segmentation result = segment(chest(-850), {0, 1, 0});
-    EXPECT_EQ(result.verdict, "no colon") << result.reason;
+    EXPECT_EQ(result.verdict, Verdict::absent) << result.reason;
     EXPECT_FALSE(result.reason.empty());
     EXPECT_TRUE(result.inside.voxels.empty());
     // It is their density that tells: the same shapes full of gas are taken for bowel.
     const Segmentation gas = segment(chest(-1000), {0, 1, 0});
-    EXPECT_NE(gas.verdict, "no colon") << gas.reason;
+    EXPECT_NE(gas.verdict, Verdict::absent) << gas.reason;
     EXPECT_GT(gas.measures["gas_ml"].get<double>(), 300);
 }
 
@@ -358,7 +358,7 @@ TEST(Segment, BinaryMethodTakesWhatTheSeedPointLiesIn)
     const Segmentation result = segment(scan.draw(kGrid), scan.gravity, options);
     EXPECT_GE(dice(result.inside, kGrid, scan), 0.985);
     options.seed = {{0, -20, 0}};
-    EXPECT_EQ(segment(scan.draw(kGrid), scan.gravity, options).verdict, "no colon");
+    EXPECT_EQ(segment(scan.draw(kGrid), scan.gravity, options).verdict, Verdict::absent);
 }
 
 TEST(LumenPlan, SurvivesJson)

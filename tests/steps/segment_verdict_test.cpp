@@ -36,14 +36,14 @@ HuVolume drawn(double (*density)(Point3))
 TEST(Verdict, ChestHasNoColon)
 {
     const Segmentation result = segment(drawn(test::chestHu));
-    EXPECT_EQ(result.verdict, "no colon") << result.reason;
+    EXPECT_EQ(result.verdict, Verdict::absent) << result.reason;
     EXPECT_FALSE(result.reason.empty());
 }
 
 TEST(Verdict, HeadHasNoColon)
 {
     const Segmentation result = segment(drawn(test::headHu));
-    EXPECT_EQ(result.verdict, "no colon") << result.reason;
+    EXPECT_EQ(result.verdict, Verdict::absent) << result.reason;
     EXPECT_FALSE(result.reason.empty());
 }
 
@@ -51,7 +51,7 @@ TEST(Verdict, AColonThatTheEndOfTheScanCutsIsUnsureAndSaysSo)
 {
     TubeScan scan{.line = {{0, 15, -70}, {0, 15, -45}, {45, 0, -40}, {45, 0, 100}, {-45, 0, 100}, {-45, 0, -40}}};
     const Segmentation result = segment(scan.draw(kGrid));
-    EXPECT_EQ(result.verdict, "unsure");
+    EXPECT_EQ(result.verdict, Verdict::unsure);
     EXPECT_LT(result.confidence, 0.5);
     EXPECT_THAT(result.reason, HasSubstr("beyond the end of the scan"));
 }
@@ -60,7 +60,7 @@ TEST(Verdict, AStumpOfAColonIsTooLittleAndTheReasonSaysThatTheScanCutsIt)
 {
     TubeScan scan{.line = {{-30, 0, 60}, {-30, 0, 100}}, .second_line = {{30, 10, 50}, {30, 10, 100}}};
     const Segmentation result = segment(scan.draw(kGrid));
-    EXPECT_EQ(result.verdict, "no colon");
+    EXPECT_EQ(result.verdict, Verdict::absent);
     EXPECT_LT(result.confidence, 0.6);
     EXPECT_THAT(result.reason, HasSubstr("beyond the end of the scan"));
 }
@@ -77,7 +77,7 @@ TEST(Verdict, AColonThatTheFieldOfViewCutsAtTheSidesIsNotTakenForWhole)
     phantom::PhantomScan scan = phantom::makeScan(options, "HFS", progress);
     const HuVolume volume = resample(std::move(scan.hu), {}, progress);
     const Segmentation result = segmentColon(volume, scan.truth.gravity, {}, progress);
-    EXPECT_EQ(result.verdict, "unsure") << result.reason;
+    EXPECT_EQ(result.verdict, Verdict::unsure) << result.reason;
     EXPECT_THAT(result.reason, HasSubstr("the field of view cuts the body"));
 }
 

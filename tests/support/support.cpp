@@ -54,4 +54,14 @@ CommandResult runVicon(const std::string& arguments)
     return runCommand(viconBinary() + " " + arguments);
 }
 
+std::string schemaFaults(const std::string& schema, const std::vector<std::filesystem::path>& files)
+{
+    const auto schema_file = std::filesystem::path(VICON_SCHEMAS) / (schema + ".schema.json");
+    std::string command = std::string(VICON_VALIDATE_JSON) + " '" + schema_file.string() + "'";
+    for (const auto& file : files)
+        command += " '" + file.string() + "'";
+    const CommandResult result = runCommand(command);
+    return result.exit_code == 0 ? "" : "exit code " + std::to_string(result.exit_code) + ": " + result.output;
+}
+
 }  // namespace vicon::support

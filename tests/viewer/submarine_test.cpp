@@ -162,5 +162,40 @@ TEST(SubmarinesInAHall, ReachAnEndThatIsNarrowerThanTheyAre)
     EXPECT_GT(in.boat.state().station_mm, 60) << "and come back";
 }
 
+TEST(SubmarinesInAHall, ArePulledAlsoWhereTheDistanceFromTheExitGrows)
+{
+    for (const double tilt : {1.0, -1.0}) {
+        InAHall in([](double, double, double) { return false; });
+        for (std::size_t n = 0; n < in.hall.exit.voxels.size(); ++n) {
+            const Point3 p = in.hall.exit.grid.pointAt(in.hall.exit.grid.indexOf(n));
+            if (in.hall.inside.voxels[n])
+                in.hall.exit.voxels[n] = float(200 + p.z + tilt * p.x);
+        }
+        in.boat.placeAt(60, Heading::caecum);
+        in.steer({.pull = 1, .thrust_up = 1e-6}, 0.5);  // a hand on it: nothing draws it back to its path
+        const Vector3 velocity = in.boat.state().velocity_mm_s;
+        // Two parts of the path's direction, one of the gradient's, which lies at 45 degrees to it.
+        const double expected = std::sqrt(0.5) / (2 + std::sqrt(0.5));
+        EXPECT_NEAR(velocity.x / velocity.z, tilt * expected, 0.02);
+    }
+}
+
+TEST(SubmarinesInAHall, ArePushedOffTheWallAgainstTheHand)
+{
+    const SubmarineOptions options;
+    const double reach = options.wall_share * 17, hand = options.thrust_mm_s * options.friction_per_s;
+    const auto push = [&](double wall) {  // the gradient of strength x (reach / wall - 1)^2
+        return 2 * options.wall_strength_mm2_s2 * (reach / wall - 1) * reach / (wall * wall);
+    };
+    double near = options.camera_radius_mm, far = reach;  // between them both forces are equal
+    for (int n = 0; n < 60; ++n)
+        (push((near + far) / 2) > hand ? near : far) = (near + far) / 2;
+    ASSERT_GT(near, options.camera_radius_mm + 1) << "farther than where it could not go on anyhow";
+    InAHall in([](double, double, double) { return false; });
+    in.boat.placeAt(60, Heading::caecum);
+    in.steer({.thrust_right = 1}, 4);
+    EXPECT_NEAR(in.boat.state().clearance_mm, near, 0.3);
+}
+
 }  // namespace
 }  // namespace vicon::viewer

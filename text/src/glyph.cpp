@@ -5,6 +5,8 @@
 #include FT_ADVANCES_H
 #include FT_OUTLINE_H
 
+#include <cmath>
+
 #include "font_size.h"
 
 namespace vicon::text {

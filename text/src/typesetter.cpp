@@ -101,18 +101,17 @@ std::u32string Typesetter::printable(std::string_view utf8, FontStyle& style)
     for (std::size_t n = 0; n < text.size(); ++n) {
         const char32_t c = text[n];
         const bool new_line = c == U'\n' || c == 0x2028 || c == 0x2029 || c == 0x85 || c == U'\r';
+        const bool works_unseen = isSpent(c) || isJoiner(c);
         const bool invisible = u_hasBinaryProperty(UChar32(c), UCHAR_DEFAULT_IGNORABLE_CODE_POINT);
         if (c == U'\r' && n + 1 < text.size() && text[n + 1] == U'\n')
             continue;
         if (new_line)
             out += U'\n';
-        else if (isSpent(c) || isJoiner(c))
-            out += c;
-        else if (invisible)
+        else if (invisible && !works_unseen)
             continue;
-        else if (u_iscntrl(UChar32(c)))
+        else if (u_iscntrl(UChar32(c)) && !works_unseen)
             out += U' ';
-        else if (c != kInvalidUtf8 && fonts_.find(c, style))
+        else if (works_unseen || (c != kInvalidUtf8 && fonts_.find(c, style)))
             out += c;
         else {
             missing_.insert(c);

@@ -147,7 +147,8 @@ FieldVolume wallDistance(const InsideVolume& inside, const std::vector<NearWall>
     return field;
 }
 
-FieldVolume wallDistance(const InsideVolume& inside, const HuVolume& hu, Progress& progress, const WallDensities& densities)
+FieldVolume wallDistance(const InsideVolume& inside, const HuVolume& hu, Progress& progress,
+                         const WallDensities& densities)
 {
     const WallField field(hu, inside, densities);
     return wallDistance(inside, findNearWall(wallValues(field, inside), inside), progress);

@@ -175,13 +175,6 @@ LumenPiece endsOf(const InsideVolume& mask, const OrganOptions& options, Point3 
     return piece;
 }
 
-Segmentation none(const OrganOptions& options, const std::string& reason)
-{
-    Segmentation result = noColon(reason);
-    result.verdict = "no " + options.title;
-    return result;
-}
-
 std::string whole(double value)
 {
     return std::to_string(std::lround(value));
@@ -195,19 +188,19 @@ Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, P
     progress.report(0, "body");
     const Body body = findBody(volume, progress);
     if (body.empty())
-        return none(options, "there is no body in the scan");
+        return organAbsent("there is no body in the scan");
     if (seeds.empty()) {
         progress.report(0.2, "seed");
         seeds = findSeedTube(volume, body, options, progress).middle_mm;
         if (seeds.empty())
-            return none(options, "there is no round tube of " + whole(options.seed_from_radius_mm) + " to " +
-                                     whole(options.seed_to_radius_mm) + " mm radius and " +
-                                     whole(options.seed_length_mm) + " mm length near the body's midline");
+            return organAbsent("there is no round tube of " + whole(options.seed_from_radius_mm) + " to " +
+                               whole(options.seed_to_radius_mm) + " mm radius and " + whole(options.seed_length_mm) +
+                               " mm length near the body's midline");
     }
     progress.report(0.4, "lumen");
     Growth growth = grow(volume, body, options, seeds, progress);
     if (growth.region.voxels == 0)
-        return none(options, "the density at the seed is not that of the organ's inside");
+        return organAbsent("the density at the seed is not that of the organ's inside");
     Segmentation result;
     result.inside = std::move(growth.region.mask);
     if (options.neck_mm > 0)
@@ -217,7 +210,7 @@ Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, P
     const double ml = double(std::count(result.inside.voxels.begin(), result.inside.voxels.end(), kGas)) *
                       result.inside.grid.voxelVolume_mm3() / 1000;
     if (ml < options.smallest_ml)
-        return none(options, "what was found holds " + std::to_string(ml).substr(0, 4) + " ml: too little");
+        return organAbsent("what was found holds " + std::to_string(ml).substr(0, 4) + " ml: too little");
     LumenPiece piece = endsOf(result.inside, options, seeds.front(), progress);
     piece.volume_ml = ml;
     result.plan.pieces = {piece};
@@ -225,10 +218,10 @@ Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, P
         std::replace(result.inside.voxels.begin(), result.inside.voxels.end(), std::uint8_t(kGas),
                      std::uint8_t(kFluid));
     result.confidence = 1;
-    result.verdict = options.title;
+    result.verdict = Verdict::found;
     if (ml > options.largest_ml) {
         result.confidence = 0.3;
-        result.verdict = "unsure";
+        result.verdict = Verdict::unsure;
         note(result, "what was found holds " + whole(ml) + " ml: a leak");
     }
     note(result, whole(ml) + " ml, up to " + whole(piece.length_mm) + " mm from the root");

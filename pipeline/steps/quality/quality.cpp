@@ -1,10 +1,9 @@
 #include "vicon/steps/quality.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
+#include <optional>
 
 #include "quality/lumen_profile.h"
 #include "vicon/core/error.h"
@@ -13,13 +12,6 @@ namespace vicon::steps {
 namespace {
 
 constexpr int kAverage_mm = 10;  // half of the triangle over which a cross-section is averaged: the flood goes in steps
-
-std::string text(const char* pattern, double value)
-{
-    std::array<char, 96> out{};
-    std::snprintf(out.data(), out.size(), pattern, value);
-    return out.data();
-}
 
 /// Radius of the disc as large as the cross-section at each millimetre; 0 on bridges.
 std::vector<double> radiiAlong(const Skeleton& skeleton, const LumenProfile& profile)
@@ -44,10 +36,11 @@ std::vector<double> radiiAlong(const Skeleton& skeleton, const LumenProfile& pro
     return radii;
 }
 
-StretchQuality measureStretch(const std::string& name, double from_mm, double to_mm, const std::vector<double>& radii,
-                              const LumenProfile& profile, const QualityOptions& options)
+StretchQuality measureStretch(std::optional<ColonPart> part, double from_mm, double to_mm,
+                              const std::vector<double>& radii, const LumenProfile& profile,
+                              const QualityOptions& options)
 {
-    StretchQuality q{.name = name, .from_mm = from_mm, .to_mm = to_mm};
+    StretchQuality q{.part = part};
     std::vector<double> sorted;
     double run_mm = 0;
     for (auto n = std::size_t(from_mm); n < radii.size() && double(n) < to_mm; ++n) {
@@ -64,44 +57,30 @@ StretchQuality measureStretch(const std::string& name, double from_mm, double to
         std::nth_element(sorted.begin(), middle, sorted.end());
         q.median_radius_mm = *middle;
     }
+    q.collapsed_fraction = std::min(1.0, q.collapsed_mm / std::max(1.0, to_mm - from_mm));
     q.adequate = q.longest_collapsed_mm < options.longest_collapsed_mm;
     return q;
 }
 
-void add(std::string& reason, const std::string& more)
+void judge(ScanQuality& quality, double length_mm, const QualityOptions& options)
 {
-    reason += (reason.empty() ? "" : "; ") + more;
-}
-
-void judge(ScanQuality& quality, const QualityOptions& options)
-{
+    const auto note = [&](QualityReason reason, std::optional<ColonPart> part, double value) {
+        quality.notes.push_back({reason, part, value});
+        quality.reason += (quality.reason.empty() ? "" : "; ") + textOf(quality.notes.back());
+    };
     for (const StretchQuality& part : quality.parts)
         if (!part.adequate) {
             quality.whole.adequate = false;
-            add(quality.reason, part.name + text(" collapsed over %.0f mm", part.longest_collapsed_mm));
+            note(QualityReason::collapsed, part.part, part.longest_collapsed_mm);
         }
     if (quality.parts.empty() && !quality.whole.adequate)
-        add(quality.reason, text("collapsed over %.0f mm", quality.whole.longest_collapsed_mm));
-    const double length_mm = quality.whole.to_mm;
+        note(QualityReason::collapsed, {}, quality.whole.longest_collapsed_mm);
     if (length_mm < options.shortest_mm || length_mm > options.longest_mm) {
         quality.whole.adequate = false;
-        add(quality.reason, text("a length of %.0f mm is not plausible for a whole colon", length_mm));
+        note(QualityReason::implausible_length, {}, length_mm);
     }
     if (quality.noise_hu > options.usual_noise_hu)
-        add(quality.reason, text("more noise than usual: %.0f HU", quality.noise_hu));
-}
-
-nlohmann::json measuresOf(const StretchQuality& q)
-{
-    const double length_mm = std::max(1.0, q.to_mm - q.from_mm);
-    return {{"adequate", q.adequate},
-            {"median_radius_mm", q.median_radius_mm},
-            {"collapsed_mm", q.collapsed_mm},
-            {"longest_collapsed_mm", q.longest_collapsed_mm},
-            {"collapsed_fraction", std::min(1.0, q.collapsed_mm / length_mm)},
-            {"volume_ml", q.volume_ml},
-            {"fluid_ml", q.fluid_ml},
-            {"fluid_fraction", q.volume_ml > 0 ? q.fluid_ml / q.volume_ml : 0}};
+        note(QualityReason::noise, {}, quality.noise_hu);
 }
 
 }  // namespace
@@ -117,27 +96,13 @@ ScanQuality measureQuality(const InsideVolume& inside, const Skeleton& skeleton,
     ScanQuality quality;
     quality.noise_hu = noise_hu;
     const std::vector<double> radii = radiiAlong(skeleton, profile);
-    quality.whole = measureStretch("", 0, skeleton.length_mm(), radii, profile, options);
+    quality.whole = measureStretch(std::nullopt, 0, skeleton.length_mm(), radii, profile, options);
     for (const ColonPartRange& range : parts)
-        quality.parts.push_back(
-            measureStretch(nameOf(range.part), range.from_mm, range.to_mm, radii, profile, options));
-    judge(quality, options);
+        quality.parts.push_back(measureStretch(range.part, range.from_mm, range.to_mm, radii, profile, options));
+    quality.thresholds = vicon::toJson(options);
+    judge(quality, skeleton.length_mm(), options);
     progress.report(1, "quality");
     return quality;
-}
-
-nlohmann::json toJson(const ScanQuality& quality, const QualityOptions& options)
-{
-    nlohmann::json out = measuresOf(quality.whole);
-    out["noise_hu"] = quality.noise_hu;
-    out["reason"] = quality.reason;
-    out["thresholds"] = vicon::toJson(options);
-    nlohmann::json& parts = out["parts"] = nlohmann::json::array();
-    for (const StretchQuality& part : quality.parts) {
-        parts.push_back(measuresOf(part));
-        parts.back()["name"] = part.name;
-    }
-    return out;
 }
 
 }  // namespace vicon::steps

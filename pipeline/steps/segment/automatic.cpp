@@ -143,7 +143,7 @@ public:
         progress_.report(0, "body");
         body_ = findBody(volume_, progress_);
         if (body_.empty())
-            return noColon("there is no body in the scan");
+            return organAbsent("there is no body in the scan");
         findGasAndFluid();
         progress_.report(0.5, "pieces");
         cutWhereAsked();
@@ -152,7 +152,7 @@ public:
         leaveOutDropped();
         rectum_ = findRectum(candidates_, body_, options_.catheter_radius_mm, progress_);
         if (rectum_ < 0)
-            return noColon("there is no gas in the body that is wide enough for a rectum");
+            return organAbsent("there is no gas in the body that is wide enough for a rectum");
         progress_.report(0.8, "order of the pieces");
         orderThePieces();
         keepOrdered();

@@ -40,15 +40,15 @@ Segmentation segmentBinary(const HuVolume& volume, const SegmentOptions& options
     progress.report(0, "body");
     const Body body = findBody(volume, progress);
     if (body.empty())
-        return noColon("there is no body in the scan");
+        return organAbsent("there is no body in the scan");
     RegionGrower grower(volume, body, RegionGrower::Padding::counts);
     const double lowest_hu = std::numeric_limits<std::int16_t>::min(), below_iso_hu = std::trunc(options.iso_hu) - 1;
     const std::optional<Index3> seed = options.seed.empty()
                                            ? largestPiece(volume, body, options.iso_hu)
                                            : grower.seedAt(options.seed.front(), kCatch_mm, lowest_hu, below_iso_hu);
     if (!seed)
-        return noColon(options.seed.empty() ? "nothing in the body lies below the iso value"
-                                            : "nothing at the seed point lies below the iso value");
+        return organAbsent(options.seed.empty() ? "nothing in the body lies below the iso value"
+                                                : "nothing at the seed point lies below the iso value");
     Segmentation result;
     result.inside = grower.grow(*seed, lowest_hu, below_iso_hu, kMargin_voxels).mask;
     result.measures["noise_hu"] = softTissueNoise(volume);

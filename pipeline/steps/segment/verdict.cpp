@@ -34,10 +34,10 @@ void note(Segmentation& result, const std::string& what)
     result.reason += (result.reason.empty() ? "" : "; ") + what;
 }
 
-Segmentation noColon(const std::string& reason)
+Segmentation organAbsent(const std::string& reason)
 {
     Segmentation result;
-    result.verdict = "no colon";
+    result.verdict = Verdict::absent;
     result.confidence = 0.9;
     result.reason = reason;
     return result;
@@ -56,8 +56,9 @@ void judgeSegmentation(Segmentation& result, const SegmentOptions& options, cons
     const Point3 start = result.plan.pieces.front().rectal_end_mm, end = result.plan.pieces.back().caecal_end_mm;
     const double height = (start.z - body.lower_mm.z) / std::max(1.0, body.upper_mm.z - body.lower_mm.z);
     if (length < options.shortest_mm || volume < options.least_ml || widest < kNarrowest_mm) {
-        result = noColon("the longest run of gas in the body is " + round(length) + " mm long, holds " + round(volume) +
-                         " ml and is at most " + round(2 * widest) + " mm wide: too little for a colon");
+        result =
+            organAbsent("the longest run of gas in the body is " + round(length) + " mm long, holds " + round(volume) +
+                        " ml and is at most " + round(2 * widest) + " mm wide: too little for a colon");
         if (lumen_cut_mm2 > kLargestCut_mm2) {
             result.confidence = kStumpConfidence;
             note(result, "but it goes on beyond the end of the scan, over " + round(lumen_cut_mm2) +
@@ -81,7 +82,7 @@ void judgeSegmentation(Segmentation& result, const SegmentOptions& options, cons
         doubt(result, 0.45, "the lumen goes on beyond the end of the scan, over " + round(lumen_cut_mm2) + " mm2");
     if (result.confidence < 0.5 && bodyIsCut(body))
         note(result, "the field of view cuts the body");
-    result.verdict = result.confidence >= 0.5 ? "colon" : "unsure";
+    result.verdict = result.confidence >= 0.5 ? Verdict::found : Verdict::unsure;
     if (result.reason.empty())
         // Without a length: these are ways through voxels, longer than the skeleton's, which readers are shown.
         result.reason = "one run of gas and fluid from the rectum to the patient's right";

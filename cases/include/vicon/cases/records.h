@@ -15,7 +15,8 @@ struct Patient {
     std::string birth_date;
     std::string sex;
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Patient, id, name, birth_date, sex)
+void to_json(nlohmann::json& json, const Patient& from);
+void from_json(const nlohmann::json& json, Patient& to);
 
 struct Study {
     std::string uid;
@@ -27,8 +28,8 @@ struct Study {
     std::string referring_physician;
     std::string institution;
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Study, uid, id, date, time, description, accession_number,
-                                                referring_physician, institution)
+void to_json(nlohmann::json& json, const Study& from);
+void from_json(const nlohmann::json& json, Study& to);
 
 struct Series {
     std::string uid;
@@ -43,9 +44,8 @@ struct Series {
     double slice_thickness_mm = 0;
     bool lossy = false;  ///< pixels went through a lossy compression somewhere
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Series, uid, number, description, modality, patient_position,
-                                                frame_of_reference_uid, manufacturer, kernel, kvp, slice_thickness_mm,
-                                                lossy)
+void to_json(nlohmann::json& json, const Series& from);
+void from_json(const nlohmann::json& json, Series& to);
 
 /// "supine", "prone", "left decubitus", "right decubitus", or "unknown", from DICOM's Patient Position.
 std::string positionName(const std::string& patient_position);

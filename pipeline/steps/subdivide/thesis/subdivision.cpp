@@ -204,7 +204,8 @@ Labelling thesisPieces(const InsideVolume& inside, const Skeleton& skeleton, con
     const auto sizes = sizesAlong(inside, paths, options.size, segments);
     std::vector<std::vector<CutPlane>> portals;
     for (std::size_t p = 0; p < paths.size(); ++p) {
-        const CutPlanes planes(inside, skeleton, paths[p], options);
+        const CutPlanes cuts(inside, skeleton, paths[p], options);
+        const PlanesAt planes = [&cuts](std::size_t n) { return cuts.at(n); };
         portals.push_back(options.approach == "global" ? choosePortals(planes, sizes[p], progress)
                                                        : walkLocally(planes, sizes[p], progress));
         progress.report(0.5 * double(p + 1) / double(paths.size()), "subdividing");

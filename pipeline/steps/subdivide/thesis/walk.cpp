@@ -23,7 +23,7 @@ bool intersectsAny(const CutPlane& plane, const std::vector<CutPlane>& accepted)
 
 }  // namespace
 
-std::vector<CutPlane> walkLocally(const CutPlanes& planes, const PathSizes& sizes, Progress& progress)
+std::vector<CutPlane> walkLocally(const PlanesAt& planes, const PathSizes& sizes, Progress& progress)
 {
     std::vector<CutPlane> accepted;
     std::optional<CutPlane> best;
@@ -41,7 +41,7 @@ std::vector<CutPlane> walkLocally(const CutPlanes& planes, const PathSizes& size
         if (size < kLeast || sizes.up_to.back() - sizes.up_to[n] < kLeast * sizes.target)
             continue;
         std::optional<CutPlane> candidate;
-        for (CutPlane& plane : planes.at(n)) {
+        for (CutPlane& plane : planes(n)) {
             if (intersectsAny(plane, accepted))
                 continue;
             if ((plane.good && size >= kFeasible) || accept_next) {
@@ -66,10 +66,10 @@ std::vector<CutPlane> walkLocally(const CutPlanes& planes, const PathSizes& size
     return accepted;
 }
 
-std::vector<CutPlane> choosePortals(const CutPlanes& planes, const PathSizes& sizes, Progress& progress)
+std::vector<CutPlane> choosePortals(const PlanesAt& planes, const PathSizes& sizes, Progress& progress)
 {
     std::vector<std::vector<CutPlane>> at(sizes.up_to.size());
-    tbb::parallel_for(std::size_t(1), at.size() - 1, [&](std::size_t n) { at[n] = planes.at(n); });
+    tbb::parallel_for(std::size_t(1), at.size() - 1, [&](std::size_t n) { at[n] = planes(n); });
     progress.check();
     std::vector<CutPlane> all;
     for (auto& some : at)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "subdivide/thesis/portal.h"
@@ -14,12 +15,15 @@ struct PathSizes {
     double between(std::size_t after, std::size_t at) const { return up_to[at] - up_to[after]; }
 };
 
+/// The valid portals at a voxel of the path, as CutPlanes::at() gives them.
+using PlanesAt = std::function<std::vector<CutPlane>(std::size_t n)>;
+
 /// Algorithm 3.1: walks along the path, accepts the first portal that ends a segment of feasible size and is good;
 /// when the segment grows too large goes back to the best one passed, and when there is none takes the next.
-std::vector<CutPlane> walkLocally(const CutPlanes& planes, const PathSizes& sizes, Progress& progress);
+std::vector<CutPlane> walkLocally(const PlanesAt& planes, const PathSizes& sizes, Progress& progress);
 
 /// The selection of portals, no two that follow each other intersecting, with the least sum of badness and squared
 /// logarithmic deviation of the segments' sizes.
-std::vector<CutPlane> choosePortals(const CutPlanes& planes, const PathSizes& sizes, Progress& progress);
+std::vector<CutPlane> choosePortals(const PlanesAt& planes, const PathSizes& sizes, Progress& progress);
 
 }  // namespace vicon::steps

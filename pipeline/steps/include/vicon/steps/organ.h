@@ -69,8 +69,8 @@ struct OrganOptions {
 };
 
 /// Finds the lumen of an organ that is no colon, labelled kGas. The plan has one piece: from the root, as its rectal
-/// end, to the point that is farthest from it. The verdict is the organ's title, "unsure", or "no " and the title;
-/// then `inside` is empty (size 0). Throws Error{cancelled}.
+/// end, to the point that is farthest from it. Where the organ is absent, `inside` is empty
+/// (size 0). Throws Error{cancelled}.
 /// Method: a tube is sought whose sections in axial slices are round; all that hangs together with it between
 /// `low_hu` and `high_hu` is grown from it; leaks show as a sudden growth when the limit is raised (explosion control:
 /// Mori et al., ICPR 1996), or are cut at their necks by an opening.

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
-
 #include "vicon/core/colon_parts.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
+#include "vicon/core/scan_quality.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume.h"
 
@@ -33,25 +30,6 @@ struct QualityOptions {
     }
 };
 
-/// Measures of the whole colon, or of one of its parts.
-struct StretchQuality {
-    std::string name;  ///< of the part; empty: the whole colon
-    double from_mm = 0, to_mm = 0;
-    double median_radius_mm = 0;      ///< of the disc as large as the cross-section
-    double collapsed_mm = 0;          ///< bridged, or narrower than collapsed_radius_mm
-    double longest_collapsed_mm = 0;  ///< without interruption
-    double volume_ml = 0;             ///< gas and tagged fluid
-    double fluid_ml = 0;              ///< tagged fluid
-    bool adequate = false;            ///< no collapsed stretch of longest_collapsed_mm or more
-};
-
-struct ScanQuality {
-    StretchQuality whole;               ///< adequate when every part is
-    std::vector<StretchQuality> parts;  ///< empty where the parts are not known
-    double noise_hu = 0;                ///< standard deviation in soft tissue; 0: no homogeneous place
-    std::string reason;                 ///< why not adequate, and what else a reader should know; may be empty
-};
-
 /// Measures how well a scan shows the colon.
 ///
 /// Cross-sections come from the lumen's volume: each voxel belongs to the station whose front of a flood from the whole
@@ -60,8 +38,5 @@ struct ScanQuality {
 /// Throws Error{bad_input} when the skeleton is empty, Error{cancelled}.
 ScanQuality measureQuality(const InsideVolume& inside, const Skeleton& skeleton, const ColonPartRanges& parts,
                            double noise_hu, const QualityOptions& options, Progress& progress);
-
-/// As scan.json has it under "quality"; see docs/dev/steps.md.
-nlohmann::json toJson(const ScanQuality& quality, const QualityOptions& options);
 
 }  // namespace vicon::steps

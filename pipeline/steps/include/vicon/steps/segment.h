@@ -7,6 +7,7 @@
 #include "vicon/core/options.h"
 #include "vicon/core/point_json.h"
 #include "vicon/core/progress.h"
+#include "vicon/core/verdict.h"
 #include "vicon/core/volume.h"
 #include "vicon/steps/lumen_plan.h"
 #include "vicon/steps/wall_densities.h"
@@ -67,7 +68,7 @@ struct SegmentOptions {
 struct Segmentation {
     InsideVolume inside;  ///< labels kGas and kFluid; cropped, with outside voxels around except where the scan ends
     LumenPlan plan;
-    std::string verdict;    ///< "colon", "no colon" or "unsure"
+    Verdict verdict = Verdict::unsure;
     double confidence = 0;  ///< 0 to 1: how sure the verdict and the plan are
     std::string reason;     ///< why, for a person
     nlohmann::json measures = nlohmann::json::object();

@@ -27,8 +27,8 @@ struct NearWall {
 /// @param wall all voxels beside the wall, inside and outside, each once
 FieldVolume wallDistance(const InsideVolume& inside, const std::vector<NearWall>& wall, Progress& progress);
 
-/// The same from the densities, with the wall where extractCells() has it. `hu` must lie on the lattice of `inside` and may be larger. Throws Error{bad_input} when the
-/// lattices do not fit together.
+/// The same from the densities, with the wall where extractCells() has it. `hu` must lie on the lattice of `inside` and
+/// may be larger. Throws Error{bad_input} when the lattices do not fit together.
 FieldVolume wallDistance(const InsideVolume& inside, const HuVolume& hu, Progress& progress,
                          const WallDensities& densities = {});
 

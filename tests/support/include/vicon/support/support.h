@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace vicon::support {
 
@@ -34,6 +35,10 @@ CommandResult runCommand(const std::string& shell_line);
 std::string viconBinary();
 /// Runs the built `vicon` with these arguments.
 CommandResult runVicon(const std::string& arguments);
+
+/// What is wrong with JSON files by docs/dev/schemas/SCHEMA.schema.json, a line each; empty where nothing is. The judge
+/// is a validator that is not ours.
+std::string schemaFaults(const std::string& schema, const std::vector<std::filesystem::path>& files);
 
 }  // namespace vicon::support
 

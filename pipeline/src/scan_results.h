@@ -22,26 +22,26 @@
 
 namespace vicon::pipeline {
 
-/// The artefacts of a scan as the steps hand them on: kept in memory when they were just made, read when they were made
+/// The results of a scan as the steps hand them on: kept in memory when they were just made, read when they were made
 /// by an earlier run. Steps that run at the same time share it. Volumes are written in the background, so that the
 /// next step need not wait for the disk; finish() does.
-class ScanArtefacts {
+class ScanResults {
 public:
     /// @param folder of the scan
     /// @param claim folder of the files that this claim of the job makes, until publish() puts them into the scan's
-    ScanArtefacts(std::filesystem::path folder, std::filesystem::path claim)
+    ScanResults(std::filesystem::path folder, std::filesystem::path claim)
         : folder_(std::move(folder)), claim_(std::move(claim))
     {
         makePrivateFolder(claim_ / "projections");
     }
-    ~ScanArtefacts()
+    ~ScanResults()
     {
         writing_.clear();  // waits
         std::error_code ignored;
         std::filesystem::remove_all(claim_, ignored);
     }
-    ScanArtefacts(const ScanArtefacts&) = delete;
-    ScanArtefacts& operator=(const ScanArtefacts&) = delete;
+    ScanResults(const ScanResults&) = delete;
+    ScanResults& operator=(const ScanResults&) = delete;
 
     /// Where a file is written.
     std::filesystem::path target(const std::string& file) const { return claim_ / file; }

@@ -1,0 +1,111 @@
+#include "command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+
+namespace vicon::app {
+
+ValueCheck range(int least, int most)
+{
+    return {.kind = ValueCheck::Kind::integers, .least = double(least), .most = double(most), .words = {}};
+}
+
+ValueCheck range(double least, double most)
+{
+    return {.kind = ValueCheck::Kind::numbers, .least = least, .most = most, .words = {}};
+}
+
+ValueCheck oneOf(std::vector<std::string> words)
+{
+    return {.kind = ValueCheck::Kind::words, .words = std::move(words)};
+}
+
+ValueCheck existingPath()
+{
+    return {.kind = ValueCheck::Kind::existing_path, .words = {}};
+}
+
+CommandOption& CommandOption::required()
+{
+    option_->required();
+    return *this;
+}
+
+CommandOption& CommandOption::typeName(const std::string& name)
+{
+    option_->type_name(name);
+    return *this;
+}
+
+CommandOption& CommandOption::check(const ValueCheck& check)
+{
+    switch (check.kind) {
+        case ValueCheck::Kind::integers:
+            option_->check(CLI::Range(int(check.least), int(check.most)));
+            break;
+        case ValueCheck::Kind::numbers:
+            option_->check(CLI::Range(check.least, check.most));
+            break;
+        case ValueCheck::Kind::words:
+            option_->check(CLI::IsMember(check.words));
+            break;
+        case ValueCheck::Kind::existing_path:
+            option_->check(CLI::ExistingPath);
+            break;
+    }
+    return *this;
+}
+
+CommandOption& CommandOption::captureDefault()
+{
+    option_->capture_default_str();
+    return *this;
+}
+
+CommandOption& CommandOption::needs(const CommandOption& other)
+{
+    option_->needs(other.option_);
+    return *this;
+}
+
+CommandOption& CommandOption::excludes(const CommandOption& other)
+{
+    option_->excludes(other.option_);
+    return *this;
+}
+
+CommandOption& CommandOption::valueIfBare(const std::string& value)
+{
+    option_->expected(0, 1)->default_str(value);
+    return *this;
+}
+
+CommandOption& CommandOption::oneValueEach()
+{
+    option_->allow_extra_args(false);
+    return *this;
+}
+
+bool CommandOption::given() const
+{
+    return option_->count() > 0;
+}
+
+template <class Value>
+CommandOption CommandLine::option(const std::string& name, Value& value, const std::string& help)
+{
+    return CommandOption(*app_->add_option(name, value, help));
+}
+
+template CommandOption CommandLine::option(const std::string&, std::string&, const std::string&);
+template CommandOption CommandLine::option(const std::string&, int&, const std::string&);
+template CommandOption CommandLine::option(const std::string&, double&, const std::string&);
+template CommandOption CommandLine::option(const std::string&, std::uint64_t&, const std::string&);
+template CommandOption CommandLine::option(const std::string&, std::vector<std::string>&, const std::string&);
+
+CommandOption CommandLine::flag(const std::string& name, bool& value, const std::string& help)
+{
+    return CommandOption(*app_->add_flag(name, value, help));
+}
+
+}  // namespace vicon::app

@@ -1,0 +1,106 @@
+#include "compressed_frames.h"
+
+#include <dcmtk/dcmdata/dcpixel.h>
+#include <dcmtk/dcmdata/dcpixseq.h>
+#include <dcmtk/dcmdata/dcpxitem.h>
+
+#include <cstdint>
+
+#include "vicon/core/error.h"
+
+namespace vicon::ingest {
+namespace {
+
+[[noreturn]] void failed(const char* why)
+{
+    throw Error(ErrorCode::bad_input, why);
+}
+
+std::string bytesOf(DcmPixelSequence& sequence, unsigned long n)
+{
+    DcmPixelItem* item = nullptr;
+    Uint8* bytes = nullptr;
+    if (sequence.getItem(item, n).bad() || !item)
+        failed("its compressed pixels cannot be read");
+    const Uint32 length = item->getLength();
+    if (length == 0)
+        return {};
+    if (item->getUint8Array(bytes).bad() || !bytes)
+        failed("its compressed pixels cannot be read");
+    std::string out(reinterpret_cast<const char*>(bytes), length);
+    item->compact();
+    return out;
+}
+
+std::uint32_t lengthOf(DcmPixelSequence& sequence, unsigned long n)
+{
+    DcmPixelItem* item = nullptr;
+    if (sequence.getItem(item, n).bad() || !item)
+        failed("its compressed pixels cannot be read");
+    return item->getLength();
+}
+
+}  // namespace
+
+CompressedFrames::CompressedFrames(DcmPixelData& pixels, const std::string& transfer_syntax, int frames)
+{
+    const DcmXfer xfer(transfer_syntax.c_str());
+    if (pixels.getEncapsulatedRepresentation(xfer.getXfer(), nullptr, sequence_).bad() || !sequence_)
+        failed("its compressed pixels cannot be read");
+    if (sequence_->card() < std::size_t(frames) + 1)
+        failed("its compressed pixels are cut off");
+    for (unsigned long n = 1; n < sequence_->card(); ++n)
+        if (lengthOf(*sequence_, n) == 0)
+            failed("a part of its compressed pixels is empty");
+    divide(frames);
+}
+
+void CompressedFrames::divide(int frames)
+{
+    const unsigned long end = sequence_->card();
+    if (frames == 1) {
+        ranges_ = {{1, end}};
+    } else if (end == std::size_t(frames) + 1) {
+        for (unsigned long n = 1; n < end; ++n)
+            ranges_.push_back({n, n + 1});
+    } else {
+        divideByOffsets(std::size_t(frames));
+    }
+}
+
+/// The offset table gives each frame's first byte, counted from the first fragment's item tag.
+void CompressedFrames::divideByOffsets(std::size_t frames)
+{
+    constexpr std::uint64_t kItemHeaderBytes = 8;
+    const std::string table = bytesOf(*sequence_, 0);
+    if (table.size() != frames * 4)
+        failed("its frames are split into parts, and no offset table says which part belongs to which frame");
+    const auto offset = [&](std::size_t frame) {
+        std::uint32_t value = 0;
+        for (std::size_t n = 4; n-- > 0;)
+            value = value << 8 | std::uint8_t(table[frame * 4 + n]);
+        return value;
+    };
+    std::uint64_t at = 0;
+    for (unsigned long n = 1; n < sequence_->card(); ++n) {
+        if (ranges_.size() < frames && at == offset(ranges_.size())) {
+            if (!ranges_.empty())
+                ranges_.back().last = n;
+            ranges_.push_back({n, sequence_->card()});
+        }
+        at += kItemHeaderBytes + lengthOf(*sequence_, n);
+    }
+    if (ranges_.size() != frames || ranges_.front().first != 1)
+        failed("its offset table does not fit its compressed pixels");
+}
+
+std::string CompressedFrames::stream(int frame) const
+{
+    const Range& range = ranges_.at(std::size_t(frame));
+    std::string out;
+    for (unsigned long n = range.first; n < range.last; ++n)
+        out += bytesOf(*sequence_, n);
+    return out;
+}
+
+}  // namespace vicon::ingest

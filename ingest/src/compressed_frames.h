@@ -1,0 +1,32 @@
+#pragma once
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <string>
+#include <vector>
+
+namespace vicon::ingest {
+
+/// The compressed frames of an object, each with its fragments. Not for several threads at once.
+class CompressedFrames {
+public:
+    /// Throws Error{bad_input} without a subject when the fragments cannot be given to the frames.
+    CompressedFrames(DcmPixelData& pixels, const std::string& transfer_syntax, int frames);
+
+    /// The stream of a frame, its fragments joined. Throws Error{bad_input}.
+    std::string stream(int frame) const;
+
+private:
+    struct Range {
+        unsigned long first = 0, last = 0;  ///< indices into the sequence, `last` behind the last
+    };
+    void divide(int frames);
+    void divideByOffsets(std::size_t frames);
+
+    DcmPixelSequence* sequence_ = nullptr;
+    std::vector<Range> ranges_;
+};
+
+}  // namespace vicon::ingest

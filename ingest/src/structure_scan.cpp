@@ -1,0 +1,316 @@
+#include "structure_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "deflated_size.h"
+#include "element_source.h"
+
+namespace vicon::ingest {
+namespace {
+
+using Fate = Structure::Fate;
+
+constexpr std::uint32_t kUndefined = 0xffffffff;
+constexpr std::uint64_t kOpenEnd = ~std::uint64_t(0);
+constexpr std::uint32_t kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd = 0xfffee0dd;
+constexpr std::uint32_t kTransferSyntax = 0x00020010, kPixelData = 0x7fe00010;
+constexpr std::uint64_t kPreamble = 128, kHead = 132;
+
+constexpr std::string_view kShortVrs = "AE AS AT CS DA DS DT FD FL IS LO LT PN SH SL SS ST TM UI UL US ";
+constexpr std::string_view kLongVrs = "OB OD OF OL OV OW SQ SV UC UN UR UT UV ";
+
+bool isOneOf(std::string_view vrs, std::string_view vr)
+{
+    const std::size_t at = vrs.find(vr);
+    return at != std::string_view::npos && at % 3 == 0;
+}
+
+struct Coding {
+    bool explicit_vr = true, big_endian = false;
+};
+
+struct Element {
+    std::uint32_t tag = 0, length = 0;
+    std::string vr;  ///< empty where it is not written
+    std::uint64_t value_at = 0;
+};
+
+std::string tagName(std::uint32_t tag)
+{
+    std::array<char, 16> text{};
+    std::snprintf(text.data(), text.size(), "(%04x,%04x)", unsigned(tag >> 16), unsigned(tag & 0xffff));
+    return text.data();
+}
+
+/// A place that holds elements or items.
+struct Open {
+    std::uint64_t end = kOpenEnd;
+    bool sequence = false;
+    Coding coding;
+};
+
+/// Ends the walk with what it found.
+struct Ended {
+    Structure found;
+};
+
+[[noreturn]] void refuse(std::string why, bool clear_until_pixels = false)
+{
+    throw Ended{{Fate::refused, std::move(why), 0, clear_until_pixels}};
+}
+
+[[noreturn]] void odd(std::uint64_t trailing_bytes = 0)
+{
+    throw Ended{{Fate::odd, {}, trailing_bytes, false}};
+}
+
+class Walk {
+public:
+    explicit Walk(ElementSource& source) : source_(source) {}
+
+    void run()
+    {
+        const unsigned char* magic = source_.at(kPreamble, 4);
+        if (!magic || std::memcmp(magic, "DICM", 4) != 0)
+            withoutHead();
+        at_ = kHead;
+        readMeta();
+        if (syntax_.empty())
+            odd();
+        if (syntax_ == "1.2.840.10008.1.2.1.99") {
+            if (deflatedSize(source_, at_, kLargestDeflated) > kLargestDeflated)
+                refuse("its deflated data set fills more than " + std::to_string(kLargestDeflated / 1000000) + " MB");
+            odd();
+        }
+        open_.push_back({source_.size(), false, {syntax_ != "1.2.840.10008.1.2", syntax_ == "1.2.840.10008.1.2.2"}});
+        while (!open_.empty())
+            step();
+    }
+
+private:
+    /// Without preamble and meta header a data set begins with one of the first groups, in whichever byte order.
+    void withoutHead()
+    {
+        constexpr unsigned kLastGroup = 0x28;
+        const unsigned char* tag = source_.at(0, 8);
+        const bool little = tag && tag[1] == 0 && tag[0] > 0 && tag[0] <= kLastGroup;
+        const bool big = tag && tag[0] == 0 && tag[1] > 0 && tag[1] <= kLastGroup;
+        if (!little && !big)
+            refuse("no DICOM file, or damaged beyond reading");
+        odd();
+    }
+
+    std::uint32_t number(std::uint64_t place, std::size_t count, bool big_endian)
+    {
+        const unsigned char* bytes = source_.at(place, count);
+        if (!bytes)
+            return 0;
+        std::uint32_t value = 0;
+        for (std::size_t n = 0; n < count; ++n)
+            value = value << 8 | bytes[big_endian ? n : count - 1 - n];
+        return value;
+    }
+
+    std::uint32_t tagAt(std::uint64_t place, bool big_endian)
+    {
+        return number(place, 2, big_endian) << 16 | number(place + 2, 2, big_endian);
+    }
+
+    /// The element at `at_`; nothing where none can be.
+    std::optional<Element> element(const Coding& coding)
+    {
+        if (!source_.at(at_, 8))
+            return {};
+        Element e;
+        e.tag = tagAt(at_, coding.big_endian);
+        if (!coding.explicit_vr || e.tag >> 16 == 0xfffe) {
+            e.length = number(at_ + 4, 4, coding.big_endian);
+            e.value_at = at_ + 8;
+            return e;
+        }
+        const unsigned char* vr = source_.at(at_ + 4, 2);
+        e.vr = {char(vr[0]), char(vr[1])};
+        if (isOneOf(kShortVrs, e.vr)) {
+            e.length = number(at_ + 6, 2, coding.big_endian);
+            e.value_at = at_ + 8;
+            return e;
+        }
+        if (!isOneOf(kLongVrs, e.vr) || !source_.at(at_, 12))
+            return {};
+        e.length = number(at_ + 8, 4, coding.big_endian);
+        e.value_at = at_ + 12;
+        return e;
+    }
+
+    void count()
+    {
+        if (++elements_ > kMostElements)
+            refuse("it has more than " + std::to_string(kMostElements) + " elements");
+    }
+
+    void readMeta()
+    {
+        while (number(at_, 2, false) == 0x0002) {
+            count();
+            const auto e = element({});
+            if (!e)
+                refuse("truncated or damaged (its meta header breaks off at " + tagName(tagAt(at_, false)) + ")");
+            mustFit(*e);
+            constexpr std::size_t kLongestUid = 64;
+            if (e->tag == kTransferSyntax && e->length <= kLongestUid && e->length > 0) {
+                const unsigned char* uid = source_.at(e->value_at, e->length);
+                syntax_.assign(reinterpret_cast<const char*>(uid), e->length);
+                syntax_.erase(syntax_.find_last_not_of(std::string_view(" \0", 2)) + 1);
+            }
+            at_ = e->value_at + e->length;
+        }
+    }
+
+    void mustFit(const Element& e)
+    {
+        const std::uint64_t left = source_.size() - e.value_at;
+        if (e.length > left)
+            refuse("truncated or damaged (" + tagName(e.tag) + " should have " + std::to_string(e.length) + " bytes, " +
+                       std::to_string(left) + " are there)",
+                   in_pixels_);
+    }
+
+    void step()
+    {
+        Open& top = open_.back();
+        if (top.end != kOpenEnd && at_ >= top.end) {
+            if (at_ > top.end)
+                odd();
+            open_.pop_back();
+            return;
+        }
+        count();
+        if (top.sequence)
+            stepInSequence();
+        else
+            stepInItem();
+    }
+
+    void stepInSequence()
+    {
+        const Open top = open_.back();
+        const auto e = element(top.coding);
+        if (!e)
+            refuse("truncated or damaged (a sequence breaks off)");
+        at_ = e->value_at;
+        if (e->tag == kSequenceEnd && top.end == kOpenEnd) {
+            open_.pop_back();
+            return;
+        }
+        if (e->tag != kItem)
+            odd();
+        if (e->length != kUndefined)
+            mustFit(*e);
+        open_.push_back({e->length == kUndefined ? kOpenEnd : at_ + e->length, false, top.coding});
+    }
+
+    void stepInItem()
+    {
+        const Open top = open_.back();
+        const bool outermost = open_.size() == 1;
+        const auto e = element(top.coding);
+        const bool behind_pixels = outermost && after_pixels_ && (!e || e->tag <= kPixelData);
+        if (behind_pixels || (outermost && after_pixels_ && e->length != kUndefined && !fits(*e)))
+            odd(source_.size() - at_);
+        if (!e && source_.size() - at_ < 8)
+            refuse("truncated or damaged (it breaks off within an element)");
+        if (!e)
+            odd();
+        if (e->tag == kItemEnd && top.end == kOpenEnd) {
+            at_ = e->value_at;
+            open_.pop_back();
+            return;
+        }
+        if (e->tag >> 16 == 0xfffe)
+            odd();
+        in_pixels_ = outermost && e->tag == kPixelData;
+        take(*e, top.coding);
+        in_pixels_ = false;
+        after_pixels_ = after_pixels_ || (outermost && e->tag == kPixelData);
+    }
+
+    bool fits(const Element& e) const { return e.length <= source_.size() - e.value_at; }
+
+    void take(const Element& e, const Coding& coding)
+    {
+        if (e.length == kUndefined && e.tag == kPixelData)
+            return skipFragments(e, coding);
+        at_ = e.value_at;
+        if (e.length == kUndefined) {
+            if (!e.vr.empty() && e.vr != "SQ" && e.vr != "UN")
+                odd();
+            const Coding inside = e.vr == "UN" ? Coding{false, false} : coding;
+            return openSequence(kOpenEnd, inside);
+        }
+        mustFit(e);
+        const bool items = e.vr == "SQ" || (e.vr.empty() && e.length >= 8 && tagAt(at_, coding.big_endian) == kItem);
+        if (items && e.length > 0)
+            openSequence(at_ + e.length, coding);
+        else
+            at_ += e.length;
+    }
+
+    void openSequence(std::uint64_t end, const Coding& coding)
+    {
+        open_.push_back({end, true, coding});
+        const auto depth = std::count_if(open_.begin(), open_.end(), [](const Open& open) { return open.sequence; });
+        if (depth > kDeepestSequence)
+            refuse("its sequences are nested deeper than " + std::to_string(kDeepestSequence));
+    }
+
+    void skipFragments(const Element& pixels, const Coding& coding)
+    {
+        at_ = pixels.value_at;
+        for (;;) {
+            count();
+            if (!source_.at(at_, 8))
+                refuse("truncated or damaged (its compressed pixels are cut off)", in_pixels_);
+            const Element e{tagAt(at_, coding.big_endian), number(at_ + 4, 4, coding.big_endian), {}, at_ + 8};
+            if (e.tag == kSequenceEnd) {
+                at_ = e.value_at;
+                return;
+            }
+            if (e.tag != kItem || e.length == kUndefined)
+                odd();
+            mustFit(e);
+            at_ = e.value_at + e.length;
+        }
+    }
+
+    ElementSource& source_;
+    std::uint64_t at_ = 0;
+    std::size_t elements_ = 0;
+    std::string syntax_;
+    std::vector<Open> open_;
+    bool in_pixels_ = false;  ///< those of the data set itself
+    bool after_pixels_ = false;
+};
+
+}  // namespace
+
+Structure scanStructure(const std::filesystem::path& file)
+{
+    ElementSource source(file);
+    try {
+        if (source.error() == 0)
+            Walk(source).run();
+    } catch (const Ended& ended) {
+        if (source.error() == 0)
+            return ended.found;
+    }
+    if (source.error() != 0)
+        return {Fate::refused, "cannot be read (" + std::string(std::strerror(source.error())) + ")", 0, false};
+    return {Fate::clear, {}, 0, false};
+}
+
+}  // namespace vicon::ingest

@@ -1,0 +1,209 @@
+// What comes in cannot hurt: each file that once broke something has its line, and the rest of the import is done.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "import_fixture.h"
+
+namespace fs = std::filesystem;
+using namespace vicon;
+using namespace vicon::test;
+using Kind = ingest::ImportLine::Kind;
+
+namespace {
+
+struct HostileCase {
+    const char* path;
+    Kind kind;
+    const char* words;
+};
+
+void PrintTo(const HostileCase& c, std::ostream* out)
+{
+    *out << c.path;
+}
+
+const HostileCase kCases[] = {
+    {"01-j2k-heap-overflow/j2k_128x128.dcm", Kind::refused, "stream holds 24 x 32 pixels, its header says 128 x 128"},
+    {"01-j2k-heap-overflow/j2k_16x24.dcm", Kind::refused, "stream holds 24 x 32 pixels, its header says 24 x 16"},
+    {"01-j2k-heap-overflow/j2k_alloc8.dcm", Kind::refused, "samples of 16 bits, its header allocates 8"},
+    {"01-j2k-heap-overflow/series_crashes_work", Kind::refused, "its header"},
+    {"02-one-bit-flip-hang-memory/001", Kind::refused, "its meta header breaks off at (0002,0002)"},
+    {"02-one-bit-flip-hang-memory/flip_meta_sopclass.dcm", Kind::refused, "its meta header breaks off"},
+    {"03-nested-sequences-segv/nest_d6000.dcm", Kind::refused, "nested deeper than 64"},
+    {"03-nested-sequences-segv/nest_u10000.dcm", Kind::refused, "nested deeper than 64"},
+    {"04-non-utf8-aborts-import/u_kernel_legal", Kind::stored, "12 slices"},
+    {"05-dims-mismatch-silent/j2k_128x128.dcm", Kind::refused, "its header says 128 x 128"},
+    {"05-dims-mismatch-silent/jll_128x128.dcm", Kind::refused, "its header says 128 x 128"},
+    {"05-dims-mismatch-silent/jls_16x24.dcm", Kind::refused, "its header says 24 x 16"},
+    {"05-dims-mismatch-silent/rle_48x16.dcm", Kind::refused, "runs that cross its rows"},
+    {"08-decimal-comma/comma_slope", Kind::repaired, "decimal commas read as points"},
+    {"08-decimal-comma/comma_spacing", Kind::repaired, "decimal commas read as points"},
+    {"08-decimal-comma/comma_position", Kind::repaired, "decimal commas read as points"},
+    {"09-terminal/t_newline", Kind::stored, "12 slices"},
+    {"09-terminal/t_nul", Kind::stored, "12 slices"},
+    {"09-terminal/t_type_esc", Kind::stored, "12 slices"},
+    {"09-terminal/t_uid_esc", Kind::stored, "12 slices"},
+    {"09-terminal/u_esc_utf8", Kind::stored, "12 slices"},
+    {"12-overflowing-positions/g_outlier1e200", Kind::refused, "more than 10 m"},
+    {"12-overflowing-positions/g_outlier3e9", Kind::refused, "more than 10 m"},
+    {"12-overflowing-positions/g_pix1e-9", Kind::refused, "a size that no scanner has"},
+    {"13-silence/DICOMDIR", Kind::refused, ""},
+    {"14-header-pixels-disagree/len_alloc8", Kind::refused, "more pixels than its header says"},
+    {"14-header-pixels-disagree/len_columns_short", Kind::refused, "more pixels than its header says"},
+    {"15-trailing-bytes-un/UN_intercept", Kind::kept, "1 slice"},
+    {"15-trailing-bytes-un/UN_ipp", Kind::kept, "1 slice"},
+    {"15-trailing-bytes-un/UN_rows", Kind::kept, "1 slice"},
+    {"15-trailing-bytes-un/UN_undef_priv", Kind::kept, "1 slice"},
+    {"15-trailing-bytes-un/trail_1zero", Kind::repaired, "behind the end of its data"},
+    {"15-trailing-bytes-un/trail_2zero", Kind::repaired, "behind the end of its data"},
+    {"15-trailing-bytes-un/trail_8zero", Kind::repaired, "behind the end of its data"},
+    {"15-trailing-bytes-un/trail_512zero", Kind::repaired, "behind the end of its data"},
+    {"15-trailing-bytes-un/trail_ff", Kind::repaired, "behind the end of its data"},
+    {"15-trailing-bytes-un/trail_jpeg_8zero", Kind::repaired, "behind the end of its data"},
+    {"15-trailing-bytes-un/trail_newline", Kind::repaired, "behind the end of its data"},
+    {"15-trailing-bytes-un/trail_text", Kind::repaired, "behind the end of its data"},
+    {"15-trailing-bytes-un/trail_padding_element", Kind::kept, "1 slice"},
+};
+
+class Hostile : public Import {};
+class EachReproducer : public Import, public testing::WithParamInterface<HostileCase> {};
+
+TEST_P(EachReproducer, HasItsLineAndTheRestOfTheImportIsDone)
+{
+    VICON_NEEDS_DATA("hostile");
+    const HostileCase& c = GetParam();
+    SeriesSpec good;
+    good.patient_id = "good";
+    writeSeries(folder / "z-good", good);
+    const auto report = import({support::sharedData("hostile") / c.path, folder / "z-good"});
+    EXPECT_TRUE(says(report, c.kind, c.words)) << lines(report);
+    EXPECT_TRUE(store.findCaseByStudy(good.study_uid)) << lines(report);
+    for (const auto& line : report.lines)
+        EXPECT_NO_THROW((void)nlohmann::json(line.subject + line.text).dump()) << c.path;
+    for (const CaseRecord& a_case : store.cases())
+        for (const ScanRecord& scan : store.scans(a_case.id)) {
+            if (scan.role == ScanRole::refused)
+                continue;
+            EXPECT_NO_THROW(load(scan)) << c.path;
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTheData, EachReproducer, testing::ValuesIn(kCases));
+
+TEST_F(Hostile, ABadStudyBetweenGoodOnesCostsNothingElse)
+{
+    VICON_NEEDS_DATA("hostile");
+    const auto report = import({support::sharedData("hostile/04-non-utf8-aborts-import/mixbad")});
+    EXPECT_EQ(report.scans_stored, 3) << lines(report);
+}
+
+TEST_F(Hostile, AFolderWithoutFilesIsSaid)
+{
+    fs::create_directories(folder / "empty");
+    const auto report = import({folder / "empty"});
+    EXPECT_TRUE(says(report, Kind::refused, "nothing to import")) << lines(report);
+    EXPECT_FALSE(report.anythingStored());
+}
+
+TEST_F(Hostile, ADicomdirAloneIsSaid)
+{
+    VICON_NEEDS_DATA("hostile");
+    const auto report = import({support::sharedData("hostile/13-silence")});
+    EXPECT_TRUE(says(report, Kind::refused, "nothing to import")) << lines(report);
+}
+
+/// Without its head a file is read by a library or not at all: the walk over its elements does not know its encoding.
+TEST_F(Hostile, AFileThatKillsItsReaderIsRefusedAndKillsNothingElse)
+{
+    VICON_NEEDS_DATA("hostile");
+    constexpr std::size_t kMeta = 132, kGroupLength = 12;
+    for (const char* name : {"nest_d6000.dcm", "nest_u10000.dcm"}) {
+        const std::string whole = readFile(support::sharedData("hostile/03-nested-sequences-segv") / name);
+        const auto meta_bytes = std::uint8_t(whole[kMeta + 8]) + 256u * std::uint8_t(whole[kMeta + 9]);
+        std::ofstream(folder / name, std::ios::binary) << whole.substr(kMeta + kGroupLength + meta_bytes);
+        const auto report = import({folder / name});
+        ASSERT_EQ(report.lines.size(), 1u);
+        EXPECT_EQ(report.lines.front().kind, Kind::refused);
+        EXPECT_NE(report.lines.front().text.find("cannot be read safely"), std::string::npos) << lines(report);
+    }
+}
+
+TEST_F(Hostile, ZerosAreNoDicom)
+{
+    const fs::path zeros = folder / "zeros.bin";
+    std::ofstream(zeros) << "";
+    fs::resize_file(zeros, 1 << 30);
+    const auto report = import({zeros});
+    EXPECT_TRUE(says(report, Kind::refused, "no DICOM file")) << lines(report);
+}
+
+TEST_F(Hostile, NoControlCharacterOfAnyTextIsLeft)
+{
+    VICON_NEEDS_DATA("hostile");
+    const auto report = import({support::sharedData("hostile/09-terminal")});
+    std::string all = lines(report);
+    std::erase(all, '\n');  // between the lines
+    for (const CaseRecord& c : store.cases()) {
+        all += c.patient.name + c.patient.id + c.study.uid + c.study.description;
+        for (const ScanRecord& s : store.scans(c.id))
+            all += s.series.uid + s.series.kernel + s.series.description + s.ingest.dump();
+    }
+    EXPECT_TRUE(std::none_of(all.begin(), all.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; })) << all;
+}
+
+TEST_F(Hostile, ANameInLatin1IsTakenAndShownInUtf8)
+{
+    const std::string name = "caf\xe9";
+    writeSeries(folder / name, {});
+    const auto broken = folder / name / "na\xefve.dcm";
+    std::ofstream(broken) << "no DICOM at all";
+    const auto report = import({folder / name});
+    EXPECT_EQ(report.scans_stored, 1) << lines(report);
+    EXPECT_TRUE(says(report, Kind::refused, "no DICOM file")) << lines(report);
+    for (const auto& line : report.lines)
+        EXPECT_NO_THROW((void)nlohmann::json(line.subject).dump());
+}
+
+TEST_F(Hostile, TwoAcquisitionsInOneSeriesAreTwoScans)
+{
+    VICON_NEEDS_DATA("hostile");
+    const fs::path root = support::sharedData("hostile/11-mixed-series");
+    for (const char* name : {"g_supine_then_prone_in_one_series", "g_interleaved_acq", "g_interleaved_kernel"}) {
+        CaseStore own(folder / name);
+        const auto report = ingest::importPaths(own, {root / name}, options, quiet);
+        EXPECT_EQ(own.scans(own.cases().at(0).id).size(), 2u) << name << "\n" << lines(report);
+    }
+}
+
+TEST_F(Hostile, ARefusedVolumeTellsOfNoInterpolation)
+{
+    SeriesSpec spec;
+    spec.slices = 20;
+    std::vector<int> with_gaps{0, 1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19};
+    writeSeries(folder / "in", spec, with_gaps);
+    import({folder / "in"});
+    const ScanRecord scan = onlyScan();
+    ASSERT_EQ(scan.role, ScanRole::refused);
+    EXPECT_EQ(scan.ingest["repairs"].dump().find("interpolated"), std::string::npos) << scan.ingest.dump();
+    EXPECT_FALSE(scan.ingest["geometry"].contains("interpolated_slices"));
+}
+
+TEST_F(Hostile, OneFlagForACaseHoweverManyShareTheId)
+{
+    constexpr int kStudies = 12;
+    for (int n = 0; n < kStudies; ++n) {
+        SeriesSpec spec;
+        spec.study_uid += "." + std::to_string(n);
+        spec.series_uid = spec.study_uid + ".1";
+        spec.patient_name = "Name^" + std::string(1, char('A' + n));
+        writeSeries(folder / "in" / std::to_string(n), spec);
+    }
+    import({folder / "in"});
+    ASSERT_EQ(store.cases().size(), std::size_t(kStudies));
+    for (const CaseRecord& c : store.cases())
+        EXPECT_EQ(c.flags.size(), 1u) << c.id;
+}
+
+}  // namespace
