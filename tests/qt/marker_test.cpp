@@ -4,6 +4,7 @@
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QStatusBar>
 #include <QTableWidget>
 
 #include "reading.h"
@@ -153,6 +154,38 @@ TEST_F(Reading, ASizeIsMeasuredBetweenTwoClicksAndKeptWithTheMarkerBesideIt)
     EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == without_line; }));
     press(window(), "undo");
     ASSERT_TRUE(eventually([&] { return !stored()[0].size.has_value(); }));
+}
+
+TEST_F(Reading, NoSizeReachesFromOneScanToAnother)
+{
+    openCase();
+    const QPoint first = middle("endoscopic") + QPoint(90, 60), second = first + QPoint(30, 30);
+    key(Qt::Key_M);
+    click("endoscopic", first);
+    the<QLabel>("where")->clear();
+    key(Qt::Key_X);
+    waitForScan();
+    click("endoscopic", first);
+    EXPECT_TRUE(window()->statusBar()->currentMessage().contains("the other end"))
+        << "the end in the scan before does not count: " << window()->statusBar()->currentMessage().toStdString();
+    click("endoscopic", second);
+    EXPECT_TRUE(eventually([] { return window()->statusBar()->currentMessage().contains("straight"); }));
+}
+
+TEST_F(Reading, TheToolChosenLastTakesTheClick)
+{
+    openCase();
+    click("endoscopic", middle("endoscopic") + QPoint(90, 60), Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    const Point3 before = stored()[0].position_mm;
+    clickRow(markers(), 0);
+    settle();
+    press(window(), "markerMove");
+    key(Qt::Key_3);
+    click("endoscopic", middle("endoscopic") + QPoint(-60, 60));
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 2 && settled(); }));
+    EXPECT_EQ(stored()[0].position_mm, before) << "placed, not moved";
+    EXPECT_EQ(stored()[1].color, MarkerColor::green);
 }
 
 TEST_F(Reading, AnAreaThatIsCircledIsPeeledAloneAndItsDensityKeptWithTheMarkerUntilUndone)

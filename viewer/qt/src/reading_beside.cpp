@@ -106,7 +106,9 @@ void ReadingWindow::clickedBeside(Pixel at, Qt::KeyboardModifiers modifiers)
     if (const auto point = wallAt(*session_.beside(), beside_shown_, at);
         point && placed(*session_.beside(), beside_shown_.place, *point, modifiers, true))
         return;
-    changeScan(session_.beside()->record.id);
+    ScanRequest request;
+    request.scan_id = session_.beside()->record.id;
+    changeScan(request);
 }
 
 void ReadingWindow::showPairOf(const Marker& marker)

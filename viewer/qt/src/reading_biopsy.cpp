@@ -22,17 +22,12 @@ void ReadingWindow::startCircling()
 {
     if (!navigator())
         return;
-    arm({});
-    circling_ = true;
-    endoscopic_->setCircling(true);
-    setPickCursor(true);
-    tell(tr("Virtual biopsy: drag from the middle of the finding to its edge; or arrows and Return at both"));
+    begin(CircleFinding{},
+          tr("Virtual biopsy: drag from the middle of the finding to its edge; or arrows and Return at both"));
 }
 
 void ReadingWindow::forgetCircle()
 {
-    circling_ = false;
-    endoscopic_->setCircling(false);
     if (!circle_)
         return;
     circle_.reset();
@@ -42,9 +37,8 @@ void ReadingWindow::forgetCircle()
 
 void ReadingWindow::circledAt(Pixel centre, double radius_px)
 {
-    circling_ = false;
-    endoscopic_->setCircling(false);
-    setPickCursor(false);
+    interaction_.finish();
+    showTool();
     if (!navigator() || !shown_.isOf(session_.sharedScan()))
         return;
     const auto point = wallAt(*session_.scan(), shown_, centre);

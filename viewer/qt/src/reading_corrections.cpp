@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "colon_panel.h"
 #include "corrector.h"
@@ -50,17 +51,17 @@ void ReadingWindow::connectCorrections()
             session_.placeAnew();
             return;
         }
-        fresh_ = redone_ = true;
-        changeScan(scan_id.toStdString());
+        ScanRequest request;
+        request.scan_id = scan_id.toStdString();
+        request.read_again = request.redone = true;
+        changeScan(request);
     });
     connect(colon_, &ColonPanel::stopWanted, &corrector_, &Corrector::stop);
     connect(colon_, &ColonPanel::correctionWanted, this, [this](Correction kind) {
-        arm({});
-        correcting_ = kind;
-        setPickCursor(true);
-        tell(kind == Correction::add   ? tr("Click on the gas or fluid that belongs to the colon, in a slice")
-             : kind == Correction::cut ? tr("Click into the lumen where it is cut across; the smaller part is dropped")
-                                       : tr("Click on the piece that does not belong to the colon"));
+        begin(Correct{kind},
+              kind == Correction::add   ? tr("Click on the gas or fluid that belongs to the colon, in a slice")
+              : kind == Correction::cut ? tr("Click into the lumen where it is cut across; the smaller part is dropped")
+                                        : tr("Click on the piece that does not belong to the colon"));
     });
     connect(colon_, &ColonPanel::forgetWanted, this, [this] {
         if (session_.scan())
@@ -76,30 +77,28 @@ void ReadingWindow::connectCorrections()
     });
 }
 
-bool ReadingWindow::correctedAt(const OpenScan& scan, Point3 point)
+void ReadingWindow::correct(const OpenScan& scan, Correction kind, Point3 point)
 {
-    if (!correcting_)
-        return false;
-    const Correction kind = *correcting_;
     if (kind != Correction::add && !scan.lumen.inside(point)) {
         warn(tr("There is no lumen at this point; click into the gas or fluid that is to be cut or dropped."));
-        return true;
+        return;
     }
     if (kind == Correction::add && !mayBeLumen(scan.files.volume(), point)) {
         warn(tr("There is neither gas nor tagged fluid at this point; click into what belongs to the colon."));
-        return true;
+        return;
     }
-    correcting_.reset();
-    setPickCursor(false);
-    corrected_ = {kind, point};
+    interaction_.finish();
+    showTool();
+    corrected_ = Corrected{scan.record.id, kind, point};
     corrector_.correct(scan.record, kind, point);
-    return true;
 }
 
-void ReadingWindow::sayWhatIsNotAdded(const std::optional<std::pair<Correction, Point3>>& corrected)
+void ReadingWindow::sayWhatIsNotAdded()
 {
-    if (corrected && corrected->first == Correction::add &&
-        !session_.scan()->lumen.nearestInside(corrected->second, kBeside_mm).found)
+    const auto corrected = std::exchange(corrected_, {});
+    const OpenScan& scan = *session_.scan();
+    if (corrected && corrected->kind == Correction::add && corrected->scan_id == scan.record.id &&
+        !scan.lumen.nearestInside(corrected->at_mm, kBeside_mm).found)
         warn(
             tr("Nothing was added: there is no gas or tagged fluid at the place that you clicked, or it belongs to a "
                "piece that you dropped. Undo (Ctrl+Z) takes the correction back."));

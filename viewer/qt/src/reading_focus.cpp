@@ -40,7 +40,7 @@ void ReadingWindow::notAfterAll()
     navigation_->forgetStation();
     if (second_)
         second_->setFocus(Qt::ShortcutFocusReason);
-    arm({});
+    endTool();
     measured_way_.clear();
     drawMeasured();
     warn({});

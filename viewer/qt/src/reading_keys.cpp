@@ -30,24 +30,26 @@ void ReadingWindow::lookAt(Point3 point)
 
 void ReadingWindow::flyTo(const Marker& marker)
 {
-    if (pairing_) {
-        const auto known = session_.marker(*pairing_);
-        pairing_.reset();
-        if (!known)
-            return;
-        const Marker& first = *known;
-        if (first.scan_id == marker.scan_id) {
-            warn(tr("A pair is one finding in two scans; both markers lie in the same one."));
-            return;
-        }
-        session_.pairMarkers(first, marker);
-        return;
+    const ChoiceMeaning meaning = interaction_.choose(marker);
+    if (const auto* pair = std::get_if<PairWith>(&meaning)) {
+        if (const auto first = session_.marker(pair->id))
+            session_.pairMarkers(*first, marker);
+    } else if (std::holds_alternative<RefusePair>(meaning)) {
+        warn(tr("A pair is one finding in two scans; both markers lie in the same one."));
+    } else {
+        showMarker(marker);
     }
+}
+
+void ReadingWindow::showMarker(const Marker& marker)
+{
     if (!navigator())
         return;
     if (marker.scan_id != session_.scan()->record.id) {
-        fly_to_when_open_ = marker.id;
-        changeScan(marker.scan_id);
+        ScanRequest request;
+        request.scan_id = marker.scan_id;
+        request.marker_id = marker.id;
+        changeScan(request);
         return;
     }
     const ViewPose view = viewFor(*session_.scan(), marker);
@@ -61,38 +63,64 @@ void ReadingWindow::flyTo(const Marker& marker)
 bool ReadingWindow::placed(const OpenScan& scan, const SnapshotResult& from, Point3 point,
                            Qt::KeyboardModifiers modifiers, bool on_wall)
 {
-    if (measuring_ && &scan != session_.scan()) {
-        warn(tr("Both ends of a size lie in the scan that is being read."));
-        return true;
-    }
-    if (correctedAt(scan, point) || measuredAt(point, on_wall))
-        return true;
-    if (moving_) {
-        const auto before = session_.marker(*moving_);
-        arm({});
-        if (!before)
-            return true;
-        if (before->scan_id != scan.record.id) {
-            warn(tr("%1 lies in the other scan and cannot be moved to this one.")
-                     .arg(QString::fromStdString(before->id)));
-            return true;
-        }
-        Marker after = *before;
-        after.position_mm = point;
-        after.view.reset();
-        session_.changeMarker(*before, after, true);
-        return true;
-    }
-    if (!armed_ && !(modifiers & Qt::ShiftModifier))
-        return false;
+    PickedPoint picked;
+    picked.at_mm = point;
+    picked.scan_id = scan.record.id;
+    picked.in_scan_read = &scan == session_.scan();
+    picked.on_wall = on_wall;
+    picked.wants_marker = modifiers & Qt::ShiftModifier;
+    return act(interaction_.click(picked), scan, from, point);
+}
+
+bool ReadingWindow::act(const ClickMeaning& meaning, const OpenScan& scan, const SnapshotResult& from, Point3 point)
+{
+    if (const auto* add = std::get_if<AddMarker>(&meaning))
+        addMarker(add->color, scan, from, point);
+    else if (const auto* move = std::get_if<MoveMarkerHere>(&meaning))
+        moveMarker(move->id, point);
+    else if (const auto* correction = std::get_if<CorrectHere>(&meaning))
+        correct(scan, correction->kind, point);
+    else if (const auto* size = std::get_if<MeasureBetween>(&meaning))
+        measure(*size);
+    else if (const auto* refusal = std::get_if<Refuse>(&meaning))
+        refuse(*refusal);
+    else if (std::holds_alternative<AwaitOtherEnd>(meaning))
+        tell(tr("Measure: click on the other end"));
+    return !std::holds_alternative<ShowPoint>(meaning);
+}
+
+void ReadingWindow::addMarker(MarkerColor color, const OpenScan& scan, const SnapshotResult& from, Point3 point)
+{
     Marker marker;
     marker.scan_id = scan.record.id;
     marker.position_mm = point;
-    marker.color = armed_.value_or(MarkerColor::red);
+    marker.color = color;
     marker.view = viewOf(from);
     session_.addMarker(marker);
-    arm({});
-    return true;
+    endTool();
+}
+
+void ReadingWindow::moveMarker(const std::string& id, Point3 point)
+{
+    endTool();
+    const auto before = session_.marker(id);
+    if (!before)
+        return;
+    Marker after = *before;
+    after.position_mm = point;
+    after.view.reset();
+    session_.changeMarker(*before, after, true);
+}
+
+void ReadingWindow::refuse(const Refuse& refusal)
+{
+    if (refusal.why == Refuse::Why::end_in_other_scan) {
+        warn(tr("Both ends of a size lie in the scan that is being read."));
+        return;
+    }
+    endTool();
+    warn(tr("%1 lies in the other scan and cannot be moved to this one.")
+             .arg(QString::fromStdString(refusal.marker_id)));
 }
 
 std::optional<Point3> ReadingWindow::wallAt(const OpenScan& scan, const Studio::Shown& shown, Pixel at)
@@ -155,29 +183,36 @@ void ReadingWindow::clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers)
 
 void ReadingWindow::pair(const Marker& marker)
 {
-    if (marker.pair.empty()) {
-        pairing_ = marker.id;
-        tell(tr("Choose the same finding in the other scan"));
-    } else {
+    if (marker.pair.empty())
+        begin(PairMarker{marker.id, marker.scan_id}, tr("Choose the same finding in the other scan"));
+    else
         session_.partMarkers(marker);
-    }
 }
 
-void ReadingWindow::arm(std::optional<MarkerColor> color)
+void ReadingWindow::startPlacing(MarkerColor color)
 {
-    armed_ = color;
-    if (!color) {
-        moving_.reset();
-        pairing_.reset();
-    }
-    correcting_.reset();
-    stopMeasuring();
+    begin(PlaceMarker{color},
+          tr("Click where the %1 marker shall be, or arrows and Return").arg(QString::fromStdString(nameOf(color))));
+}
+
+void ReadingWindow::startMoving(const Marker& marker)
+{
+    begin(MoveMarker{marker.id, marker.scan_id},
+          tr("Click on the new place of %1, or arrows and Return").arg(QString::fromStdString(marker.id)));
+}
+
+void ReadingWindow::begin(const ToolInUse& tool, const QString& prompt)
+{
+    interaction_.begin(tool);
     forgetCircle();
-    setPickCursor(color.has_value());
-    tell(
-        color
-            ? tr("Click where the %1 marker shall be, or arrows and Return").arg(QString::fromStdString(nameOf(*color)))
-            : QString());
+    showTool();
+    tell(prompt);
+}
+
+void ReadingWindow::showTool()
+{
+    endoscopic_->setCircling(interaction_.inUse<CircleFinding>() != nullptr);
+    setPickCursor(interaction_.awaitsClick());
 }
 
 void ReadingWindow::setPickCursor(bool on)

@@ -195,9 +195,9 @@ void ReadingWindow::addActions()
     QMenu* edit = menuBar()->addMenu(tr("&Edit"));
     add(edit, tr("Undo"), QKeySequence("Ctrl+Z"), [this] { undo(); });
     add(edit, tr("Redo"), QKeySequence("Ctrl+Y"), [this] { redo(); });
-    add(edit, tr("Red marker at the next click"), QKeySequence("1"), [this] { arm(MarkerColor::red); });
-    add(edit, tr("Yellow marker at the next click"), QKeySequence("2"), [this] { arm(MarkerColor::yellow); });
-    add(edit, tr("Green marker at the next click"), QKeySequence("3"), [this] { arm(MarkerColor::green); });
+    add(edit, tr("Red marker at the next click"), QKeySequence("1"), [this] { startPlacing(MarkerColor::red); });
+    add(edit, tr("Yellow marker at the next click"), QKeySequence("2"), [this] { startPlacing(MarkerColor::yellow); });
+    add(edit, tr("Green marker at the next click"), QKeySequence("3"), [this] { startPlacing(MarkerColor::green); });
     add(edit, tr("Back to the view: no marker, line, circle, warning"), QKeySequence("Esc"), [this] { notAfterAll(); });
     add(edit, tr("Measure between two clicks"), QKeySequence("M"), [this] { startMeasuring(); });
     add(edit, tr("Virtual biopsy: circle a finding"), QKeySequence("T"), [this] { startCircling(); });

@@ -16,39 +16,20 @@ QString mm(double length)
 
 void ReadingWindow::startMeasuring()
 {
-    arm({});
-    measuring_ = Measuring{};
     measured_way_.clear();
     drawMeasured();
-    setPickCursor(true);
-    tell(tr("Measure: click on the two ends, on the wall or in a slice; or arrows and Return"));
+    begin(Measure{}, tr("Measure: click on the two ends, on the wall or in a slice; or arrows and Return"));
 }
 
-void ReadingWindow::stopMeasuring()
+void ReadingWindow::measure(const MeasureBetween& size)
 {
-    measuring_.reset();
-}
-
-bool ReadingWindow::measuredAt(Point3 point, bool on_wall)
-{
-    if (!measuring_)
-        return false;
-    measuring_->ends.push_back(point);
-    measuring_->on_wall = measuring_->on_wall && on_wall;
-    if (measuring_->ends.size() < 2) {
-        tell(tr("Measure: click on the other end"));
-        return true;
-    }
-    const Measuring done = *measuring_;
-    stopMeasuring();
-    setPickCursor(false);
-    if (done.on_wall) {
+    showTool();
+    if (size.on_wall) {
         tell(tr("Measuring ..."));
-        session_.measure(done.ends[0], done.ends[1], shown_.place.pose.eye_mm);
+        session_.measure(size.from_mm, size.to_mm, shown_.place.pose.eye_mm);
     } else {
-        showMeasured({distance(done.ends[0], done.ends[1]), 0, done.ends}, {});
+        showMeasured({distance(size.from_mm, size.to_mm), 0, {size.from_mm, size.to_mm}}, {});
     }
-    return true;
 }
 
 std::optional<Marker> ReadingWindow::markerBeside(const std::vector<Point3>& way) const

@@ -40,11 +40,16 @@ void ReadingWindow::connectOpening()
     });
 }
 
-void ReadingWindow::openScan(const std::string& scan_id, bool fresh)
+void ReadingWindow::openScan(const ScanRequest& request)
 {
     tell(tr("Reading the scan ..."));
     opening_->show();
-    session_.open(scan_id, fresh, wayOf(scan_id));
+    left_ = session_.sharedScan();
+    std::optional<ScanOpening::From> from;
+    if (left_)
+        from = ScanOpening::From{left_->record.id, left_->navigator.state().station_mm};
+    scan_opening_.ask(request, from);
+    session_.open(request.scan_id, request.read_again, wayOf(request.scan_id));
 }
 
 void ReadingWindow::offer(const std::vector<ScanRecord>& scans)
@@ -61,7 +66,9 @@ void ReadingWindow::openFirst(const std::vector<ScanRecord>& scans)
     offer(scans);
     const QString kept = "place/" + QString::fromStdString(session_.record().id) + "/scan";
     scan_choice_->setCurrentIndex(std::max(0, scan_choice_->findData(keptSetting(kept))));
-    openScan(scan_choice_->currentData().toString().toStdString(), false);
+    ScanRequest request;
+    request.scan_id = scan_choice_->currentData().toString().toStdString();
+    openScan(request);
 }
 
 void ReadingWindow::renew(const WorklistCase& row)
@@ -83,24 +90,22 @@ void ReadingWindow::renew(const WorklistCase& row)
 /// Its old files are gone: what is marked gets its distances on the new path.
 void ReadingWindow::takeOver(const WorklistScan& row)
 {
-    if (corrector_.busy())
-        return;
-    if (row.state == WorkState::queued || row.state == WorkState::running)
-        done_elsewhere_ = true;
-    else if (std::exchange(done_elsewhere_, false) && row.ready() && madeAt(row.folder) != session_.scan()->made) {
-        fresh_ = redone_ = true;
-        taken_over_ = true;
-        changeScan(row.record.id);
-    }
+    ScanObserved observed;
+    observed.scan_id = row.record.id;
+    observed.in_work = row.state == WorkState::queued || row.state == WorkState::running;
+    observed.readable = row.ready();
+    observed.made_anew = madeAt(row.folder) != session_.scan()->made;
+    observed.own_work = corrector_.busy();
+    if (const auto request = scan_opening_.observed(observed))
+        changeScan(*request);
 }
 
 void ReadingWindow::stayWhereOneIs()
 {
-    came_from_.reset();
-    go_to_when_open_.reset();
+    scan_opening_.giveUp();
+    left_.reset();
     if (session_.scan())
         showWays();
-    fly_to_when_open_.reset();
     if (session_.scan())
         scan_choice_->setCurrentIndex(scan_choice_->findData(QString::fromStdString(session_.scan()->record.id)));
 }
@@ -117,14 +122,11 @@ void ReadingWindow::cancelOpening()
     tell(tr("Not opened; you read on in the scan that was open."));
 }
 
-void ReadingWindow::changeScan(const std::string& scan_id)
+void ReadingWindow::changeScan(const ScanRequest& request)
 {
     savePlace();
     keepSeen();
-    came_from_ = session_.sharedScan();
-    if (navigator())
-        came_from_mm_ = navigator()->state().station_mm;
-    openScan(scan_id, std::exchange(fresh_, false));
+    openScan(request);
 }
 
 void ReadingWindow::scanOpened()
@@ -134,6 +136,7 @@ void ReadingWindow::scanOpened()
     scan_choice_->setCurrentIndex(scan_choice_->findData(QString::fromStdString(session_.scan()->record.id)));
     beside_place_.reset();
     overview_shown_ = false;
+    interaction_.scanChanged();
     measured_way_.clear();
     circle_.reset();
     focus_.reset();
@@ -142,8 +145,8 @@ void ReadingWindow::scanOpened()
     useWords(organWords());
     kept_window_.clear();
     showWays();
-    restorePlace();
-    go_to_when_open_.reset();
+    const Arrival arrival = scan_opening_.opened(session_.scan()->record.id);
+    restorePlace(arrival);
     markersChanged();
     clock_.start();
     timer_.start();
@@ -153,14 +156,13 @@ void ReadingWindow::scanOpened()
     corrector_.findBridges(session_.scan()->record);
     if (compare_->isChecked())
         setBeside(true);
-    if (const auto marker = session_.marker(fly_to_when_open_.value_or("")))
-        flyTo(*marker);
-    fly_to_when_open_.reset();
-    if (std::exchange(redone_, false)) {
+    if (const auto marker = session_.marker(arrival.marker_id.value_or("")))
+        showMarker(*marker);
+    if (arrival.place_markers) {
         session_.placeAnew();
-        sayWhatIsNotAdded(std::exchange(corrected_, {}));
+        sayWhatIsNotAdded();
     }
-    if (std::exchange(taken_over_, false))
+    if (arrival.redone_by_other)
         warn(
             tr("This scan was done again meanwhile, after a correction by another reader or by 'vicon work'; this is "
                "the new result."));

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QSplitter>
 #include <QTabWidget>
+#include <utility>
 
 #include "beside_view.h"
 #include "coverage_panel.h"
@@ -36,16 +37,18 @@ void ReadingWindow::savePlace()
     keepSettings(settings_worker_, values);
 }
 
-void ReadingWindow::restorePlace()
+void ReadingWindow::restorePlace(const Arrival& arrival)
 {
-    if (came_from_) {
-        navigator()->setHeading(came_from_->navigator.heading());
-        navigator()->setSpeed(came_from_->navigator.speed_mm_s());
-        const bool same = came_from_->record.id == session_.scan()->record.id;  // done again: where the eye was
-        const Point3 eye = go_to_when_open_.value_or(came_from_->navigator.state().pose.eye_mm);
-        navigator()->jumpTo(same ? session_.scan()->files.skeleton().nearest(eye).station_mm
-                                 : corresponding_mm(*came_from_, came_from_mm_, *session_.scan()));
-        came_from_.reset();
+    const std::shared_ptr<OpenScan> left = std::exchange(left_, {});
+    if (left) {
+        const OpenScan& scan = *session_.scan();
+        navigator()->setHeading(left->navigator.heading());
+        navigator()->setSpeed(left->navigator.speed_mm_s());
+        if (const auto* other = std::get_if<CorrespondingPlace>(&arrival.place))
+            navigator()->jumpTo(corresponding_mm(*left, other->station_mm, scan));
+        else if (const auto* same = std::get_if<SamePlace>(&arrival.place))
+            navigator()->jumpTo(
+                scan.files.skeleton().nearest(same->point_mm.value_or(left->navigator.state().pose.eye_mm)).station_mm);
         return;
     }
     const auto kept = [place = groupOf(session_.record()) + "/"](const QString& key, const QVariant& otherwise = {}) {

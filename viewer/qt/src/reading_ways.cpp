@@ -44,9 +44,11 @@ void ReadingWindow::takeWay(int tip, std::optional<Point3> to)
 {
     const std::string scan_id = session_.scan()->record.id;
     keepSettings(settings_worker_, {{keyOf(session_.record(), scan_id), tip}});
-    go_to_when_open_ = to;
-    fresh_ = true;
-    changeScan(scan_id);
+    ScanRequest request;
+    request.scan_id = scan_id;
+    request.read_again = true;
+    request.go_to_mm = to;
+    changeScan(request);
 }
 
 /// The nearest place of the tree in the projection, which may lie on another way than the one that is flown.

@@ -107,8 +107,11 @@ void ReadingWindow::connectAll()
         connect(window_choice_, &QComboBox::currentTextChanged, slice,
                 [slice](const QString& name) { slice->setWindow(windowPreset(name.toStdString())); });
     }
-    connect(scan_choice_, qOverload<int>(&QComboBox::activated), this,
-            [this](int) { changeScan(scan_choice_->currentData().toString().toStdString()); });
+    connect(scan_choice_, qOverload<int>(&QComboBox::activated), this, [this](int) {
+        ScanRequest request;
+        request.scan_id = scan_choice_->currentData().toString().toStdString();
+        changeScan(request);
+    });
     connect(way_choice_, qOverload<int>(&QComboBox::activated), this,
             [this] { takeWay(way_choice_->currentData().toInt(), {}); });
     showPictureTip();
@@ -123,12 +126,7 @@ void ReadingWindow::connectAll()
             [this](const Marker& before, const Marker& after) { session_.changeMarker(before, after, false); });
     connect(table_, &MarkerTable::removeWanted, &session_, &CaseSession::removeMarker);
     connect(table_, &MarkerTable::pairWanted, this, &ReadingWindow::pair);
-    connect(table_, &MarkerTable::moveWanted, this, [this](const Marker& marker) {
-        arm({});
-        moving_ = marker.id;
-        setPickCursor(true);
-        tell(tr("Click on the new place of %1, or arrows and Return").arg(QString::fromStdString(marker.id)));
-    });
+    connect(table_, &MarkerTable::moveWanted, this, &ReadingWindow::startMoving);
     connect(table_, &MarkerTable::undoWanted, this, &ReadingWindow::undo);
     connect(table_, &MarkerTable::redoWanted, this, &ReadingWindow::redo);
 
@@ -263,6 +261,10 @@ void ReadingWindow::markersChanged()
     for (const ScanRecord& scan : session_.scans())
         positions[scan.id] = positionName(scan.series.patient_position);
     table_->show(session_.markers(), positions);
+    const auto tool_before = interaction_.tool().index();
+    interaction_.markersChanged(session_.markers());
+    if (interaction_.tool().index() != tool_before)
+        showTool();
     showHistory();
     moved(true);
 }

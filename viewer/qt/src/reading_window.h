@@ -15,6 +15,8 @@
 #include "seen_keeper.h"
 #include "slice_view.h"
 #include "studio.h"
+#include "vicon/viewer/model/interaction.h"
+#include "vicon/viewer/model/scan_opening.h"
 
 class QAction;
 class QActionGroup;
@@ -88,9 +90,9 @@ private:
 
     // reading_opening.cpp
     void connectOpening();
-    /// The other scan is read on from the place that corresponds.
-    void changeScan(const std::string& scan_id);
-    void openScan(const std::string& scan_id, bool fresh);
+    /// What is read now is left for the scan that is asked for.
+    void changeScan(const ScanRequest& request);
+    void openScan(const ScanRequest& request);
     void offer(const std::vector<ScanRecord>& scans);
     void openFirst(const std::vector<ScanRecord>& scans);
     void takeOver(const WorklistScan& row);
@@ -100,7 +102,7 @@ private:
 
     // reading_place.cpp
     void savePlace();
-    void restorePlace();
+    void restorePlace(const Arrival& arrival);
     void saveLooks();
     void restoreLooks();
 
@@ -116,8 +118,20 @@ private:
     /// What lies on the wall at a pixel of an endoscopic picture.
     static std::optional<Point3> wallAt(const OpenScan& scan, const Studio::Shown& shown, Pixel at);
     void setPickCursor(bool on);
+    /// What a click means is done; false where it shows the point.
+    bool act(const ClickMeaning& meaning, const OpenScan& scan, const SnapshotResult& from, Point3 point);
+    void showMarker(const Marker& marker);
+    void addMarker(MarkerColor color, const OpenScan& scan, const SnapshotResult& from, Point3 point);
+    void moveMarker(const std::string& id, Point3 point);
+    void refuse(const Refuse& refusal);
     void pair(const Marker& marker);
-    void arm(std::optional<MarkerColor> color);
+    void startPlacing(MarkerColor color);
+    void startMoving(const Marker& marker);
+    /// The tool that the next click is for; what another one shows is gone.
+    void begin(const ToolInUse& tool, const QString& prompt);
+    void endTool() { begin(Idle{}, {}); }
+    /// Where a click is awaited, a cross is shown.
+    void showTool();
     void setMode(NavigationMode mode);
     void fly(int direction);
     void turnAbout();
@@ -129,8 +143,7 @@ private:
 
     // reading_measure.cpp
     void startMeasuring();
-    void stopMeasuring();
-    bool measuredAt(Point3 point, bool on_wall);
+    void measure(const MeasureBetween& size);
     void showMeasured(const WallDistance& size, const std::optional<PlaneSize>& plane);
     void drawMeasured();
     std::optional<Marker> markerBeside(const std::vector<Point3>& way) const;
@@ -154,8 +167,8 @@ private:
 
     // reading_corrections.cpp
     void connectCorrections();
-    bool correctedAt(const OpenScan& scan, Point3 point);
-    void sayWhatIsNotAdded(const std::optional<std::pair<Correction, Point3>>& corrected);
+    void correct(const OpenScan& scan, Correction kind, Point3 point);
+    void sayWhatIsNotAdded();
 
     // reading_files.cpp
     void chooseMarkerFile(bool to_save);
@@ -237,16 +250,8 @@ private:
     PlaneView shown_overview_;
     bool overview_shown_ = false;
     std::optional<Point3> focus_;  // what was clicked; else the place on the path
-    std::optional<MarkerColor> armed_;
-    std::optional<Correction> correcting_;         // at the next click
-    std::optional<Pixel> lens_at_;                 // where the mouse was last
-    std::optional<std::string> moving_, pairing_;  // markers, by id: what they are may change meanwhile
-    /// Two clicks that are being measured.
-    struct Measuring {
-        std::vector<Point3> ends;
-        bool on_wall = true;  ///< both; else straight, as in a slice
-    };
-    std::optional<Measuring> measuring_;
+    Interaction interaction_;
+    std::optional<Pixel> lens_at_;  // where the mouse was last
     std::vector<Point3> measured_way_;
     /// What was circled on the wall; it stays there while the eye moves.
     struct Circle {
@@ -254,20 +259,19 @@ private:
         double radius_mm = 0;
     };
     std::optional<Circle> circle_;
-    bool circling_ = false;
     std::set<int> keys_;
     QPointF mouse_steering_;
-    std::shared_ptr<OpenScan> came_from_;  // when the scan is changed, with the station there
-    double came_from_mm_ = 0;
-    std::optional<std::string> fly_to_when_open_;  // a marker
-    std::optional<Point3> go_to_when_open_;        // on another way of the same scan
-    std::optional<ViewPose> beside_place_;         // the partner of the marker that is shown; else what corresponds
-    std::optional<Point3> beside_focus_;           // that partner
-    bool redone_ = false;                          // the scan that is being opened has a new skeleton
-    bool fresh_ = false;                           // the scan was done again; its files are read anew
-    bool taken_over_ = false;                      // done again for another reader, that is
-    bool done_elsewhere_ = false;                  // the open scan is being done again, and not for this reader
-    std::optional<std::pair<Correction, Point3>> corrected_;  // what is being done again for this one
+    ScanOpening scan_opening_;
+    std::shared_ptr<OpenScan> left_;        // the scan that was read when another was asked for
+    std::optional<ViewPose> beside_place_;  // the partner of the marker that is shown; else what corresponds
+    std::optional<Point3> beside_focus_;    // that partner
+    /// What is being done again for this reader.
+    struct Corrected {
+        std::string scan_id;
+        Correction kind = Correction::add;
+        Point3 at_mm;
+    };
+    std::optional<Corrected> corrected_;
     Studio::Shown beside_shown_;
     Worker settings_worker_{this};
     std::vector<Worker*> workers_;  // once the window is closed
