@@ -19,6 +19,7 @@
 #include "vicon/steps/cells.h"
 #include "vicon/steps/densities_around.h"
 #include "vicon/steps/subdivide.h"
+#include "vicon/steps/tissue.h"
 
 namespace vicon::pipeline {
 
@@ -71,6 +72,7 @@ public:
         return *around_lumen_;
     }
     const InsideVolume& inside() { return get(inside_, "inside.mha"); }
+    const steps::TissueVolume& tissue() { return get(tissue_, "tissue.mha"); }
     const SegmentVolume& segments() { return get(segments_, "segments.mha"); }
     const Skeleton& skeleton()
     {
@@ -83,6 +85,13 @@ public:
     /// Keeps the object and begins to write the file.
     void put(HuVolume v) { put(volume_, std::move(v), "volume.mha", scan_files::Packing::raw); }
     void put(InsideVolume v) { put(inside_, std::move(v), "inside.mha", scan_files::Packing::zlib); }
+    /// @param contour whether the surface is made of it, from now on
+    void putTissue(steps::TissueVolume v, bool contour)
+    {
+        put(tissue_, std::move(v), "tissue.mha", scan_files::Packing::zlib);
+        if (contour)
+            beginSurface();
+    }
     void put(SegmentVolume v) { put(segments_, std::move(v), "segments.mha", scan_files::Packing::zlib); }
     void put(Skeleton s)
     {
@@ -90,10 +99,11 @@ public:
         const std::lock_guard lock(mutex_);
         skeleton_ = std::move(s);
     }
-    /// Begins to write a field that no other step needs.
-    void write(const std::string& file, FieldVolume field)
+    /// Begins to write a volume that no other step needs.
+    template <class T>
+    void write(const std::string& file, Volume<T> volume)
     {
-        begin(file, [path = target(file), kept = std::make_shared<const FieldVolume>(std::move(field))] {
+        begin(file, [path = target(file), kept = std::make_shared<const Volume<T>>(std::move(volume))] {
             scan_files::writeVolume(path, *kept, scan_files::Packing::raw);
         });
     }
@@ -107,6 +117,24 @@ public:
                            NoProgress quiet;
                            return steps::LumenSurface(densities, inside, wall, quiet);
                        }).share();
+    }
+    /// Begins to contour the lumen from the fraction of tissue, unless that was begun.
+    void beginSurface()
+    {
+        const auto &from = tissue(), &labels = inside();
+        const std::lock_guard lock(mutex_);
+        if (!surface_.valid())
+            surface_ = std::async(std::launch::async, [&from, &labels] {
+                           NoProgress quiet;
+                           return steps::LumenSurface(from, labels, quiet);
+                       }).share();
+    }
+    /// The lumen's surface from the fraction of tissue; reads it where an earlier run made it.
+    std::shared_future<steps::LumenSurface> surface()
+    {
+        beginSurface();
+        const std::lock_guard lock(mutex_);
+        return surface_;
     }
     /// The lumen's surface; reads the densities where an earlier run made them.
     std::shared_future<steps::LumenSurface> surface(const steps::WallDensities& wall)
@@ -193,9 +221,10 @@ private:
     std::mutex mutex_;
     std::optional<HuVolume> volume_, around_lumen_;
     std::optional<InsideVolume> inside_;
+    std::optional<steps::TissueVolume> tissue_;
     std::optional<SegmentVolume> segments_;
     std::optional<Skeleton> skeleton_;
-    std::shared_future<steps::LumenSurface> surface_;   // reads around_lumen_ and inside_
+    std::shared_future<steps::LumenSurface> surface_;   // reads around_lumen_, inside_ and tissue_
     std::future<steps::PathFlood> flood_;               // reads inside_
     std::map<std::string, std::future<void>> writing_;  // last: what is written must outlive it
 };

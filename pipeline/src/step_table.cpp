@@ -20,6 +20,7 @@
 #include "vicon/steps/segment.h"
 #include "vicon/steps/skeleton.h"
 #include "vicon/steps/subdivide.h"
+#include "vicon/steps/tissue.h"
 #include "vicon/steps/wall_distance.h"
 
 using nlohmann::json;
@@ -82,6 +83,17 @@ json runResample(const StepInputs& inputs, ScanResults& results, const StepRecor
     return toJson(found);
 }
 
+/// Whether the wall is contoured from the fraction of tissue, and not from labels and densities.
+bool wallFromTissue(const Config& config)
+{
+    return isColon(config) && config.get<steps::WallOptions>().wall == "tissue";
+}
+
+std::shared_future<steps::LumenSurface> surfaceOf(const Config& config, ScanResults& results)
+{
+    return wallFromTissue(config) ? results.surface() : results.surface(config.get<steps::WallDensities>());
+}
+
 SegmentFound foundBy(const steps::OrganOptions& organ, const steps::Segmentation& segmentation)
 {
     SegmentFound found{.verdict = segmentation.verdict,
@@ -119,6 +131,25 @@ std::vector<std::string> segmentFiles(const json& result)
     return {"inside.mha"};
 }
 
+json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords& records, Progress& progress)
+{
+    if (!isColon(inputs.config))
+        return {{"not_sought", "tagging is that of a colon"}};
+    steps::TissueResult found = steps::findTissue(
+        results.densitiesAroundLumen(), results.inside(), inputs.gravity, inputs.config.get<steps::WallDensities>(),
+        segmentFoundFromJson(records.at("segment").result).noise_hu.value_or(0), progress);
+    results.write("cleansed.mha", std::move(found.cleansed));
+    results.putTissue(std::move(found.tissue), wallFromTissue(inputs.config));
+    return {{"measures", std::move(found.found)}};
+}
+
+std::vector<std::string> tissueFiles(const json& result)
+{
+    if (result.contains("not_sought"))
+        return {};
+    return {"tissue.mha", "cleansed.mha"};
+}
+
 /// The skeleton of an organ that branches.
 json runTree(const steps::LumenPlan& plan, const StepInputs& inputs, ScanResults& results, Progress& progress)
 {
@@ -142,7 +173,11 @@ json runSkeleton(const StepInputs& inputs, ScanResults& results, const StepRecor
         return runTree(plan, inputs, results, progress);
     // Two thirds of dividing the lumen need no curve, and cores are free here.
     const steps::SkeletonHooks hooks{
-        .core_free = [&] { results.beginSurface(inputs.config.get<steps::WallDensities>()); },
+        .core_free =
+            [&] {
+                if (!wallFromTissue(inputs.config))
+                    results.beginSurface(inputs.config.get<steps::WallDensities>());
+            },
         .paths_found =
             [&](const std::vector<std::vector<Index3>>& paths) {
                 if (inputs.config.get<steps::SubdivideOptions>().method == "flood")
@@ -176,7 +211,7 @@ json runSubdivide(const StepInputs& inputs, ScanResults& results, const StepReco
 {
     PartOfProgress divide(progress, 0, 0.6), tell(progress, 0.6, 0.9), project(progress, 0.9, 1);
     const InsideVolume& inside = results.inside();
-    const auto contour = results.surface(inputs.config.get<steps::WallDensities>());
+    const auto contour = surfaceOf(inputs.config, results);
     auto options = inputs.config.get<steps::SubdivideOptions>();
     const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));
     if (!tree.empty())
@@ -202,8 +237,9 @@ json runPotential(const StepInputs& inputs, ScanResults& results, const StepReco
         return *std::max_element(field.voxels.begin(), field.voxels.end());
     };
     PotentialFound found;
-    const auto surface = results.surface(inputs.config.get<steps::WallDensities>());
-    FieldVolume from_wall_mm = steps::wallDistance(results.inside(), surface.get().nearWall(), wall);
+    const auto surface = surfaceOf(inputs.config, results);
+    FieldVolume from_wall_mm =
+        steps::wallDistance(results.inside(), surface.get().lumen(), surface.get().nearWall(), wall);
     found.largest_wall_distance_mm = largest(from_wall_mm);
     results.write("wall_distance.mha", std::move(from_wall_mm));
     const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));
@@ -238,9 +274,18 @@ const std::vector<Step>& stepTable()
          segmentFiles,
          parametersByOrgan<SegmentOptions, OrganOptions>,
          runSegment},
+        {"tissue",
+         1,
+         0.55,
+         0.6,
+         {"resample", "segment"},
+         Densities::around_lumen,
+         tissueFiles,
+         parametersByOrgan<WallDensities, OrganOptions>,
+         runTissue},
         {"skeleton",
          10,
-         0.55,
+         0.6,
          0.65,
          {"segment"},
          Densities::around_lumen,
@@ -257,23 +302,23 @@ const std::vector<Step>& stepTable()
          parametersFrom<QualityOptions>,
          runQuality},
         {"subdivide",
-         5,
+         6,
          0.67,
          0.85,
-         {"resample", "segment", "skeleton"},
+         {"resample", "segment", "tissue", "skeleton"},
          Densities::around_lumen,
          always({"segments.mha", "subdivision.json", "cells.vtp", "projections/coronal.png",
                  "projections/transverse.png", "projections/sagittal.png", "projections/projections.json"}),
-         parametersFrom<SubdivideOptions, WallDensities, ProjectionOptions>,
+         parametersFrom<SubdivideOptions, WallOptions, WallDensities, ProjectionOptions>,
          runSubdivide},
         {"potential",
-         3,
+         4,
          0.85,
          1,
-         {"resample", "segment", "skeleton"},
+         {"resample", "segment", "tissue", "skeleton"},
          Densities::around_lumen,
          always({"exit_distance.mha", "wall_distance.mha"}),
-         parametersFrom<WallDensities>,
+         parametersFrom<WallOptions, WallDensities>,
          runPotential},
     };
     return kTable;
@@ -296,6 +341,7 @@ std::vector<OptionSpec> stepOptionSpecs()
     add(specsOf<steps::SkeletonOptions>());
     add(specsOf<steps::QualityOptions>());
     add(specsOf<steps::SubdivideOptions>());
+    add(specsOf<steps::WallOptions>());
     add(specsOf<steps::ProjectionOptions>());
     return all;
 }

@@ -14,9 +14,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <optional>
 
+#include "grid/neighbours.h"
 #include "grid/wall_values.h"
+#include "tissue/lumen_of_tissue.h"
 #include "vicon/core/error.h"
 
 namespace vicon::steps {
@@ -84,6 +88,23 @@ Edge edgeAt(const float* p, const InsideVolume& inside)
     return {high, low, 1 - part[along]};
 }
 
+/// The segment of an inside voxel, or of the nearest one beside it where the wall lies farther out than the labels.
+std::uint16_t segmentAt(const SegmentVolume& segments, Index3 v)
+{
+    std::uint16_t found = segments.at(v);
+    for (int reach = 1; found == 0 && reach <= 3; ++reach) {
+        int nearest2 = std::numeric_limits<int>::max();
+        forEachInCube(v, reach, [&](Index3 w) {
+            const int i = w.i - v.i, j = w.j - v.j, k = w.k - v.k, away2 = i * i + j * j + k * k;
+            if (const std::uint16_t segment = segments.valueOr(w, 0); segment != 0 && away2 < nearest2) {
+                nearest2 = away2;
+                found = segment;
+            }
+        });
+    }
+    return found;
+}
+
 /// The segment of each triangle: that of the inside voxel, among those its corners belong to, nearest to its middle.
 std::vector<std::uint16_t> tagTriangles(const Contour& contour, const InsideVolume& inside,
                                         const SegmentVolume& segments)
@@ -104,7 +125,7 @@ std::vector<std::uint16_t> tagTriangles(const Contour& contour, const InsideVolu
                 const double away = std::hypot(v.i - middle[0], v.j - middle[1], v.k - middle[2]);
                 if (away < nearest) {
                     nearest = away;
-                    tags[t] = segments.at(v);
+                    tags[t] = segmentAt(segments, v);
                 }
             }
         }
@@ -203,20 +224,41 @@ std::vector<Vector3> surfaceNormals(const CellSurface& surface)
     return normals;
 }
 
+/// The direction towards the lumen that the field around a point of the contour tells, without length where it tells
+/// none.
+using NormalAt = std::function<Vector3(const Edge&)>;
+
+NormalAt fromDensities(const WallField& field, const InsideVolume& inside)
+{
+    return [&](const Edge& edge) {
+        if (!field.densitiesTell(edge.inside))
+            return Vector3{};
+        const double towards = inside.at(edge.inside) == kGas ? -1 : 1;
+        return (field.gradient(edge.inside) * (1 - edge.to_outside) + field.gradient(edge.outside) * edge.to_outside) *
+               towards;
+    };
+}
+
+NormalAt fromTissue(const TissueVolume& tissue)
+{
+    return [&](const Edge& edge) {
+        return (tissueGradient(tissue, edge.inside) * (1 - edge.to_outside) +
+                tissueGradient(tissue, edge.outside) * edge.to_outside) *
+               -1;
+    };
+}
+
 void setNormals(CellSurface& surface, const Contour& contour, const std::vector<std::uint32_t>& point_source,
-                const WallField& field, const InsideVolume& inside)
+                const NormalAt& towardsLumen, const InsideVolume& inside)
 {
     const auto geometric = surfaceNormals(surface);
     surface.normals.resize(surface.points_mm.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, point_source.size(), 4096), [&](const auto& range) {
         for (std::size_t n = range.begin(); n < range.end(); ++n) {
             const Edge edge = edgeAt(&contour.points[3 * std::size_t(point_source[n])], inside);
-            const Vector3 per_voxel =
-                field.gradient(edge.inside) * (1 - edge.to_outside) + field.gradient(edge.outside) * edge.to_outside;
-            const double towards = inside.at(edge.inside) == kGas ? -1 : 1;
-            Vector3 normal = normalized(toPatient(inside.grid, per_voxel) * towards);
+            Vector3 normal = normalized(toPatient(inside.grid, towardsLumen(edge)));
             const Vector3 own = normalized(geometric[n]);
-            if (dot(normal, own) < kAgree || !field.densitiesTell(edge.inside))
+            if (dot(normal, own) < kAgree)
                 normal = own;
             surface.normals[3 * n] = float(normal.x);
             surface.normals[3 * n + 1] = float(normal.y);
@@ -228,24 +270,45 @@ void setNormals(CellSurface& surface, const Contour& contour, const std::vector<
 }  // namespace
 
 struct LumenSurface::Parts {
-    Parts(const HuVolume& hu, const InsideVolume& mask, const WallDensities& densities)
-        : inside(mask), field(hu, mask, densities)
-    {
-    }
-    const InsideVolume& inside;
-    WallField field;
+    std::optional<InsideVolume> own_lumen;  ///< where it is not that of the labels
+    const InsideVolume* lumen = nullptr;
+    std::optional<WallField> field;
+    NormalAt normal_at;
     Contour contour;
     std::vector<NearWall> near_wall;
+
+    void make(Volume<std::int16_t> values)
+    {
+        near_wall = findNearWall(values, *lumen);
+        contour = steps::contour(std::move(values));
+    }
 };
 
 LumenSurface::LumenSurface(const HuVolume& hu, const InsideVolume& inside, const WallDensities& densities,
                            Progress& progress)
 {
     progress.report(0, "surface");
-    auto parts = std::make_unique<Parts>(hu, inside, densities);
-    auto values = wallValues(parts->field, inside);
-    parts->near_wall = findNearWall(values, inside);
-    parts->contour = contour(std::move(values));
+    auto parts = std::make_unique<Parts>();
+    parts->lumen = &inside;
+    parts->field.emplace(hu, inside, densities);
+    parts->normal_at = fromDensities(*parts->field, inside);
+    parts->make(wallValues(*parts->field, inside));
+    parts_ = std::move(parts);
+    progress.check();
+    progress.report(1, "surface");
+}
+
+LumenSurface::LumenSurface(const TissueVolume& tissue, const InsideVolume& inside, Progress& progress)
+{
+    if (tissue.grid != inside.grid)
+        throw Error(ErrorCode::bad_input, "the fraction of tissue does not lie on the grid of the labels", {},
+                    "run 'vicon work' to make it anew");
+    progress.report(0, "surface");
+    auto parts = std::make_unique<Parts>();
+    parts->own_lumen = lumenOf(tissue, inside);
+    parts->lumen = &*parts->own_lumen;
+    parts->normal_at = fromTissue(tissue);
+    parts->make(tissueValues(tissue, *parts->lumen));
     parts_ = std::move(parts);
     progress.check();
     progress.report(1, "surface");
@@ -260,9 +323,14 @@ const std::vector<NearWall>& LumenSurface::nearWall() const
     return parts_->near_wall;
 }
 
+const InsideVolume& LumenSurface::lumen() const
+{
+    return *parts_->lumen;
+}
+
 CellSurface LumenSurface::cellsOf(const SegmentVolume& segments, Progress& progress) const
 {
-    const InsideVolume& inside = parts_->inside;
+    const InsideVolume& inside = lumen();
     if (segments.grid != inside.grid)
         throw Error(ErrorCode::bad_input, "the segments do not lie on the grid of the labels", {},
                     "run 'vicon work' to make them anew");
@@ -272,7 +340,7 @@ CellSurface LumenSurface::cellsOf(const SegmentVolume& segments, Progress& progr
     CellSurface surface = arrange(parts_->contour, tags, inside.grid, point_source);
     progress.check();
     progress.report(0.6, "surface");
-    setNormals(surface, parts_->contour, point_source, parts_->field, inside);
+    setNormals(surface, parts_->contour, point_source, parts_->normal_at, inside);
     progress.report(1, "surface");
     return surface;
 }

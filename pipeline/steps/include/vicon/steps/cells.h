@@ -1,12 +1,15 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "vicon/core/cell_surface.h"
+#include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/subdivision.h"
 #include "vicon/core/volume.h"
+#include "vicon/steps/tissue.h"
 #include "vicon/steps/wall_densities.h"
 #include "vicon/steps/wall_distance.h"
 
@@ -24,11 +27,28 @@ namespace vicon::steps {
 CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const SegmentVolume& segments,
                          const WallDensities& densities, Progress& progress);
 
+/// What the wall's place is taken from.
+struct WallOptions {
+    std::string wall = "tissue";
+
+    template <class Visitor>
+    void visit(Visitor&& v)
+    {
+        v("subdivide.wall", wall, "",
+          "tissue: the wall lies where half of a voxel is tissue; densities: between the labels, where they say.",
+          OptionLimits{.choices = {"tissue", "densities"}});
+    }
+};
+
 /// The same in two parts: the contour needs no segments and can be made while the lumen is divided.
 class LumenSurface {
 public:
     /// `hu` and `inside` must outlive the surface. Throws Error{bad_input} when their grids do not fit together.
     LumenSurface(const HuVolume& hu, const InsideVolume& inside, const WallDensities& densities, Progress& progress);
+    /// The wall where half of a voxel is tissue, in one field through gas, levels and fluid; it may lie up to two
+    /// voxels beyond the labels, and folds may stand inside them. Normals are the gradient of the fraction. Both must
+    /// outlive the surface. Throws Error{bad_input} when their grids differ.
+    LumenSurface(const TissueVolume& tissue, const InsideVolume& inside, Progress& progress);
     ~LumenSurface();
     LumenSurface(LumenSurface&&) noexcept;
     LumenSurface& operator=(LumenSurface&&) noexcept;
@@ -36,7 +56,11 @@ public:
     /// Throws Error{bad_input} when the segments do not lie on the grid of the labels.
     CellSurface cellsOf(const SegmentVolume& segments, Progress& progress) const;
 
-    /// The voxels beside the wall with their distances from the surface, for wallDistance(); in order of their offsets.
+    /// The lumen within the surface: the labels, changed where the surface lies elsewhere.
+    const InsideVolume& lumen() const;
+
+    /// The voxels beside the wall of lumen() with their distances from the surface, for wallDistance(); in order of
+    /// their offsets.
     const std::vector<NearWall>& nearWall() const;
 
 private:

@@ -1,0 +1,173 @@
+#include "tissue/fluid_density.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "grid/neighbours.h"
+
+namespace vicon::steps {
+namespace {
+
+/// A block's edge: half of the distance over which the density of a pool changes.
+constexpr int kBlock_voxels = 4;
+/// Blur reaches this far into fluid from gas and tissue: three sigma of the point spread.
+constexpr int kDeep_voxels = 3;
+/// Passes of the mean over neighbouring blocks, and how many blocks beyond the fluid its density is known.
+constexpr int kSmoothing = 2, kBeyond = 2;
+/// What is less bright over tissue than this is no tagging.
+constexpr double kLeastContrast_hu = 120;
+
+bool isDeep(const InsideVolume& inside, Index3 v)
+{
+    return std::all_of(kFaces.begin(), kFaces.end(), [&](Index3 face) {
+        return inside.valueOr({v.i + kDeep_voxels * face.i, v.j + kDeep_voxels * face.j, v.k + kDeep_voxels * face.k},
+                              kOutside) == kFluid;
+    });
+}
+
+struct Sums {
+    double deep = 0, brightest = 0;
+    int count = 0;
+    bool fluid = false;
+};
+
+/// Sums over the fluid of a block: that of pure fluid where it has some.
+Sums sumsOf(const Mixture& mixture, Index3 first)
+{
+    Sums sums;
+    for (int k = first.k; k < first.k + kBlock_voxels; ++k)
+        for (int j = first.j; j < first.j + kBlock_voxels; ++j)
+            for (int i = first.i; i < first.i + kBlock_voxels; ++i) {
+                const Index3 v{i, j, k};
+                if (mixture.inside.valueOr(v, kOutside) != kFluid)
+                    continue;
+                const double hu = mixture.hu(v);
+                sums.fluid = true;
+                sums.brightest = std::max(sums.brightest, hu);
+                if (isDeep(mixture.inside, v)) {
+                    sums.deep += hu;
+                    ++sums.count;
+                }
+            }
+    return sums;
+}
+
+/// The sums over a value and its two neighbours along one axis of a box.
+void addNeighbours(std::vector<float>& values, const std::array<int, 3>& size, std::size_t axis)
+{
+    std::size_t stride = 1;
+    for (std::size_t a = 0; a < axis; ++a)
+        stride *= std::size_t(size[a]);
+    const auto length = std::size_t(size[axis]);
+    const std::size_t lines = values.size() / length;
+    tbb::parallel_for(std::size_t(0), lines, [&](std::size_t line) {
+        const std::size_t begin = line / stride * stride * length + line % stride;
+        float before = 0;
+        for (std::size_t n = 0; n < length; ++n) {
+            float& here = values[begin + n * stride];
+            const float own = here, after = n + 1 < length ? values[begin + (n + 1) * stride] : 0.0F;
+            here = before + own + after;
+            before = own;
+        }
+    });
+}
+
+}  // namespace
+
+FluidDensity::FluidDensity(const Mixture& mixture) : least_hu_(mixture.tissue_hu + kLeastContrast_hu)
+{
+    const Grid& grid = mixture.inside.grid;
+    for (std::size_t d = 0; d < 3; ++d)
+        size_[d] = (grid.size[d] + kBlock_voxels - 1) / kBlock_voxels;
+    sum_.assign(std::size_t(size_[0]) * std::size_t(size_[1]) * std::size_t(size_[2]), 0.0F);
+    weight_ = sum_;
+    std::vector<float> brightest(sum_.size(), 0.0F);
+    tbb::parallel_for(0, size_[2], [&](int k) {
+        for (int j = 0; j < size_[1]; ++j)
+            for (int i = 0; i < size_[0]; ++i) {
+                const Sums sums = sumsOf(mixture, {i * kBlock_voxels, j * kBlock_voxels, k * kBlock_voxels});
+                const std::size_t n = index(i, j, k);
+                sum_[n] = float(sums.deep);
+                weight_[n] = float(sums.count);
+                brightest[n] = sums.fluid && sums.brightest > least_hu_ ? float(sums.brightest) : 0.0F;
+            }
+    });
+    smooth();
+    // A pool that is nowhere deep: the brightest of it is the least diluted.
+    for (std::size_t n = 0; n < sum_.size(); ++n)
+        if (weight_[n] <= 0 && brightest[n] > 0) {
+            sum_[n] = brightest[n];
+            weight_[n] = 1;
+        }
+    for (int n = 0; n < kBeyond; ++n)
+        spread();
+    for (std::size_t n = 0; n < sum_.size(); ++n)
+        if (weight_[n] > 0)
+            sum_[n] /= weight_[n];
+    for (float& weight : weight_)
+        weight = weight > 0 ? 1.0F : 0.0F;
+}
+
+void FluidDensity::smooth()
+{
+    for (int pass = 0; pass < kSmoothing; ++pass)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            addNeighbours(sum_, size_, axis);
+            addNeighbours(weight_, size_, axis);
+        }
+}
+
+/// Blocks without a density take the mean of those beside them.
+void FluidDensity::spread()
+{
+    std::vector<float> sum = sum_, weight = weight_;
+    for (std::size_t n = 0; n < sum.size(); ++n)
+        if (weight[n] > 0) {
+            sum[n] /= weight[n];
+            weight[n] = 1;
+        }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        addNeighbours(sum, size_, axis);
+        addNeighbours(weight, size_, axis);
+    }
+    for (std::size_t n = 0; n < sum.size(); ++n)
+        if (weight_[n] <= 0 && weight[n] > 0) {
+            sum_[n] = sum[n] / weight[n];
+            weight_[n] = 1;
+        }
+}
+
+double FluidDensity::at(Index3 v) const
+{
+    // Between the middles of the blocks, over those where it is known.
+    std::array<int, 3> low{};
+    std::array<float, 3> part{};
+    const std::array<int, 3> at{v.i, v.j, v.k};
+    for (std::size_t d = 0; d < 3; ++d) {
+        const float place = (float(at[d]) + 0.5F) / kBlock_voxels - 0.5F;
+        low[d] = int(std::floor(place));
+        part[d] = place - float(low[d]);
+    }
+    float sum = 0, weight = 0;
+    for (int n = 0; n < 8; ++n) {
+        std::array<int, 3> block{};
+        float share = 1;
+        bool within = true;
+        for (std::size_t d = 0; d < 3; ++d) {
+            const int high = n >> d & 1;
+            block[d] = low[d] + high;
+            share *= high ? part[d] : 1 - part[d];
+            within = within && block[d] >= 0 && block[d] < size_[d];
+        }
+        if (!within)
+            continue;
+        const std::size_t m = index(block[0], block[1], block[2]);
+        sum += share * weight_[m] * sum_[m];
+        weight += share * weight_[m];
+    }
+    const double hu = weight > 0 ? double(sum / weight) : 0.0;
+    return hu < least_hu_ ? 0 : hu;
+}
+
+}  // namespace vicon::steps

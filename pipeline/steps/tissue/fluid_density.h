@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tissue/mixture.h"
+
+namespace vicon::steps {
+
+/// The density of the tagged fluid in and around each pool, place by place: tagging settles, and beams harden.
+class FluidDensity {
+public:
+    explicit FluidDensity(const Mixture& mixture);
+
+    /// HU at a voxel; 0 where no fluid is near, or it is too faint to be told from tissue.
+    double at(Index3 v) const;
+
+private:
+    std::size_t index(int i, int j, int k) const
+    {
+        return std::size_t(i) + std::size_t(size_[0]) * (std::size_t(j) + std::size_t(size_[1]) * std::size_t(k));
+    }
+    void smooth();
+    void spread();
+
+    std::array<int, 3> size_{};  ///< blocks along each axis
+    std::vector<float> sum_, weight_;
+    double least_hu_ = 0;
+};
+
+}  // namespace vicon::steps

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "tissue/fluid_density.h"
+#include "vicon/steps/tissue.h"
+
+namespace vicon::steps {
+
+/// Depth along gravity as a linear function of a voxel's place, in voxels of the axis nearest to gravity.
+struct DownAxis {
+    DownAxis(const Grid& grid, Vector3 gravity);
+    double depth(Index3 v) const { return per_voxel.x * v.i + per_voxel.y * v.j + per_voxel.z * v.k; }
+    int along(Index3 v) const { return axis == 0 ? v.i : axis == 1 ? v.j : v.k; }
+    Index3 moved(Index3 v, int steps) const
+    {
+        (axis == 0 ? v.i : axis == 1 ? v.j : v.k) += steps * sign;
+        return v;
+    }
+
+    int axis = 1;
+    int sign = 1;
+    double upright = 1;  ///< depth of one voxel down the axis
+    Vector3 per_voxel;
+};
+
+/// The plane of a level where it passes through one column of voxels.
+struct LevelColumn {
+    Index3 at;           ///< the voxel nearest to the plane
+    float depth = 0;     ///< of the plane, see DownAxis
+    float sigma = 0;     ///< of the blur across it, in the same unit
+    float fluid_hu = 0;  ///< right below it
+};
+
+struct FluidLevels {
+    std::vector<LevelColumn> columns;  ///< of gas over fluid, and of the plane's continuation around them
+    double sigma_voxels = 0;           ///< of the blur across all levels; 0 without any
+    std::size_t fitted = 0;            ///< columns of pure gas over pure fluid that they were fitted to
+};
+
+/// Finds where gas stands on fluid, and fits the levels.
+FluidLevels findLevels(const Mixture& mixture, const FluidDensity& fluid, const DownAxis& down);
+
+/// Sets the fraction of tissue in the blurred layers of the levels.
+/// @return the number of voxels set
+std::size_t applyLevels(const Mixture& mixture, const DownAxis& down, const FluidLevels& levels, double noise_hu,
+                        TissueVolume& tissue);
+
+}  // namespace vicon::steps

@@ -1,0 +1,143 @@
+#include "tissue/lumen_of_tissue.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "grid/allocate.h"
+#include "grid/mask.h"
+#include "grid/neighbours.h"
+#include "grid/wall_values.h"
+#include "tissue/mixture.h"
+
+namespace vicon::steps {
+namespace {
+
+/// How far the lumen may grow beyond its labels.
+constexpr int kMostLayers = 2;
+/// Sets of tissue without a wall up to here are noise or bubbles: 0.03 ml at the usual voxels.
+constexpr std::size_t kSpeck_voxels = 100;
+constexpr std::uint8_t kHalf = 128;  // the first value that is more than half
+
+template <class Wanted>
+std::vector<std::size_t> voxelsWhere(const Grid& grid, Wanted wanted)
+{
+    const auto slice = std::size_t(grid.size[0]) * std::size_t(grid.size[1]);
+    std::vector<std::vector<std::size_t>> slices(std::size_t(grid.size[2]), std::vector<std::size_t>{});
+    tbb::parallel_for(std::size_t(0), slices.size(), [&](std::size_t k) {
+        for (std::size_t n = k * slice; n < (k + 1) * slice; ++n)
+            if (wanted(n))
+                slices[k].push_back(n);
+    });
+    std::vector<std::size_t> all;
+    for (const auto& s : slices)
+        all.insert(all.end(), s.begin(), s.end());
+    return all;
+}
+
+/// Those of `voxels` (in order) that hang together, over faces, with the outside or are many.
+std::vector<std::size_t> withoutSpecks(const std::vector<std::size_t>& voxels, const InsideVolume& inside)
+{
+    std::vector<std::uint8_t> seen(voxels.size(), 0);
+    std::vector<std::size_t> kept, set;
+    for (std::size_t first = 0; first < voxels.size(); ++first) {
+        if (seen[first])
+            continue;
+        seen[first] = 1;
+        set.assign(1, first);
+        bool on_wall = false;
+        for (std::size_t n = 0; n < set.size(); ++n)
+            forEachOverFaces(inside.grid, voxels[set[n]], [&](std::size_t beside) {
+                on_wall = on_wall || inside.voxels[beside] == kOutside;
+                const auto at = std::lower_bound(voxels.begin(), voxels.end(), beside);
+                if (at == voxels.end() || *at != beside || seen[std::size_t(at - voxels.begin())])
+                    return;
+                seen[std::size_t(at - voxels.begin())] = 1;
+                set.push_back(std::size_t(at - voxels.begin()));
+            });
+        if (on_wall || set.size() > kSpeck_voxels)
+            for (const std::size_t n : set)
+                kept.push_back(voxels[n]);
+    }
+    return kept;
+}
+
+/// The label of what lies beside an outside voxel; kOutside where nothing does.
+std::uint8_t labelBeside(const InsideVolume& lumen, std::size_t n)
+{
+    std::uint8_t label = kOutside;
+    forEachOverFaces(lumen.grid, n, [&](std::size_t beside) { label = std::max(label, lumen.voxels[beside]); });
+    return label;
+}
+
+}  // namespace
+
+InsideVolume lumenOf(const TissueVolume& tissue, const InsideVolume& inside)
+{
+    InsideVolume lumen = inside;
+    const auto isWall = [&](std::size_t n) { return inside.voxels[n] != kOutside && tissue.voxels[n] >= kHalf; };
+    for (const std::size_t n : withoutSpecks(voxelsWhere(inside.grid, isWall), inside))
+        lumen.voxels[n] = kOutside;
+    std::vector<std::size_t> front = voxelsWhere(inside.grid, [&](std::size_t n) {
+        return inside.voxels[n] == kOutside && tissue.voxels[n] < kHalf && labelBeside(lumen, n) != kOutside;
+    });
+    for (int layer = 0; layer < kMostLayers; ++layer) {
+        std::vector<std::uint8_t> labels(front.size());
+        std::transform(front.begin(), front.end(), labels.begin(),
+                       [&](std::size_t n) { return labelBeside(lumen, n); });
+        for (std::size_t n = 0; n < front.size(); ++n)
+            lumen.voxels[front[n]] = labels[n];
+        std::vector<std::size_t> next;
+        for (const std::size_t n : front)
+            forEachOverFaces(inside.grid, n, [&](std::size_t beside) {
+                if (lumen.voxels[beside] == kOutside && inside.voxels[beside] == kOutside &&
+                    tissue.voxels[beside] < kHalf)
+                    next.push_back(beside);
+            });
+        std::sort(next.begin(), next.end());
+        next.erase(std::unique(next.begin(), next.end()), next.end());
+        front = std::move(next);
+    }
+    return lumen;
+}
+
+Volume<std::int16_t> tissueValues(const TissueVolume& tissue, const InsideVolume& lumen)
+{
+    const auto [nx, ny, nz] = tissue.grid.size;
+    auto values = makeVolume<std::int16_t>(Grid{.size = {nx + 2, ny + 2, nz + 2}}, std::int16_t(kWallScale));
+    const RowsNearLumen rows(lumen);
+    tbb::parallel_for(0, nz, [&, nx = nx, ny = ny](int k) {
+        for (int j = 0; j < ny; ++j) {
+            if (!rows.near(j, k))
+                continue;
+            const std::size_t begin = tissue.grid.offset({0, j, k});
+            std::int16_t* row = &values.at({1, j + 1, k + 1});
+            for (int i = 0; i < nx; ++i) {
+                const std::size_t n = begin + std::size_t(i);
+                const float value = (2 * float(tissue.voxels[n]) / kWhole - 1) * kWallScale;
+                const float least = WallField::kLeast * kWallScale;
+                row[i] = std::int16_t(std::lround(lumen.voxels[n] != kOutside ? std::clamp(value, -kWallScale, -least)
+                                                                              : std::clamp(value, least, kWallScale)));
+            }
+        }
+    });
+    return values;
+}
+
+Vector3 tissueGradient(const TissueVolume& tissue, Index3 v)
+{
+    int i_sum = 0, j_sum = 0, k_sum = 0;
+    for (int k = -1; k <= 1; ++k)
+        for (int j = -1; j <= 1; ++j)
+            for (int i = -1; i <= 1; ++i) {
+                const int value = tissue.valueOr({v.i + i, v.j + j, v.k + k}, std::uint8_t(kWhole));
+                const auto weight = [](int a, int b) { return (2 - a * a) * (2 - b * b); };
+                i_sum += i * weight(j, k) * value;
+                j_sum += j * weight(i, k) * value;
+                k_sum += k * weight(i, j) * value;
+            }
+    return {double(i_sum), double(j_sum), double(k_sum)};
+}
+
+}  // namespace vicon::steps

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "vicon/steps/tissue.h"
+
+namespace vicon::steps {
+
+/// The labels with the wall where the fraction of tissue is one half: what lies inside and holds more tissue is
+/// outside, and what lies beside the lumen and holds less is inside, at most two voxels from what was inside. Specks of
+/// tissue that hang on no wall stay lumen.
+InsideVolume lumenOf(const TissueVolume& tissue, const InsideVolume& inside);
+
+/// The fraction as whole numbers for a contour at 0: below 0 in `lumen`, above 0 elsewhere, as far from it as the
+/// fraction from one half. One more voxel on every side, so that a contour closes where the scan ends.
+Volume<std::int16_t> tissueValues(const TissueVolume& tissue, const InsideVolume& lumen);
+
+/// The gradient of the fraction, smoothed across its own direction, per voxel along the grid's axes.
+Vector3 tissueGradient(const TissueVolume& tissue, Index3 v);
+
+}  // namespace vicon::steps

@@ -1,0 +1,238 @@
+#include "tissue/sheets.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "grid/neighbours.h"
+#include "tissue/mixture.h"
+#include "vicon/core/disjoint_sets.h"
+
+namespace vicon::steps {
+namespace {
+
+/// A sheet falls off to lumen on both sides within this.
+constexpr double kReach_mm = 4;
+/// The least rise of a sheet's middle over what lies on both sides: a wall of 0.45 mm at a blur of 0.7 mm has 0.25,
+/// threads of mucus have less.
+constexpr double kLeastRise = 0.25, kLeastRise_noises = 5;
+/// What lies on both sides of a sheet holds at most this part of its height: lumen.
+constexpr float kFloor = 0.45F;
+/// Of this fraction a wall is thick enough to keep its own place.
+constexpr double kThick = 0.92;
+/// Smaller sets of voxels are specks.
+constexpr std::size_t kSmallest_voxels = 10;
+/// Voxels around a sheet's middle that are scaled with it: its blurred flanks.
+constexpr int kFlank_voxels = 2;
+/// So many voxels of a sheet's middle lie in the 5 x 5 x 5 around each; of a thread of mucus a third.
+constexpr int kSheet_voxels = 12;
+/// Part of its height at which a sheet fainter than half ends: 1.3 mm wide at a blur of 0.7 mm.
+constexpr double kEndOfFaint = 0.65;
+
+/// The thirteen lines through a voxel and its neighbours.
+constexpr std::array<Index3, 13> kLines{{{1, 0, 0},
+                                         {0, 1, 0},
+                                         {0, 0, 1},
+                                         {1, 1, 0},
+                                         {1, -1, 0},
+                                         {1, 0, 1},
+                                         {1, 0, -1},
+                                         {0, 1, 1},
+                                         {0, 1, -1},
+                                         {1, 1, 1},
+                                         {1, 1, -1},
+                                         {1, -1, 1},
+                                         {-1, 1, 1}}};
+
+struct Ridge {
+    std::size_t voxel;
+    float height;
+};
+
+/// The level at which a blurred sheet of this height has its own width. The middle of a sheet of width w is erf(u), and
+/// it is half of erf(2u) where it ends, with u = w / (sqrt(8) sigma).
+double levelOf(double height)
+{
+    double u = 0;
+    for (double step = 1; step > 1e-4; step /= 2)
+        if (std::erf(u + step) < height)
+            u += step;
+    return std::min(0.5 * std::erf(2 * u), kEndOfFaint * height);
+}
+
+class Sheets {
+public:
+    Sheets(const InsideVolume& inside, int down, double noise, const TissueVolume& tissue)
+        : inside_(inside),
+          tissue_(tissue),
+          reach_(std::max(2, int(kReach_mm / tissue.grid.spacing_mm[0]))),
+          least_(kWhole * std::max(kLeastRise, kLeastRise_noises * noise)),
+          down_(down)
+    {
+        const std::ptrdiff_t row = tissue.grid.size[0], slice = row * tissue.grid.size[1];
+        for (std::size_t n = 0; n < kLines.size(); ++n)
+            strides_[n] = kLines[n].i + kLines[n].j * row + kLines[n].k * slice;
+    }
+
+    std::vector<Ridge> find() const
+    {
+        const auto [nx, ny, nz] = tissue_.grid.size;
+        std::vector<std::vector<Ridge>> slices(std::size_t(nz), std::vector<Ridge>{});
+        tbb::parallel_for(reach_, std::max(reach_, nz - reach_), [&, nx = nx, ny = ny](int k) {
+            for (int j = reach_; j < ny - reach_; ++j) {
+                const std::size_t begin = tissue_.grid.offset({0, j, k});
+                for (int i = reach_; i < nx - reach_; ++i) {
+                    const float s = tissue_.voxels[begin + std::size_t(i)];
+                    if (s >= least_ && s <= kThick * kWhole && isRidge(begin + std::size_t(i)))
+                        slices[std::size_t(k)].push_back({begin + std::size_t(i), s / kWhole});
+                }
+            }
+        });
+        std::vector<Ridge> all;
+        for (const auto& slice : slices)
+            all.insert(all.end(), slice.begin(), slice.end());
+        return all;
+    }
+
+private:
+    /// Whether lumen lies on both sides along the line on which the sheet is steepest.
+    bool isRidge(std::size_t n) const
+    {
+        const std::uint8_t* at = &tissue_.voxels[n];
+        for (std::size_t line = 0; line < strides_.size(); ++line) {
+            const std::ptrdiff_t step = strides_[line];
+            if (at[step] > at[0] || at[-step] > at[0])
+                continue;
+            // Between gas and fluid along gravity lies a level.
+            const std::uint8_t before = sideOf(n, -step, kLines[line]), after = sideOf(n, step, kLines[line]);
+            if (before != kOutside && after != kOutside && (before == after || isAcross(kLines[line])))
+                return true;
+        }
+        return false;
+    }
+
+    bool isAcross(Index3 line) const { return (down_ == 0 ? line.i : down_ == 1 ? line.j : line.k) == 0; }
+
+    /// The label of the lumen that a sheet falls off to on one side, or kOutside.
+    std::uint8_t sideOf(std::size_t n, std::ptrdiff_t step, Index3 line) const
+    {
+        const double length = std::sqrt(double(line.i * line.i + line.j * line.j + line.k * line.k));
+        const int steps = int(reach_ / length);
+        const float floor = std::min(kFloor * float(tissue_.voxels[n]), float(tissue_.voxels[n]) - least_);
+        for (int m = 1; m <= steps; ++m) {
+            const auto p = std::size_t(std::ptrdiff_t(n) + m * step);
+            if (tissue_.voxels[p] > tissue_.voxels[n])
+                return kOutside;
+            if (tissue_.voxels[p] <= floor)
+                return inside_.voxels[p];
+        }
+        return kOutside;
+    }
+
+    const InsideVolume& inside_;
+    const TissueVolume& tissue_;
+    int reach_;
+    float least_;
+    int down_;  ///< the axis nearest to gravity
+    std::array<std::ptrdiff_t, 13> strides_{};
+};
+
+template <class Use>
+void forRidgesNear(const std::vector<Ridge>& ridges, const Grid& grid, std::size_t voxel, int reach, Use use)
+{
+    const Index3 v = grid.indexOf(voxel);
+    for (int k = v.k - reach; k <= v.k + reach; ++k)
+        for (int j = v.j - reach; j <= v.j + reach; ++j) {
+            const Index3 first{v.i - reach, j, k};
+            if (!grid.contains({v.i, j, k}))
+                continue;
+            const std::size_t from = grid.offset({0, j, k}) + std::size_t(std::max(0, first.i));
+            auto at = std::lower_bound(ridges.begin(), ridges.end(), from,
+                                       [](const Ridge& ridge, std::size_t n) { return ridge.voxel < n; });
+            for (; at != ridges.end() && at->voxel <= grid.offset({0, j, k}) + std::size_t(v.i + reach); ++at)
+                use(std::size_t(at - ridges.begin()));
+        }
+}
+
+/// Without the specks, and each with the height of the highest beside it: a sheet's middle lies between voxels.
+std::vector<Ridge> connected(const std::vector<Ridge>& ridges, const Grid& grid)
+{
+    DisjointSets sets(ridges.size());
+    std::vector<float> heights(ridges.size());
+    for (std::size_t n = 0; n < ridges.size(); ++n)
+        forRidgesNear(ridges, grid, ridges[n].voxel, 1, [&](std::size_t other) {
+            sets.join(std::uint32_t(n), std::uint32_t(other));
+            heights[n] = std::max(heights[n], ridges[other].height);
+        });
+    std::vector<int> around(ridges.size(), 0);
+    for (std::size_t n = 0; n < ridges.size(); ++n)
+        forRidgesNear(ridges, grid, ridges[n].voxel, 2, [&](std::size_t) { ++around[n]; });
+    std::vector<std::size_t> sizes(ridges.size(), 0);
+    for (std::size_t n = 0; n < ridges.size(); ++n)
+        ++sizes[sets.rootOf(std::uint32_t(n))];
+    // A sheet's rim has fewer around it, but the sheet beside it.
+    const auto besideSheet = [&](std::size_t n) {
+        bool found = false;
+        forRidgesNear(ridges, grid, ridges[n].voxel, 2,
+                      [&](std::size_t other) { found = found || around[other] >= kSheet_voxels; });
+        return found;
+    };
+    std::vector<Ridge> kept;
+    for (std::size_t n = 0; n < ridges.size(); ++n)
+        if (sizes[sets.rootOf(std::uint32_t(n))] >= kSmallest_voxels && besideSheet(n))
+            kept.push_back({ridges[n].voxel, heights[n]});
+    return kept;
+}
+
+/// A voxel in the flank of a sheet, and the middle it belongs to.
+struct Flank {
+    std::size_t voxel;
+    int away2;
+    float height;
+    bool operator<(const Flank& other) const
+    {
+        if (voxel != other.voxel)
+            return voxel < other.voxel;
+        return away2 != other.away2 ? away2 < other.away2 : height > other.height;
+    }
+};
+
+std::vector<Flank> flanksOf(const std::vector<Ridge>& ridges, const Grid& grid)
+{
+    std::vector<Flank> flanks;
+    for (const Ridge& ridge : ridges) {
+        const Index3 v = grid.indexOf(ridge.voxel);
+        forEachInCube(v, kFlank_voxels, [&](Index3 w) {
+            const int i = w.i - v.i, j = w.j - v.j, k = w.k - v.k, away2 = i * i + j * j + k * k;
+            if (away2 <= kFlank_voxels * kFlank_voxels + 1 && grid.contains(w))
+                flanks.push_back({grid.offset(w), away2, ridge.height});
+        });
+    }
+    std::sort(flanks.begin(), flanks.end());
+    flanks.erase(
+        std::unique(flanks.begin(), flanks.end(), [](const Flank& a, const Flank& b) { return a.voxel == b.voxel; }),
+        flanks.end());
+    return flanks;
+}
+
+}  // namespace
+
+SheetsFound keepSheets(const InsideVolume& inside, int down, double noise, TissueVolume& tissue)
+{
+    const std::vector<Ridge> ridges = connected(Sheets(inside, down, noise, tissue).find(), tissue.grid);
+    SheetsFound found{.ridge_voxels = ridges.size()};
+    for (const Ridge& ridge : ridges)
+        found.faint_voxels += ridge.height < 0.5F ? 1 : 0;
+    std::array<float, 257> scale{};
+    for (std::size_t n = 1; n < scale.size(); ++n)
+        scale[n] = std::max(1.0F, float(0.5 / levelOf(double(n) / 256)));
+    for (const Flank& flank : flanksOf(ridges, tissue.grid))
+        tissue.voxels[flank.voxel] =
+            stored(tissue.voxels[flank.voxel] / kWhole * scale[std::size_t(std::lround(flank.height * 256))]);
+    return found;
+}
+
+}  // namespace vicon::steps

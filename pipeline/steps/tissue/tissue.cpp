@@ -1,0 +1,82 @@
+#include "vicon/steps/tissue.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "grid/allocate.h"
+#include "tissue/edge_model.h"
+#include "tissue/levels.h"
+#include "tissue/near_mask.h"
+#include "tissue/sheets.h"
+#include "tissue/smooth_along_wall.h"
+
+namespace vicon::steps {
+namespace {
+
+/// The blur where no level tells it.
+constexpr double kUsualBlur_mm = 0.7;
+/// Tagging changes the densities this far from its fluid: three sigma of the point spread.
+constexpr int kTagged_voxels = 4;
+/// Of the cleansed densities, as the field has them: gas and tissue.
+constexpr double kCleanGas_hu = -1000, kCleanTissue_hu = 40;
+
+/// The densities, and beside tagging those of the fraction.
+HuVolume cleanse(const Mixture& mixture, const TissueVolume& tissue)
+{
+    const auto [nx, ny, nz] = tissue.grid.size;
+    auto cleansed = makeVolume<std::int16_t>(tissue.grid);
+    const auto tagged = nearMask(mixture.inside, kFluid, kTagged_voxels);
+    tbb::parallel_for(0, nz, [&, nx = nx, ny = ny](int k) {
+        for (int j = 0; j < ny; ++j) {
+            const std::size_t begin = tissue.grid.offset({0, j, k});
+            for (int i = 0; i < nx; ++i) {
+                const std::size_t n = begin + std::size_t(i);
+                const double clean_hu =
+                    kCleanGas_hu + (kCleanTissue_hu - kCleanGas_hu) * double(tissue.voxels[n]) / double(kWhole);
+                const double hu = mixture.hu({i, j, k});
+                // Fat and what else is darker than tissue stays: only fluid makes brighter.
+                const bool is_tagging = tagged[n] && (mixture.inside.voxels[n] == kFluid || hu > clean_hu);
+                cleansed.voxels[n] = std::int16_t(std::lround(is_tagging ? clean_hu : hu));
+            }
+        }
+    });
+    return cleansed;
+}
+
+}  // namespace
+
+TissueResult findTissue(const HuVolume& hu, const InsideVolume& inside, Vector3 gravity, const WallDensities& densities,
+                        double noise_hu, Progress& progress)
+{
+    progress.report(0, "tissue");
+    const Mixture mixture(hu, inside, densities);
+    const DownAxis down(inside.grid, gravity);
+    const FluidDensity fluid(mixture);
+    const FluidLevels levels = findLevels(mixture, fluid, down);
+    progress.check();
+    progress.report(0.2, "tissue");
+    const double usual_voxels = kUsualBlur_mm / inside.grid.spacing_mm[std::size_t(down.axis)];
+    const double blur_voxels = levels.fitted > 0 ? levels.sigma_voxels : usual_voxels;
+    TissueResult result;
+    result.tissue = fractionAtEdges(mixture, fluid, blur_voxels);
+    progress.check();
+    progress.report(0.5, "tissue");
+    const std::size_t in_levels = applyLevels(mixture, down, levels, noise_hu, result.tissue);
+    const double noise = noise_hu / (mixture.tissue_hu - mixture.gas_hu);
+    smoothAlongWall(noise, result.tissue);
+    const SheetsFound sheets = keepSheets(inside, down.axis, noise, result.tissue);
+    progress.check();
+    progress.report(0.8, "tissue");
+    result.cleansed = cleanse(mixture, result.tissue);
+    result.found = {{"level_columns", levels.columns.size()},
+                    {"level_columns_fitted", levels.fitted},
+                    {"level_voxels", in_levels},
+                    {"blur_mm", blur_voxels * inside.grid.spacing_mm[std::size_t(down.axis)]},
+                    {"sheet_voxels", sheets.ridge_voxels},
+                    {"faint_sheet_voxels", sheets.faint_voxels}};
+    progress.report(1, "tissue");
+    return result;
+}
+
+}  // namespace vicon::steps
