@@ -107,7 +107,7 @@ double secondsToDraw(const CellSurface& surface, const Pose& pose, const Setting
     return picture.seconds();
 }
 
-double cpuSecondsToDraw(SurfaceScene& scene, Offscreen& picture, const Pose& pose, const SeenParts& shown,
+double cpuSecondsToDraw(SurfaceScene& scene, Offscreen& picture, const Pose& pose, const VisibleParts& shown,
                         const Settings& settings)
 {
     scene.lookFrom(pose, settings.angle_deg);
@@ -137,18 +137,18 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
     Flight flight;
     const std::vector<ViewPose> poses = posesOf(scan, settings.step_mm);
     const auto prepareAfter = [&](std::size_t n) { ahead.prepare(poses[(n + 1) % poses.size()].pose, lens); };
-    std::vector<SeenParts> chosen;
+    std::vector<VisibleParts> chosen;
     scene.lookFrom(poses[0].pose, settings.angle_deg);
-    scene.showSeen(ahead.seenFrom(poses[0].pose, lens));
+    scene.showSeen(ahead.visibleFrom(poses[0].pose, lens));
     scene.sendAll();  // as the reading room does before one flies
     picture.draw(settings.side, settings.side);
     for (const ViewPose& view : poses)
-        chosen.push_back(visibility.seenFrom(view.pose, lens));
+        chosen.push_back(visibility.visibleFrom(view.pose, lens));
     // Each way of drawing flies the whole flight, frame after frame, as a reader does.
     const auto flyChosen = [&] {
         ahead.prepare(poses[0].pose, lens);
         for (std::size_t n = 0; n < poses.size(); ++n) {
-            const SeenParts shown = ahead.seenFrom(poses[n].pose, lens);
+            const VisibleParts shown = ahead.visibleFrom(poses[n].pose, lens);
             const double cpu_begin = cpuSeconds();
             // A frame is over when it is drawn and the next one's parts are chosen.
             const double s = secondsOf([&] {
@@ -201,8 +201,8 @@ Flight flyThrough(const PreparedScan& scan, const Settings& settings)
     }
     for (std::size_t n = 0; n < poses.size(); ++n) {
         const ViewPose& view = poses[n];
-        const SeenParts& shown = chosen[n];
-        const double choice = secondsOf([&] { visibility.seenFrom(view.pose, lens); });
+        const VisibleParts& shown = chosen[n];
+        const double choice = secondsOf([&] { visibility.visibleFrom(view.pose, lens); });
         const double even_cpu = cpuSecondsToDraw(scene, picture, view.pose, shown, settings);
         flight.cells += double(scene.cellsShown());
         flight.triangles += double(scene.trianglesShown());

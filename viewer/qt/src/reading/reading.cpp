@@ -145,7 +145,7 @@ void Reading::beginPass()
 {
     for (OpenScan* open : {session_.scan(), session_.beside()})
         if (open)
-            open->seen.beginPass();
+            open->coverage.beginPass();
 }
 
 std::optional<Marker> Reading::markerNear(const std::vector<Point3>& line_mm) const

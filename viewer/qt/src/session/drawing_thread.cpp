@@ -79,7 +79,7 @@ void DrawingThread::draw(Which which, std::shared_ptr<OpenScan> scan, const Endo
         const SnapshotRequest& snapshot = request.snapshot;
         auto picture = std::make_shared<Picture>(picturesOf(all, scan).endoscopic(
             snapshot, request.place, request.still,
-            {request.paint_seen ? &scan->seen : nullptr, request.structure, request.lamp_reach_mm}));
+            {request.paint_seen ? &scan->coverage : nullptr, request.structure, request.lamp_factor}));
         if (request.count_seen)
             worker_.post(which == Which::leading ? "seen" : "seen beside",
                          [this, scan, always = request.still](AllPictures& drawn) -> Worker::Work {
@@ -100,7 +100,7 @@ void DrawingThread::countSeen(AllPictures& all, const std::shared_ptr<OpenScan>&
         const auto now = std::chrono::steady_clock::now();
         if (some.of.lock() != scan || (!always && now - some.counted < kBetweenCounts))
             continue;
-        some.pictures->countSeen(scan->seen);
+        some.pictures->countSeen(scan->coverage);
         some.counted = now;
     }
 }
@@ -115,7 +115,7 @@ void DrawingThread::film(std::shared_ptr<OpenScan> scan, const EndoscopicRequest
                          poseAtStation(scan->files.frames(), scan->lumen, request.place.station_mm, heading);
                      const SnapshotResult place{view.pose, request.place.station_mm, view.clearance_mm, true};
                      film->add(picturesOf(all, scan).endoscopic(request.snapshot, place, false,
-                                                                {nullptr, request.structure, request.lamp_reach_mm}));
+                                                                {nullptr, request.structure, request.lamp_factor}));
                      if (last)
                          film->finish();
                      return [this, film, last] { emit filmed(film, last); };

@@ -19,7 +19,7 @@ struct EndoscopicRequest {
     bool count_seen = true;   ///< it is shown to somebody; while moving, some pictures are counted
     bool paint_seen = false;  ///< what was seen in earlier passes
     bool structure = false;   ///< cells coloured, gates drawn, what is drawn counted
-    double lamp_reach_mm = kUsualLampReach_mm;
+    double lamp_factor = 1;   ///< of the lamp's usual reach
 };
 
 /// What a picture that is shown was made of: a click into it means that place, wherever the eye is by then.
