@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Interpolation, ResampleByEach, testing::Values("linear"
 
 TEST_P(ResampleByEach, IsBitForBitTheSameWhateverTheStorageOrderAndMirroring)
 {
-    // Rows of sixteen voxels are taken together, others are not.
+    // Oblique and straight axes.
     for (const int columns : {13, 16}) {
         const Grid grid{.size = {columns, 11, 9},
                         .origin_mm = {-71.37, 12.5, 803.125},

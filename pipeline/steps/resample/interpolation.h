@@ -5,16 +5,14 @@
 
 namespace vicon::steps {
 
-enum class Interpolation { linear, bspline, windowed_sinc };
+/// The smooth ones; linear interpolation is LinearResampleFilter.
+enum class Interpolation { bspline, windowed_sinc };
 
 /// Acquired slices, along the oriented axes, and which they are.
 struct AcquiredSlab {
     ItkHu::Pointer slices;
     SliceRange range;
 };
-
-/// New slices by linear interpolation. Rows may be longer than asked for; what follows is of no meaning.
-ItkFloat::Pointer interpolateLinearly(const AcquiredSlab& acquired, const Sampling& sampling, SliceRange of_new);
 
 /// How many acquired voxels away a density still has a weight worth counting.
 int reachOf(Interpolation interpolation);

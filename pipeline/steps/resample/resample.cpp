@@ -13,7 +13,7 @@
 namespace vicon::steps {
 namespace {
 
-// So many voxels at a time: a slab's floats stay in a core's cache between interpolating and rounding.
+// So many voxels at a time: enough slabs for all threads to end together, and each worth a filter of its own.
 constexpr int kSlab_voxels = 1 << 20;
 // Smooth interpolation needs slices around each slab as well: thicker slabs waste less.
 constexpr int kSmoothSlab_slices = 24;

@@ -12,11 +12,11 @@ namespace {
 constexpr double kOnVoxel = 1e-6;
 constexpr double kMostAlongAxis = 1e6;
 
-std::vector<Tap> tapsFor(int count, double acquired_in_new_voxels, int acquired_count)
+std::vector<Tap> tapsFor(int count, double spacing_mm, int acquired_count, double acquired_spacing_mm)
 {
     std::vector<Tap> taps(static_cast<std::size_t>(count));
     for (int n = 0; n < count; ++n) {
-        const double at = std::min(n / acquired_in_new_voxels, double(acquired_count - 1));
+        const double at = std::min(n * spacing_mm / acquired_spacing_mm, double(acquired_count - 1));
         int low = int(at);
         double weight = at - low;
         if (weight > 1 - kOnVoxel) {
@@ -57,7 +57,7 @@ Sampling sampleIsotropically(const Grid& acquired, double spacing_mm)
             ratio = 1;
         sampling.grid.size[d] = count;
         sampling.grid.spacing_mm[d] = spacing_mm;
-        sampling.taps[d] = tapsFor(count, ratio, acquired.size[d]);
+        sampling.taps[d] = tapsFor(count, spacing_mm, acquired.size[d], acquired.spacing_mm[d]);
     }
     return sampling;
 }

@@ -10,21 +10,15 @@
 
 #include "resample/acquired_slices.h"
 #include "resample/interpolation.h"
-#include "resample/padding.h"
+#include "resample/linear.h"
+#include "resample/rounded.h"
 #include "vicon/core/error.h"
 
 namespace vicon::steps {
 namespace {
 
-/// Makes every HU positive, for truncation; the values of floats of that size are a thousandth apart.
-constexpr float kAboveAllHu = 32768;
 // What lies farther away changes a B-spline by less than a thousandth of an HU.
 constexpr int kMargin_slices = 16;
-
-std::int16_t rounded(float hu)
-{
-    return std::int16_t(std::int32_t(hu + (kAboveAllHu + 0.5F)) - std::int32_t(kAboveAllHu));
-}
 
 /// Beside an edge smooth interpolation goes beyond the densities around it, but never to what stands for padding.
 std::int16_t roundedOvershoot(float hu)
@@ -77,17 +71,15 @@ void guarded(const std::function<void()>& work)
 void resampleLinearly(const OrientedScan& scan, const Sampling& sampling, SliceRange of_new, std::int16_t* out)
 {
     guarded([&] {
-        const AcquiredSlab acquired = slabOf(scan, sampling.acquiredAround(of_new));
-        const ItkFloat::Pointer values = interpolateLinearly(acquired, sampling, of_new);
-        PaddingGuard guard(sampling, acquired.slices->GetBufferPointer(), acquired.range);
-        const std::size_t row = values->GetLargestPossibleRegion().GetSize(0);
-        const float* from = values->GetBufferPointer();
-        const int columns = sampling.grid.size[0];
-        for (int k = of_new.begin; k < of_new.end; ++k)
-            for (int j = 0; j < sampling.grid.size[1]; ++j, from += row, out += columns) {
-                std::transform(from, from + columns, out, rounded);
-                guard.mend(j, k, out);
-            }
+        const auto& size = sampling.grid.size;
+        auto filter = LinearResampleFilter::New();
+        filter->SetNumberOfWorkUnits(1);
+        filter->setScan(scan, sampling);
+        filter->GraftOutput(itkView(out, {size[0], size[1], of_new.count()}));
+        ItkHu::RegionType slab({0, 0, of_new.begin}, {itk::SizeValueType(size[0]), itk::SizeValueType(size[1]),
+                                                      itk::SizeValueType(of_new.count())});
+        filter->GetOutput()->SetRequestedRegion(slab);
+        filter->Update();
     });
 }
 

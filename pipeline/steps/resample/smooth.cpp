@@ -74,9 +74,7 @@ void divideByGains(ItkFloat& image, const Sampling& sampling, SliceRange of_new)
 
 int reachOf(Interpolation interpolation)
 {
-    return interpolation == Interpolation::linear          ? 1
-           : interpolation == Interpolation::windowed_sinc ? int(kSincRadius)
-                                                           : kSplineReach;
+    return interpolation == Interpolation::windowed_sinc ? int(kSincRadius) : kSplineReach;
 }
 
 ItkFloat::Pointer interpolateSmoothly(const AcquiredSlab& acquired, const Sampling& sampling, SliceRange of_new,

@@ -12,10 +12,11 @@
 namespace vicon::steps {
 namespace {
 
+// No case recorded but where one is named; the path that comes out is held by steps_skeleton_family_test.
 constexpr double kEndTolerance_mm = 8;  // an end may lie in a block that the coarse graph leaves out
 constexpr double kCutMargin_mm = 1.5;   // what is removed at a contact, beyond its own radius
-constexpr int kMostCuts = 8;
-constexpr int kTriesPerPart = 2;
+constexpr int kMostCuts = 8;            // of contacts: each costs a search of the path
+constexpr int kTriesPerPart = 2;        // of such searches for a part that stays uncovered
 // A contact is narrow beside the lumen around it; the prone reference scan's widest pouches lie beside 13 of 25 mm.
 constexpr double kWidestContact_mm = 8;
 constexpr double kContactShare = 0.5;
