@@ -67,8 +67,9 @@ struct ReadingPictures::Parts {
         return picture;
     }
 
-    void setLook(bool color_cells, double reach_mm, bool ambient_occlusion)
+    void setLook(bool color_cells, double reach_mm, bool wants_occlusion)
     {
+        const bool ambient_occlusion = wants_occlusion && scan.hasOpenness();
         if (occluded != ambient_occlusion && ambient_occlusion)
             scene.shadeByOpenness(scan.cells(), scan.openness());
         else if (occluded != ambient_occlusion)

@@ -47,6 +47,7 @@ void Reading::connectSession()
                "through the densities: slower, and what it shows is not counted as seen."));
     });
     connect(&drawing_, &DrawingThread::endoscopicDrawn, this, &Reading::showEndoscopic);
+    connect(&drawing_, &DrawingThread::wallShaded, this, [this] { moved(true); });
     connect(&drawing_, &DrawingThread::overviewDrawn, this, [this](const Picture& picture, const PlaneView& view) {
         shown_overview_ = view;
         views_.overview()->showPicture(picture);

@@ -47,19 +47,21 @@ ReadingPictures& DrawingThread::picturesOf(AllPictures& all, const std::shared_p
 
 void DrawingThread::findSightLines(const std::shared_ptr<OpenScan>& scan)
 {
-    sight_worker_.post("sight lines " + scan->record.id,
-                       [this, files = scan->files, of = std::weak_ptr(scan)]() -> Worker::Work {
-                           if (of.expired())
-                               return {};
-                           auto visibility = std::make_shared<const CellVisibility>(files);
-                           worker_.post("sight lines", [visibility, of](AllPictures& all) -> Worker::Work {
-                               for (ScanPictures& some : all)
-                                   if (some.of.lock() == of.lock())
-                                       some.pictures->chooseBy(visibility);
-                               return {};
-                           });
-                           return {};
-                       });
+    sight_worker_.post(
+        "sight lines " + scan->record.id, [this, files = scan->files, of = std::weak_ptr(scan)]() -> Worker::Work {
+            if (of.expired())
+                return {};
+            files.openness();
+            worker_.post("shade", [this](AllPictures&) -> Worker::Work { return [this] { emit wallShaded(); }; });
+            auto visibility = std::make_shared<const CellVisibility>(files);
+            worker_.post("sight lines", [visibility, of](AllPictures& all) -> Worker::Work {
+                for (ScanPictures& some : all)
+                    if (some.of.lock() == of.lock())
+                        some.pictures->chooseBy(visibility);
+                return {};
+            });
+            return {};
+        });
 }
 
 void DrawingThread::drawEndoscopic(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request)

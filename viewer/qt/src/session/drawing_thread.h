@@ -57,6 +57,8 @@ signals:
     void besideDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownPicture& shown);
     void overviewDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::PlaneView& view);
     void seenChanged();
+    /// The wall can be drawn with ambient occlusion from now on.
+    void wallShaded();
     /// The pictures of a scan that has just been opened are made without it.
     void withoutOpenGl();
     void failed(const QString& message);
@@ -74,7 +76,8 @@ private:
     ReadingPictures& picturesOf(AllPictures& all, const std::shared_ptr<OpenScan>& scan);
     /// In the picture drawn last; while moving not in every one.
     static void countSeen(AllPictures& all, const std::shared_ptr<OpenScan>& scan, bool always);
-    /// Finds the lines of sight of a scan whose pictures have been begun; until then gates choose what is drawn.
+    /// Finds the openness and the lines of sight of a scan whose pictures have been begun; until then gates choose what
+    /// is drawn.
     void findSightLines(const std::shared_ptr<OpenScan>& scan);
 
     WorkerWith<AllPictures> worker_{this};

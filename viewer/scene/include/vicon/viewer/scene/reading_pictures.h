@@ -44,6 +44,7 @@ public:
     bool hasOpenGl() const;
 
     /// The endoscopic view from `place`, only cells that may be seen drawn; the request's width and height must be set.
+    /// Ambient occlusion is in it as soon as the scan has its openness, which is not waited for.
     /// @param still smoothed; while the eye moves not, and peeled as coarsely as ten pictures a second ask for
     Picture endoscopic(const SnapshotRequest& request, const SnapshotResult& place, bool still,
                        const EndoscopicLook& look = {});
