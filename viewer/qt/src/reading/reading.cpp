@@ -71,6 +71,7 @@ void Reading::showEndoscopic(const Picture& picture, const ShownPicture& shown)
 {
     shown_ = shown;
     views_.endoscopic()->showPicture(picture);
+    views_.endoscopic()->setProperty("shaded", shown.shaded && shown.isOf(sharedScan()));
     if (shown.isOf(sharedScan()))
         views_.endoscopic()->setAccessibleDescription(
             tr("%1 mm from the %2").arg(shown.place.station_mm, 0, 'f', 0).arg(organWords().first_end.c_str()));

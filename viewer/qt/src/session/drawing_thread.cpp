@@ -79,6 +79,7 @@ void DrawingThread::draw(Which which, std::shared_ptr<OpenScan> scan, const Endo
     const char* name = which == Which::leading ? "endoscopic" : "beside";
     worker_.post(name, [this, which, scan = std::move(scan), request](AllPictures& all) -> Worker::Work {
         const SnapshotRequest& snapshot = request.snapshot;
+        const bool shaded = !snapshot.ambient_occlusion || scan->files.hasOpenness();
         auto picture = std::make_shared<Picture>(picturesOf(all, scan).endoscopic(
             snapshot, request.place, request.still,
             {request.paint_seen ? &scan->coverage : nullptr, request.structure, request.lamp_factor}));
@@ -90,7 +91,7 @@ void DrawingThread::draw(Which which, std::shared_ptr<OpenScan> scan, const Endo
                          });
         const Lens lens{snapshot.view_angle_deg, snapshot.width, snapshot.height};
         const auto signal = which == Which::leading ? &DrawingThread::endoscopicDrawn : &DrawingThread::besideDrawn;
-        return [this, picture, signal, shown = ShownPicture{scan, request.place, lens}] {
+        return [this, picture, signal, shown = ShownPicture{scan, request.place, lens, shaded}] {
             emit(this->*signal)(*picture, shown);
         };
     });

@@ -27,6 +27,7 @@ struct ShownPicture {
     std::weak_ptr<OpenScan> scan;
     SnapshotResult place;
     Lens lens;
+    bool shaded = false;  ///< with the ambient occlusion that was asked for; it comes a little later than the first
 
     bool isOf(const std::shared_ptr<OpenScan>& which) const { return which && scan.lock() == which; }
 };
