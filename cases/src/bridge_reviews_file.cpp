@@ -15,8 +15,8 @@ constexpr const char* kFile = "bridge_reviews.json";
 ReviewedBridge reviewFrom(const json& entry)
 {
     ReviewedBridge out;
-    out.bridge.from_mm = pointFromJson(entry.at("from_mm"));
-    out.bridge.to_mm = pointFromJson(entry.at("to_mm"));
+    out.bridge.from_mm = entry.at("from_mm").get<Point3>();
+    out.bridge.to_mm = entry.at("to_mm").get<Point3>();
     out.review = {bridgeVerdictFrom(entry.at("verdict").get<std::string>()), entry.at("by").get<std::string>(),
                   entry.at("at").get<std::string>()};
     return out;
@@ -26,11 +26,7 @@ ReviewedBridge reviewFrom(const json& entry)
 
 json bridgeReviewJson(const Bridge& bridge, const std::string& verdict, const std::string& by, const std::string& at)
 {
-    return {{"from_mm", pointToJson(bridge.from_mm)},
-            {"to_mm", pointToJson(bridge.to_mm)},
-            {"verdict", verdict},
-            {"by", by},
-            {"at", at}};
+    return {{"from_mm", bridge.from_mm}, {"to_mm", bridge.to_mm}, {"verdict", verdict}, {"by", by}, {"at", at}};
 }
 
 std::vector<ReviewedBridge> readBridgeReviews(const fs::path& scan_folder)

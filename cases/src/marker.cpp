@@ -65,7 +65,7 @@ json toJson(const Marker& m)
     json out = m.extra.is_object() ? m.extra : json::object();
     out["id"] = m.id;
     out["scan"] = m.scan_id;
-    out["position_mm"] = pointToJson(m.position_mm);
+    out["position_mm"] = m.position_mm;
     out["color"] = nameOf(m.color);
     out["note"] = m.note;
     out["station_mm"] = m.station_mm;
@@ -89,7 +89,7 @@ Marker markerFromJson(const json& json)
         Marker m;
         m.id = json.value("id", "");
         m.scan_id = json.value("scan", "");
-        m.position_mm = pointFromJson(json.at("position_mm"));
+        m.position_mm = json.at("position_mm").get<Point3>();
         m.color = markerColorFrom(json.at("color").get<std::string>());
         m.note = json.value("note", "");
         m.station_mm = json.value("station_mm", 0.0);

@@ -8,21 +8,20 @@ namespace vicon {
 
 json toJson(const PlaneSize& s)
 {
-    return {{"diameter_mm", s.diameter_mm}, {"from_mm", pointToJson(s.from_mm)},     {"to_mm", pointToJson(s.to_mm)},
-            {"area_mm2", s.area_mm2},       {"middle_mm", pointToJson(s.middle_mm)}, {"along", vectorToJson(s.along)},
-            {"up", vectorToJson(s.up)}};
+    return {{"diameter_mm", s.diameter_mm}, {"from_mm", s.from_mm}, {"to_mm", s.to_mm}, {"area_mm2", s.area_mm2},
+            {"middle_mm", s.middle_mm},     {"along", s.along},     {"up", s.up}};
 }
 
 PlaneSize planeSizeFromJson(const json& json)
 {
-    return {json.at("diameter_mm").get<double>(), pointFromJson(json.at("from_mm")),   pointFromJson(json.at("to_mm")),
-            json.at("area_mm2").get<double>(),    pointFromJson(json.at("middle_mm")), vectorFromJson(json.at("along")),
-            vectorFromJson(json.at("up"))};
+    return {json.at("diameter_mm").get<double>(), json.at("from_mm").get<Point3>(),   json.at("to_mm").get<Point3>(),
+            json.at("area_mm2").get<double>(),    json.at("middle_mm").get<Point3>(), json.at("along").get<Vector3>(),
+            json.at("up").get<Vector3>()};
 }
 
 json toJson(const MarkerSize& s)
 {
-    json out = {{"straight_mm", s.straight_mm}, {"from_mm", pointToJson(s.from_mm)}, {"to_mm", pointToJson(s.to_mm)}};
+    json out = {{"straight_mm", s.straight_mm}, {"from_mm", s.from_mm}, {"to_mm", s.to_mm}};
     if (s.along_mm)
         out["along_mm"] = *s.along_mm;
     if (s.plane)
@@ -34,8 +33,8 @@ MarkerSize markerSizeFromJson(const json& json)
 {
     MarkerSize size;
     size.straight_mm = json.at("straight_mm").get<double>();
-    size.from_mm = pointFromJson(json.at("from_mm"));
-    size.to_mm = pointFromJson(json.at("to_mm"));
+    size.from_mm = json.at("from_mm").get<Point3>();
+    size.to_mm = json.at("to_mm").get<Point3>();
     if (const auto along = json.find("along_mm"); along != json.end())
         size.along_mm = along->get<double>();
     if (const auto plane = json.find("plane"); plane != json.end())
@@ -45,7 +44,7 @@ MarkerSize markerSizeFromJson(const json& json)
 
 json toJson(const DensitySample& s)
 {
-    return {{"position_mm", pointToJson(s.centre_mm)},
+    return {{"position_mm", s.centre_mm},
             {"radius_mm", s.radius_mm},
             {"margin_mm", s.margin_mm},
             {"voxels", s.voxels},
@@ -59,7 +58,7 @@ DensitySample densitySampleFromJson(const json& json)
 {
     const auto& histogram = json.at("histogram");
     DensitySample sample;
-    sample.centre_mm = pointFromJson(json.at("position_mm"));
+    sample.centre_mm = json.at("position_mm").get<Point3>();
     sample.radius_mm = json.at("radius_mm").get<double>();
     sample.margin_mm = json.at("margin_mm").get<double>();
     sample.voxels = json.at("voxels").get<std::size_t>();
@@ -73,15 +72,12 @@ DensitySample densitySampleFromJson(const json& json)
 
 json toJson(const MarkerView& v)
 {
-    return {{"eye_mm", pointToJson(v.eye_mm)},
-            {"forward", vectorToJson(v.forward)},
-            {"up", vectorToJson(v.up)},
-            {"station_mm", v.station_mm}};
+    return {{"eye_mm", v.eye_mm}, {"forward", v.forward}, {"up", v.up}, {"station_mm", v.station_mm}};
 }
 
 MarkerView markerViewFromJson(const json& json)
 {
-    return {pointFromJson(json.at("eye_mm")), vectorFromJson(json.at("forward")), vectorFromJson(json.at("up")),
+    return {json.at("eye_mm").get<Point3>(), json.at("forward").get<Vector3>(), json.at("up").get<Vector3>(),
             json.at("station_mm").get<double>()};
 }
 

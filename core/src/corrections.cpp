@@ -33,7 +33,7 @@ json toJson(const Corrections& corrections)
 {
     json out;
     for (const Correction kind : kCorrections)
-        out[nameOf(kind)] = pointsToJson(corrections.of(kind));
+        out[nameOf(kind)] = corrections.of(kind);
     return out;
 }
 
@@ -41,7 +41,7 @@ Corrections correctionsFromJson(const json& json)
 {
     Corrections corrections;
     for (const Correction kind : kCorrections)
-        corrections.of(kind) = pointsFromJson(json.value(nameOf(kind), nlohmann::json::array()));
+        corrections.of(kind) = json.value(nameOf(kind), nlohmann::json::array()).get<std::vector<Point3>>();
     return corrections;
 }
 

@@ -1,7 +1,6 @@
 #include "vicon/core/geometry_json.h"
 
 #include <array>
-#include <vector>
 
 namespace vicon {
 namespace {
@@ -19,40 +18,24 @@ Triple tripleFrom(const nlohmann::json& json)
 
 }  // namespace
 
-nlohmann::json pointToJson(Point3 p)
+void to_json(nlohmann::json& json, const Point3& point)
 {
-    return {p.x, p.y, p.z};
+    json = {point.x, point.y, point.z};
 }
 
-nlohmann::json vectorToJson(Vector3 v)
+void from_json(const nlohmann::json& json, Point3& point)
 {
-    return {v.x, v.y, v.z};
+    point = tripleFrom<Point3>(json);
 }
 
-nlohmann::json pointsToJson(const std::vector<Point3>& points)
+void to_json(nlohmann::json& json, const Vector3& vector)
 {
-    nlohmann::json list = nlohmann::json::array();
-    for (const Point3 p : points)
-        list.push_back(pointToJson(p));
-    return list;
+    json = {vector.x, vector.y, vector.z};
 }
 
-Point3 pointFromJson(const nlohmann::json& json)
+void from_json(const nlohmann::json& json, Vector3& vector)
 {
-    return tripleFrom<Point3>(json);
-}
-
-Vector3 vectorFromJson(const nlohmann::json& json)
-{
-    return tripleFrom<Vector3>(json);
-}
-
-std::vector<Point3> pointsFromJson(const nlohmann::json& json)
-{
-    std::vector<Point3> points;
-    for (const nlohmann::json& p : json)
-        points.push_back(pointFromJson(p));
-    return points;
+    vector = tripleFrom<Vector3>(json);
 }
 
 }  // namespace vicon

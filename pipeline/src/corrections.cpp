@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "vicon/core/point_json.h"
+#include "vicon/core/geometry_json.h"
 
 using nlohmann::json;
 

@@ -13,6 +13,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "other_views.h"
@@ -107,7 +108,7 @@ double secondsToDraw(const CellSurface& surface, const Pose& pose, const Setting
     return picture.seconds();
 }
 
-double cpuSecondsToDraw(SurfaceScene& scene, Offscreen& picture, const Pose& pose, const SeenParts& shown,
+double cpuSecondsToDraw(SurfaceScene& scene, Offscreen& picture, const Pose& pose, const VisibleParts& shown,
                         const Settings& settings)
 {
     scene.lookFrom(pose, settings.angle_deg);
@@ -117,118 +118,157 @@ double cpuSecondsToDraw(SurfaceScene& scene, Offscreen& picture, const Pose& pos
     return cpuSeconds() - begin;
 }
 
-Flight flyThrough(const PreparedScan& scan, const Settings& settings)
+std::vector<std::size_t> trianglesOfCells(const CellSurface& surface)
 {
-    const CellSurface& surface = scan.cells();
-    std::vector<std::size_t> triangles_of(65536, 0);
+    std::vector<std::size_t> count(65536, 0);
     for (const std::uint16_t s : surface.segment)
-        ++triangles_of[s];
-    SurfaceScene scene(surface);
-    Offscreen picture(scene.renderer());
-    SurfaceScene occluded(surface);
-    occluded.shadeByOpenness(surface, scan.openness());
-    Offscreen occluded_picture(occluded.renderer());
-    IdScene ids(surface);
-    Offscreen id_picture(ids.renderer());
-    const CellVisibility visibility(scan);
-    const Lens lens{settings.angle_deg, settings.side, settings.side};
-    SightAhead ahead(visibility);
-    OtherViews others(scan);
-    Flight flight;
-    const std::vector<ViewPose> poses = posesOf(scan, settings.step_mm);
-    const auto prepareAfter = [&](std::size_t n) { ahead.prepare(poses[(n + 1) % poses.size()].pose, lens); };
-    std::vector<SeenParts> chosen;
-    scene.lookFrom(poses[0].pose, settings.angle_deg);
-    scene.showSeen(ahead.seenFrom(poses[0].pose, lens));
-    scene.sendAll();  // as the reading room does before one flies
-    picture.draw(settings.side, settings.side);
-    for (const ViewPose& view : poses)
-        chosen.push_back(visibility.seenFrom(view.pose, lens));
-    // Each way of drawing flies the whole flight, frame after frame, as a reader does.
-    const auto flyChosen = [&] {
-        ahead.prepare(poses[0].pose, lens);
-        for (std::size_t n = 0; n < poses.size(); ++n) {
-            const SeenParts shown = ahead.seenFrom(poses[n].pose, lens);
+        ++count[s];
+    return count;
+}
+
+/// The scenes of a scan, and the poses at which each way of drawing is measured.
+class Measured {
+public:
+    Measured(const PreparedScan& scan, const Settings& settings)
+        : settings_(settings),
+          surface_(scan.cells()),
+          triangles_of_(trianglesOfCells(surface_)),
+          poses_(posesOf(scan, settings.step_mm)),
+          visibility_(scan),
+          others_(scan)
+    {
+        occluded_.shadeByOpenness(surface_, scan.openness());
+        scene_.lookFrom(poses_[0].pose, settings_.angle_deg);
+        scene_.showSeen(ahead_.visibleFrom(poses_[0].pose, lens_));
+        scene_.sendAll();  // as the reading room does before one flies
+        picture_.draw(settings_.side, settings_.side);
+        for (const ViewPose& view : poses_)
+            chosen_.push_back(visibility_.visibleFrom(view.pose, lens_));
+    }
+
+    /// Each way of drawing flies the whole flight, frame after frame, as a reader does.
+    Flight flyThrough()
+    {
+        for (int n = 0; n < settings_.flights; ++n) {
+            flyChosen();
+            flyAll();
+            flyWithOthers(true);
+            flyWithOthers(false);
+        }
+        for (std::size_t n = 0; n < poses_.size(); ++n)
+            measureFrame(n);
+        return std::move(flight_);
+    }
+
+private:
+    void prepareAfter(std::size_t n) { ahead_.prepare(poses_[(n + 1) % poses_.size()].pose, lens_); }
+
+    void flyChosen()
+    {
+        ahead_.prepare(poses_[0].pose, lens_);
+        for (std::size_t n = 0; n < poses_.size(); ++n) {
+            const VisibleParts shown = ahead_.visibleFrom(poses_[n].pose, lens_);
             const double cpu_begin = cpuSeconds();
             // A frame is over when it is drawn and the next one's parts are chosen.
             const double s = secondsOf([&] {
                 prepareAfter(n);
-                scene.lookFrom(poses[n].pose, settings.angle_deg);
-                scene.showSeen(shown);
-                picture.draw(settings.side, settings.side);
-                ahead.wait();
+                scene_.lookFrom(poses_[n].pose, settings_.angle_deg);
+                scene_.showSeen(shown);
+                picture_.draw(settings_.side, settings_.side);
+                ahead_.wait();
             });
-            flight.culled_s.push_back(s);
-            flight.culled_cpu_s.push_back(cpuSeconds() - cpu_begin);
+            flight_.culled_s.push_back(s);
+            flight_.culled_cpu_s.push_back(cpuSeconds() - cpu_begin);
         }
-    };
-    const auto flyAll = [&] {
-        scene.showOnly({});
-        for (const ViewPose& view : poses) {
+    }
+
+    void flyAll()
+    {
+        scene_.showOnly({});
+        for (const ViewPose& view : poses_) {
             const double cpu_begin = cpuSeconds();
             const double s = secondsOf([&] {
-                scene.lookFrom(view.pose, settings.angle_deg);
-                picture.draw(settings.side, settings.side);
+                scene_.lookFrom(view.pose, settings_.angle_deg);
+                picture_.draw(settings_.side, settings_.side);
             });
-            flight.all_s.push_back(s);
-            flight.all_cpu_s.push_back(cpuSeconds() - cpu_begin);
+            flight_.all_s.push_back(s);
+            flight_.all_cpu_s.push_back(cpuSeconds() - cpu_begin);
         }
-    };
-    const auto drawWithOthers = [&](std::size_t n, bool choose) {
+    }
+
+    double drawWithOthers(std::size_t n, bool choose)
+    {
         return secondsOf([&] {
-            others.begin(poses[n]);
+            others_.begin(poses_[n]);
             if (choose)
                 prepareAfter(n);
-            scene.lookFrom(poses[n].pose, settings.angle_deg);
+            scene_.lookFrom(poses_[n].pose, settings_.angle_deg);
             if (choose)
-                scene.showSeen(chosen[n]);
-            picture.draw(settings.side, settings.side);
-            others.end(poses[n]);
-            ahead.wait();
+                scene_.showSeen(chosen_[n]);
+            picture_.draw(settings_.side, settings_.side);
+            others_.end(poses_[n]);
+            ahead_.wait();
         });
-    };
-    const auto flyWithOthers = [&](bool choose) {
-        if (!choose)
-            scene.showOnly({});
-        for (std::size_t n = 0; n < poses.size(); ++n)
-            (choose ? flight.views_culled_s : flight.views_all_s).push_back(drawWithOthers(n, choose));
-    };
-    for (int n = 0; n < settings.flights; ++n) {
-        flyChosen();
-        flyAll();
-        flyWithOthers(true);
-        flyWithOthers(false);
     }
-    for (std::size_t n = 0; n < poses.size(); ++n) {
-        const ViewPose& view = poses[n];
-        const SeenParts& shown = chosen[n];
-        const double choice = secondsOf([&] { visibility.seenFrom(view.pose, lens); });
-        const double even_cpu = cpuSecondsToDraw(scene, picture, view.pose, shown, settings);
-        flight.cells += double(scene.cellsShown());
-        flight.triangles += double(scene.trianglesShown());
-        const double occluded_cpu = cpuSecondsToDraw(occluded, occluded_picture, view.pose, shown, settings);
-        ids.lookFrom(view.pose, settings.angle_deg);
-        const auto seen = IdScene::trianglesIn(id_picture.render(settings.side, settings.side));
-        std::set<int> seen_cells;
+
+    void flyWithOthers(bool choose)
+    {
+        if (!choose)
+            scene_.showOnly({});
+        for (std::size_t n = 0; n < poses_.size(); ++n)
+            (choose ? flight_.views_culled_s : flight_.views_all_s).push_back(drawWithOthers(n, choose));
+    }
+
+    /// What a frame draws and what of it is seen, and what its parts take by themselves.
+    void measureFrame(std::size_t n)
+    {
+        const Pose& pose = poses_[n].pose;
+        const double choice = secondsOf([&] { visibility_.visibleFrom(pose, lens_); });
+        const double even_cpu = cpuSecondsToDraw(scene_, picture_, pose, chosen_[n], settings_);
+        flight_.cells += double(scene_.cellsShown());
+        flight_.triangles += double(scene_.trianglesShown());
+        const double occluded_cpu = cpuSecondsToDraw(occluded_, occluded_picture_, pose, chosen_[n], settings_);
+        ids_.lookFrom(pose, settings_.angle_deg);
+        const auto seen = IdScene::trianglesIn(id_picture_.render(settings_.side, settings_.side));
+        countSeen(seen, chosen_[n]);
+        if (flight_.frames++ == 0)
+            return;  // the first frame of each scene fills the driver's buffers
+        flight_.perfect_s.push_back(secondsToDraw(onlyThese(surface_, seen), pose, settings_));
+        flight_.choice_s.push_back(choice);
+        flight_.even_cpu_s.push_back(even_cpu);
+        flight_.occluded_cpu_s.push_back(occluded_cpu);
+    }
+
+    void countSeen(const std::vector<std::uint32_t>& seen, const VisibleParts& shown)
+    {
+        std::set<int> cells;
         for (const std::uint32_t t : seen)
-            seen_cells.insert(surface.segment[t]);
-        for (const int cell : seen_cells) {
-            flight.seen_cells_triangles += double(triangles_of[std::size_t(cell)]);
+            cells.insert(surface_.segment[t]);
+        for (const int cell : cells) {
+            flight_.seen_cells_triangles += double(triangles_of_[std::size_t(cell)]);
             if (!shown.everything &&
                 std::find(shown.segments.begin(), shown.segments.end(), cell) == shown.segments.end())
-                ++flight.missing;
+                ++flight_.missing;
         }
-        flight.seen_cells += double(seen_cells.size());
-        flight.seen += double(seen.size());
-        if (flight.frames++ > 0) {  // the first frame of each scene fills the driver's buffers
-            flight.perfect_s.push_back(secondsToDraw(onlyThese(surface, seen), view.pose, settings));
-            flight.choice_s.push_back(choice);
-            flight.even_cpu_s.push_back(even_cpu);
-            flight.occluded_cpu_s.push_back(occluded_cpu);
-        }
+        flight_.seen_cells += double(cells.size());
+        flight_.seen += double(seen.size());
     }
-    return flight;
-}
+
+    const Settings& settings_;
+    const CellSurface& surface_;
+    std::vector<std::size_t> triangles_of_;
+    std::vector<ViewPose> poses_;
+    SurfaceScene scene_{surface_}, occluded_{surface_};
+    Offscreen picture_{scene_.renderer()}, occluded_picture_{occluded_.renderer()};
+    IdScene ids_{surface_};
+    Offscreen id_picture_{ids_.renderer()};
+    const CellVisibility visibility_;
+    Lens lens_{settings_.angle_deg, settings_.side, settings_.side};
+    SightAhead ahead_{visibility_};
+    OtherViews others_;
+    std::vector<VisibleParts> chosen_;
+    Flight flight_;
+};
 
 void printHead()
 {
@@ -307,7 +347,7 @@ try {
     printHead();
     for (const fs::path& folder : settings.folders) {
         const auto scan = PreparedScan::open(folder);
-        print(scan, flyThrough(scan, settings));
+        print(scan, Measured(scan, settings).flyThrough());
     }
     return 0;
 } catch (const std::exception& e) {

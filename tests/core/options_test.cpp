@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "vicon/core/error.h"
-#include "vicon/core/point_json.h"
+#include "vicon/core/geometry_json.h"
 #include "vicon/support/support.h"
 
 namespace vicon {

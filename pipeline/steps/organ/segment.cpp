@@ -180,43 +180,28 @@ std::string whole(double value)
     return std::to_string(std::lround(value));
 }
 
-}  // namespace
-
-Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, Progress& progress)
+std::string noTube(const OrganOptions& options)
 {
-    std::vector<Point3> seeds = options.seed;
-    progress.report(0, "body");
-    const Body body = findBody(volume, progress);
-    if (body.empty())
-        return organAbsent("there is no body in the scan");
-    if (seeds.empty()) {
-        progress.report(0.2, "seed");
-        seeds = findSeedTube(volume, body, options, progress).middle_mm;
-        if (seeds.empty())
-            return organAbsent("there is no round tube of " + whole(options.seed_from_radius_mm) + " to " +
-                               whole(options.seed_to_radius_mm) + " mm radius and " + whole(options.seed_length_mm) +
-                               " mm length near the body's midline");
-    }
-    progress.report(0.4, "lumen");
-    Growth growth = grow(volume, body, options, seeds, progress);
-    if (growth.region.voxels == 0)
-        return organAbsent("the density at the seed is not that of the organ's inside");
-    Segmentation result;
-    result.inside = std::move(growth.region.mask);
+    return "there is no round tube of " + whole(options.seed_from_radius_mm) + " to " +
+           whole(options.seed_to_radius_mm) + " mm radius and " + whole(options.seed_length_mm) +
+           " mm length near the body's midline";
+}
+
+/// What was grown, freed of what hangs on by narrow necks, up to the wall.
+InsideVolume trimmed(InsideVolume mask, const HuVolume& volume, const OrganOptions& options,
+                     const std::vector<Point3>& seeds, Progress& progress)
+{
     if (options.neck_mm > 0)
-        openNecks(result.inside, options.neck_mm, seeds, progress);
-    growToWall(volume, options, result.inside);
-    progress.report(0.8, "ends");
-    const double ml = double(std::count(result.inside.voxels.begin(), result.inside.voxels.end(), kGas)) *
-                      result.inside.grid.voxelVolume_mm3() / 1000;
-    if (ml < options.smallest_ml)
-        return organAbsent("what was found holds " + std::to_string(ml).substr(0, 4) + " ml: too little");
-    LumenPiece piece = endsOf(result.inside, options, seeds.front(), progress);
-    piece.volume_ml = ml;
-    result.plan.pieces = {piece};
-    if (isBright(options))  // the surface then lies half-way between tissue and the contrast's own density
-        std::replace(result.inside.voxels.begin(), result.inside.voxels.end(), std::uint8_t(kGas),
-                     std::uint8_t(kFluid));
+        openNecks(mask, options.neck_mm, seeds, progress);
+    growToWall(volume, options, mask);
+    return mask;
+}
+
+/// Verdict, notes and measures of what was found.
+void judge(Segmentation& result, const LumenPiece& piece, const HuVolume& volume, const OrganOptions& options,
+           const Growth& growth)
+{
+    const double ml = piece.volume_ml;
     result.confidence = 1;
     result.verdict = Verdict::found;
     if (ml > options.largest_ml) {
@@ -232,6 +217,41 @@ Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, P
     if (growth.leaked_at_hu != 0)
         result.measures["leaked_at_hu"] = growth.leaked_at_hu;
     result.measures["volume_ml"] = ml;
+}
+
+}  // namespace
+
+Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, Progress& progress)
+{
+    std::vector<Point3> seeds = options.seed;
+    progress.report(0, "body");
+    const Body body = findBody(volume, progress);
+    if (body.empty())
+        return organAbsent("there is no body in the scan");
+    if (seeds.empty()) {
+        progress.report(0.2, "seed");
+        seeds = findSeedTube(volume, body, options, progress).middle_mm;
+        if (seeds.empty())
+            return organAbsent(noTube(options));
+    }
+    progress.report(0.4, "lumen");
+    Growth growth = grow(volume, body, options, seeds, progress);
+    if (growth.region.voxels == 0)
+        return organAbsent("the density at the seed is not that of the organ's inside");
+    Segmentation result;
+    result.inside = trimmed(std::move(growth.region.mask), volume, options, seeds, progress);
+    progress.report(0.8, "ends");
+    const double ml = double(std::count(result.inside.voxels.begin(), result.inside.voxels.end(), kGas)) *
+                      result.inside.grid.voxelVolume_mm3() / 1000;
+    if (ml < options.smallest_ml)
+        return organAbsent("what was found holds " + std::to_string(ml).substr(0, 4) + " ml: too little");
+    LumenPiece piece = endsOf(result.inside, options, seeds.front(), progress);
+    piece.volume_ml = ml;
+    result.plan.pieces = {piece};
+    if (isBright(options))  // the surface then lies half-way between tissue and the contrast's own density
+        std::replace(result.inside.voxels.begin(), result.inside.voxels.end(), std::uint8_t(kGas),
+                     std::uint8_t(kFluid));
+    judge(result, piece, volume, options, growth);
     progress.report(1, "segmented");
     return result;
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "grid/allocate.h"
+#include "grid/voxel_box.h"
 #include "segment/body.h"
 #include "segment/constants.h"
 #include "segment/cut.h"
@@ -28,7 +29,7 @@ namespace {
 // Half-way densities of pools that differ by no more than this lie a tenth of a voxel apart.
 constexpr double kSameFluid_hu = 60;
 constexpr int kMostCandidates = 10;  // the exact ordering takes 2^n steps
-constexpr double kSameEnd_mm = 15;   // between ends of the lumen: nearer, they are one; case not recorded
+constexpr double kSameEnd_mm = 15;   // between ends of the lumen: nearer, they are one; no case recorded
 
 /// The parts that a person's cuts separate from the larger rest.
 std::set<int> separated(const RunLabels& lumen, const std::vector<std::vector<Index3>>& around_cuts)
@@ -52,18 +53,14 @@ std::set<int> separated(const RunLabels& lumen, const std::vector<std::vector<In
 /// The scan's part around the chosen components, with their labels.
 InsideVolume cropTo(const InsideVolume& labels, const RunLabels& lumen, const std::set<int>& chosen, int margin)
 {
-    Index3 lower = {1 << 30, 1 << 30, 1 << 30}, upper{-1, -1, -1};
+    VoxelBox box;
     for (const int n : chosen) {
-        const RunComponent& c = lumen.components[std::size_t(n)];
-        lower = {std::min(lower.i, c.lower.i), std::min(lower.j, c.lower.j), std::min(lower.k, c.lower.k)};
-        upper = {std::max(upper.i, c.upper.i), std::max(upper.j, c.upper.j), std::max(upper.k, c.upper.k)};
+        box.take(lumen.components[std::size_t(n)].lower);
+        box.take(lumen.components[std::size_t(n)].upper);
     }
-    lower = {std::max(0, lower.i - margin), std::max(0, lower.j - margin), std::max(0, lower.k - margin)};
-    Grid grid = labels.grid;
-    grid.size = {std::min(labels.grid.size[0], upper.i + margin + 1) - lower.i,
-                 std::min(labels.grid.size[1], upper.j + margin + 1) - lower.j,
-                 std::min(labels.grid.size[2], upper.k + margin + 1) - lower.k};
-    grid.origin_mm = labels.grid.pointAt(lower);
+    box = box.grown(margin, labels.grid);
+    const Index3 lower = box.low;
+    const Grid grid = cropped(labels.grid, box);
     auto out = makeVolume<std::uint8_t>(grid);
     tbb::parallel_for(0, grid.size[2], [&](int k) {
         for (int j = 0; j < grid.size[1]; ++j)

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "grid/allocate.h"
 #include "grid/neighbours.h"
+#include "grid/voxel_box.h"
 #include "segment/points.h"
 #include "vicon/core/nearest_voxel.h"
 #include "vicon/steps/wall_distance.h"
@@ -14,6 +14,7 @@
 namespace vicon::steps {
 namespace {
 
+// No case recorded; reasons stand beside them.
 constexpr double kReach_mm = 45;        // no colon is wider
 constexpr double kHalfGap_mm = 1.5;     // half of what is cut out, so that its sides do not touch
 constexpr int kDirections = 200;        // some 10 degrees apart: an area is at most 2 % too large
@@ -26,9 +27,8 @@ InsideVolume blockAround(const InsideVolume& labels, Point3 point)
     const auto& [sx, sy, sz] = labels.grid.spacing_mm;
     const Index3 reach{int(kReach_mm / sx) + 2, int(kReach_mm / sy) + 2, int(kReach_mm / sz) + 2};
     const Index3 lower{middle.i - reach.i, middle.j - reach.j, middle.k - reach.k};
-    Grid grid = labels.grid;
-    grid.size = {2 * reach.i + 1, 2 * reach.j + 1, 2 * reach.k + 1};
-    grid.origin_mm = labels.grid.pointAt(lower);
+    const Index3 end{middle.i + reach.i + 1, middle.j + reach.j + 1, middle.k + reach.k + 1};
+    const Grid grid = cropped(labels.grid, {lower, end});
     auto block = makeVolume<std::uint8_t>(grid);
     for (std::size_t n = 0; n < block.voxels.size(); ++n)
         block.voxels[n] = labels.valueOr(shifted(lower, grid.indexOf(n)), kOutside);

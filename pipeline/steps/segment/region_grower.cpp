@@ -10,6 +10,7 @@
 
 #include "grid/allocate.h"
 #include "grid/itk_view.h"
+#include "grid/voxel_box.h"
 #include "vicon/core/nearest_voxel.h"
 
 namespace vicon::steps {
@@ -18,49 +19,16 @@ namespace {
 /// No scan measures it: the density of what must not be grown into.
 constexpr std::int16_t kBarrier_hu = std::numeric_limits<std::int16_t>::max();
 
-/// Both ends included.
-struct Box {
-    Index3 lower{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
-    Index3 upper{-1, -1, -1};
-
-    void add(Index3 v)
-    {
-        lower = {std::min(lower.i, v.i), std::min(lower.j, v.j), std::min(lower.k, v.k)};
-        upper = {std::max(upper.i, v.i), std::max(upper.j, v.j), std::max(upper.k, v.k)};
-    }
-    void add(const Box& other)
-    {
-        if (other.upper.i < 0)
-            return;
-        add(other.lower);
-        add(other.upper);
-    }
-};
-
-/// The part of a grid within a box and a margin around it.
-Grid cropped(const Grid& grid, const Box& box, int margin)
+VoxelBox bodyBox(const Body& body, const Grid& grid)
 {
-    const std::array<int, 3> lower{box.lower.i, box.lower.j, box.lower.k}, upper{box.upper.i, box.upper.j, box.upper.k};
-    std::array<int, 3> from{};
-    Grid crop = grid;
-    for (std::size_t a = 0; a < 3; ++a) {
-        from[a] = std::max(0, lower[a] - margin);
-        crop.size[a] = std::min(grid.size[a], upper[a] + margin + 1) - from[a];
-    }
-    crop.origin_mm = grid.pointAt(Index3{from[0], from[1], from[2]});
-    return crop;
-}
-
-Box bodyBox(const Body& body, const Grid& grid)
-{
-    Box coarse;
+    VoxelBox coarse;
     for (std::size_t n = 0; n < body.inside.voxels.size(); ++n)
         if (body.inside.voxels[n])
-            coarse.add(body.inside.grid.indexOf(n));
+            coarse.take(body.inside.grid.indexOf(n));
     const int f = body.factor;
-    const auto last = [&](int upper, std::size_t axis) { return std::min(grid.size[axis], (upper + 1) * f) - 1; };
-    return {{coarse.lower.i * f, coarse.lower.j * f, coarse.lower.k * f},
-            {last(coarse.upper.i, 0), last(coarse.upper.j, 1), last(coarse.upper.k, 2)}};
+    const auto end = [&](int high, std::size_t axis) { return std::min(grid.size[axis], high * f); };
+    return {{coarse.low.i * f, coarse.low.j * f, coarse.low.k * f},
+            {end(coarse.high.i, 0), end(coarse.high.j, 1), end(coarse.high.k, 2)}};
 }
 
 std::int16_t clampedHu(double hu)
@@ -70,7 +38,7 @@ std::int16_t clampedHu(double hu)
 
 /// Where a mask's voxels lie, slice by slice, and how many there are.
 struct Extent {
-    Box box;
+    VoxelBox box;
     std::size_t voxels = 0;
 };
 
@@ -87,14 +55,14 @@ Extent extentOf(const std::uint8_t* mask, const Grid& grid)
                 continue;
             const auto first = std::find(begin, begin + row, std::uint8_t(kGas));
             const auto last = std::find(std::reverse_iterator(begin + row), std::reverse_iterator(begin), kGas);
-            slice.box.add(Index3{int(first - begin), j, k});
-            slice.box.add(Index3{int(last.base() - begin) - 1, j, k});
+            slice.box.take(Index3{int(first - begin), j, k});
+            slice.box.take(Index3{int(last.base() - begin) - 1, j, k});
             slice.voxels += count;
         }
     });
     Extent whole;
     for (const Extent& slice : slices) {
-        whole.box.add(slice.box);
+        whole.box.takeAll(slice.box);
         whole.voxels += slice.voxels;
     }
     return whole;
@@ -110,9 +78,9 @@ struct RegionGrower::Filter {
 RegionGrower::RegionGrower(const HuVolume& volume, const Body& body, Padding padding)
     : grid_(volume.grid), filter_(std::make_unique<Filter>())
 {
-    const Box box = bodyBox(body, grid_);
-    begin_ = box.lower;
-    box_ = makeVolume<std::int16_t>(cropped(grid_, box, 0));
+    const VoxelBox box = bodyBox(body, grid_);
+    begin_ = box.low;
+    box_ = makeVolume<std::int16_t>(cropped(grid_, box));
     tbb::parallel_for(0, box_.grid.size[2], [&](int k) {
         for (int j = 0; j < box_.grid.size[1]; ++j) {
             const std::int16_t* from = &volume.at({begin_.i, begin_.j + j, begin_.k + k});
@@ -152,13 +120,13 @@ GrownRegion RegionGrower::grow(Index3 seed, double low_hu, double high_hu, int m
     if (region.voxels == 0)
         return region;
     const auto inScan = [&](Index3 v) { return Index3{v.i + begin_.i, v.j + begin_.j, v.k + begin_.k}; };
-    const Box box{inScan(extent.box.lower), inScan(extent.box.upper)};
-    region.mask = makeVolume<std::uint8_t>(cropped(grid_, box, margin));
-    const Index3 to = region.mask.grid.indexAt(grid_.pointAt(box.lower));
-    const int columns = box.upper.i - box.lower.i + 1;
-    for (int k = 0; k <= box.upper.k - box.lower.k; ++k)
-        for (int j = 0; j <= box.upper.j - box.lower.j; ++j) {
-            const Index3 row{extent.box.lower.i, extent.box.lower.j + j, extent.box.lower.k + k};
+    const VoxelBox box{inScan(extent.box.low), inScan(extent.box.high)};
+    region.mask = makeVolume<std::uint8_t>(cropped(grid_, box.grown(margin, grid_)));
+    const Index3 to = region.mask.grid.indexAt(grid_.pointAt(box.low));
+    const int columns = box.high.i - box.low.i;
+    for (int k = 0; k < box.high.k - box.low.k; ++k)
+        for (int j = 0; j < box.high.j - box.low.j; ++j) {
+            const Index3 row{extent.box.low.i, extent.box.low.j + j, extent.box.low.k + k};
             std::copy_n(found + box_.grid.offset(row), columns, &region.mask.at({to.i, to.j + j, to.k + k}));
         }
     return region;

@@ -5,42 +5,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/allocate.h"
+#include "grid/voxel_box.h"
 #include "vicon/steps/wall_distance.h"
 
 namespace vicon::steps {
 namespace {
 
+// No case recorded; reason: sizes of rectal tubes and rectums.
 constexpr double kTubeReach_mm = 150;     // from the rectal end: a rectal tube lies no higher
 constexpr double kTubeSection_mm2 = 200;  // of a tube of up to 12 mm, cut obliquely
 constexpr double kMargin_mm = 24;         // about the tube: hardly a rectum is wider; what is wider is tried again
 
-/// Part of a grid: voxels from `low` on, before `high`.
-struct Box {
-    Index3 low, high;
-
-    bool empty() const { return low.i >= high.i || low.j >= high.j || low.k >= high.k; }
-    void take(Index3 v)
-    {
-        low = {std::min(low.i, v.i), std::min(low.j, v.j), std::min(low.k, v.k)};
-        high = {std::max(high.i, v.i + 1), std::max(high.j, v.j + 1), std::max(high.k, v.k + 1)};
-    }
-    Box grown(int by, const std::array<int, 3>& size) const
-    {
-        return {{std::max(low.i - by, 0), std::max(low.j - by, 0), std::max(low.k - by, 0)},
-                {std::min(high.i + by, size[0]), std::min(high.j + by, size[1]), std::min(high.k + by, size[2])}};
-    }
-    friend bool operator==(const Box& a, const Box& b) { return a.low == b.low && a.high == b.high; }
-};
-
-constexpr int kFar = 1 << 30;
-constexpr Box kNothing{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-
 /// The lumen's bounds in a slice.
-Box lumenIn(const InsideVolume& inside, int k)
+VoxelBox lumenIn(const InsideVolume& inside, int k)
 {
     const int columns = inside.grid.size[0], rows = inside.grid.size[1];
-    Box box = kNothing;
+    VoxelBox box;
     for (int j = 0; j < rows; ++j) {
         const auto row = inside.voxels.begin() + std::ptrdiff_t(inside.grid.offset({0, j, k})), end = row + columns;
         const auto lumen = [](std::uint8_t label) { return label != kOutside; };
@@ -57,7 +37,7 @@ Box lumenIn(const InsideVolume& inside, int k)
 /// Islands of no lumen in a slice, up to `most` pixels, that lumen surrounds.
 std::vector<Index3> islandsIn(const InsideVolume& inside, int k, std::size_t most)
 {
-    const Box box = lumenIn(inside, k);
+    const VoxelBox box = lumenIn(inside, k);
     if (box.empty())
         return {};
     const int width = box.high.i - box.low.i;
@@ -108,24 +88,6 @@ std::vector<Index3> tubeIn(const InsideVolume& inside, Point3 rectal_end_mm)
     return tube;
 }
 
-/// Part of a volume, on a grid of its own.
-template <class T>
-Volume<T> cropped(const Volume<T>& volume, const Box& box)
-{
-    Grid grid = volume.grid;
-    grid.origin_mm = volume.grid.pointAt(box.low);
-    grid.size = {box.high.i - box.low.i, box.high.j - box.low.j, box.high.k - box.low.k};
-    auto part = makeVolume<T>(grid);
-    tbb::parallel_for(0, grid.size[2], [&](int k) {
-        for (int j = 0; j < grid.size[1]; ++j) {
-            const auto from = volume.grid.offset({box.low.i, box.low.j + j, box.low.k + k});
-            std::copy_n(volume.voxels.begin() + std::ptrdiff_t(from), grid.size[0],
-                        part.voxels.begin() + std::ptrdiff_t(grid.offset({0, j, k})));
-        }
-    });
-    return part;
-}
-
 float largest(const FieldVolume& field)
 {
     return *std::max_element(field.voxels.begin(), field.voxels.end());
@@ -136,7 +98,7 @@ float largest(const FieldVolume& field)
 FieldVolume wallDistanceOverTube(const InsideVolume& inside, Point3 rectal_end_mm, Progress& progress)
 {
     const std::vector<Index3> tube = tubeIn(inside, rectal_end_mm);
-    Box about = kNothing;
+    VoxelBox about;
     for (const Index3 v : tube)
         about.take(v);
     if (about.empty())
@@ -144,14 +106,14 @@ FieldVolume wallDistanceOverTube(const InsideVolume& inside, Point3 rectal_end_m
     const double voxel_mm = *std::min_element(inside.grid.spacing_mm.begin(), inside.grid.spacing_mm.end());
     for (double margin_mm = kMargin_mm;; margin_mm *= 2) {
         const int margin = int(std::ceil(margin_mm / voxel_mm));
-        const Box changed = about.grown(margin, inside.grid.size), seen = changed.grown(margin, inside.grid.size);
+        const VoxelBox changed = about.grown(margin, inside.grid), seen = changed.grown(margin, inside.grid);
         InsideVolume part = cropped(inside, seen);
         for (const Index3 v : tube)
             part.at({v.i - seen.low.i, v.j - seen.low.j, v.k - seen.low.k}) = kGas;
         const FieldVolume open_mm = wallDistance(part, progress);
         // Lumen that is not as wide as the margin meets its wall within the box, and has none of the tube beyond it.
         if (largest(open_mm) < margin_mm - voxel_mm ||
-            changed == Box{{0, 0, 0}, {inside.grid.size[0], inside.grid.size[1], inside.grid.size[2]}})
+            changed == VoxelBox{{0, 0, 0}, {inside.grid.size[0], inside.grid.size[1], inside.grid.size[2]}})
             return cropped(open_mm,
                            {{changed.low.i - seen.low.i, changed.low.j - seen.low.j, changed.low.k - seen.low.k},
                             {changed.high.i - seen.low.i, changed.high.j - seen.low.j, changed.high.k - seen.low.k}});

@@ -10,6 +10,7 @@
 #include "grid/check_only.h"
 #include "grid/lumen_graph.h"
 #include "grid/neighbours.h"
+#include "grid/voxel_box.h"
 #include "segment/constants.h"
 #include "segment/fluid/rim.h"
 #include "segment/ileum/side_branch.h"
@@ -74,14 +75,14 @@ std::optional<Zone> zoneAt(const InsideVolume& inside, Point3 end_mm, Point3 sta
     std::vector<std::size_t> front{grid.offset(seed)}, next, all;
     seen[front[0]] = true;
     const int steps = int(kZone_mm / grid.spacing_mm[0]);
-    Index3 lower = seed, upper = seed;
+    VoxelBox box;
+    box.take(seed);
     for (int step = 0; step < steps && !front.empty(); ++step) {
         next.clear();
         for (const std::size_t n : front) {
             all.push_back(n);
             const Index3 v = grid.indexOf(n);
-            lower = {std::min(lower.i, v.i), std::min(lower.j, v.j), std::min(lower.k, v.k)};
-            upper = {std::max(upper.i, v.i), std::max(upper.j, v.j), std::max(upper.k, v.k)};
+            box.take(v);
             forEachOverFaces(grid, n, [&](std::size_t beside) {
                 if (isLumen(inside.voxels[beside]) && !seen[beside]) {
                     seen[beside] = true;
@@ -93,24 +94,20 @@ std::optional<Zone> zoneAt(const InsideVolume& inside, Point3 end_mm, Point3 sta
     }
     Zone zone;
     zone.root_mm = front.empty() ? start_mm : grid.pointAt(grid.indexOf(front[front.size() / 2]));
-    const int margin = rim_layers + 2;
-    zone.offset = {std::max(0, lower.i - margin), std::max(0, lower.j - margin), std::max(0, lower.k - margin)};
-    Grid crop = grid;
-    crop.size = {std::min(grid.size[0], upper.i + margin + 1) - zone.offset.i,
-                 std::min(grid.size[1], upper.j + margin + 1) - zone.offset.j,
-                 std::min(grid.size[2], upper.k + margin + 1) - zone.offset.k};
-    crop.origin_mm = grid.pointAt(zone.offset);
-    zone.mask = InsideVolume(crop);
+    box = box.grown(rim_layers + 2, grid);
+    zone.offset = box.low;
+    zone.mask = InsideVolume(cropped(grid, box));
+    const auto& size = zone.mask.grid.size;
     for (const std::size_t n : all) {
         const Index3 v = grid.indexOf(n);
         zone.mask.at({v.i - zone.offset.i, v.j - zone.offset.j, v.k - zone.offset.k}) = kGas;
     }
     // The rim that the lumen will get back: without it a passage through fluid looks narrower than it is.
-    tbb::parallel_for(0, crop.size[2], [&](int k) {
-        for (int j = 0; j < crop.size[1]; ++j) {
+    tbb::parallel_for(0, size[2], [&](int k) {
+        for (int j = 0; j < size[1]; ++j) {
             const std::uint8_t* from = &inside.at({zone.offset.i, j + zone.offset.j, k + zone.offset.k});
             std::uint8_t* to = &zone.mask.at({0, j, k});
-            for (int i = 0; i < crop.size[0]; ++i)
+            for (int i = 0; i < size[0]; ++i)
                 to[i] = from[i] == kRim ? std::uint8_t(kRim) : to[i];
         }
     });

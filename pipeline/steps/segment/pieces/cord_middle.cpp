@@ -3,10 +3,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "grid/voxel_box.h"
 #include "segment/constants.h"
 #include "skeleton/section.h"
 #include "skeleton/section_fit.h"
@@ -31,9 +33,8 @@ constexpr double kMostMoved_mm = 3;      // in a round
 InsideVolume bowelAround(const HuVolume& volume, const InsideVolume& inside, const WallDensities& densities,
                          const Polyline& line)
 {
-    Grid grid = volume.grid;
-    int first[3], last[3];
-    for (int n = 0; n < 3; ++n) {
+    std::array<int, 3> first, end;
+    for (std::size_t n = 0; n < 3; ++n) {
         double low = 1e300, high = -1e300;
         for (const Point3 p : line) {
             const ContinuousIndex3 c = volume.grid.continuousIndexAt(p);
@@ -41,12 +42,11 @@ InsideVolume bowelAround(const HuVolume& volume, const InsideVolume& inside, con
             low = std::min(low, at);
             high = std::max(high, at);
         }
-        const double margin = kMargin_mm / volume.grid.spacing_mm[std::size_t(n)];
-        first[n] = std::clamp(int(low - margin), 0, volume.grid.size[std::size_t(n)] - 1);
-        last[n] = std::clamp(int(high + margin), first[n], volume.grid.size[std::size_t(n)] - 1);
-        grid.size[std::size_t(n)] = last[n] - first[n] + 1;
+        const double margin = kMargin_mm / volume.grid.spacing_mm[n];
+        first[n] = std::clamp(int(low - margin), 0, volume.grid.size[n] - 1);
+        end[n] = std::clamp(int(high + margin), first[n], volume.grid.size[n] - 1) + 1;
     }
-    grid.origin_mm = volume.grid.pointAt(Index3{first[0], first[1], first[2]});
+    const Grid grid = cropped(volume.grid, {{first[0], first[1], first[2]}, {end[0], end[1], end[2]}});
     Volume<float> density(grid, 0);
     const Index3 off = inside.grid.indexAt(grid.origin_mm);
     tbb::parallel_for(0, grid.size[2], [&](int k) {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "vicon/core/geometry_json.h"
 #include "vicon/core/options.h"
-#include "vicon/core/point_json.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/skeleton_tree.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "vicon/core/geometry_json.h"
 #include "vicon/core/options.h"
-#include "vicon/core/point_json.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/verdict.h"
 #include "vicon/core/volume.h"
