@@ -87,7 +87,7 @@ TEST_F(Study, WorkingAgainChangesNothingAndOtherParametersRedoWhatDependsOnThem)
     EXPECT_EQ(timesOf(), first) << "nothing is done again unasked";
     viconOn(store(), other + " --redo-outdated");
     const auto second = timesOf();
-    for (const char* kept : {"resample", "segment", "skeleton", "potential"})
+    for (const char* kept : {"resample", "segment", "tissue", "skeleton", "potential"})
         EXPECT_EQ(second.at(kept), first.at(kept)) << kept;
     EXPECT_NE(second.at("subdivide"), first.at("subdivide"));
     viconOn(store(), "work --until-idle --redo-outdated");
@@ -109,7 +109,7 @@ TEST_F(Study, ACorrectionIsKeptWithTheScanAndRedoesWhatDependsOnIt)
     const auto second = stepsOf();
     EXPECT_EQ(second["resample"]["digest"], first["resample"]["digest"]);
     EXPECT_EQ(second["resample"]["finished"], first["resample"]["finished"]) << "not done again";
-    for (const char* redone : {"segment", "skeleton", "subdivide", "potential", "quality"})
+    for (const char* redone : {"segment", "tissue", "skeleton", "subdivide", "potential", "quality"})
         EXPECT_NE(second[redone]["digest"], first[redone]["digest"]) << redone;
     EXPECT_NEAR(second["skeleton"]["result"]["length_mm"].get<double>() /
                     first["skeleton"]["result"]["length_mm"].get<double>(),

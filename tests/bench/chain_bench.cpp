@@ -80,7 +80,8 @@ struct OwnRun {
     std::map<std::string, double> megabytes;  ///< of files, as they are in memory
 };
 
-const std::vector<std::string> kSteps = {"resample", "segment", "skeleton", "quality", "subdivide", "potential"};
+const std::vector<std::string> kSteps = {"resample", "segment",   "tissue",   "skeleton",
+                                         "quality",  "subdivide", "potential"};
 
 /// Steps follow each other, and the process ends with the last: so what it used between two moments is a step's.
 void shareOut(OwnRun& run)
@@ -188,6 +189,8 @@ double leastMegabytes(const std::string& step, std::map<std::string, double> mb,
         return mb["dicom"] + mb["volume.mha"];
     if (step == "segment")
         return mb["volume.mha"] + inside_mb;
+    if (step == "tissue")  // the densities of the crop and the cleansed ones; labels and fractions
+        return 4 * inside_mb + 2 * inside_mb;
     if (step == "skeleton" || step == "quality")
         return inside_mb;
     if (step == "subdivide")  // the densities of the crop; labels; 16-bit segments; the surface

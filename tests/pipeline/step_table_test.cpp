@@ -36,7 +36,8 @@ TEST(StepTable, TheWallsDensitiesAreOneOptionOfMaskSurfaceAndDistances)
     config.set("segment.wall_hu=-600");
     config.set("segment.tissue_hu=50");
     for (const char* key : {"segment.wall_hu", "segment.tissue_hu"})
-        EXPECT_THAT(stepsThatTake(config, key, config.at(key).value), ElementsAre("segment", "subdivide", "potential"));
+        EXPECT_THAT(stepsThatTake(config, key, config.at(key).value),
+                    ElementsAre("segment", "tissue", "subdivide", "potential"));
 }
 
 TEST(StepTable, NoOptionIsDeclaredTwice)
