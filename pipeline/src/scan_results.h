@@ -85,12 +85,11 @@ public:
     /// Keeps the object and begins to write the file.
     void put(HuVolume v) { put(volume_, std::move(v), "volume.mha", scan_files::Packing::raw); }
     void put(InsideVolume v) { put(inside_, std::move(v), "inside.mha", scan_files::Packing::zlib); }
-    /// @param contour whether the surface is made of it, from now on
-    void putTissue(steps::TissueVolume v, bool contour)
+    /// The surface is made of it from now on.
+    void putTissue(steps::TissueVolume v)
     {
         put(tissue_, std::move(v), "tissue.mha", scan_files::Packing::zlib);
-        if (contour)
-            beginSurface();
+        beginSurface();
     }
     void put(SegmentVolume v) { put(segments_, std::move(v), "segments.mha", scan_files::Packing::zlib); }
     void put(Skeleton s)

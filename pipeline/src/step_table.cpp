@@ -89,6 +89,12 @@ bool wallFromTissue(const Config& config)
     return isColon(config) && config.get<steps::WallOptions>().wall == "tissue";
 }
 
+json tissueParameters(const Config& config)
+{
+    return wallFromTissue(config) ? parametersFrom<steps::WallOptions, steps::WallDensities>(config)
+                                  : parametersFrom<steps::WallOptions>(config);
+}
+
 std::shared_future<steps::LumenSurface> surfaceOf(const Config& config, ScanResults& results)
 {
     return wallFromTissue(config) ? results.surface() : results.surface(config.get<steps::WallDensities>());
@@ -133,13 +139,13 @@ std::vector<std::string> segmentFiles(const json& result)
 
 json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords& records, Progress& progress)
 {
-    if (!isColon(inputs.config))
-        return {{"not_sought", "tagging is that of a colon"}};
+    if (!wallFromTissue(inputs.config))
+        return {{"not_sought", "the wall is not taken from it"}};
     steps::TissueResult found = steps::findTissue(
         results.densitiesAroundLumen(), results.inside(), inputs.gravity, inputs.config.get<steps::WallDensities>(),
         segmentFoundFromJson(records.at("segment").result).noise_hu.value_or(0), progress);
     results.write("cleansed.mha", std::move(found.cleansed));
-    results.putTissue(std::move(found.tissue), wallFromTissue(inputs.config));
+    results.putTissue(std::move(found.tissue));
     return {{"measures", std::move(found.found)}};
 }
 
@@ -281,7 +287,7 @@ const std::vector<Step>& stepTable()
          {"resample", "segment"},
          Densities::around_lumen,
          tissueFiles,
-         parametersByOrgan<WallDensities, OrganOptions>,
+         tissueParameters,
          runTissue},
         {"skeleton",
          10,
@@ -302,7 +308,7 @@ const std::vector<Step>& stepTable()
          parametersFrom<QualityOptions>,
          runQuality},
         {"subdivide",
-         6,
+         5,
          0.67,
          0.85,
          {"resample", "segment", "tissue", "skeleton"},
@@ -312,7 +318,7 @@ const std::vector<Step>& stepTable()
          parametersFrom<SubdivideOptions, WallOptions, WallDensities, ProjectionOptions>,
          runSubdivide},
         {"potential",
-         4,
+         3,
          0.85,
          1,
          {"resample", "segment", "tissue", "skeleton"},

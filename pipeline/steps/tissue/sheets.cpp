@@ -1,10 +1,12 @@
 #include "tissue/sheets.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "grid/neighbours.h"
@@ -22,7 +24,7 @@ constexpr double kLeastRise = 0.25, kLeastRise_noises = 5;
 /// What lies on both sides of a sheet holds at most this part of its height: lumen.
 constexpr float kFloor = 0.45F;
 /// Of this fraction a wall is thick enough to keep its own place.
-constexpr double kThick = 0.92;
+constexpr double kThick = 0.85;
 /// Smaller sets of voxels are specks.
 constexpr std::size_t kSmallest_voxels = 10;
 /// Voxels around a sheet's middle that are scaled with it: its blurred flanks.
@@ -31,6 +33,8 @@ constexpr int kFlank_voxels = 2;
 constexpr int kSheet_voxels = 12;
 /// Part of its height at which a sheet fainter than half ends: 1.3 mm wide at a blur of 0.7 mm.
 constexpr double kEndOfFaint = 0.65;
+/// Less scaling moves the wall by less than a hundredth of a voxel.
+constexpr float kLeastScale = 1.01F;
 
 /// The thirteen lines through a voxel and its neighbours.
 constexpr std::array<Index3, 13> kLines{{{1, 0, 0},
@@ -211,7 +215,7 @@ std::vector<Flank> flanksOf(const std::vector<Ridge>& ridges, const Grid& grid)
                 flanks.push_back({grid.offset(w), away2, ridge.height});
         });
     }
-    std::sort(flanks.begin(), flanks.end());
+    tbb::parallel_sort(flanks.begin(), flanks.end());
     flanks.erase(
         std::unique(flanks.begin(), flanks.end(), [](const Flank& a, const Flank& b) { return a.voxel == b.voxel; }),
         flanks.end());
@@ -229,9 +233,12 @@ SheetsFound keepSheets(const InsideVolume& inside, int down, double noise, Tissu
     std::array<float, 257> scale{};
     for (std::size_t n = 1; n < scale.size(); ++n)
         scale[n] = std::max(1.0F, float(0.5 / levelOf(double(n) / 256)));
-    for (const Flank& flank : flanksOf(ridges, tissue.grid))
-        tissue.voxels[flank.voxel] =
-            stored(tissue.voxels[flank.voxel] / kWhole * scale[std::size_t(std::lround(flank.height * 256))]);
+    const auto scaleOf = [&](float height) { return scale[std::size_t(std::lround(height * 256))]; };
+    std::vector<Ridge> scaled;
+    std::copy_if(ridges.begin(), ridges.end(), std::back_inserter(scaled),
+                 [&](const Ridge& ridge) { return scaleOf(ridge.height) > kLeastScale; });
+    for (const Flank& flank : flanksOf(scaled, tissue.grid))
+        tissue.voxels[flank.voxel] = stored(tissue.voxels[flank.voxel] / kWhole * scaleOf(flank.height));
     return found;
 }
 

@@ -29,14 +29,14 @@ CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const S
 
 /// What the wall's place is taken from.
 struct WallOptions {
-    std::string wall = "tissue";
+    std::string wall = "densities";
 
     template <class Visitor>
     void visit(Visitor&& v)
     {
         v("subdivide.wall", wall, "",
-          "tissue: the wall lies where half of a voxel is tissue; densities: between the labels, where they say.",
-          OptionLimits{.choices = {"tissue", "densities"}});
+          "densities: the wall lies between the labels, where they say; tissue: where half of a voxel is tissue.",
+          OptionLimits{.choices = {"densities", "tissue"}});
     }
 };
 
