@@ -115,7 +115,7 @@ int show(Context& context, const ShowArguments& arguments)
     if (arguments.subdivision_table)
         return printSubdivisionTable(store, c, arguments.scan_id);
     if (context.json) {
-        nlohmann::json out = toJson({c})["cases"][0];
+        nlohmann::json out = toJson(std::vector{c})["cases"][0];
         for (nlohmann::json& scan : out["scans"])
             scan.update(store.describeScan(record.id, scan["id"]));
         std::printf("%s\n", out.dump(2).c_str());

@@ -14,7 +14,7 @@ using nlohmann::json;
 namespace vicon {
 namespace {
 
-constexpr const char* kFile = "corrections.json";
+constexpr const char* kCorrectionsFile = "corrections.json";
 
 void requireInside(const fs::path& scan_folder, const Corrections& corrections)
 {
@@ -44,7 +44,7 @@ void requireColon(CaseStore& store, const ScanRecord& scan)
 
 Corrections readCorrections(const fs::path& scan_folder)
 {
-    const fs::path file = scan_folder / kFile;
+    const fs::path file = scan_folder / kCorrectionsFile;
     if (!fs::exists(file))
         return {};
     try {
@@ -57,7 +57,7 @@ Corrections readCorrections(const fs::path& scan_folder)
 
 void writeCorrections(const fs::path& scan_folder, const Corrections& corrections)
 {
-    const fs::path file = scan_folder / kFile;
+    const fs::path file = scan_folder / kCorrectionsFile;
     if (corrections.empty()) {
         std::error_code missing;
         fs::remove(file, missing);
