@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "memory_room.h"
+#include "memory_limits.h"
 #include "scan_results.h"
 #include "step_runner.h"
 #include "step_table.h"

@@ -7,6 +7,7 @@
 #include <itkLinearInterpolateImageFunction.h>
 #include <itkResampleImageFilter.h>
 #include <itkSignedMaurerDistanceMapImageFilter.h>
+#include <itkWindowedSincInterpolateImageFunction.h>
 #include <vtkImageData.h>
 #include <vtkMarchingCubes.h>
 #include <vtkNew.h>
@@ -31,18 +32,18 @@ using namespace vicon::bench;
 
 NoProgress quiet;
 
-/// Noise in 200 slices.
-HuVolume slices(double slice_mm)
+/// Noise without padding.
+HuVolume slices(double slice_mm, int count)
 {
-    HuVolume volume(Grid{.size = {512, 512, 200}, .spacing_mm = {0.7, 0.7, slice_mm}});
+    HuVolume volume(Grid{.size = {512, 512, count}, .spacing_mm = {0.7, 0.7, slice_mm}});
     for (std::size_t n = 0; n < volume.voxels.size(); ++n)
-        volume.voxels[n] = std::int16_t(int(n * 2654435761U >> 20) % 1400 - 1000);
+        volume.voxels[n] = std::int16_t(int((n * 2654435761U >> 20) % 1400) - 1000);
     return volume;
 }
 
-void resampleVicon(benchmark::State& state, const char* interpolation, double slice_mm)
+void resampleVicon(benchmark::State& state, const char* interpolation, double slice_mm, int count = 200)
 {
-    const HuVolume acquired = slices(slice_mm);
+    const HuVolume acquired = slices(slice_mm, count);
     for ([[maybe_unused]] auto unused : state) {
         state.PauseTiming();
         HuVolume copy = acquired;
@@ -52,9 +53,9 @@ void resampleVicon(benchmark::State& state, const char* interpolation, double sl
 }
 
 template <class Interpolator>
-void resampleItk(benchmark::State& state, double slice_mm)
+void resampleItk(benchmark::State& state, double slice_mm, int count = 200)
 {
-    const HuVolume acquired = slices(slice_mm);
+    const HuVolume acquired = slices(slice_mm, count);
     const auto image = itkImage(acquired);
     using Image = itk::Image<std::int16_t, 3>;
     const double finest_mm = std::min(0.7, slice_mm);
@@ -93,11 +94,20 @@ void thinItk(benchmark::State& state)
 }
 void bsplineVicon(benchmark::State& state)
 {
-    resampleVicon(state, "bspline", 1);
+    resampleVicon(state, "bspline", 1, 50);
 }
 void bsplineItk(benchmark::State& state)
 {
-    resampleItk<itk::BSplineInterpolateImageFunction<itk::Image<std::int16_t, 3>>>(state, 1);
+    resampleItk<itk::BSplineInterpolateImageFunction<itk::Image<std::int16_t, 3>>>(state, 1, 50);
+}
+void sincVicon(benchmark::State& state)
+{
+    resampleVicon(state, "windowed_sinc", 1, 20);
+}
+void sincItk(benchmark::State& state)
+{
+    using Window = itk::Function::LanczosWindowFunction<3>;
+    resampleItk<itk::WindowedSincInterpolateImageFunction<itk::Image<std::int16_t, 3>, 3, Window>>(state, 1, 20);
 }
 
 void wallVicon(benchmark::State& state)
@@ -188,6 +198,8 @@ const bool registered = [] {
     addBenchmark("resample_thin/itk_ResampleImageFilter", thinItk);
     addBenchmark("resample_bspline/vicon", bsplineVicon);
     addBenchmark("resample_bspline/itk_ResampleImageFilter", bsplineItk);
+    addBenchmark("resample_sinc/vicon", sincVicon);
+    addBenchmark("resample_sinc/itk_ResampleImageFilter", sincItk);
     addBenchmark("wall_distance/vicon", wallVicon);
     addBenchmark("wall_distance/itk_SignedMaurer", wallItk);
     addBenchmark("wall_distance_fine/vicon", wallFineVicon);

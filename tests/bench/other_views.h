@@ -15,7 +15,7 @@ public:
     void begin(const ViewPose& view)
     {
         slices_ = std::async(std::launch::async, [this, view] {
-            for (const SlicePlane plane : {SlicePlane::transverse, SlicePlane::coronal, SlicePlane::sagittal}) {
+            for (const SlicePlane plane : {SlicePlane::axial, SlicePlane::coronal, SlicePlane::sagittal}) {
                 SliceRequest request;
                 request.plane = plane;
                 request.point_mm = view.pose.eye_mm;

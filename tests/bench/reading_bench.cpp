@@ -21,10 +21,10 @@
 #include <map>
 #include <vector>
 
-#include "picture_view.h"
 #include "vicon/core/error.h"
 #include "vicon/viewer/qt/reading_room.h"
 #include "vicon/viewer/scene/display.h"
+#include "widgets/picture_view.h"
 
 using namespace vicon;
 using namespace vicon::viewer;
@@ -195,8 +195,7 @@ void open(TimedApplication& application, QWidget& room)
     QTest::mouseClick(room.findChild<QPushButton*>("open"), Qt::LeftButton);
     await("a first picture", [] { return shows("endoscopic"); });
     const double first_s = millisecondsSince(begin) / 1000;
-    await("all pictures",
-          [] { return shows("overview") && shows("transverse") && shows("coronal") && shows("sagittal"); });
+    await("all pictures", [] { return shows("overview") && shows("axial") && shows("coronal") && shows("sagittal"); });
     const qint64 shown = the<PictureView>("endoscopic")->image().cacheKey();
     press("stepOn");
     await("an answer", [&] { return the<PictureView>("endoscopic")->image().cacheKey() != shown; });

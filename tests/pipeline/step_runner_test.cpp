@@ -97,7 +97,8 @@ TEST(StepRunner, RunsOneAtATimeInTheTablesOrderWhenTold)
     std::atomic<int> at_work = 0, most = 0;
     const auto count = [&](Progress&) {
         most = std::max(most.load(), ++at_work);
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        for (int turn = 0; turn < 1000; ++turn)
+            std::this_thread::yield();  // another thread, were there one, begins
         --at_work;
         return json{};
     };
@@ -146,7 +147,7 @@ TEST(StepRunner, StopsTheOthersWhenOneFailsAndThrowsWhatItThrew)
         started.arrive_and_wait();
         for (;;) {
             progress.check();
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            std::this_thread::yield();
         }
     });
     bench.add("after", {"waits"});
@@ -167,12 +168,12 @@ TEST(StepRunner, RecordsWhatOthersFinishedAlthoughOneFails)
     bench.add("fails", {}, [&](Progress&) -> json {
         started.arrive_and_wait();
         failing = true;
+        failing.notify_all();
         throw Error(ErrorCode::store, "disk full");
     });
     bench.add("finishes", {}, [&](Progress&) {
         started.arrive_and_wait();
-        while (!failing)
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        failing.wait(false);
         return json{};
     });
     EXPECT_THROW(bench.run(), Error);

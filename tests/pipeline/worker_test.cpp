@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
 #include <stdexcept>
 #include <thread>
 
@@ -10,6 +9,7 @@
 #include "fake_jobs.h"
 
 #include "vicon/core/error.h"
+#include "vicon/support/support.h"
 
 namespace vicon::pipeline {
 namespace {
@@ -79,9 +79,12 @@ TEST(Worker, RenewsItsLeaseWhileItWorks)
     FakeStore fake;
     fake.addJobs(1);
     const auto summary = work(fake, [&](JobContext&) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(2200));
         Database database(fake.store.folder() / "vicon.db");
-        EXPECT_FALSE(JobQueue(database, kQuick).claim("somebody/else/1/1"));
+        const auto leaseUntil = [&] { return JobQueue(database, kQuick).find("c", "s0")->lease_until; };
+        const double first = leaseUntil();
+        ASSERT_TRUE(support::waitUntil([&] { return leaseUntil() > first; }));
+        JobQueue when_the_first_lapsed(database, kQuick, [&] { return first; });
+        EXPECT_FALSE(when_the_first_lapsed.claim("somebody/else/1/1"));
     });
     EXPECT_EQ(summary.done, 1);
 }
@@ -97,8 +100,7 @@ TEST(Worker, StopsWhenItsJobWasTakenAndLeavesTheSuccessorAlone)
                  JobQueue later(database, kQuick, [&] { return JobQueue(database, kQuick).now() + 100; });
                  ASSERT_TRUE(later.claim("somebody/else/1/1"));
                  EXPECT_THROW(context.commitStep({.step = "segment", .version = 1, .digest = "d"}), Error);
-                 for (int n = 0; n < 100 && !context.cancelled(); ++n)
-                     std::this_thread::sleep_for(std::chrono::milliseconds(50));
+                 EXPECT_TRUE(support::waitUntil([&] { return context.cancelled(); }));
                  context.check();
              },
              {}, {.until_idle = true, .longest_wait_s = 0});

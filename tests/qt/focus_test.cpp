@@ -127,7 +127,7 @@ TEST_F(Reading, TabLeadsToEveryControlInTheOrderOfTheEye)
         the<QWidget>("endoscopic")->setFocus();
         expectAllReached(window());
         QPoint before(-1, -1);
-        for (const char* name : {"endoscopic", "transverse", "overview", "mode", "lists", "peel"}) {
+        for (const char* name : {"endoscopic", "axial", "overview", "mode", "lists", "peel"}) {
             QWidget* part = the<QWidget>(name);
             const QPoint at = part->mapTo(window(), QPoint(0, 0));
             EXPECT_TRUE(at.x() > before.x() || at.y() > before.y()) << name;
@@ -140,7 +140,7 @@ TEST_F(Reading, TabLeadsToEveryControlInTheOrderOfTheEye)
     };
     the<QTabWidget>("lists")->setCurrentIndex(0);
     the<QWidget>("endoscopic")->setFocus();
-    for (const char* name : {"transverse", "coronal", "sagittal", "overview", "mode", "back", "stop", "forward"})
+    for (const char* name : {"axial", "coronal", "sagittal", "overview", "mode", "back", "stop", "forward"})
         EXPECT_TRUE(follows(name)) << name;
 }
 
@@ -181,25 +181,62 @@ TEST_F(Reading, WhatHasTheKeyboardHasABrightFrame)
     box->close();
 }
 
-TEST_F(Reading, ACaseIsReadWithoutAMouse)
-{
-    auto* search = room_->findChild<QLineEdit*>("search");
-    activate(room_.get(), search);
-    QTest::keyClicks(search, "anna");
-    type(Qt::Key_Escape);
-    ASSERT_EQ(QApplication::focusWidget(), cases()) << "Escape leaves the text";
-    type(Qt::Key_Return);
-    ASSERT_TRUE(eventually([] { return window() != nullptr; }));
-    waitForScan();
+/// A reader who has no mouse, with a case open.
+class WithoutMouse : public Reading {
+protected:
+    void SetUp() override
+    {
+        Reading::SetUp();
+        auto* search = room_->findChild<QLineEdit*>("search");
+        activate(room_.get(), search);
+        QTest::keyClicks(search, "anna");
+        type(Qt::Key_Escape);
+        ASSERT_EQ(QApplication::focusWidget(), cases()) << "Escape leaves the text";
+        type(Qt::Key_Return);
+        ASSERT_TRUE(eventually([] { return window() != nullptr; }));
+        waitForScan();
+    }
 
-    // Flown with Space, jumped with J.
+    static bool has(int count)
+    {
+        return eventually([&] { return markers()->rowCount() == count && settled(); });
+    }
+    /// With J.
+    static bool jump(const char* mm)
+    {
+        type(Qt::Key_J);
+        QTest::keyClicks(QApplication::focusWidget(), mm);
+        type(Qt::Key_Return);
+        return eventually([&] { return std::abs(station() - atof(mm)) < 2 && pictureIsThere(); });
+    }
+    /// At 150 mm, beside the middle of the view.
+    static bool mark()
+    {
+        const bool there = jump("150");
+        type(Qt::Key_1);
+        type(Qt::Key_Right);
+        type(Qt::Key_Down);
+        type(Qt::Key_Return);
+        return there && has(1);
+    }
+    Marker first() const
+    {
+        const auto all = stored();
+        return all.empty() ? Marker{} : all[0];
+    }
+    static void times(int count, Qt::Key key)
+    {
+        for (int n = 0; n < count; ++n)
+            type(key);
+    }
+};
+
+TEST_F(WithoutMouse, FliesAndJumps)
+{
     type(Qt::Key_Space);
     ASSERT_TRUE(eventually([] { return station() > 20; }));
     type(Qt::Key_Space);
-    type(Qt::Key_J);
-    QTest::keyClicks(QApplication::focusWidget(), "150");
-    type(Qt::Key_Return);
-    ASSERT_TRUE(eventually([] { return std::abs(station() - 150) < 2 && pictureIsThere(); }));
+    ASSERT_TRUE(jump("150"));
     type(Qt::Key_J);
     QTest::keyClicks(QApplication::focusWidget(), "50");
     type(Qt::Key_Escape);
@@ -207,37 +244,39 @@ TEST_F(Reading, ACaseIsReadWithoutAMouse)
     EXPECT_EQ(QApplication::focusWidget(), the<QWidget>("endoscopic"));
     EXPECT_NEAR(station(), 150, 2) << "not used";
     EXPECT_NEAR(the<QDoubleSpinBox>("station")->value(), 150, 2);
+}
 
-    // In the middle, beside it, and in a slice.
-    const auto marked = [](int count) {
-        return eventually([&] { return markers()->rowCount() == count && settled(); });
-    };
+TEST_F(WithoutMouse, MarksWithACrossInThePicturesAndInASlice)
+{
+    ASSERT_TRUE(jump("150"));
     type(Qt::Key_1);
     type(Qt::Key_Right);
     type(Qt::Key_Down);
     screenshot("cross");
     type(Qt::Key_Return);
-    ASSERT_TRUE(marked(1)) << warning();
+    ASSERT_TRUE(has(1)) << warning();
     type(Qt::Key_2);
-    for (int n = 0; n < 8; ++n)
-        type(Qt::Key_Left);
+    times(8, Qt::Key_Left);
     type(Qt::Key_Return);
-    ASSERT_TRUE(marked(2));
+    ASSERT_TRUE(has(2));
     EXPECT_GT(distance(stored()[0].position_mm, stored()[1].position_mm), 5) << "the cross was moved";
     type(Qt::Key_Return, Qt::ShiftModifier);
-    ASSERT_TRUE(marked(3)) << "at once";
+    ASSERT_TRUE(has(3)) << "at once";
     type(Qt::Key_Tab);
-    ASSERT_EQ(QApplication::focusWidget(), the<QWidget>("transverse"));
-    const QImage before = pictureOf("transverse");
+    ASSERT_EQ(QApplication::focusWidget(), the<QWidget>("axial"));
+    const QImage before = pictureOf("axial");
     type(Qt::Key_PageUp);
-    EXPECT_TRUE(eventually([&] { return pictureOf("transverse") != before; })) << "scrolled";
+    EXPECT_TRUE(eventually([&] { return pictureOf("axial") != before; })) << "scrolled";
     type(Qt::Key_3);
     type(Qt::Key_Up, Qt::ShiftModifier);
     type(Qt::Key_Return);
-    ASSERT_TRUE(marked(4));
+    ASSERT_TRUE(has(4));
     EXPECT_EQ(stored()[3].color, MarkerColor::green);
+}
 
-    // The list: chosen, flown to, its note written.
+TEST_F(WithoutMouse, ChoosesInTheListAndWritesNotes)
+{
+    ASSERT_TRUE(mark()) << warning();
     type(Qt::Key_Home);
     ASSERT_TRUE(eventually([] { return station() < 2; }));
     type(Qt::Key_L);
@@ -247,10 +286,6 @@ TEST_F(Reading, ACaseIsReadWithoutAMouse)
     type(Qt::Key_N);
     QTest::keyClicks(QApplication::focusWidget(), "sessile");
     type(Qt::Key_Return);
-    const auto first = [&] {
-        const auto all = stored();
-        return all.empty() ? Marker{} : all[0];
-    };
     ASSERT_TRUE(eventually([&] { return first().note == "sessile" && settled(); }));
     EXPECT_EQ(QApplication::focusWidget(), markers());
     type(Qt::Key_N);
@@ -258,9 +293,12 @@ TEST_F(Reading, ACaseIsReadWithoutAMouse)
     type(Qt::Key_Escape);
     EXPECT_EQ(cell(0, 6), "sessile");
     type(Qt::Key_Escape);
-    ASSERT_EQ(QApplication::focusWidget(), the<QWidget>("endoscopic"));
+    EXPECT_EQ(QApplication::focusWidget(), the<QWidget>("endoscopic"));
+}
 
-    // Measured, circled, moved.
+TEST_F(WithoutMouse, MeasuresCirclesAndMoves)
+{
+    ASSERT_TRUE(mark()) << warning();
     const auto anyHas = [&](const char* what) {
         const auto all = stored();
         return settled() &&
@@ -277,8 +315,7 @@ TEST_F(Reading, ACaseIsReadWithoutAMouse)
     EXPECT_TRUE(eventually([&] { return anyHas("size"); })) << warning();
     type(Qt::Key_T);
     type(Qt::Key_Return);
-    for (int n = 0; n < 16; ++n)
-        type(Qt::Key_Right);
+    times(16, Qt::Key_Right);
     type(Qt::Key_Return);
     EXPECT_TRUE(eventually([&] { return anyHas("density"); })) << warning();
     type(Qt::Key_Escape);
@@ -286,12 +323,13 @@ TEST_F(Reading, ACaseIsReadWithoutAMouse)
     the<QWidget>("markerMove")->setFocus(Qt::TabFocusReason);
     type(Qt::Key_Space);
     ASSERT_EQ(QApplication::focusWidget(), the<QWidget>("endoscopic"));
-    for (int n = 0; n < 4; ++n)
-        type(Qt::Key_Up);
+    times(4, Qt::Key_Up);
     type(Qt::Key_Return);
     EXPECT_TRUE(eventually([&] { return !(first().position_mm == was) && settled(); })) << warning();
+}
 
-    // Peeled, one view alone, reported, closed.
+TEST_F(WithoutMouse, PeelsSeesOneViewAloneAndCloses)
+{
     const QImage plain = pictureOf("endoscopic");
     the<QWidget>("peel")->setFocus(Qt::TabFocusReason);
     type(Qt::Key_Down);

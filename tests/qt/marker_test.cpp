@@ -15,27 +15,70 @@ namespace {
 
 using test::Reading;
 
-TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
+/// One marker, yellow, seen from where the case opens.
+class WithMarker : public Reading {
+protected:
+    void SetUp() override
+    {
+        Reading::SetUp();
+        openCase();
+        key(Qt::Key_2);
+        click("endoscopic", middle("endoscopic") + QPoint(90, 60));
+        ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    }
+
+    static bool reads(const char* position)
+    {
+        return eventually([&] { return the<QComboBox>("scan")->currentText().startsWith(position); });
+    }
+    static void openOther()
+    {
+        auto* scan = the<QComboBox>("scan");
+        the<QLabel>("where")->clear();
+        scan->setFocus();
+        QTest::keyClick(scan, Qt::Key_Down);
+        waitForScan();
+    }
+    /// The same finding in the other scan, which is read then; both are paired.
+    void pairWithOther()
+    {
+        openOther();
+        click("endoscopic", middle("endoscopic") + QPoint(90, 60), Qt::ShiftModifier);
+        ASSERT_TRUE(eventually([] { return markers()->rowCount() == 2; }));
+        EXPECT_EQ(cell(1, 1), "prone");
+        clickRow(markers(), 1);
+        press(window(), "markerPair");
+        clickRow(markers(), 0);
+        ASSERT_TRUE(eventually([&] { return paired(true); }));
+    }
+    bool paired(bool both) const
+    {
+        const auto all = stored();
+        return settled() && (all[0].pair == all[1].id) == both && (all[1].pair == all[0].id) == both;
+    }
+    void undo(const char* button) const
+    {
+        ASSERT_TRUE(eventually([&] { return the<QPushButton>(button)->isEnabled(); }));
+        press(window(), button);
+    }
+};
+
+TEST_F(WithMarker, FliesBackToTheViewThatWasSavedWithIt)
 {
-    openCase();
-    key(Qt::Key_2);
-    click("endoscopic", middle("endoscopic") + QPoint(90, 60));
-    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1; }));
     ASSERT_EQ(stored().size(), 1U);
     EXPECT_EQ(stored()[0].color, MarkerColor::yellow);
     EXPECT_TRUE(stored()[0].view.has_value());
     EXPECT_EQ(stored()[0].scan_id, test::kSupine);
     screenshot("marker");
-
-    // From the other end back to the view that was saved with it.
     const double seen_from = station();
     key(Qt::Key_End);
     ASSERT_TRUE(eventually([] { return length() - station() < 2; }));
     clickRow(markers(), 0);
-    ASSERT_TRUE(eventually([&] { return std::abs(station() - seen_from) < 2; })) << "at " << station();
-    key(Qt::Key_R);  // on towards the caecum
+    EXPECT_TRUE(eventually([&] { return std::abs(station() - seen_from) < 2; })) << "at " << station();
+}
 
-    // A note, written in its cell.
+TEST_F(WithMarker, GetsANoteAndAnotherColourAndLosesItByUndo)
+{
     const auto* note = markers()->item(0, 6);
     QTest::mouseClick(markers()->viewport(), Qt::LeftButton, {}, markers()->visualItemRect(note).center());
     QTest::mouseDClick(markers()->viewport(), Qt::LeftButton, {}, markers()->visualItemRect(note).center());
@@ -44,46 +87,38 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     QTest::keyClicks(editor, "6 mm, sessile");
     QTest::keyClick(editor, Qt::Key_Return);
     ASSERT_TRUE(eventually([&] { return stored()[0].note == "6 mm, sessile" && settled(); }));
-
-    // Its colour, by the keyboard of the list of colours.
     auto* color = the<QComboBox>("markerColor");
     color->setFocus();
     QTest::keyClick(color, Qt::Key_Up);
-    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::red && settled(); }));
-
-    ASSERT_TRUE(eventually([] { return the<QPushButton>("undo")->isEnabled(); }));
-    press(window(), "undo");
-    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::yellow && settled(); }));
-    ASSERT_TRUE(eventually([] { return the<QPushButton>("redo")->isEnabled(); }));
-    press(window(), "redo");
-    ASSERT_TRUE(eventually([&] { return stored()[0].color == MarkerColor::red && settled(); }));
-
-    // The same finding in the other scan, and the pair.
-    auto* scan = the<QComboBox>("scan");
-    the<QLabel>("where")->clear();
-    scan->setFocus();
-    QTest::keyClick(scan, Qt::Key_Down);
-    waitForScan();
-    click("endoscopic", middle("endoscopic") + QPoint(90, 60), Qt::ShiftModifier);
-    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 2; }));
-    EXPECT_EQ(cell(1, 1), "prone");
-    const auto choose = [](int row) { clickRow(markers(), row); };
-    choose(1);
-    press(window(), "markerPair");
-    choose(0);
-    ASSERT_TRUE(eventually([&] { return stored()[0].pair == stored()[1].id; }));
-    EXPECT_TRUE(eventually([&] { return stored()[1].pair == stored()[0].id && settled(); }));
-    // One step: one undo parts both.
-    const auto paired = [&](bool both) {
-        return settled() && (stored()[0].pair != "") == both && (stored()[1].pair != "") == both;
+    const auto is = [&](MarkerColor wanted) {
+        return eventually([&] { return stored()[0].color == wanted && settled(); });
     };
-    press(window(), "undo");
+    ASSERT_TRUE(is(MarkerColor::red));
+    undo("undo");
+    ASSERT_TRUE(is(MarkerColor::yellow));
+    undo("redo");
+    ASSERT_TRUE(is(MarkerColor::red));
+    closeCase();
+    openCase();
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1; }));
+    EXPECT_EQ(cell(0, 6), "6 mm, sessile");
+}
+
+TEST_F(WithMarker, IsPairedAndPartedInOneStep)
+{
+    pairWithOther();
+    undo("undo");
     ASSERT_TRUE(eventually([&] { return paired(false); }));
-    press(window(), "redo");
+    undo("redo");
     ASSERT_TRUE(eventually([&] { return paired(true); }));
-    // Both at once: what is chosen in one is shown in both, and they move together.
+    EXPECT_EQ(cell(0, 4), cell(1, 0));
+}
+
+TEST_F(WithMarker, OfAPairBothAreShownSideBySide)
+{
+    pairWithOther();
     key(Qt::Key_C);
-    const bool both = eventually([] { return drawn("besideEndoscopic") && drawn("besideTransverse"); });
+    const bool both = eventually([] { return drawn("besideEndoscopic") && drawn("besideAxial"); });
     screenshot("beside");
     ASSERT_TRUE(both);
     const auto beside = [] { return pictureOf("besideEndoscopic"); };
@@ -93,34 +128,47 @@ TEST_F(Reading, MarkersArePlacedEditedUndonePairedDeletedAndKept)
     ASSERT_TRUE(eventually([&] { return beside() != first_shown; })) << "it moves with the other";
     settle();
     const QImage along_the_path = beside();
-    choose(1);
+    clickRow(markers(), 1);
     ASSERT_TRUE(eventually([&] { return beside() != along_the_path; }));
     screenshot("paired");
-    // A click reads on in the other scan, at the same place: the two are the same colon.
-    const double place = station();
-    click("besideEndoscopic", middle("besideEndoscopic"));
-    ASSERT_TRUE(eventually([] { return the<QComboBox>("scan")->currentText().startsWith("supine"); }));
-    EXPECT_NEAR(station(), place, 1);
+}
 
+TEST_F(WithMarker, AClickBesideReadsOnInTheOtherScanAndTheCaseOpensSo)
+{
+    openOther();
+    key(Qt::Key_C);
+    ASSERT_TRUE(eventually([] { return drawn("besideEndoscopic"); }));
+    const double place = station();
+    settle();
+    click("besideEndoscopic", middle("besideEndoscopic"));
+    ASSERT_TRUE(reads("supine"));
+    EXPECT_NEAR(station(), place, 1) << "the two are the same colon";
     closeCase();
     openCase();
-    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 2; }));
-    EXPECT_EQ(cell(0, 6), "6 mm, sessile");
-    EXPECT_EQ(cell(0, 4), cell(1, 0));
     EXPECT_TRUE(the<QWidget>("besideEndoscopic")->isVisible()) << "side by side as it was left";
-    // A marker of the other scan takes the reader there.
-    ASSERT_TRUE(eventually([] { return drawn("besideEndoscopic"); }));
-    choose(1);
-    EXPECT_TRUE(eventually([] { return the<QComboBox>("scan")->currentText().startsWith("prone"); }));
+    EXPECT_TRUE(eventually([] { return drawn("besideEndoscopic"); }));
+}
+
+TEST_F(WithMarker, OfTheOtherScanTakesTheReaderThereAndIsDeleted)
+{
+    pairWithOther();
+    key(Qt::Key_X);
+    ASSERT_TRUE(reads("supine"));
+    waitForScan();
+    clickRow(markers(), 1);
+    ASSERT_TRUE(reads("prone"));
     press(window(), "markerRemove");
     ASSERT_TRUE(eventually([&] { return stored().size() == 1 && settled(); }));
     // What is left moves into its row, and is not chosen by that.
-    choose(0);
-    ASSERT_TRUE(eventually([] { return the<QComboBox>("scan")->currentText().startsWith("supine") && settled(); }));
-    waitForScan();
+    clickRow(markers(), 0);
+    EXPECT_TRUE(reads("supine"));
+}
+
+TEST_F(WithMarker, IsDeletedByTheKeyOnceAndNoOtherWithIt)
+{
     click("endoscopic", middle("endoscopic") + QPoint(60, 90), Qt::ShiftModifier);
     ASSERT_TRUE(eventually([&] { return stored().size() == 2 && settled(); }));
-    choose(0);
+    clickRow(markers(), 0);
     key(Qt::Key_Delete);
     ASSERT_TRUE(eventually([&] { return stored().size() == 1 && settled(); }));
     EXPECT_FALSE(the<QPushButton>("markerRemove")->isEnabled());

@@ -93,29 +93,66 @@ TEST(ThesisSubdivision, GoesOnFromTheEarlierCandidateItWentBackTo)
     }
 }
 
+/// A tube that widens fourfold: equal numbers of inside voxels are far from equal numbers of triangles.
+Lumen funnel()
+{
+    const auto radius = [](double z) { return 5 + 15 * z / 180; };
+    return {maskOf(Grid{.size = {50, 50, 190}},
+                   [&](Point3 p) { return p.z > 4 && p.z < 184 && std::hypot(p.x - 25, p.y - 25) < radius(p.z); }),
+            {{pieceThrough({{25, 25, 6}, {25, 25, 180}}, 8)}}};
+}
+
+Subdivided dividedBy(const Lumen& lumen, const char* size)
+{
+    SubdivideOptions options = thesis(6);
+    options.size = size;
+    options.approach = "global";
+    return divide(lumen, options);
+}
+
 TEST(ThesisSubdivision, BalancesTrianglesBetterWhenItCountsThem)
 {
-    // A tube that widens fourfold: equal numbers of inside voxels are far from equal numbers of triangles.
-    const Grid grid{.size = {50, 50, 190}};
-    const auto radius = [](double z) { return 5 + 15 * z / 180; };
-    const Skeleton skeleton{{pieceThrough({{25, 25, 6}, {25, 25, 180}}, 8)}};
-    const Lumen lumen{
-        maskOf(grid, [&](Point3 p) { return p.z > 4 && p.z < 184 && std::hypot(p.x - 25, p.y - 25) < radius(p.z); }),
-        skeleton};
-    HuVolume hu(grid);
+    const Lumen lumen = funnel();
+    HuVolume hu(lumen.inside.grid);
     std::transform(lumen.inside.voxels.begin(), lumen.inside.voxels.end(), hu.voxels.begin(),
                    [](std::uint8_t v) { return std::int16_t(v ? -1000 : 40); });
     const auto spread = [&](const char* size) {
-        SubdivideOptions options = thesis(6);
-        options.size = size;
-        options.approach = "global";
-        Subdivided divided = divide(lumen, options);
+        Subdivided divided = dividedBy(lumen, size);
         NoProgress quiet;
         countTriangles(extractCells(hu, lumen.inside, divided.segments, {}, quiet), divided.description);
         const auto& s = divided.description.statistics;
         return s["triangles_standard_deviation"].get<double>() / s["triangles_average"].get<double>();
     };
     EXPECT_LT(spread("triangles"), 0.7 * spread("inside"));
+}
+
+TEST(ThesisSubdivision, BalancesWhatMeasuresASegmentsSize)
+{
+    const Lumen lumen = funnel();
+    const Grid& grid = lumen.inside.grid;
+    const auto isSurface = [&](Index3 v) {
+        for (const Index3 w : {Index3{v.i - 1, v.j, v.k},
+                               {v.i + 1, v.j, v.k},
+                               {v.i, v.j - 1, v.k},
+                               {v.i, v.j + 1, v.k},
+                               {v.i, v.j, v.k - 1},
+                               {v.i, v.j, v.k + 1}})
+            if (lumen.inside.valueOr(w, kOutside) == kOutside)
+                return true;
+        return false;
+    };
+    const auto spread = [&](const char* size, bool of_surface) {
+        const Subdivided divided = dividedBy(lumen, size);
+        std::vector<double> count(divided.description.segments.size(), 0);
+        for (std::size_t n = 0; n < grid.voxelCount(); ++n)
+            if (divided.segments.voxels[n] && (!of_surface || isSurface(grid.indexOf(n))))
+                ++count[std::size_t(divided.segments.voxels[n] - 1)];
+        return *std::max_element(count.begin(), count.end()) / *std::min_element(count.begin(), count.end());
+    };
+    EXPECT_LT(spread("surface", true), 1.3);
+    EXPECT_GT(spread("inside", true), 1.5);
+    EXPECT_LT(spread("inside", false), 1.3);
+    EXPECT_GT(spread("surface", false), 1.5);
 }
 
 TEST(ThesisSubdivision, DoesNotDependOnTheNumberOfThreads)

@@ -3,9 +3,11 @@
 #include <sys/wait.h>
 
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
+#include <thread>
 
 namespace fs = std::filesystem;
 
@@ -23,6 +25,19 @@ TemporaryFolder::~TemporaryFolder()
 {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
+}
+
+bool waitUntil(const std::function<bool()>& holds)
+{
+    constexpr std::chrono::minutes kLongest{1};
+    constexpr std::chrono::milliseconds kBetween{1};
+    const auto end = std::chrono::steady_clock::now() + kLongest;
+    while (!holds()) {
+        if (std::chrono::steady_clock::now() > end)
+            return false;
+        std::this_thread::sleep_for(kBetween);
+    }
+    return true;
 }
 
 fs::path sharedData(const fs::path& name)

@@ -71,7 +71,7 @@ TEST(EyesMark, LiesInEverySliceWhereTheEyeIsAndPointsWhereItLooks)
         Vector3 right, down;
     };
     for (const Plane& plane :
-         {Plane{SlicePlane::transverse, {1, 0, 0}, {0, 1, 0}}, Plane{SlicePlane::coronal, {1, 0, 0}, {0, 0, -1}},
+         {Plane{SlicePlane::axial, {1, 0, 0}, {0, 1, 0}}, Plane{SlicePlane::coronal, {1, 0, 0}, {0, 0, -1}},
           Plane{SlicePlane::sagittal, {0, 1, 0}, {0, 0, -1}}})
         for (const Vector3 forward : kWays) {
             SliceRequest request{.plane = plane.plane,

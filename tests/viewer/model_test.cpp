@@ -34,7 +34,7 @@ TEST(Orientation, SlicesAreSeenAsRadiologistsSeeThem)
     const struct {
         SlicePlane plane;
         char left, right, top, bottom, towards;
-    } cases[] = {{SlicePlane::transverse, 'R', 'L', 'A', 'P', 'H'},
+    } cases[] = {{SlicePlane::axial, 'R', 'L', 'A', 'P', 'H'},
                  {SlicePlane::coronal, 'R', 'L', 'H', 'F', 'P'},
                  {SlicePlane::sagittal, 'A', 'P', 'H', 'F', 'R'}};
     for (const auto& c : cases) {

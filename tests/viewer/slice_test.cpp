@@ -31,7 +31,7 @@ TEST(Slices, ShowTheDensityOfEachPixelsPointHoweverTheScanIsStored)
     const Point3 point{7, -4, 11};
     for (const test::Storage& storage : test::storages()) {
         const HuVolume volume = linearVolume(storage);
-        for (const SlicePlane plane : {SlicePlane::transverse, SlicePlane::coronal, SlicePlane::sagittal}) {
+        for (const SlicePlane plane : {SlicePlane::axial, SlicePlane::coronal, SlicePlane::sagittal}) {
             const PlaneView view = sliceThrough(volume.grid, plane, point, 60, 50, 40);
             const auto densities = sliceDensities(volume, view);
             for (int y = 0; y < view.height; y += 7)
@@ -50,7 +50,7 @@ TEST(Slices, PassThroughTheirPointAndShowTheWholeScan)
     for (const test::Storage& storage : test::storages()) {
         const HuVolume volume = linearVolume(storage);
         const Bounds bounds = boundsOf(volume.grid);
-        for (const SlicePlane plane : {SlicePlane::transverse, SlicePlane::coronal, SlicePlane::sagittal}) {
+        for (const SlicePlane plane : {SlicePlane::axial, SlicePlane::coronal, SlicePlane::sagittal}) {
             const PlaneView view = sliceThrough(volume.grid, plane, point, 64, 48);
             EXPECT_NEAR(view.depth_mm(point), 0, 1e-9);
             for (const Point3 corner : {bounds.lower_mm, bounds.upper_mm}) {
@@ -67,7 +67,7 @@ TEST(Slices, PassThroughTheirPointAndShowTheWholeScan)
 TEST(Slices, AreBlankOutsideTheScan)
 {
     const HuVolume volume = linearVolume(test::storages().front());
-    const PlaneView view = sliceThrough(volume.grid, SlicePlane::transverse, {300, 0, 0}, 20, 20, 40);
+    const PlaneView view = sliceThrough(volume.grid, SlicePlane::axial, {300, 0, 0}, 20, 20, 40);
     for (const float density : sliceDensities(volume, view))
         EXPECT_EQ(density, kPaddingHu);
 }

@@ -95,15 +95,15 @@ TEST_P(SnapshotsOf, ShowAMarkerOnThePatientsLeftOnTheRight)
 
     request.view = SnapshotRequest::View::slices;
     const Picture slices = shoot(turned, request);
-    const Found transverse = findColor(slices, red, {0, 0, 400, 300});
+    const Found axial = findColor(slices, red, {0, 0, 400, 300});
     const Found coronal = findColor(slices, red, {402, 0, 400, 300});
     const Found sagittal = findColor(slices, red, {0, 302, 400, 300});
-    for (const Found& found : {transverse, coronal, sagittal})
+    for (const Found& found : {axial, coronal, sagittal})
         ASSERT_GT(found.count, 20);
-    EXPECT_GT(transverse.x, 200 + 40);
+    EXPECT_GT(axial.x, 200 + 40);
     EXPECT_GT(coronal.x, 402 + 200 + 30);
-    EXPECT_GT(coronal.y, 150);     // below the middle: towards the feet
-    EXPECT_GT(transverse.y, 150);  // behind the middle
+    EXPECT_GT(coronal.y, 150);  // below the middle: towards the feet
+    EXPECT_GT(axial.y, 150);    // behind the middle
     EXPECT_GT(sagittal.x, 200);
     EXPECT_GT(sagittal.y, 302 + 150);
 
@@ -182,7 +182,7 @@ TEST_F(Snapshots, ALongLineInANarrowSliceIsNotWrittenSmallerThanItMustBe)
 {
     const PreparedScan of = scan();
     SliceRequest slice;
-    slice.view = sliceThrough(of.volume().grid, SlicePlane::transverse, colon.polyp_mm, 260, 260);
+    slice.view = sliceThrough(of.volume().grid, SlicePlane::axial, colon.polyp_mm, 260, 260);
     slice.window = {"dark", 100, 10000};
     slice.caption.patient_name = "Katzenellenbogen^Maximiliane";
     int least = 260, most = 0;
@@ -203,7 +203,7 @@ TEST_F(Snapshots, OnAScreenOfTwiceThePixelsTextIsTwiceAsHigh)
     overview.view = SnapshotRequest::View::overview;
     overview.caption.patient_name = slice.caption.patient_name = "Phantom^Anna";
     const auto written = [&](int scale) {
-        slice.view = sliceThrough(of.volume().grid, SlicePlane::transverse, colon.polyp_mm, 300 * scale, 300 * scale);
+        slice.view = sliceThrough(of.volume().grid, SlicePlane::axial, colon.polyp_mm, 300 * scale, 300 * scale);
         slice.window = {"dark", 100, 10000};
         overview.width = overview.height = 300 * scale;
         slice.pixel_ratio = overview.pixel_ratio = scale;
@@ -252,7 +252,7 @@ TEST_F(Snapshots, ASliceOfAPatientOfWhomNothingIsKnownSaysNoDistance)
 {
     const PreparedScan prepared = scan();
     SliceRequest request;
-    request.view = sliceThrough(prepared.volume().grid, SlicePlane::transverse, colon.polyp_mm, 400, 400);
+    request.view = sliceThrough(prepared.volume().grid, SlicePlane::axial, colon.polyp_mm, 400, 400);
     request.point_mm = colon.polyp_mm;
     request.window = {"dark", 100, 10000};
     // Under three lines: the place, that there is no name, and the window.

@@ -7,6 +7,7 @@
 
 #include "grid/blocks.h"
 #include "grid/run_labels.h"
+#include "grid/slice_holes.h"
 #include "segment/constants.h"
 
 namespace vicon::steps {
@@ -47,42 +48,6 @@ Mask largestComponent(const Mask& mask)
     return out;
 }
 
-/// Everything in an axial slice that the slice's border cannot reach without crossing the body.
-void fillSlice(Mask& mask, int k)
-{
-    const int nx = mask.grid.size[0], ny = mask.grid.size[1];
-    std::vector<Index3> stack;
-    std::vector<std::uint8_t> outside(std::size_t(nx) * std::size_t(ny), 0);
-    const auto visit = [&](int i, int j) {
-        if (i < 0 || j < 0 || i >= nx || j >= ny || mask.at({i, j, k}))
-            return;
-        std::uint8_t& seen = outside[std::size_t(i) + std::size_t(nx) * std::size_t(j)];
-        if (!seen) {
-            seen = 1;
-            stack.push_back({i, j, k});
-        }
-    };
-    for (int i = 0; i < nx; ++i) {
-        visit(i, 0);
-        visit(i, ny - 1);
-    }
-    for (int j = 0; j < ny; ++j) {
-        visit(0, j);
-        visit(nx - 1, j);
-    }
-    while (!stack.empty()) {
-        const Index3 v = stack.back();
-        stack.pop_back();
-        visit(v.i - 1, v.j);
-        visit(v.i + 1, v.j);
-        visit(v.i, v.j - 1);
-        visit(v.i, v.j + 1);
-    }
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i)
-            mask.at({i, j, k}) = outside[std::size_t(i) + std::size_t(nx) * std::size_t(j)] ? 0 : 1;
-}
-
 void measureBox(Body& body)
 {
     const Grid& grid = body.inside.grid;
@@ -112,7 +77,7 @@ Body findBody(const HuVolume& volume, Progress& progress)
     for (std::size_t n = 0; n < mask.voxels.size(); ++n)
         mask.voxels[n] = body.mean_hu.voxels[n] > kBody_hu ? 1 : 0;
     mask = largestComponent(dilatedByBox(erodedByBox(mask)));
-    tbb::parallel_for(0, mask.grid.size[2], [&](int k) { fillSlice(mask, k); });
+    fillSlices(mask);
     body.inside = erodedByBox(mask);
     measureBox(body);
     return body;

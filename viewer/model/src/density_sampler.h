@@ -75,15 +75,15 @@ public:
         if (padding && paddingAround(v))
             return {};
         const auto row = [&](int j, int k) { return rowOf(v + row_ * j + slice_ * k); };
-        const Four front = row(0, 0), back = row(1, 0), front_up = row(0, 1), back_up = row(1, 1);
-        const Four low = front + cell.y * (back - front), high = front_up + cell.y * (back_up - front_up);
-        const Four across = low + cell.z * (high - low);
-        const Four deep = mixed(back - row(-1, 0), row(2, 0) - front, cell.y);
-        const Four deep_up = mixed(back_up - row(-1, 1), row(2, 1) - front_up, cell.y);
-        const Four under = mixed(front_up - row(0, -1), back_up - row(1, -1), cell.y);
-        const Four over = mixed(row(0, 2) - front, row(1, 2) - back, cell.y);
+        const Float4 front = row(0, 0), back = row(1, 0), front_up = row(0, 1), back_up = row(1, 1);
+        const Float4 low = front + cell.y * (back - front), high = front_up + cell.y * (back_up - front_up);
+        const Float4 across = low + cell.z * (high - low);
+        const Float4 deep = mixed(back - row(-1, 0), row(2, 0) - front, cell.y);
+        const Float4 deep_up = mixed(back_up - row(-1, 1), row(2, 1) - front_up, cell.y);
+        const Float4 under = mixed(front_up - row(0, -1), back_up - row(1, -1), cell.y);
+        const Float4 over = mixed(row(0, 2) - front, row(1, 2) - back, cell.y);
         const float x = mixed(across[2] - across[0], across[3] - across[1], cell.x);
-        const Four y = mixed(deep, deep_up, cell.z), z = mixed(under, over, cell.z);
+        const Float4 y = mixed(deep, deep_up, cell.z), z = mixed(under, over, cell.z);
         const float gy = mixed(y[1], y[2], cell.x), gz = mixed(z[1], z[2], cell.x);
         const float sx = x * per_mm_[0], sy = gy * per_mm_[1], sz = gz * per_mm_[2];
         return {x * unit.x + gy * unit.y + gz * unit.z, std::sqrt(sx * sx + sy * sy + sz * sz)};
@@ -99,17 +99,17 @@ private:
         const int i = int(p.x), j = int(p.y), k = int(p.z);  // none is negative
         return {voxels_ + i + row_ * j + slice_ * k, p.x - float(i), p.y - float(j), p.z - float(k)};
     }
-    using Four = float __attribute__((vector_size(16)));
+    using Float4 = float __attribute__((vector_size(16)));
     // The voxel before `v`, it, and two more.
-    static Four rowOf(const std::int16_t* v)
+    static Float4 rowOf(const std::int16_t* v)
     {
         using Eight = std::int16_t __attribute__((vector_size(16)));
-        using FourWords = std::int32_t __attribute__((vector_size(16)));
+        using Word4 = std::int32_t __attribute__((vector_size(16)));
         using TwoLong = std::uint64_t __attribute__((vector_size(16)));
         const auto voxels = reinterpret_cast<Eight>(TwoLong{four(v - 1), 0});
         // Each twice, so that the upper half of a word is the voxel; a plain conversion is made one by one.
         const Eight twice = __builtin_shufflevector(voxels, voxels, 0, 0, 1, 1, 2, 2, 3, 3);
-        return __builtin_convertvector(reinterpret_cast<FourWords>(twice) >> 16, Four);
+        return __builtin_convertvector(reinterpret_cast<Word4>(twice) >> 16, Float4);
     }
     template <class T>
     static T mixed(T a, T b, float share)
@@ -123,7 +123,7 @@ private:
         return front + ty * (back - front);
     }
 
-    // Four voxels at once: a row's four, or two rows' two.
+    // Float4 voxels at once: a row's four, or two rows' two.
     static std::uint64_t four(const std::int16_t* v)
     {
         std::uint64_t voxels = 0;

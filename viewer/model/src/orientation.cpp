@@ -58,8 +58,8 @@ std::string sideName(Vector3 direction)
 std::string nameOf(SlicePlane plane)
 {
     switch (plane) {
-        case SlicePlane::transverse:
-            return "transverse";
+        case SlicePlane::axial:
+            return "axial";
         case SlicePlane::coronal:
             return "coronal";
         default:
@@ -70,7 +70,7 @@ std::string nameOf(SlicePlane plane)
 SliceAxes axesOf(SlicePlane plane)
 {
     switch (plane) {
-        case SlicePlane::transverse:
+        case SlicePlane::axial:
             return {{1, 0, 0}, {0, 1, 0}};
         case SlicePlane::coronal:
             return {{1, 0, 0}, {0, 0, -1}};

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "block_grid.h"
-#include "four.h"
+#include "float4.h"
 #include "vicon/core/volume_view.h"
 
 namespace vicon::viewer {
@@ -29,9 +29,9 @@ public:
     };
 
     /// @param p in voxels: index 0 is the centre of the first voxel
-    Clear at(Four p) const
+    Clear at(Float4 p) const
     {
-        const FourInts low = floorOf(p);
+        const Int4 low = floorOf(p);
         const std::array<int, 3> cube{low[0] + 1, low[1] + 1, low[2] + 1};
         for (std::size_t d = 0; d < 3; ++d)
             if (unsigned(cube[d]) >= unsigned(size_[d]))
@@ -39,7 +39,7 @@ public:
         const int steps = steps_[cube_blocks_.elementOf(cube)];
         if (steps == 0)
             return {Kind::wall, 0};
-        const Four part = p - fourOf(low), side = leastOf(part, 1 - part);
+        const Float4 part = p - toFloat4(low), side = leastOf(part, 1 - part);
         const float to_side = std::min({side[0], side[1], side[2]});
         return {steps > 0 ? Kind::open : Kind::solid, float(std::abs(steps) - 1) + to_side};
     }
@@ -63,7 +63,7 @@ public:
 
 private:
     /// How far beyond the cubes a place lies.
-    float beyond(Four p) const
+    float beyond(Float4 p) const
     {
         float most = -1;
         for (int d = 0; d < 3; ++d)

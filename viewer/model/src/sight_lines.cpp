@@ -37,22 +37,22 @@ struct Square {
 /// Along each axis of the grid how far the lines through a square's four corners go for each step of depth, and how
 /// deep they go for each voxel.
 struct Corners {
-    std::array<Four, 3> way, depth;
+    std::array<Float4, 3> way, depth;
 };
 
-Four inVoxels(const Grid& grid, Vector3 v)
+Float4 inVoxels(const Grid& grid, Vector3 v)
 {
-    return Four{float(dot(v, grid.axis[0]) / grid.spacing_mm[0]), float(dot(v, grid.axis[1]) / grid.spacing_mm[1]),
+    return Float4{float(dot(v, grid.axis[0]) / grid.spacing_mm[0]), float(dot(v, grid.axis[1]) / grid.spacing_mm[1]),
                 float(dot(v, grid.axis[2]) / grid.spacing_mm[2]), 0};
 }
 
-Four inVoxels(const Grid& grid, Point3 p)
+Float4 inVoxels(const Grid& grid, Point3 p)
 {
     const ContinuousIndex3 at = grid.continuousIndexAt(p);
-    return Four{float(at.i), float(at.j), float(at.k), 0};
+    return Float4{float(at.i), float(at.j), float(at.k), 0};
 }
 
-Four sizeOf(Four a)
+Float4 sizeOf(Float4 a)
 {
     return mostOf(a, -a);
 }
@@ -79,7 +79,7 @@ public:
 
     void follow(const Square& square) const
     {
-        const Four way = wayThrough(square);
+        const Float4 way = wayThrough(square);
         const float speed = mostIn(sizeOf(way));
         const float half = square.half + kSlackSquares * top_ / kFinest, spread = half * widest_;
         const Corners corners = cornersOf(square, half);
@@ -132,11 +132,11 @@ public:
 private:
     bool atMost(const Square& square, float along_height) const { return square.half <= top_ / along_height * 1.001F; }
 
-    Four wayThrough(const Square& square) const { return forward_ + square.x * right_ + square.y * up_; }
+    Float4 wayThrough(const Square& square) const { return forward_ + square.x * right_ + square.y * up_; }
 
     Corners cornersOf(const Square& square, float half) const
     {
-        const Four x = square.x + Four{-half, half, -half, half}, y = square.y + Four{-half, -half, half, half};
+        const Float4 x = square.x + Float4{-half, half, -half, half}, y = square.y + Float4{-half, -half, half, half};
         Corners corners;
         for (std::size_t d = 0; d < 3; ++d) {
             corners.way[d] = forward_[d] + x * right_[d] + y * up_[d];
@@ -145,16 +145,16 @@ private:
         return corners;
     }
 
-    Four along(Four way, float depth) const { return eye_ + depth * way; }
+    Float4 along(Float4 way, float depth) const { return eye_ + depth * way; }
 
     // Where the whole bundle crosses a plane of voxels between two depths of its middle, and all voxels around the
     // crossing are outside: the greatest depth of a crossing; else 0. This finds walls that are too thin for a solid
     // cube.
-    float endOf(const Corners& corners, Four way, float depth, float next) const
+    float endOf(const Corners& corners, Float4 way, float depth, float next) const
     {
-        const Four a = along(way, depth), b = along(way, next);
-        const Four plane = way > 0 ? -fourOf(floorOf(-a)) : fourOf(floorOf(a));
-        const FourInts crossed = ((plane - a) * (b - plane) >= 0) & (a != b);
+        const Float4 a = along(way, depth), b = along(way, next);
+        const Float4 plane = way > 0 ? -toFloat4(floorOf(-a)) : toFloat4(floorOf(a));
+        const Int4 crossed = ((plane - a) * (b - plane) >= 0) & (a != b);
         for (int axis = 0; axis < 3; ++axis)
             if (crossed[axis])
                 if (const float last = endAt(corners, std::size_t(axis), plane[axis], next + 3 * (next - depth));
@@ -166,13 +166,13 @@ private:
     float endAt(const Corners& corners, std::size_t axis, float plane, float most) const
     {
         const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-        const Four depth = (plane - eye_[axis]) * corners.depth[axis];
+        const Float4 depth = (plane - eye_[axis]) * corners.depth[axis];
         if (!allOf((depth > 0) & (depth < most)))
             return 0;
-        const Four along_u = eye_[u] + depth * corners.way[u], along_v = eye_[v] + depth * corners.way[v];
+        const Float4 along_u = eye_[u] + depth * corners.way[u], along_v = eye_[v] + depth * corners.way[v];
         // The next voxels below the least of them; those above the greatest, with the signs turned round.
-        const FourInts around =
-            floorOf(Four{leastIn(along_u), leastIn(along_v), -mostIn(along_u), -mostIn(along_v)} - kSlackVoxels);
+        const Int4 around =
+            floorOf(Float4{leastIn(along_u), leastIn(along_v), -mostIn(along_u), -mostIn(along_v)} - kSlackVoxels);
         const bool blocked = field_.outside(axis, int(plane), {around[0], around[1]}, {-around[2], -around[3]});
         return blocked ? mostIn(depth) : 0;
     }
@@ -184,18 +184,18 @@ private:
             follow({square.x + (n & 1 ? h : -h), square.y + (n & 2 ? h : -h), h, from});
     }
 
-    void tell(Four way, float from, float to, float half) const
+    void tell(Float4 way, float from, float to, float half) const
     {
-        const Four a = along(way, from), b = along(way, to), wide = to * half * wide_ + kSlackVoxels;
-        const FourInts low = floorOf(leastOf(a, b) - wide) + 1, high = floorOf(mostOf(a, b) + wide) + 1;
+        const Float4 a = along(way, from), b = along(way, to), wide = to * half * wide_ + kSlackVoxels;
+        const Int4 low = floorOf(leastOf(a, b) - wide) + 1, high = floorOf(mostOf(a, b) + wide) + 1;
         blocks_.add(cubes_, {low[0], low[1], low[2]}, {high[0], high[1], high[2]});
     }
 
     const SightField& field_;
     const PatchBlocks& blocks_;
     PatchBlocks::Cubes& cubes_;        ///< what bundles have met
-    Four eye_, forward_, right_, up_;  ///< in voxels
-    Four wide_;     ///< along each axis, how far a square of half edge 1 reaches from its middle, at depth 1
+    Float4 eye_, forward_, right_, up_;  ///< in voxels
+    Float4 wide_;     ///< along each axis, how far a square of half edge 1 reaches from its middle, at depth 1
     float widest_;  ///< the most of these
     float top_;     ///< of the picture, at depth 1
 };

@@ -27,8 +27,8 @@ Picture greyPicture(const HuView& volume, const PlaneView& view, const WindowLev
 
 std::string titleOf(SlicePlane plane, Point3 point)
 {
-    const double mm = plane == SlicePlane::transverse ? point.z : plane == SlicePlane::coronal ? point.y : point.x;
-    const char* axis = plane == SlicePlane::transverse ? "z" : plane == SlicePlane::coronal ? "y" : "x";
+    const double mm = plane == SlicePlane::axial ? point.z : plane == SlicePlane::coronal ? point.y : point.x;
+    const char* axis = plane == SlicePlane::axial ? "z" : plane == SlicePlane::coronal ? "y" : "x";
     return nameOf(plane) + ", " + axis + " = " + std::to_string(std::lround(mm)) + " mm";
 }
 
@@ -97,7 +97,7 @@ Picture captionAndCloseUp(const PreparedScan& scan, const SnapshotRequest& reque
     Picture picture(width, height, {10, 12, 16});
     const CaptionPanel panel = captionPanel(linesOf(scan, request, place), width, height);
     if (const int side = int(panel.close_up.width); side > 0)
-        copyInto(picture, slice(scan, request, {SlicePlane::transverse, point, side, side, kCloseUp_mm, false}),
+        copyInto(picture, slice(scan, request, {SlicePlane::axial, point, side, side, kCloseUp_mm, false}),
                  int(panel.close_up.x), int(panel.close_up.y));
     paint(picture, panel.overlay);
     return picture;
@@ -148,7 +148,7 @@ Picture slicesPicture(const PreparedScan& scan, const SnapshotRequest& request, 
     const auto put = [&](SlicePlane plane, int x, int y) {
         copyInto(picture, slice(scan, request, {plane, point, w, h, request.slice_field_mm, true}), x, y);
     };
-    put(SlicePlane::transverse, 0, 0);
+    put(SlicePlane::axial, 0, 0);
     put(SlicePlane::coronal, right, 0);
     put(SlicePlane::sagittal, 0, below);
     copyInto(picture, captionAndCloseUp(scan, request, place, point, w, h), right, below);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ public:
 private:
     std::filesystem::path path_;
 };
+
+/// Looks again and again until a condition holds; false when it does not within a minute.
+bool waitUntil(const std::function<bool()>& holds);
 
 /// A place in the outside test data; see VICON_NEEDS_DATA.
 std::filesystem::path sharedData(const std::filesystem::path& name);

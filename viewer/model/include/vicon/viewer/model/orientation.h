@@ -16,12 +16,12 @@ std::string lettersFor(Vector3 direction);
 std::string sideName(Vector3 direction);
 
 /// The orthogonal planes, as radiologists look at them.
-enum class SlicePlane { transverse, coronal, sagittal };
+enum class SlicePlane { axial, coronal, sagittal };
 
 /// A plane's name for captions.
 std::string nameOf(SlicePlane plane);
 
-/// Directions of a slice's picture. Transverse: seen from the feet, anterior up, the patient's right on the left.
+/// Directions of a slice's picture. Axial: seen from the feet, anterior up, the patient's right on the left.
 /// Coronal: seen from the front, head up, the patient's right on the left. Sagittal: head up, anterior on the left.
 /// They depend on the patient alone, never on how the scan's voxels are stored or how the patient lay.
 struct SliceAxes {

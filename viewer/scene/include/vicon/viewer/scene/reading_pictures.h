@@ -13,7 +13,7 @@ namespace vicon::viewer {
 
 /// A slice as the reading room shows it; the plane passes through the middle of `view`.
 struct SliceRequest {
-    SlicePlane plane = SlicePlane::transverse;
+    SlicePlane plane = SlicePlane::axial;
     PlaneView view;
     double pixel_ratio = 1;  ///< of the screen, as in SnapshotRequest
     Point3 point_mm;         ///< where the crosshair is

@@ -1,0 +1,114 @@
+#include "biopsy/biopsy_tool.h"
+
+#include <algorithm>
+
+#include "peeling/peeling_panel.h"
+#include "reading/reading.h"
+#include "window/reading_layout.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr const char* kColours = "biopsy";  // where the reader has chosen none
+constexpr double kLeast_mm = 1, kMost_mm = 25;
+constexpr double kLeast_px = 4;  // of a circle: the eye is too far from it to see anything there
+
+}  // namespace
+
+void BiopsyTool::addTo(ReadingLayout& layout)
+{
+    layout.addAction(ReadingMenu::edit, tr("Virtual biopsy: circle a finding"), QKeySequence("T"), [this] { start(); });
+    connect(reading_.views().endoscopic(), &PictureView::circled, this, &BiopsyTool::circled);
+    connect(&reading_.session(), &CaseSession::biopsied, this, &BiopsyTool::show);
+}
+
+void BiopsyTool::start()
+{
+    if (!reading_.navigator())
+        return;
+    reading_.begin(CircleFinding{},
+                   tr("Virtual biopsy: drag from the middle of the finding to its edge; or arrows and Return at both"));
+}
+
+void BiopsyTool::nextClickChanged()
+{
+    if (!circle_)
+        return;
+    circle_.reset();
+    panel_.showHistogram({});
+    reading_.drawEndoscopic(true);
+}
+
+void BiopsyTool::circled(Pixel centre, double radius_px)
+{
+    reading_.interaction().finish();
+    reading_.toolChanged();
+    const ShownPicture& shown = reading_.shown();
+    if (!reading_.navigator() || !shown.isOf(reading_.sharedScan()))
+        return;
+    const auto point = wallAt(*reading_.scan(), shown.place.pose, shown.lens, centre);
+    if (!point) {
+        reading_.say(tr("There is no wall in the middle of the circle."));
+        return;
+    }
+    const double depth_mm = project(shown.place.pose, shown.lens, *point).depth_mm;
+    const double radius_mm = std::clamp(radius_px * depth_mm / shown.lens.focal_px(), kLeast_mm, kMost_mm);
+    circle_ = Circle{*point, radius_mm};
+    reading_.drawEndoscopic(true);
+    reading_.say(tr("Taking the biopsy ..."));
+    // Half of a finding's height below its top, which is as far as half of its radius where it stands as half a ball.
+    const Vector3 inwards = rayThrough(shown.place.pose, shown.lens, centre);
+    reading_.session().takeBiopsy(*point + inwards * (radius_mm / 2), radius_mm);
+}
+
+void BiopsyTool::show(const DensitySample& biopsy)
+{
+    if (!circle_)
+        return;
+    if (biopsy.voxels == 0) {
+        reading_.warn(
+            tr("The tissue there is too thin to measure its density apart from gas and fluid; draw a larger circle."));
+        return;
+    }
+    panel_.showHistogram(biopsy);
+    QString text = tr("%1 \u00b1 %2 HU within %3 mm")
+                       .arg(biopsy.mean_hu, 0, 'f', 0)
+                       .arg(biopsy.sd_hu, 0, 'f', 0)
+                       .arg(biopsy.radius_mm, 0, 'f', 1);
+    constexpr double kWorthSaying = 0.2;
+    if (biopsy.fat_fraction >= kWorthSaying)
+        text += tr(", %1 % as light as fat").arg(100 * biopsy.fat_fraction, 0, 'f', 0);
+    const auto marker = reading_.markerNear({circle_->centre_mm, biopsy.centre_mm});
+    if (!marker) {
+        reading_.say(text + tr("; no marker beside it to keep it with"));
+        return;
+    }
+    Marker after = *marker;
+    after.density = biopsy;
+    reading_.session().changeMarker(*marker, after, false,
+                                    tr("%1; kept with %2").arg(text, QString::fromStdString(marker->id)));
+}
+
+void BiopsyTool::complete(EndoscopicRequest& request) const
+{
+    if (!circle_)
+        return;
+    SnapshotRequest& picture = request.snapshot;
+    const Lens lens{picture.view_angle_deg, picture.width, picture.height};
+    const Projected at = project(request.place.pose, lens, circle_->centre_mm);
+    const double radius_px = at.depth_mm > 0 ? circle_->radius_mm * lens.focal_px() / at.depth_mm : 0;
+    const bool seen = radius_px >= kLeast_px && at.at.x > -radius_px && at.at.y > -radius_px &&
+                      at.at.x < lens.width + radius_px && at.at.y < lens.height + radius_px;
+    if (!seen) {
+        if (!panel_.on())
+            picture.peel.clear();
+        return;
+    }
+    if (picture.peel.empty())
+        picture.peel = kColours;
+    picture.peel_middle_only = true;
+    picture.peel_circle_at = at.at;
+    picture.peel_circle_px = radius_px;
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <QObject>
+#include <map>
+
+#include "session/open_scan.h"
+#include "vicon/viewer/model/unseen.h"
+#include "widgets/worker_with.h"
+
+namespace vicon::viewer {
+
+/// Finds what was not seen, and keeps what was: for each reader, in the case's folder.
+class SeenKeeper : public QObject {
+    Q_OBJECT
+public:
+    explicit SeenKeeper(QObject* parent);
+
+    /// Takes back what this reader had seen of a scan in earlier sessions; on a thread that may read files.
+    /// @param scan_folder in the case's folder
+    static void restore(SeenSoFar& seen, const std::filesystem::path& scan_folder);
+
+    /// found() follows.
+    void findUnseen(std::shared_ptr<OpenScan> scan, double least_mm2);
+    /// Writes what was seen, unless it is written already.
+    void save(std::shared_ptr<OpenScan> scan);
+
+signals:
+    void found(const std::vector<vicon::viewer::UnseenPatch>& patches, std::shared_ptr<vicon::viewer::OpenScan> scan);
+    void failed(const QString& message);
+
+private:
+    using Written = std::map<std::filesystem::path, std::string>;  ///< by file, what is in it
+    WorkerWith<Written> worker_{this};
+};
+
+}  // namespace vicon::viewer

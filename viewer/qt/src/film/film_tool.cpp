@@ -1,0 +1,49 @@
+#include "film/film_tool.h"
+
+#include "film/film_maker.h"
+#include "reading/reading.h"
+#include "window/reading_layout.h"
+
+namespace vicon::viewer {
+
+FilmTool::FilmTool(Reading& reading) : ReadingTool(reading), maker_(new FilmMaker(reading.drawing())) {}
+
+void FilmTool::addTo(ReadingLayout& layout)
+{
+    layout.addAction(ReadingMenu::a_case, tr("Film the way to the end (again: cancel)"), QKeySequence("Ctrl+M"),
+                     [this] { startOrCancel(); });
+    layout.addStatus(maker_);
+    maker_->hide();
+    connect(maker_, &FilmMaker::finished, this,
+            [this](const QString& file) { reading_.say(tr("Film saved: %1").arg(file)); });
+    connect(maker_, &FilmMaker::cancelled, this,
+            [this] { reading_.say(tr("The film was cancelled; nothing is kept of it.")); });
+    connect(&reading_.session(), &CaseSession::filmNamed, this, &FilmTool::start);
+}
+
+void FilmTool::startOrCancel()
+{
+    if (!reading_.navigator())
+        return;
+    if (maker_->running()) {
+        maker_->cancel();
+        return;
+    }
+    reading_.say(tr("Filming the way from here to the end; you can read on meanwhile"));
+    reading_.session().nameFilm();
+}
+
+void FilmTool::start(const QString& file)
+{
+    if (!reading_.navigator())
+        return;
+    constexpr int kLargest_px = 768;
+    const QSize view = reading_.views().endoscopic()->pictureSize().boundedTo({kLargest_px, kLargest_px});
+    const QSize size(view.width() / 2 * 2, view.height() / 2 * 2);  // Theora's colours have half the pixels
+    const NavigationState from = reading_.navigator()->state();
+    const double step_mm = reading_.navigator()->speed_mm_s() / FilmMaker::kPictures_per_s;
+    maker_->start(reading_.sharedScan(), reading_.requestFor(*reading_.scan(), from, size, false), from.station_mm,
+                  reading_.navigator()->heading(), step_mm, file.toStdString());
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "reading/reading_tool.h"
+
+namespace vicon::viewer {
+
+class MarkerTable;
+class ReadingLayout;
+
+/// Markers: placed, moved, paired, changed and removed; their list, their files, and what is known of one.
+class MarkerTool : public ReadingTool {
+    Q_OBJECT
+public:
+    explicit MarkerTool(Reading& reading);
+
+    void addTo(ReadingLayout& layout) override;
+    void useWords(const OrganWords& words) override;
+    void scanOpened(const Arrival& arrival) override;
+    void markersChanged() override;
+    bool act(const ClickMeaning& meaning, const ClickedPoint& point) override;
+
+    std::optional<StepNumber> toUndo() const override;
+    std::optional<StepNumber> toRedo() const override;
+    void undo() override;
+    void redo() override;
+    bool stepUnderWay() const override;
+
+private:
+    void addActions(ReadingLayout& layout);
+    void connectTable();
+    void startPlacing(MarkerColor color);
+    void startMoving(const Marker& marker);
+    void pair(const Marker& marker);
+    void choose(const Marker& marker);
+    void add(MarkerColor color, const ClickedPoint& point);
+    void move(const std::string& id, Point3 to);
+    void removeChosen();
+    void refuseMove(const std::string& id);
+    void chooseFile(bool to_save);
+    // marker_information.cpp
+    void showInformation();
+
+    MarkerTable* table_;
+};
+
+}  // namespace vicon::viewer

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <QWidget>
+
+#include "vicon/cases/density_sample.h"
+#include "vicon/viewer/scene/snapshot.h"
+
+class QCheckBox;
+class QComboBox;
+class QSlider;
+class QLabel;
+
+namespace vicon::viewer {
+
+/// What lies below the wall: with which colours, from how deep on, everywhere or in a circle.
+class PeelingPanel : public QWidget {
+    Q_OBJECT
+public:
+    explicit PeelingPanel(QWidget* parent = nullptr);
+    bool on() const;
+    bool circleOnly() const;
+    QString preset() const;  ///< empty: none
+    double offset_mm() const;
+    /// What is not known any more is none.
+    void choose(const QString& preset, double offset_mm, bool circle_only);
+    /// Puts the choice into a request for an endoscopic picture.
+    void fill(SnapshotRequest& request) const;
+    /// Where it is shown.
+    QWidget* histogram() const;
+    /// Of the biopsy that was taken last; one without voxels: none is shown.
+    void showHistogram(const DensitySample& biopsy);
+
+signals:
+    void changed();
+    /// Room is made for it by then.
+    void histogramShown(QWidget* histogram);
+
+private:
+    QComboBox* preset_;
+    QSlider* offset_;
+    QLabel* offset_text_;
+    QCheckBox* circle_;
+    QLabel* histogram_;
+};
+
+}  // namespace vicon::viewer

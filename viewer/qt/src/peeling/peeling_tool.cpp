@@ -1,0 +1,65 @@
+#include "peeling/peeling_tool.h"
+
+#include "peeling/peeling_panel.h"
+#include "reading/kept_place.h"
+#include "reading/reading.h"
+#include "widgets/kept_settings.h"
+#include "window/reading_layout.h"
+
+namespace vicon::viewer {
+
+PeelingTool::PeelingTool(Reading& reading) : ReadingTool(reading), panel_(new PeelingPanel) {}
+
+void PeelingTool::addTo(ReadingLayout& layout)
+{
+    layout.addPanel(panel_, ReadingLayout::PanelPlace::below_lists, panel_->histogram());
+    connect(panel_, &PeelingPanel::histogramShown, &layout, &ReadingLayout::scrollTo);
+    connect(panel_, &PeelingPanel::changed, this, [this] {
+        showTip();
+        drawSoon();
+    });
+    connect(reading_.views().endoscopic(), &PictureView::hovered, this, [this](Pixel at) {
+        mouse_at_ = at;
+        if (panel_->on() && panel_->circleOnly())
+            drawSoon();
+    });
+    showTip();
+}
+
+void PeelingTool::drawSoon()
+{
+    reading_.drawEndoscopic(false);
+    reading_.drawSmoothlySoon();
+}
+
+void PeelingTool::restore()
+{
+    const CaseRecord& record = reading_.session().record();
+    panel_->choose(keptSetting(keptKey(record, "peel")).toString(), keptSetting(keptKey(record, "peel_mm")).toDouble(),
+                   keptSetting(keptKey(record, "peel_circle")).toBool());
+}
+
+QVariantMap PeelingTool::kept() const
+{
+    const CaseRecord& record = reading_.session().record();
+    return {{keptKey(record, "peel"), panel_->preset()},
+            {keptKey(record, "peel_mm"), panel_->offset_mm()},
+            {keptKey(record, "peel_circle"), panel_->circleOnly()}};
+}
+
+void PeelingTool::complete(EndoscopicRequest& request) const
+{
+    panel_->fill(request.snapshot);
+    request.snapshot.peel_circle_at = mouse_at_;
+}
+
+void PeelingTool::showTip()
+{
+    const bool circle_at_mouse = panel_->on() && panel_->circleOnly();  // a tip would lie over what is peeled
+    reading_.views().endoscopic()->setToolTip(
+        circle_at_mouse ? QString()
+                        : tr("Click: slices there. Drag: steer. Wheel: on and back. Double click: "
+                             "enlarge. Shift and click: marker."));
+}
+
+}  // namespace vicon::viewer

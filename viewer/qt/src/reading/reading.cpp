@@ -1,0 +1,363 @@
+#include "reading/reading.h"
+
+#include <algorithm>
+
+#include "widgets/kept_settings.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr int kStill_ms = 150;        // after the last movement the picture is drawn smoothly
+constexpr double kFromLumen_mm = 15;  // a click on a slice this near to the lumen moves the eye as well
+constexpr double kNear_mm = 10;       // what is measured belongs to a marker this near
+
+}  // namespace
+
+Reading::Reading(const ReadingServices& services, const WorklistCase& row, ReadingViews& views, QObject* parent)
+    : QObject(parent), views_(views), session_(services, row, this), drawing_(this)
+{
+    still_.setSingleShot(true);
+    still_.setInterval(kStill_ms);
+    connect(&still_, &QTimer::timeout, this, [this] {
+        drawEndoscopic(true);
+        for (ReadingTool* tool : tools_)
+            tool->draw(true);
+    });
+}
+
+void Reading::setTools(std::vector<ReadingTool*> tools)
+{
+    tools_ = std::move(tools);
+    connectSession();
+    connectViews();
+}
+
+void Reading::connectSession()
+{
+    connect(&session_, &CaseSession::markersChanged, this, &Reading::markersChanged);
+    connect(&session_, &CaseSession::saved, this, &Reading::said);
+    connect(&session_, &CaseSession::warned, this, &Reading::warned);
+    connect(&drawing_, &DrawingThread::failed, this, [this](const QString& message) {
+        shown_ = {};  // a flight without pictures does not wait for one
+        warn(message);
+    });
+    connect(&drawing_, &DrawingThread::withoutOpenGl, this, [this] {
+        warn(
+            tr("OpenGL does not work here (its driver in Debian: libgl1-mesa-dri). The view from inside is cast "
+               "through the densities: slower, and what it shows is not counted as seen."));
+    });
+    connect(&drawing_, &DrawingThread::endoscopicDrawn, this, &Reading::showEndoscopic);
+    connect(&drawing_, &DrawingThread::overviewDrawn, this, [this](const Picture& picture, const PlaneView& view) {
+        shown_overview_ = view;
+        views_.overview()->showPicture(picture);
+    });
+}
+
+void Reading::connectViews()
+{
+    connect(views_.endoscopic(), &PictureView::resized, this, [this] { drawEndoscopic(true); });
+    connect(views_.endoscopic(), &PictureView::clicked, this, &Reading::clickedEndoscopic);
+    connect(views_.overview(), &PictureView::resized, this, &Reading::drawOverview);
+    for (SliceView* slice : views_.slices()) {
+        connect(slice, &SliceView::pointClicked, this, &Reading::clickedSlice);
+        connect(slice, &SliceView::failed, this, &Reading::warned);
+    }
+    connect(&views_, &ReadingViews::sizesLeft, this,
+            [this](const QVariantMap& sizes) { keepSettings(settings_worker_, sizes); });
+}
+
+void Reading::showEndoscopic(const Picture& picture, const ShownPicture& shown)
+{
+    shown_ = shown;
+    views_.endoscopic()->showPicture(picture);
+    if (shown.isOf(sharedScan()))
+        views_.endoscopic()->setAccessibleDescription(
+            tr("%1 mm from the %2").arg(shown.place.station_mm, 0, 'f', 0).arg(organWords().first_end.c_str()));
+    emit endoscopicShown();
+}
+
+SnapshotResult Reading::place() const
+{
+    const NavigationState state = navigator()->state();
+    return {state.pose, state.station_mm, state.clearance_mm, true};
+}
+
+void Reading::moved(bool still)
+{
+    if (!navigator())
+        return;
+    drawEndoscopic(still);
+    for (ReadingTool* tool : tools_)
+        tool->draw(still);
+    if (!still)
+        still_.start();
+    drawOverview();
+    showPlace();
+}
+
+void Reading::flewOn()
+{
+    looked_at_mm_.reset();
+    for (ReadingTool* tool : tools_)
+        tool->pointLeft();
+    moved(false);
+}
+
+void Reading::lookFrom(const ViewPose& view, Point3 looked_at_mm)
+{
+    if (!navigator())
+        return;
+    beginPass();
+    navigator()->lookFrom(view.pose, view.station_mm);
+    looked_at_mm_ = looked_at_mm;
+    moved(true);
+}
+
+void Reading::lookAt(Point3 point)
+{
+    if (!navigator())
+        return;
+    if (scan()->lumen.nearestInside(point, kFromLumen_mm).found) {
+        lookFrom(poseForPoint(scan()->files.skeleton(), scan()->files.frames(), scan()->lumen, point), point);
+        return;
+    }
+    looked_at_mm_ = point;
+    moved(true);
+}
+
+void Reading::showMarker(const Marker& marker)
+{
+    if (!navigator())
+        return;
+    if (marker.scan_id != scan()->record.id) {
+        ScanRequest request;
+        request.scan_id = marker.scan_id;
+        request.marker_id = marker.id;
+        changeScan(request);
+        return;
+    }
+    for (ReadingTool* tool : tools_)
+        tool->markerShown(marker);
+    lookFrom(viewOfMarker(*scan(), marker), marker.position_mm);
+}
+
+void Reading::beginPass()
+{
+    for (OpenScan* open : {session_.scan(), session_.beside()})
+        if (open)
+            open->seen.beginPass();
+}
+
+std::optional<Marker> Reading::markerNear(const std::vector<Point3>& line_mm) const
+{
+    std::optional<Marker> nearest;
+    double least = kNear_mm;
+    for (const Marker& marker : session_.markersOf(scan()->record.id))
+        for (const Point3 p : line_mm)
+            if (const double d = distance(p, marker.position_mm); d < least) {
+                least = d;
+                nearest = marker;
+            }
+    return nearest;
+}
+
+SnapshotRequest Reading::snapshotOf(const OpenScan& scan, const QSize& size) const
+{
+    SnapshotRequest request;
+    request.width = size.width();
+    request.height = size.height();
+    request.pixel_ratio = views_.devicePixelRatioF();
+    request.caption = scan.caption;
+    request.markers = session_.markersOf(scan.record.id);
+    return request;
+}
+
+EndoscopicRequest Reading::requestFor(const OpenScan& scan, const NavigationState& at, const QSize& size,
+                                      bool still) const
+{
+    EndoscopicRequest request;
+    request.snapshot = snapshotOf(scan, size);
+    request.place = {at.pose, at.station_mm, at.clearance_mm, true};
+    request.still = still;
+    for (const ReadingTool* tool : tools_)
+        tool->style(request);
+    return request;
+}
+
+void Reading::drawEndoscopic(bool still)
+{
+    if (!scan())
+        return;
+    const PictureView& view = *views_.endoscopic();
+    EndoscopicRequest request = requestFor(*scan(), navigator()->state(), view.pictureSize(), still);
+    request.count_seen = view.isVisible();
+    for (const ReadingTool* tool : tools_)
+        tool->complete(request);
+    drawing_.drawEndoscopic(sharedScan(), request);
+}
+
+void Reading::drawOverview()
+{
+    if (scan())
+        drawing_.drawOverview(sharedScan(), snapshotOf(*scan(), views_.overview()->pictureSize()), place());
+}
+
+void Reading::showPlace()
+{
+    const NavigationState state = navigator()->state();
+    for (ReadingTool* tool : tools_)
+        tool->placeShown();
+    const auto markers = session_.markersOf(scan()->record.id);
+    for (SliceView* slice : views_.slices())
+        slice->look(sharedScan(), looked_at_mm_.value_or(state.pose.eye_mm), state.pose, markers);
+}
+
+void Reading::markersChanged()
+{
+    const auto tool_before = interaction_.tool().index();
+    interaction_.markersChanged(session_.markers());
+    if (interaction_.tool().index() != tool_before)
+        toolChanged();
+    for (ReadingTool* tool : tools_)
+        tool->markersChanged();
+    emit historyChanged();
+    moved(true);
+}
+
+void Reading::begin(const ToolInUse& tool, const QString& prompt)
+{
+    interaction_.begin(tool);
+    for (ReadingTool* each : tools_)
+        each->nextClickChanged();
+    toolChanged();
+    say(prompt);
+}
+
+void Reading::toolChanged()
+{
+    const bool circling = interaction_.inUse<CircleFinding>();
+    views_.endoscopic()->setCircling(circling);
+    views_.setPicking(interaction_.awaitsClick());
+    emit awaitingClick(interaction_.awaitsClick());
+}
+
+bool Reading::click(const ClickedPoint& point)
+{
+    PickedPoint picked;
+    picked.at_mm = point.at_mm;
+    picked.scan_id = point.scan.record.id;
+    picked.in_scan_read = &point.scan == scan();
+    picked.on_wall = point.on_wall;
+    picked.wants_marker = point.modifiers & Qt::ShiftModifier;
+    const ClickMeaning meaning = interaction_.click(picked);
+    if (std::holds_alternative<ShowPoint>(meaning))
+        return false;
+    for (ReadingTool* tool : tools_)
+        if (tool->act(meaning, point))
+            break;
+    return true;
+}
+
+void Reading::clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers)
+{
+    if (!navigator())
+        return;
+    if (!shown_.isOf(sharedScan())) {
+        say(tr("The picture of this scan is still to come; click again when it is there."));
+        return;
+    }
+    const auto point = wallAt(*scan(), shown_.place.pose, shown_.lens, at);
+    if (!point)
+        return;
+    click({*scan(), shown_.place, *point, modifiers, true});
+    looked_at_mm_ = point;
+    showPlace();
+}
+
+void Reading::clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers)
+{
+    if (!navigator())
+        return;
+    if (click({*scan(), place(), point, modifiers, false})) {
+        looked_at_mm_ = point;
+        showPlace();
+    } else {
+        lookAt(point);
+    }
+}
+
+void Reading::giveUp()
+{
+    views_.takeKeyboard();
+    endTool();
+    for (ReadingTool* tool : tools_)
+        tool->escape();
+    warn({});
+}
+
+void Reading::changeScan(const ScanRequest& request)
+{
+    for (ReadingTool* tool : tools_)
+        tool->scanLeft();
+    keep();
+    emit scanWanted(request);
+}
+
+void Reading::arrive(const Arrival& arrival)
+{
+    views_.endoscopic()->setAccessibleDescription({});  // its picture is still to come
+    shown_overview_.reset();
+    interaction_.scanChanged();
+    looked_at_mm_.reset();
+    warn({});
+    useWords(organWords());
+    for (ReadingTool* tool : tools_)
+        tool->scanOpened(arrival);
+    markersChanged();
+}
+
+void Reading::stay()
+{
+    for (ReadingTool* tool : tools_)
+        tool->scanStays();
+}
+
+void Reading::useWords(const OrganWords& words)
+{
+    views_.overview()->setAccessibleName(tr("Projection of the %1").arg(QString::fromStdString(words.organ)));
+    for (ReadingTool* tool : tools_)
+        tool->useWords(words);
+}
+
+bool Reading::redoesScan() const
+{
+    return std::any_of(tools_.begin(), tools_.end(), [](const ReadingTool* tool) { return tool->redoesScan(); });
+}
+
+void Reading::restore()
+{
+    views_.restoreSizes();
+    for (ReadingTool* tool : tools_)
+        tool->restore();
+}
+
+void Reading::keep(const QVariantMap& more)
+{
+    QVariantMap values = more;
+    values.insert(views_.sizes());
+    for (const ReadingTool* tool : tools_)
+        values.insert(tool->kept());
+    keepSettings(settings_worker_, values);
+}
+
+void Reading::stop()
+{
+    still_.stop();
+    for (ReadingTool* tool : tools_) {
+        tool->scanLeft();
+        tool->stop();
+    }
+    drawing_.end();
+}
+
+}  // namespace vicon::viewer

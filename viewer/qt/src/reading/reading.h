@@ -1,0 +1,138 @@
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "reading/reading_tool.h"
+#include "reading/reading_views.h"
+#include "session/case_session.h"
+#include "session/drawing_thread.h"
+
+namespace vicon::viewer {
+
+/// What is read and how it is shown: the case, the open scan, the place in it that is looked at, and the pictures of
+/// that place. Tools act on it, and are told what happens; it knows none of them by name.
+class Reading : public QObject {
+    Q_OBJECT
+public:
+    Reading(const ReadingServices& services, const WorklistCase& row, ReadingViews& views, QObject* parent);
+
+    /// Once, before a scan is opened; they outlive whatever is called here.
+    void setTools(std::vector<ReadingTool*> tools);
+
+    CaseSession& session() { return session_; }
+    const CaseSession& session() const { return session_; }
+    DrawingThread& drawing() { return drawing_; }
+    ReadingViews& views() { return views_; }
+    /// Nothing while no scan is open.
+    OpenScan* scan() const { return session_.scan(); }
+    std::shared_ptr<OpenScan> sharedScan() const { return session_.sharedScan(); }
+    Navigator* navigator() const { return scan() ? &scan()->navigator : nullptr; }
+    const OrganWords& organWords() const { return scan()->files.words(); }
+    /// What the endoscopic picture that is shown was made of.
+    const ShownPicture& shown() const { return shown_; }
+    /// The projection's; nothing until it is drawn.
+    const std::optional<PlaneView>& shownOverview() const { return shown_overview_; }
+
+    // Said to the reader.
+    void say(const QString& message) { emit said(message); }
+    /// Stays until the next one; empty: none.
+    void warn(const QString& message) { emit warned(message); }
+
+    // The place.
+    /// Of the eye.
+    SnapshotResult place() const;
+    /// The eye moved, or the pictures look otherwise. @param still it stays there: drawn smoothly
+    void moved(bool still);
+    /// The eye moves on by itself; the point that was looked at is left.
+    void flewOn();
+    /// The eye goes there. @param looked_at_mm the slices show this point
+    void lookFrom(const ViewPose& view, Point3 looked_at_mm);
+    /// The slices show the point; where it is near the lumen the eye goes there.
+    void lookAt(Point3 point);
+    void showMarker(const Marker& marker);
+    /// Another pass begins: what was seen before it can be told from what is seen in it.
+    void beginPass();
+    /// The marker of the open scan that is nearest to a line or point, within a centimetre.
+    std::optional<Marker> markerNear(const std::vector<Point3>& line_mm) const;
+
+    // The pictures.
+    EndoscopicRequest requestFor(const OpenScan& scan, const NavigationState& at, const QSize& size, bool still) const;
+    void drawEndoscopic(bool still);
+    /// As soon as nothing has moved for a while everything is drawn smoothly.
+    void drawSmoothlySoon() { still_.start(); }
+
+    // Clicks.
+    Interaction& interaction() { return interaction_; }
+    /// The next click is for this; what another tool shows is gone.
+    void begin(const ToolInUse& tool, const QString& prompt);
+    void endTool() { begin(Idle{}, {}); }
+    /// Views show whether a click is awaited.
+    void toolChanged();
+    /// False where the click only shows the point.
+    bool click(const ClickedPoint& point);
+    void giveUp();
+
+    // Steps.
+    void undo();
+    void redo();
+    bool canUndo() const;
+    bool canRedo() const;
+
+    // Scans.
+    void changeScan(const ScanRequest& request);
+    /// The scan asked for is open.
+    void arrive(const Arrival& arrival);
+    /// The scan asked for is not opened.
+    void stay();
+    void useWords(const OrganWords& words);
+    bool redoesScan() const;
+    /// What was kept of an earlier reading.
+    void restore();
+    /// @param more what else the reader finds again
+    void keep(const QVariantMap& more = {});
+    /// What runs is stopped; nothing is drawn any more.
+    void stop();
+
+signals:
+    void said(const QString& message);
+    void warned(const QString& message);
+    void scanWanted(const vicon::viewer::ScanRequest& request);
+    /// In any view, or no longer.
+    void awaitingClick(bool on);
+    void endoscopicShown();
+    /// Of the slices.
+    void windowChanged(const vicon::viewer::WindowLevel& window);
+    /// By notches of the mouse wheel.
+    void stepWanted(int steps);
+    /// Along the way that is flown.
+    void jumpWanted(double station_mm);
+    void historyChanged();
+
+private:
+    void connectSession();
+    void connectViews();
+    void markersChanged();
+    void showEndoscopic(const Picture& picture, const ShownPicture& shown);
+    void clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers);
+    void clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers);
+    void drawOverview();
+    void showPlace();
+    SnapshotRequest snapshotOf(const OpenScan& scan, const QSize& size) const;
+
+    ReadingViews& views_;
+    std::vector<ReadingTool*> tools_;
+    CaseSession session_;
+    DrawingThread drawing_;
+    Worker settings_worker_{this};
+    ShownPicture shown_;
+    std::optional<PlaneView> shown_overview_;
+    std::optional<Point3> looked_at_mm_;  // what was clicked; else the eye's place
+    Interaction interaction_;
+    QTimer still_;
+};
+
+}  // namespace vicon::viewer

@@ -1,0 +1,48 @@
+// The part of CaseSession that measures, on the loader's thread.
+#include "session/case_session.h"
+#include "vicon/viewer/scene/measures_picture.h"
+
+namespace vicon::viewer {
+
+void CaseSession::measure(Point3 from, Point3 to, Point3 eye)
+{
+    loader_.post("measure", [this, scan = scan_, from, to, eye]() -> Worker::Work {
+        const auto& cells = scan->files.cells();
+        const auto size = distanceOverWall(cells.points_mm, cells.triangles, from, to);
+        const auto plane = sizeOnBestPlane(scan->files.inside(), from, to, eye);
+        return [this, scan, size, plane] {
+            if (scan != scan_)
+                return;
+            if (size)
+                emit measured(*size, plane);
+            else
+                emit warned(tr("No way over the wall joins the two points; measure them straight, in a slice."));
+        };
+    });
+}
+
+void CaseSession::takeBiopsy(Point3 centre, double radius_mm)
+{
+    loader_.post("biopsy", [this, scan = scan_, centre, radius_mm]() -> Worker::Work {
+        const DensitySample biopsy = sampleDensity(scan->files.volume(), scan->files.inside(), centre, radius_mm);
+        return [this, scan, biopsy] {
+            if (scan == scan_)
+                emit biopsied(biopsy);
+        };
+    });
+}
+
+void CaseSession::drawMeasures(const Marker& marker, int side_px)
+{
+    const auto& scan = beside_ && beside_->record.id == marker.scan_id ? beside_ : scan_;
+    if (!scan || scan->record.id != marker.scan_id)
+        return;
+    loader_.post("measures", [this, scan, marker, side_px]() -> Worker::Work {
+        const auto picture = measuresPicture(scan->files, marker, scan->caption, side_px);
+        if (!picture)
+            return {};
+        return [this, id = QString::fromStdString(marker.id), drawn = *picture] { emit measuresDrawn(id, drawn); };
+    });
+}
+
+}  // namespace vicon::viewer

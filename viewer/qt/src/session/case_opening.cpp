@@ -1,0 +1,132 @@
+// The part of CaseSession that reads scans, on the loader's thread.
+#include <QThreadPool>
+#include <algorithm>
+
+#include "coverage/seen_keeper.h"
+#include "session/case_session.h"
+
+namespace vicon::viewer {
+namespace {
+
+/// Giving back a scan's memory takes long enough to be felt, whoever lets it go last.
+void freeInBackground(OpenScan* scan)
+{
+    QThreadPool::globalInstance()->start([scan] { delete scan; });
+}
+
+/// While the first pictures are drawn, not before them. What cannot be read is said where it is looked at.
+void readOn(const PreparedScan& files)
+{
+    QThreadPool::globalInstance()->start([files] {
+        try {
+            files.readOn();
+        } catch (const std::exception&) {
+        }
+    });
+}
+
+/// The branch, unless the scan was done again meanwhile and has no such one.
+int branchIn(const std::filesystem::path& folder, int branch)
+{
+    const bool asked = branch >= 0;
+    return asked && std::size_t(branch) < PreparedScan::open(folder).tree().branches.size() ? branch : -1;
+}
+
+}  // namespace
+
+void CaseSession::open(const std::string& scan_id, bool fresh, int branch)
+{
+    wanted_scan_ = scan_id;
+    if (!fresh && beside_ && beside_->record.id == scan_id) {
+        std::swap(scan_, beside_);
+        wanted_beside_ = beside_ ? beside_->record.id : "";
+        emit opened();
+        emit besideOpened();
+        return;
+    }
+    if (stop_opening_)
+        *stop_opening_ = true;  // of an earlier wish
+    stop_opening_ = std::make_shared<std::atomic<bool>>(false);
+    const auto take = [this](std::shared_ptr<OpenScan> made) {
+        if (made->record.id != wanted_scan_)
+            return;
+        if (scan_ && scan_->record.id == made->record.id)
+            made->seen.unpack(scan_->seen.packed());  // of the same wall; what was seen is still being written
+        scan_ = std::move(made);
+        emit opened();
+    };
+    load("open", scan_id, branch, take, stop_opening_);
+}
+
+void CaseSession::cancelOpening()
+{
+    if (stop_opening_)
+        *stop_opening_ = true;
+    wanted_scan_ = scan_ ? scan_->record.id : "";
+}
+
+void CaseSession::openBeside(const std::string& scan_id)
+{
+    wanted_beside_ = scan_id;
+    constexpr int kFarthest = -1;
+    load("open beside", scan_id, kFarthest, [this](std::shared_ptr<OpenScan> made) {
+        if (made->record.id != wanted_beside_)
+            return;
+        beside_ = std::move(made);
+        emit besideOpened();
+    });
+}
+
+void CaseSession::closeBeside()
+{
+    wanted_beside_.clear();
+    beside_.reset();
+}
+
+void CaseSession::load(const std::string& work, const std::string& scan_id, int branch, Opened then,
+                       const std::shared_ptr<const std::atomic<bool>>& stop)
+{
+    const auto row = std::find_if(row_.scans.begin(), row_.scans.end(),
+                                  [&](const WorklistScan& scan) { return scan.record.id == scan_id; });
+    if (row == row_.scans.end())
+        return;
+    constexpr int kStages = 3;
+    const auto at = [this, stop](int stage) {
+        if (stop && !*stop)
+            QMetaObject::invokeMethod(
+                this, [this, stage] { emit opening(stage, kStages); }, Qt::QueuedConnection);
+        return !stop || !*stop;
+    };
+    loader_.post(
+        work,
+        [this, folder = row->folder, scan = row->record, branch, then = std::move(then), at, stop]() -> Worker::Work {
+            try {
+                if (!at(0))
+                    return {};
+                const auto before = madeAt(folder);
+                const int way = branchIn(folder, branch);
+                auto files = PreparedScan::open(folder, way);
+                files.readForFlight();
+                if (!at(1))
+                    return {};
+                const std::shared_ptr<OpenScan> made(new OpenScan(files, scan, row_.record), freeInBackground);
+                made->made = before;
+                made->branch = way;
+                if (!at(2))
+                    return {};
+                SeenKeeper::restore(made->seen, folder);
+                readOn(files);
+                return [made, then, stop] {
+                    if (!stop || !*stop)
+                        then(made);
+                };
+            } catch (...) {
+                if (at(0))
+                    QMetaObject::invokeMethod(
+                        this, [this] { emit openingFailed(); }, Qt::QueuedConnection);
+                throw;
+            }
+        });
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,277 @@
+#include "session/case_session.h"
+
+#include <algorithm>
+
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace vicon::viewer {
+namespace {
+
+/// What a reader makes of markers; where they lie along the path follows from the scan.
+nlohmann::json withoutPlaces(const std::vector<Marker>& markers)
+{
+    nlohmann::json list = toJson(markers)["markers"];
+    for (nlohmann::json& marker : list)
+        for (const char* key : {"station_mm", "from_caecum_mm", "fraction", "part", "changed"})
+            marker.erase(key);
+    return list;
+}
+
+QString caseIsGone()
+{
+    return CaseSession::tr(
+        "This case was deleted while you read it. The pictures stay until you close the window, but markers, pictures "
+        "and "
+        "reports can no longer be saved.");
+}
+
+}  // namespace
+
+CaseSession::CaseSession(const ReadingServices& services, const WorklistCase& row, QObject* parent)
+    : QObject(parent), services_(services), row_(row), books_(this, services.store, row.record.id)
+{
+    renew(row);
+    connect(books_.worker(), &Worker::failed, this, &CaseSession::warned);
+    connect(&loader_, &Worker::failed, this, &CaseSession::warned);
+    refresh();
+}
+
+std::vector<ScanRecord> CaseSession::renew(const WorklistCase& row)
+{
+    row_.scans = row.scans;  // the case's record stays: the workers read it
+    std::vector<ScanRecord> added;
+    for (const WorklistScan& scan : row.scans)
+        if (scan.ready() && std::none_of(scans_.begin(), scans_.end(),
+                                         [&](const ScanRecord& known) { return known.id == scan.record.id; }))
+            added.push_back(scan.record);
+    scans_.insert(scans_.end(), added.begin(), added.end());
+    return added;
+}
+
+std::string CaseSession::wordsFor(CaseStore& store, const Error& error) const
+{
+    if (error.code() == ErrorCode::not_found && !store.findCase(row_.record.id))
+        return caseIsGone().toStdString();
+    return error.what();
+}
+
+CaseStore& CaseSession::Books::store()
+{
+    if (!opened)
+        opened = std::make_unique<CaseStore>(store_folder);
+    return *opened;
+}
+
+std::vector<Marker> CaseSession::markersOf(const std::string& scan_id) const
+{
+    std::vector<Marker> some;
+    std::copy_if(markers_.begin(), markers_.end(), std::back_inserter(some),
+                 [&](const Marker& marker) { return marker.scan_id == scan_id; });
+    return some;
+}
+
+std::optional<Marker> CaseSession::marker(const std::string& id) const
+{
+    const auto found = std::find_if(markers_.begin(), markers_.end(), [&](const Marker& m) { return m.id == id; });
+    return found == markers_.end() ? std::nullopt : std::optional(*found);
+}
+
+void CaseSession::edit(const QString& what, Edit work)
+{
+    if (++edits_under_way_ == 1)
+        emit busyChanged(true);
+    books_.postAlways([this, what, work = std::move(work)](Books& books) -> Worker::Work {
+        std::string trouble, copy_trouble;
+        std::optional<std::vector<Marker>> markers;
+        try {
+            work(books);
+            copy_trouble = books.store().markerFileTrouble();
+        } catch (const Error& e) {
+            trouble = wordsFor(books.store(), e);
+        } catch (const std::exception& e) {
+            trouble = e.what();
+        }
+        try {  // the list is shown as it is now, whatever happened
+            markers = books.store().markers(row_.record.id);
+        } catch (const std::exception& e) {
+            trouble = trouble.empty() ? e.what() : trouble;
+        }
+        return [this, what, trouble, copy_trouble, markers = std::move(markers), undo = books.history.toUndo(),
+                redo = books.history.toRedo()] {
+            if (markers)
+                markers_ = *markers;
+            else
+                markers_known_ = false;  // what is read next is not another reader's doing
+            to_undo_ = undo;
+            to_redo_ = redo;
+            edited();
+            if (trouble.empty())
+                emit saved(what);
+            else
+                emit warned(QString::fromStdString(trouble));
+            if (!copy_trouble.empty())
+                emit warned(tr("The marker is saved in the database; its copy in markers.json will be written "
+                               "later: %1")
+                                .arg(QString::fromStdString(copy_trouble)));
+        };
+    });
+}
+
+void CaseSession::edited()
+{
+    emit markersChanged();
+    if (--edits_under_way_ == 0)
+        emit busyChanged(false);
+}
+
+void CaseSession::addMarker(const Marker& marker)
+{
+    edit(tr("Marker saved"), [this, marker](Books& books) {
+        books.history.add(books.store(), services_.place(books.store(), row_.record.id, marker));
+    });
+}
+
+void CaseSession::changeMarker(const Marker& before, const Marker& after, bool moved, const QString& what)
+{
+    edit(what.isEmpty() ? tr("Change saved") : what, [this, before, after, moved](Books& books) {
+        CaseStore& store = books.store();
+        books.history.change(store, before, moved ? services_.place(store, row_.record.id, after) : after);
+    });
+}
+
+void CaseSession::removeMarker(const Marker& marker)
+{
+    edit(tr("Marker deleted"), [marker](Books& books) { books.history.remove(books.store(), marker); });
+}
+
+void CaseSession::pairMarkers(const Marker& a, const Marker& b)
+{
+    edit(tr("Paired"), [a, b](Books& books) { books.history.pair(books.store(), a, b); });
+}
+
+void CaseSession::partMarkers(const Marker& marker)
+{
+    edit(tr("Parted"), [marker](Books& books) { books.history.part(books.store(), marker); });
+}
+
+void CaseSession::loadMarkers(const std::filesystem::path& file)
+{
+    edit(tr("Markers loaded"), [this, file](Books& books) {
+        books.history.changeAll(books.store(), services_.import_markers(books.store(), row_.record.id, file));
+    });
+}
+
+void CaseSession::saveMarkers(const std::filesystem::path& file)
+{
+    books_.postAlways([this, file](Books& books) -> Worker::Work {
+        writeMarkers(file, books.store().markers(row_.record.id));
+        return
+            [this, name = QString::fromStdString(file.string())] { emit saved(tr("Markers written: %1").arg(name)); };
+    });
+}
+
+void CaseSession::takeBack(const QString& what, void (MarkerHistory::*step)(CaseStore&))
+{
+    edit(what, [this, step](Books& books) {
+        (books.history.*step)(books.store());
+        if (books.skeleton_is_new)
+            renewPlaces(books.store());
+    });
+}
+
+void CaseSession::undo()
+{
+    takeBack(tr("Undone"), &MarkerHistory::undo);
+}
+
+void CaseSession::redo()
+{
+    takeBack(tr("Done again"), &MarkerHistory::redo);
+}
+
+std::string CaseSession::renewPlaces(CaseStore& store) const
+{
+    std::string lost;
+    for (const Marker& marker : store.markers(row_.record.id)) {
+        try {
+            if (const Marker placed = services_.place(store, row_.record.id, marker); toJson(placed) != toJson(marker))
+                store.editMarkers(row_.record.id, {{marker, placed}});
+        } catch (const Error& e) {
+            if (e.code() != ErrorCode::bad_input)
+                throw;
+            lost += (lost.empty() ? "" : ", ") + marker.id;
+        }
+    }
+    return lost;
+}
+
+void CaseSession::placeAnew()
+{
+    edit(tr("The corrected scan is shown; its markers have their distances on the new path."), [this](Books& books) {
+        books.skeleton_is_new = true;
+        const std::string lost = renewPlaces(books.store());
+        if (!lost.empty())
+            throw Error(ErrorCode::wrong_use, "no longer in the colon; distances and part stay as they were", lost,
+                        "move or delete them");
+    });
+}
+
+void CaseSession::refresh()
+{
+    books_.post("refresh", [this](Books& books) -> Worker::Work {
+        if (!books.store().findCase(row_.record.id))
+            return [this] { emit warned(caseIsGone()); };
+        return [this, markers = books.store().markers(row_.record.id)] {
+            if (markers_known_ && toJson(markers) == toJson(markers_))
+                return;
+            const bool by_other = markers_known_ && withoutPlaces(markers) != withoutPlaces(markers_);
+            markers_known_ = true;
+            markers_ = markers;
+            emit markersChanged();
+            if (by_other)
+                emit warned(
+                    tr("Another reader changed the markers of this case; the list shows them as they are now."));
+        };
+    });
+}
+
+std::filesystem::path CaseSession::newPicture(CaseStore& store, const std::string& extension) const
+{
+    const std::string& id = row_.record.id;
+    store.requireCase(id);
+    const auto folder = store.caseFolder(id) / "pictures";
+    makePrivateFolder(folder);
+    return folder / (std::to_string(store.nextNumber("picture " + id)) + extension);
+}
+
+void CaseSession::nameFilm()
+{
+    books_.postAlways([this](Books& books) -> Worker::Work {
+        return
+            [this, name = QString::fromStdString(newPicture(books.store(), ".ogv").string())] { emit filmNamed(name); };
+    });
+}
+
+void CaseSession::savePicture(const QImage& picture)
+{
+    books_.postAlways([this, picture = picture.convertToFormat(QImage::Format_RGB888)](Books& books) -> Worker::Work {
+        const auto file = newPicture(books.store(), ".png");
+        Picture out(picture.width(), picture.height());
+        for (int y = 0; y < out.height; ++y)
+            std::copy_n(picture.constScanLine(y), 3 * out.width, out.rgb.begin() + std::ptrdiff_t(y) * 3 * out.width);
+        writePng(file, out);
+        books.store().audit("picture saved", row_.record.id, "", file.filename().string());
+        return [this, name = QString::fromStdString(file.string())] { emit saved(tr("Picture saved: %1").arg(name)); };
+    });
+}
+
+void CaseSession::writeReport()
+{
+    books_.postAlways([this](Books& books) -> Worker::Work {
+        const auto file = services_.report(books.store(), row_.record.id);
+        return [this, name = QString::fromStdString(file.string())] { emit reportWritten(name); };
+    });
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,149 @@
+#pragma once
+
+#include <QImage>
+#include <QObject>
+#include <atomic>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "session/open_scan.h"
+#include "vicon/cases/density_sample.h"
+#include "vicon/viewer/model/marker_history.h"
+#include "vicon/viewer/model/plane_size.h"
+#include "vicon/viewer/model/wall_distance.h"
+#include "vicon/viewer/qt/reading_room.h"
+#include "widgets/worker_with.h"
+
+namespace vicon {
+class Error;
+}
+
+namespace vicon::viewer {
+
+/// A case that is open: its scans and its markers, with one thread that speaks to the database. A change of a marker
+/// is shown when it has been saved.
+class CaseSession : public QObject {
+    Q_OBJECT
+public:
+    CaseSession(const ReadingServices& services, const WorklistCase& row, QObject* parent);
+
+    const CaseRecord& record() const { return row_.record; }
+    /// Those that can be shown: their jobs are done and found a colon.
+    const std::vector<ScanRecord>& scans() const { return scans_; }
+    /// As the worklist shows the case by now. Returns the scans that can be shown since.
+    std::vector<ScanRecord> renew(const WorklistCase& row);
+    const std::vector<Marker>& markers() const { return markers_; }
+    std::vector<Marker> markersOf(const std::string& scan_id) const;
+    /// Nothing when it was deleted.
+    std::optional<Marker> marker(const std::string& id) const;
+
+    /// Reads a scan's files; opened() follows, or warned(). The scan beside changes places with the one being read.
+    /// @param fresh reads it again, after its files were made anew, or for another way
+    /// @param branch of an organ that branches: the way from the root to the end of this one; below 0, or where there
+    ///        is no such branch any more: to the farthest tip
+    void open(const std::string& scan_id, bool fresh = false, int branch = -1);
+    /// What is being read is given up; the scan that is open stays.
+    void cancelOpening();
+    /// Reads another scan to be shown beside the one being read; besideOpened() follows.
+    void openBeside(const std::string& scan_id);
+    void closeBeside();
+    OpenScan* beside() const { return beside_.get(); }
+    std::shared_ptr<OpenScan> sharedBeside() const { return beside_; }
+    OpenScan* scan() const { return scan_.get(); }
+    std::shared_ptr<OpenScan> sharedScan() const { return scan_; }
+
+    void addMarker(const Marker& marker);
+    /// @param what is said when it is saved; empty: that it is
+    void changeMarker(const Marker& before, const Marker& after, bool moved, const QString& what = {});
+    void removeMarker(const Marker& marker);
+    void pairMarkers(const Marker& a, const Marker& b);
+    /// Ends a pair, on both sides.
+    void partMarkers(const Marker& marker);
+    /// The markers of a file join those of the case: all in one step, or none.
+    void loadMarkers(const std::filesystem::path& file);
+    /// All markers of the case, as loadMarkers() and `vicon markers --import` take them.
+    void saveMarkers(const std::filesystem::path& file);
+    void undo();
+    void redo();
+    std::optional<StepNumber> toUndo() const { return to_undo_; }
+    std::optional<StepNumber> toRedo() const { return to_redo_; }
+    /// A change is on its way to the database; until then the markers shown may be old ones.
+    bool busy() const { return edits_under_way_ > 0; }
+    /// Looks whether another reader changed something.
+    void refresh();
+    /// The scan's skeleton was made anew: its markers get their stations on it, now and after an undo. What cannot be
+    /// placed any more is warned of, and stays as it is.
+    void placeAnew();
+    void writeReport();
+    /// Between two points of the open scan's wall, seen from `eye`; measured() follows, or warned().
+    void measure(Point3 from, Point3 to, Point3 eye);
+    /// Of the open scan's tissue around a point; biopsied() follows, or warned().
+    void takeBiopsy(Point3 centre, double radius_mm);
+    /// What was measured of a marker of a scan that is open, as a picture; measuresDrawn() follows where there is any.
+    void drawMeasures(const Marker& marker, int side_px);
+    /// Keeps a picture in the case's folder, "pictures/1.png" and on.
+    void savePicture(const QImage& picture);
+    /// A name for a film beside the pictures; filmNamed() follows.
+    void nameFilm();
+
+signals:
+    void opened();
+    /// How far open() is.
+    void opening(int done, int of);
+    void openingFailed();
+    void besideOpened();
+    void markersChanged();
+    void busyChanged(bool busy);
+    void saved(const QString& what);
+    void warned(const QString& message);
+    void measured(const vicon::viewer::WallDistance& size, const std::optional<vicon::PlaneSize>& plane);
+    void biopsied(const vicon::DensitySample& biopsy);
+    void measuresDrawn(const QString& marker, const vicon::viewer::Picture& picture);
+    void filmNamed(const QString& file);
+    void reportWritten(const QString& file);
+
+private:
+    /// What is in the database, and what this reader did to it.
+    struct Books {
+        Books(std::filesystem::path folder, const std::string& case_id)
+            : store_folder(std::move(folder)), history(case_id)
+        {
+        }
+        CaseStore& store();  ///< opened when it is first asked for
+
+        std::filesystem::path store_folder;
+        std::unique_ptr<CaseStore> opened;
+        MarkerHistory history;
+        bool skeleton_is_new = false;  ///< what the history remembers has stations of an older one
+    };
+    using Edit = std::function<void(Books&)>;
+    void edit(const QString& what, Edit work);
+    void edited();
+    /// Names of the markers that no longer lie in the colon.
+    std::string renewPlaces(CaseStore& store) const;
+    void takeBack(const QString& what, void (MarkerHistory::*step)(CaseStore&));
+    std::filesystem::path newPicture(CaseStore& store, const std::string& extension) const;
+    std::string wordsFor(CaseStore& store, const Error& error) const;
+
+    using Opened = std::function<void(std::shared_ptr<OpenScan>)>;
+    /// Reads a scan's files on the loader's thread.
+    void load(const std::string& work, const std::string& scan_id, int branch, Opened then,
+              const std::shared_ptr<const std::atomic<bool>>& stop = {});
+
+    const ReadingServices services_;
+    WorklistCase row_;
+    std::vector<ScanRecord> scans_;
+    std::vector<Marker> markers_;
+    std::shared_ptr<OpenScan> scan_;
+    std::shared_ptr<OpenScan> beside_;
+    std::string wanted_scan_, wanted_beside_;
+    std::shared_ptr<std::atomic<bool>> stop_opening_;
+    std::optional<StepNumber> to_undo_, to_redo_;
+    bool markers_known_ = false;
+    int edits_under_way_ = 0;
+    Worker loader_{this};
+    WorkerWith<Books> books_;  // last: it ends first
+};
+
+}  // namespace vicon::viewer

@@ -1,0 +1,134 @@
+#include "session/drawing_thread.h"
+
+#include <thread>
+
+namespace vicon::viewer {
+namespace {
+// Counting costs as much as drawing; at the fastest flight of 100 mm/s the eye moves a centimetre meanwhile.
+constexpr std::chrono::milliseconds kBetweenCounts(100);
+constexpr std::chrono::milliseconds kBetweenLooks(1);
+}  // namespace
+
+DrawingThread::DrawingThread(QObject* parent) : QObject(parent)
+{
+    connect(worker_.worker(), &Worker::failed, this, &DrawingThread::failed);
+}
+
+// Each of the workers speaks to the other: none is destroyed before both have ended.
+DrawingThread::~DrawingThread()
+{
+    end();
+    while (!worker_.ended() || !sight_worker_.ended())
+        std::this_thread::sleep_for(kBetweenLooks);
+}
+
+void DrawingThread::end()
+{
+    worker_.postAlways([](AllPictures& all) -> Worker::Work {
+        all.clear();
+        return {};
+    });
+    sight_worker_.end();
+    worker_.end();
+}
+
+ReadingPictures& DrawingThread::picturesOf(AllPictures& all, const std::shared_ptr<OpenScan>& scan)
+{
+    all.remove_if([](const ScanPictures& some) { return some.of.expired(); });
+    for (ScanPictures& some : all)
+        if (some.of.lock() == scan)
+            return *some.pictures;
+    all.push_back({scan, std::make_unique<ReadingPictures>(scan->files), {}});
+    if (!all.back().pictures->hasOpenGl())
+        emit withoutOpenGl();  // from this thread: it arrives in the window's own
+    findSightLines(scan);
+    return *all.back().pictures;
+}
+
+void DrawingThread::findSightLines(const std::shared_ptr<OpenScan>& scan)
+{
+    sight_worker_.post("sight lines " + scan->record.id,
+                       [this, files = scan->files, of = std::weak_ptr(scan)]() -> Worker::Work {
+                           if (of.expired())
+                               return {};
+                           auto visibility = std::make_shared<const CellVisibility>(files);
+                           worker_.post("sight lines", [visibility, of](AllPictures& all) -> Worker::Work {
+                               for (ScanPictures& some : all)
+                                   if (some.of.lock() == of.lock())
+                                       some.pictures->chooseBy(visibility);
+                               return {};
+                           });
+                           return {};
+                       });
+}
+
+void DrawingThread::drawEndoscopic(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request)
+{
+    draw(Which::leading, std::move(scan), request);
+}
+
+void DrawingThread::drawBeside(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request)
+{
+    draw(Which::beside, std::move(scan), request);
+}
+
+void DrawingThread::draw(Which which, std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request)
+{
+    const char* name = which == Which::leading ? "endoscopic" : "beside";
+    worker_.post(name, [this, which, scan = std::move(scan), request](AllPictures& all) -> Worker::Work {
+        const SnapshotRequest& snapshot = request.snapshot;
+        auto picture = std::make_shared<Picture>(picturesOf(all, scan).endoscopic(
+            snapshot, request.place, request.still,
+            {request.paint_seen ? &scan->seen : nullptr, request.structure, request.lamp_reach_mm}));
+        if (request.count_seen)
+            worker_.post(which == Which::leading ? "seen" : "seen beside",
+                         [this, scan, always = request.still](AllPictures& drawn) -> Worker::Work {
+                             countSeen(drawn, scan, always);
+                             return [this] { emit seenChanged(); };
+                         });
+        const Lens lens{snapshot.view_angle_deg, snapshot.width, snapshot.height};
+        const auto signal = which == Which::leading ? &DrawingThread::endoscopicDrawn : &DrawingThread::besideDrawn;
+        return [this, picture, signal, shown = ShownPicture{scan, request.place, lens}] {
+            emit(this->*signal)(*picture, shown);
+        };
+    });
+}
+
+void DrawingThread::countSeen(AllPictures& all, const std::shared_ptr<OpenScan>& scan, bool always)
+{
+    for (ScanPictures& some : all) {
+        const auto now = std::chrono::steady_clock::now();
+        if (some.of.lock() != scan || (!always && now - some.counted < kBetweenCounts))
+            continue;
+        some.pictures->countSeen(scan->seen);
+        some.counted = now;
+    }
+}
+
+void DrawingThread::film(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, Heading heading,
+                         std::shared_ptr<Film> film, bool last)
+{
+    worker_.post("film",
+                 [this, scan = std::move(scan), request, heading, film = std::move(film),
+                  last](AllPictures& all) -> Worker::Work {
+                     const ViewPose view =
+                         poseAtStation(scan->files.frames(), scan->lumen, request.place.station_mm, heading);
+                     const SnapshotResult place{view.pose, request.place.station_mm, view.clearance_mm, true};
+                     film->add(picturesOf(all, scan).endoscopic(request.snapshot, place, false,
+                                                                {nullptr, request.structure, request.lamp_reach_mm}));
+                     if (last)
+                         film->finish();
+                     return [this, film, last] { emit filmed(film, last); };
+                 });
+}
+
+void DrawingThread::drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
+                                 const SnapshotResult& place)
+{
+    worker_.post("overview", [this, scan = std::move(scan), request, place](AllPictures& all) -> Worker::Work {
+        auto drawn = std::make_shared<ReadingPictures::Overview>(picturesOf(all, scan).overview(request, place));
+        return [this, drawn] { emit overviewDrawn(drawn->picture, drawn->view); };
+    });
+}
+
+}  // namespace vicon::viewer

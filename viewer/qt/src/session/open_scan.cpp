@@ -1,0 +1,62 @@
+#include "session/open_scan.h"
+
+#include "session/saved_view.h"
+#include "vicon/viewer/model/correspondence.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr double kReach_mm = 500;  // of a click into the endoscopic view
+
+ColonScale scaleOf(const OpenScan& scan)
+{
+    return {scan.files.frames().length_mm(), scan.files.parts()};
+}
+
+/// The saved one, unless the path was made anew meanwhile and runs elsewhere there.
+double stationOf(const OpenScan& scan, const SavedView& view)
+{
+    constexpr double kOtherPath_mm = 20;  // a colon's radius; a piece of it that was added or dropped is longer
+    const SkeletonFoot nearest = scan.files.skeleton().nearest(view.pose.eye_mm);
+    const double off_mm = distance(scan.files.frames().at(view.station_mm).position_mm, view.pose.eye_mm);
+    return off_mm > nearest.distance_mm + kOtherPath_mm ? nearest.station_mm : view.station_mm;
+}
+
+}  // namespace
+
+OpenScan::OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case)
+    : files(std::move(prepared)),
+      record(scan),
+      caption(captionFor(a_case, scan)),
+      lumen(files.lumen()),
+      navigator(files.frames(), lumen, files.exitDistance()),
+      seen(triangleAreas_mm2(files.cells().points_mm, files.cells().triangles))
+{
+}
+
+std::filesystem::file_time_type madeAt(const std::filesystem::path& folder)
+{
+    std::error_code none;
+    return std::filesystem::last_write_time(folder / "inside.mha", none);  // every correction makes it anew
+}
+
+double correspondingStation_mm(const OpenScan& from, double station_mm, const OpenScan& to)
+{
+    return correspondingStation_mm(scaleOf(from), station_mm, scaleOf(to));
+}
+
+ViewPose viewOfMarker(const OpenScan& scan, const Marker& marker)
+{
+    if (const auto saved = savedView(marker); saved && scan.lumen.inside(saved->pose.eye_mm))
+        return {saved->pose, stationOf(scan, *saved), scan.lumen.clearance_mm(saved->pose.eye_mm), true};
+    return poseForPoint(scan.files.skeleton(), scan.files.frames(), scan.lumen, marker.position_mm);
+}
+
+std::optional<Point3> wallAt(const OpenScan& scan, const Pose& from, const Lens& lens, Pixel at)
+{
+    const Vector3 ray = rayThrough(from, lens, at);
+    const auto far = distanceToWall_mm(scan.lumen, from.eye_mm, ray, kReach_mm);
+    return far ? std::optional(from.eye_mm + ray * *far) : std::nullopt;
+}
+
+}  // namespace vicon::viewer

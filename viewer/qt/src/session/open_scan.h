@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+
+#include "vicon/cases/case_store.h"
+#include "vicon/viewer/model/navigator.h"
+#include "vicon/viewer/model/seen_so_far.h"
+#include "vicon/viewer/scene/canvas.h"
+#include "vicon/viewer/scene/prepared_scan.h"
+#include "vicon/viewer/scene/snapshot.h"
+
+namespace vicon::viewer {
+
+/// A scan that is open: its files, read, and where the eye is in it.
+struct OpenScan {
+    PreparedScan files;
+    ScanRecord record;
+    Caption caption;
+    Lumen lumen;
+    Navigator navigator;
+    SeenSoFar seen;
+    std::filesystem::file_time_type made;  ///< when its files were
+    int branch = -1;                       ///< whose end the way leads to; below 0: to the farthest tip
+
+    OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case);
+};
+
+/// When the files of a scan were made; what is open may be older.
+std::filesystem::file_time_type madeAt(const std::filesystem::path& folder);
+
+/// The station in another scan of the case that corresponds to one in this.
+double correspondingStation_mm(const OpenScan& from, double station_mm, const OpenScan& to);
+
+/// The view that was saved with a marker of this scan; where there is none or the eye would be in the wall: one that
+/// shows its place.
+ViewPose viewOfMarker(const OpenScan& scan, const Marker& marker);
+
+/// The place on the wall that a pixel of an endoscopic picture shows.
+/// @param from where the picture was made from
+std::optional<Point3> wallAt(const OpenScan& scan, const Pose& from, const Lens& lens, Pixel at);
+
+}  // namespace vicon::viewer

@@ -1,0 +1,161 @@
+#include "widgets/picture_view.h"
+
+#include <QApplication>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QWheelEvent>
+#include <cmath>
+
+#include "vicon/viewer/scene/snapshot.h"
+
+namespace vicon::viewer {
+
+PictureView::PictureView(const QString& name, QWidget* parent) : QWidget(parent)
+{
+    setAccessibleName(name);
+    setMinimumSize(SnapshotRequest::kLeastSide, SnapshotRequest::kLeastSide);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    setFocusPolicy(Qt::TabFocus);
+    setAttribute(Qt::WA_OpaquePaintEvent);
+}
+
+void PictureView::showPicture(const Picture& picture)
+{
+    image_ = QImage(picture.rgb.data(), picture.width, picture.height, 3 * picture.width, QImage::Format_RGB888).copy();
+    image_.setDevicePixelRatio(devicePixelRatioF());
+    update();
+}
+
+void PictureView::setCircling(bool on)
+{
+    circling_ = on;
+    dragging_ = dragging_ && (on || button_ != Qt::NoButton);
+    forgetCross();
+}
+
+double PictureView::circleRadius() const
+{
+    const QPoint by = last_ - pressed_;
+    return std::hypot(by.x(), by.y());
+}
+
+void PictureView::setLines(const QVector<QLineF>& lines)
+{
+    lines_ = lines;
+    update();
+}
+
+void PictureView::drawLines(QPainter& painter) const
+{
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.scale(1 / devicePixelRatioF(), 1 / devicePixelRatioF());
+    for (const auto& [color, width] : {std::pair(Qt::black, 5.0), std::pair(Qt::white, 2.0)}) {
+        painter.setPen(QPen(color, width, Qt::SolidLine, Qt::RoundCap));
+        painter.drawLines(lines_);
+    }
+}
+
+QSize PictureView::pictureSize() const
+{
+    const QSize wanted = size() * devicePixelRatioF();
+    return wanted.boundedTo({SnapshotRequest::kMostSide, SnapshotRequest::kMostSide})
+        .expandedTo({SnapshotRequest::kLeastSide, SnapshotRequest::kLeastSide});
+}
+
+Pixel PictureView::toPicture(QPoint at) const
+{
+    return {(at.x() + 0.5) * devicePixelRatioF(), (at.y() + 0.5) * devicePixelRatioF()};
+}
+
+QPointF PictureView::toWidget(Pixel at) const
+{
+    return QPointF(at.x, at.y) / devicePixelRatioF();
+}
+
+void PictureView::paintEvent(QPaintEvent*)
+{
+    QPainter painter(this);
+    painter.fillRect(rect(), Qt::black);
+    const QSizeF drawn = QSizeF(image_.size()) / image_.devicePixelRatioF();
+    if (QSizeF(pictureSize()) / devicePixelRatioF() == drawn || image_.isNull()) {
+        painter.drawImage(0, 0, image_);
+        drawLines(painter);
+        if (circling_ && dragging_) {
+            painter.resetTransform();
+            painter.setPen(QPen(Qt::white, 2));
+            painter.drawEllipse(QPointF(pressed_), circleRadius(), circleRadius());
+        }
+        painter.resetTransform();
+        drawFocus(painter);
+        return;
+    }
+    // The view has another size by now, and its picture is still to come.
+    const QSizeF fitting = drawn.scaled(size(), Qt::KeepAspectRatio);
+    painter.drawImage(QRectF({(width() - fitting.width()) / 2, (height() - fitting.height()) / 2}, fitting), image_);
+}
+
+void PictureView::resizeEvent(QResizeEvent*)
+{
+    emit resized();
+}
+
+void PictureView::mousePressEvent(QMouseEvent* event)
+{
+    reached_ = false;
+    update();
+    pressed_ = last_ = event->pos();
+    button_ = event->button();
+    dragging_ = false;
+}
+
+void PictureView::mouseMoveEvent(QMouseEvent* event)
+{
+    if (button_ == Qt::NoButton) {
+        if (!mouse_moved_last_)
+            update();
+        cross_ = event->pos();
+        mouse_moved_last_ = true;
+        emit hovered(toPicture(event->pos()));
+        return;
+    }
+    dragging_ = dragging_ || (event->pos() - pressed_).manhattanLength() >= QApplication::startDragDistance();
+    if (!dragging_)
+        return;
+    if (circling_) {
+        last_ = event->pos();
+        update();
+        return;
+    }
+    emit dragged(QPointF(event->pos() - last_) * devicePixelRatioF(), button_);
+    last_ = event->pos();
+}
+
+void PictureView::mouseReleaseEvent(QMouseEvent* event)
+{
+    const bool was_click = !dragging_ && button_ == Qt::LeftButton && event->button() == Qt::LeftButton;
+    if (dragging_ && circling_)
+        emit circled(toPicture(pressed_), circleRadius() * devicePixelRatioF());
+    else if (dragging_)
+        emit dragEnded();
+    button_ = Qt::NoButton;
+    dragging_ = false;
+    if (was_click && !image_.isNull())
+        emit clicked(toPicture(event->pos()), event->modifiers());
+}
+
+void PictureView::mouseDoubleClickEvent(QMouseEvent*)
+{
+    emit enlargeWanted();
+}
+
+void PictureView::wheelEvent(QWheelEvent* event)
+{
+    constexpr int kStep = 120;  // Qt: one notch of a usual wheel
+    wheel_ += event->angleDelta().y();
+    if (const int steps = wheel_ / kStep) {
+        wheel_ -= steps * kStep;
+        emit turned(steps, event->modifiers());
+    }
+}
+
+}  // namespace vicon::viewer

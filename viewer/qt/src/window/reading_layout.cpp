@@ -1,0 +1,211 @@
+#include "window/reading_layout.h"
+
+#include <QAction>
+#include <QFrame>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QMenuBar>
+#include <QStatusBar>
+#include <QTabBar>
+#include <QTabWidget>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include "widgets/control_keys.h"
+#include "widgets/controls_area.h"
+#include "widgets/panel_parts.h"
+
+namespace vicon::viewer {
+namespace {
+
+QWidget* framed(QWidget* inside)
+{
+    auto* box = new QFrame;  // a group box of this style cuts a pixel off its title
+    box->setFrameShape(QFrame::StyledPanel);
+    auto* layout = new QVBoxLayout(box);
+    layout->setContentsMargins(4, 2, 4, 2);
+    layout->addWidget(inside);
+    return box;
+}
+
+}  // namespace
+
+ReadingLayout::ReadingLayout(QMainWindow& window, ReadingViews& views)
+    : QObject(&window), window_(window), views_(views)
+{
+    for (const QString& title : {tr("&Case"), tr("&Edit"), tr("&Flight"), tr("&View"), tr("&Help")})
+        menus_.push_back(window.menuBar()->addMenu(title));
+    auto* all = new QWidget(&window);
+    auto* layout = new QVBoxLayout(all);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(buildTop());
+    layout->addWidget(&views, 1);
+    views.addControls(buildControls());
+    window.setCentralWidget(all);
+}
+
+QWidget* ReadingLayout::buildTop()
+{
+    auto* top = new QWidget;
+    top_ = new QHBoxLayout(top);
+    top_->setContentsMargins(4, 2, 4, 2);
+    notice_ = new QLabel(top);
+    notice_->setObjectName("notice");
+    warning_ = new QLabel(top);
+    warning_->setObjectName("warning");
+    warning_->setWordWrap(true);
+    warning_->setStyleSheet("color: #ff9a4a; font-weight: bold;");
+    top_->addWidget(notice_);
+    top_->addWidget(warning_, 1);
+    return top;
+}
+
+QWidget* ReadingLayout::buildControls()
+{
+    lists_ = new QTabWidget;
+    lists_->setObjectName("lists");
+    lists_->tabBar()->setAccessibleName(tr("Lists"));
+    connect(lists_, &QTabWidget::currentChanged, this, [this] { emit listShown(lists_->currentWidget()); });
+    auto* controls = new QWidget;
+    controls_ = new QVBoxLayout(controls);
+    constexpr int kFocusRing_px = 2;  // of the tabs
+    controls_->setContentsMargins(kFocusRing_px, 0, kFocusRing_px, 0);
+    controls_->addWidget(lists_, 1);
+    area_ = new ControlsArea(controls);
+    return area_;
+}
+
+void ReadingLayout::addChoice(QWidget* choice)
+{
+    top_->insertWidget(int(choices_.size()), choice);
+    choices_.push_back(choice);
+}
+
+void ReadingLayout::addPanel(QWidget* panel, PanelPlace place, QWidget* passing)
+{
+    if (place == PanelPlace::above_lists) {
+        controls_->insertWidget(int(above_.size()), framed(panel));
+        above_.push_back(panel);
+    } else {
+        controls_->addWidget(framed(panel));
+        below_.push_back(panel);
+    }
+    if (passing)
+        area_->setPassing(passing);
+}
+
+void ReadingLayout::addList(QWidget* list, const QString& title)
+{
+    lists_->addTab(list, title);
+}
+
+void ReadingLayout::addStatus(QWidget* status)
+{
+    window_.statusBar()->addPermanentWidget(status);
+    status_.push_back(status);
+}
+
+QMenu* ReadingLayout::menuOf(ReadingMenu menu)
+{
+    return menus_[std::size_t(menu)];
+}
+
+QAction* ReadingLayout::addAction(ReadingMenu menu, const QString& title, const QKeySequence& key,
+                                  std::function<void()> what)
+{
+    QAction* action = menuOf(menu)->addAction(title);
+    action->setShortcut(key);
+    connect(action, &QAction::triggered, this, [what = std::move(what)] { what(); });
+    return action;
+}
+
+QAction* ReadingLayout::addSwitch(ReadingMenu menu, const QString& title, const QKeySequence& key)
+{
+    QAction* action = menuOf(menu)->addAction(title);
+    action->setCheckable(true);
+    action->setShortcut(key);
+    return action;
+}
+
+void ReadingLayout::finish()
+{
+    new ControlKeys(&window_, views_.endoscopic());
+    orderTabs();
+}
+
+// From left to right and from top to bottom, as the eye goes.
+void ReadingLayout::orderTabs()
+{
+    std::vector<QWidget*> order = choices_;
+    const std::vector<QWidget*> views = views_.inOrder();
+    order.insert(order.end(), views.begin(), views.end());
+    const auto add = [&](const std::vector<QWidget*>& parts) {
+        for (QWidget* part : parts)
+            for (QWidget* control : reachableIn(part))
+                order.push_back(control);
+    };
+    add(above_);
+    order.push_back(lists_);
+    for (int n = 0; n < lists_->count(); ++n)
+        add({lists_->widget(n)});
+    add(below_);
+    add(status_);
+    for (std::size_t n = 1; n < order.size(); ++n)
+        QWidget::setTabOrder(order[n - 1], order[n]);
+}
+
+void ReadingLayout::say(const QString& message)
+{
+    window_.statusBar()->showMessage(message);
+}
+
+void ReadingLayout::warn(const QString& message)
+{
+    say({});
+    warning_->setText(message);
+    warning_->setToolTip(message);
+}
+
+void ReadingLayout::notice(const QString& message)
+{
+    notice_->setText(message);
+}
+
+void ReadingLayout::showList(QWidget* list)
+{
+    lists_->setCurrentWidget(list);
+}
+
+void ReadingLayout::enableList(QWidget* list, bool on, const QString& tip)
+{
+    const int tab = lists_->indexOf(list);
+    lists_->setTabEnabled(tab, on);
+    lists_->setTabToolTip(tab, tip);
+}
+
+void ReadingLayout::scrollTo(QWidget* control)
+{
+    area_->ensureWidgetVisible(control);
+}
+
+void ReadingLayout::goToList()
+{
+    auto* list = lists_->currentWidget()->findChild<QTableWidget*>();
+    if (list->rowCount() > 0 && list->selectionModel()->selectedRows().empty())
+        list->selectRow(0);
+    list->setFocus(Qt::ShortcutFocusReason);
+}
+
+int ReadingLayout::shownList() const
+{
+    return lists_->currentIndex();
+}
+
+void ReadingLayout::showList(int which)
+{
+    lists_->setCurrentIndex(which);
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <QKeySequence>
+#include <QMainWindow>
+#include <functional>
+#include <vector>
+
+#include "reading/reading_views.h"
+
+class QAction;
+class QHBoxLayout;
+class QLabel;
+class QMenu;
+class QTabWidget;
+class QVBoxLayout;
+
+namespace vicon::viewer {
+
+class ControlsArea;
+
+enum class ReadingMenu { a_case, edit, flight, view, help };
+
+/// Where things lie in the reading window: a line of choices above the views, the views, beside them the controls, a
+/// tab for each list, the menus, the status line. Tools put their own things there.
+class ReadingLayout : public QObject {
+    Q_OBJECT
+public:
+    enum class PanelPlace { above_lists, below_lists };
+
+    /// Fills the window.
+    ReadingLayout(QMainWindow& window, ReadingViews& views);
+
+    /// Above the views.
+    void addChoice(QWidget* choice);
+    /// Among the controls. @param passing a part of it that is there for a while: it is scrolled to
+    void addPanel(QWidget* panel, PanelPlace place, QWidget* passing = nullptr);
+    /// It has one table, which Return and the arrow keys act on.
+    void addList(QWidget* list, const QString& title);
+    void addStatus(QWidget* status);
+    QAction* addAction(ReadingMenu menu, const QString& title, const QKeySequence& key, std::function<void()> what);
+    /// @param key may be empty
+    QAction* addSwitch(ReadingMenu menu, const QString& title, const QKeySequence& key);
+
+    /// Everything is there: the order of Tab, and whose a key is.
+    void finish();
+
+    void say(const QString& message);
+    void warn(const QString& message);
+    /// Beside the warning: what is to be known about the place.
+    void notice(const QString& message);
+    void showList(QWidget* list);
+    void enableList(QWidget* list, bool on, const QString& tip);
+    void scrollTo(QWidget* control);
+    /// The keyboard goes to the list that is shown.
+    void goToList();
+    int shownList() const;
+    void showList(int which);
+
+signals:
+    void listShown(QWidget* list);
+
+private:
+    QWidget* buildTop();
+    QWidget* buildControls();
+    QMenu* menuOf(ReadingMenu menu);
+    void orderTabs();
+
+    QMainWindow& window_;
+    ReadingViews& views_;
+    QHBoxLayout* top_;
+    QVBoxLayout* controls_;
+    ControlsArea* area_;
+    QTabWidget* lists_;
+    QLabel *notice_, *warning_;
+    std::vector<QMenu*> menus_;
+    std::vector<QWidget*> choices_, above_, below_, status_;
+};
+
+}  // namespace vicon::viewer

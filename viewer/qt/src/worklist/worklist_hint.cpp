@@ -1,0 +1,29 @@
+#include "worklist/worklist_hint.h"
+
+#include <QObject>
+
+#include "vicon/viewer/qt/reading_room.h"
+
+namespace vicon::viewer {
+
+QString hintOfEmptyStore(const ReadingServices& services)
+{
+    const QString store = QString::fromStdString(services.store.string());
+    return QObject::tr(
+               "There is no case yet in %1.\n\nTo bring studies in:\n\nvicon import FOLDER --store %1\nvicon work "
+               "--until-idle --store %1\n\nor send them from the PACS to %2, while this runs:\n\nvicon receive --store "
+               "%1\n\nThe list renews itself.")
+        .arg(store, QString::fromStdString(services.receiver));
+}
+
+QString hintOfNothingFound(const QString& words, const QString& state, int cases)
+{
+    const QString none = words.isEmpty() ? QObject::tr("No case is \"%1\" now.").arg(state)
+                         : state.isEmpty()
+                             ? QObject::tr("No case has \"%1\" in its name or ID.").arg(words)
+                             : QObject::tr("No case that is \"%1\" has \"%2\" in its name or ID.").arg(state, words);
+    return none +
+           QObject::tr("\n\nCases in all: %1. Clear the search (Ctrl+F), or choose \"all\" on the right.").arg(cases);
+}
+
+}  // namespace vicon::viewer
