@@ -31,6 +31,21 @@ TEST_F(Worklist, TellsHowFarACaseIsAndWhy)
     EXPECT_TRUE(listed().scans[0].organ.isColon());
 }
 
+TEST_F(Worklist, TellsWhatIsRefusedFromWhatIsKeptAndWhy)
+{
+    ScanRecord scan = one_.scan;
+    one_.complete();
+    scan.role = ScanRole::refused;
+    scan.ingest["refused"] = {{{"object", "1.2.3"}, {"why", "cut off"}}, {{"why", "no even stack"}}};
+    one_.store.addScan(one_.store.requireCase("c1"), scan, {}, false);
+    EXPECT_EQ(nameOf(listed().state), "refused") << "also of a scan that was done";
+    EXPECT_EQ(listed().reason, "no even stack");
+    scan.role = ScanRole::kept;
+    scan.ingest["kept_because"] = "4 slices";
+    one_.store.addScan(one_.store.requireCase("c1"), scan, {}, false);
+    EXPECT_EQ(listed().scans[0].reason, "4 slices");
+}
+
 TEST_F(Worklist, TellsWhyAScanFailed)
 {
     one_.fail();
