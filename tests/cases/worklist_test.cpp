@@ -34,6 +34,7 @@ TEST_F(Worklist, TellsHowFarACaseIsAndWhy)
 TEST_F(Worklist, TellsWhatIsRefusedFromWhatIsKeptAndWhy)
 {
     ScanRecord scan = one_.scan;
+    one_.record("segment", {{"verdict", "colon"}});
     one_.complete();
     scan.role = ScanRole::refused;
     scan.ingest["refused"] = {{{"object", "1.2.3"}, {"why", "cut off"}}, {{"why", "no even stack"}}};
