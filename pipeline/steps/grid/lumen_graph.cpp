@@ -8,6 +8,7 @@
 namespace vicon::steps {
 namespace {
 
+// No case recorded.
 constexpr double kWhole = 0.97;  // of the blocks: the rest are specks in corners of the wall
 
 /// Offset in `wall_mm` of each block's voxel farthest from the wall, kNone where the block is left out.

@@ -16,7 +16,7 @@
 namespace vicon::steps {
 namespace {
 
-/// The least distance of an inside voxel from the wall, in voxels.
+/// The least distance of an inside voxel from the wall, in voxels: more than 0, which is outside.
 constexpr float kLeastDistance = 0.05F;
 
 /// Calls visit(first, last) for each run of rows with an inside voxel among `count`.

@@ -9,7 +9,7 @@
 namespace vicon::steps {
 namespace {
 
-/// A pool's density must differ from tissue by this much to place a wall; less is taken as this.
+/// A pool's density must differ from tissue by this much to place a wall; less is taken as this. No case recorded.
 constexpr double kLeastContrast_hu = 50;
 
 }  // namespace

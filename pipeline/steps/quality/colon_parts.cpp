@@ -9,7 +9,7 @@ namespace {
 
 // Lengths and angles below were chosen on phantom seeds 1 to 12, supine, and hold for the usual anatomy (rectum of 12
 // to 15 cm above the anal canal, caecum of about 6 cm).
-constexpr double kStep_mm = 5;
+constexpr double kStep_mm = 5;        // of the centreline, between the points that are looked at
 constexpr double kSmoothing_mm = 15;  // folds, haustra and the curve's wriggles are shorter
 constexpr double kFlexureReach_mm = 40;
 constexpr double kRectumAtLeast_mm = 60, kRectumAtMost_mm = 150;

@@ -13,8 +13,8 @@
 namespace vicon::steps {
 namespace {
 
-// 2.7 mm: blocks of 4 at the usual 0.68 mm; an opening by one block then removes table tops and blankets, not
-// limbs.
+// No case recorded; reason: 2.7 mm are blocks of 4 at the usual 0.68 mm; an opening by one block then removes table
+// tops and blankets, not limbs.
 constexpr double kCoarse_mm = 2.7;
 
 using Mask = Volume<std::uint8_t>;

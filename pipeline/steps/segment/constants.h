@@ -8,6 +8,8 @@ namespace vicon::steps {
 // from anatomy and from the scanner's blur, and stood before there was a phantom to choose them on. chain_family_test
 // holds them on phantoms that nothing was chosen on.
 
+// No case recorded but where one is named; reasons: densities as scanners give them, sizes of anatomy.
+
 /// Gas, in HU, as scanners give it.
 inline constexpr double kAir_hu = -1000;
 /// Half-way between air and fat: what lies below is gas or lung, what lies above is body.

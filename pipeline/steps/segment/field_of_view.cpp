@@ -12,7 +12,7 @@
 namespace vicon::steps {
 namespace {
 
-// Of the places at the edge of what was measured. Case not recorded.
+// Share of the places at the edge of what was measured that lie in the body. No case recorded.
 constexpr double kCutShare = 0.05;
 
 }  // namespace

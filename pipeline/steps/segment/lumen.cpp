@@ -12,7 +12,7 @@
 namespace vicon::steps {
 namespace {
 
-// Lung holds tissue: on average denser than -930 HU where bowel gas is -1000 with a thin blurred edge. Cases not
+// Lung holds tissue: on average denser than -930 HU where bowel gas is -1000 with a thin blurred edge. No case
 // recorded; a synthetic chest and a real one are held by verdict_test and segment_verdict_test.
 constexpr double kLungMean_hu = -930;
 constexpr double kLungTop_mm = 8;    // lungs leave the scan at its upper end

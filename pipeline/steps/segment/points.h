@@ -8,7 +8,7 @@
 
 namespace vicon::steps {
 
-/// How far a person's point may lie beside what it means.
+/// How far a person's point may lie beside what it means. No case recorded.
 inline constexpr double kCatch_mm = 3;
 
 /// "x,y,z" for a person, in whole mm.

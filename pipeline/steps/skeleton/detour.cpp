@@ -12,9 +12,9 @@ namespace {
 // A tube is at most 12 mm thick and lies anywhere in the rectum; phantom 1 and the prone reference scan.
 constexpr double kRunUp_mm = 12;     // before and after a stretch outside the lumen, in which the curve swings out
 constexpr double kFarthest_mm = 16;  // from the middle of the rectum
-constexpr double kRing_mm = 1;
-constexpr int kAngles = 24;
-constexpr double kClear_mm = 1.5;                                   // wished distance from the wall and from the tube
+constexpr double kRing_mm = 1;       // between the rings of places that are tried, and
+constexpr int kAngles = 24;          // how many there are on each
+constexpr double kClear_mm = 1.5;    // wished distance from the wall and from the tube
 constexpr double kOffCost = 0.02, kClearCost = 1, kChangeCost = 1;  // per mm² of each
 // Beside a bend, above or below it rather than outside or inside: so the stations stay those of the middle.
 constexpr double kLongerCost = 50;

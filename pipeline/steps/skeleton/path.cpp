@@ -12,10 +12,11 @@
 namespace vicon::steps {
 namespace {
 
+// No case recorded but where one is named; the path that comes out is held by steps_skeleton_family_test.
 constexpr double kEndTolerance_mm = 8;  // an end may lie in a block that the coarse graph leaves out
 constexpr double kCutMargin_mm = 1.5;   // what is removed at a contact, beyond its own radius
-constexpr int kMostCuts = 8;
-constexpr int kTriesPerPart = 2;
+constexpr int kMostCuts = 8;            // of contacts: each costs a search of the path
+constexpr int kTriesPerPart = 2;        // of such searches for a part that stays uncovered
 // A contact is narrow beside the lumen around it; the prone reference scan's widest pouches lie beside 13 of 25 mm.
 constexpr double kWidestContact_mm = 8;
 constexpr double kContactShare = 0.5;
@@ -101,18 +102,23 @@ struct CoarsePath {
     int cuts = 0;
 };
 
+/// Where the way is barred, and the places at which that was tried.
+struct Bars {
+    std::vector<std::uint8_t> blocked;
+    std::vector<Point3> tried;
+};
+
 /// One attempt to lead the path through a part that it left aside. A cut that parts the two ends, or that covers no
 /// more of the lumen, is taken back.
 bool improve(const LumenGraph& graph, std::int32_t from, std::int32_t to, const Uncovered& part, CoarsePath& best,
-             std::vector<std::uint8_t>& blocked, std::vector<Point3>& tried, const SkeletonOptions& options,
-             Progress& progress)
+             Bars& bars, const SkeletonOptions& options, Progress& progress)
 {
     for (int n = 0; n < kTriesPerPart; ++n) {
-        const std::int32_t narrow = narrowest(graph, best.nodes, part, tried);
+        const std::int32_t narrow = narrowest(graph, best.nodes, part, bars.tried);
         if (narrow < 0)
             return false;
-        tried.push_back(graph.point(narrow));
-        std::vector<std::uint8_t> with_cut = blocked;
+        bars.tried.push_back(graph.point(narrow));
+        std::vector<std::uint8_t> with_cut = bars.blocked;
         block(graph, narrow, with_cut);
         const LumenTree tree = centralTree(graph, from, with_cut, progress, to);
         if (!tree.reaches(to))
@@ -122,7 +128,7 @@ bool improve(const LumenGraph& graph, std::int32_t from, std::int32_t to, const 
         if (coverage.fraction >= best.coverage.fraction)
             continue;
         best = {std::move(path), std::move(coverage), best.cuts + 1};
-        blocked = std::move(with_cut);
+        bars.blocked = std::move(with_cut);
         return true;
     }
     return false;
@@ -133,19 +139,18 @@ bool improve(const LumenGraph& graph, std::int32_t from, std::int32_t to, const 
 CoarsePath coarsePath(const LumenGraph& graph, std::int32_t from, std::int32_t to, const SkeletonOptions& options,
                       Progress& progress)
 {
-    std::vector<std::uint8_t> blocked(graph.count(), 0);
+    Bars bars{std::vector<std::uint8_t>(graph.count(), 0), {}};
     CoarsePath best;
-    const LumenTree whole = centralTree(graph, from, blocked, progress, to);
+    const LumenTree whole = centralTree(graph, from, bars.blocked, progress, to);
     if (!whole.reaches(to))
         return best;
     best.nodes = whole.pathTo(to);
     best.coverage = coverageOf(graph, best.nodes, options);
-    std::vector<Point3> tried;
     for (bool improved = true; improved && best.cuts < kMostCuts;) {
         improved = false;
         for (const Uncovered& part : std::vector<Uncovered>(best.coverage.parts))
             if (!improved)
-                improved = improve(graph, from, to, part, best, blocked, tried, options, progress);
+                improved = improve(graph, from, to, part, best, bars, options, progress);
     }
     return best;
 }

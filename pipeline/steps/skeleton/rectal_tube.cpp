@@ -11,6 +11,7 @@
 namespace vicon::steps {
 namespace {
 
+// No case recorded; reason: sizes of rectal tubes and rectums.
 constexpr double kTubeReach_mm = 150;     // from the rectal end: a rectal tube lies no higher
 constexpr double kTubeSection_mm2 = 200;  // of a tube of up to 12 mm, cut obliquely
 constexpr double kMargin_mm = 24;         // about the tube: hardly a rectum is wider; what is wider is tried again

@@ -11,7 +11,7 @@ namespace vicon {
 /// One option as the help, the configuration file and the documentation show it.
 struct OptionSpec {
     std::string key;                   ///< "room.name", as in the configuration file: table, then name
-    nlohmann::json default_value;      ///< its type is the option's type: boolean, integer, number or string
+    nlohmann::json default_value;      ///< its type is the option's: boolean, integer, number, string; array: points
     std::string unit;                  ///< "mm", "HU", "degrees", "s"; empty where there is none
     std::string help;                  ///< one sentence
     double lowest = -1e300;            ///< of numbers

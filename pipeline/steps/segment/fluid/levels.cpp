@@ -11,14 +11,15 @@
 namespace vicon::steps {
 namespace {
 
-// What a fluid level looks like. From the scanner's point spread, up to 1 mm, and from gravity; cases not recorded.
+// What a fluid level looks like. No case recorded; reason: from the scanner's point spread, up to 1 mm, and from
+// gravity. Held by FluidLevels.AreFoundInEveryPosition.
 constexpr int kFarthestStep = 5;   // voxels of the partial-volume layer
 constexpr double kDeepest_mm = 4;  // how far under the level the fluid's own density is read
 // Half-way to half-way of a blurred step is 1.1 mm at sigma 0.8; a wall is thicker.
 constexpr double kThickestStep_mm = 1.6;
 constexpr double kFlatWithin_voxels = 1;   // of the level's median
 constexpr double kFlatShare = 0.7;         // of a patch's columns that must be flat
-constexpr double kSmallestLevel_mm2 = 20;  // of a level's area
+constexpr double kSmallestLevel_mm2 = 20;  // of a level's area: a puddle of 5 mm
 /// Half-way density less than this many standard deviations below a pool's own: one voxel in 160 is a hole. A pool of
 /// 300 HU at a noise of 60 HU, low dose, has 2.2; the prone scan of the reference data, 28 HU, has at least 2.7 in any
 /// pool.

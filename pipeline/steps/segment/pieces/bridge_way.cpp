@@ -14,7 +14,7 @@
 namespace vicon::steps {
 namespace {
 
-// Of the way through a collapsed part. Cases not recorded but where one is named.
+// Of the way through a collapsed part. No case recorded but where one is named; of the costs the order matters.
 constexpr double kCell_mm = 1.5;      // of the grid on which the way is sought: averages out noise
 constexpr double kMargin_mm = 25;     // of that grid around the two tips
 constexpr double kReach_mm = 40;      // lumen farther from the tips is no part of the way

@@ -9,6 +9,8 @@
 namespace vicon::steps {
 namespace {
 
+// No case recorded; the thesis names no numbers. What comes out stands in docs/evaluation/subdivision.md.
+
 /// A segment is feasible from this part of its target on, and too large beyond that one.
 constexpr double kFeasible = 0.8, kTooLarge = 1.5;
 /// No earlier candidate is taken that would make a segment smaller than this part of the target.
