@@ -34,17 +34,20 @@ TEST_F(Worklist, TellsHowFarACaseIsAndWhy)
 TEST_F(Worklist, TellsWhatIsRefusedFromWhatIsKeptAndWhy)
 {
     ScanRecord scan = one_.scan;
+    const CaseRecord a_case = one_.store.requireCase("c1");
+    scan.role = ScanRole::kept;
+    scan.ingest["kept_because"] = "4 slices";
+    one_.store.addScan(a_case, scan, {}, false);
+    EXPECT_EQ(nameOf(listed().state), "kept");
+    EXPECT_EQ(listed().reason, "4 slices");
+    one_.store.addScan(a_case, one_.scan, {}, true);
     one_.record("segment", {{"verdict", "colon"}});
     one_.complete();
     scan.role = ScanRole::refused;
     scan.ingest["refused"] = {{{"object", "1.2.3"}, {"why", "cut off"}}, {{"why", "no even stack"}}};
-    one_.store.addScan(one_.store.requireCase("c1"), scan, {}, false);
+    one_.store.addScan(a_case, scan, {}, false);
     EXPECT_EQ(nameOf(listed().state), "refused") << "also of a scan that was done";
     EXPECT_EQ(listed().reason, "no even stack");
-    scan.role = ScanRole::kept;
-    scan.ingest["kept_because"] = "4 slices";
-    one_.store.addScan(one_.store.requireCase("c1"), scan, {}, false);
-    EXPECT_EQ(listed().scans[0].reason, "4 slices");
 }
 
 TEST_F(Worklist, TellsWhyAScanFailed)
