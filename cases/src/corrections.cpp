@@ -6,6 +6,7 @@
 #include "vicon/cases/organs.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/json_text.h"
 #include "vicon/scan_files/volume_file.h"
 
 namespace fs = std::filesystem;
@@ -48,7 +49,7 @@ Corrections readCorrections(const fs::path& scan_folder)
     if (!fs::exists(file))
         return {};
     try {
-        return correctionsFromJson(json::parse(readFile(file)));
+        return correctionsFromJson(parsedJson(readFile(file)));
     } catch (const json::exception&) {
         throw Error(ErrorCode::bad_input, "these corrections cannot be understood", file.string(),
                     "take them back with 'vicon work --case CASE --forget-corrections'");

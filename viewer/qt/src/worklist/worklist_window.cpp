@@ -39,7 +39,7 @@ QString scansOf(const WorklistCase& row)
 {
     QStringList names;
     for (const WorklistScan& scan : row.scans)
-        if (scan.state != WorkState::kept)
+        if (scan.state != WorkState::kept && scan.state != WorkState::refused)
             names << text(positionName(scan.record.series.patient_position) +
                           (scan.organ.isColon() ? "" : " (" + scan.organ.name() + ")"));
     return names.join(", ");
