@@ -47,6 +47,19 @@ void printUnseen(const viewer::FlightReport& report, double least_mm2)
         std::printf("  ... (all with --json or in flight.json)\n");
 }
 
+void printViews(const viewer::FlightReport& report)
+{
+    constexpr double kUsualSpeed_mm_s = 30;
+    for (const viewer::FlightLegQuality& leg : report.views) {
+        const viewer::FlightQuality& q = leg.quality;
+        std::printf(
+            "towards the %s: way on in the middle half of %.1f %% of the frames, wall in the middle within a "
+            "radius of %.1f %%; at %.0f mm/s the view turns %.1f deg/s (median), %.1f (99 %%)\n",
+            leg.heading == viewer::Heading::caecum ? "caecum" : "rectum", q.way_on_central * 100, q.wall_close * 100,
+            kUsualSpeed_mm_s, q.turn_median_deg_mm * kUsualSpeed_mm_s, q.turn_slow_deg_mm * kUsualSpeed_mm_s);
+    }
+}
+
 int fly(Context& context, const FlyArguments& arguments)
 {
     CaseStore& store = context.existingStore();
@@ -75,6 +88,7 @@ int fly(Context& context, const FlyArguments& arguments)
     std::printf("cells drawn %.1f of %zu, triangles drawn %.0f of %zu on average; frame %.1f ms median\n",
                 report.average_cells, report.cells, report.average_triangles, report.triangles,
                 report.median_seconds * 1e3);
+    printViews(report);
     printUnseen(report, request.least_unseen_mm2);
     if (!arguments.out.empty())
         std::printf("%s\n", arguments.out.c_str());
@@ -108,8 +122,8 @@ Subcommand flyCommand()
             command.option("--angle", request.view_angle_deg, "Viewing angle, degrees")
                 .check(range(20, 150))
                 .captureDefault();
-            command.flag("--ambient-occlusion", request.ambient_occlusion,
-                         "Less light between folds and at the foot of what rises from the wall");
+            command.flag("--ambient-occlusion,!--no-ambient-occlusion", request.ambient_occlusion,
+                         "Less light between folds and at the foot of what rises from the wall (default: on)");
             command.flag("!--no-coverage", request.measure_coverage, "Do not measure what is seen (faster)");
             command.option("--unseen", request.least_unseen_mm2, "Least area of an unseen patch to be listed, mm2")
                 .check(range(0.0, 1e6))

@@ -53,6 +53,16 @@ void printCorrections(const std::filesystem::path& scan_folder)
                         formatNumber(p.y, 1).c_str(), formatNumber(p.z, 1).c_str());
 }
 
+/// A line of what import said: a repair, or an image and why it is not used.
+std::string inWords(const nlohmann::json& line)
+{
+    if (line.is_string())
+        return line.get<std::string>();
+    if (!line.is_object() || !line.contains("why"))
+        return line.dump();
+    return (line.contains("object") ? line.value("object", "") + ": " : "") + line.value("why", "");
+}
+
 void printScan(CaseStore& store, const WorklistScan& scan)
 {
     const ScanRecord& r = scan.record;
@@ -82,7 +92,7 @@ void printScan(CaseStore& store, const WorklistScan& scan)
         printQuality(*results.quality);
     for (const char* list : {"repairs", "refused", "set_aside"})
         for (const auto& line : r.ingest.value(list, nlohmann::json::array()))
-            std::printf("  %s: %s\n", list, (line.is_string() ? line.get<std::string>() : line.dump()).c_str());
+            std::printf("  %s: %s\n", list, inWords(line).c_str());
 }
 
 /// The thesis' Table 2 for every scan that has been divided.
@@ -115,7 +125,7 @@ int show(Context& context, const ShowArguments& arguments)
     if (arguments.subdivision_table)
         return printSubdivisionTable(store, c, arguments.scan_id);
     if (context.json) {
-        nlohmann::json out = toJson({c})["cases"][0];
+        nlohmann::json out = toJson(std::vector{c})["cases"][0];
         for (nlohmann::json& scan : out["scans"])
             scan.update(store.describeScan(record.id, scan["id"]));
         std::printf("%s\n", out.dump(2).c_str());

@@ -15,7 +15,7 @@ struct SnapshotArguments {
     bool at_station = false;
     int width = 0, height = 0;
     double angle_deg = 90;
-    bool ambient_occlusion = false;
+    bool ambient_occlusion = true;
     std::string window;
     std::string peel;
     double peel_offset_mm = 0;
@@ -103,8 +103,8 @@ Subcommand snapshotCommand()
             command.option("--angle", arguments->angle_deg, "Viewing angle of the endoscopic view, degrees")
                 .check(range(20, 150))
                 .captureDefault();
-            command.flag("--ambient-occlusion", arguments->ambient_occlusion,
-                         "Endoscopic view: less light between folds and at the foot of what rises from the wall");
+            command.flag("--ambient-occlusion,!--no-ambient-occlusion", arguments->ambient_occlusion,
+                         "Less light between folds and at the foot of what rises from the wall (default: on)");
             command.option("--window", arguments->window, "Window/level preset of the slices (default: the organ's)");
             const auto peel =
                 command

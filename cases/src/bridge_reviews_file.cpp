@@ -3,6 +3,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/geometry_json.h"
+#include "vicon/core/json_text.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -40,7 +41,7 @@ std::vector<ReviewedBridge> readBridgeReviews(const fs::path& scan_folder)
     };
     try {
         std::vector<ReviewedBridge> reviews;
-        const json all = json::parse(readFile(file));
+        const json all = parsedJson(readFile(file));
         for (const json& entry : all.at("bridges").get_ref<const json::array_t&>())
             reviews.push_back(reviewFrom(entry));
         return reviews;

@@ -6,6 +6,7 @@
 #include "vicon/cases/organs.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/json_text.h"
 #include "vicon/scan_files/volume_file.h"
 
 namespace fs = std::filesystem;
@@ -14,7 +15,7 @@ using nlohmann::json;
 namespace vicon {
 namespace {
 
-constexpr const char* kFile = "corrections.json";
+constexpr const char* kCorrectionsFile = "corrections.json";
 
 void requireInside(const fs::path& scan_folder, const Corrections& corrections)
 {
@@ -44,11 +45,11 @@ void requireColon(CaseStore& store, const ScanRecord& scan)
 
 Corrections readCorrections(const fs::path& scan_folder)
 {
-    const fs::path file = scan_folder / kFile;
+    const fs::path file = scan_folder / kCorrectionsFile;
     if (!fs::exists(file))
         return {};
     try {
-        return correctionsFromJson(json::parse(readFile(file)));
+        return correctionsFromJson(parsedJson(readFile(file)));
     } catch (const json::exception&) {
         throw Error(ErrorCode::bad_input, "these corrections cannot be understood", file.string(),
                     "take them back with 'vicon work --case CASE --forget-corrections'");
@@ -57,7 +58,7 @@ Corrections readCorrections(const fs::path& scan_folder)
 
 void writeCorrections(const fs::path& scan_folder, const Corrections& corrections)
 {
-    const fs::path file = scan_folder / kFile;
+    const fs::path file = scan_folder / kCorrectionsFile;
     if (corrections.empty()) {
         std::error_code missing;
         fs::remove(file, missing);

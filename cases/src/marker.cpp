@@ -3,6 +3,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/geometry_json.h"
+#include "vicon/core/json_text.h"
 
 using nlohmann::json;
 
@@ -127,7 +128,7 @@ void writeMarkers(const std::filesystem::path& file, const std::vector<Marker>& 
 
 std::vector<Marker> readMarkers(const std::filesystem::path& file)
 {
-    const json all = json::parse(readFile(file), nullptr, false);
+    const json all = parsedJson(readFile(file));
     if (!all.is_object() || !all.contains("markers") || !all["markers"].is_array())
         throw Error(ErrorCode::bad_input, "is not a file of markers", file.string(), "it must be {\"markers\": [...]}");
     std::vector<Marker> markers;

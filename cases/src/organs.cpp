@@ -3,6 +3,7 @@
 #include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/json_text.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -19,7 +20,7 @@ std::optional<Organ> readOrgan(const fs::path& scan_folder)
     const fs::path file = scan_folder / kFile;
     if (!fs::exists(file))
         return std::nullopt;
-    const json said = json::parse(readFile(file), nullptr, false);
+    const json said = parsedJson(readFile(file));
     if (!said.is_object() || !said.value("organ", json()).is_string())
         throw Error(ErrorCode::bad_input, "this does not name an organ", file.string(),
                     "name it again with 'vicon work --organ NAME --case CASE'");

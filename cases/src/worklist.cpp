@@ -20,9 +20,25 @@ std::string qualityInBrief(const ScanQuality& quality)
     return text.data() + (quality.reason.empty() ? ", nothing collapsed" : ", " + quality.reason);
 }
 
+/// What import wrote of a scan that it kept or refused: the reason of the whole, not of single images.
+std::string whyNotQueued(const ScanRecord& record)
+{
+    if (record.role == ScanRole::kept)
+        return record.ingest.value("kept_because", "");
+    for (const nlohmann::json& entry : record.ingest.value("refused", nlohmann::json::array()))
+        if (entry.is_object() && !entry.contains("object"))
+            return entry.value("why", "");
+    return {};
+}
+
 WorklistScan makeScan(CaseStore& store, JobQueue& queue, const ScanRecord& record)
 {
     WorklistScan scan{.record = record, .folder = store.scanFolder(record.case_id, record.id)};
+    if (record.role == ScanRole::refused) {  // whatever was done before late images spoilt it
+        scan.state = WorkState::refused;
+        scan.reason = whyNotQueued(record);
+        return scan;
+    }
     if (const auto job = queue.find(record.case_id, record.id)) {
         scan.state = workStateOf(job->state);
         scan.step = job->step;
@@ -32,6 +48,8 @@ WorklistScan makeScan(CaseStore& store, JobQueue& queue, const ScanRecord& recor
     const StepResults results = resultsOf(store.steps(record.case_id, record.id));
     if (scan.reason.empty())
         scan.reason = results.warning();
+    if (scan.reason.empty() && scan.state == WorkState::kept)
+        scan.reason = whyNotQueued(record);
     scan.organ = results.organ();
     if (results.quality && results.quality->quality) {
         scan.adequate = results.quality->quality->whole.adequate;
@@ -45,7 +63,8 @@ WorklistScan makeScan(CaseStore& store, JobQueue& queue, const ScanRecord& recor
 /// What a case is, is the first of these that any of its scans is.
 void sumUp(WorklistCase& a_case)
 {
-    for (const WorkState state : {WorkState::failed, WorkState::running, WorkState::queued, WorkState::done}) {
+    for (const WorkState state : {WorkState::failed, WorkState::running, WorkState::queued, WorkState::done,
+                                  WorkState::kept, WorkState::refused}) {
         const auto found = std::find_if(a_case.scans.begin(), a_case.scans.end(),
                                         [&](const WorklistScan& scan) { return scan.state == state; });
         if (found == a_case.scans.end())
@@ -58,7 +77,7 @@ void sumUp(WorklistCase& a_case)
         a_case.reason += (a_case.reason.empty() ? "" : "; ") + flag;
     int jobs = 0;
     for (const WorklistScan& scan : a_case.scans)
-        if (scan.state != WorkState::kept) {
+        if (scan.state != WorkState::kept && scan.state != WorkState::refused) {
             a_case.progress += scan.progress;
             ++jobs;
         }
@@ -88,6 +107,8 @@ std::string nameOf(WorkState state)
     switch (state) {
         case WorkState::kept:
             return "kept";
+        case WorkState::refused:
+            return "refused";
         case WorkState::queued:
             return nameOf(JobState::queued);
         case WorkState::running:

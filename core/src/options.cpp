@@ -143,7 +143,7 @@ void Config::assign(const std::string& key, nlohmann::json value, const std::str
         value = pointsFrom(value.get<std::string>());
     if (!sameKind(value, spec.default_value))
         throw Error(ErrorCode::wrong_use, "option '" + key + "' must be " + typeName(spec.default_value), source);
-    if (value.is_number() && (value.get<double>() < spec.lowest || value.get<double>() > spec.highest)) {
+    if (value.is_number() && !(value.get<double>() >= spec.lowest && value.get<double>() <= spec.highest)) {
         std::ostringstream range;
         range << "option '" << key << "' must lie between " << spec.lowest << " and " << spec.highest;
         throw Error(ErrorCode::wrong_use, range.str(), source);

@@ -14,6 +14,15 @@
 #include <cstddef>
 #include <vector>
 
+// GCC and clang tell of it in ways of their own.
+#if defined(__SANITIZE_ADDRESS__)
+#define VICON_ADDRESS_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define VICON_ADDRESS_SANITIZER
+#endif
+#endif
+
 namespace vicon::ingest {
 namespace {
 
@@ -76,7 +85,7 @@ void confine()
     limit(RLIMIT_FSIZE, 0);
     limit(RLIMIT_STACK, kStackBytes);
     limit(RLIMIT_NOFILE, kDescriptors);
-#ifndef __SANITIZE_ADDRESS__  // which reserves terabytes of addresses
+#ifndef VICON_ADDRESS_SANITIZER  // which reserves terabytes of addresses
     limit(RLIMIT_AS, kMemoryBytes);
 #endif
     filterSystemCalls();

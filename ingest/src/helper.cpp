@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "helper_process.h"
+#include "structure_scan.h"
 #include "vicon/core/error.h"
 
 namespace vicon::ingest {
@@ -122,6 +123,14 @@ std::string whyHarmful(const std::filesystem::path& file)
         return e.what();
     }
     return {};
+}
+
+std::string whyNotToRead(const std::filesystem::path& file)
+{
+    const Structure structure = scanStructure(file);
+    if (structure.fate == Structure::Fate::odd)
+        return whyHarmful(file);
+    return structure.why;
 }
 
 void endIdleHelpers()

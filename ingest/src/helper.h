@@ -19,6 +19,10 @@ std::vector<char> decodeInHelper(std::string_view stream, const PixelFormat& for
 /// does none, whether or not the file is DICOM.
 std::string whyHarmful(const std::filesystem::path& file);
 
+/// Why a file must not be given to a DICOM library: by its structure, or because reading it did harm when it was tried
+/// in the decoder program. Empty when it may.
+std::string whyNotToRead(const std::filesystem::path& file);
+
 /// Ends the programs that wait for work. The next question starts one.
 void endIdleHelpers();
 

@@ -8,7 +8,6 @@
 #include "dataset.h"
 #include "dicom_setup.h"
 #include "helper.h"
-#include "structure_scan.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/printable.h"
@@ -54,12 +53,8 @@ fs::path referencedFile(const fs::path& folder, const std::vector<std::string>& 
 void listDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::vector<ImportLine>& lines)
 {
     setUpDicom();
-    const Structure structure = scanStructure(dicomdir);
-    if (structure.fate == Structure::Fate::refused)
-        return refuse(lines, dicomdir.string(), structure.why + "; import its folder instead");
-    if (structure.fate == Structure::Fate::odd)
-        if (const std::string why = whyHarmful(dicomdir); !why.empty())
-            return refuse(lines, dicomdir.string(), why + "; import its folder instead");
+    if (const std::string why = whyNotToRead(dicomdir); !why.empty())
+        return refuse(lines, dicomdir.string(), why + "; import its folder instead");
     DcmFileFormat format;
     if (format.loadFile(dicomdir.c_str()).bad())
         return refuse(lines, dicomdir.string(), "the DICOMDIR is damaged; import its folder instead");

@@ -4,6 +4,7 @@
 
 #include "association.h"
 #include "dicom_setup.h"
+#include "helper.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/ingest/query.h"
@@ -128,6 +129,8 @@ std::set<std::string> objectsIn(const fs::path& folder)
     }
     std::set<std::string> uids;
     for (const auto& [file, time] : files) {
+        if (!whyNotToRead(file).empty())  // is asked for again
+            continue;
         DcmMetaInfo meta;
         OFString uid;
         if (meta.loadFile(file.c_str()).good() && meta.findAndGetOFString(DCM_MediaStorageSOPInstanceUID, uid).good())

@@ -14,7 +14,6 @@
 #include <mutex>
 #include <thread>
 
-#include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
 namespace fs = std::filesystem;
@@ -25,11 +24,20 @@ namespace {
 /// Files that are copied at once, whatever the number of cores: each waits for the disk until it is flushed.
 constexpr int kAtOnce = 8;
 
+bool isFull(int number)
+{
+    return number == ENOSPC || number == EDQUOT;
+}
+
+Error failure(const std::string& what, const fs::path& where, int number)
+{
+    return {ErrorCode::store, what + " (" + std::strerror(number) + ")", where.string(),
+            isFull(number) ? "free some space on this disk and import again" : "check that the store is yours"};
+}
+
 [[noreturn]] void failed(const std::string& what, const fs::path& where, int number)
 {
-    const bool full = number == ENOSPC || number == EDQUOT;
-    throw Error(ErrorCode::store, what + " (" + std::strerror(number) + ")", where.string(),
-                full ? "free some space on this disk and import again" : "check that the store is yours");
+    throw failure(what, where, number);
 }
 
 void flush(const fs::path& path, int flags)
@@ -45,9 +53,9 @@ void flush(const fs::path& path, int flags)
 
 void copyPrivately(const fs::path& from, const fs::path& to)
 {
-    std::error_code failure;
-    if (!fs::copy_file(from, to, fs::copy_options::overwrite_existing, failure))
-        failed("a file cannot be copied into the store", from, failure.value());
+    std::error_code trouble;
+    if (!fs::copy_file(from, to, fs::copy_options::overwrite_existing, trouble))
+        throw notCopied(from, to, trouble.value());
     if (::chmod(to.c_str(), 0600) != 0)
         failed("cannot be made private", to, errno);
     flush(to, O_RDONLY);
@@ -64,6 +72,11 @@ std::string fileNameFor(const std::string& sop_uid)
 {
     constexpr std::size_t kDigits = 32;
     return sha256(sop_uid).substr(0, kDigits) + ".dcm";
+}
+
+Error notCopied(const fs::path& from, const fs::path& to, int number)
+{
+    return failure("a file cannot be copied into the store", isFull(number) ? to.parent_path() : from, number);
 }
 
 void copyDurably(const fs::path& folder, const std::vector<FileCopy>& copies, Progress& progress)

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "vicon/core/error.h"
 #include "vicon/core/progress.h"
 
 namespace vicon::ingest {
@@ -20,6 +21,9 @@ struct FileCopy {
 /// then the folder flushed. What a killed import left there under temporary names is removed first.
 /// Call only while no other import works on the store. Throws Error{store}.
 void copyDurably(const std::filesystem::path& folder, const std::vector<FileCopy>& copies, Progress& progress);
+
+/// What is told of a copy that failed with a number of the system: a full disk is the store's trouble, not the file's.
+Error notCopied(const std::filesystem::path& from, const std::filesystem::path& to, int number);
 
 /// Only one import works on a store at a time. Waits for the lock, and holds it while the object lives.
 class StoreLock {

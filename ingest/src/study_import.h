@@ -100,7 +100,6 @@ private:
     Reporter& reporter_;
     Progress& progress_;
     CaseRecord case_;
-    bool new_case_ = false;
     std::map<std::string, ImageObject> objects_;   ///< by SOP Instance UID: stored ones and arrivals
     std::map<std::string, std::string> shown_;     ///< of arrivals, by SOP Instance UID
     std::map<std::string, Home> stored_at_;        ///< by SOP Instance UID

@@ -79,7 +79,10 @@ CellSurface readCells(const fs::path& file)
     const auto data = readPolyData(file);
     auto* normals = data->GetPointData()->GetNormals();
     auto* segment = data->GetCellData()->GetArray("segment");
-    if (!normals || !segment || !data->GetPolys() || data->GetPolys()->GetMaxCellSize() > 3)
+    const bool triangles = data->GetPolys() && data->GetPolys()->GetMaxCellSize() <= 3 &&
+                           data->GetPolys()->GetNumberOfConnectivityIds() == 3 * data->GetPolys()->GetNumberOfCells();
+    if (!normals || normals->GetNumberOfComponents() != 3 || !segment || segment->GetNumberOfComponents() != 1 ||
+        !triangles || data->GetNumberOfCells() != data->GetPolys()->GetNumberOfCells())
         throw Error(ErrorCode::bad_input, "is not a surface of cells", file.string(),
                     "run 'vicon work' to make it anew");
     CellSurface surface;

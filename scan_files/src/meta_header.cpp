@@ -1,5 +1,7 @@
 #include "meta_header.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <fstream>
 
@@ -11,6 +13,10 @@ namespace vicon::scan_files {
 namespace {
 
 constexpr const char* kVoxelsFollow = "ElementDataFile = LOCAL\n";
+/// Zlib packs no better.
+constexpr std::size_t kBestPacking = 1032;
+
+constexpr const char* kMakeAnew = "run 'vicon work' to make it anew";
 
 std::string line(const char* key, std::initializer_list<double> numbers)
 {
@@ -41,7 +47,7 @@ std::string rawHeader(const Grid& grid, const std::string& type)
     return first + std::string(missing, '.') + "\n" + lines;
 }
 
-std::optional<VoxelBytes> voxelBytesIn(const fs::path& file, std::size_t raw_bytes)
+VoxelBytes voxelBytesIn(const fs::path& file, std::size_t raw_bytes)
 {
     std::string head(4096, '\0');
     std::ifstream in(file, std::ios::binary);
@@ -49,15 +55,18 @@ std::optional<VoxelBytes> voxelBytesIn(const fs::path& file, std::size_t raw_byt
     head.resize(std::size_t(in.gcount()));
     const auto local = head.find(kVoxelsFollow);
     if (local == std::string::npos)
-        return {};
+        throw Error(ErrorCode::bad_input, "does not hold its voxels itself", file.string(), kMakeAnew);
     VoxelBytes bytes{local + std::char_traits<char>::length(kVoxelsFollow), raw_bytes, false};
     const std::string key = "CompressedDataSize = ";
     if (const auto at = head.find(key); at < local) {
         bytes.packed = true;
-        bytes.count = std::stoull(head.substr(at + key.size()));
+        const auto read = std::from_chars(head.data() + at + key.size(), head.data() + head.size(), bytes.count);
+        if (read.ec != std::errc())
+            throw Error(ErrorCode::bad_input, "does not say how many bytes its voxels are", file.string(), kMakeAnew);
     }
-    if (fs::file_size(file) < bytes.begin + bytes.count)
-        throw Error(ErrorCode::bad_input, "is cut off", file.string(), "run 'vicon work' to make it anew");
+    const std::uintmax_t size = fs::file_size(file), left = size - std::min<std::uintmax_t>(size, bytes.begin);
+    if (left < bytes.count || left < raw_bytes / kBestPacking)
+        throw Error(ErrorCode::bad_input, "is cut off", file.string(), kMakeAnew);
     return bytes;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "vicon/core/geometry.h"
@@ -21,8 +20,9 @@ struct VoxelBytes {
     std::size_t count = 0;
     bool packed = false;
 };
-/// Nothing where they lie in another file. Throws Error{bad_input} when the file is too short for them.
+/// Throws Error{bad_input} when they lie in another file, or the file is too short for them, also when they are packed:
+/// memory is asked for after this.
 /// @param raw_bytes how many they are when they are not packed
-std::optional<VoxelBytes> voxelBytesIn(const std::filesystem::path& file, std::size_t raw_bytes);
+VoxelBytes voxelBytesIn(const std::filesystem::path& file, std::size_t raw_bytes);
 
 }  // namespace vicon::scan_files

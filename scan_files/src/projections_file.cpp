@@ -6,6 +6,7 @@
 
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/json_text.h"
 #include "vicon/picture/png_file.h"
 
 namespace fs = std::filesystem;
@@ -91,7 +92,7 @@ Projection readProjection(const fs::path& folder, const std::string& name)
     const fs::path file = folder / "projections.json";
     Projection projection;
     try {
-        projection = described(nlohmann::json::parse(readFile(file)), name);
+        projection = described(parsedJson(readFile(file)), name);
     } catch (const nlohmann::json::exception&) {
     }
     if (projection.width <= 0 || projection.height <= 0 || !(projection.pixel_mm > 0))

@@ -109,9 +109,11 @@ ReadLines readLines(const fs::path& file)
         if (piece.points.size() < 2)
             throw Error(ErrorCode::bad_input, "has a piece of fewer than two points", file.string());
         if (parent) {
-            if (parent->GetTuple1(line) >= double(line))
+            const double before = parent->GetTuple1(line);
+            if (!(before >= -1 && before < double(line)))
                 throw Error(ErrorCode::bad_input, "has a branch that comes before its parent", file.string());
-            out.tree.branches.push_back({int(parent->GetTuple1(line)), int(generation->GetTuple1(line)), piece.points});
+            out.tree.branches.push_back(
+                {int(before), int(std::clamp(generation->GetTuple1(line), 0.0, before + 1)), piece.points});
         }
         out.skeleton.pieces.push_back(std::move(piece));
     }

@@ -2,6 +2,7 @@
 
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/json_text.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -40,8 +41,8 @@ json toJson(const Portal& p)
 Portal portalFrom(const json& j)
 {
     Portal p;
-    p.segment_a = j.at("between").at(0);
-    p.segment_b = j.at("between").at(1);
+    p.segment_a = wholeNumber(j.at("between").at(0));
+    p.segment_b = wholeNumber(j.at("between").at(1));
     p.centre_mm = tripleFrom<Point3>(j.at("centre_mm"));
     p.normal = tripleFrom<Vector3>(j.at("normal"));
     p.area_mm2 = j.at("area_mm2");
@@ -62,7 +63,7 @@ json toJson(const SegmentInfo& s)
 
 SegmentInfo segmentFrom(const json& j)
 {
-    return {j.at("number"),
+    return {wholeNumber(j.at("number")),
             j.at("from_station_mm"),
             j.at("to_station_mm"),
             j.at("volume_mm3"),
@@ -91,7 +92,7 @@ void writeSubdivision(const fs::path& file, const Subdivision& subdivision)
 
 Subdivision readSubdivision(const fs::path& file)
 {
-    const json in = json::parse(readFile(file), nullptr, false);
+    const json in = parsedJson(readFile(file));
     Subdivision subdivision;
     try {
         subdivision.method = in.at("method");

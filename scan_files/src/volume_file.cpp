@@ -2,6 +2,8 @@
 
 #include <itkMetaImageIO.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <mutex>
 #include <new>
@@ -55,8 +57,26 @@ itk::MetaImageIO::Pointer openHeader(const fs::path& file)
     return io;
 }
 
-Grid gridOf(itk::MetaImageIO& io)
+/// No scan has more voxels along an axis.
+constexpr itk::SizeValueType kLongestAxis = 65535;
+
+/// Whether a header's numbers can be a grid: voxels of some size, at places that are numbers.
+bool describesGrid(itk::MetaImageIO& io)
 {
+    for (unsigned a = 0; a < 3; ++a) {
+        const auto direction = io.GetDirection(a);
+        if (io.GetDimensions(a) < 1 || io.GetDimensions(a) > kLongestAxis || !std::isfinite(io.GetSpacing(a)) ||
+            io.GetSpacing(a) <= 0 || !std::isfinite(io.GetOrigin(a)) ||
+            !std::all_of(direction.begin(), direction.end(), [](double d) { return std::isfinite(d); }))
+            return false;
+    }
+    return true;
+}
+
+Grid gridOf(itk::MetaImageIO& io, const fs::path& file)
+{
+    if (!describesGrid(io))
+        throw Error(ErrorCode::bad_input, "has a header that describes no volume", file.string());
     Grid grid;
     grid.origin_mm = {io.GetOrigin(0), io.GetOrigin(1), io.GetOrigin(2)};
     for (unsigned a = 0; a < 3; ++a) {
@@ -129,7 +149,7 @@ template <class T>
 Volume<T> readVoxels(itk::MetaImageIO& io, const fs::path& file)
 {
     Volume<T> volume;
-    volume.grid = gridOf(io);
+    volume.grid = gridOf(io, file);
     itk::ImageIORegion region(3);
     for (unsigned a = 0; a < 3; ++a)
         region.SetSize(a, std::size_t(volume.grid.size[a]));
@@ -170,7 +190,7 @@ Volume<T> readVolume(const fs::path& file)
 {
     const auto io = openVolume<T>(file);
     // ITK fills what a cut-off file lacks with zeros and says nothing, so its length is checked before.
-    voxelBytesIn(file, gridOf(*io).voxelCount() * sizeof(T));
+    voxelBytesIn(file, gridOf(*io, file).voxelCount() * sizeof(T));
     return readVoxels<T>(*io, file);
 }
 
@@ -178,11 +198,11 @@ template <class T>
 StoredVolume<T>::StoredVolume(const fs::path& file)
 {
     const auto io = openVolume<T>(file);
-    const Grid grid = gridOf(*io);
-    const auto bytes = voxelBytesIn(file, grid.voxelCount() * sizeof(T));
-    if (bytes && !bytes->packed && bytes->begin % kVoxelAlignment == 0) {
+    const Grid grid = gridOf(*io, file);
+    const VoxelBytes bytes = voxelBytesIn(file, grid.voxelCount() * sizeof(T));
+    if (!bytes.packed && bytes.begin % kVoxelAlignment == 0) {
         auto mapped = std::make_shared<const MappedFile>(file);
-        const void* first = mapped->data() + bytes->begin;
+        const void* first = mapped->data() + bytes.begin;
         view_ = {grid, std::span(static_cast<const T*>(first), grid.voxelCount())};
         mapped_ = mapped.get();
         owner_ = std::move(mapped);
@@ -204,7 +224,7 @@ void StoredVolume<T>::readAhead(std::size_t begin, std::size_t end) const
 
 Grid readGrid(const fs::path& file)
 {
-    return gridOf(*openHeader(file));
+    return gridOf(*openHeader(file), file);
 }
 
 template void writeVolume(const fs::path&, const Volume<std::int16_t>&, Packing);

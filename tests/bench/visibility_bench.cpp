@@ -108,7 +108,7 @@ double secondsToDraw(const CellSurface& surface, const Pose& pose, const Setting
     return picture.seconds();
 }
 
-double cpuSecondsToDraw(SurfaceScene& scene, Offscreen& picture, const Pose& pose, const SeenParts& shown,
+double cpuSecondsToDraw(SurfaceScene& scene, Offscreen& picture, const Pose& pose, const VisibleParts& shown,
                         const Settings& settings)
 {
     scene.lookFrom(pose, settings.angle_deg);
@@ -139,11 +139,11 @@ public:
     {
         occluded_.shadeByOpenness(surface_, scan.openness());
         scene_.lookFrom(poses_[0].pose, settings_.angle_deg);
-        scene_.showSeen(ahead_.seenFrom(poses_[0].pose, lens_));
+        scene_.showSeen(ahead_.visibleFrom(poses_[0].pose, lens_));
         scene_.sendAll();  // as the reading room does before one flies
         picture_.draw(settings_.side, settings_.side);
         for (const ViewPose& view : poses_)
-            chosen_.push_back(visibility_.seenFrom(view.pose, lens_));
+            chosen_.push_back(visibility_.visibleFrom(view.pose, lens_));
     }
 
     /// Each way of drawing flies the whole flight, frame after frame, as a reader does.
@@ -167,7 +167,7 @@ private:
     {
         ahead_.prepare(poses_[0].pose, lens_);
         for (std::size_t n = 0; n < poses_.size(); ++n) {
-            const SeenParts shown = ahead_.seenFrom(poses_[n].pose, lens_);
+            const VisibleParts shown = ahead_.visibleFrom(poses_[n].pose, lens_);
             const double cpu_begin = cpuSeconds();
             // A frame is over when it is drawn and the next one's parts are chosen.
             const double s = secondsOf([&] {
@@ -223,7 +223,7 @@ private:
     void measureFrame(std::size_t n)
     {
         const Pose& pose = poses_[n].pose;
-        const double choice = secondsOf([&] { visibility_.seenFrom(pose, lens_); });
+        const double choice = secondsOf([&] { visibility_.visibleFrom(pose, lens_); });
         const double even_cpu = cpuSecondsToDraw(scene_, picture_, pose, chosen_[n], settings_);
         flight_.cells += double(scene_.cellsShown());
         flight_.triangles += double(scene_.trianglesShown());
@@ -239,7 +239,7 @@ private:
         flight_.occluded_cpu_s.push_back(occluded_cpu);
     }
 
-    void countSeen(const std::vector<std::uint32_t>& seen, const SeenParts& shown)
+    void countSeen(const std::vector<std::uint32_t>& seen, const VisibleParts& shown)
     {
         std::set<int> cells;
         for (const std::uint32_t t : seen)
@@ -266,7 +266,7 @@ private:
     Lens lens_{settings_.angle_deg, settings_.side, settings_.side};
     SightAhead ahead_{visibility_};
     OtherViews others_;
-    std::vector<SeenParts> chosen_;
+    std::vector<VisibleParts> chosen_;
     Flight flight_;
 };
 

@@ -4,6 +4,8 @@
 
 #include "marker_samples.h"
 #include "vicon/core/error.h"
+#include "vicon/core/file.h"
+#include "vicon/support/support.h"
 
 namespace vicon {
 namespace {
@@ -18,6 +20,16 @@ TEST(Marker, SurvivesJsonWithKeysOfOthers)
     EXPECT_EQ(back.color, MarkerColor::green);
     EXPECT_EQ(back.note, m.note);
     EXPECT_EQ(back.extra, m.extra);
+}
+
+TEST(Marker, FilesTooDeepToBeCopiedAreRefused)
+{
+    const support::TemporaryFolder folder;
+    constexpr std::size_t kDeep = 1'000'000;
+    std::string text = R"({"markers":[{"position_mm":[1,2,3],"color":"red","else":)";
+    text.append(kDeep, '[').append(kDeep, ']').append("}]}");
+    replaceFile(folder / "m.json", text);
+    EXPECT_THROW(readMarkers(folder / "m.json"), Error);
 }
 
 TEST(Marker, KeepsAllThatWasMeasuredOfIt)

@@ -31,6 +31,25 @@ TEST_F(Worklist, TellsHowFarACaseIsAndWhy)
     EXPECT_TRUE(listed().scans[0].organ.isColon());
 }
 
+TEST_F(Worklist, TellsWhatIsRefusedFromWhatIsKeptAndWhy)
+{
+    ScanRecord scan = one_.scan;
+    const CaseRecord a_case = one_.store.requireCase("c1");
+    scan.role = ScanRole::kept;
+    scan.ingest["kept_because"] = "4 slices";
+    one_.store.addScan(a_case, scan, {}, false);
+    EXPECT_EQ(nameOf(listed().state), "kept");
+    EXPECT_EQ(listed().reason, "4 slices");
+    one_.store.addScan(a_case, one_.scan, {}, true);
+    one_.record("segment", {{"verdict", "colon"}});
+    one_.complete();
+    scan.role = ScanRole::refused;
+    scan.ingest["refused"] = {{{"object", "1.2.3"}, {"why", "cut off"}}, {{"why", "no even stack"}}};
+    one_.store.addScan(a_case, scan, {}, false);
+    EXPECT_EQ(nameOf(listed().state), "refused") << "also of a scan that was done";
+    EXPECT_EQ(listed().reason, "no even stack");
+}
+
 TEST_F(Worklist, TellsWhyAScanFailed)
 {
     one_.fail();

@@ -119,10 +119,9 @@ TEST(Options, NameFileAndLineOfAMistake)
 {
     const support::TemporaryFolder folder;
     const std::vector<std::pair<std::string, std::string>> cases = {
-        {"[sample]\n\nrays = \"many\"\n", "c.toml:3"},
-        {"[sample\n", "c.toml:1"},
-        {"rays = 3\n", "is not a table; write [rays]"},
-        {"[peers.pacs]\nhost = \"x\"\n", "host and port"},
+        {"[sample]\n\nrays = \"many\"\n", "c.toml:3"},     {"[sample\n", "c.toml:1"},
+        {"rays = 3\n", "is not a table; write [rays]"},    {"[peers.pacs]\nhost = \"x\"\n", "host and port"},
+        {"[sample]\nwall_hu = nan\n", "must lie between"}, {"[sample]\nwall_hu = inf\n", "must lie between"},
     };
     for (const auto& [text, words] : cases) {
         std::ofstream(folder / "c.toml") << text;

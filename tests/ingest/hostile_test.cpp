@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cerrno>
+
 #include <fstream>
 
 #include "import_fixture.h"
+#include "stored_files.h"
 
 namespace fs = std::filesystem;
 using namespace vicon;
@@ -188,6 +191,14 @@ TEST_F(Hostile, ARefusedVolumeTellsOfNoInterpolation)
     ASSERT_EQ(scan.role, ScanRole::refused);
     EXPECT_EQ(scan.ingest["repairs"].dump().find("interpolated"), std::string::npos) << scan.ingest.dump();
     EXPECT_FALSE(scan.ingest["geometry"].contains("interpolated_slices"));
+}
+
+TEST_F(Hostile, AFullDiskIsTheStoresTroubleAndNotTheFiles)
+{
+    const Error full = ingest::notCopied("/cd/IM1", "/store/cases/c1/.part", ENOSPC);
+    EXPECT_EQ(full.subject(), "/store/cases/c1");
+    EXPECT_NE(full.remedy().find("free some space"), std::string::npos);
+    EXPECT_EQ(ingest::notCopied("/cd/IM1", "/store/cases/c1/.part", EIO).subject(), "/cd/IM1");
 }
 
 TEST_F(Hostile, OneFlagForACaseHoweverManyShareTheId)

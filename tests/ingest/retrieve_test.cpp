@@ -94,7 +94,14 @@ TEST_F(Retrieve, GoesOnWhereItStopped)
     for (std::size_t n = 0; n < 5; ++n)
         fs::remove(files[n]);
     fs::resize_file(files[5], 700);  // where it broke off
-    EXPECT_EQ(get().completed, 6);
+    // Damaged since, so that a library would read gigabytes: the VR of (0002,0002).
+    std::string damaged = readFile(files[6]);
+    const std::size_t at = damaged.find(std::string("\x02\x00\x02\x00UI", 6));
+    ASSERT_NE(at, std::string::npos);
+    damaged[at + 4] ^= 1;
+    std::ofstream(files[6], std::ios::binary) << damaged;
+    fs::last_write_time(files[6], fs::last_write_time(files[5]) - std::chrono::hours(1));
+    EXPECT_EQ(get().completed, 7);
     std::set<std::string> all;
     for (int n = 0; n < wanted.slices; ++n)
         all.insert(wanted.sopUid(n));

@@ -147,6 +147,8 @@ void Reader::waitForScan()
     ASSERT_TRUE(eventually([] { return !the<QLabel>("where")->text().isEmpty(); })) << warning();
     ASSERT_TRUE(eventually([] { return drawn("endoscopic") && drawn("overview") && drawn("coronal"); })) << warning();
     ASSERT_TRUE(eventually([] { return pictureIsThere(); })) << warning();
+    // The first picture does not wait for ambient occlusion.
+    ASSERT_TRUE(eventually([] { return the<QWidget>("endoscopic")->property("shaded").toBool(); })) << warning();
     window()->activateWindow();
     settle();
 }

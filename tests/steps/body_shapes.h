@@ -53,4 +53,40 @@ inline double headHu(Point3 p)
     return hu + (-1000 - hu) * (1 - blurred(air_mm, 0.7));
 }
 
+/// A neck: pharynx and windpipe from end to end of the scan, and the spine.
+inline double neckHu(Point3 p)
+{
+    double hu = -1000 + 1040 * blurred(50 - std::hypot(p.x, p.y), 0.7);
+    hu += (500 - hu) * (1 - blurred(std::hypot(p.x, p.y - 20) - 14, 0.7));
+    const double air_mm = tubeDistance({{0, -18, -120}, {0, -15, 20}, {0, -10, 120}}, 8, p);
+    return hu + (-1000 - hu) * (1 - blurred(air_mm, 0.7));
+}
+
+/// Two legs beside each other, air between them.
+inline double kneesHu(Point3 p)
+{
+    double hu = -1000;
+    for (const double side : {-1.0, 1.0}) {
+        const double from_axis_mm = std::hypot(p.x - side * 38, p.y);
+        hu += (40 - hu) * (1 - blurred(from_axis_mm - 33, 0.7));
+        hu += (700 - hu) * (1 - blurred(from_axis_mm - 14 - (std::abs(p.z) > 12 ? 0 : 4), 0.7));
+    }
+    return hu;
+}
+
+/// A cylinder of water with rods, as scanners are tested with.
+inline double waterHu(Point3 p)
+{
+    double hu = -1000 + 1000 * blurred(50 - std::hypot(p.x, p.y), 0.7);
+    for (const double side : {-1.0, 1.0})
+        hu += (side * 900 - hu) * (1 - blurred(std::hypot(p.x - side * 25, p.y) - 6, 0.7));
+    return hu;
+}
+
+/// Nobody lies in the scanner.
+inline double emptyHu(Point3)
+{
+    return -1000;
+}
+
 }  // namespace vicon::steps::test

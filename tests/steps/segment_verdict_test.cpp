@@ -47,6 +47,16 @@ TEST(Verdict, HeadHasNoColon)
     EXPECT_FALSE(result.reason.empty());
 }
 
+TEST(Verdict, NeckKneesWaterAndAnEmptyScannerHaveNoColon)
+{
+    for (const auto& [name, density] : {std::pair("neck", test::neckHu), std::pair("knees", test::kneesHu),
+                                        std::pair("water", test::waterHu), std::pair("empty", test::emptyHu)}) {
+        const Segmentation result = segment(drawn(density));
+        EXPECT_EQ(result.verdict, Verdict::absent) << name << ": " << result.reason;
+        EXPECT_FALSE(result.reason.empty()) << name;
+    }
+}
+
 TEST(Verdict, AColonThatTheEndOfTheScanCutsIsUnsureAndSaysSo)
 {
     TubeScan scan{.line = {{0, 15, -70}, {0, 15, -45}, {45, 0, -40}, {45, 0, 100}, {-45, 0, 100}, {-45, 0, -40}}};

@@ -75,7 +75,7 @@ TEST_F(Flights, ChoosingAheadGivesWhatChoosingAtOnceGives)
     ASSERT_GT(poses.size(), 4U);
     for (std::size_t n = 0; n < poses.size(); ++n) {
         const Pose here = poses[n].pose, next = poses[(n + 1) % poses.size()].pose;
-        const SeenParts wanted = visibility.seenFrom(here, lens), found = ahead.seenFrom(here, lens);
+        const VisibleParts wanted = visibility.visibleFrom(here, lens), found = ahead.visibleFrom(here, lens);
         EXPECT_EQ(found.everything, wanted.everything);
         EXPECT_EQ(found.segments, wanted.segments);
         EXPECT_EQ(found.patches, wanted.patches);

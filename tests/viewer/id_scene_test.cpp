@@ -22,7 +22,7 @@ TEST_F(IdScenes, TellTheSameTrianglesWhetherEverythingIsDrawnOrOnlyWhatIsInSight
     for (int n = 1; n < kPlaces; ++n) {
         const double station_mm = frames.length_mm() * n / kPlaces;
         const Pose pose = lookAt(frames.at(station_mm).position_mm, frames.at(station_mm + 5).position_mm, {0, 0, 1});
-        const SeenParts seen = visibility.seenFrom(pose, {90, kSide, kSide});
+        const VisibleParts seen = visibility.visibleFrom(pose, {90, kSide, kSide});
         EXPECT_FALSE(seen.everything);
         ids.lookFrom(pose, 90);
         ids.showSeen({.everything = true, .segments = {}, .patches = {}});
@@ -40,7 +40,7 @@ TEST_F(IdScenes, WhatIsSentAheadIsNeitherDrawnNorCounted)
     const PreparedScan of = scan();
     SurfaceScene scene(of.cells());
     Offscreen offscreen(scene.renderer());
-    const SeenParts one{.everything = false, .segments = {of.cells().segment.front()}, .patches = {}};
+    const VisibleParts one{.everything = false, .segments = {of.cells().segment.front()}, .patches = {}};
     const PathFrames& frames = of.frames();
     const double middle_mm = frames.length_mm() / 2;
     scene.lookFrom(lookAt(frames.at(middle_mm).position_mm, frames.at(middle_mm + 5).position_mm, {0, 0, 1}), 90);

@@ -44,8 +44,8 @@ double lit(double depth_mm, Vector3 normal, int x, int y, std::size_t channel)
     const double away_mm = depth_mm / dot(way, kPose.forward);
     const double facing = std::max(0.0, -dot(normal, way));
     const double fade = 1 / (1 + away_mm * away_mm / (kReach_mm * kReach_mm));
-    const double light = kMucosa[channel] * (0.16 + 0.84 * facing) * 1.12 + 0.10 * std::pow(facing, 40);
-    return std::min(255.0, 255 * light * fade);
+    const double light = kMucosa[channel] * (0.16 + 0.84 * facing) + 0.09 * std::pow(facing, 40);
+    return std::min(255.0, 255 * light * std::sqrt(1.12 * fade));
 }
 
 double worstGreyLevels(double depth_mm, Vector3 normal, const Picture& picture, double share = 1)

@@ -35,7 +35,7 @@ void expectCulledPicturesIdentical(const PreparedScan& scan, int poses, unsigned
         scene.lookFrom(pose, angle);
         scene.showOnly({});
         const Picture all = offscreen.render(side, side);
-        scene.showSeen(visibility.seenFrom(pose, {angle, side, side}));
+        scene.showSeen(visibility.visibleFrom(pose, {angle, side, side}));
         drawn += scene.trianglesShown();
         ASSERT_EQ(offscreen.render(side, side).rgb, all.rgb) << "pose " << n << ", seed " << seed;
     }

@@ -70,7 +70,7 @@ TEST(SightLines, TheFirstTriangleOnALineOfSightIsNeverLeftOut)
             ++poses;
             const Pose pose = lookAt(eye, eye + normalized({any(random), any(random), any(random)}),
                                      {any(random), any(random), any(random)});
-            const auto seen = lines.seenFrom(pose, lens);
+            const auto seen = lines.visibleFrom(pose, lens);
             for (const std::uint8_t s : seen)
                 drawn += s;
             for (int ray = 0; ray < 40; ++ray) {
@@ -110,7 +110,7 @@ TEST(SightLines, AWallOfOneVoxelHidesWhatIsBehindIt)
         const Point3 eye{4.5, 4.5, 6};
         const Pose pose = lookAt(eye, {12, 12, 40}, {0, 1, 0});
         ASSERT_TRUE(lines.holdsAt(eye, 0.5));
-        const auto seen = lines.seenFrom(pose, {90, 768, 768});
+        const auto seen = lines.visibleFrom(pose, {90, 768, 768});
         EXPECT_FALSE(seen[0]) << thickness;
         EXPECT_TRUE(seen[1]) << thickness;
     }
@@ -135,7 +135,7 @@ TEST(SightLines, FarAwayLittleIsMetBehindAnEdge)
     }
     const SightLines lines(inside, {points, triangles, patches});
     for (const double x : {12.0, 15.0, 17.0, 18.5, 20.0}) {
-        const auto seen = lines.seenFrom(lookAt({x, 20, 6}, {x, 20, 100}, {0, 1, 0}), {90, 768, 768});
+        const auto seen = lines.visibleFrom(lookAt({x, 20, 6}, {x, 20, 100}, {0, 1, 0}), {90, 768, 768});
         const double shadow = 20 + (20 - x) * (297.4 - 250) / (250 - 6);  // where the edge's shadow begins there
         for (std::size_t n = 0; n < patches.size(); ++n) {
             const double beyond = points[9 * n] - shadow;

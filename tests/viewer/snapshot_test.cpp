@@ -291,6 +291,7 @@ TEST_F(Snapshots, WithAmbientOcclusionShadeWhatIsBesideAPolypAndLeaveItReadable)
     request.look_at_mm = colon.polyp_mm;
     request.width = request.height = 300;
     const PreparedScan of = scan();
+    request.ambient_occlusion = false;
     const Picture plain = shoot(of, request);
     request.ambient_occlusion = true;
     const Picture shaded = shoot(of, request);

@@ -140,9 +140,9 @@ inline void letGoAlong(const Course& course, int places)
         boat.advance(2);
         const SubmarineState state = boat.state();
         EXPECT_LT(state.off_path_mm, 0.5) << n << " at " << state.station_mm;
-        // It looks along the path a little ahead of itself, as it does in flight.
-        const double sign = state.heading == Heading::caecum ? 1 : -1;
-        const Vector3 ahead = course.path.at(state.station_mm + sign * SubmarineOptions().look_ahead_mm).forward * sign;
+        // It looks where the lumen opens, as it does in flight.
+        const Vector3 ahead =
+            LookAhead(course.path, course.lumen).direction(state.station_mm, state.pose.eye_mm, state.heading);
         EXPECT_GT(dot(state.pose.forward, ahead), 0.9) << n << " at " << state.station_mm;
         if (n % 5 == 0)
             expectReachesEnd(boat, state.station_mm, course.path.length_mm());

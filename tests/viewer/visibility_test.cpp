@@ -17,10 +17,10 @@ Gate gateAt(int a, int b, Point3 centre, double half)
     return gate;
 }
 
-std::vector<int> numbers(const std::vector<SeenSegment>& seen)
+std::vector<int> numbers(const std::vector<VisibleSegment>& seen)
 {
     std::vector<int> out;
-    for (const SeenSegment& s : seen)
+    for (const VisibleSegment& s : seen)
         out.push_back(s.segment);
     std::sort(out.begin(), out.end());
     return out;
@@ -34,9 +34,9 @@ TEST(Visibility, GoesThroughGatesInSightOnly)
     const Pose ahead = lookAt({0, 0, 0}, {0, 0, 1}, {0, 1, 0});
     const Lens lens{90, 100, 100};
     // Gate 2-6 lies in the picture, but not in the part of it that gate 1-2 leaves.
-    EXPECT_EQ(numbers(visibility.seenFrom(ahead, lens, 1)), (std::vector<int>{1, 2, 3}));
+    EXPECT_EQ(numbers(visibility.visibleFrom(ahead, lens, 1)), (std::vector<int>{1, 2, 3}));
     const Pose back = lookAt({0, 0, 0}, {0, 0, -1}, {0, 1, 0});
-    EXPECT_EQ(numbers(visibility.seenFrom(back, lens, 1)), (std::vector<int>{1, 5}));
+    EXPECT_EQ(numbers(visibility.visibleFrom(back, lens, 1)), (std::vector<int>{1, 5}));
 }
 
 TEST(Visibility, AGateAroundTheEyeHidesNothing)
@@ -44,7 +44,7 @@ TEST(Visibility, AGateAroundTheEyeHidesNothing)
     const Visibility visibility({gateAt(1, 2, {0, 0, 0}, 4)});
     for (const Vector3 way : {Vector3{0, 0, 1}, Vector3{0, 0, -1}, Vector3{1, 0, 0}}) {
         const Pose pose = lookAt({0, 0, 0}, Point3{} + way, {0, 1, 0});
-        EXPECT_EQ(numbers(visibility.seenFrom(pose, {90, 100, 100}, 1)), (std::vector<int>{1, 2}));
+        EXPECT_EQ(numbers(visibility.visibleFrom(pose, {90, 100, 100}, 1)), (std::vector<int>{1, 2}));
         const ViewRectangle r = rectangleOf(visibility.gates()[0], pose);
         EXPECT_TRUE(r.contains(wholePicture({90, 100, 100})));
     }
@@ -54,7 +54,7 @@ TEST(Visibility, LoopsOfSegmentsEnd)
 {
     const Visibility ring({gateAt(1, 2, {0, 0, 10}, 5), gateAt(2, 3, {2, 0, 20}, 5), gateAt(3, 1, {-2, 0, 15}, 5)});
     const Pose pose = lookAt({0, 0, 0}, {0, 0, 1}, {0, 1, 0});
-    EXPECT_EQ(numbers(ring.seenFrom(pose, {90, 100, 100}, 1)), (std::vector<int>{1, 2, 3}));
+    EXPECT_EQ(numbers(ring.visibleFrom(pose, {90, 100, 100}, 1)), (std::vector<int>{1, 2, 3}));
 }
 
 // Whatever a straight line meets before it leaves the lumen is among what is said to be visible, and its pixel lies in
@@ -80,7 +80,7 @@ TEST(Visibility, NothingOnALineOfSightIsLeftOut)
         const Point3 eye = colon.segments.grid.pointAt(colon.segments.grid.indexOf(inside[pick(random)]));
         const Vector3 way = normalized({any(random), any(random), any(random)});
         const Pose pose = lookAt(eye, eye + way, {any(random), any(random), any(random)});
-        const auto seen = visibility.seenFrom(pose, lens, colon.segments.at(colon.segments.grid.indexAt(eye)));
+        const auto seen = visibility.visibleFrom(pose, lens, colon.segments.at(colon.segments.grid.indexAt(eye)));
         drawn += seen.size();
         for (int ray = 0; ray < kRays; ++ray) {
             const Pixel pixel{std::uniform_real_distribution<double>(0, 200)(random),
@@ -93,8 +93,8 @@ TEST(Visibility, NothingOnALineOfSightIsLeftOut)
                     colon.segments.valueOr(colon.segments.grid.indexAt(eye + direction * at), std::uint16_t(0));
                 if (segment == 0)
                     break;
-                const auto found =
-                    std::find_if(seen.begin(), seen.end(), [&](const SeenSegment& s) { return s.segment == segment; });
+                const auto found = std::find_if(seen.begin(), seen.end(),
+                                                [&](const VisibleSegment& s) { return s.segment == segment; });
                 const bool there = found != seen.end() && std::any_of(found->through.begin(), found->through.end(),
                                                                       [&](const ViewRectangle& r) {
                                                                           return r.contains({x, x, y, y});

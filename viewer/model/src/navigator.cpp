@@ -16,7 +16,11 @@ Heading opposite(Heading heading)
 
 Navigator::Navigator(const PathFrames& path, const Lumen& lumen, const FieldView& exit_distance,
                      const SubmarineOptions& options)
-    : path_(&path), lumen_(lumen), options_(options), submarine_(path, lumen_, exit_distance, options)
+    : path_(&path),
+      lumen_(lumen),
+      ahead_(path, lumen),
+      options_(options),
+      submarine_(path, lumen_, exit_distance, options)
 {
     jumpTo(0);
 }
@@ -52,7 +56,7 @@ void Navigator::jumpTo(double station_mm)
     station_mm_ = std::clamp(station_mm, 0.0, path_->length_mm());
     submarine_.placeAt(station_mm_, heading_);
     if (mode_ == NavigationMode::free)
-        free_ = poseAtStation(*path_, lumen_, station_mm_, heading_).pose;
+        free_ = poseHere();
 }
 
 void Navigator::step(double mm)
@@ -65,7 +69,7 @@ void Navigator::lookFrom(const Pose& pose, double station_mm)
     direction_ = 0;
     station_mm_ = std::clamp(station_mm, 0.0, path_->length_mm());
     mode_ = NavigationMode::free;
-    free_ = lumen_.inside(pose.eye_mm) ? pose : poseAtStation(*path_, lumen_, station_mm_, heading_).pose;
+    free_ = lumen_.inside(pose.eye_mm) ? pose : poseHere();
 }
 
 void Navigator::advance(double seconds)
@@ -117,6 +121,11 @@ void Navigator::tickFree()
     station_mm_ = path_->nearestStation(free_.eye_mm, station_mm_, kReach_mm);
 }
 
+Pose Navigator::poseHere() const
+{
+    return poseAtStation(*path_, lumen_, ahead_, station_mm_, heading_).pose;
+}
+
 NavigationState Navigator::state() const
 {
     if (mode_ == NavigationMode::guided) {
@@ -125,7 +134,8 @@ NavigationState Navigator::state() const
     }
     if (mode_ == NavigationMode::free)
         return {free_, station_mm_, lumen_.clearance_mm(free_.eye_mm), false, false};
-    const ViewPose view = poseAtStation(*path_, lumen_, station_mm_, look_back_ ? opposite(heading_) : heading_);
+    const ViewPose view =
+        poseAtStation(*path_, lumen_, ahead_, station_mm_, look_back_ ? opposite(heading_) : heading_);
     const double end = heading_ == Heading::caecum ? path_->length_mm() : 0;
     constexpr double kOff_mm = 2;  // the pose of a place that is too narrow lies elsewhere
     return {view.pose, station_mm_, view.clearance_mm, std::abs(view.station_mm - station_mm_) > kOff_mm,

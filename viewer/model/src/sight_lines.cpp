@@ -43,7 +43,7 @@ struct Corners {
 Float4 inVoxels(const Grid& grid, Vector3 v)
 {
     return Float4{float(dot(v, grid.axis[0]) / grid.spacing_mm[0]), float(dot(v, grid.axis[1]) / grid.spacing_mm[1]),
-                float(dot(v, grid.axis[2]) / grid.spacing_mm[2]), 0};
+                  float(dot(v, grid.axis[2]) / grid.spacing_mm[2]), 0};
 }
 
 Float4 inVoxels(const Grid& grid, Point3 p)
@@ -193,9 +193,9 @@ private:
 
     const SightField& field_;
     const PatchBlocks& blocks_;
-    PatchBlocks::Cubes& cubes_;        ///< what bundles have met
+    PatchBlocks::Cubes& cubes_;          ///< what bundles have met
     Float4 eye_, forward_, right_, up_;  ///< in voxels
-    Float4 wide_;     ///< along each axis, how far a square of half edge 1 reaches from its middle, at depth 1
+    Float4 wide_;   ///< along each axis, how far a square of half edge 1 reaches from its middle, at depth 1
     float widest_;  ///< the most of these
     float top_;     ///< of the picture, at depth 1
 };
@@ -225,7 +225,7 @@ bool SightLines::holdsAt(Point3 eye_mm, double near_mm) const
                near_mm;
 }
 
-std::vector<std::uint8_t> SightLines::seenFrom(const Pose& pose, const Lens& lens) const
+std::vector<std::uint8_t> SightLines::visibleFrom(const Pose& pose, const Lens& lens) const
 {
     PatchBlocks::Cubes cubes = parts_->blocks.none();
     const Bundles bundles(parts_->field, parts_->blocks, pose, lens, cubes);

@@ -20,7 +20,7 @@ constexpr double kSteerRate_per_s = 8;  // how fast turning follows the hand
 
 Submarine::Submarine(const PathFrames& path, const Lumen& lumen, const FieldView& exit_distance,
                      const SubmarineOptions& options)
-    : path_(&path), lumen_(lumen), exit_(exit_distance), options_(options)
+    : path_(&path), lumen_(lumen), ahead_(path, lumen), exit_(exit_distance), options_(options)
 {
     placeAt(0, Heading::caecum);
     const double length = path.length_mm();
@@ -59,7 +59,8 @@ void Submarine::placeAt(double station_mm, Heading heading)
             if (station >= 0 && station <= length && wideAt(station)) {
                 const PathFrame frame = path_->at(station);
                 now_ = {frame.position_mm, {}, {}, {}, frame.up, station, false, heading};
-                now_.forward = frame.forward * sign();
+                now_.forward = wayOn();
+                now_.up = uprightOn(now_.forward, frame.up);
                 before_ = now_;
                 way_home_.clear();
                 owed_s_ = 0;
@@ -150,6 +151,11 @@ void Submarine::carry(double direction)
         now_.carried = false;
 }
 
+Vector3 Submarine::wayOn() const
+{
+    return ahead_.direction(now_.station_mm, now_.position_mm, now_.heading);
+}
+
 Vector3 Submarine::pull() const
 {
     if (steering_.pull == 0)
@@ -235,9 +241,9 @@ void Submarine::turn()
         const Vector3 wanted = right * (steering_.turn_up * rate) - now_.up * (steering_.turn_right * rate);
         now_.spin_rad_s += (wanted - now_.spin_rad_s) * (1 - std::exp(-kSteerRate_per_s * kDt));
     } else {
-        const PathFrame frame = path_->at(now_.station_mm + sign() * options_.look_ahead_mm);
-        const Vector3 forward = frame.forward * sign();
-        const Vector3 error = rotationBetween(now_.forward, now_.up, forward, uprightOn(forward, frame.up));
+        const Vector3 forward = wayOn();
+        const Vector3 up = uprightOn(forward, path_->at(now_.station_mm).up);
+        const Vector3 error = rotationBetween(now_.forward, now_.up, forward, up);
         const double w = options_.righting_per_s, fade = std::exp(-w * kDt);
         now_.spin_rad_s = (now_.spin_rad_s + (error * w - now_.spin_rad_s) * (w * kDt)) * fade;
     }

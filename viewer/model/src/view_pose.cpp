@@ -74,21 +74,6 @@ Place nearestPlace(const Scene& scene, double station_mm)
                 "run 'vicon work' to prepare the scan anew");
 }
 
-Vector3 aheadOf(const Scene& scene, const Place& place, Heading heading)
-{
-    const PathFrame here = scene.path.at(place.station_mm);
-    const double sign = heading == Heading::caecum ? 1 : -1;
-    for (double ahead = std::clamp(1.5 * here.radius_mm, 10.0, 30.0); ahead >= 4; ahead -= 2) {
-        const double station = place.station_mm + sign * ahead;
-        if (station < 0 || station > scene.path.length_mm())
-            continue;
-        const PathFrame there = scene.path.at(station);
-        if (!there.on_bridge && scene.lumen.sees(place.eye_mm, there.position_mm))
-            return normalized(there.position_mm - place.eye_mm);
-    }
-    return here.forward * sign;
-}
-
 // A point to look at: where it is, where the lumen before it is, and where its wall faces.
 struct Target {
     Point3 point_mm, anchor_mm;
@@ -196,14 +181,19 @@ ViewPose viewOf(const Scene& scene, const Place& place, Point3 point, bool sees)
 
 }  // namespace
 
+ViewPose poseAtStation(const PathFrames& path, const Lumen& lumen, const LookAhead& ahead, double station_mm,
+                       Heading heading, const ViewPoseOptions& options)
+{
+    const Place place = nearestPlace({path, lumen, options}, station_mm);
+    const Vector3 forward = ahead.direction(place.station_mm, place.eye_mm, heading);
+    const Pose pose{place.eye_mm, forward, uprightOn(forward, path.at(place.station_mm).up)};
+    return {pose, place.station_mm, lumen.clearance_mm(place.eye_mm), true};
+}
+
 ViewPose poseAtStation(const PathFrames& path, const Lumen& lumen, double station_mm, Heading heading,
                        const ViewPoseOptions& options)
 {
-    const Scene scene{path, lumen, options};
-    const Place place = nearestPlace(scene, station_mm);
-    const Vector3 forward = aheadOf(scene, place, heading);
-    const Pose pose{place.eye_mm, forward, uprightOn(forward, path.at(place.station_mm).up)};
-    return {pose, place.station_mm, lumen.clearance_mm(place.eye_mm), true};
+    return poseAtStation(path, lumen, LookAhead(path, lumen), station_mm, heading, options);
 }
 
 ViewPose poseForPoint(const Skeleton& skeleton, const PathFrames& path, const Lumen& lumen, Point3 point_mm,

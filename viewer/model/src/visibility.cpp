@@ -96,9 +96,9 @@ Visibility::Visibility(std::vector<Gate> gates) : gates_(std::move(gates))
         }
 }
 
-std::vector<SeenSegment> Visibility::seenFrom(const Pose& pose, const Lens& lens, int start) const
+std::vector<VisibleSegment> Visibility::visibleFrom(const Pose& pose, const Lens& lens, int start) const
 {
-    std::vector<SeenSegment> seen;
+    std::vector<VisibleSegment> seen;
     std::vector<std::vector<ViewRectangle>> taken(std::max(gates_of_.size(), std::size_t(start) + 1));
     std::vector<ViewRectangle> of_gate(gates_.size());
     std::vector<bool> known(gates_.size(), false);

@@ -82,7 +82,7 @@ void makeActor(CellActor& cell)
 }
 
 /// What is drawn of a cell. Other cells' patches are not looked at: they are many.
-std::vector<TriangleRun> runsOf(const CellActor& cell, const std::vector<Patch>& patches, const SeenParts& parts)
+std::vector<TriangleRun> runsOf(const CellActor& cell, const std::vector<Patch>& patches, const VisibleParts& parts)
 {
     std::vector<TriangleRun> runs;
     if (std::find(parts.segments.begin(), parts.segments.end(), cell.segment) == parts.segments.end())
@@ -132,7 +132,7 @@ void showOnly(std::vector<CellActor>& cells, const std::vector<int>& segments)
     }
 }
 
-void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patches, const SeenParts& parts)
+void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patches, const VisibleParts& parts)
 {
     for (CellActor& cell : cells) {
         const std::vector<TriangleRun> runs = runsOf(cell, patches, parts);

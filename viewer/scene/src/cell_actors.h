@@ -36,7 +36,7 @@ std::vector<CellActor> cellActors(const CellSurface& surface);
 void showOnly(std::vector<CellActor>& cells, const std::vector<int>& segments);
 /// Only the patches that `parts` names, among those of its cells.
 /// @param patches of the whole surface, as many as parts.patches tells of
-void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patches, const SeenParts& parts);
+void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patches, const VisibleParts& parts);
 
 /// The next picture hands the driver also what is not shown, without drawing it; else a cell is handed over when it is
 /// shown for the first time.

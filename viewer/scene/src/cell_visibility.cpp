@@ -48,20 +48,20 @@ int CellVisibility::segmentAt(Point3 p) const
     return segments.valueOr(segments.grid.indexAt(p), 0);
 }
 
-SeenParts CellVisibility::seenFrom(const Pose& pose, const Lens& lens) const
+VisibleParts CellVisibility::visibleFrom(const Pose& pose, const Lens& lens) const
 {
     const int start = segmentAt(pose.eye_mm);
     if (start == 0 || (sight_lines_ && !sight_lines_->holdsAt(pose.eye_mm, nearCorner_mm(lens))))
         return {};
-    SeenParts seen{.everything = false, .segments = {}, .patches = {}};
+    VisibleParts seen{.everything = false, .segments = {}, .patches = {}};
     std::vector<bool> through_gates;
-    for (const SeenSegment& segment : visibility_.seenFrom(pose, lens, start)) {
+    for (const VisibleSegment& segment : visibility_.visibleFrom(pose, lens, start)) {
         through_gates.resize(std::max(through_gates.size(), std::size_t(segment.segment) + 1));
         through_gates[std::size_t(segment.segment)] = true;
     }
     std::vector<bool> shown = through_gates;
     if (sight_lines_) {
-        seen.patches = sight_lines_->seenFrom(pose, lens);
+        seen.patches = sight_lines_->visibleFrom(pose, lens);
         shown.assign(through_gates.size(), false);
         for (const CellPatches& cell : cells_) {
             const auto first = seen.patches.begin() + std::ptrdiff_t(cell.first);
@@ -81,7 +81,7 @@ SeenParts CellVisibility::seenFrom(const Pose& pose, const Lens& lens) const
 
 std::vector<int> CellVisibility::segmentsSeen(const Pose& pose, const Lens& lens) const
 {
-    return seenFrom(pose, lens).segments;
+    return visibleFrom(pose, lens).segments;
 }
 
 }  // namespace vicon::viewer

@@ -123,6 +123,7 @@ Picture endoscopicPicture(const PreparedScan& scan, const SnapshotRequest& reque
 {
     SurfaceScene scene(scan.cells());
     scene.lookFrom(place.pose, request.view_angle_deg);
+    scene.setLampReach(lampReachAt_mm(scan.frames(), place.station_mm));
     if (request.ambient_occlusion)
         scene.shadeByOpenness(scan.cells(), scan.openness());
     Offscreen offscreen(scene.renderer());

@@ -40,7 +40,7 @@ std::vector<Leg> legsOf(const PreparedScan& scan, const FlightRequest& request)
 }
 
 // What draws the frames of a flight; the id buffer only where coverage is measured.
-struct Studio {
+struct FlightRenderer {
     const PreparedScan& scan;
     FlightRequest request;
     SurfaceScene scene;
@@ -51,7 +51,7 @@ struct Studio {
     std::optional<SightAhead> ahead;
     Coverage coverage;
 
-    Studio(const PreparedScan& s, const FlightRequest& r)
+    FlightRenderer(const PreparedScan& s, const FlightRequest& r)
         : scan(s),
           request(r),
           scene(s.cells()),
@@ -74,16 +74,21 @@ struct Studio {
         if (ahead)
             ahead->prepare(next.pose, lens());
     }
-    SeenParts seenFrom(const ViewPose& view) { return ahead ? ahead->seenFrom(view.pose, lens()) : SeenParts{}; }
-    FlightFrame shoot(const ViewPose& view, const SeenParts& shown, Heading heading, const std::filesystem::path& png);
+    VisibleParts visibleFrom(const ViewPose& view)
+    {
+        return ahead ? ahead->visibleFrom(view.pose, lens()) : VisibleParts{};
+    }
+    FlightFrame shoot(const ViewPose& view, const VisibleParts& shown, Heading heading,
+                      const std::filesystem::path& png);
 };
 
-FlightFrame Studio::shoot(const ViewPose& view, const SeenParts& shown, Heading heading,
-                          const std::filesystem::path& png)
+FlightFrame FlightRenderer::shoot(const ViewPose& view, const VisibleParts& shown, Heading heading,
+                                  const std::filesystem::path& png)
 {
     FlightFrame frame{view.pose, view.station_mm, view.clearance_mm, heading == Heading::caecum, 0, 0, 0, 0};
     scene.showSeen(shown);
     scene.lookFrom(view.pose, request.view_angle_deg);
+    scene.setLampReach(lampReachAt_mm(scan.frames(), view.station_mm));
     frame.cells_drawn = scene.cellsShown();
     frame.triangles_drawn = scene.trianglesShown();
     if (!png.empty()) {
@@ -108,6 +113,14 @@ FlightFrame Studio::shoot(const ViewPose& view, const SeenParts& shown, Heading 
         coverage.see(seen);
     }
     return frame;
+}
+
+std::vector<FlightLegQuality> qualityOf(const std::vector<Leg>& legs, const PreparedScan& scan, const Lens& lens)
+{
+    std::vector<FlightLegQuality> all;
+    for (const Leg& leg : legs)
+        all.push_back({leg.heading, qualityOf(leg.poses, leg.heading, scan.frames(), scan.lumen(), lens)});
+    return all;
 }
 
 void summarise(FlightReport& report)
@@ -168,17 +181,24 @@ nlohmann::json toJson(const std::vector<UnseenPatch>& patches, const ColonPartRa
     return list;
 }
 
-void addCoverage(FlightReport& report, const Studio& studio)
+void addCoverage(FlightReport& report, const FlightRenderer& renderer)
 {
-    const PreparedScan& scan = studio.scan;
-    report.coverage = studio.coverage.fraction();
-    report.seen_mm2 = studio.coverage.seenArea_mm2();
-    report.whole_mm2 = studio.coverage.wholeArea_mm2();
+    const PreparedScan& scan = renderer.scan;
+    report.coverage = renderer.coverage.fraction();
+    report.seen_mm2 = renderer.coverage.seenArea_mm2();
+    report.whole_mm2 = renderer.coverage.wholeArea_mm2();
     report.parts = scan.parts();
     UnseenOptions options;
-    options.least_area_mm2 = studio.request.least_unseen_mm2;
-    report.unseen = unseenPatches(scan.cells().points_mm, scan.cells().triangles, studio.coverage, scan.skeleton(),
+    options.least_area_mm2 = renderer.request.least_unseen_mm2;
+    report.unseen = unseenPatches(scan.cells().points_mm, scan.cells().triangles, renderer.coverage, scan.skeleton(),
                                   scan.frames(), scan.lumen(), options);
+}
+
+const char* endName(const FlightReport& report, bool towards_caecum)
+{
+    if (report.tree)
+        return towards_caecum ? "tip" : "root";
+    return towards_caecum ? "caecum" : "rectum";
 }
 
 }  // namespace
@@ -188,19 +208,27 @@ nlohmann::json toJson(const FlightReport& report)
     nlohmann::json frames = nlohmann::json::array();
     for (const FlightFrame& f : report.frames) {
         const Pose& p = f.pose;
-        frames.push_back(
-            {{"eye_mm", triple(p.eye_mm.x, p.eye_mm.y, p.eye_mm.z)},
-             {"forward", triple(p.forward.x, p.forward.y, p.forward.z)},
-             {"up", triple(p.up.x, p.up.y, p.up.z)},
-             {"station_mm", f.station_mm},
-             {"clearance_mm", f.clearance_mm},
-             {"towards", f.towards_caecum ? (report.tree ? "tip" : "caecum") : (report.tree ? "root" : "rectum")},
-             {"cells_drawn", f.cells_drawn},
-             {"triangles_drawn", f.triangles_drawn},
-             {"triangles_seen", f.triangles_seen},
-             {"seconds", f.seconds}});
+        frames.push_back({{"eye_mm", triple(p.eye_mm.x, p.eye_mm.y, p.eye_mm.z)},
+                          {"forward", triple(p.forward.x, p.forward.y, p.forward.z)},
+                          {"up", triple(p.up.x, p.up.y, p.up.z)},
+                          {"station_mm", f.station_mm},
+                          {"clearance_mm", f.clearance_mm},
+                          {"towards", endName(report, f.towards_caecum)},
+                          {"cells_drawn", f.cells_drawn},
+                          {"triangles_drawn", f.triangles_drawn},
+                          {"triangles_seen", f.triangles_seen},
+                          {"seconds", f.seconds}});
     }
+    nlohmann::json views = nlohmann::json::array();
+    for (const FlightLegQuality& leg : report.views)
+        views.push_back({{"towards", endName(report, leg.heading == Heading::caecum)},
+                         {"way_on_central", leg.quality.way_on_central},
+                         {"wall_close", leg.quality.wall_close},
+                         {"turn_median_deg_mm", leg.quality.turn_median_deg_mm},
+                         {"turn_slow_deg_mm", leg.quality.turn_slow_deg_mm},
+                         {"roll_median_deg_mm", leg.quality.roll_median_deg_mm}});
     return {{"length_mm", report.length_mm},
+            {"views", views},
             {"cells", report.cells},
             {"triangles", report.triangles},
             {"coverage", report.coverage},
@@ -217,13 +245,14 @@ nlohmann::json toJson(const FlightReport& report)
 
 FlightReport fly(const PreparedScan& scan, const FlightRequest& request, Progress& progress)
 {
-    Studio studio(scan, completed(request));
+    FlightRenderer renderer(scan, completed(request));
     const std::vector<Leg> legs = legsOf(scan, request);
     FlightReport report;
     report.length_mm = scan.frames().length_mm();
     report.tree = !scan.tree().empty();
-    report.cells = studio.scene.cellCount();
-    report.triangles = studio.scene.triangleCount();
+    report.views = qualityOf(legs, scan, renderer.lens());
+    report.cells = renderer.scene.cellCount();
+    report.triangles = renderer.scene.triangleCount();
     std::size_t all = 0;
     for (const Leg& leg : legs)
         all += leg.poses.size();
@@ -231,15 +260,15 @@ FlightReport fly(const PreparedScan& scan, const FlightRequest& request, Progres
     for (const Leg& leg : legs)
         for (std::size_t n = 0; n < leg.poses.size(); ++n) {
             progress.check();
-            const SeenParts shown = studio.seenFrom(leg.poses[n]);
+            const VisibleParts shown = renderer.visibleFrom(leg.poses[n]);
             if (n + 1 < leg.poses.size())
-                studio.prepare(leg.poses[n + 1]);
+                renderer.prepare(leg.poses[n + 1]);
             const auto png = write ? request.out / frameName(report.frames.size() + 1) : std::filesystem::path{};
-            report.frames.push_back(studio.shoot(leg.poses[n], shown, leg.heading, png));
+            report.frames.push_back(renderer.shoot(leg.poses[n], shown, leg.heading, png));
             progress.report(double(report.frames.size()) / double(all), "flying");
         }
-    if (studio.request.measure_coverage)
-        addCoverage(report, studio);
+    if (renderer.request.measure_coverage)
+        addCoverage(report, renderer);
     summarise(report);
     if (!request.out.empty())
         replaceFile(request.out / "flight.json", toJson(report).dump(1) + "\n");

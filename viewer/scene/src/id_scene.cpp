@@ -75,7 +75,7 @@ void IdScene::showOnly(const std::vector<int>& segments)
     viewer::showOnly(parts_->cells, segments);
 }
 
-void IdScene::showSeen(const SeenParts& parts)
+void IdScene::showSeen(const VisibleParts& parts)
 {
     if (parts.everything)
         showOnly({});

@@ -13,7 +13,9 @@ namespace {
 constexpr double kClosedLight = 0.35;
 
 // Light fades with the distance, so that depth is seen; a wall seen flat keeps some light, as from the walls around it,
-// so that the far side of a fold's edge is not a black rim.
+// so that the far side of a fold's edge is not a black rim. The fading is shown by its root, which is near what
+// a screen makes of numbers: without it what has a tenth of the light looks black, and nothing could be read beyond a
+// few centimetres.
 //
 // A pixel needs the cosine of the angle between the wall's normal and the way to the lamp. Cosines of the corners,
 // interpolated, would flatten the shine on a near wall, whose triangles are large. So corners hand on how the normal
@@ -39,7 +41,7 @@ void main()
   // In a frame turned from the picture's to the line of sight by the shortest way.
   vec2 lean = normal.xy - toLamp.xy * (normal.z + dot(normal.xy, toLamp.xy) / max(1.0 + toLamp.z, 0.01));
   lean *= inversesqrt(max(1.0 + facing, 0.01));
-  float light = 1.12 / (1.0 + distance2 / (lampReach * lampReach));
+  float light = sqrt(1.12 / (1.0 + distance2 / (lampReach * lampReach)));
   leanAndLight = vec3(lean, light * OPEN_LIGHT);
   gl_Position = MCDCMatrix * vertexMC;
 }
@@ -75,6 +77,11 @@ void useLampShader(vtkShaderProperty* shader, double reach_mm, bool by_openness)
         by_openness ? "mix(" + std::to_string(kClosedLight) + ", 1.0, openness * openness)" : "1.0");
     shader->SetVertexShaderCode(vertices.c_str());
     shader->SetFragmentShaderCode(kFragmentShader);
+    setLampReach(shader, reach_mm);
+}
+
+void setLampReach(vtkShaderProperty* shader, double reach_mm)
+{
     shader->GetVertexCustomUniforms()->SetUniformf("lampReach", float(reach_mm));
 }
 

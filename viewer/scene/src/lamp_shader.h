@@ -9,5 +9,7 @@ namespace vicon::viewer {
 /// @param reach_mm distance at which the lamp has lost half of its strength
 /// @param by_openness less light where the attribute `openness` (addOpenness()) is small
 void useLampShader(vtkShaderProperty* shader, double reach_mm, bool by_openness);
+/// Of a shader that useLampShader() made.
+void setLampReach(vtkShaderProperty* shader, double reach_mm);
 
 }  // namespace vicon::viewer

@@ -43,6 +43,13 @@ public:
         return *value_;
     }
 
+    /// It is there; false also while it is being made.
+    bool known()
+    {
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        return lock && value_;
+    }
+
 private:
     std::mutex mutex_;
     std::optional<T> value_;
@@ -218,6 +225,11 @@ const OrganWords& PreparedScan::words() const
 const DensityBricks& PreparedScan::bricks() const
 {
     return *files_->bricks.get([&] { return std::make_unique<const DensityBricks>(volume()); });
+}
+
+bool PreparedScan::hasOpenness() const
+{
+    return files_->openness.known();
 }
 
 const std::vector<float>& PreparedScan::openness() const

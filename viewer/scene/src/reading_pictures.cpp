@@ -8,7 +8,7 @@
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/peeling_pace.h"
 #include "vicon/viewer/scene/cell_visibility.h"
-#include "vicon/viewer/scene/seen_wall.h"
+#include "vicon/viewer/scene/picture_coverage.h"
 
 namespace vicon::viewer {
 
@@ -20,25 +20,25 @@ struct ReadingPictures::Parts {
     OverviewGround ground;
     /// What the last endoscopic picture showed.
     struct Shown {
-        SeenParts parts;
+        VisibleParts parts;
         Pose pose;
         Lens lens;
-        bool told = false;  ///< seen_wall has looked at it
+        bool told = false;  ///< picture_coverage has looked at it
     };
     std::optional<Shown> shown;
     PeelingPace pace;
     bool cells_colored = false, occluded = false;
     double lamp_reach_mm = kUsualLampReach_mm;
-    std::optional<SeenWall> seen_wall;  // made when it is first asked for
+    std::optional<PictureCoverage> picture_coverage;  // made when it is first asked for
 
-    SeenWall& seenWall()
+    PictureCoverage& pictureCoverage()
     {
-        if (!seen_wall)
-            seen_wall.emplace(scan);
+        if (!picture_coverage)
+            picture_coverage.emplace(scan);
         if (!shown->told)
-            seen_wall->look(shown->parts, shown->pose, shown->lens);
+            picture_coverage->look(shown->parts, shown->pose, shown->lens);
         shown->told = true;
-        return *seen_wall;
+        return *picture_coverage;
     }
 
     /// Casts rays; while the eye moves as coarsely as ten pictures a second ask for.
@@ -67,8 +67,9 @@ struct ReadingPictures::Parts {
         return picture;
     }
 
-    void setLook(bool color_cells, double reach_mm, bool ambient_occlusion)
+    void setLook(bool color_cells, double reach_mm, bool wants_occlusion)
     {
+        const bool ambient_occlusion = wants_occlusion && scan.hasOpenness();
         if (occluded != ambient_occlusion && ambient_occlusion)
             scene.shadeByOpenness(scan.cells(), scan.openness());
         else if (occluded != ambient_occlusion)
@@ -113,7 +114,7 @@ Overlay structureOverlay(const CellVisibility& visibility, const SurfaceScene& s
         return Pixel{lens.width / 2.0 + x * lens.focal_px(), lens.height / 2.0 - y * lens.focal_px()};
     };
     if (const int start = visibility.segmentAt(pose.eye_mm); start > 0)
-        for (const SeenSegment& seen : visibility.visibility().seenFrom(pose, lens, start))
+        for (const VisibleSegment& seen : visibility.visibility().visibleFrom(pose, lens, start))
             for (const ViewRectangle& r : seen.through)
                 if (seen.segment != start && !r.empty())
                     overlay.lines.push_back({{at(r.left, r.top), at(r.right, r.top), at(r.right, r.bottom),
@@ -148,14 +149,15 @@ Picture ReadingPictures::endoscopic(const SnapshotRequest& request, const Snapsh
 {
     Parts& p = *parts_;
     const Lens lens{request.view_angle_deg, request.width, request.height};
-    p.shown = Parts::Shown{p.visibility->seenFrom(place.pose, lens), place.pose, lens};
-    p.setLook(look.structure, look.lamp_reach_mm, request.ambient_occlusion);
+    p.shown = Parts::Shown{p.visibility->visibleFrom(place.pose, lens), place.pose, lens};
+    p.setLook(look.structure, look.lamp_factor * lampReachAt_mm(p.scan.frames(), place.station_mm),
+              request.ambient_occlusion);
     p.scene.showSeen(p.shown->parts);
     p.scene.lookFrom(place.pose, request.view_angle_deg);
     const bool only_peeled = !request.peel.empty() && !request.peel_middle_only;  // then nothing of the wall is left
     Picture picture = only_peeled ? Picture(request.width, request.height) : p.wall(request, place.pose, still);
     if (look.earlier && !only_peeled && p.offscreen)
-        p.seenWall().tint(picture, look.earlier->earlier());
+        p.pictureCoverage().tint(picture, look.earlier->earlier());
     p.cast(request, still || request.peel.empty(),
            [&](const SnapshotRequest& as) { finishEndoscopic(picture, p.scan, as, place); });
     if (look.structure)
@@ -177,10 +179,10 @@ void ReadingPictures::chooseBy(std::shared_ptr<const CellVisibility> visibility)
     p.offscreen->draw(kSmall, kSmall);
 }
 
-void ReadingPictures::countSeen(SeenSoFar& seen)
+void ReadingPictures::countSeen(ScanCoverage& seen)
 {
     if (parts_->shown)
-        seen.see(parts_->seenWall().triangles());
+        seen.see(parts_->pictureCoverage().triangles());
 }
 
 ReadingPictures::Overview ReadingPictures::overview(const SnapshotRequest& request, const SnapshotResult& place)

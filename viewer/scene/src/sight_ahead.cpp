@@ -26,7 +26,7 @@ void SightAhead::prepare(const Pose& pose, const Lens& lens)
     wait();
     pose_ = pose;
     lens_ = lens;
-    Choice choice([this, pose, lens] { return visibility_.seenFrom(pose, lens); });
+    Choice choice([this, pose, lens] { return visibility_.visibleFrom(pose, lens); });
     under_way_ = choice.get_future();
     {
         const std::lock_guard lock(mutex_);
@@ -53,12 +53,12 @@ void SightAhead::choose(const std::stop_token& stop)
     }
 }
 
-SeenParts SightAhead::seenFrom(const Pose& pose, const Lens& lens)
+VisibleParts SightAhead::visibleFrom(const Pose& pose, const Lens& lens)
 {
     const bool same = pose == pose_ && lens == lens_;
     if (under_way_.valid() && same)
         return under_way_.get();
-    return visibility_.seenFrom(pose, lens);
+    return visibility_.visibleFrom(pose, lens);
 }
 
 void SightAhead::wait() const

@@ -5,6 +5,7 @@
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -14,9 +15,6 @@
 namespace vicon::viewer {
 namespace {
 
-// Chosen by eye on tubes of 8 to 25 mm radius and a real scan: the near wall is not burnt out, and the lumen two bends
-// ahead is dark but not black.
-constexpr double kLampReach_mm = 45;
 constexpr std::array kMucosa{0.93, 0.66, 0.56};
 
 std::array<double, 3> cellColor(int segment)
@@ -29,12 +27,23 @@ std::array<double, 3> cellColor(int segment)
 
 }  // namespace
 
+double lampReachAt_mm(const PathFrames& path, double station_mm)
+{
+    // Chosen by eye on tubes of 8 to 25 mm radius and a real scan.
+    constexpr double kPerRadius = 3, kLeast_mm = 36, kMost_mm = 80;
+    constexpr double kAround_mm = 40, kStep_mm = 5;  // so that the light does not flicker from fold to fold
+    double radii_mm = 0, count = 0;
+    for (double off_mm = -kAround_mm; off_mm <= kAround_mm; off_mm += kStep_mm, ++count)
+        radii_mm += path.at(station_mm + off_mm).radius_mm;
+    return std::clamp(kPerRadius * radii_mm / count, kLeast_mm, kMost_mm);
+}
+
 struct SurfaceScene::Parts {
     std::vector<CellActor> cells;
     std::vector<Patch> patches;
     vtkNew<vtkRenderer> renderer;
     vtkNew<vtkLight> lamp;
-    double lamp_reach_mm = kLampReach_mm;
+    double lamp_reach_mm = kUsualLampReach_mm;
     bool color_cells = false, has_openness = false, by_openness = false;
 
     void setMaterial() const
@@ -90,7 +99,7 @@ void SurfaceScene::showOnly(const std::vector<int>& segments)
     viewer::showOnly(parts_->cells, segments);
 }
 
-void SurfaceScene::showSeen(const SeenParts& parts)
+void SurfaceScene::showSeen(const VisibleParts& parts)
 {
     if (parts.everything)
         viewer::showOnly(parts_->cells, {});
@@ -114,7 +123,8 @@ void SurfaceScene::colorCells(bool on)
 void SurfaceScene::setLampReach(double half_mm)
 {
     parts_->lamp_reach_mm = half_mm;
-    parts_->setLamp();
+    for (const CellActor& cell : parts_->cells)
+        viewer::setLampReach(cell.actor->GetShaderProperty(), half_mm);
 }
 
 void SurfaceScene::shadeByOpenness(const CellSurface& surface, const std::vector<float>& openness)

@@ -13,13 +13,14 @@ namespace vicon {
 
 /// How far a scan is, or a case with its scans together.
 enum class WorkState {
-    kept,  ///< not for the pipeline
+    kept,     ///< not for the pipeline
+    refused,  ///< its images make no volume
     queued,
     running,
     done,
     failed,
 };
-/// "kept", "queued", "running", "done", "failed".
+/// "kept", "refused", "queued", "running", "done", "failed".
 std::string nameOf(WorkState state);
 WorkState workStateOf(JobState state);
 
@@ -29,7 +30,7 @@ struct WorklistScan {
     WorkState state = WorkState::kept;
     std::string step;     ///< being worked on
     double progress = 0;  ///< 0 to 1
-    std::string reason;   ///< why it failed, or the pipeline's verdict where it found no organ, or is not sure
+    std::string reason;   ///< why it failed, is kept or refused; the verdict where no organ was found, or not surely
     std::filesystem::path folder;
     std::string quality;     ///< how well it can be read, in a few words; empty where it is not known
     bool adequate = true;    ///< its quality
@@ -44,7 +45,7 @@ struct WorklistScan {
 /// A case as the worklist shows it.
 struct WorklistCase {
     CaseRecord record;
-    WorkState state = WorkState::kept;  ///< failed, running, queued or done: the first of these that any scan is in
+    WorkState state = WorkState::kept;  ///< failed, running, queued, done, kept, refused: the first of these
     std::string reason;
     double progress = 0;  ///< of its jobs together, 0 to 1
     int markers = 0;

@@ -31,8 +31,8 @@ void CoverageTool::addTo(ReadingLayout& layout)
             listUnseen();
     });
     connect(&reading_.drawing(), &DrawingThread::seenChanged, this, &CoverageTool::showSeen);
-    connect(&keeper_, &SeenKeeper::failed, &reading_, &Reading::warn);
-    connect(&keeper_, &SeenKeeper::found, this,
+    connect(&keeper_, &CoverageKeeper::failed, &reading_, &Reading::warn);
+    connect(&keeper_, &CoverageKeeper::found, this,
             [this](const std::vector<UnseenPatch>& patches, const std::shared_ptr<OpenScan>& scan) {
                 if (scan == reading_.sharedScan())
                     panel_->show(patches, scan->files.parts());
@@ -53,7 +53,7 @@ void CoverageTool::connectPanel()
     connect(panel_, &CoveragePanel::forgetWanted, this, [this] {
         if (!reading_.scan())
             return;
-        reading_.scan()->seen.forget();
+        reading_.scan()->coverage.forget();
         reading_.drawEndoscopic(true);
         listUnseen();
     });
@@ -98,7 +98,7 @@ void CoverageTool::showSeen()
 {
     if (!reading_.scan())
         return;
-    const double fraction = reading_.scan()->seen.fraction();
+    const double fraction = reading_.scan()->coverage.fraction();
     panel_->setSeen(fraction);
     seen_text_->setText(tr("%1 % seen").arg(int(fraction * 1000) / 10.0, 0, 'f', 1));
 }

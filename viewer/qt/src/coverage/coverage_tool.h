@@ -2,7 +2,7 @@
 
 #include <QTimer>
 
-#include "coverage/seen_keeper.h"
+#include "coverage/coverage_keeper.h"
 #include "reading/reading_tool.h"
 
 class QLabel;
@@ -34,7 +34,7 @@ private:
 
     CoveragePanel* panel_;
     QLabel* seen_text_;
-    SeenKeeper keeper_{this};
+    CoverageKeeper keeper_{this};
     QTimer keep_timer_;
 };
 

@@ -4,16 +4,16 @@
 #include <QActionGroup>
 #include <utility>
 
-#include "reading/kept_place.h"
 #include "reading/reading.h"
 #include "widgets/kept_settings.h"
 #include "window/reading_layout.h"
 
 namespace vicon::viewer {
 namespace {
-constexpr double kNear_mm = 22, kFar_mm = 90;  // half and twice the usual reach of the lamp
-constexpr const char* kLight = "light_mm";
-constexpr const char* kOcclusion = "ambient_occlusion";
+constexpr double kNear = 0.5, kUsual = 1, kFar = 2;  // of the usual reach of the lamp
+// The reader's own, whatever the case.
+constexpr const char* kLight = "look/light";
+constexpr const char* kOcclusion = "look/ambient_occlusion";
 }  // namespace
 
 void LookTool::addTo(ReadingLayout& layout)
@@ -29,15 +29,14 @@ void LookTool::addTo(ReadingLayout& layout)
 void LookTool::addLights(ReadingLayout& layout)
 {
     lights_ = new QActionGroup(this);
-    for (const auto& [title, reach_mm] :
-         {std::pair(tr("Light: near, depth stands out"), kNear_mm), std::pair(tr("Light: usual"), kUsualLampReach_mm),
-          std::pair(tr("Light: far"), kFar_mm)}) {
+    for (const auto& [title, factor] : {std::pair(tr("Light: near, depth stands out"), kNear),
+                                        std::pair(tr("Light: usual"), kUsual), std::pair(tr("Light: far"), kFar)}) {
         QAction* light = layout.addSwitch(ReadingMenu::view, title, {});
-        light->setChecked(reach_mm == lamp_reach_mm_);
-        light->setData(reach_mm);
+        light->setChecked(factor == lamp_factor_);
+        light->setData(factor);
         lights_->addAction(light);
-        connect(light, &QAction::triggered, this, [this, reach = reach_mm] {
-            lamp_reach_mm_ = reach;
+        connect(light, &QAction::triggered, this, [this, factor = factor] {
+            lamp_factor_ = factor;
             drawAnew();
         });
     }
@@ -50,27 +49,25 @@ void LookTool::drawAnew()
 
 void LookTool::restore()
 {
-    const CaseRecord& record = reading_.session().record();
-    const double reach_mm = keptSetting(keptKey(record, kLight), lamp_reach_mm_).toDouble();
+    const double factor = keptSetting(kLight, lamp_factor_).toDouble();
     for (QAction* light : lights_->actions())
-        if (light->data().toDouble() == reach_mm) {
+        if (light->data().toDouble() == factor) {
             light->setChecked(true);
-            lamp_reach_mm_ = reach_mm;
+            lamp_factor_ = factor;
         }
-    occlusion_->setChecked(keptSetting(keptKey(record, kOcclusion)).toBool());
+    occlusion_->setChecked(keptSetting(kOcclusion, true).toBool());
 }
 
 QVariantMap LookTool::kept() const
 {
-    const CaseRecord& record = reading_.session().record();
-    return {{keptKey(record, kLight), lamp_reach_mm_}, {keptKey(record, kOcclusion), occlusion_->isChecked()}};
+    return {{kLight, lamp_factor_}, {kOcclusion, occlusion_->isChecked()}};
 }
 
 void LookTool::style(EndoscopicRequest& request) const
 {
     request.snapshot.ambient_occlusion = occlusion_->isChecked();
     request.structure = structure_->isChecked();
-    request.lamp_reach_mm = lamp_reach_mm_;
+    request.lamp_factor = lamp_factor_;
 }
 
 }  // namespace vicon::viewer

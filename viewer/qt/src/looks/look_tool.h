@@ -24,7 +24,7 @@ private:
 
     QAction *structure_ = nullptr, *occlusion_ = nullptr;
     QActionGroup* lights_ = nullptr;
-    double lamp_reach_mm_ = kUsualLampReach_mm;
+    double lamp_factor_ = 1;
 };
 
 }  // namespace vicon::viewer

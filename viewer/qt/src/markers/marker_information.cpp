@@ -7,6 +7,7 @@
 #include "markers/marker_tool.h"
 #include "reading/reading.h"
 #include "vicon/viewer/model/annotate.h"
+#include "widgets/length_text.h"
 
 namespace vicon::viewer {
 namespace {
@@ -19,11 +20,6 @@ QString row(const QString& name, const QString& value)
         .arg(name.toHtmlEscaped(), value.toHtmlEscaped());
 }
 
-QString mm(double value)
-{
-    return QString::number(value, 'f', 1) + " mm";
-}
-
 QString words(const std::string& utf8)
 {
     return QString::fromStdString(utf8);
@@ -33,11 +29,11 @@ QString sizeWords(const Marker& marker)
 {
     if (!marker.size)
         return {};
-    QString text = QObject::tr("%1 straight").arg(mm(marker.size->straight_mm));
+    QString text = QObject::tr("%1 straight").arg(lengthText(marker.size->straight_mm));
     if (marker.size->along_mm)
-        text += QObject::tr(", %1 along the wall").arg(mm(*marker.size->along_mm));
+        text += QObject::tr(", %1 along the wall").arg(lengthText(*marker.size->along_mm));
     if (marker.size->plane)
-        text += QObject::tr(", %1 largest in the best plane").arg(mm(marker.size->plane->diameter_mm));
+        text += QObject::tr(", %1 largest in the best plane").arg(lengthText(marker.size->plane->diameter_mm));
     return text;
 }
 
@@ -50,7 +46,7 @@ QString densityWords(const Marker& marker)
         .arg(sample.mean_hu, 0, 'f', 0)
         .arg(sample.sd_hu, 0, 'f', 0)
         .arg(sample.voxels)
-        .arg(mm(sample.radius_mm));
+        .arg(lengthText(sample.radius_mm));
 }
 
 QString informationOf(const Marker& marker, const QString& scan, const OrganWords& organ)
@@ -59,8 +55,8 @@ QString informationOf(const Marker& marker, const QString& scan, const OrganWord
     return "<table>" + row(QObject::tr("Marker"), words(marker.id + ", " + nameOf(marker.color))) +
            row(QObject::tr("Scan"), scan) +
            row(QObject::tr("Part"), marker.part ? words(nameOf(*marker.part)) : QString()) +
-           row(QObject::tr("From the %1").arg(words(organ.first_end)), mm(marker.station_mm)) +
-           row(QObject::tr("From the %1").arg(words(organ.last_end)), mm(marker.from_caecum_mm)) +
+           row(QObject::tr("From the %1").arg(words(organ.first_end)), lengthText(marker.station_mm)) +
+           row(QObject::tr("From the %1").arg(words(organ.last_end)), lengthText(marker.from_caecum_mm)) +
            row(QObject::tr("LPS"),
                QObject::tr("%1, %2, %3 mm").arg(p.x, 0, 'f', 1).arg(p.y, 0, 'f', 1).arg(p.z, 0, 'f', 1)) +
            row(QObject::tr("Size"), sizeWords(marker)) + row(QObject::tr("Density"), densityWords(marker)) +

@@ -1,18 +1,10 @@
 #include "measuring/measuring_tool.h"
 
 #include "reading/reading.h"
+#include "widgets/length_text.h"
 #include "window/reading_layout.h"
 
 namespace vicon::viewer {
-namespace {
-
-QString mm(double length)
-{
-    return QObject::tr("%1 mm").arg(length, 0, 'f', 1);
-}
-
-}  // namespace
-
 void MeasuringTool::addTo(ReadingLayout& layout)
 {
     layout.addAction(ReadingMenu::edit, tr("Measure between two clicks"), QKeySequence("M"), [this] { start(); });
@@ -65,11 +57,11 @@ void MeasuringTool::show(const WallDistance& size, const std::optional<PlaneSize
 {
     line_mm_ = size.way_mm;
     drawLine();
-    QString text = tr("%1 straight").arg(mm(size.straight_mm));
+    QString text = tr("%1 straight").arg(lengthText(size.straight_mm));
     if (size.along_mm > 0)
-        text += tr(", %1 along the wall").arg(mm(size.along_mm));
+        text += tr(", %1 along the wall").arg(lengthText(size.along_mm));
     if (plane)
-        text += tr(", %1 largest in the best plane").arg(mm(plane->diameter_mm));
+        text += tr(", %1 largest in the best plane").arg(lengthText(plane->diameter_mm));
     const auto marker = reading_.markerNear(size.way_mm);
     if (!marker) {
         reading_.say(text + tr("; no marker beside it to keep it with"));

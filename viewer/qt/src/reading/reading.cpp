@@ -47,6 +47,7 @@ void Reading::connectSession()
                "through the densities: slower, and what it shows is not counted as seen."));
     });
     connect(&drawing_, &DrawingThread::endoscopicDrawn, this, &Reading::showEndoscopic);
+    connect(&drawing_, &DrawingThread::wallShaded, this, [this] { moved(true); });
     connect(&drawing_, &DrawingThread::overviewDrawn, this, [this](const Picture& picture, const PlaneView& view) {
         shown_overview_ = view;
         views_.overview()->showPicture(picture);
@@ -70,6 +71,7 @@ void Reading::showEndoscopic(const Picture& picture, const ShownPicture& shown)
 {
     shown_ = shown;
     views_.endoscopic()->showPicture(picture);
+    views_.endoscopic()->setProperty("shaded", shown.shaded && shown.isOf(sharedScan()));
     if (shown.isOf(sharedScan()))
         views_.endoscopic()->setAccessibleDescription(
             tr("%1 mm from the %2").arg(shown.place.station_mm, 0, 'f', 0).arg(organWords().first_end.c_str()));
@@ -145,7 +147,7 @@ void Reading::beginPass()
 {
     for (OpenScan* open : {session_.scan(), session_.beside()})
         if (open)
-            open->seen.beginPass();
+            open->coverage.beginPass();
 }
 
 std::optional<Marker> Reading::markerNear(const std::vector<Point3>& line_mm) const

@@ -10,7 +10,6 @@ namespace vicon::viewer {
 namespace {
 
 constexpr int kPart_px = 150, kSideWidth_px = 430;  // of 96 to the inch, before the window is resized
-constexpr const char* kColumns = "window/columns";
 constexpr const char* kSlices = "window/slices";
 
 SliceView* slice(SlicePlane plane, const char* name, const QString& title)
@@ -132,7 +131,7 @@ void ReadingViews::setPicking(bool on)
 
 void ReadingViews::restoreSizes()
 {
-    restoreState(keptSetting(kColumns).toByteArray());
+    restoreState(keptSetting(kColumnsKey).toByteArray());
     slice_column_->restoreState(keptSetting(kSlices).toByteArray());
     if (beside_)
         beside_->hide();  // shown when its scan is there
@@ -141,7 +140,7 @@ void ReadingViews::restoreSizes()
 QVariantMap ReadingViews::sizes() const
 {
     QVariantMap values = secondWindowSizes();
-    values[kColumns] = second_ ? columns_in_one_ : saveState();
+    values[kColumnsKey] = second_ ? columns_in_one_ : saveState();
     if (!second_)
         values[kSlices] = slice_column_->saveState();
     return values;

@@ -58,6 +58,8 @@ signals:
     void keyboardLeft();  ///< keys are let go elsewhere
 
 private:
+    static constexpr const char* kColumnsKey = "window/columns";  // of the widths that are kept
+
     // second_screen.cpp
     void openSecondWindow();
     void closeSecondWindow();

@@ -14,7 +14,6 @@ namespace vicon::viewer {
 namespace {
 constexpr const char* kGeometry = "window/second_geometry";
 constexpr const char* kRows = "window/second_rows";
-constexpr const char* kColumns = "window/columns";
 }  // namespace
 
 void ReadingViews::setTwoWindows(bool on)
@@ -32,7 +31,7 @@ void ReadingViews::setTwoWindows(bool on)
 void ReadingViews::openSecondWindow()
 {
     // Before the window is laid out, its columns are as they were saved.
-    columns_in_one_ = isVisible() ? saveState() : keptSetting(kColumns).toByteArray();
+    columns_in_one_ = isVisible() ? saveState() : keptSetting(kColumnsKey).toByteArray();
     second_ = new SecondWindow(window());
     second_->setObjectName("second");
     second_->setWindowTitle(window()->windowTitle());

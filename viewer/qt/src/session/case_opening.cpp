@@ -2,7 +2,7 @@
 #include <QThreadPool>
 #include <algorithm>
 
-#include "coverage/seen_keeper.h"
+#include "coverage/coverage_keeper.h"
 #include "session/case_session.h"
 
 namespace vicon::viewer {
@@ -51,7 +51,7 @@ void CaseSession::open(const std::string& scan_id, bool fresh, int branch)
         if (made->record.id != wanted_scan_)
             return;
         if (scan_ && scan_->record.id == made->record.id)
-            made->seen.unpack(scan_->seen.packed());  // of the same wall; what was seen is still being written
+            made->coverage.unpack(scan_->coverage.packed());  // of the same wall; what was seen is still being written
         scan_ = std::move(made);
         emit opened();
     };
@@ -114,7 +114,7 @@ void CaseSession::load(const std::string& work, const std::string& scan_id, int 
                 made->branch = way;
                 if (!at(2))
                     return {};
-                SeenKeeper::restore(made->seen, folder);
+                CoverageKeeper::restore(made->coverage, folder);
                 readOn(files);
                 return [made, then, stop] {
                     if (!stop || !*stop)

@@ -47,19 +47,21 @@ ReadingPictures& DrawingThread::picturesOf(AllPictures& all, const std::shared_p
 
 void DrawingThread::findSightLines(const std::shared_ptr<OpenScan>& scan)
 {
-    sight_worker_.post("sight lines " + scan->record.id,
-                       [this, files = scan->files, of = std::weak_ptr(scan)]() -> Worker::Work {
-                           if (of.expired())
-                               return {};
-                           auto visibility = std::make_shared<const CellVisibility>(files);
-                           worker_.post("sight lines", [visibility, of](AllPictures& all) -> Worker::Work {
-                               for (ScanPictures& some : all)
-                                   if (some.of.lock() == of.lock())
-                                       some.pictures->chooseBy(visibility);
-                               return {};
-                           });
-                           return {};
-                       });
+    sight_worker_.post(
+        "sight lines " + scan->record.id, [this, files = scan->files, of = std::weak_ptr(scan)]() -> Worker::Work {
+            if (of.expired())
+                return {};
+            files.openness();
+            worker_.post("shade", [this](AllPictures&) -> Worker::Work { return [this] { emit wallShaded(); }; });
+            auto visibility = std::make_shared<const CellVisibility>(files);
+            worker_.post("sight lines", [visibility, of](AllPictures& all) -> Worker::Work {
+                for (ScanPictures& some : all)
+                    if (some.of.lock() == of.lock())
+                        some.pictures->chooseBy(visibility);
+                return {};
+            });
+            return {};
+        });
 }
 
 void DrawingThread::drawEndoscopic(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request)
@@ -77,9 +79,10 @@ void DrawingThread::draw(Which which, std::shared_ptr<OpenScan> scan, const Endo
     const char* name = which == Which::leading ? "endoscopic" : "beside";
     worker_.post(name, [this, which, scan = std::move(scan), request](AllPictures& all) -> Worker::Work {
         const SnapshotRequest& snapshot = request.snapshot;
+        const bool shaded = !snapshot.ambient_occlusion || scan->files.hasOpenness();
         auto picture = std::make_shared<Picture>(picturesOf(all, scan).endoscopic(
             snapshot, request.place, request.still,
-            {request.paint_seen ? &scan->seen : nullptr, request.structure, request.lamp_reach_mm}));
+            {request.paint_seen ? &scan->coverage : nullptr, request.structure, request.lamp_factor}));
         if (request.count_seen)
             worker_.post(which == Which::leading ? "seen" : "seen beside",
                          [this, scan, always = request.still](AllPictures& drawn) -> Worker::Work {
@@ -88,7 +91,7 @@ void DrawingThread::draw(Which which, std::shared_ptr<OpenScan> scan, const Endo
                          });
         const Lens lens{snapshot.view_angle_deg, snapshot.width, snapshot.height};
         const auto signal = which == Which::leading ? &DrawingThread::endoscopicDrawn : &DrawingThread::besideDrawn;
-        return [this, picture, signal, shown = ShownPicture{scan, request.place, lens}] {
+        return [this, picture, signal, shown = ShownPicture{scan, request.place, lens, shaded}] {
             emit(this->*signal)(*picture, shown);
         };
     });
@@ -100,7 +103,7 @@ void DrawingThread::countSeen(AllPictures& all, const std::shared_ptr<OpenScan>&
         const auto now = std::chrono::steady_clock::now();
         if (some.of.lock() != scan || (!always && now - some.counted < kBetweenCounts))
             continue;
-        some.pictures->countSeen(scan->seen);
+        some.pictures->countSeen(scan->coverage);
         some.counted = now;
     }
 }
@@ -115,7 +118,7 @@ void DrawingThread::film(std::shared_ptr<OpenScan> scan, const EndoscopicRequest
                          poseAtStation(scan->files.frames(), scan->lumen, request.place.station_mm, heading);
                      const SnapshotResult place{view.pose, request.place.station_mm, view.clearance_mm, true};
                      film->add(picturesOf(all, scan).endoscopic(request.snapshot, place, false,
-                                                                {nullptr, request.structure, request.lamp_reach_mm}));
+                                                                {nullptr, request.structure, request.lamp_factor}));
                      if (last)
                          film->finish();
                      return [this, film, last] { emit filmed(film, last); };

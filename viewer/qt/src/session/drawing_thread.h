@@ -19,7 +19,7 @@ struct EndoscopicRequest {
     bool count_seen = true;   ///< it is shown to somebody; while moving, some pictures are counted
     bool paint_seen = false;  ///< what was seen in earlier passes
     bool structure = false;   ///< cells coloured, gates drawn, what is drawn counted
-    double lamp_reach_mm = kUsualLampReach_mm;
+    double lamp_factor = 1;   ///< of the lamp's usual reach
 };
 
 /// What a picture that is shown was made of: a click into it means that place, wherever the eye is by then.
@@ -27,6 +27,7 @@ struct ShownPicture {
     std::weak_ptr<OpenScan> scan;
     SnapshotResult place;
     Lens lens;
+    bool shaded = false;  ///< with the ambient occlusion that was asked for; it comes a little later than the first
 
     bool isOf(const std::shared_ptr<OpenScan>& which) const { return which && scan.lock() == which; }
 };
@@ -57,6 +58,8 @@ signals:
     void besideDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownPicture& shown);
     void overviewDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::PlaneView& view);
     void seenChanged();
+    /// The wall can be drawn with ambient occlusion from now on.
+    void wallShaded();
     /// The pictures of a scan that has just been opened are made without it.
     void withoutOpenGl();
     void failed(const QString& message);
@@ -74,7 +77,8 @@ private:
     ReadingPictures& picturesOf(AllPictures& all, const std::shared_ptr<OpenScan>& scan);
     /// In the picture drawn last; while moving not in every one.
     static void countSeen(AllPictures& all, const std::shared_ptr<OpenScan>& scan, bool always);
-    /// Finds the lines of sight of a scan whose pictures have been begun; until then gates choose what is drawn.
+    /// Finds the openness and the lines of sight of a scan whose pictures have been begun; until then gates choose what
+    /// is drawn.
     void findSightLines(const std::shared_ptr<OpenScan>& scan);
 
     WorkerWith<AllPictures> worker_{this};

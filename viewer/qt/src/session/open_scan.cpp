@@ -30,7 +30,7 @@ OpenScan::OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseReco
       caption(captionFor(a_case, scan)),
       lumen(files.lumen()),
       navigator(files.frames(), lumen, files.exitDistance()),
-      seen(triangleAreas_mm2(files.cells().points_mm, files.cells().triangles))
+      coverage(triangleAreas_mm2(files.cells().points_mm, files.cells().triangles))
 {
 }
 

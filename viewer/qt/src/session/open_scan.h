@@ -4,7 +4,7 @@
 
 #include "vicon/cases/case_store.h"
 #include "vicon/viewer/model/navigator.h"
-#include "vicon/viewer/model/seen_so_far.h"
+#include "vicon/viewer/model/scan_coverage.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/prepared_scan.h"
 #include "vicon/viewer/scene/snapshot.h"
@@ -18,7 +18,7 @@ struct OpenScan {
     Caption caption;
     Lumen lumen;
     Navigator navigator;
-    SeenSoFar seen;
+    ScanCoverage coverage;
     std::filesystem::file_time_type made;  ///< when its files were
     int branch = -1;                       ///< whose end the way leads to; below 0: to the farthest tip
 

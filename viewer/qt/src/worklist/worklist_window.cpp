@@ -39,7 +39,7 @@ QString scansOf(const WorklistCase& row)
 {
     QStringList names;
     for (const WorklistScan& scan : row.scans)
-        if (scan.state != WorkState::kept)
+        if (scan.state != WorkState::kept && scan.state != WorkState::refused)
             names << text(positionName(scan.record.series.patient_position) +
                           (scan.organ.isColon() ? "" : " (" + scan.organ.name() + ")"));
     return names.join(", ");
@@ -86,7 +86,7 @@ QString progressOf(const WorklistCase& row)
 }
 
 /// What the list shows of a case. A new column is a line here.
-struct Column {
+struct WorklistColumn {
     const char* title;
     QString (*cell)(const WorklistCase&);
     QString (*tip)(const WorklistCase&) = nullptr;  ///< where the cell cannot say all
@@ -97,7 +97,7 @@ QString patientOf(const WorklistCase& row)
     return text(patientName(row.record.patient.name));
 }
 
-const Column kColumns[] = {
+const WorklistColumn kWorklistColumns[] = {
     {QT_TRANSLATE_NOOP("WorklistWindow", "Patient"), patientOf, patientOf},  // a long name is cut off in its cell
     {QT_TRANSLATE_NOOP("WorklistWindow", "ID"), [](const WorklistCase& row) { return text(row.record.patient.id); }},
     {QT_TRANSLATE_NOOP("WorklistWindow", "Study date"),
@@ -118,15 +118,15 @@ constexpr int kPatient = 0;
 bool fill(QTableWidget& table, int line, const WorklistCase& row)
 {
     bool changed = false;
-    for (int column = 0; column < int(std::size(kColumns)); ++column) {
+    for (int column = 0; column < int(std::size(kWorklistColumns)); ++column) {
         if (!table.item(line, column))
             table.setItem(line, column, new QTableWidgetItem);
         QTableWidgetItem& item = *table.item(line, column);
-        const QString cell = kColumns[column].cell(row);
+        const QString cell = kWorklistColumns[column].cell(row);
         changed = changed || item.text() != cell;
         item.setText(cell);
-        if (kColumns[column].tip)
-            item.setToolTip(kColumns[column].tip(row));
+        if (kWorklistColumns[column].tip)
+            item.setToolTip(kWorklistColumns[column].tip(row));
     }
     return changed;
 }
@@ -139,11 +139,11 @@ bool says(const WorklistCase& row, const QString& words)
 
 QTableWidget* makeTable(QWidget* parent)
 {
-    auto* table = new QTableWidget(0, int(std::size(kColumns)), parent);
+    auto* table = new QTableWidget(0, int(std::size(kWorklistColumns)), parent);
     table->setObjectName("cases");
     table->setAccessibleName(WorklistWindow::tr("Cases"));
     QStringList titles;
-    for (const Column& column : kColumns)
+    for (const WorklistColumn& column : kWorklistColumns)
         titles << WorklistWindow::tr(column.title);
     table->setHorizontalHeaderLabels(titles);
     table->setSelectionBehavior(QAbstractItemView::SelectRows);

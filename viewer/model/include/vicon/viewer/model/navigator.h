@@ -54,10 +54,12 @@ public:
 
 private:
     void tickFree();
+    Pose poseHere() const;
     double sign() const { return heading_ == Heading::caecum ? 1 : -1; }
 
     const PathFrames* path_;
     Lumen lumen_;
+    LookAhead ahead_;
     SubmarineOptions options_;
     Submarine submarine_;
     NavigationMode mode_ = NavigationMode::planned;

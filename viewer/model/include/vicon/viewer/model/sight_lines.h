@@ -34,11 +34,11 @@ public:
     SightLines(SightLines&&) noexcept;
     SightLines& operator=(SightLines&&) noexcept;
 
-    /// Whether the eye lies so deep in the lumen that the near plane cuts no wall open. Elsewhere seenFrom() proves
+    /// Whether the eye lies so deep in the lumen that the near plane cuts no wall open. Elsewhere visibleFrom() proves
     /// nothing.
     bool holdsAt(Point3 eye_mm, double near_mm) const;
     /// For every patch whether it may be seen: 1 or 0. Uses all cores.
-    std::vector<std::uint8_t> seenFrom(const Pose& pose, const Lens& lens) const;
+    std::vector<std::uint8_t> visibleFrom(const Pose& pose, const Lens& lens) const;
 
 private:
     struct Parts;

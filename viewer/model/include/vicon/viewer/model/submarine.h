@@ -20,7 +20,6 @@ struct SubmarineOptions {
     double homing_per_s = 6;            ///< how fast a camera that was let go is back on its path
     double turning_deg_s = 90;          ///< speed of turning at full steering
     double righting_per_s = 4;          ///< how fast the view turns back along the path
-    double look_ahead_mm = 10;          ///< looks this far ahead along the path
 };
 
 /// What the user does with mouse and keys; each from -1 to 1. All zero: let go.
@@ -84,6 +83,7 @@ private:
     bool startCarry();
     void move();
     void turn();
+    Vector3 wayOn() const;
     Vector3 pull() const;
     Vector3 pushOffWall() const;
     void home();
@@ -96,6 +96,7 @@ private:
 
     const PathFrames* path_;
     Lumen lumen_;
+    LookAhead ahead_;
     FieldView exit_;
     SubmarineOptions options_;
     Steering steering_;

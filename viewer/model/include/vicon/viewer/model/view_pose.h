@@ -1,5 +1,6 @@
 #pragma once
 
+#include "vicon/viewer/model/look_ahead.h"
 #include "vicon/viewer/model/lumen.h"
 #include "vicon/viewer/model/path_frames.h"
 
@@ -22,14 +23,15 @@ struct ViewPose {
     bool sees_target = true;  ///< false: no place was found from which the point is in plain view
 };
 
-/// Which way along the path.
-enum class Heading { caecum, rectum };
-
-/// Looking along the path from a station. On a bridge or where the lumen is narrower than the
-/// camera, from the nearest station that is not.
-/// Throws Error{unusable_scan} when no station of the path lies in the lumen.
+/// Looking from a station to where the lumen opens ahead, as LookAhead says. On a bridge or where the lumen is narrower
+/// than the camera, from the nearest station that is not. Throws Error{unusable_scan} when no station of the path lies
+/// in the lumen.
 ViewPose poseAtStation(const PathFrames& path, const Lumen& lumen, double station_mm, Heading heading = Heading::caecum,
                        const ViewPoseOptions& options = {});
+/// The same for many stations of one path.
+/// @param ahead of the same path and lumen
+ViewPose poseAtStation(const PathFrames& path, const Lumen& lumen, const LookAhead& ahead, double station_mm,
+                       Heading heading, const ViewPoseOptions& options = {});
 
 /// Looking at a point on or near the wall, from the path before it (towards the rectum) where that sees it, else from
 /// behind it, else from beside the path, else from straight above the wall. The point projects to the middle.

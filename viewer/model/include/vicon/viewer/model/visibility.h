@@ -32,7 +32,7 @@ ViewRectangle wholePicture(const Lens& lens);
 ViewRectangle rectangleOf(const Gate& gate, const Pose& pose);
 
 /// A segment that may be seen, and where in the picture.
-struct SeenSegment {
+struct VisibleSegment {
     int segment = 0;
     std::vector<ViewRectangle> through;
 };
@@ -45,7 +45,7 @@ public:
     explicit Visibility(std::vector<Gate> gates);
 
     /// @param start the segment of the voxel that holds the eye; it comes first in the answer
-    std::vector<SeenSegment> seenFrom(const Pose& pose, const Lens& lens, int start) const;
+    std::vector<VisibleSegment> visibleFrom(const Pose& pose, const Lens& lens, int start) const;
 
     const std::vector<Gate>& gates() const { return gates_; }
 

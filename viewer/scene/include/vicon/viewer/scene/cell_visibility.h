@@ -11,7 +11,7 @@
 namespace vicon::viewer {
 
 /// What of a surface is to be drawn.
-struct SeenParts {
+struct VisibleParts {
     bool everything = true;             ///< the rest does not count
     std::vector<int> segments;          ///< cells, in no order
     std::vector<std::uint8_t> patches;  ///< for each of patchesOf(surface) 1 or 0; empty: all those of `segments`
@@ -30,7 +30,7 @@ public:
     /// The segment of the voxel that holds a point; 0 outside.
     int segmentAt(Point3 p) const;
     /// What to draw. Everything where the eye is outside the lumen or so near to the wall that the near plane cuts it.
-    SeenParts seenFrom(const Pose& pose, const Lens& lens) const;
+    VisibleParts visibleFrom(const Pose& pose, const Lens& lens) const;
     /// Numbers of the segments to draw, without choosing among their patches; empty: all.
     std::vector<int> segmentsSeen(const Pose& pose, const Lens& lens) const;
     const Visibility& visibility() const { return visibility_; }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vicon/core/progress.h"
+#include "vicon/viewer/model/flight_quality.h"
 #include "vicon/viewer/model/unseen.h"
 #include "vicon/viewer/scene/snapshot.h"
 
@@ -19,10 +20,10 @@ struct FlightRequest {
     int width = 0;       ///< pixels of a frame; 0: 512
     int height = 0;      ///< 0: 512
     double view_angle_deg = 90;
-    bool ambient_occlusion = false;  ///< less light where the wall is less open, see opennessOf()
-    bool write_frames = true;        ///< frames as PNG, "frame-00001.png" and on
-    bool measure_coverage = true;    ///< which triangles are seen; costs a second rendering of each frame
-    bool cull = true;                ///< draw only cells that may be seen
+    bool ambient_occlusion = true;  ///< less light where the wall is less open, see opennessOf()
+    bool write_frames = true;       ///< frames as PNG, "frame-00001.png" and on
+    bool measure_coverage = true;   ///< which triangles are seen; costs a second rendering of each frame
+    bool cull = true;               ///< draw only cells that may be seen
     double least_unseen_mm2 = UnseenOptions().least_area_mm2;  ///< smaller unseen patches are not listed
     std::filesystem::path out;  ///< folder for frames and flight.json; empty: nothing is written
     std::vector<Marker> markers;
@@ -41,9 +42,15 @@ struct FlightFrame {
     double seconds = 0;              ///< to render the surface (shaded; without frames: in the colours of coverage)
 };
 
+struct FlightLegQuality {
+    Heading heading = Heading::caecum;
+    FlightQuality quality;
+};
+
 /// What a flight found out.
 struct FlightReport {
     std::vector<FlightFrame> frames;
+    std::vector<FlightLegQuality> views;  ///< how well they can be read, each direction that was flown
     double length_mm = 0;
     bool tree = false;  ///< the organ branches: "to the caecum" is to the tip, "to the rectum" to the root
     std::size_t cells = 0, triangles = 0;  ///< of the whole surface

@@ -24,7 +24,7 @@ public:
     void lookFrom(const Pose& pose, double view_angle_deg);
     void showOnly(const std::vector<int>& segments);
     /// Draws only what CellVisibility found; it must have been made for the same surface.
-    void showSeen(const SeenParts& parts);
+    void showSeen(const VisibleParts& parts);
 
     /// The numbers of the triangles in a picture of this scene that was rendered without smoothing; ascending, each
     /// once.

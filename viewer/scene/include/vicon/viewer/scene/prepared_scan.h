@@ -53,6 +53,7 @@ public:
     const OrganWords& words() const;              ///< for the organ that scan.json names
     const DensityBricks& bricks() const;          ///< of the volume
     const std::vector<float>& openness() const;   ///< of the points of cells(), see opennessOf()
+    bool hasOpenness() const;                     ///< openness() answers at once
     Lumen lumen() const;                          ///< of inside and wallDistance; valid while this object lives
 
 private:

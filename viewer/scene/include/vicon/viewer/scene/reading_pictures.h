@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "vicon/viewer/model/orientation.h"
-#include "vicon/viewer/model/seen_so_far.h"
+#include "vicon/viewer/model/scan_coverage.h"
 #include "vicon/viewer/model/window_level.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/cell_visibility.h"
@@ -25,14 +25,11 @@ struct SliceRequest {
 /// Needs no display.
 Picture slicePicture(const HuView& volume, const SliceRequest& request);
 
-/// How far the lamp at the eye reaches unless asked otherwise: where it has lost half of its strength.
-constexpr double kUsualLampReach_mm = 45;
-
 /// What an endoscopic picture shows beside the wall.
 struct EndoscopicLook {
-    const SeenSoFar* earlier = nullptr;  ///< the wall that was seen in earlier passes is tinted; nothing: none is
-    bool structure = false;              ///< cells in colours of their own, the gates, and how much is drawn
-    double lamp_reach_mm = kUsualLampReach_mm;
+    const ScanCoverage* earlier = nullptr;  ///< the wall that was seen in earlier passes is tinted; nothing: none is
+    bool structure = false;                 ///< cells in colours of their own, the gates, and how much is drawn
+    double lamp_factor = 1;                 ///< of the lamp's usual reach there, see lampReachAt_mm()
 };
 
 /// The pictures of a scan that move with the eye, one after the other from the same scene. To be made, used and
@@ -47,6 +44,7 @@ public:
     bool hasOpenGl() const;
 
     /// The endoscopic view from `place`, only cells that may be seen drawn; the request's width and height must be set.
+    /// Ambient occlusion is in it as soon as the scan has its openness, which is not waited for.
     /// @param still smoothed; while the eye moves not, and peeled as coarsely as ten pictures a second ask for
     Picture endoscopic(const SnapshotRequest& request, const SnapshotResult& place, bool still,
                        const EndoscopicLook& look = {});
@@ -54,7 +52,7 @@ public:
     /// time.
     void chooseBy(std::shared_ptr<const CellVisibility> visibility);
     /// Counts what the last endoscopic picture shows as seen. Not where it was peeled: the wall is not in it.
-    void countSeen(SeenSoFar& seen);
+    void countSeen(ScanCoverage& seen);
 
     /// The whole colon from the front, and which millimetres its pixels are.
     struct Overview {

@@ -24,19 +24,19 @@ public:
     /// still under way.
     void prepare(const Pose& pose, const Lens& lens);
     /// The choice that was prepared for exactly this pose and lens; otherwise it is made now. Throws as
-    /// CellVisibility::seenFrom() does.
-    SeenParts seenFrom(const Pose& pose, const Lens& lens);
+    /// CellVisibility::visibleFrom() does.
+    VisibleParts visibleFrom(const Pose& pose, const Lens& lens);
     /// Returns when nothing is under way.
     void wait() const;
 
 private:
-    using Choice = std::packaged_task<SeenParts()>;
+    using Choice = std::packaged_task<VisibleParts()>;
     void choose(const std::stop_token& stop);
 
     const CellVisibility& visibility_;
     Pose pose_;
     Lens lens_;
-    std::future<SeenParts> under_way_;
+    std::future<VisibleParts> under_way_;
     std::mutex mutex_;  ///< of what follows
     std::condition_variable_any wanted_;
     Choice next_;

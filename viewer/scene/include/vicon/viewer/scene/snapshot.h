@@ -33,18 +33,18 @@ struct SnapshotRequest {
     double station_mm = 0;             ///< used without `look_at_mm`; beyond the ends: the end
     std::vector<Marker> markers;       ///< drawn where they are in view
     Caption caption;
-    int width = 0;                   ///< pixels, kLeastSide to kMostSide; 0: 1024
-    int height = 0;                  ///< 0: 768, or 1024 for the overview
-    double pixel_ratio = 1;          ///< of the screen that it is shown on; text is as high there as on any other
-    double view_angle_deg = 90;      ///< endo: over the picture's height, 20 to 150
-    bool ambient_occlusion = false;  ///< endo: less light where the wall is less open, see opennessOf()
-    std::string window;              ///< slices: a preset of config/windows.toml; empty: the organ's default
-    double slice_field_mm = 0;       ///< slices: how much to show around the point; 0: the whole scan
-    ViewPoseOptions pose;            ///< endo: where to put the eye
-    std::string peel;                ///< endo: a preset of config/transfer_functions.toml to look below the wall with
-    PeelingOptions peeling;          ///< used with `peel`
-    int peel_coarse = 1;             ///< one ray for a square of so many pixels a side: quicker, while the eye moves
-    bool peel_middle_only = false;   ///< only within a circle; the surface stays around it
+    int width = 0;                  ///< pixels, kLeastSide to kMostSide; 0: 1024
+    int height = 0;                 ///< 0: 768, or 1024 for the overview
+    double pixel_ratio = 1;         ///< of the screen that it is shown on; text is as high there as on any other
+    double view_angle_deg = 90;     ///< endo: over the picture's height, 20 to 150
+    bool ambient_occlusion = true;  ///< endo: less light where the wall is less open, see opennessOf()
+    std::string window;             ///< slices: a preset of config/windows.toml; empty: the organ's default
+    double slice_field_mm = 0;      ///< slices: how much to show around the point; 0: the whole scan
+    ViewPoseOptions pose;           ///< endo: where to put the eye
+    std::string peel;               ///< endo: a preset of config/transfer_functions.toml to look below the wall with
+    PeelingOptions peeling;         ///< used with `peel`
+    int peel_coarse = 1;            ///< one ray for a square of so many pixels a side: quicker, while the eye moves
+    bool peel_middle_only = false;  ///< only within a circle; the surface stays around it
     std::optional<Pixel> peel_circle_at;  ///< its centre; nothing: the middle of the picture
     double peel_circle_px = 0;            ///< its radius; 0: three tenths of the picture's smaller side
 

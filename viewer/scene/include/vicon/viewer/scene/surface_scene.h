@@ -6,12 +6,19 @@
 #include "vicon/scan_files/cells_file.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/overlay.h"
+#include "vicon/viewer/model/path_frames.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/cell_visibility.h"
 
 class vtkRenderer;
 
 namespace vicon::viewer {
+
+/// How far the lamp at the eye reaches, where it has lost half of its strength, in a lumen of usual width.
+constexpr double kUsualLampReach_mm = 45;
+/// The same for the lumen around a station: the wider it is, the farther. The near wall is not burnt out, and the lumen
+/// is readable to some 15 cm.
+double lampReachAt_mm(const PathFrames& path, double station_mm);
 
 /// The colon's surface in a VTK renderer, one actor a cell, lit by a lamp at the eye. Works in any render window: the
 /// reading room puts renderer() into its widget, pictures without a window come from OffscreenSurface.
@@ -30,7 +37,7 @@ public:
     /// Draws only these segments' cells; empty: all.
     void showOnly(const std::vector<int>& segments);
     /// Draws only what CellVisibility found; it must have been made for the same surface.
-    void showSeen(const SeenParts& parts);
+    void showSeen(const VisibleParts& parts);
     /// The next picture, which shows the same, also hands the driver all that it does not show. What is shown for the
     /// first time later costs its picture tens of milliseconds otherwise.
     void sendAll();

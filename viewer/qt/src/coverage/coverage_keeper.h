@@ -10,14 +10,14 @@
 namespace vicon::viewer {
 
 /// Finds what was not seen, and keeps what was: for each reader, in the case's folder.
-class SeenKeeper : public QObject {
+class CoverageKeeper : public QObject {
     Q_OBJECT
 public:
-    explicit SeenKeeper(QObject* parent);
+    explicit CoverageKeeper(QObject* parent);
 
     /// Takes back what this reader had seen of a scan in earlier sessions; on a thread that may read files.
     /// @param scan_folder in the case's folder
-    static void restore(SeenSoFar& seen, const std::filesystem::path& scan_folder);
+    static void restore(ScanCoverage& seen, const std::filesystem::path& scan_folder);
 
     /// found() follows.
     void findUnseen(std::shared_ptr<OpenScan> scan, double least_mm2);

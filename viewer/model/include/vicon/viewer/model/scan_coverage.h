@@ -13,10 +13,10 @@ namespace vicon::viewer {
 /// What of a scan's wall a reader has seen, in passes: what was seen before the present pass is what a reader wants
 /// painted, for on the way back the wall in view would otherwise be painted the moment it is looked at. May be used
 /// from several threads at once.
-class SeenSoFar {
+class ScanCoverage {
 public:
     /// @param areas_mm2 of the surface's triangles, in order
-    explicit SeenSoFar(std::vector<float> areas_mm2);
+    explicit ScanCoverage(std::vector<float> areas_mm2);
 
     void see(const std::vector<std::uint32_t>& triangles);
     void forget();

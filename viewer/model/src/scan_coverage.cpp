@@ -1,4 +1,4 @@
-#include "vicon/viewer/model/seen_so_far.h"
+#include "vicon/viewer/model/scan_coverage.h"
 
 #include <algorithm>
 #include <cstring>
@@ -20,62 +20,62 @@ std::uint64_t checksum(const std::vector<float>& areas)
 
 }  // namespace
 
-SeenSoFar::SeenSoFar(std::vector<float> areas_mm2)
+ScanCoverage::ScanCoverage(std::vector<float> areas_mm2)
     : coverage_({}), earlier_(areas_mm2.size(), 0), surface_(checksum(areas_mm2))
 {
     coverage_ = Coverage(std::move(areas_mm2));
 }
 
-void SeenSoFar::see(const std::vector<std::uint32_t>& triangles)
+void ScanCoverage::see(const std::vector<std::uint32_t>& triangles)
 {
     const std::lock_guard lock(mutex_);
     coverage_.see(triangles);
 }
 
-void SeenSoFar::forget()
+void ScanCoverage::forget()
 {
     const std::lock_guard lock(mutex_);
     coverage_.forget();
     std::fill(earlier_.begin(), earlier_.end(), std::uint8_t(0));
 }
 
-void SeenSoFar::beginPass()
+void ScanCoverage::beginPass()
 {
     const std::lock_guard lock(mutex_);
     for (std::size_t n = 0; n < earlier_.size(); ++n)
         earlier_[n] = coverage_.seen(n) ? 1 : 0;
 }
 
-double SeenSoFar::fraction() const
+double ScanCoverage::fraction() const
 {
     const std::lock_guard lock(mutex_);
     return coverage_.fraction();
 }
 
-double SeenSoFar::seenArea_mm2() const
+double ScanCoverage::seenArea_mm2() const
 {
     const std::lock_guard lock(mutex_);
     return coverage_.seenArea_mm2();
 }
 
-Coverage SeenSoFar::coverage() const
+Coverage ScanCoverage::coverage() const
 {
     const std::lock_guard lock(mutex_);
     return coverage_;
 }
 
-std::vector<std::uint8_t> SeenSoFar::earlier() const
+std::vector<std::uint8_t> ScanCoverage::earlier() const
 {
     const std::lock_guard lock(mutex_);
     return earlier_;
 }
 
-std::string SeenSoFar::header() const
+std::string ScanCoverage::header() const
 {
     return "vicon-seen 1 " + std::to_string(coverage_.triangleCount()) + " " + std::to_string(surface_) + "\n";
 }
 
-std::string SeenSoFar::packed() const
+std::string ScanCoverage::packed() const
 {
     const std::lock_guard lock(mutex_);
     std::string bytes = header();
@@ -87,7 +87,7 @@ std::string SeenSoFar::packed() const
     return bytes;
 }
 
-bool SeenSoFar::unpack(std::string_view bytes)
+bool ScanCoverage::unpack(std::string_view bytes)
 {
     {
         const std::lock_guard lock(mutex_);

@@ -1,4 +1,4 @@
-#include "coverage/seen_keeper.h"
+#include "coverage/coverage_keeper.h"
 
 #include <unistd.h>
 
@@ -16,33 +16,33 @@ std::filesystem::path fileFor(const std::filesystem::path& scan_folder)
 
 }  // namespace
 
-SeenKeeper::SeenKeeper(QObject* parent) : QObject(parent)
+CoverageKeeper::CoverageKeeper(QObject* parent) : QObject(parent)
 {
-    connect(worker_.worker(), &Worker::failed, this, &SeenKeeper::failed);
+    connect(worker_.worker(), &Worker::failed, this, &CoverageKeeper::failed);
 }
 
-void SeenKeeper::restore(SeenSoFar& seen, const std::filesystem::path& scan_folder)
+void CoverageKeeper::restore(ScanCoverage& seen, const std::filesystem::path& scan_folder)
 {
     if (std::error_code none; std::filesystem::exists(fileFor(scan_folder), none))
         seen.unpack(readFile(fileFor(scan_folder)));  // of an older surface: the reader begins anew
 }
 
-void SeenKeeper::findUnseen(std::shared_ptr<OpenScan> scan, double least_mm2)
+void CoverageKeeper::findUnseen(std::shared_ptr<OpenScan> scan, double least_mm2)
 {
     worker_.post("unseen", [this, scan = std::move(scan), least_mm2](Written&) -> Worker::Work {
         UnseenOptions options;
         options.least_area_mm2 = least_mm2;
         const auto& cells = scan->files.cells();
-        auto patches = unseenPatches(cells.points_mm, cells.triangles, scan->seen.coverage(), scan->files.skeleton(),
-                                     scan->files.frames(), scan->lumen, options);
+        auto patches = unseenPatches(cells.points_mm, cells.triangles, scan->coverage.coverage(),
+                                     scan->files.skeleton(), scan->files.frames(), scan->lumen, options);
         return [this, scan, patches = std::move(patches)] { emit found(patches, scan); };
     });
 }
 
-void SeenKeeper::save(std::shared_ptr<OpenScan> scan)
+void CoverageKeeper::save(std::shared_ptr<OpenScan> scan)
 {
     worker_.postAlways([scan = std::move(scan)](Written& written) -> Worker::Work {
-        std::string bytes = scan->seen.packed();
+        std::string bytes = scan->coverage.packed();
         const auto file = fileFor(scan->files.folder());
         if (bytes == written[file] || !std::filesystem::exists(scan->files.folder()))  // the case may have been deleted
             return {};

@@ -12,15 +12,15 @@ namespace vicon::viewer {
 
 /// Which part of the wall a picture shows, by drawing it again with each triangle in a colour of its own. To be made,
 /// used and destroyed on the thread of the pictures.
-class SeenWall {
+class PictureCoverage {
 public:
     /// Throws as IdScene and Offscreen do.
-    explicit SeenWall(const PreparedScan& scan);
-    ~SeenWall();
+    explicit PictureCoverage(const PreparedScan& scan);
+    ~PictureCoverage();
 
     /// The picture that shall be told about.
     /// @param shown what was drawn in it
-    void look(const SeenParts& shown, const Pose& pose, const Lens& lens);
+    void look(const VisibleParts& shown, const Pose& pose, const Lens& lens);
     /// The triangles in it: ascending, each once.
     std::vector<std::uint32_t> triangles() const;
     /// Tints the wall that was seen earlier in `picture`, which must show the same from the same place.

@@ -1,4 +1,4 @@
-#include "vicon/viewer/scene/seen_wall.h"
+#include "vicon/viewer/scene/picture_coverage.h"
 
 #include <algorithm>
 
@@ -20,7 +20,7 @@ std::uint8_t tinted(std::uint8_t brightness, std::uint8_t own, std::uint8_t tint
 
 }  // namespace
 
-struct SeenWall::Parts {
+struct PictureCoverage::Parts {
     IdScene ids;
     Offscreen offscreen;
     Picture picture;
@@ -28,22 +28,22 @@ struct SeenWall::Parts {
     explicit Parts(const PreparedScan& scan) : ids(scan.cells()), offscreen(ids.renderer()) {}
 };
 
-SeenWall::SeenWall(const PreparedScan& scan) : parts_(std::make_unique<Parts>(scan)) {}
-SeenWall::~SeenWall() = default;
+PictureCoverage::PictureCoverage(const PreparedScan& scan) : parts_(std::make_unique<Parts>(scan)) {}
+PictureCoverage::~PictureCoverage() = default;
 
-void SeenWall::look(const SeenParts& shown, const Pose& pose, const Lens& lens)
+void PictureCoverage::look(const VisibleParts& shown, const Pose& pose, const Lens& lens)
 {
     parts_->ids.showSeen(shown);
     parts_->ids.lookFrom(pose, lens.view_angle_deg);
     parts_->picture = parts_->offscreen.render(lens.width, lens.height);
 }
 
-std::vector<std::uint32_t> SeenWall::triangles() const
+std::vector<std::uint32_t> PictureCoverage::triangles() const
 {
     return IdScene::trianglesIn(parts_->picture);
 }
 
-void SeenWall::tint(Picture& picture, const std::vector<std::uint8_t>& earlier) const
+void PictureCoverage::tint(Picture& picture, const std::vector<std::uint8_t>& earlier) const
 {
     const Picture& ids = parts_->picture;
     for (std::size_t n = 0; n < std::min(picture.rgb.size(), ids.rgb.size()); n += 3) {

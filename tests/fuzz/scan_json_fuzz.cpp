@@ -1,0 +1,67 @@
+// Whatever stands in a scan's JSON files - scan.json, subdivision.json, the corrections, the bridges' reviews - it is
+// read as what it means, or refused by an Error.
+#include <fstream>
+
+#include "memory_file.h"
+#include "vicon/cases/bridges.h"
+#include "vicon/cases/corrections.h"
+#include "vicon/cases/step_results.h"
+#include "vicon/core/error.h"
+#include "vicon/core/json_text.h"
+#include "vicon/scan_files/subdivision_file.h"
+
+namespace fs = std::filesystem;
+using namespace vicon;
+
+namespace {
+
+template <class Read>
+void tryTo(Read read)
+{
+    try {
+        read();
+    } catch (const Error&) {
+    }
+}
+
+void readSteps(const nlohmann::json& scan)
+{
+    for (const char* step : {"resample", "segment", "skeleton", "quality", "subdivide", "potential"})
+        tryTo([&] {
+            StepRecord record;
+            record.step = step;
+            record.result = scan.contains("steps") && scan["steps"].is_object() && scan["steps"].contains(step)
+                                ? scan["steps"][step]
+                                : scan;
+            const StepResults results = resultsOf({record});
+            (void)results.warning();
+            (void)results.organ();
+        });
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    static const fuzz::MemoryFile file;
+    static const fs::path folder = [] {
+        const fs::path made = fs::temp_directory_path() / ("vicon-fuzz-scan-" + std::to_string(::getpid()));
+        fs::create_directories(made);
+        return made;
+    }();
+    file.fill(data, size);
+    tryTo([&] { (void)scan_files::readSubdivision(file.path()); });
+    std::ofstream(folder / "corrections.json").write(reinterpret_cast<const char*>(data), std::streamsize(size));
+    tryTo([&] { (void)readCorrections(folder); });
+    const nlohmann::json scan = parsedJson({reinterpret_cast<const char*>(data), size});
+    if (!scan.is_object())
+        return 0;
+    readSteps(scan);
+    try {
+        (void)scan.value("series", nlohmann::json::object()).get<Series>();
+        (void)scan.value("patient", nlohmann::json::object()).get<Patient>();
+        (void)scan.value("study", nlohmann::json::object()).get<Study>();
+    } catch (const nlohmann::json::exception&) {
+    }
+    return 0;
+}

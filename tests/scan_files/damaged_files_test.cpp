@@ -1,0 +1,128 @@
+// A scan's files as nobody should have written them: refused, whatever stands in them, before memory is asked for.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+#include "vicon/scan_files/cells_file.h"
+#include "vicon/scan_files/skeleton_file.h"
+#include "vicon/scan_files/stored_volume.h"
+#include "vicon/scan_files/subdivision_file.h"
+#include "vicon/scan_files/volume_file.h"
+#include "vicon/support/support.h"
+
+namespace vicon::scan_files {
+namespace {
+
+class DamagedFile : public testing::Test {
+protected:
+    void replace(const std::string& what, const std::string& with)
+    {
+        std::string bytes = readFile(file);
+        const auto at = bytes.find(what);
+        ASSERT_NE(at, std::string::npos) << what;
+        replaceFile(file, bytes.replace(at, what.size(), with));
+    }
+    static bool isRefused(const std::function<void()>& read)
+    {
+        try {
+            read();
+        } catch (const Error& e) {
+            return e.code() == ErrorCode::bad_input;
+        }
+        return false;
+    }
+    bool volumeIsRefused() const
+    {
+        return isRefused([&] { readVolume<std::uint8_t>(file); }) &&
+               isRefused([&] { (void)StoredVolume<std::uint8_t>(file); });
+    }
+    void writeSmallVolume(Packing packing)
+    {
+        Grid grid;
+        grid.size = {4, 3, 5};
+        writeVolume(file, Volume<std::uint8_t>(grid, 1), packing);
+        ASSERT_NO_THROW(readVolume<std::uint8_t>(file));
+    }
+
+    support::TemporaryFolder folder;
+    std::filesystem::path file = folder / "file";
+};
+
+struct HeaderChange {
+    Packing packing;
+    const char* what;
+    const char* with;
+};
+
+class DamagedHeader : public DamagedFile, public testing::WithParamInterface<HeaderChange> {};
+
+TEST_P(DamagedHeader, IsRefused)
+{
+    const HeaderChange& change = GetParam();
+    file = folder / "volume.mha";
+    writeSmallVolume(change.packing);
+    replace(change.what, change.with);
+    EXPECT_TRUE(volumeIsRefused()) << change.with;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfAVolume, DamagedHeader,
+    testing::Values(HeaderChange{Packing::zlib, "CompressedDataSize = ", "CompressedDataSize = x"},
+                    HeaderChange{Packing::zlib, "CompressedDataSize = ", "CompressedDataSize = 18446744073709551615"},
+                    HeaderChange{Packing::zlib, "DimSize = 4 3 5", "DimSize = 40000 40000 40000"},
+                    HeaderChange{Packing::raw, "DimSize = 4 3 5", "DimSize = 0 3 5"},
+                    HeaderChange{Packing::raw, "DimSize = 4 3 5", "DimSize = -4 3 -5"},
+                    HeaderChange{Packing::raw, "DimSize = 4 3 5", "DimSize = 65536 65536 4294967296"},
+                    HeaderChange{Packing::raw, "ElementSpacing = 1 1 1", "ElementSpacing = 1 nan 1"},
+                    HeaderChange{Packing::raw, "ElementDataFile = LOCAL", "ElementDataFile = /etc/passwd"}));
+
+CellSurface twoTriangles()
+{
+    CellSurface surface;
+    surface.points_mm = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+    surface.normals = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    surface.triangles = {0, 1, 2, 1, 3, 2};
+    surface.segment = {1, 2};
+    return surface;
+}
+
+TEST_F(DamagedFile, SurfacesWhoseCornersAreNotThereAreRefused)
+{
+    CellSurface surface = twoTriangles();
+    writeCells(file, surface);
+    ASSERT_NO_THROW(readCells(file));
+    surface.triangles[4] = 4;
+    writeCells(file, surface);
+    EXPECT_TRUE(isRefused([&] { readCells(file); }));
+    writeCells(file, twoTriangles());
+    replace("NumberOfPoints=\"4\"", "NumberOfPoints=\"3\"");
+    EXPECT_TRUE(isRefused([&] { readCells(file); }));
+}
+
+TEST_F(DamagedFile, TreesWithoutARootAreRefused)
+{
+    SkeletonTree tree;
+    tree.branches.push_back({-2, 0, {{{0, 0, 0}, 0, 5}, {{0, 0, 3}, 3, 5}}});
+    writeSkeletonTree(file, tree);
+    EXPECT_TRUE(isRefused([&] { readSkeleton(file); }));
+    EXPECT_TRUE(isRefused([&] { readSkeletonTree(file); }));
+}
+
+TEST_F(DamagedFile, SubdivisionsWithoutSenseAreRefused)
+{
+    Subdivision subdivision;
+    subdivision.portals.emplace_back();
+    writeSubdivision(file, subdivision);
+    ASSERT_NO_THROW(readSubdivision(file));
+    replace("\"parameters\": {}", "\"parameters\": " + std::string(1000000, '['));
+    EXPECT_TRUE(isRefused([&] { readSubdivision(file); })) << "too deep to copy";
+    replaceFile(file,
+                R"({"method":"","parameters":{},"statistics":{},"segments":[],"portals":[{"between":[1e300,2]}]})");
+    EXPECT_TRUE(isRefused([&] { readSubdivision(file); })) << "no whole number";
+}
+
+}  // namespace
+}  // namespace vicon::scan_files

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "vicon/viewer/model/lumen.h"
+#include "vicon/viewer/model/path_frames.h"
+
+namespace vicon::viewer {
+
+/// Which way along the path.
+enum class Heading { caecum, rectum };
+
+/// How far a camera on the path looks ahead. Chosen on bent tubes of 8 to 25 mm radius with folds and on a real prone
+/// scan.
+struct LookAheadOptions {
+    double far_radii = 4;      ///< the way on is looked at this many radii ahead at most,
+    double least_far_mm = 30;  ///< but not less than this,
+    double most_far_mm = 80;   ///< and not more
+    double open_deg = 45;      ///< around the way on, what is open draws the view to itself
+    double smoothing_mm = 8;   ///< of path, sigma: so that a fold that is passed does not jerk the view
+};
+
+/// Where a camera that follows the path looks: to where the lumen opens. That is about the farthest place of the path
+/// ahead that is in plain view without a gap before it; where a fold stands before a part of the lumen there, rather
+/// into the open than at the fold's rim. Remembers what it found out about the path; not for several threads
+/// at once.
+class LookAhead {
+public:
+    /// The path, and the voxels of the lumen, must outlive it.
+    LookAhead(const PathFrames& path, const Lumen& lumen, const LookAheadOptions& options = {});
+
+    /// A unit vector. Continuous along the path.
+    /// @param eye_mm at or beside the path at this station
+    Vector3 direction(double station_mm, Point3 eye_mm, Heading heading) const;
+    /// How far ahead along the path the place lies that is in plain view from the path, mm; 0 where the lumen is too
+    /// narrow to look through.
+    double sight_mm(double station_mm, Heading heading) const;
+
+private:
+    struct Node {
+        Vector3 way;  ///< a unit vector; none: not known yet
+        double sight_mm = 0;
+    };
+    const Node& nodeAt(int node, Heading heading) const;
+    Node lookFrom(double station_mm, double sign) const;
+    double sightFrom(const PathFrame& here, double station_mm, double sign) const;
+    Vector3 openFrom(const PathFrame& here, Vector3 way) const;
+
+    const PathFrames* path_;
+    Lumen lumen_;
+    LookAheadOptions options_;
+    mutable std::array<std::vector<Node>, 2> nodes_;  // along the path, by heading
+};
+
+}  // namespace vicon::viewer

@@ -1,0 +1,111 @@
+#include "vicon/viewer/model/look_ahead.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "vicon/viewer/model/peeling.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr double kNode_mm = 2;       // distance of the places from which sights are taken
+constexpr double kFirstLook_mm = 4;  // what is nearer says nothing about the way
+constexpr double kReach = 2.5;       // of the smoothing, in sigmas
+constexpr int kRings = 3, kRaysARing = 12;
+
+}  // namespace
+
+LookAhead::LookAhead(const PathFrames& path, const Lumen& lumen, const LookAheadOptions& options)
+    : path_(&path), lumen_(lumen), options_(options)
+{
+    for (auto& nodes : nodes_)
+        nodes.resize(std::size_t(path.length_mm() / kNode_mm) + 2);
+}
+
+double LookAhead::sightFrom(const PathFrame& here, double station_mm, double sign) const
+{
+    if (here.on_bridge || !lumen_.inside(here.position_mm))
+        return 0;
+    const double most_mm = std::clamp(options_.far_radii * here.radius_mm, options_.least_far_mm, options_.most_far_mm);
+    const double step_mm = std::clamp(here.radius_mm / 4, 2.0, 5.0);
+    double seen_mm = 0;
+    for (double ahead_mm = kFirstLook_mm; ahead_mm <= most_mm; ahead_mm += step_mm) {
+        const double station = station_mm + sign * ahead_mm;
+        if (station < 0 || station > path_->length_mm())
+            break;
+        const PathFrame there = path_->at(station);
+        if (there.on_bridge || !lumen_.sees(here.position_mm, there.position_mm))
+            break;
+        seen_mm = ahead_mm;
+    }
+    return seen_mm;
+}
+
+// The mean of the ways around it, by how far each is free; squared, for that is how much lumen lies there.
+Vector3 LookAhead::openFrom(const PathFrame& here, Vector3 way) const
+{
+    const double most_mm = std::clamp(options_.far_radii * here.radius_mm, options_.least_far_mm, options_.most_far_mm);
+    const Vector3 right = cross(way, here.up), up = cross(right, way);
+    const auto weighted = [&](Vector3 ray) {
+        const double free_mm = distanceToWall_mm(lumen_, here.position_mm, ray, most_mm).value_or(most_mm);
+        return ray * (free_mm * free_mm);
+    };
+    Vector3 sum = weighted(way);
+    for (int ring = 1; ring <= kRings; ++ring)
+        for (int n = 0; n < kRaysARing; ++n) {
+            const double off = radians(options_.open_deg) * ring / kRings;
+            const double turn = 2 * std::numbers::pi * n / kRaysARing;
+            const Vector3 aside = right * std::cos(turn) + up * std::sin(turn);
+            sum += weighted(way * std::cos(off) + aside * std::sin(off));
+        }
+    return length(sum) > 0 ? normalized(sum) : way;
+}
+
+LookAhead::Node LookAhead::lookFrom(double station_mm, double sign) const
+{
+    const PathFrame here = path_->at(station_mm);
+    const double sight_mm = sightFrom(here, station_mm, sign);
+    if (sight_mm == 0)
+        return {here.forward * sign, 0};  // where nothing is in view the path itself leads on
+    const Vector3 way = normalized(path_->at(station_mm + sign * sight_mm).position_mm - here.position_mm);
+    return {openFrom(here, way), sight_mm};
+}
+
+const LookAhead::Node& LookAhead::nodeAt(int node, Heading heading) const
+{
+    std::vector<Node>& nodes = nodes_[heading == Heading::caecum ? 0 : 1];
+    Node& known = nodes[std::size_t(std::clamp(node, 0, int(nodes.size()) - 1))];
+    if (length(known.way) == 0)
+        known = lookFrom(std::min(node * kNode_mm, path_->length_mm()), heading == Heading::caecum ? 1 : -1);
+    return known;
+}
+
+double LookAhead::sight_mm(double station_mm, Heading heading) const
+{
+    return nodeAt(int(std::lround(station_mm / kNode_mm)), heading).sight_mm;
+}
+
+Vector3 LookAhead::direction(double station_mm, Point3 eye_mm, Heading heading) const
+{
+    const double reach_mm = kReach * options_.smoothing_mm;
+    const int first = std::max(0, int(std::ceil((station_mm - reach_mm) / kNode_mm)));
+    const int last = int(std::floor(std::min(station_mm + reach_mm, path_->length_mm()) / kNode_mm));
+    Vector3 ways;
+    double sights = 0, weights = 0;
+    for (int n = first; n <= last; ++n) {
+        const double off = (n * kNode_mm - station_mm) / options_.smoothing_mm, weight = std::exp(-off * off / 2);
+        const Node& node = nodeAt(n, heading);
+        ways += node.way * weight;
+        sights += node.sight_mm * weight;
+        weights += weight;
+    }
+    const PathFrame here = path_->at(station_mm);
+    if (length(ways) == 0)
+        return here.forward * (heading == Heading::caecum ? 1 : -1);
+    // An eye beside the path looks at the same place.
+    const double far_mm = std::max(sights / weights, kFirstLook_mm);
+    return normalized(here.position_mm + normalized(ways) * far_mm - eye_mm);
+}
+
+}  // namespace vicon::viewer
