@@ -49,8 +49,11 @@ TEST(Verdict, HeadHasNoColon)
 
 TEST(Verdict, NeckKneesWaterAndAnEmptyScannerHaveNoColon)
 {
-    for (const auto& [name, density] : {std::pair("neck", test::neckHu), std::pair("knees", test::kneesHu),
-                                        std::pair("water", test::waterHu), std::pair("empty", test::emptyHu)}) {
+    const struct {
+        const char* name;
+        double (*density)(Point3);
+    } scans[] = {{"neck", test::neckHu}, {"knees", test::kneesHu}, {"water", test::waterHu}, {"empty", test::emptyHu}};
+    for (const auto& [name, density] : scans) {
         const Segmentation result = segment(drawn(density));
         EXPECT_EQ(result.verdict, Verdict::absent) << name << ": " << result.reason;
         EXPECT_FALSE(result.reason.empty()) << name;

@@ -129,9 +129,10 @@ TEST_F(Captions, OfMarkersInTheProjectionMakeRoomForTheOnesOfItsParts)
             }
             const auto texts = overviewOverlay(ground, of, request, place).texts;
             for (const OverlayText& text : texts)
-                if (text.text.starts_with("m1") || text.text.starts_with("m2"))
-                    for (const Area& taken : ground.names)
-                        EXPECT_FALSE(touch(textArea(text), taken)) << at.x << ", " << at.y;
+                for (const Area& taken : ground.names)
+                    EXPECT_FALSE((text.text.starts_with("m1") || text.text.starts_with("m2")) &&
+                                 touch(textArea(text), taken))
+                        << at.x << ", " << at.y;
             ASSERT_EQ(texts[texts.size() - 2].text + texts.back().text, "m1m2");
             EXPECT_FALSE(touch(textArea(texts[texts.size() - 2]), textArea(texts.back()))) << "of one place";
             request.markers.clear();

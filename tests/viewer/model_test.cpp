@@ -77,8 +77,8 @@ TEST(Camera, RaysGoThroughThePixelsTheyWereMadeFor)
 TEST(Camera, UprightIsAUnitVectorAcrossEvenWhereTheWishIsAlong)
 {
     for (const Vector3 forward : {Vector3{0, 0, 1}, Vector3{1, 0, 0}, normalized({1, 2, -3})})
-        for (const Vector3 wish : {forward, -forward, Vector3{0, -1, 0}, Vector3{}}) {
-            const Vector3 up = uprightOn(forward, wish);
+        for (const Vector3 wanted : {forward, -forward, Vector3{0, -1, 0}, Vector3{}}) {
+            const Vector3 up = uprightOn(forward, wanted);
             EXPECT_NEAR(length(up), 1, 1e-12);
             EXPECT_NEAR(dot(up, forward), 0, 1e-12);
         }

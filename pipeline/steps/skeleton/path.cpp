@@ -155,38 +155,40 @@ CoarsePath coarsePath(const LumenGraph& graph, std::int32_t from, std::int32_t t
     return best;
 }
 
-/// Voxels in and around the blocks of a stretch of the path, as sorted offsets: the room in which it is refined.
-std::vector<std::size_t> roomAround(const LumenGraph& graph, const FieldVolume& wall_mm, const std::int32_t* node,
-                                    const std::int32_t* end)
+/// Voxels in and around the blocks of a stretch of the path, as sorted offsets, in which it is refined.
+std::vector<std::size_t> neighbourhoodOf(const LumenGraph& graph, const FieldVolume& wall_mm, const std::int32_t* node,
+                                         const std::int32_t* end)
 {
-    std::vector<std::size_t> room;
+    std::vector<std::size_t> neighbourhood;
     const int reach = graph.block + graph.block / 2;
     for (; node != end; ++node)
         forEachInCube(graph.node(*node).voxel, reach, [&](Index3 v) {
             if (wall_mm.valueOr(v, 0) > 0)
-                room.push_back(graph.grid.offset(v));
+                neighbourhood.push_back(graph.grid.offset(v));
         });
-    std::sort(room.begin(), room.end());
-    room.erase(std::unique(room.begin(), room.end()), room.end());
-    return room;
+    std::sort(neighbourhood.begin(), neighbourhood.end());
+    neighbourhood.erase(std::unique(neighbourhood.begin(), neighbourhood.end()), neighbourhood.end());
+    return neighbourhood;
 }
 
-/// The central 26-connected path between two voxels inside a room; without `from` itself.
-std::vector<Index3> refine(const FieldVolume& wall_mm, const std::vector<std::size_t>& room, Index3 from, Index3 to)
+/// The central 26-connected path between two voxels inside a neighbourhood; without `from` itself.
+std::vector<Index3> refine(const FieldVolume& wall_mm, const std::vector<std::size_t>& neighbourhood, Index3 from,
+                           Index3 to)
 {
     const Grid& grid = wall_mm.grid;
     const auto numberOf = [&](Index3 v) {
-        const auto at = std::lower_bound(room.begin(), room.end(), grid.offset(v));
-        return at != room.end() && *at == grid.offset(v) ? std::size_t(at - room.begin()) : room.size();
+        const auto at = std::lower_bound(neighbourhood.begin(), neighbourhood.end(), grid.offset(v));
+        return at != neighbourhood.end() && *at == grid.offset(v) ? std::size_t(at - neighbourhood.begin())
+                                                                  : neighbourhood.size();
     };
     const std::size_t goal = numberOf(to);
-    CheapestWays<CheapestFirstWide> ways(room.size(), numberOf(from));
+    CheapestWays<CheapestFirstWide> ways(neighbourhood.size(), numberOf(from));
     ways.run([&](std::uint32_t n, double) { return n == goal; },
              [&](std::uint32_t n, auto offer) {
-                 const Index3 v = grid.indexOf(room[n]);
+                 const Index3 v = grid.indexOf(neighbourhood[n]);
                  forEachInCube(v, 1, [&](Index3 w) {
-                     const std::size_t m = w != v && grid.contains(w) ? numberOf(w) : room.size();
-                     if (m == room.size())
+                     const std::size_t m = w != v && grid.contains(w) ? numberOf(w) : neighbourhood.size();
+                     if (m == neighbourhood.size())
                          return;
                      const double ratio = 5 / double(wall_mm.at(w));
                      const Index3 by{w.i - v.i, w.j - v.j, w.k - v.k};
@@ -198,7 +200,7 @@ std::vector<Index3> refine(const FieldVolume& wall_mm, const std::vector<std::si
     if (!ways.reaches(goal))
         return path;
     for (const std::size_t n : ways.wayTo(goal))
-        path.push_back(grid.indexOf(room[n]));
+        path.push_back(grid.indexOf(neighbourhood[n]));
     path.erase(path.begin());
     return path;
 }
@@ -208,8 +210,8 @@ std::vector<Index3> refineAll(const FieldVolume& wall_mm, const LumenGraph& grap
     std::vector<std::vector<Index3>> parts((nodes.size() + kChunk - 2) / kChunk);
     tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t p) {
         const std::size_t from = p * kChunk, to = std::min(nodes.size() - 1, from + kChunk);
-        const auto room = roomAround(graph, wall_mm, &nodes[from], &nodes[to] + 1);
-        parts[p] = refine(wall_mm, room, graph.node(nodes[from]).voxel, graph.node(nodes[to]).voxel);
+        const auto neighbourhood = neighbourhoodOf(graph, wall_mm, &nodes[from], &nodes[to] + 1);
+        parts[p] = refine(wall_mm, neighbourhood, graph.node(nodes[from]).voxel, graph.node(nodes[to]).voxel);
     });
     std::vector<Index3> voxels{graph.node(nodes.front()).voxel};
     for (const std::vector<Index3>& part : parts) {

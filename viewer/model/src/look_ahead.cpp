@@ -86,6 +86,14 @@ double LookAhead::sight_mm(double station_mm, Heading heading) const
     return nodeAt(int(std::lround(station_mm / kNode_mm)), heading).sight_mm;
 }
 
+double LookAhead::turn_rad_mm(double station_mm, Heading heading) const
+{
+    const auto look = [&](double station) { return direction(station, path_->at(station).position_mm, heading); };
+    const double before = std::max(0.0, station_mm - kNode_mm / 2);
+    const double after = std::min(path_->length_mm(), station_mm + kNode_mm / 2);
+    return after > before ? std::acos(std::clamp(dot(look(before), look(after)), -1.0, 1.0)) / (after - before) : 0;
+}
+
 Vector3 LookAhead::direction(double station_mm, Point3 eye_mm, Heading heading) const
 {
     const double reach_mm = kReach * options_.smoothing_mm;

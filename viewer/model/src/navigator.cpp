@@ -1,6 +1,7 @@
 #include "vicon/viewer/model/navigator.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "rotation.h"
 
@@ -76,8 +77,7 @@ void Navigator::advance(double seconds)
 {
     switch (mode_) {
         case NavigationMode::planned:
-            station_mm_ =
-                std::clamp(station_mm_ + sign() * direction_ * speed_mm_s_ * seconds, 0.0, path_->length_mm());
+            advancePlanned(seconds);
             break;
         case NavigationMode::guided: {
             Steering steering = steering_;
@@ -91,6 +91,31 @@ void Navigator::advance(double seconds)
             for (; owed_s_ >= Submarine::kTick_s; owed_s_ -= Submarine::kTick_s)
                 tickFree();
             break;
+    }
+}
+
+double Navigator::speedAt_mm_s(double station_mm) const
+{
+    constexpr double kMostTurn_deg_s = 90;  // of the view: what turns faster cannot be read
+    const double turn_rad_mm = ahead_.turn_rad_mm(station_mm, look_back_ ? opposite(heading_) : heading_);
+    return std::clamp(radians(kMostTurn_deg_s) / std::max(turn_rad_mm, 1e-9), kLeastSpeed_mm_s / 2, speed_mm_s_);
+}
+
+// Piece by piece of the path, each at a speed of its own: so that what is reached does not depend on the frame rate.
+void Navigator::advancePlanned(double seconds)
+{
+    constexpr double kPiece_mm = 2, kRounding = 1e-9;
+    const double way = sign() * direction_;
+    while (seconds > 0 && way != 0) {
+        const double place = station_mm_ / kPiece_mm;
+        const double piece = way > 0 ? std::floor(place + kRounding) : std::ceil(place - kRounding);
+        const double next_mm = std::clamp((piece + way) * kPiece_mm, 0.0, path_->length_mm());
+        const double speed_mm_s = speedAt_mm_s((piece + way / 2) * kPiece_mm);
+        const double needed_s = std::abs(next_mm - station_mm_) / speed_mm_s;
+        if (needed_s == 0)
+            return;
+        station_mm_ = needed_s > seconds ? station_mm_ + way * speed_mm_s * seconds : next_mm;
+        seconds -= needed_s;
     }
 }
 

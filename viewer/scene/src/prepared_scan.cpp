@@ -30,34 +30,34 @@ void mustExist(const fs::path& file)
                     "run 'vicon work' and see 'vicon show' for what stopped it");
 }
 
-// Read once, when first asked for; a failed reading is tried again at the next call.
-template <class T>
-class Lazy {
-public:
-    template <class Make>
-    const T& get(Make make)
-    {
-        const std::lock_guard lock(mutex_);
-        if (!value_)
-            value_.emplace(make());
-        return *value_;
-    }
-
-    /// It is there; false also while it is being made.
-    bool known()
-    {
-        const std::unique_lock lock(mutex_, std::try_to_lock);
-        return lock && value_;
-    }
-
-private:
-    std::mutex mutex_;
-    std::optional<T> value_;
-};
-
 }  // namespace
 
 struct PreparedScan::Files {
+    // Read once, when first asked for; a failed reading is tried again at the next call.
+    template <class T>
+    class Lazy {
+    public:
+        template <class Make>
+        const T& get(Make make)
+        {
+            const std::lock_guard lock(mutex_);
+            if (!value_)
+                value_.emplace(make());
+            return *value_;
+        }
+
+        /// It is there; false also while it is being made.
+        bool known()
+        {
+            const std::unique_lock lock(mutex_, std::try_to_lock);
+            return lock && value_;
+        }
+
+    private:
+        std::mutex mutex_;
+        std::optional<T> value_;
+    };
+
     fs::path folder;
     Lazy<scan_files::StoredVolume<std::int16_t>> volume;
     Lazy<scan_files::StoredVolume<std::uint8_t>> inside;

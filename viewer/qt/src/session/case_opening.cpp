@@ -45,7 +45,7 @@ void CaseSession::open(const std::string& scan_id, bool fresh, int branch)
         return;
     }
     if (stop_opening_)
-        *stop_opening_ = true;  // of an earlier wish
+        *stop_opening_ = true;  // of an earlier request
     stop_opening_ = std::make_shared<std::atomic<bool>>(false);
     const auto take = [this](std::shared_ptr<OpenScan> made) {
         if (made->record.id != wanted_scan_)

@@ -33,6 +33,8 @@ public:
     /// A unit vector. Continuous along the path.
     /// @param eye_mm at or beside the path at this station
     Vector3 direction(double station_mm, Point3 eye_mm, Heading heading) const;
+    /// How much the view turns there for a millimetre of path, radians.
+    double turn_rad_mm(double station_mm, Heading heading) const;
     /// How far ahead along the path the place lies that is in plain view from the path, mm; 0 where the lumen is too
     /// narrow to look through.
     double sight_mm(double station_mm, Heading heading) const;

@@ -34,7 +34,8 @@ public:
     /// Turns the view about without changing the way of flight; planned only.
     void setLookBack(bool on) { look_back_ = on; }
     double speed_mm_s() const { return speed_mm_s_; }
-    /// Planned; clamped to the least and the most.
+    /// Planned, on a straight way; in bends the flight is slower, so that the view turns by 90 degrees a second at
+    /// most. Clamped to the least and the most.
     void setSpeed(double mm_s);
     /// 1 along the heading, -1 backwards, 0 stop; planned and guided.
     void fly(int direction) { direction_ = direction; }
@@ -53,6 +54,8 @@ public:
     NavigationState state() const;
 
 private:
+    void advancePlanned(double seconds);
+    double speedAt_mm_s(double station_mm) const;
     void tickFree();
     Pose poseHere() const;
     double sign() const { return heading_ == Heading::caecum ? 1 : -1; }
