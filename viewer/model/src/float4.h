@@ -36,7 +36,7 @@ inline Float4 toFloat4(Int4 a)
 inline Int4 floorOf(Float4 a)
 {
     const Int4 cut = __builtin_convertvector(a, Int4);  // towards 0
-    return cut + (toFloat4(cut) > a);                             // what holds is -1
+    return cut + (toFloat4(cut) > a);                   // what holds is -1
 }
 
 /// Of numbers that are 0 or -1, as comparisons make them.
