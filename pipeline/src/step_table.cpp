@@ -256,12 +256,11 @@ json runPotential(const StepInputs& inputs, ScanResults& results, const StepReco
     return toJson(found);
 }
 
-}  // namespace
-
-const std::vector<Step>& stepTable()
+/// What lies where: volume, lumen, tissue, centreline.
+std::vector<Step> stepsOfLumen()
 {
     using namespace steps;
-    static const std::vector<Step> kTable = {
+    return {
         {"resample",
          2,
          0,
@@ -298,6 +297,14 @@ const std::vector<Step>& stepTable()
          always({"skeleton.vtp", "skeleton_voxels.vtp"}),
          parametersByOrgan<SkeletonOptions, SkeletonOptions>,
          runSkeleton},
+    };
+}
+
+/// What is made of them.
+std::vector<Step> stepsOfResults()
+{
+    using namespace steps;
+    return {
         {"quality",
          2,
          0.65,
@@ -327,6 +334,18 @@ const std::vector<Step>& stepTable()
          parametersFrom<WallOptions, WallDensities>,
          runPotential},
     };
+}
+
+}  // namespace
+
+const std::vector<Step>& stepTable()
+{
+    static const std::vector<Step> kTable = [] {
+        std::vector<Step> all = stepsOfLumen();
+        const std::vector<Step> rest = stepsOfResults();
+        all.insert(all.end(), rest.begin(), rest.end());
+        return all;
+    }();
     return kTable;
 }
 
