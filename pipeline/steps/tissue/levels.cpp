@@ -107,7 +107,7 @@ private:
     struct CellKey {
         std::uint32_t patch;
         int a, b;
-        auto operator<=>(const CellKey&) const = default;
+        auto operator<=>(const CellKey&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs here
     };
     struct Cell {
         std::vector<float> sigmas;

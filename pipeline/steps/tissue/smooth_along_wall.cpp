@@ -73,7 +73,7 @@ private:
 
 void smoothAlongWall(double noise, TissueVolume& tissue)
 {
-    const auto [nx, ny, nz] = tissue.grid.size;
+    const int nx = tissue.grid.size[0], ny = tissue.grid.size[1], nz = tissue.grid.size[2];
     // Slabs of slices, so that a pass needs little memory beside the volume itself.
     constexpr int kSlab = 32;
     const Smoothing smoothing(noise, tissue);
@@ -82,7 +82,7 @@ void smoothAlongWall(double noise, TissueVolume& tissue)
         std::vector<std::uint8_t> last, slab(slice * kSlab);
         for (int first = 1; first < nz - 1; first += kSlab) {
             const int count = std::min(kSlab, nz - 1 - first);
-            tbb::parallel_for(0, count, [&, nx = nx, ny = ny](int n) {
+            tbb::parallel_for(0, count, [&](int n) {
                 std::vector<std::uint8_t> values(static_cast<std::size_t>(nx));
                 for (int j = 1; j < ny - 1; ++j) {
                     smoothing.smoothRow(j, first + n, values);
