@@ -6,6 +6,7 @@
 #include "job_rows.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/scan_files/description_file.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -223,7 +224,7 @@ json CaseStore::describeScan(const std::string& case_id, const std::string& scan
 
 void CaseStore::writeScanFile(const std::string& case_id, const std::string& scan_id)
 {
-    replaceFile(scanFolder(case_id, scan_id) / "scan.json", describeScan(case_id, scan_id).dump(2) + "\n");
+    scan_files::writeDescription(scanFolder(case_id, scan_id), describeScan(case_id, scan_id));
 }
 
 int CaseStore::nextNumber(const std::string& name)

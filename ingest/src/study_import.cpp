@@ -16,6 +16,7 @@
 #include "vicon/cases/said_of_scan.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/scan_files/description_file.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -369,8 +370,7 @@ void StudyImport::store(Assembled& scan)
         store_.addScan(case_, scan.record, instances,
                        !scan.fixed && scan.record.role == ScanRole::scan && (grew || new_role),
                        [&] { requireUnspoken(scan); });
-    else if (const fs::path file = folder.parent_path() / "scan.json";
-             !fs::exists(file) || readFile(file) != store_.describeScan(case_.id, scan.record.id).dump(2) + "\n")
+    else if (!scan_files::isDescribedBy(folder.parent_path(), store_.describeScan(case_.id, scan.record.id)))
         store_.writeScanFile(case_.id, scan.record.id);  // killed between the commit and the copy
     for (const fs::path& file : moved) {
         std::error_code ignored;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "vicon/core/file.h"
+#include "vicon/core/json_text.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -34,7 +35,7 @@ Trial readTrial(const fs::path& folder)
     Trial trial;
     if (!fs::exists(folder / kName))
         return trial;
-    const json content = json::parse(readFile(folder / kName), nullptr, false);
+    const json content = parsedJson(readFile(folder / kName));
     if (!content.is_object())
         return trial;
     for (const json& file : content.value("files", json::array()))

@@ -57,17 +57,16 @@ void cutShort(Skeleton& path)
         points.pop_back();
 }
 
-/// What `app` does with corrections and bridges, without its pipeline: the queue's work is to write the scan anew, of
-/// larger voxels; where it was cut, the way is shorter.
-void addCorrections(ReadingServices& services)
+/// What a reader said.
+struct Said {
+    std::mutex mutex;
+    std::string queued;  // the scan
+    std::map<std::string, Corrections> corrections;
+    std::optional<BridgeReview> review;
+};
+
+void addCorrections(ReadingServices& services, const std::shared_ptr<Said>& state)
 {
-    struct State {
-        std::mutex mutex;
-        std::string queued;  // the scan
-        std::map<std::string, Corrections> corrections;
-        std::optional<BridgeReview> review;
-    };
-    const auto state = std::make_shared<State>();
     services.corrections = [state](CaseStore&, const ScanRecord& scan) {
         const std::lock_guard lock(state->mutex);
         return state->corrections[scan.id];
@@ -77,6 +76,10 @@ void addCorrections(ReadingServices& services)
         state->corrections[scan.id] = all;
         state->queued = scan.id;
     };
+}
+
+void addBridges(ReadingServices& services, const std::shared_ptr<Said>& state)
+{
     services.bridges = [state](CaseStore& store, const ScanRecord& scan) {
         const Skeleton path = scan_files::readSkeleton(store.scanFolder(scan.case_id, scan.id) / "skeleton.vtp");
         const std::lock_guard lock(state->mutex);
@@ -91,6 +94,12 @@ void addCorrections(ReadingServices& services)
             state->review->at = "2026-01-03";
         }
     };
+}
+
+/// The queue's work, without a pipeline: the scan is written anew, of larger voxels; where it was cut, the way is
+/// shorter.
+void addWork(ReadingServices& services, const std::shared_ptr<Said>& state)
+{
     services.work = [state](CaseStore& store, const std::atomic<bool>&) {
         constexpr double kCoarser_mm = 3;
         std::string scan;
@@ -117,6 +126,10 @@ void addCorrections(ReadingServices& services)
                     scan.state = WorkState::running;
         return rows;
     };
+}
+
+void addMarkerFiles(ReadingServices& services)
+{
     services.import_markers = [place = services.place](CaseStore& store, const std::string& case_id,
                                                        const fs::path& file) {
         std::vector<MarkerEdit> edits;
@@ -168,7 +181,11 @@ ReadingServices servicesFor(const fs::path& folder)
         replaceFile(file, "a report");
         return file;
     };
-    addCorrections(services);
+    const auto said = std::make_shared<Said>();
+    addCorrections(services, said);
+    addBridges(services, said);
+    addWork(services, said);
+    addMarkerFiles(services);
     return services;
 }
 

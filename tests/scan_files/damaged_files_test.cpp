@@ -7,6 +7,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/scan_files/cells_file.h"
+#include "vicon/scan_files/description_file.h"
 #include "vicon/scan_files/skeleton_file.h"
 #include "vicon/scan_files/stored_volume.h"
 #include "vicon/scan_files/subdivision_file.h"
@@ -122,6 +123,20 @@ TEST_F(DamagedFile, SubdivisionsWithoutSenseAreRefused)
     replaceFile(file,
                 R"({"method":"","parameters":{},"statistics":{},"segments":[],"portals":[{"between":[1e300,2]}]})");
     EXPECT_TRUE(isRefused([&] { readSubdivision(file); })) << "no whole number";
+}
+
+TEST_F(DamagedFile, DescriptionsThatAreNoneAreRefused)
+{
+    EXPECT_TRUE(readDescription(folder.path()).empty()) << "none was written yet";
+    const nlohmann::json description = {{"organ", "colon"}, {"parts", nlohmann::json::array()}};
+    writeDescription(folder.path(), description);
+    EXPECT_EQ(readDescription(folder.path()), description);
+    EXPECT_TRUE(isDescribedBy(folder.path(), description));
+    EXPECT_FALSE(isDescribedBy(folder.path(), {{"organ", "aorta"}}));
+    for (const std::string& text : {std::string("{"), std::string("[]"), "{\"organ\":" + std::string(1000000, '[')}) {
+        replaceFile(folder / "scan.json", text);
+        EXPECT_TRUE(isRefused([&] { readDescription(folder.path()); })) << text.substr(0, 20);
+    }
 }
 
 }  // namespace

@@ -23,11 +23,16 @@ LookAhead::LookAhead(const PathFrames& path, const Lumen& lumen, const LookAhead
         nodes.resize(std::size_t(path.length_mm() / kNode_mm) + 2);
 }
 
+double LookAhead::farthest_mm(const PathFrame& here) const
+{
+    return std::clamp(options_.far_radii * here.radius_mm, options_.least_far_mm, options_.most_far_mm);
+}
+
 double LookAhead::sightFrom(const PathFrame& here, double station_mm, double sign) const
 {
     if (here.on_bridge || !lumen_.inside(here.position_mm))
         return 0;
-    const double most_mm = std::clamp(options_.far_radii * here.radius_mm, options_.least_far_mm, options_.most_far_mm);
+    const double most_mm = farthest_mm(here);
     const double step_mm = std::clamp(here.radius_mm / 4, 2.0, 5.0);
     double seen_mm = 0;
     for (double ahead_mm = kFirstLook_mm; ahead_mm <= most_mm; ahead_mm += step_mm) {
@@ -45,7 +50,7 @@ double LookAhead::sightFrom(const PathFrame& here, double station_mm, double sig
 // The mean of the ways around it, by how far each is free; squared, for that is how much lumen lies there.
 Vector3 LookAhead::openFrom(const PathFrame& here, Vector3 way) const
 {
-    const double most_mm = std::clamp(options_.far_radii * here.radius_mm, options_.least_far_mm, options_.most_far_mm);
+    const double most_mm = farthest_mm(here);
     const Vector3 right = cross(way, here.up), up = cross(right, way);
     const auto weighted = [&](Vector3 ray) {
         const double free_mm = distanceToWall_mm(lumen_, here.position_mm, ray, most_mm).value_or(most_mm);

@@ -9,6 +9,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/scan_files/cells_file.h"
+#include "vicon/scan_files/description_file.h"
 #include "vicon/scan_files/projections_file.h"
 #include "vicon/scan_files/skeleton_file.h"
 #include "vicon/scan_files/stored_volume.h"
@@ -94,16 +95,17 @@ struct PreparedScan::Files {
         return exit_distance.get([&] { return scan_files::StoredVolume<float>(at("exit_distance.mha")); });
     }
 
-    /// scan.json; an empty object where there is none.
-    nlohmann::json description() const
+    /// What is made of scan.json.
+    template <class Make>
+    auto described(Make make) const
     {
-        const fs::path file = folder / "scan.json";
-        if (!fs::exists(file))
-            return nlohmann::json::object();
-        auto scan = nlohmann::json::parse(readFile(file), nullptr, false);
-        if (!scan.is_object())
-            throw Error(ErrorCode::bad_input, "is not the description of a scan", file.string(), "run 'vicon work'");
-        return scan;
+        const nlohmann::json description = scan_files::readDescription(folder);
+        try {
+            return make(description);
+        } catch (const nlohmann::json::exception&) {
+            throw Error(ErrorCode::bad_input, "is not the description of a scan", (folder / "scan.json").string(),
+                        "run 'vicon work'");
+        }
     }
 };
 
@@ -213,13 +215,18 @@ const PathFrames& PreparedScan::frames() const
 
 const ColonPartRanges& PreparedScan::parts() const
 {
-    return files_->parts.get(
-        [&] { return colonPartsFromJson(files_->description().value("parts", nlohmann::json::array())); });
+    return files_->parts.get([&] {
+        return files_->described([](const nlohmann::json& scan) {
+            return colonPartsFromJson(scan.value("parts", nlohmann::json::array()));
+        });
+    });
 }
 
 const OrganWords& PreparedScan::words() const
 {
-    return files_->words.get([&] { return wordsFor(files_->description().value("organ", "colon")); });
+    return files_->words.get([&] {
+        return files_->described([](const nlohmann::json& scan) { return wordsFor(scan.value("organ", "colon")); });
+    });
 }
 
 const DensityBricks& PreparedScan::bricks() const

@@ -21,13 +21,6 @@ Corrector::~Corrector()
     *stop_ = true;
 }
 
-CaseStore& Corrector::Books::store()
-{
-    if (!opened)
-        opened = std::make_unique<CaseStore>(store_folder);
-    return *opened;
-}
-
 void Corrector::change(const QString& said, Change what)
 {
     books_.postAlways([this, said, what = std::move(what)](Books& books) -> Worker::Work {

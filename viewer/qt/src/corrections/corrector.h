@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "corrections/correction_history.h"
+#include "session/own_store.h"
 #include "vicon/viewer/qt/reading_room.h"
 #include "widgets/worker_with.h"
 
@@ -47,11 +48,9 @@ signals:
 private:
     /// What is in the database, and what this reader did to it.
     struct Books {
-        explicit Books(const ReadingServices& services) : store_folder(services.store), history(services) {}
-        CaseStore& store();  ///< opened when it is first asked for
+        explicit Books(const ReadingServices& services) : store(services.store), history(services) {}
 
-        std::filesystem::path store_folder;
-        std::unique_ptr<CaseStore> opened;
+        OwnStore store;
         CorrectionHistory history;
     };
     using Change = std::function<CorrectionHistory::Step(CorrectionHistory&, CaseStore&)>;

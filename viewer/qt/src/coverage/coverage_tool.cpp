@@ -73,8 +73,7 @@ QVariantMap CoverageTool::kept() const
 
 void CoverageTool::useWords(const OrganWords& words)
 {
-    panel_->setStationTip(tr("Distance from the %1 along the %2")
-                              .arg(QString::fromStdString(words.first_end), QString::fromStdString(words.organ)));
+    panel_->setStationTip(stationTip(words));
 }
 
 void CoverageTool::scanOpened(const Arrival&)

@@ -59,8 +59,7 @@ void MarkerTool::connectTable()
 
 void MarkerTool::useWords(const OrganWords& words)
 {
-    table_->setStationTip(tr("Distance from the %1 along the %2")
-                              .arg(QString::fromStdString(words.first_end), QString::fromStdString(words.organ)));
+    table_->setStationTip(stationTip(words));
 }
 
 void MarkerTool::scanOpened(const Arrival& arrival)

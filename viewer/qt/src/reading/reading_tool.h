@@ -81,6 +81,13 @@ public:
     virtual void stop() {}
 
 protected:
+    /// What a list's column of stations means.
+    static QString stationTip(const OrganWords& words)
+    {
+        return tr("Distance from the %1 along the %2")
+            .arg(QString::fromStdString(words.first_end), QString::fromStdString(words.organ));
+    }
+
     Reading& reading_;
 };
 

@@ -56,13 +56,6 @@ std::string CaseSession::wordsFor(CaseStore& store, const Error& error) const
     return error.what();
 }
 
-CaseStore& CaseSession::Books::store()
-{
-    if (!opened)
-        opened = std::make_unique<CaseStore>(store_folder);
-    return *opened;
-}
-
 std::vector<Marker> CaseSession::markersOf(const std::string& scan_id) const
 {
     std::vector<Marker> some;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "session/open_scan.h"
+#include "session/own_store.h"
 #include "vicon/cases/density_sample.h"
 #include "vicon/viewer/model/marker_history.h"
 #include "vicon/viewer/model/plane_size.h"
@@ -106,14 +107,9 @@ signals:
 private:
     /// What is in the database, and what this reader did to it.
     struct Books {
-        Books(std::filesystem::path folder, const std::string& case_id)
-            : store_folder(std::move(folder)), history(case_id)
-        {
-        }
-        CaseStore& store();  ///< opened when it is first asked for
+        Books(std::filesystem::path folder, const std::string& case_id) : store(std::move(folder)), history(case_id) {}
 
-        std::filesystem::path store_folder;
-        std::unique_ptr<CaseStore> opened;
+        OwnStore store;
         MarkerHistory history;
         bool skeleton_is_new = false;  ///< what the history remembers has stations of an older one
     };

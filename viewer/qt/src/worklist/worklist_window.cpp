@@ -267,13 +267,6 @@ void WorklistWindow::openSelected()
         open(*row);
 }
 
-CaseStore& WorklistWindow::Books::store()
-{
-    if (!opened)
-        opened = std::make_unique<CaseStore>(store_folder);
-    return *opened;
-}
-
 WorklistWindow::~WorklistWindow()
 {
     for (const auto& window : made_)

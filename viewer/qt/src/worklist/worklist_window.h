@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "session/own_store.h"
 #include "vicon/viewer/qt/reading_room.h"
 #include "widgets/worker_with.h"
 
@@ -31,11 +32,9 @@ public:
 private:
     /// What the list is read from, and which state of it was read last.
     struct Books {
-        explicit Books(std::filesystem::path folder) : store_folder(std::move(folder)) {}
-        CaseStore& store();  ///< opened when it is first asked for
+        explicit Books(std::filesystem::path folder) : store(std::move(folder)) {}
 
-        std::filesystem::path store_folder;
-        std::unique_ptr<CaseStore> opened;
+        OwnStore store;
         std::optional<std::string> version;
     };
     void buildControls();

@@ -46,6 +46,7 @@ private:
     };
     const Node& nodeAt(int node, Heading heading) const;
     Node lookFrom(double station_mm, double sign) const;
+    double farthest_mm(const PathFrame& here) const;  ///< that is looked at
     double sightFrom(const PathFrame& here, double station_mm, double sign) const;
     Vector3 openFrom(const PathFrame& here, Vector3 way) const;
 

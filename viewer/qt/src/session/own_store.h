@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "vicon/cases/case_store.h"
+
+namespace vicon::viewer {
+
+/// A thread's own connection to the store, opened when it is first asked for.
+class OwnStore {
+public:
+    explicit OwnStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    CaseStore& operator()()
+    {
+        if (!opened_)
+            opened_ = std::make_unique<CaseStore>(folder_);
+        return *opened_;
+    }
+
+private:
+    std::filesystem::path folder_;
+    std::unique_ptr<CaseStore> opened_;
+};
+
+}  // namespace vicon::viewer
