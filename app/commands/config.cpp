@@ -3,6 +3,7 @@
 #include "../command.h"
 #include "../text_table.h"
 #include "vicon/cases/placing.h"
+#include "vicon/cases/report_versions.h"
 #include "vicon/ingest/import.h"
 #include "vicon/ingest/receiver.h"
 #include "vicon/pipeline/scan_work.h"
@@ -48,6 +49,7 @@ Config declaredConfig()
     config.declare(specsOf<pipeline::WorkOptions>());
     config.declare(specsOf<MarkOptions>());
     config.declare(specsOf<report::ReportOptions>());
+    config.declare(specsOf<SigningOptions>());
     return config;
 }
 

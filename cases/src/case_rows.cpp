@@ -1,5 +1,6 @@
 #include "case_rows.h"
 
+#include "this_person.h"
 #include "vicon/core/file.h"
 
 using nlohmann::json;
@@ -87,9 +88,16 @@ void putInstances(soci::session& sql, const std::vector<InstanceRecord>& instanc
 void putAudit(soci::session& sql, const std::string& event, const std::string& case_id, const std::string& scan_id,
               const std::string& detail)
 {
-    const std::string now = nowUtc();
-    sql << "INSERT INTO audit (at, event, case_id, scan_id, detail) VALUES (:at, :event, :case, :scan, :detail)",
-        soci::use(now), soci::use(event), soci::use(case_id), soci::use(scan_id), soci::use(detail);
+    putAudit(sql, {event, case_id, scan_id, detail, "", ""});
+}
+
+void putAudit(soci::session& sql, const AuditedChange& change)
+{
+    const std::string now = nowUtc(), person = thisPerson();
+    sql << "INSERT INTO audit (at, person, event, case_id, scan_id, detail, old_value, new_value)"
+           " VALUES (:at, :person, :event, :case, :scan, :detail, :old, :new)",
+        soci::use(now), soci::use(person), soci::use(change.event), soci::use(change.case_id),
+        soci::use(change.scan_id), soci::use(change.subject), soci::use(change.before), soci::use(change.after);
 }
 
 int takeNumber(soci::session& sql, const std::string& name)

@@ -81,17 +81,19 @@ public:
             marker.created = marker.changed;
         if (marker.id.empty())
             marker.id = "m" + std::to_string(takeNumber(sql_, "marker " + case_id_));
+        const auto before = find(marker.id);
         const std::string content = toJson(marker).dump();
         sql_ << "INSERT INTO markers (case_id, id, scan_id, content) VALUES (:case, :id, :scan, :content)"
                 " ON CONFLICT (case_id, id) DO UPDATE SET scan_id = excluded.scan_id, content = excluded.content",
             soci::use(case_id_), soci::use(marker.id), soci::use(marker.scan_id), soci::use(content);
-        putAudit(sql_, "marker saved", case_id_, marker.scan_id, marker.id);
+        putAudit(sql_,
+                 {"marker saved", case_id_, marker.scan_id, marker.id, before ? toJson(*before).dump() : "", content});
     }
 
     void remove(const Marker& marker)
     {
         sql_ << "DELETE FROM markers WHERE case_id = :c AND id = :id", soci::use(case_id_), soci::use(marker.id);
-        putAudit(sql_, "marker removed", case_id_, marker.scan_id, marker.id);
+        putAudit(sql_, {"marker removed", case_id_, marker.scan_id, marker.id, toJson(marker).dump(), ""});
     }
 
     void apply(MarkerEdit& edit)

@@ -42,8 +42,32 @@ const std::vector<std::vector<const char*>> kMigrations = {
         "CREATE TABLE audit (at TEXT NOT NULL, event TEXT NOT NULL, case_id TEXT NOT NULL, scan_id TEXT NOT NULL,"
         " detail TEXT NOT NULL)",
     },
+    {
+        // What a person said, and what was signed: neither is ever rewritten.
+        "ALTER TABLE audit ADD COLUMN person TEXT NOT NULL DEFAULT ''",
+        "ALTER TABLE audit ADD COLUMN old_value TEXT NOT NULL DEFAULT ''",
+        "ALTER TABLE audit ADD COLUMN new_value TEXT NOT NULL DEFAULT ''",
+        "CREATE INDEX audit_case ON audit (case_id)",
+        "CREATE TRIGGER audit_is_not_changed BEFORE UPDATE ON audit"
+        " BEGIN SELECT RAISE(ABORT, 'the audit trail is only appended to'); END",
+        "CREATE TRIGGER audit_is_not_deleted BEFORE DELETE ON audit"
+        " BEGIN SELECT RAISE(ABORT, 'the audit trail is only appended to'); END",
+        "CREATE TABLE findings (case_id TEXT NOT NULL, id TEXT NOT NULL, content TEXT NOT NULL,"
+        " PRIMARY KEY (case_id, id))",
+        "CREATE TABLE assessments (case_id TEXT PRIMARY KEY, content TEXT NOT NULL)",
+        "CREATE TABLE report_versions (case_id TEXT NOT NULL, version INTEGER NOT NULL, state TEXT NOT NULL,"
+        " replaces INTEGER NOT NULL, reason TEXT NOT NULL, person TEXT NOT NULL, at TEXT NOT NULL,"
+        " software TEXT NOT NULL, digest TEXT NOT NULL, content TEXT NOT NULL, file TEXT NOT NULL,"
+        " file_sha256 TEXT NOT NULL, PRIMARY KEY (case_id, version))",
+        "CREATE TRIGGER report_versions_are_not_changed BEFORE UPDATE ON report_versions"
+        " BEGIN SELECT RAISE(ABORT, 'a version of a report never changes'); END",
+        "CREATE TRIGGER report_versions_are_not_deleted BEFORE DELETE ON report_versions"
+        " BEGIN SELECT RAISE(ABORT, 'a version of a report never changes'); END",
+        "CREATE TABLE amendments (case_id TEXT PRIMARY KEY, reason TEXT NOT NULL, person TEXT NOT NULL,"
+        " at TEXT NOT NULL)",
+    },
 };
-static_assert(Database::kSchemaVersion == 1, "add a migration for every version");
+static_assert(Database::kSchemaVersion == 2, "add a migration for every version");
 
 /// In the reader's words where one can do something about it.
 Error refusal(const soci::soci_error& e)

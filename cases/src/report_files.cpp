@@ -7,18 +7,20 @@
 namespace fs = std::filesystem;
 
 namespace vicon {
-namespace {
 
-fs::path folderOf(const CaseStore& store, const std::string& case_id)
+fs::path reportFolder(const CaseStore& store, const std::string& case_id)
 {
     return store.caseFolder(case_id) / "report";
 }
 
-}  // namespace
+std::string versionName(int version)
+{
+    return "version-" + std::to_string(version) + ".pdf";
+}
 
 fs::path reportFile(CaseStore& store, const std::string& case_id, int number)
 {
-    const fs::path folder = folderOf(store, case_id);
+    const fs::path folder = reportFolder(store, case_id);
     makePrivateFolder(folder);
     return folder / (std::to_string(number) + ".pdf");
 }
@@ -27,7 +29,7 @@ int countReports(const CaseStore& store, const std::string& case_id)
 {
     std::error_code none;
     int count = 0;
-    for (const auto& entry : fs::directory_iterator(folderOf(store, case_id), none))
+    for (const auto& entry : fs::directory_iterator(reportFolder(store, case_id), none))
         count += entry.path().extension() == ".pdf" ? 1 : 0;
     return count;
 }

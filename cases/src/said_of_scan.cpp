@@ -36,10 +36,12 @@ bool hasMarkers(CaseStore& store, const ScanRecord& scan)
 
 bool hasReport(CaseStore& store, const std::string& case_id)
 {
-    int reports = 0;
+    int reports = 0, versions = 0;
     store.database().session() << "SELECT COUNT(*) FROM audit WHERE event = 'report written' AND case_id = :c",
         soci::use(case_id), soci::into(reports);
-    return reports > 0;
+    store.database().session() << "SELECT COUNT(*) FROM report_versions WHERE case_id = :c", soci::use(case_id),
+        soci::into(versions);
+    return reports + versions > 0;
 }
 
 }  // namespace

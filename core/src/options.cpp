@@ -26,8 +26,17 @@ std::size_t editDistance(const std::string& a, const std::string& b)
     return row.back();
 }
 
-std::string typeName(const nlohmann::json& value)
+/// A list of texts has no unit; one of points has.
+bool isListOfTexts(const OptionSpec& spec)
 {
+    return spec.default_value.is_array() && spec.unit.empty();
+}
+
+std::string typeName(const OptionSpec& spec)
+{
+    const nlohmann::json& value = spec.default_value;
+    if (isListOfTexts(spec))
+        return "a list of texts: [\"one\", \"two\"], or \"one,two\"";
     if (value.is_boolean())
         return "true or false";
     if (value.is_number_integer())
@@ -79,18 +88,40 @@ nlohmann::json pointsFrom(const std::string& text)
     return points;
 }
 
-nlohmann::json fromText(const std::string& text, const nlohmann::json& like)
+/// Texts from "one,two", without the blanks around them.
+nlohmann::json textsFrom(const std::string& text)
 {
-    if (like.is_string())
+    constexpr const char* kBlanks = " \t";
+    nlohmann::json texts = nlohmann::json::array();
+    std::istringstream list(text);
+    for (std::string entry; std::getline(list, entry, ',');)
+        if (const auto from = entry.find_first_not_of(kBlanks); from != std::string::npos)
+            texts.push_back(entry.substr(from, entry.find_last_not_of(kBlanks) - from + 1));
+    return texts;
+}
+
+/// A list from its text on one line; another text as it is.
+nlohmann::json listFrom(const std::string& text, const OptionSpec& spec)
+{
+    return isListOfTexts(spec) ? textsFrom(text) : pointsFrom(text);
+}
+
+nlohmann::json fromText(const std::string& text, const OptionSpec& spec)
+{
+    if (spec.default_value.is_string())
         return text;
     const auto parsed = nlohmann::json::parse(text, nullptr, false);
-    if (like.is_array() && !parsed.is_array())
-        return pointsFrom(text);
+    if (spec.default_value.is_array() && !parsed.is_array())
+        return listFrom(text, spec);
     return parsed.is_discarded() ? nlohmann::json(text) : parsed;
 }
 
-bool sameKind(const nlohmann::json& value, const nlohmann::json& like)
+bool sameKind(const nlohmann::json& value, const OptionSpec& spec)
 {
+    const nlohmann::json& like = spec.default_value;
+    if (isListOfTexts(spec))
+        return value.is_array() &&
+               std::all_of(value.begin(), value.end(), [](const auto& entry) { return entry.is_string(); });
     if (like.is_boolean())
         return value.is_boolean();
     if (like.is_number_integer())
@@ -140,9 +171,9 @@ void Config::assign(const std::string& key, nlohmann::json value, const std::str
 {
     const OptionSpec& spec = specFor(key, source);
     if (spec.default_value.is_array() && value.is_string())
-        value = pointsFrom(value.get<std::string>());
-    if (!sameKind(value, spec.default_value))
-        throw Error(ErrorCode::wrong_use, "option '" + key + "' must be " + typeName(spec.default_value), source);
+        value = listFrom(value.get<std::string>(), spec);
+    if (!sameKind(value, spec))
+        throw Error(ErrorCode::wrong_use, "option '" + key + "' must be " + typeName(spec), source);
     if (value.is_number() && !(value.get<double>() >= spec.lowest && value.get<double>() <= spec.highest)) {
         std::ostringstream range;
         range << "option '" << key << "' must lie between " << spec.lowest << " and " << spec.highest;
@@ -199,7 +230,7 @@ void Config::set(const std::string& assignment)
     if (equals == std::string::npos)
         throw Error(ErrorCode::wrong_use, "'" + assignment + "' is not key=value", "--set");
     const std::string key = assignment.substr(0, equals);
-    assign(key, fromText(assignment.substr(equals + 1), specFor(key, "--set").default_value), "command line");
+    assign(key, fromText(assignment.substr(equals + 1), specFor(key, "--set")), "command line");
 }
 
 }  // namespace vicon

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "case_fixture.h"
+#include "finding_fixture.h"
 #include "marker_samples.h"
 #include "vicon/cases/bridges.h"
 #include "vicon/cases/corrections.h"
@@ -32,6 +33,43 @@ TEST(Schemas, HoldForMarkersWithEverythingAndWithNothing)
             marker["size"].erase("from_mm");
     std::ofstream(file) << wrong;
     EXPECT_NE(schemaFaults("markers", {file}), "") << "it sees what is wrong";
+}
+
+TEST(Schemas, HoldForReports)
+{
+    test::MarkedCase marked;
+    const auto file = marked.scanFolder() / "report.json";
+    const auto write = [&](const std::optional<ReportVersion>& version) {
+        std::ofstream(file) << reportDocument(version, reportContent(readCase(marked.store, "c1")));
+    };
+    write({});
+    EXPECT_EQ(schemaFaults("report", {file}), "") << "of nothing";
+    Marker all = test::markerWithEverything();
+    all.id = "m1";
+    marked.store.saveMarker("c1", all);
+    const Finding finding{.markers = {"m1", "m2"},
+                          .morphology = Morphology::flat,
+                          .attenuation = Attenuation::mixed,
+                          .confidence = Confidence::high,
+                          .read_size_mm = 8,
+                          .height_mm = 2,
+                          .volume_ml = 0.2,
+                          .pictures = {"m1"},
+                          .note = "n"};
+    editFindings(marked.store, "c1", {{std::nullopt, finding}});
+    Assessment said;
+    said.preparation = said.tagging = Grade::fair;
+    said.distension = {{"s1", ColonPart::sigmoid, Distension::limited}};
+    said.dose_mgy_cm = said.reading_minutes = said.coverage_percent = 9;
+    said.extracolonic = {{"liver", "a cyst", ExtracolonicCategory::e1}};
+    saveAssessment(marked.store, "c1", {}, said);
+    marked.choose();
+    write(keepVersion(marked.store, "c1", draftVersion(marked.store, {}, "c1", false, "0.1.0"), "a PDF"));
+    EXPECT_EQ(schemaFaults("report", {file}), "") << "of everything";
+    auto wrong = nlohmann::json::parse(readFile(file));
+    wrong["content"]["findings"][0]["facts"]["sights"][0]["clock_hour"] = 13;
+    std::ofstream(file) << wrong;
+    EXPECT_NE(schemaFaults("report", {file}), "") << "it sees what is wrong";
 }
 
 TEST(Schemas, HoldForCorrections)

@@ -19,6 +19,7 @@ struct Sample {
     bool fast = true;
     std::string method = "auto";
     std::vector<Point3> seeds;
+    std::vector<std::string> people;
 
     template <class Visitor>
     void visit(Visitor&& v)
@@ -28,6 +29,7 @@ struct Sample {
         v("sample.fast", fast, "", "Be fast.");
         v("sample.method", method, "", "How.", {.choices = {"auto", "binary"}});
         v("sample.seeds", seeds, "mm", "Where.");
+        v("sample.people", people, "", "Who.");
     }
 };
 
@@ -133,6 +135,28 @@ TEST(Options, NameFileAndLineOfAMistake)
 TEST(Options, AreRecordedAsJson)
 {
     EXPECT_EQ(toJson(Sample{.rays = 9})["sample.rays"], 9);
+}
+
+TEST(Options, TakeAListOfTexts)
+{
+    const support::TemporaryFolder folder;
+    const auto people = [](const Config& config) { return config.get<Sample>().people; };
+    const auto read = [&](const std::string& line) {
+        std::ofstream(folder / "c.toml") << "[sample]\n" << line << "\n";
+        Config config = declared();
+        config.readFile(folder / "c.toml");
+        return config;
+    };
+    EXPECT_THAT(people(declared()), testing::IsEmpty());
+    EXPECT_THAT(people(read("people = [\"anna\", \"b c\"]")), testing::ElementsAre("anna", "b c"));
+    EXPECT_THAT(people(read("people = \"anna\"")), testing::ElementsAre("anna"));
+    Config config = declared();
+    config.set("sample.people= anna , ben,,");
+    EXPECT_THAT(people(config), testing::ElementsAre("anna", "ben"));
+    config.set("sample.people=[\"carl\"]");
+    EXPECT_THAT(people(config), testing::ElementsAre("carl"));
+    for (const char* wrong : {"people = 7", "people = [7]", "people = [[1, 2, 3]]"})
+        EXPECT_THAT(messageOf([&] { read(wrong); }), HasSubstr("a list of texts")) << wrong;
 }
 
 }  // namespace

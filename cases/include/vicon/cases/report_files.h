@@ -10,6 +10,11 @@ namespace vicon {
 /// The file of a case's report in the store; its folder is made. Throws Error{store}.
 std::filesystem::path reportFile(CaseStore& store, const std::string& case_id, int number);
 
+/// Where a case's reports lie.
+std::filesystem::path reportFolder(const CaseStore& store, const std::string& case_id);
+/// The name there of the file of a version that was given out.
+std::string versionName(int version);
+
 /// How many reports of a case lie in the store.
 int countReports(const CaseStore& store, const std::string& case_id);
 

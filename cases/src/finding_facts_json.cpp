@@ -1,0 +1,103 @@
+#include "json_fields.h"
+#include "vicon/cases/finding_facts.h"
+#include "vicon/core/enum_names.h"
+#include "vicon/core/geometry_json.h"
+
+using nlohmann::json;
+
+namespace vicon {
+namespace {
+
+constexpr EnumNames<SizeSource, 3> kSizeSourceNames = {
+    {{SizeSource::reader, "reader"}, {SizeSource::plane, "best plane"}, {SizeSource::surface, "surface"}}};
+
+SizeSource sizeSourceFrom(const std::string& name)
+{
+    return valueIn(kSizeSourceNames, name, "a size's source");
+}
+
+json sightJson(const FindingSight& s)
+{
+    json out = {{"marker", s.marker_id},
+                {"scan", s.scan_id},
+                {"position_mm", s.position_mm},
+                {"station_mm", s.station_mm},
+                {"from_caecum_mm", s.from_caecum_mm},
+                {"fraction", s.fraction}};
+    putName(out, "part", s.part);
+    putValue(out, "clock_hour", s.clock_hour);
+    putValue(out, "size_2d_mm", s.size_2d_mm);
+    putValue(out, "size_3d_mm", s.size_3d_mm);
+    putValue(out, "mean_hu", s.mean_hu);
+    return out;
+}
+
+FindingSight sightFromJson(const json& from)
+{
+    FindingSight s;
+    s.marker_id = from.at("marker").get<std::string>();
+    s.scan_id = from.at("scan").get<std::string>();
+    s.position_mm = from.at("position_mm").get<Point3>();
+    s.station_mm = from.at("station_mm").get<double>();
+    s.from_caecum_mm = from.at("from_caecum_mm").get<double>();
+    s.fraction = from.at("fraction").get<double>();
+    s.part = named(from, "part", colonPartFrom);
+    if (from.contains("clock_hour"))
+        s.clock_hour = from["clock_hour"].get<int>();
+    s.size_2d_mm = number(from, "size_2d_mm");
+    s.size_3d_mm = number(from, "size_3d_mm");
+    s.mean_hu = number(from, "mean_hu");
+    return s;
+}
+
+}  // namespace
+
+std::string nameOf(SizeSource source)
+{
+    return nameIn(kSizeSourceNames, source);
+}
+
+json toJson(const FindingFacts& facts)
+{
+    json out = {{"sights", json::array()}};
+    for (const FindingSight& sight : facts.sights)
+        out["sights"].push_back(sightJson(sight));
+    if (facts.leading)
+        out["leading"] = facts.lead()->marker_id;
+    if (facts.size_mm) {
+        out["size_mm"] = *facts.size_mm;
+        out["size_source"] = nameOf(facts.size_source);
+    }
+    putValue(out, "size_2d_mm", facts.size_2d_mm);
+    putValue(out, "size_3d_mm", facts.size_3d_mm);
+    putValue(out, "mean_hu", facts.mean_hu);
+    if (facts.endoscope)
+        out["endoscope_mm"] = {{"about", facts.endoscope->about_mm},
+                               {"least", facts.endoscope->least_mm},
+                               {"most", facts.endoscope->most_mm}};
+    return out;
+}
+
+FindingFacts factsFromJson(const json& from)
+{
+    return understood("the facts of a finding", [&] {
+        FindingFacts facts;
+        for (const json& sight : from.at("sights")) {
+            facts.sights.push_back(sightFromJson(sight));
+            if (facts.sights.back().marker_id == from.value("leading", ""))
+                facts.leading = facts.sights.size() - 1;
+        }
+        facts.size_mm = number(from, "size_mm");
+        facts.size_source = named(from, "size_source", sizeSourceFrom).value_or(SizeSource::reader);
+        facts.size_2d_mm = number(from, "size_2d_mm");
+        facts.size_3d_mm = number(from, "size_3d_mm");
+        facts.mean_hu = number(from, "mean_hu");
+        if (from.contains("endoscope_mm"))
+            facts.endoscope = EndoscopeDistance{from["endoscope_mm"].at("about").get<double>(),
+                                                from["endoscope_mm"].at("least").get<double>(),
+                                                from["endoscope_mm"].at("most").get<double>()};
+        return facts;
+    });
+}
+
+}  // namespace vicon
