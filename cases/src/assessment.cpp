@@ -16,10 +16,8 @@ constexpr EnumNames<Distension, 3> kDistensionNames = {
 
 /// The texts of an assessment, by their keys.
 constexpr std::pair<const char*, std::string Assessment::*> kTexts[] = {
-    {"indication", &Assessment::indication},
-    {"technique", &Assessment::technique},
-    {"comparison", &Assessment::comparison},
-    {"impression", &Assessment::impression},
+    {"indication", &Assessment::indication},         {"technique", &Assessment::technique},
+    {"comparison", &Assessment::comparison},         {"impression", &Assessment::impression},
     {"recommendation", &Assessment::recommendation},
 };
 constexpr std::pair<const char*, bool Assessment::*> kFlags[] = {

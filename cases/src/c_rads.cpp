@@ -167,7 +167,8 @@ Proposal<ColonCategory> ofWeighed(const Weighed& w, const JudgedStudy& study)
     if (!w.unsized.empty())
         return {{}, "no size was measured of " + listed(w.unsized)};
     if (!w.medium.empty())
-        return {c2a, (w.medium.size() == 1 ? "one polyp" : "two polyps") + (" of 6 to 9 mm: " + listed(w.medium, "; ")) +
+        return {c2a, (w.medium.size() == 1 ? "one polyp" : "two polyps") +
+                         (" of 6 to 9 mm: " + listed(w.medium, "; ")) +
                          (w.strictures.empty() ? "" : "; also " + listed(w.strictures, "; "))};
     if (!w.indeterminate.empty())
         return {c2a, "indeterminate: " + listed(w.indeterminate, "; ")};

@@ -102,9 +102,14 @@ int Finding::number() const
 
 json toJson(const Finding& f)
 {
-    json out = {{"id", f.id},           {"kind", nameOf(f.kind)},           {"markers", f.markers},
-                {"note", f.note},       {"narrows_lumen", f.narrows_lumen}, {"invades", f.invades},
-                {"created", f.created}, {"changed", f.changed}};
+    json out = {{"id", f.id},
+                {"kind", nameOf(f.kind)},
+                {"markers", f.markers},
+                {"note", f.note},
+                {"narrows_lumen", f.narrows_lumen},
+                {"invades", f.invades},
+                {"created", f.created},
+                {"changed", f.changed}};
     putName(out, "morphology", f.morphology);
     putName(out, "attenuation", f.attenuation);
     putName(out, "confidence", f.confidence);

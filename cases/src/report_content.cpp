@@ -25,9 +25,8 @@ std::vector<PartState> measuredParts(CaseStore& store, const ScanRecord& scan)
 void takeReaders(std::vector<PartState>& parts, const std::vector<PartDistension>& said)
 {
     for (const PartDistension& one : said) {
-        auto found = std::find_if(parts.begin(), parts.end(), [&](const PartState& p) {
-            return p.scan_id == one.scan_id && p.part == one.part;
-        });
+        auto found = std::find_if(parts.begin(), parts.end(),
+                                  [&](const PartState& p) { return p.scan_id == one.scan_id && p.part == one.part; });
         if (found == parts.end())
             found = parts.insert(parts.end(), {one.scan_id, one.part});
         found->distension = one.distension;
@@ -39,8 +38,8 @@ JudgedStudy judged(const ReadCase& read)
 {
     JudgedStudy study;
     for (const auto& [finding, facts] : read.findings)
-        study.findings.push_back({finding.id, finding.kind, facts.size_mm, finding.attenuation, finding.narrows_lumen,
-                                  finding.invades});
+        study.findings.push_back(
+            {finding.id, finding.kind, facts.size_mm, finding.attenuation, finding.narrows_lumen, finding.invades});
     study.collapsed_parts = collapsedEverywhere(read.parts);
     study.inadequate = read.assessment.inadequate || read.assessment.preparation == Grade::inadequate;
     study.priors_awaited = read.assessment.priors_awaited;

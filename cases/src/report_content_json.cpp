@@ -108,9 +108,9 @@ ReadCase readCaseFromContent(const json& from)
         read.loose_markers = from.at("loose_markers").get<std::vector<std::string>>();
         read.assessment = assessmentFromJson(from.at("assessment"));
         for (const json& part : from.at("distension"))
-            read.parts.push_back(
-                {part.at("scan").get<std::string>(), colonPartFrom(part.at("part").get<std::string>()),
-                 distensionFrom(part.at("distension").get<std::string>()), part.at("by_reader").get<bool>()});
+            read.parts.push_back({part.at("scan").get<std::string>(), colonPartFrom(part.at("part").get<std::string>()),
+                                  distensionFrom(part.at("distension").get<std::string>()),
+                                  part.at("by_reader").get<bool>()});
         read.colon_proposal = proposalFrom(from.at("c_rads").at("colon"), colonCategoryFrom);
         read.extracolonic_proposal = proposalFrom(from.at("c_rads").at("extracolonic"), extracolonicCategoryFrom);
         return read;

@@ -43,9 +43,9 @@ void requireSigner(const SigningOptions& options)
 {
     const std::string person = thisPerson();
     if (std::find(options.signers.begin(), options.signers.end(), person) == options.signers.end())
-        throw Error(ErrorCode::bad_input, "this account may not sign reports", "'" + person + "'",
-                    "who runs VICON here names those who may in the configuration: [report] signers = [\"" + person +
-                        "\"]");
+        throw Error(
+            ErrorCode::bad_input, "this account may not sign reports", "'" + person + "'",
+            "who runs VICON here names those who may in the configuration: [report] signers = [\"" + person + "\"]");
 }
 
 void requireComplete(const ReadCase& read)
@@ -115,9 +115,9 @@ std::string nameOf(ReportState state)
 
 json toJson(const ReportVersion& v)
 {
-    return {{"version", v.version}, {"state", nameOf(v.state)}, {"replaces", v.replaces},
-            {"reason", v.reason},   {"person", v.person},       {"at", v.at},
-            {"software", v.software}, {"digest", v.digest},     {"file", v.file.filename().string()},
+    return {{"version", v.version},        {"state", nameOf(v.state)}, {"replaces", v.replaces},
+            {"reason", v.reason},          {"person", v.person},       {"at", v.at},
+            {"software", v.software},      {"digest", v.digest},       {"file", v.file.filename().string()},
             {"file_sha256", v.file_sha256}};
 }
 
@@ -273,8 +273,7 @@ VersionDraft draftVersion(CaseStore& store, const SigningOptions& options, const
     return draft;
 }
 
-ReportVersion keepVersion(CaseStore& store, const std::string& case_id, const VersionDraft& draft,
-                          std::string_view pdf)
+ReportVersion keepVersion(CaseStore& store, const std::string& case_id, const VersionDraft& draft, std::string_view pdf)
 {
     ReportVersion kept = draft.version;
     kept.content = draft.content.dump();

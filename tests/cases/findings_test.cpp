@@ -145,9 +145,7 @@ TEST_F(Findings, LeaveLinesThatNobodyRewrites)
     case_.add({"m1"});
     const std::size_t lines = auditTrail(store_, "c1").size();
     for (const char* statement : {"DELETE FROM audit", "UPDATE audit SET person = 'nobody'"})
-        EXPECT_THAT(messageOf([&] {
-                        store_.database().write([&](soci::session& sql) { sql << statement; });
-                    }),
+        EXPECT_THAT(messageOf([&] { store_.database().write([&](soci::session& sql) { sql << statement; }); }),
                     HasSubstr("only appended to"));
     EXPECT_EQ(auditTrail(store_, "c1").size(), lines);
 }

@@ -6,8 +6,8 @@
 #include <atomic>
 #include <thread>
 
-#include "this_person.h"
 #include "finding_fixture.h"
+#include "this_person.h"
 #include "vicon/cases/audit_trail.h"
 #include "vicon/cases/report_files.h"
 #include "vicon/cases/said_of_scan.h"
@@ -108,9 +108,7 @@ TEST_F(ReportVersions, NeverChangeOnceSigned)
     EXPECT_THAT(messageOf([&] { case_.choose(); }), HasSubstr("the report is signed"));
     EXPECT_THAT(messageOf([&] { sign(); }), HasSubstr("signed already"));
     for (const char* statement : {"DELETE FROM report_versions", "UPDATE report_versions SET person = 'nobody'"})
-        EXPECT_THAT(messageOf([&] {
-                        store_.database().write([&](soci::session& sql) { sql << statement; });
-                    }),
+        EXPECT_THAT(messageOf([&] { store_.database().write([&](soci::session& sql) { sql << statement; }); }),
                     HasSubstr("never changes"));
     Marker moved = store_.requireMarker("c1", "m1");
     moved.station_mm = 999;

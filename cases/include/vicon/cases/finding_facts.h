@@ -69,8 +69,8 @@ struct FindingFacts {
     std::optional<double> size_mm;  ///< the one that counts: the reader's, else the largest of all sights; rounded
     SizeSource size_source = SizeSource::reader;
     std::optional<double> size_2d_mm, size_3d_mm;  ///< the largest of all sights; rounded
-    std::optional<EndoscopeDistance> endoscope;    ///< from the least to the most of all sights, about the leading one's
-    std::optional<double> mean_hu;                 ///< of the leading sight, else of the first that has one
+    std::optional<EndoscopeDistance> endoscope;  ///< from the least to the most of all sights, about the leading one's
+    std::optional<double> mean_hu;               ///< of the leading sight, else of the first that has one
 
     const FindingSight* lead() const { return leading ? &sights[*leading] : nullptr; }
 };
