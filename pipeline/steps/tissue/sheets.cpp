@@ -23,14 +23,22 @@ constexpr double kReach_mm = 4;
 constexpr double kLeastRise = 0.25, kLeastRise_noises = 5;
 /// What lies on both sides of a sheet holds at most this part of its height: lumen.
 constexpr float kFloor = 0.45F;
+/// A sheet's middle lies at most half a voxel from its highest one, so from one side of that to the other the fraction
+/// changes by at most this part of it, and less where the sheet is thicker than a faint one. What bulges from a wall
+/// has lumen all around too, but falls from wall to lumen: by 0.9 of a faint one, by 0.55 of one of 0.85.
+constexpr float kSteepest = 0.7F, kFaint = 0.6F;
 /// Of this fraction a wall is thick enough to keep its own place.
 constexpr double kThick = 0.85;
 /// Smaller sets of voxels are specks.
 constexpr std::size_t kSmallest_voxels = 10;
 /// Voxels around a sheet's middle that are scaled with it: its blurred flanks.
-constexpr int kFlank_voxels = 2;
+constexpr int kFlank_voxels = 3;
 /// So many voxels of a sheet's middle lie in the 5 x 5 x 5 around each; of a thread of mucus a third.
 constexpr int kSheet_voxels = 12;
+/// A sheet's height is told from those of its voxels so near.
+constexpr int kSheetReach_voxels = 2;
+/// Passes of the mean over 3 x 3 x 3 voxels of what sheets are scaled by.
+constexpr int kScalePasses = 2;
 /// Part of its height at which a sheet fainter than half ends: 1.3 mm wide at a blur of 0.7 mm.
 constexpr double kEndOfFaint = 0.65;
 /// Less scaling moves the wall by less than a hundredth of a voxel.
@@ -102,10 +110,15 @@ public:
     }
 
 private:
-    /// Whether lumen lies on both sides along the line on which the sheet is steepest.
+    /// Whether it lies between lumen and lumen along a line, and is level along all.
     bool isRidge(std::size_t n) const
     {
         const std::uint8_t* at = &tissue_.voxels[n];
+        const float height = float(at[0]) / kWhole;
+        const float steepest = float(at[0]) * (kSteepest - std::max(0.0F, height - kFaint));
+        if (std::any_of(strides_.begin(), strides_.end(),
+                        [&](std::ptrdiff_t step) { return std::abs(float(at[step]) - float(at[-step])) > steepest; }))
+            return false;
         for (std::size_t line = 0; line < strides_.size(); ++line) {
             const std::ptrdiff_t step = strides_[line];
             if (at[step] > at[0] || at[-step] > at[0])
@@ -144,8 +157,9 @@ private:
     std::array<std::ptrdiff_t, 13> strides_{};
 };
 
-template <class Use>
-void forRidgesNear(const std::vector<Ridge>& ridges, const Grid& grid, std::size_t voxel, int reach, Use use)
+/// Of elements with a voxel, ordered by it, those in the cube around a voxel.
+template <class Element, class Use>
+void forThoseNear(const std::vector<Element>& elements, const Grid& grid, std::size_t voxel, int reach, Use use)
 {
     const Index3 v = grid.indexOf(voxel);
     for (int k = v.k - reach; k <= v.k + reach; ++k)
@@ -154,40 +168,56 @@ void forRidgesNear(const std::vector<Ridge>& ridges, const Grid& grid, std::size
             if (!grid.contains({v.i, j, k}))
                 continue;
             const std::size_t from = grid.offset({0, j, k}) + std::size_t(std::max(0, first.i));
-            auto at = std::lower_bound(ridges.begin(), ridges.end(), from,
-                                       [](const Ridge& ridge, std::size_t n) { return ridge.voxel < n; });
-            for (; at != ridges.end() && at->voxel <= grid.offset({0, j, k}) + std::size_t(v.i + reach); ++at)
-                use(std::size_t(at - ridges.begin()));
+            auto at = std::lower_bound(elements.begin(), elements.end(), from,
+                                       [](const Element& element, std::size_t n) { return element.voxel < n; });
+            for (; at != elements.end() && at->voxel <= grid.offset({0, j, k}) + std::size_t(v.i + reach); ++at)
+                use(std::size_t(at - elements.begin()));
         }
 }
 
-/// Without the specks, and each with the height of the highest beside it: a sheet's middle lies between voxels.
+/// The height of the sheet that each belongs to. Its middle lies between voxels: so that of the highest beside it, and
+/// of those the mean, for noise differs from voxel to voxel.
+void takeHeightsOfSheets(std::vector<Ridge>& ridges, const Grid& grid)
+{
+    std::vector<float> highest(ridges.size());
+    tbb::parallel_for(std::size_t(0), ridges.size(), [&](std::size_t n) {
+        forThoseNear(ridges, grid, ridges[n].voxel, 1,
+                     [&](std::size_t other) { highest[n] = std::max(highest[n], ridges[other].height); });
+    });
+    tbb::parallel_for(std::size_t(0), ridges.size(), [&](std::size_t n) {
+        float sum = 0, count = 0;
+        forThoseNear(ridges, grid, ridges[n].voxel, kSheetReach_voxels, [&](std::size_t other) {
+            sum += highest[other];
+            ++count;
+        });
+        ridges[n].height = sum / count;
+    });
+}
+
+/// Without the specks.
 std::vector<Ridge> connected(const std::vector<Ridge>& ridges, const Grid& grid)
 {
     DisjointSets sets(ridges.size());
-    std::vector<float> heights(ridges.size());
     for (std::size_t n = 0; n < ridges.size(); ++n)
-        forRidgesNear(ridges, grid, ridges[n].voxel, 1, [&](std::size_t other) {
-            sets.join(std::uint32_t(n), std::uint32_t(other));
-            heights[n] = std::max(heights[n], ridges[other].height);
-        });
+        forThoseNear(ridges, grid, ridges[n].voxel, 1,
+                     [&](std::size_t other) { sets.join(std::uint32_t(n), std::uint32_t(other)); });
     std::vector<int> around(ridges.size(), 0);
     for (std::size_t n = 0; n < ridges.size(); ++n)
-        forRidgesNear(ridges, grid, ridges[n].voxel, 2, [&](std::size_t) { ++around[n]; });
+        forThoseNear(ridges, grid, ridges[n].voxel, 2, [&](std::size_t) { ++around[n]; });
     std::vector<std::size_t> sizes(ridges.size(), 0);
     for (std::size_t n = 0; n < ridges.size(); ++n)
         ++sizes[sets.rootOf(std::uint32_t(n))];
     // A sheet's rim has fewer around it, but the sheet beside it.
     const auto besideSheet = [&](std::size_t n) {
         bool found = false;
-        forRidgesNear(ridges, grid, ridges[n].voxel, 2,
-                      [&](std::size_t other) { found = found || around[other] >= kSheet_voxels; });
+        forThoseNear(ridges, grid, ridges[n].voxel, 2,
+                     [&](std::size_t other) { found = found || around[other] >= kSheet_voxels; });
         return found;
     };
     std::vector<Ridge> kept;
     for (std::size_t n = 0; n < ridges.size(); ++n)
         if (sizes[sets.rootOf(std::uint32_t(n))] >= kSmallest_voxels && besideSheet(n))
-            kept.push_back({ridges[n].voxel, heights[n]});
+            kept.push_back(ridges[n]);
     return kept;
 }
 
@@ -222,14 +252,62 @@ std::vector<Flank> flanksOf(const std::vector<Ridge>& ridges, const Grid& grid)
     return flanks;
 }
 
+/// What each flank's fraction is multiplied by, evened out over its neighbours, so that a sheet's rim is none of where
+/// it was just found; 1 beyond the flanks.
+template <class ScaleOf>
+std::vector<float> scalesOf(const std::vector<Flank>& flanks, const Grid& grid, ScaleOf scaleOf)
+{
+    std::vector<float> scales(flanks.size()), before;
+    std::transform(flanks.begin(), flanks.end(), scales.begin(), [&](const Flank& f) { return scaleOf(f.height); });
+    for (int pass = 0; pass < kScalePasses; ++pass) {
+        before = scales;
+        tbb::parallel_for(std::size_t(0), flanks.size(), [&](std::size_t n) {
+            float sum = 0, count = 0;
+            forThoseNear(flanks, grid, flanks[n].voxel, 1, [&](std::size_t other) {
+                sum += before[other];
+                ++count;
+            });
+            scales[n] = (sum + (27 - count)) / 27;
+        });
+    }
+    return scales;
+}
+
+/// Of the 3 x 3 x 3 voxels around one.
+std::uint8_t binomialMean(const TissueVolume& tissue, std::size_t voxel)
+{
+    const Index3 v = tissue.grid.indexOf(voxel);
+    const auto weight = [](int a, int b) { return 2 - std::abs(a - b); };
+    int sum = 0;
+    forEachInCube(v, 1, [&](Index3 w) {
+        sum += weight(w.i, v.i) * weight(w.j, v.j) * weight(w.k, v.k) * tissue.valueOr(w, std::uint8_t(kWhole));
+    });
+    return std::uint8_t((sum + 32) / 64);
+}
+
+/// Takes noise from sheets. It widens them as blur does, which their heights then tell.
+void smooth(std::vector<Ridge>& ridges, TissueVolume& tissue)
+{
+    const std::vector<Flank> flanks = flanksOf(ridges, tissue.grid);
+    std::vector<std::uint8_t> smoothed(flanks.size());
+    tbb::parallel_for(std::size_t(0), flanks.size(),
+                      [&](std::size_t n) { smoothed[n] = binomialMean(tissue, flanks[n].voxel); });
+    for (std::size_t n = 0; n < flanks.size(); ++n)
+        tissue.voxels[flanks[n].voxel] = smoothed[n];
+    for (Ridge& ridge : ridges)
+        ridge.height = tissue.voxels[ridge.voxel] / kWhole;
+}
+
 }  // namespace
 
 SheetsFound keepSheets(const InsideVolume& inside, int down, double noise, TissueVolume& tissue)
 {
-    const std::vector<Ridge> ridges = connected(Sheets(inside, down, noise, tissue).find(), tissue.grid);
+    std::vector<Ridge> ridges = connected(Sheets(inside, down, noise, tissue).find(), tissue.grid);
     SheetsFound found{.ridge_voxels = ridges.size()};
     for (const Ridge& ridge : ridges)
         found.faint_voxels += ridge.height < 0.5F ? 1 : 0;
+    smooth(ridges, tissue);
+    takeHeightsOfSheets(ridges, tissue.grid);
     std::array<float, 257> scale{};
     for (std::size_t n = 1; n < scale.size(); ++n)
         scale[n] = std::max(1.0F, float(0.5 / levelOf(double(n) / 256)));
@@ -237,8 +315,12 @@ SheetsFound keepSheets(const InsideVolume& inside, int down, double noise, Tissu
     std::vector<Ridge> scaled;
     std::copy_if(ridges.begin(), ridges.end(), std::back_inserter(scaled),
                  [&](const Ridge& ridge) { return scaleOf(ridge.height) > kLeastScale; });
-    for (const Flank& flank : flanksOf(scaled, tissue.grid))
-        tissue.voxels[flank.voxel] = stored(tissue.voxels[flank.voxel] / kWhole * scaleOf(flank.height));
+    const std::vector<Flank> flanks = flanksOf(scaled, tissue.grid);
+    const std::vector<float> scales = scalesOf(flanks, tissue.grid, scaleOf);
+    for (std::size_t n = 0; n < flanks.size(); ++n) {
+        std::uint8_t& fraction = tissue.voxels[flanks[n].voxel];
+        fraction = stored(fraction / kWhole * scales[n]);
+    }
     return found;
 }
 

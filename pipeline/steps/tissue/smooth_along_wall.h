@@ -1,14 +1,17 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "vicon/steps/tissue.h"
 
 namespace vicon::steps {
 
-/// Evens out what noise does to the wall: in the wall's blurred edge each voxel becomes the mean of those around it
-/// whose fraction differs from its own by no more than noise makes it. Along the wall these are all, across it none, so
-/// edges, folds and polyps keep their place: of a ball of 5 mm the diameter changes by less than a tenth of a
-/// millimetre.
-/// @param noise standard deviation of the fraction
-void smoothAlongWall(double noise, TissueVolume& tissue);
+/// Evens out what noise does to the wall: in the wall's blurred edge each voxel becomes the mean of those around it in
+/// the plane across the fraction's slope. So the wall stays as sharp as it is, and edges, folds and polyps keep their
+/// place. Where gas and fluid are both near, this is done to all voxels: there the model of three contents errs, from
+/// voxel to voxel, by more than noise.
+/// @param of_three where gas and fluid are both near, not 0; empty: nowhere
+void smoothAlongWall(const std::vector<std::uint8_t>& of_three, TissueVolume& tissue);
 
 }  // namespace vicon::steps

@@ -1,5 +1,6 @@
 #include "vicon/steps/tissue.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -20,6 +21,17 @@ constexpr double kUsualBlur_mm = 0.7;
 constexpr int kTagged_voxels = 4;
 /// Of the cleansed densities, as the field has them: gas and tissue.
 constexpr double kCleanGas_hu = -1000, kCleanTissue_hu = 40;
+
+std::vector<std::uint8_t> nearGasAndFluid(const InsideVolume& inside)
+{
+    auto near = nearMask(inside, kFluid, kTagged_voxels);
+    const auto near_gas = nearMask(inside, kGas, kTagged_voxels);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, near.size(), 1 << 16), [&](const auto& part) {
+        for (std::size_t n = part.begin(); n < part.end(); ++n)
+            near[n] = near[n] && near_gas[n] ? 1 : 0;
+    });
+    return near;
+}
 
 /// The densities, and beside tagging those of the fraction.
 HuVolume cleanse(const Mixture& mixture, const TissueVolume& tissue)
@@ -64,7 +76,7 @@ TissueResult findTissue(const HuVolume& hu, const InsideVolume& inside, Vector3 
     progress.report(0.5, "tissue");
     const std::size_t in_levels = applyLevels(mixture, down, levels, noise_hu, result.tissue);
     const double noise = noise_hu / (mixture.tissue_hu - mixture.gas_hu);
-    smoothAlongWall(noise, result.tissue);
+    smoothAlongWall(nearGasAndFluid(inside), result.tissue);
     const SheetsFound sheets = keepSheets(inside, down.axis, noise, result.tissue);
     progress.check();
     progress.report(0.8, "tissue");
