@@ -280,7 +280,7 @@ std::vector<Step> stepsOfLumen()
          parametersByOrgan<SegmentOptions, OrganOptions>,
          runSegment},
         {"tissue",
-         1,
+         2,
          0.55,
          0.6,
          {"resample", "segment"},

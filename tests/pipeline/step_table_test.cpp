@@ -36,17 +36,18 @@ TEST(StepTable, TheWallsDensitiesAreOneOptionOfMaskSurfaceAndDistances)
     config.set("segment.wall_hu=-600");
     config.set("segment.tissue_hu=50");
     for (const char* key : {"segment.wall_hu", "segment.tissue_hu"})
-        EXPECT_THAT(stepsThatTake(config, key, config.at(key).value), ElementsAre("segment", "subdivide", "potential"));
+        EXPECT_THAT(stepsThatTake(config, key, config.at(key).value),
+                    ElementsAre("segment", "tissue", "subdivide", "potential"));
 }
 
-TEST(StepTable, TheTissueDependsOnTheWallsDensitiesWhereItPlacesTheWall)
+TEST(StepTable, TheTissueDependsOnTheWallsDensitiesOnlyWhereItPlacesTheWall)
 {
     Config config = declared();
-    config.set("subdivide.wall=tissue");
+    config.set("subdivide.wall=densities");
     config.set("segment.wall_hu=-600");
     EXPECT_THAT(stepsThatTake(config, "segment.wall_hu", config.at("segment.wall_hu").value),
-                ElementsAre("segment", "tissue", "subdivide", "potential"));
-    EXPECT_THAT(stepsThatTake(config, "subdivide.wall", "tissue"), ElementsAre("tissue", "subdivide", "potential"));
+                ElementsAre("segment", "subdivide", "potential"));
+    EXPECT_THAT(stepsThatTake(config, "subdivide.wall", "densities"), ElementsAre("tissue", "subdivide", "potential"));
 }
 
 TEST(StepTable, NoOptionIsDeclaredTwice)

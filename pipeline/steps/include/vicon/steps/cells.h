@@ -29,7 +29,7 @@ CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const S
 
 /// What the wall's place is taken from.
 struct WallOptions {
-    std::string wall = "densities";
+    std::string wall = "tissue";
 
     template <class Visitor>
     void visit(Visitor&& v)
