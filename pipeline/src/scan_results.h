@@ -60,10 +60,10 @@ public:
     }
 
     const HuVolume& volume() { return get(volume_, "volume.mha"); }
-    /// The part of volume() around inside(); the whole need not be kept for it.
+    /// The part of volume() around the lumen; the whole need not be kept for it.
     const HuVolume& densitiesAroundLumen()
     {
-        const Grid lumen = inside().grid;
+        const Grid lumen = gridOfLumen();
         const std::lock_guard lock(mutex_);
         if (!around_lumen_ && volume_)
             around_lumen_ = steps::densitiesAround(*volume_, lumen);
@@ -71,6 +71,8 @@ public:
             around_lumen_ = steps::densitiesAround(scan_files::readVolume<std::int16_t>(source("volume.mha")), lumen);
         return *around_lumen_;
     }
+    /// The lumen as the densities told, before its wall was placed. On the grid of inside().
+    const InsideVolume& mask() { return get(mask_, "mask.mha"); }
     const InsideVolume& inside() { return get(inside_, "inside.mha"); }
     const steps::TissueVolume& tissue() { return get(tissue_, "tissue.mha"); }
     const SegmentVolume& segments() { return get(segments_, "segments.mha"); }
@@ -84,7 +86,15 @@ public:
 
     /// Keeps the object and begins to write the file.
     void put(HuVolume v) { put(volume_, std::move(v), "volume.mha", scan_files::Packing::raw); }
+    void putMask(InsideVolume v) { put(mask_, std::move(v), "mask.mha", scan_files::Packing::zlib); }
     void put(InsideVolume v) { put(inside_, std::move(v), "inside.mha", scan_files::Packing::zlib); }
+    /// Gives the mask's memory back. No step may be at work on it.
+    void dropMask()
+    {
+        finish({"mask.mha"});
+        const std::lock_guard lock(mutex_);
+        mask_.reset();
+    }
     /// The surface is made of it from now on.
     void putTissue(steps::TissueVolume v)
     {
@@ -120,12 +130,13 @@ public:
     /// Begins to contour the lumen from the fraction of tissue, unless that was begun.
     void beginSurface()
     {
-        const auto &from = tissue(), &labels = inside();
+        const auto& from = tissue();
+        const InsideVolume& lumen = inside();
         const std::lock_guard lock(mutex_);
         if (!surface_.valid())
-            surface_ = std::async(std::launch::async, [&from, &labels] {
+            surface_ = std::async(std::launch::async, [&from, &lumen] {
                            NoProgress quiet;
-                           return steps::LumenSurface(from, labels, quiet);
+                           return steps::LumenSurface(from, lumen, quiet);
                        }).share();
     }
     /// The lumen's surface from the fraction of tissue; reads it where an earlier run made it.
@@ -191,6 +202,15 @@ public:
     }
 
 private:
+    Grid gridOfLumen()
+    {
+        {
+            const std::lock_guard lock(mutex_);
+            if (inside_)
+                return inside_->grid;
+        }
+        return mask().grid;
+    }
     template <class T>
     const Volume<T>& get(std::optional<Volume<T>>& kept, const char* file)
     {
@@ -219,7 +239,7 @@ private:
     std::filesystem::path folder_, claim_;
     std::mutex mutex_;
     std::optional<HuVolume> volume_, around_lumen_;
-    std::optional<InsideVolume> inside_;
+    std::optional<InsideVolume> mask_, inside_;
     std::optional<steps::TissueVolume> tissue_;
     std::optional<SegmentVolume> segments_;
     std::optional<Skeleton> skeleton_;

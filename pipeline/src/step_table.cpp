@@ -124,7 +124,7 @@ json runSegment(const StepInputs& inputs, ScanResults& results, const StepRecord
                                     : steps::segmentOrgan(results.volume(), organ, progress);
     json result = toJson(foundBy(organ, found));
     if (found.verdict != Verdict::absent) {
-        results.put(std::move(found.inside));
+        results.putMask(std::move(found.inside));
         results.densitiesAroundLumen();  // while the whole is there
     }
     return result;
@@ -134,17 +134,22 @@ std::vector<std::string> segmentFiles(const json& result)
 {
     if (segmentFoundFromJson(result).verdict == Verdict::absent)
         return {};
-    return {"inside.mha"};
+    return {"mask.mha"};
 }
 
 json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords& records, Progress& progress)
 {
-    if (!wallFromTissue(inputs.config))
+    if (!wallFromTissue(inputs.config)) {
+        results.put(InsideVolume(results.mask()));
+        results.dropMask();
         return {{"not_sought", "the wall is not taken from it"}};
+    }
     steps::TissueResult found = steps::findTissue(
-        results.densitiesAroundLumen(), results.inside(), inputs.gravity, inputs.config.get<steps::WallDensities>(),
+        results.densitiesAroundLumen(), results.mask(), inputs.gravity, inputs.config.get<steps::WallDensities>(),
         segmentFoundFromJson(records.at("segment").result).noise_hu.value_or(0), progress);
+    results.dropMask();
     results.write("cleansed.mha", std::move(found.cleansed));
+    results.put(std::move(found.lumen));
     results.putTissue(std::move(found.tissue));
     return {{"measures", std::move(found.found)}};
 }
@@ -152,8 +157,8 @@ json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords
 std::vector<std::string> tissueFiles(const json& result)
 {
     if (result.contains("not_sought"))
-        return {};
-    return {"tissue.mha", "cleansed.mha"};
+        return {"inside.mha"};
+    return {"inside.mha", "tissue.mha", "cleansed.mha"};
 }
 
 /// The skeleton of an organ that branches.
@@ -244,8 +249,7 @@ json runPotential(const StepInputs& inputs, ScanResults& results, const StepReco
     };
     PotentialFound found;
     const auto surface = surfaceOf(inputs.config, results);
-    FieldVolume from_wall_mm =
-        steps::wallDistance(results.inside(), surface.get().lumen(), surface.get().nearWall(), wall);
+    FieldVolume from_wall_mm = steps::wallDistance(results.inside(), surface.get().nearWall(), wall);
     found.largest_wall_distance_mm = largest(from_wall_mm);
     results.write("wall_distance.mha", std::move(from_wall_mm));
     const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));
@@ -271,7 +275,7 @@ std::vector<Step> stepsOfLumen()
          parametersFrom<ResampleOptions>,
          runResample},
         {"segment",
-         13,
+         14,
          0.3,
          0.55,
          {"resample"},
@@ -289,10 +293,10 @@ std::vector<Step> stepsOfLumen()
          tissueParameters,
          runTissue},
         {"skeleton",
-         10,
+         11,
          0.6,
          0.65,
-         {"segment"},
+         {"segment", "tissue"},
          Densities::around_lumen,
          always({"skeleton.vtp", "skeleton_voxels.vtp"}),
          parametersByOrgan<SkeletonOptions, SkeletonOptions>,
@@ -309,7 +313,7 @@ std::vector<Step> stepsOfResults()
          2,
          0.65,
          0.67,
-         {"segment", "skeleton"},
+         {"segment", "tissue", "skeleton"},
          Densities::none,
          always({}),
          parametersFrom<QualityOptions>,

@@ -207,8 +207,8 @@ TEST(ScanResults, HandOnWhatIsStillBeingWrittenAndSayWhenItCannotBe)
     results.dropVolume();
     EXPECT_EQ(results.volume().voxels.back(), 7) << "read back from its file";
 
-    results.put(InsideVolume(Grid{.size = {5, 6, 7}, .origin_mm = {20, 10, 9}}, kGas));
-    results.finish({"inside.mha"});
+    results.putMask(InsideVolume(Grid{.size = {5, 6, 7}, .origin_mm = {20, 10, 9}}, kGas));
+    results.finish({"mask.mha"});
     EXPECT_EQ(results.densitiesAroundLumen().grid.size, (std::array<int, 3>{21, 22, 19}));
     results.dropVolume();
     EXPECT_EQ(results.densitiesAroundLumen().voxels.back(), 7) << "kept without the whole";

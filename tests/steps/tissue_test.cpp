@@ -187,8 +187,7 @@ TEST_P(Sheets, StayWholeHoweverMuchBlurTakesFromThem)
     Scene scene = withSheet(thick_mm, level_mm, noise_hu);
     scene.inside = labelsByDensity(scene, level_mm);
     const TissueResult result = scene.find(std::max(noise_hu, 15.0));
-    const LumenSurface surface(result.tissue, scene.inside, quiet);
-    EXPECT_GT(shareKept(scene, surface.lumen()), 0.99) << name;
+    EXPECT_GT(shareKept(scene, result.lumen), 0.99) << name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Thin, Sheets,
@@ -202,7 +201,7 @@ TEST(Tissue, HasNoSurfaceBetweenGasAndFluid)
 {
     const Scene scene([](Point3 p) { return std::hypot(p.x, p.y) > 11 || std::abs(p.z) > 13; }, 0.1, 25);
     const TissueResult result = scene.find(25);
-    const LumenSurface surface(result.tissue, scene.inside, quiet);
+    const LumenSurface surface(result.tissue, result.lumen, quiet);
     SegmentVolume segments(scene.grid);
     std::transform(scene.inside.voxels.begin(), scene.inside.voxels.end(), segments.voxels.begin(),
                    [](std::uint8_t label) { return std::uint16_t(label != kOutside); });

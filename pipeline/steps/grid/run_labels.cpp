@@ -137,4 +137,22 @@ RunLabels labelRuns(const std::array<int, 3>& size, const RowScanner& scan, Neig
     return labels;
 }
 
+RunLabels labelLumen(const InsideVolume& labels, Neighbours neighbours)
+{
+    const int nx = labels.grid.size[0];
+    const auto scan = [&](int j, int k, std::vector<VoxelRun>& runs) {
+        const std::uint8_t* row = &labels.voxels[labels.grid.offset({0, j, k})];
+        for (int i = 0; i < nx; ++i) {
+            if (row[i] != kGas && row[i] != kFluid)
+                continue;
+            const int begin = i;
+            int fluid = 0;
+            for (; i < nx && (row[i] == kGas || row[i] == kFluid); ++i)
+                fluid += row[i] == kFluid ? 1 : 0;
+            runs.push_back({begin, i, float(fluid), 0});
+        }
+    };
+    return labelRuns(labels.grid.size, scan, neighbours);
+}
+
 }  // namespace vicon::steps

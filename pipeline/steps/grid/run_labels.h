@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "vicon/core/geometry.h"
+#include "vicon/core/volume.h"
 
 namespace vicon::steps {
 
@@ -48,5 +48,8 @@ enum class Neighbours { faces, all };
 
 /// Labels a set of voxels that `scan` gives row by row (called from several threads).
 RunLabels labelRuns(const std::array<int, 3>& size, const RowScanner& scan, Neighbours neighbours);
+
+/// Components of gas and fluid; a run's sum is the number of its voxels of fluid.
+RunLabels labelLumen(const InsideVolume& labels, Neighbours neighbours);
 
 }  // namespace vicon::steps

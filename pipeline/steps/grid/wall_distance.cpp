@@ -147,20 +147,6 @@ FieldVolume wallDistance(const InsideVolume& inside, const std::vector<NearWall>
     return field;
 }
 
-FieldVolume wallDistance(const InsideVolume& inside, const InsideVolume& lumen, const std::vector<NearWall>& wall,
-                         Progress& progress)
-{
-    FieldVolume field = wallDistance(lumen, wall, progress);
-    const auto least_mm = float(unitOf(inside.grid)) * kLeastDistance;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, field.voxels.size(), 1 << 16), [&](const auto& range) {
-        for (std::size_t n = range.begin(); n < range.end(); ++n) {
-            float& mm = field.voxels[n];
-            mm = inside.voxels[n] == kOutside ? 0 : std::max(mm, least_mm);
-        }
-    });
-    return field;
-}
-
 FieldVolume wallDistance(const InsideVolume& inside, const HuVolume& hu, Progress& progress,
                          const WallDensities& densities)
 {

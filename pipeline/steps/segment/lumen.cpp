@@ -97,22 +97,4 @@ void growToWall(const HuVolume& volume, double wall_hu, InsideVolume& labels)
     }
 }
 
-RunLabels labelLumen(const InsideVolume& labels, Neighbours neighbours)
-{
-    const int nx = labels.grid.size[0];
-    const auto scan = [&](int j, int k, std::vector<VoxelRun>& runs) {
-        const std::uint8_t* row = &labels.voxels[labels.grid.offset({0, j, k})];
-        for (int i = 0; i < nx; ++i) {
-            if (row[i] != kGas && row[i] != kFluid)
-                continue;
-            const int begin = i;
-            int fluid = 0;
-            for (; i < nx && (row[i] == kGas || row[i] == kFluid); ++i)
-                fluid += row[i] == kFluid ? 1 : 0;
-            runs.push_back({begin, i, float(fluid), 0});
-        }
-    };
-    return labelRuns(labels.grid.size, scan, neighbours);
-}
-
 }  // namespace vicon::steps

@@ -23,7 +23,4 @@ InsideVolume labelGas(const HuVolume& volume, const RunLabels& gas, const std::v
 /// Extends kGas over the blurred edge to the half-way density.
 void growToWall(const HuVolume& volume, double wall_hu, InsideVolume& labels);
 
-/// Components of gas and fluid; a run's sum is the number of its voxels of fluid.
-RunLabels labelLumen(const InsideVolume& labels, Neighbours neighbours);
-
 }  // namespace vicon::steps

@@ -17,7 +17,7 @@ constexpr int kTipRounds = 4;
 constexpr double kSettled_mm = 0.1;
 constexpr double kMostMoved_mm = 10;  // of an end of the curve, when the lumen's tip is measured from it
 constexpr double kHookReach = 4;      // radii along the curve within which it may come back to its beginning
-constexpr double kHook = 1.0 / 3;     // of the way gone, what is left of it as the crow flies
+constexpr double kHook = 0.45;        // of the way gone, what is left of it as the crow flies
 
 Polyline withoutFirstTip(const Polyline& path, const DistanceProbe& wall)
 {

@@ -270,7 +270,6 @@ void setNormals(CellSurface& surface, const Contour& contour, const std::vector<
 }  // namespace
 
 struct LumenSurface::Parts {
-    std::optional<InsideVolume> own_lumen;  ///< where it is not that of the labels
     const InsideVolume* lumen = nullptr;
     std::optional<WallField> field;
     NormalAt normal_at;
@@ -298,17 +297,16 @@ LumenSurface::LumenSurface(const HuVolume& hu, const InsideVolume& inside, const
     progress.report(1, "surface");
 }
 
-LumenSurface::LumenSurface(const TissueVolume& tissue, const InsideVolume& inside, Progress& progress)
+LumenSurface::LumenSurface(const TissueVolume& tissue, const InsideVolume& lumen, Progress& progress)
 {
-    if (tissue.grid != inside.grid)
+    if (tissue.grid != lumen.grid)
         throw Error(ErrorCode::bad_input, "the fraction of tissue does not lie on the grid of the labels", {},
                     "run 'vicon work' to make it anew");
     progress.report(0, "surface");
     auto parts = std::make_unique<Parts>();
-    parts->own_lumen = lumenOf(tissue, inside);
-    parts->lumen = &*parts->own_lumen;
+    parts->lumen = &lumen;
     parts->normal_at = fromTissue(tissue);
-    parts->make(tissueValues(tissue, *parts->lumen));
+    parts->make(tissueValues(tissue, lumen));
     parts_ = std::move(parts);
     progress.check();
     progress.report(1, "surface");
@@ -323,14 +321,9 @@ const std::vector<NearWall>& LumenSurface::nearWall() const
     return parts_->near_wall;
 }
 
-const InsideVolume& LumenSurface::lumen() const
-{
-    return *parts_->lumen;
-}
-
 CellSurface LumenSurface::cellsOf(const SegmentVolume& segments, Progress& progress) const
 {
-    const InsideVolume& inside = lumen();
+    const InsideVolume& inside = *parts_->lumen;
     if (segments.grid != inside.grid)
         throw Error(ErrorCode::bad_input, "the segments do not lie on the grid of the labels", {},
                     "run 'vicon work' to make them anew");

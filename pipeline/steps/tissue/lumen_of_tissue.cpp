@@ -3,13 +3,17 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "grid/allocate.h"
 #include "grid/mask.h"
 #include "grid/neighbours.h"
+#include "grid/run_labels.h"
+#include "grid/sparse_voxels.h"
 #include "grid/wall_values.h"
 #include "tissue/mixture.h"
+#include "vicon/core/disjoint_sets.h"
 
 namespace vicon::steps {
 namespace {
@@ -63,42 +67,129 @@ std::vector<std::size_t> withoutSpecks(const std::vector<std::size_t>& voxels, c
     return kept;
 }
 
-/// The label of what lies beside an outside voxel; kOutside where nothing does.
-std::uint8_t labelBeside(const InsideVolume& lumen, std::size_t n)
+/// A voxel that became wall.
+struct WallVoxel {
+    std::size_t voxel;
+};
+
+/// For each component of the lumen whether it is the largest within its piece.
+std::vector<bool> largestOfPieces(const RunLabels& pieces, const RunLabels& lumen)
 {
-    std::uint8_t label = kOutside;
-    forEachOverFaces(lumen.grid, n, [&](std::size_t beside) { label = std::max(label, lumen.voxels[beside]); });
-    return label;
+    std::vector<std::uint32_t> piece_of(lumen.components.size(), 0);
+    for (int k = 0; k < lumen.size[2]; ++k)
+        for (int j = 0; j < lumen.size[1]; ++j)
+            for (std::size_t n = lumen.row_begin[lumen.row(j, k)]; n < lumen.row_begin[lumen.row(j, k) + 1]; ++n)
+                piece_of[lumen.runs[n].label] = std::uint32_t(pieces.labelAt({lumen.runs[n].begin, j, k}));
+    std::vector<std::size_t> largest(pieces.components.size(), 0);
+    for (std::size_t n = 0; n < piece_of.size(); ++n)
+        largest[piece_of[n]] = std::max(largest[piece_of[n]], lumen.components[n].voxels);
+    std::vector<bool> is_largest(lumen.components.size());
+    for (std::size_t n = 0; n < piece_of.size(); ++n)
+        is_largest[n] = lumen.components[n].voxels == largest[piece_of[n]];
+    return is_largest;
 }
+
+/// A wall that would cut a part off its piece is none that can be told: the labels stay as they were there.
+void restoreCuts(const std::vector<std::size_t>& walls, const InsideVolume& inside, const RunLabels& pieces,
+                 InsideVolume& lumen)
+{
+    const RunLabels parts = labelLumen(lumen, Neighbours::faces);
+    if (parts.components.size() == pieces.components.size())
+        return;
+    const std::vector<bool> is_largest = largestOfPieces(pieces, parts);
+    std::vector<WallVoxel> voxels(walls.size());
+    std::transform(walls.begin(), walls.end(), voxels.begin(), [](std::size_t n) { return WallVoxel{n}; });
+    DisjointSets sets(voxels.size());
+    for (std::size_t n = 0; n < voxels.size(); ++n)
+        forThoseNear(voxels, inside.grid, walls[n], 1,
+                     [&](std::size_t other) { sets.join(std::uint32_t(n), std::uint32_t(other)); });
+    std::vector<bool> cuts(voxels.size(), false);
+    for (std::size_t n = 0; n < voxels.size(); ++n)
+        forEachOverFaces(inside.grid, walls[n], [&](std::size_t beside) {
+            const int part = parts.labelAt(inside.grid.indexOf(beside));
+            if (part >= 0 && !is_largest[std::size_t(part)])
+                cuts[sets.rootOf(std::uint32_t(n))] = true;
+        });
+    for (std::size_t n = 0; n < voxels.size(); ++n)
+        if (cuts[sets.rootOf(std::uint32_t(n))])
+            lumen.voxels[walls[n]] = inside.voxels[walls[n]];
+}
+
+/// The lumen's growth into what its labels leave out.
+class Growth {
+public:
+    Growth(const TissueVolume& tissue, const InsideVolume& inside, const RunLabels& pieces, InsideVolume& lumen)
+        : tissue_(tissue), inside_(inside), pieces_(pieces), lumen_(lumen)
+    {
+    }
+
+    void run()
+    {
+        std::vector<std::size_t> front =
+            voxelsWhere(inside_.grid, [&](std::size_t n) { return mayBecomeLumen(n) && labelBeside(n) != kOutside; });
+        for (int layer = 0; layer < kMostLayers; ++layer) {
+            std::erase_if(front, [&](std::size_t n) { return joinsPieces(n); });
+            std::vector<std::uint8_t> labels(front.size());
+            std::transform(front.begin(), front.end(), labels.begin(), [&](std::size_t n) { return labelBeside(n); });
+            for (std::size_t n = 0; n < front.size(); ++n)
+                lumen_.voxels[front[n]] = labels[n];
+            std::vector<std::size_t> next;
+            for (const std::size_t n : front)
+                forEachOverFaces(inside_.grid, n, [&](std::size_t beside) {
+                    if (lumen_.voxels[beside] == kOutside && mayBecomeLumen(beside))
+                        next.push_back(beside);
+                });
+            std::sort(next.begin(), next.end());
+            next.erase(std::unique(next.begin(), next.end()), next.end());
+            front = std::move(next);
+        }
+    }
+
+private:
+    bool mayBecomeLumen(std::size_t n) const { return inside_.voxels[n] == kOutside && tissue_.voxels[n] < kHalf; }
+
+    /// The label of what lies beside a voxel; kOutside where nothing does.
+    std::uint8_t labelBeside(std::size_t n) const
+    {
+        std::uint8_t label = kOutside;
+        forEachOverFaces(inside_.grid, n, [&](std::size_t beside) { label = std::max(label, lumen_.voxels[beside]); });
+        return label;
+    }
+
+    /// Whether two pieces lie so near that growing from both sides could join them.
+    bool joinsPieces(std::size_t n) const
+    {
+        if (pieces_.components.size() < 2)
+            return false;
+        int piece = -1;
+        return anyInCube(inside_.grid.indexOf(n), kMostLayers + 1, [&](Index3 v) {
+            const int there = inside_.grid.contains(v) ? pieces_.labelAt(v) : -1;
+            if (there < 0 || there == piece)
+                return false;
+            return std::exchange(piece, there) >= 0;
+        });
+    }
+
+    const TissueVolume& tissue_;
+    const InsideVolume& inside_;
+    const RunLabels& pieces_;
+    InsideVolume& lumen_;
+};
 
 }  // namespace
 
 InsideVolume lumenOf(const TissueVolume& tissue, const InsideVolume& inside)
 {
+    const RunLabels pieces = labelLumen(inside, Neighbours::faces);
     InsideVolume lumen = inside;
-    const auto isWall = [&](std::size_t n) { return inside.voxels[n] != kOutside && tissue.voxels[n] >= kHalf; };
-    for (const std::size_t n : withoutSpecks(voxelsWhere(inside.grid, isWall), inside))
+    const auto walls = withoutSpecks(
+        voxelsWhere(inside.grid,
+                    [&](std::size_t n) { return inside.voxels[n] != kOutside && tissue.voxels[n] >= kHalf; }),
+        inside);
+    for (const std::size_t n : walls)
         lumen.voxels[n] = kOutside;
-    std::vector<std::size_t> front = voxelsWhere(inside.grid, [&](std::size_t n) {
-        return inside.voxels[n] == kOutside && tissue.voxels[n] < kHalf && labelBeside(lumen, n) != kOutside;
-    });
-    for (int layer = 0; layer < kMostLayers; ++layer) {
-        std::vector<std::uint8_t> labels(front.size());
-        std::transform(front.begin(), front.end(), labels.begin(),
-                       [&](std::size_t n) { return labelBeside(lumen, n); });
-        for (std::size_t n = 0; n < front.size(); ++n)
-            lumen.voxels[front[n]] = labels[n];
-        std::vector<std::size_t> next;
-        for (const std::size_t n : front)
-            forEachOverFaces(inside.grid, n, [&](std::size_t beside) {
-                if (lumen.voxels[beside] == kOutside && inside.voxels[beside] == kOutside &&
-                    tissue.voxels[beside] < kHalf)
-                    next.push_back(beside);
-            });
-        std::sort(next.begin(), next.end());
-        next.erase(std::unique(next.begin(), next.end()), next.end());
-        front = std::move(next);
-    }
+    restoreCuts(walls, inside, pieces, lumen);
+    Growth(tissue, inside, pieces, lumen).run();
     return lumen;
 }
 

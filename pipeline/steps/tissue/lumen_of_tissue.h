@@ -6,7 +6,8 @@ namespace vicon::steps {
 
 /// The labels with the wall where the fraction of tissue is one half: what lies inside and holds more tissue is
 /// outside, and what lies beside the lumen and holds less is inside, at most two voxels from what was inside. Specks of
-/// tissue that hang on no wall stay lumen.
+/// tissue that hang on no wall stay lumen. Its pieces, connected over faces, stay what they are: nothing joins two, and
+/// a wall that would cut one in two is left out.
 InsideVolume lumenOf(const TissueVolume& tissue, const InsideVolume& inside);
 
 /// The fraction as whole numbers for a contour at 0: below 0 in `lumen`, above 0 elsewhere, as far from it as the

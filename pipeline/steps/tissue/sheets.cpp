@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "grid/neighbours.h"
+#include "grid/sparse_voxels.h"
 #include "tissue/mixture.h"
 #include "vicon/core/disjoint_sets.h"
 
@@ -156,24 +157,6 @@ private:
     int down_;  ///< the axis nearest to gravity
     std::array<std::ptrdiff_t, 13> strides_{};
 };
-
-/// Of elements with a voxel, ordered by it, those in the cube around a voxel.
-template <class Element, class Use>
-void forThoseNear(const std::vector<Element>& elements, const Grid& grid, std::size_t voxel, int reach, Use use)
-{
-    const Index3 v = grid.indexOf(voxel);
-    for (int k = v.k - reach; k <= v.k + reach; ++k)
-        for (int j = v.j - reach; j <= v.j + reach; ++j) {
-            const Index3 first{v.i - reach, j, k};
-            if (!grid.contains({v.i, j, k}))
-                continue;
-            const std::size_t from = grid.offset({0, j, k}) + std::size_t(std::max(0, first.i));
-            auto at = std::lower_bound(elements.begin(), elements.end(), from,
-                                       [](const Element& element, std::size_t n) { return element.voxel < n; });
-            for (; at != elements.end() && at->voxel <= grid.offset({0, j, k}) + std::size_t(v.i + reach); ++at)
-                use(std::size_t(at - elements.begin()));
-        }
-}
 
 /// The height of the sheet that each belongs to. Its middle lies between voxels: so that of the highest beside it, and
 /// of those the mean, for noise differs from voxel to voxel.

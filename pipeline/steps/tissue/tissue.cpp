@@ -8,6 +8,7 @@
 #include "grid/allocate.h"
 #include "tissue/edge_model.h"
 #include "tissue/levels.h"
+#include "tissue/lumen_of_tissue.h"
 #include "tissue/near_mask.h"
 #include "tissue/sheets.h"
 #include "tissue/smooth_along_wall.h"
@@ -80,6 +81,7 @@ TissueResult findTissue(const HuVolume& hu, const InsideVolume& inside, Vector3 
     const SheetsFound sheets = keepSheets(inside, down.axis, noise, result.tissue);
     progress.check();
     progress.report(0.8, "tissue");
+    result.lumen = lumenOf(result.tissue, inside);
     result.cleansed = cleanse(mixture, result.tissue);
     result.found = {{"level_columns", levels.columns.size()},
                     {"level_columns_fitted", levels.fitted},

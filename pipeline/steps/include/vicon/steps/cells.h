@@ -45,10 +45,10 @@ class LumenSurface {
 public:
     /// `hu` and `inside` must outlive the surface. Throws Error{bad_input} when their grids do not fit together.
     LumenSurface(const HuVolume& hu, const InsideVolume& inside, const WallDensities& densities, Progress& progress);
-    /// The wall where half of a voxel is tissue, in one field through gas, levels and fluid; it may lie up to two
-    /// voxels beyond the labels, and folds may stand inside them. Normals are the gradient of the fraction. Both must
-    /// outlive the surface. Throws Error{bad_input} when their grids differ.
-    LumenSurface(const TissueVolume& tissue, const InsideVolume& inside, Progress& progress);
+    /// The wall where half of a voxel is tissue, in one field through gas, levels and fluid. Normals are the gradient
+    /// of the fraction. Both must outlive the surface. Throws Error{bad_input} when their grids differ.
+    /// @param lumen TissueResult::lumen
+    LumenSurface(const TissueVolume& tissue, const InsideVolume& lumen, Progress& progress);
     ~LumenSurface();
     LumenSurface(LumenSurface&&) noexcept;
     LumenSurface& operator=(LumenSurface&&) noexcept;
@@ -56,10 +56,7 @@ public:
     /// Throws Error{bad_input} when the segments do not lie on the grid of the labels.
     CellSurface cellsOf(const SegmentVolume& segments, Progress& progress) const;
 
-    /// The lumen within the surface: the labels, changed where the surface lies elsewhere.
-    const InsideVolume& lumen() const;
-
-    /// The voxels beside the wall of lumen() with their distances from the surface, for wallDistance(); in order of
+    /// The voxels beside the wall with their distances from the surface, for wallDistance(); in order of
     /// their offsets.
     const std::vector<NearWall>& nearWall() const;
 

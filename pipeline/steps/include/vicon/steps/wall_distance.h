@@ -27,12 +27,6 @@ struct NearWall {
 /// @param wall all voxels beside the wall, inside and outside, each once
 FieldVolume wallDistance(const InsideVolume& inside, const std::vector<NearWall>& wall, Progress& progress);
 
-/// The same where the wall's lumen is not that of the labels: 0 outside `inside`, and in a voxel of it that lies in the
-/// wall the least distance there is. Both on one grid.
-/// @param wall of `lumen`
-FieldVolume wallDistance(const InsideVolume& inside, const InsideVolume& lumen, const std::vector<NearWall>& wall,
-                         Progress& progress);
-
 /// The same from the densities, with the wall where extractCells() has it. `hu` must lie on the lattice of `inside` and
 /// may be larger. Throws Error{bad_input} when the lattices do not fit together.
 FieldVolume wallDistance(const InsideVolume& inside, const HuVolume& hu, Progress& progress,
