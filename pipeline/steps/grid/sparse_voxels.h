@@ -8,8 +8,8 @@
 
 namespace vicon::steps {
 
-/// Calls use(index) for those of the elements, ordered by their member `voxel`, that lie at most `reach` steps along each
-/// axis from a voxel.
+/// Calls use(index) for those of the elements, ordered by their member `voxel`, that lie at most `reach` steps along
+/// each axis from a voxel.
 template <class Element, class Use>
 void forThoseNear(const std::vector<Element>& elements, const Grid& grid, std::size_t voxel, int reach, Use use)
 {
