@@ -40,7 +40,7 @@ std::vector<std::size_t> voxelsWhere(const Grid& grid, Wanted wanted)
     return all;
 }
 
-/// Those of `voxels` (in order) that hang together, over faces, with the outside or are many.
+/// Those of `voxels` that hang together, over faces, with the outside or are many; both in order.
 std::vector<std::size_t> withoutSpecks(const std::vector<std::size_t>& voxels, const InsideVolume& inside)
 {
     std::vector<std::uint8_t> seen(voxels.size(), 0);
@@ -64,13 +64,9 @@ std::vector<std::size_t> withoutSpecks(const std::vector<std::size_t>& voxels, c
             for (const std::size_t n : set)
                 kept.push_back(voxels[n]);
     }
+    std::sort(kept.begin(), kept.end());
     return kept;
 }
-
-/// A voxel that became wall.
-struct WallVoxel {
-    std::size_t voxel;
-};
 
 /// For each component of the lumen whether it is the largest within its piece.
 std::vector<bool> largestOfPieces(const RunLabels& pieces, const RunLabels& lumen)
@@ -90,27 +86,23 @@ std::vector<bool> largestOfPieces(const RunLabels& pieces, const RunLabels& lume
 }
 
 /// A wall that would cut a part off its piece is none that can be told: the labels stay as they were there.
-void restoreCuts(const std::vector<std::size_t>& walls, const InsideVolume& inside, const RunLabels& pieces,
-                 InsideVolume& lumen)
+void restoreCuts(const SparseVoxels& walls, const InsideVolume& inside, const RunLabels& pieces, InsideVolume& lumen)
 {
     const RunLabels parts = labelLumen(lumen, Neighbours::faces);
     if (parts.components.size() == pieces.components.size())
         return;
     const std::vector<bool> is_largest = largestOfPieces(pieces, parts);
-    std::vector<WallVoxel> voxels(walls.size());
-    std::transform(walls.begin(), walls.end(), voxels.begin(), [](std::size_t n) { return WallVoxel{n}; });
-    DisjointSets sets(voxels.size());
-    for (std::size_t n = 0; n < voxels.size(); ++n)
-        forThoseNear(voxels, inside.grid, walls[n], 1,
-                     [&](std::size_t other) { sets.join(std::uint32_t(n), std::uint32_t(other)); });
-    std::vector<bool> cuts(voxels.size(), false);
-    for (std::size_t n = 0; n < voxels.size(); ++n)
+    DisjointSets sets(walls.size());
+    for (std::size_t n = 0; n < walls.size(); ++n)
+        walls.forNear(walls[n], 1, [&](std::size_t other) { sets.join(std::uint32_t(n), std::uint32_t(other)); });
+    std::vector<bool> cuts(walls.size(), false);
+    for (std::size_t n = 0; n < walls.size(); ++n)
         forEachOverFaces(inside.grid, walls[n], [&](std::size_t beside) {
             const int part = parts.labelAt(inside.grid.indexOf(beside));
             if (part >= 0 && !is_largest[std::size_t(part)])
                 cuts[sets.rootOf(std::uint32_t(n))] = true;
         });
-    for (std::size_t n = 0; n < voxels.size(); ++n)
+    for (std::size_t n = 0; n < walls.size(); ++n)
         if (cuts[sets.rootOf(std::uint32_t(n))])
             lumen.voxels[walls[n]] = inside.voxels[walls[n]];
 }
@@ -182,12 +174,10 @@ InsideVolume lumenOf(const TissueVolume& tissue, const InsideVolume& inside)
 {
     const RunLabels pieces = labelLumen(inside, Neighbours::faces);
     InsideVolume lumen = inside;
-    const auto walls = withoutSpecks(
-        voxelsWhere(inside.grid,
-                    [&](std::size_t n) { return inside.voxels[n] != kOutside && tissue.voxels[n] >= kHalf; }),
-        inside);
-    for (const std::size_t n : walls)
-        lumen.voxels[n] = kOutside;
+    const auto isWall = [&](std::size_t n) { return inside.voxels[n] != kOutside && tissue.voxels[n] >= kHalf; };
+    const SparseVoxels walls(inside.grid, withoutSpecks(voxelsWhere(inside.grid, isWall), inside));
+    for (std::size_t n = 0; n < walls.size(); ++n)
+        lumen.voxels[walls[n]] = kOutside;
     restoreCuts(walls, inside, pieces, lumen);
     Growth(tissue, inside, pieces, lumen).run();
     return lumen;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,7 +16,7 @@ inline constexpr float kWhole = 255;
 
 inline std::uint8_t stored(double fraction)
 {
-    return std::uint8_t(std::lround(std::clamp(fraction, 0.0, 1.0) * kWhole));
+    return std::uint8_t(std::clamp(fraction, 0.0, 1.0) * kWhole + 0.5);
 }
 
 /// The densities on the grid of the labels, and those of the pure contents.
@@ -34,12 +33,12 @@ public:
     }
 
     /// The density of a voxel of the labels' grid; where none was measured that of what its label says.
-    double hu(Index3 v) const
+    std::int16_t hu(Index3 v) const
     {
         const std::int16_t value = hu_.valueOr({v.i + offset_.i, v.j + offset_.j, v.k + offset_.k}, kPaddingHu);
         if (value != kPaddingHu)
             return value;
-        return inside.valueOr(v, kOutside) == kGas ? gas_hu : tissue_hu;
+        return std::int16_t(inside.valueOr(v, kOutside) == kGas ? gas_hu : tissue_hu);
     }
     /// The densities of a row of the labels' grid, or null where they do not reach so far.
     const std::int16_t* row(int j, int k) const

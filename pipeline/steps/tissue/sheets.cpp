@@ -1,12 +1,11 @@
 #include "tissue/sheets.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <vector>
 
 #include "grid/neighbours.h"
@@ -42,8 +41,6 @@ constexpr int kSheetReach_voxels = 2;
 constexpr int kScalePasses = 2;
 /// Part of its height at which a sheet fainter than half ends: 1.3 mm wide at a blur of 0.7 mm.
 constexpr double kEndOfFaint = 0.65;
-/// Less scaling moves the wall by less than a hundredth of a voxel.
-constexpr float kLeastScale = 1.01F;
 
 /// The thirteen lines through a voxel and its neighbours.
 constexpr std::array<Index3, 13> kLines{{{1, 0, 0},
@@ -59,11 +56,6 @@ constexpr std::array<Index3, 13> kLines{{{1, 0, 0},
                                          {1, 1, -1},
                                          {1, -1, 1},
                                          {-1, 1, 1}}};
-
-struct Ridge {
-    std::size_t voxel;
-    float height;
-};
 
 /// The level at which a blurred sheet of this height has its own width. The middle of a sheet of width w is erf(u), and
 /// it is half of erf(2u) where it ends, with u = w / (sqrt(8) sigma).
@@ -90,21 +82,22 @@ public:
             strides_[n] = kLines[n].i + kLines[n].j * row + kLines[n].k * slice;
     }
 
-    std::vector<Ridge> find() const
+    /// The voxels along the middles of sheets, in order.
+    std::vector<std::size_t> find() const
     {
         const auto [nx, ny, nz] = tissue_.grid.size;
-        std::vector<std::vector<Ridge>> slices(std::size_t(nz), std::vector<Ridge>{});
+        std::vector<std::vector<std::size_t>> slices(std::size_t(nz), std::vector<std::size_t>{});
         tbb::parallel_for(reach_, std::max(reach_, nz - reach_), [&, nx = nx, ny = ny](int k) {
             for (int j = reach_; j < ny - reach_; ++j) {
                 const std::size_t begin = tissue_.grid.offset({0, j, k});
                 for (int i = reach_; i < nx - reach_; ++i) {
                     const float s = tissue_.voxels[begin + std::size_t(i)];
                     if (s >= least_ && s <= kThick * kWhole && isRidge(begin + std::size_t(i)))
-                        slices[std::size_t(k)].push_back({begin + std::size_t(i), s / kWhole});
+                        slices[std::size_t(k)].push_back(begin + std::size_t(i));
                 }
             }
         });
-        std::vector<Ridge> all;
+        std::vector<std::size_t> all;
         for (const auto& slice : slices)
             all.insert(all.end(), slice.begin(), slice.end());
         return all;
@@ -158,102 +151,78 @@ private:
     std::array<std::ptrdiff_t, 13> strides_{};
 };
 
-/// The height of the sheet that each belongs to. Its middle lies between voxels: so that of the highest beside it, and
-/// of those the mean, for noise differs from voxel to voxel.
-void takeHeightsOfSheets(std::vector<Ridge>& ridges, const Grid& grid)
-{
-    std::vector<float> highest(ridges.size());
-    tbb::parallel_for(std::size_t(0), ridges.size(), [&](std::size_t n) {
-        forThoseNear(ridges, grid, ridges[n].voxel, 1,
-                     [&](std::size_t other) { highest[n] = std::max(highest[n], ridges[other].height); });
-    });
-    tbb::parallel_for(std::size_t(0), ridges.size(), [&](std::size_t n) {
-        float sum = 0, count = 0;
-        forThoseNear(ridges, grid, ridges[n].voxel, kSheetReach_voxels, [&](std::size_t other) {
-            sum += highest[other];
-            ++count;
-        });
-        ridges[n].height = sum / count;
-    });
-}
-
 /// Without the specks.
-std::vector<Ridge> connected(const std::vector<Ridge>& ridges, const Grid& grid)
+SparseVoxels connected(const SparseVoxels& middles)
 {
-    DisjointSets sets(ridges.size());
-    for (std::size_t n = 0; n < ridges.size(); ++n)
-        forThoseNear(ridges, grid, ridges[n].voxel, 1,
-                     [&](std::size_t other) { sets.join(std::uint32_t(n), std::uint32_t(other)); });
-    std::vector<int> around(ridges.size(), 0);
-    for (std::size_t n = 0; n < ridges.size(); ++n)
-        forThoseNear(ridges, grid, ridges[n].voxel, 2, [&](std::size_t) { ++around[n]; });
-    std::vector<std::size_t> sizes(ridges.size(), 0);
-    for (std::size_t n = 0; n < ridges.size(); ++n)
+    DisjointSets sets(middles.size());
+    for (std::size_t n = 0; n < middles.size(); ++n)
+        middles.forNear(middles[n], 1, [&](std::size_t other) { sets.join(std::uint32_t(n), std::uint32_t(other)); });
+    std::vector<int> around(middles.size(), 0);
+    tbb::parallel_for(std::size_t(0), middles.size(),
+                      [&](std::size_t n) { middles.forNear(middles[n], 2, [&](std::size_t) { ++around[n]; }); });
+    std::vector<std::size_t> sizes(middles.size(), 0);
+    for (std::size_t n = 0; n < middles.size(); ++n)
         ++sizes[sets.rootOf(std::uint32_t(n))];
     // A sheet's rim has fewer around it, but the sheet beside it.
     const auto besideSheet = [&](std::size_t n) {
         bool found = false;
-        forThoseNear(ridges, grid, ridges[n].voxel, 2,
-                     [&](std::size_t other) { found = found || around[other] >= kSheet_voxels; });
+        middles.forNear(middles[n], 2, [&](std::size_t other) { found = found || around[other] >= kSheet_voxels; });
         return found;
     };
-    std::vector<Ridge> kept;
-    for (std::size_t n = 0; n < ridges.size(); ++n)
+    std::vector<std::size_t> kept;
+    for (std::size_t n = 0; n < middles.size(); ++n)
         if (sizes[sets.rootOf(std::uint32_t(n))] >= kSmallest_voxels && besideSheet(n))
-            kept.push_back(ridges[n]);
-    return kept;
+            kept.push_back(middles[n]);
+    return {middles.grid(), std::move(kept)};
 }
 
-/// A voxel in the flank of a sheet, and the middle it belongs to.
-struct Flank {
-    std::size_t voxel;
-    int away2;
-    float height;
-    bool operator<(const Flank& other) const
-    {
-        if (voxel != other.voxel)
-            return voxel < other.voxel;
-        return away2 != other.away2 ? away2 < other.away2 : height > other.height;
-    }
+/// The voxels in the blurred flanks of sheets, and for each the number of the middle that it is nearest to.
+struct Flanks {
+    SparseVoxels voxels;
+    std::vector<std::uint32_t> middle;
 };
 
-std::vector<Flank> flanksOf(const std::vector<Ridge>& ridges, const Grid& grid)
+Flanks flanksOf(const SparseVoxels& middles)
 {
-    std::vector<Flank> flanks;
-    for (const Ridge& ridge : ridges) {
-        const Index3 v = grid.indexOf(ridge.voxel);
-        forEachInCube(v, kFlank_voxels, [&](Index3 w) {
-            const int i = w.i - v.i, j = w.j - v.j, k = w.k - v.k, away2 = i * i + j * j + k * k;
-            if (away2 <= kFlank_voxels * kFlank_voxels + 1 && grid.contains(w))
-                flanks.push_back({grid.offset(w), away2, ridge.height});
-        });
+    const Grid& grid = middles.grid();
+    const auto [nx, ny, nz] = grid.size;
+    const auto slice = std::size_t(nx) * std::size_t(ny);
+    constexpr std::uint32_t kNone = ~0U;
+    constexpr int kNumberBits = 28;  // below the squared distance: the nearest middle is the least
+    std::vector<std::vector<std::size_t>> voxels(std::size_t(nz), std::vector<std::size_t>{});
+    std::vector<std::vector<std::uint32_t>> numbers(std::size_t(nz), std::vector<std::uint32_t>{});
+    tbb::parallel_for(tbb::blocked_range<int>(0, nz), [&, nx = nx, ny = ny](const tbb::blocked_range<int>& slices) {
+        std::vector<std::uint32_t> nearest(slice, kNone);
+        for (int k = slices.begin(); k < slices.end(); ++k) {
+            const auto [first, last] = middles.inSlices(k - kFlank_voxels, k + kFlank_voxels + 1);
+            for (std::size_t n = first; n < last; ++n) {
+                const Index3 v = grid.indexOf(middles[n]);
+                for (int j = std::max(0, v.j - kFlank_voxels); j <= std::min(ny - 1, v.j + kFlank_voxels); ++j)
+                    for (int i = std::max(0, v.i - kFlank_voxels); i <= std::min(nx - 1, v.i + kFlank_voxels); ++i) {
+                        const int away2 = (i - v.i) * (i - v.i) + (j - v.j) * (j - v.j) + (k - v.k) * (k - v.k);
+                        if (away2 > kFlank_voxels * kFlank_voxels + 1)
+                            continue;
+                        std::uint32_t& found = nearest[std::size_t(i) + std::size_t(j) * std::size_t(nx)];
+                        found = std::min(found, std::uint32_t(away2) << kNumberBits | std::uint32_t(n));
+                    }
+            }
+            if (first == last)
+                continue;
+            for (std::size_t n = 0; n < slice; ++n)
+                if (nearest[n] != kNone) {
+                    voxels[std::size_t(k)].push_back(std::size_t(k) * slice + n);
+                    numbers[std::size_t(k)].push_back(nearest[n] & ((1U << kNumberBits) - 1));
+                    nearest[n] = kNone;
+                }
+        }
+    });
+    std::vector<std::size_t> all;
+    std::vector<std::uint32_t> middle;
+    for (std::size_t k = 0; k < voxels.size(); ++k) {
+        all.insert(all.end(), voxels[k].begin(), voxels[k].end());
+        middle.insert(middle.end(), numbers[k].begin(), numbers[k].end());
     }
-    tbb::parallel_sort(flanks.begin(), flanks.end());
-    flanks.erase(
-        std::unique(flanks.begin(), flanks.end(), [](const Flank& a, const Flank& b) { return a.voxel == b.voxel; }),
-        flanks.end());
-    return flanks;
-}
-
-/// What each flank's fraction is multiplied by, evened out over its neighbours, so that a sheet's rim is none of where
-/// it was just found; 1 beyond the flanks.
-template <class ScaleOf>
-std::vector<float> scalesOf(const std::vector<Flank>& flanks, const Grid& grid, ScaleOf scaleOf)
-{
-    std::vector<float> scales(flanks.size()), before;
-    std::transform(flanks.begin(), flanks.end(), scales.begin(), [&](const Flank& f) { return scaleOf(f.height); });
-    for (int pass = 0; pass < kScalePasses; ++pass) {
-        before = scales;
-        tbb::parallel_for(std::size_t(0), flanks.size(), [&](std::size_t n) {
-            float sum = 0, count = 0;
-            forThoseNear(flanks, grid, flanks[n].voxel, 1, [&](std::size_t other) {
-                sum += before[other];
-                ++count;
-            });
-            scales[n] = (sum + (27 - count)) / 27;
-        });
-    }
-    return scales;
+    return {SparseVoxels(grid, std::move(all)), std::move(middle)};
 }
 
 /// Of the 3 x 3 x 3 voxels around one.
@@ -269,39 +238,87 @@ std::uint8_t binomialMean(const TissueVolume& tissue, std::size_t voxel)
 }
 
 /// Takes noise from sheets. It widens them as blur does, which their heights then tell.
-void smooth(std::vector<Ridge>& ridges, TissueVolume& tissue)
+void smooth(const SparseVoxels& flanks, TissueVolume& tissue)
 {
-    const std::vector<Flank> flanks = flanksOf(ridges, tissue.grid);
     std::vector<std::uint8_t> smoothed(flanks.size());
     tbb::parallel_for(std::size_t(0), flanks.size(),
-                      [&](std::size_t n) { smoothed[n] = binomialMean(tissue, flanks[n].voxel); });
+                      [&](std::size_t n) { smoothed[n] = binomialMean(tissue, flanks[n]); });
     for (std::size_t n = 0; n < flanks.size(); ++n)
-        tissue.voxels[flanks[n].voxel] = smoothed[n];
-    for (Ridge& ridge : ridges)
-        ridge.height = tissue.voxels[ridge.voxel] / kWhole;
+        tissue.voxels[flanks[n]] = smoothed[n];
+}
+
+/// The height of the sheet that each middle belongs to. It lies between voxels: so that of the highest beside it, and
+/// of those the mean, for noise differs from voxel to voxel.
+std::vector<float> heightsOf(const SparseVoxels& middles, const TissueVolume& tissue)
+{
+    std::vector<float> highest(middles.size(), 0), heights(middles.size());
+    tbb::parallel_for(std::size_t(0), middles.size(), [&](std::size_t n) {
+        middles.forNear(middles[n], 1, [&](std::size_t other) {
+            highest[n] = std::max(highest[n], tissue.voxels[middles[other]] / kWhole);
+        });
+    });
+    tbb::parallel_for(std::size_t(0), middles.size(), [&](std::size_t n) {
+        float sum = 0, count = 0;
+        middles.forNear(middles[n], kSheetReach_voxels, [&](std::size_t other) {
+            sum += highest[other];
+            ++count;
+        });
+        heights[n] = sum / count;
+    });
+    return heights;
+}
+
+/// What a sheet of a height is multiplied by.
+class Scale {
+public:
+    Scale()
+    {
+        for (std::size_t n = 1; n < scales_.size(); ++n)
+            scales_[n] = std::max(1.0F, float(0.5 / levelOf(double(n) / kSteps)));
+    }
+    float of(float height) const { return scales_[std::size_t(std::lround(height * kSteps))]; }
+
+private:
+    static constexpr int kSteps = 256;
+    std::array<float, kSteps + 1> scales_{};
+};
+
+/// What each flank's fraction is multiplied by, evened out over its neighbours, so that a sheet's rim is none of where
+/// it was just found; 1 beyond the flanks.
+std::vector<float> scalesOf(const Flanks& flanks, const std::vector<float>& heights)
+{
+    const Scale scale;
+    const SparseVoxels& voxels = flanks.voxels;
+    std::vector<float> scales(voxels.size()), before;
+    std::transform(flanks.middle.begin(), flanks.middle.end(), scales.begin(),
+                   [&](std::uint32_t middle) { return scale.of(heights[middle]); });
+    for (int pass = 0; pass < kScalePasses; ++pass) {
+        before = scales;
+        tbb::parallel_for(std::size_t(0), voxels.size(), [&](std::size_t n) {
+            float sum = 0, count = 0;
+            voxels.forNear(voxels[n], 1, [&](std::size_t other) {
+                sum += before[other];
+                ++count;
+            });
+            scales[n] = (sum + (27 - count)) / 27;
+        });
+    }
+    return scales;
 }
 
 }  // namespace
 
 SheetsFound keepSheets(const InsideVolume& inside, int down, double noise, TissueVolume& tissue)
 {
-    std::vector<Ridge> ridges = connected(Sheets(inside, down, noise, tissue).find(), tissue.grid);
-    SheetsFound found{.ridge_voxels = ridges.size()};
-    for (const Ridge& ridge : ridges)
-        found.faint_voxels += ridge.height < 0.5F ? 1 : 0;
-    smooth(ridges, tissue);
-    takeHeightsOfSheets(ridges, tissue.grid);
-    std::array<float, 257> scale{};
-    for (std::size_t n = 1; n < scale.size(); ++n)
-        scale[n] = std::max(1.0F, float(0.5 / levelOf(double(n) / 256)));
-    const auto scaleOf = [&](float height) { return scale[std::size_t(std::lround(height * 256))]; };
-    std::vector<Ridge> scaled;
-    std::copy_if(ridges.begin(), ridges.end(), std::back_inserter(scaled),
-                 [&](const Ridge& ridge) { return scaleOf(ridge.height) > kLeastScale; });
-    const std::vector<Flank> flanks = flanksOf(scaled, tissue.grid);
-    const std::vector<float> scales = scalesOf(flanks, tissue.grid, scaleOf);
-    for (std::size_t n = 0; n < flanks.size(); ++n) {
-        std::uint8_t& fraction = tissue.voxels[flanks[n].voxel];
+    const SparseVoxels middles = connected(SparseVoxels(tissue.grid, Sheets(inside, down, noise, tissue).find()));
+    SheetsFound found{.ridge_voxels = middles.size()};
+    for (std::size_t n = 0; n < middles.size(); ++n)
+        found.faint_voxels += tissue.voxels[middles[n]] < kWhole / 2 ? 1 : 0;
+    const Flanks flanks = flanksOf(middles);
+    smooth(flanks.voxels, tissue);
+    const std::vector<float> scales = scalesOf(flanks, heightsOf(middles, tissue));
+    for (std::size_t n = 0; n < flanks.voxels.size(); ++n) {
+        std::uint8_t& fraction = tissue.voxels[flanks.voxels[n]];
         fraction = stored(fraction / kWhole * scales[n]);
     }
     return found;

@@ -45,12 +45,15 @@ HuVolume cleanse(const Mixture& mixture, const TissueVolume& tissue)
             const std::size_t begin = tissue.grid.offset({0, j, k});
             for (int i = 0; i < nx; ++i) {
                 const std::size_t n = begin + std::size_t(i);
+                const std::int16_t hu = mixture.hu({i, j, k});
+                cleansed.voxels[n] = hu;
+                if (!tagged[n])
+                    continue;
                 const double clean_hu =
                     kCleanGas_hu + (kCleanTissue_hu - kCleanGas_hu) * double(tissue.voxels[n]) / double(kWhole);
-                const double hu = mixture.hu({i, j, k});
                 // Fat and what else is darker than tissue stays: only fluid makes brighter.
-                const bool is_tagging = tagged[n] && (mixture.inside.voxels[n] == kFluid || hu > clean_hu);
-                cleansed.voxels[n] = std::int16_t(std::lround(is_tagging ? clean_hu : hu));
+                if (mixture.inside.voxels[n] == kFluid || hu > clean_hu)
+                    cleansed.voxels[n] = std::int16_t(std::lround(clean_hu));
             }
         }
     });
