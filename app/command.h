@@ -63,6 +63,12 @@ Subcommand flyCommand();
 Subcommand snapshotCommand();
 Subcommand readCommand();  ///< only with the viewer built
 Subcommand reportCommand();
+Subcommand findingCommand();
+Subcommand assessCommand();
+Subcommand signCommand();
+Subcommand amendCommand();
+Subcommand auditCommand();
+Subcommand exportCommand();
 Subcommand phantomCommand();
 Subcommand configCommand();
 Subcommand doctorCommand();

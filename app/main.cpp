@@ -18,10 +18,11 @@ constexpr const char* kCommonFooter =
 
 std::vector<Subcommand> subcommands()
 {
-    std::vector<Subcommand> rows{importCommand(),  receiveCommand(), queryCommand(),    retrieveCommand(),
-                                 workCommand(),    casesCommand(),   showCommand(),     markCommand(),
-                                 markersCommand(), flyCommand(),     snapshotCommand(), reportCommand(),
-                                 phantomCommand(), configCommand(),  doctorCommand()};
+    std::vector<Subcommand> rows{
+        importCommand(),  receiveCommand(), queryCommand(),   retrieveCommand(), workCommand(),     casesCommand(),
+        showCommand(),    markCommand(),    markersCommand(), flyCommand(),      snapshotCommand(), reportCommand(),
+        findingCommand(), assessCommand(),  signCommand(),    amendCommand(),    auditCommand(),    exportCommand(),
+        phantomCommand(), configCommand(),  doctorCommand()};
 #ifdef VICON_HAS_VIEWER
     rows.push_back(readCommand());
 #endif

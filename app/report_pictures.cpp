@@ -25,12 +25,24 @@ constexpr int kSlicesWidth = 1200, kSlicesHeight = 900;
 constexpr int kMeasuresSide = 600;
 constexpr int kOverviewWidth = 900, kOverviewHeight = 1100;
 
-std::vector<Marker> markersOf(CaseStore& store, const ScanRecord& scan)
+std::vector<Marker> markersOf(const ReadCase& read, const ScanRecord& scan)
 {
-    std::vector<Marker> markers = store.markers(scan.case_id);
+    std::vector<Marker> markers = read.markers;
     std::erase_if(markers, [&](const Marker& m) { return m.scan_id != scan.id; });
     std::stable_sort(markers.begin(), markers.end(),
                      [](const Marker& a, const Marker& b) { return a.station_mm < b.station_mm; });
+    return markers;
+}
+
+/// The markers with the numbers of their findings in place of their ids.
+std::vector<Marker> numbered(const ReadCase& read, std::vector<Marker> markers)
+{
+    for (Marker& marker : markers)
+        for (const auto& [finding, facts] : read.findings)
+            if (std::find(finding.markers.begin(), finding.markers.end(), marker.id) != finding.markers.end()) {
+                marker.id = std::to_string(finding.number());
+                break;
+            }
     return markers;
 }
 
@@ -120,13 +132,14 @@ PictureFolder::~PictureFolder()
     fs::remove_all(path_, ignored);
 }
 
-std::vector<report::ScanEntry> drawScans(CaseStore& store, const CaseRecord& record, const PictureFolder& pictures,
+std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read, const PictureFolder& pictures,
                                          Progress& progress)
 {
     const viewer::Display display;
+    const CaseRecord& record = read.record;
     std::vector<report::ScanEntry> entries;
     for (const ScanRecord& scan : store.scans(record.id)) {
-        if (scan.role != ScanRole::scan && markersOf(store, scan).empty())
+        if (scan.role != ScanRole::scan && markersOf(read, scan).empty())
             continue;
         progress.check();
         progress.report(0, "overview of " + scan.id);
@@ -138,7 +151,7 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const CaseRecord& rec
             entry.skeleton_length_mm = 0;
         } else if (hasColon(folder)) {
             auto request = requestFor(SnapshotRequest::View::overview, record, scan, kOverviewWidth, kOverviewHeight);
-            request.markers = markersOf(store, scan);
+            request.markers = numbered(read, markersOf(read, scan));
             entry.overview_picture = pictures / (scan.id + "-overview.png");
             viewer::renderSnapshot(viewer::PreparedScan::open(folder), request, entry.overview_picture);
         }
@@ -147,17 +160,18 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const CaseRecord& rec
     return entries;
 }
 
-std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const CaseRecord& record,
+std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const ReadCase& read,
                                              const std::vector<report::ScanEntry>& scans, const PictureFolder& pictures,
                                              Progress& progress)
 {
     const viewer::Display display;
     std::vector<report::MarkerEntry> entries;
     std::set<std::string> told;
-    const double all = double(store.markers(record.id).size());
+    const CaseRecord& record = read.record;
+    const double all = double(read.markers.size());
     for (const report::ScanEntry& scan_entry : scans) {
         const ScanRecord& scan = scan_entry.scan;
-        const std::vector<Marker> markers = markersOf(store, scan);
+        const std::vector<Marker> markers = markersOf(read, scan);
         if (markers.empty())
             continue;
         const auto prepared = openPrepared(store.scanFolder(record.id, scan.id));
@@ -174,7 +188,7 @@ std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const CaseRecord&
         }
     }
     // A report never leaves a marker out, wherever its scan has gone.
-    for (const Marker& marker : store.markers(record.id))
+    for (const Marker& marker : read.markers)
         if (!told.contains(marker.id))
             entries.push_back({.marker = marker, .scan_label = "scan " + marker.scan_id + ", which is not there"});
     return entries;

@@ -23,12 +23,12 @@ private:
 };
 
 /// What the report says about each scan, with its overview drawn. A scan that has not been prepared, or holds no colon,
-/// is listed without a picture.
-std::vector<report::ScanEntry> drawScans(CaseStore& store, const CaseRecord& record, const PictureFolder& pictures,
+/// is listed without a picture. The overview bears the numbers of the findings, and the ids of markers of none.
+std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read, const PictureFolder& pictures,
                                          Progress& progress);
 
 /// What it says about each marker, in order of scan and station, with the endoscopic and the slice picture drawn.
-std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const CaseRecord& record,
+std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const ReadCase& read,
                                              const std::vector<report::ScanEntry>& scans, const PictureFolder& pictures,
                                              Progress& progress);
 

@@ -2,30 +2,64 @@
 
 #include "report_pictures.h"
 #include "vicon/cases/report_files.h"
+#include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/report/pdf_writer.h"
 
 namespace fs = std::filesystem;
 
 namespace vicon::app {
+namespace {
+
+report::PdfResult drawReport(CaseStore& store, const Config& config, report::ReportContent& content,
+                             const fs::path& pdf, Progress& progress)
+{
+    const PictureFolder pictures;
+    content.scans = drawScans(store, content.read, pictures, progress);
+    content.markers = drawMarkers(store, content.read, content.scans, pictures, progress);
+    return report::writePdf(content, pdf, config.get<report::ReportOptions>());
+}
+
+}  // namespace
+
 WrittenReport writeReport(CaseStore& store, const Config& config, const std::string& case_id, fs::path out,
+                          Progress& progress)
+{
+    report::ReportContent content;
+    content.read = readCase(store, case_id);
+    const CaseRecord& record = content.read.record;
+    requireReportable(store, record);
+    content.created = nowUtc();
+    content.software_version = VICON_VERSION;
+    content.number = store.nextNumber("report " + record.id);
+    if (out.empty())
+        out = reportFile(store, record.id, content.number);
+    const report::PdfResult written = drawReport(store, config, content, out, progress);
+    store.audit("report written", record.id, "", "number " + std::to_string(content.number));
+    return {out, content.number, written.pages, content.markers.size(), written.warnings};
+}
+
+GivenReport giveOutReport(CaseStore& store, const Config& config, const std::string& case_id, bool sign,
                           Progress& progress)
 {
     const CaseRecord record = store.requireCase(case_id);
     requireReportable(store, record);
+    const VersionDraft draft = draftVersion(store, config.get<SigningOptions>(), record.id, sign, VICON_VERSION);
     report::ReportContent content;
-    content.a_case = record;
-    content.created = nowUtc();
+    content.read = readCaseFromContent(draft.content);  // what is drawn is what is signed
+    content.created = draft.version.at;
     content.software_version = VICON_VERSION;
-    content.number = store.nextNumber("report " + record.id);
-    const PictureFolder pictures;
-    content.scans = drawScans(store, record, pictures, progress);
-    content.markers = drawMarkers(store, record, content.scans, pictures, progress);
-    if (out.empty())
-        out = reportFile(store, record.id, content.number);
-    const report::PdfResult written = report::writePdf(content, out, config.get<report::ReportOptions>());
-    store.audit("report written", record.id, "", "number " + std::to_string(content.number));
-    return {out, content.number, written.pages, content.markers.size(), written.warnings};
+    content.version = draft.version;
+    const PictureFolder folder;
+    const report::PdfResult drawn = drawReport(store, config, content, folder / "report.pdf", progress);
+    if (drawn.unreadable_pictures > 0)
+        throw Error(ErrorCode::store,
+                    "a picture of the report could not be drawn (" + drawn.warnings.front() +
+                        "); "
+                        "nothing was signed",
+                    record.id, "see whether the disk is full, then try again");
+    progress.check();
+    return {keepVersion(store, record.id, draft, readFile(folder / "report.pdf")), drawn.pages, drawn.warnings};
 }
 
 }  // namespace vicon::app

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vicon/cases/case_store.h"
+#include "vicon/cases/report_versions.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 
@@ -20,6 +21,17 @@ struct WrittenReport {
 
 /// Draws and writes a case's report as PDF; `out` empty: into the case's folder, under its number.
 WrittenReport writeReport(CaseStore& store, const Config& config, const std::string& case_id, std::filesystem::path out,
+                          Progress& progress);
+
+struct GivenReport {
+    ReportVersion version;
+    int pages = 0;
+    std::vector<std::string> warnings;
+};
+
+/// Draws a case's report and keeps it as a version: signed, or preliminary. Throws as draftVersion() and keepVersion()
+/// do, and Error{store} where a picture of it cannot be read: nothing was kept then.
+GivenReport giveOutReport(CaseStore& store, const Config& config, const std::string& case_id, bool sign,
                           Progress& progress);
 
 }  // namespace vicon::app

@@ -65,6 +65,12 @@ std::string unexplained(const Proposal<Category>& proposal, const std::optional<
 
 ReadCase readCase(CaseStore& store, const std::string& case_id)
 {
+    const std::string id = store.requireCase(case_id).id;
+    return readCaseWith(store, id, assessmentOf(store, id));
+}
+
+ReadCase readCaseWith(CaseStore& store, const std::string& case_id, const Assessment& assessment)
+{
     ReadCase read;
     read.record = store.requireCase(case_id);
     const std::string& id = read.record.id;
@@ -78,7 +84,7 @@ ReadCase readCase(CaseStore& store, const std::string& case_id)
     for (const Marker& marker : read.markers)
         if (!joined.contains(marker.id))
             read.loose_markers.push_back(marker.id);
-    read.assessment = assessmentOf(store, id);
+    read.assessment = assessment;
     for (const ScanRecord& scan : store.scans(id)) {
         const bool marked = std::any_of(read.markers.begin(), read.markers.end(),
                                         [&](const Marker& m) { return m.scan_id == scan.id; });

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "row_table.h"
 #include "sections.h"
 #include "vicon/report/wording.h"
 
@@ -27,11 +28,6 @@ Color inkOf(MarkerColor color)
     return look::kInk;
 }
 
-/// Left edges of the table's columns as fractions of its width.
-struct TableColumn {
-    const char* title;
-    double at;
-};
 constexpr std::array<TableColumn, 7> kColumns = {{{"Marker", 0.028},
                                                   {"Scan", 0.19},
                                                   {"Part of colon", 0.42},
@@ -40,75 +36,54 @@ constexpr std::array<TableColumn, 7> kColumns = {{{"Marker", 0.028},
                                                   {"Fraction", 0.84},
                                                   {"Page", 0.94}}};
 
-/// The text cut to a width, with an ellipsis.
-TextLine cutTo(Typesetter& type, const std::string& text, TextStyle style, double width)
-{
-    const std::vector<TextLine> lines = type.lines(text, style, width);
-    if (lines.size() == 1)
-        return lines.front();
-    const TextLine dots = type.line("\u2026", style);
-    TextLine cut = type.lines(text, style, width - dots.width).front();
-    cut.append(dots);
-    return cut;
-}
-
 }  // namespace
+
+std::vector<const MarkerEntry*> Sections::looseMarkers() const
+{
+    const auto& loose = content_.read.loose_markers;
+    std::vector<const MarkerEntry*> out;
+    for (const MarkerEntry& entry : content_.markers)
+        if (std::find(loose.begin(), loose.end(), entry.marker.id) != loose.end())
+            out.push_back(&entry);
+    return out;
+}
 
 void Sections::drawMarkers()
 {
-    if (content_.markers.empty()) {
-        drawSection(flow_, "Markers", leadingOf(look::kBody));
-        flow_.paragraph(flow_.left(), flow_.width(),
-                        {flow_.type.line("No markers were set in this case.", look::kBody)}, look::kBody, look::kInk);
+    const std::vector<const MarkerEntry*> markers = looseMarkers();
+    if (markers.empty())
         return;
-    }
     const auto explained = flow_.type.lines(distancesExplained(), look::kSmall, flow_.width());
-    drawSection(flow_, "Markers", 8 * leadingOf(look::kBody));
+    drawSection(flow_, "Markers of no finding", 8 * leadingOf(look::kBody));
     flow_.paragraph(flow_.left(), flow_.width(), explained, look::kSmall, look::kMuted);
     flow_.skip(look::kGap / 2);
-    drawMarkerTable();
-    for (const MarkerEntry& entry : content_.markers)
-        drawMarker(entry);
+    drawMarkerTable(markers);
+    for (const MarkerEntry* entry : markers)
+        drawMarker(*entry);
 }
 
-void Sections::fillPageOf(const MarkerEntry& entry)
+void Sections::fillPageOf(const std::string& id)
 {
-    const auto index = std::size_t(&entry - content_.markers.data());
-    if (index >= table_.size())
+    const auto row = rows_.find(id);
+    if (row == rows_.end())
         return;
     const TextLine number = flow_.type.line(std::to_string(flow_.page() + 1), look::kBody);
-    const double x = flow_.left() + kColumns.back().at * flow_.width();
-    flow_.pdf.text(table_[index].page, x, table_[index].y - look::kBody.size * look::kAscent, number, look::kInk);
+    const auto& [page, x, y] = row->second;
+    flow_.pdf.text(page, x, y - look::kBody.size * look::kAscent, number, look::kInk);
 }
 
-void Sections::drawMarkerTable()
+void Sections::drawMarkerTable(const std::vector<const MarkerEntry*>& markers)
 {
-    const double row = leadingOf(look::kBody) + 2.5;
-    const auto x = [&](std::size_t column) { return flow_.left() + kColumns[column].at * flow_.width(); };
-    const auto drawHead = [&] {
-        for (std::size_t n = 0; n < kColumns.size(); ++n)
-            flow_.put(x(n), flow_.y(), flow_.type.line(kColumns[n].title, look::kSmall), look::kMuted);
-        flow_.skip(leadingOf(look::kSmall) + 2);
-        flow_.pdf.line(flow_.page(), flow_.left(), flow_.y(), flow_.left() + flow_.width(), flow_.y(), look::kThinLine,
-                       look::kRule);
-        flow_.skip(3);
-    };
-    drawHead();
-    for (const MarkerEntry& entry : content_.markers) {
-        if (row > flow_.room()) {
-            flow_.newPage();
-            drawHead();
-        }
-        const Marker& m = entry.marker;
-        const std::array<std::string, 6> cells = {
-            m.id + " " + nameOf(m.color),  entry.scan_label,   entry.part_name, millimetres(m.station_mm),
-            millimetres(m.from_caecum_mm), percent(m.fraction)};
+    RowTable table(flow_, kColumns);
+    table.drawHead();
+    for (const MarkerEntry* entry : markers) {
+        const Marker& m = entry->marker;
+        table.beginRow();
         flow_.pdf.disc(flow_.page(), flow_.left() + kDiscRadius, flow_.y() - 0.7 * look::kBody.size, kDiscRadius - 0.8,
                        inkOf(m.color));
-        for (std::size_t n = 0; n < cells.size(); ++n)
-            flow_.put(x(n), flow_.y(), cutTo(flow_.type, cells[n], look::kBody, x(n + 1) - x(n) - 4), look::kInk);
-        table_.push_back({flow_.page(), flow_.y()});
-        flow_.skip(row);
+        rows_[m.id] = {flow_.page(), table.left(kColumns.size() - 1), flow_.y()};
+        table.drawRow({m.id + " " + nameOf(m.color), entry->scan_label, entry->part_name, millimetres(m.station_mm),
+                       millimetres(m.from_caecum_mm), percent(m.fraction)});
     }
     flow_.skip(look::kGap);
 }
@@ -149,7 +124,7 @@ void Sections::drawMarker(const MarkerEntry& entry)
     const double whole = text + pictures_height + caption + measures;
     flow_.need(whole <= flow_.wholePage() ? whole : head + table.height() + 3 * leading);
 
-    fillPageOf(entry);
+    fillPageOf(marker.id);
     flow_.pdf.bookmark(flow_.page(), flow_.y() + 4, "Marker " + marker.id + " (" + nameOf(marker.color) + ")");
     drawMarkerHead(entry);
     table.draw(flow_, flow_.left());

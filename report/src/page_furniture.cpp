@@ -4,6 +4,7 @@
 
 #include "page_flow.h"
 #include "vicon/cases/printed.h"
+#include "vicon/report/finding_statements.h"
 #include "vicon/report/statements.h"
 #include "vicon/report/wording.h"
 
@@ -46,7 +47,7 @@ double heightOf(const std::vector<TextLine>& lines)
 PageFurniture::PageFurniture(const ReportContent& content, Typesetter& type, double page_width)
     : page_width_(page_width), made_by_("Made " + utcWords(content.created) + " with VICON " + content.software_version)
 {
-    const Patient& patient = content.a_case.patient;
+    const Patient& patient = content.read.record.patient;
     const double width = page_width - 2 * look::kMargin - kStudyWidth - look::kGap;
     name_ = shortened(type.lines(patientName(patient.name), kName, width), kMostNameLines, type.line(" \u2026", kName));
     const std::string sex = sexWords(patient.sex);
@@ -54,12 +55,18 @@ PageFurniture::PageFurniture(const ReportContent& content, Typesetter& type, dou
                               orNone(printedDate(patient.birth_date), "(date not given)") +
                               (sex.empty() ? "" : "  \u00b7  " + sex),
                           look::kBody, width);
-    study_ = {type.line("Study of " + orNone(printedDate(content.a_case.study.date), "(date not given)"), look::kBold),
-              type.line("CT colonography report " + std::to_string(content.number), look::kBody)};
-    if (content.draft)
+    study_ = {
+        type.line("Study of " + orNone(printedDate(content.read.record.study.date), "(date not given)"), look::kBold),
+        type.line(content.version ? "CT colonography report, version " + std::to_string(content.version->version)
+                                  : "CT colonography report, draft " + std::to_string(content.number),
+                  look::kBody)};
+    if (!content.version)
         draft_ = type.line(kDraftLine, look::kBold);
+    else if (!content.version->isSigned())
+        draft_ = type.line(kPreliminaryLine, look::kBold);
     else
-        made_by_ += ", research software that is no medical device";
+        made_by_ = stateWords(content.version) + ", with VICON " + content.software_version +
+                   ", research software that is no medical device";
 }
 
 double PageFurniture::topHeight() const

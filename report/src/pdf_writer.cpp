@@ -50,7 +50,9 @@ PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pd
     for (int page = 0; page < document.pages(); ++page)
         furniture.draw(document, typesetter, page, paper.height);
 
-    PdfResult result{.warnings = sections.warnings(), .pages = document.pages()};
+    PdfResult result{.warnings = sections.warnings(),
+                     .unreadable_pictures = int(sections.warnings().size()),
+                     .pages = document.pages()};
     for (const char32_t c : typesetter.missing())
         result.warnings.push_back(missingWords(c));
     replaceFile(pdf, document.finish());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,18 +21,29 @@ public:
 private:
     void drawTitle();
     void drawCase();
+    void drawImpression();
+    /// Map and study beside each other, where nothing was found; false, and nothing drawn, where something was or they
+    /// do not fit.
+    bool drawQuietStudy();
+    void drawMap();
+    void drawFindingTable();
+    void drawFinding(const FindingWithFacts& finding);
+    void drawFindingHead(const FindingWithFacts& finding);
+    void drawSights(const FindingWithFacts& finding);
+    void drawStudy();
     void drawScans();
-    void drawScan(const ScanEntry& entry);
-    /// Two scans side by side; false, and nothing drawn, when what is left of the page does not hold them.
-    bool drawScanPair(const ScanEntry& first, const ScanEntry& second);
+    void drawSignature();
+    /// The markers of no finding.
+    std::vector<const MarkerEntry*> looseMarkers() const;
     void drawQuality();
     void drawQualityOf(const std::vector<const ScanEntry*>& scans);
     void drawQualityHead(const std::vector<const ScanEntry*>& scans);
     FramedPicture overviewOf(const ScanEntry& entry);
     void drawMarkers();
-    void drawMarkerTable();
+    void drawMarkerTable(const std::vector<const MarkerEntry*>& markers);
     void drawMarker(const MarkerEntry& entry);
-    void fillPageOf(const MarkerEntry& entry);
+    /// The page into the row of the table of markers, or of findings, that is about this one.
+    void fillPageOf(const std::string& id);
     void drawNote(const Marker& marker, const std::vector<TextLine>& note);
     void drawMarkerHead(const MarkerEntry& entry);
     void drawMarkerPictures(const FramedPicture& endoscopic, const FramedPicture& slices, double height);
@@ -39,16 +51,16 @@ private:
     FramedPicture framed(const std::filesystem::path& file, double print_width, const std::string& caption,
                          const std::string& kind, const std::string& of);
 
-    /// A row of the table of markers, whose page is filled in once its entry is drawn.
+    /// A row of a table, whose last column, the page, is filled in once its entry is drawn.
     struct TableRow {
         int page = 0;
-        double y = 0;
+        double x = 0, y = 0;
     };
 
     const ReportContent& content_;
     PageFlow& flow_;
     PictureShelf shelf_;
-    std::vector<TableRow> table_;
+    std::map<std::string, TableRow> rows_;  ///< by the id of marker or finding
     std::vector<std::string> warnings_;
 };
 

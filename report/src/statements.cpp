@@ -167,6 +167,29 @@ std::vector<Statement> scanStatements(const ScanEntry& entry)
     return out;
 }
 
+bool isPlain(const ScanEntry& entry)
+{
+    constexpr double kSure = 0.9;  // as the segmentation calls a colon that it does not doubt
+    const json& ingest = entry.scan.ingest;
+    const auto empty = [&](const char* list) {
+        return !ingest.is_object() || describeNotes(ingest.value(list, json::array())).empty();
+    };
+    return entry.verdict == "colon" && entry.confidence >= kSure && entry.skeleton_length_mm > 0 &&
+           entry.bridges.empty() && !entry.scan.series.lossy && entry.quality && entry.quality->whole.adequate &&
+           entry.quality->reason.empty() && empty("repairs") && empty("refused");
+}
+
+Statement briefStatement(const ScanEntry& entry)
+{
+    const json& ingest = entry.scan.ingest;
+    std::string text = seriesWords(entry.scan.series);
+    if (ingest.is_object() && ingest.contains("geometry"))
+        text += "; " + geometryWords(ingest["geometry"]);
+    text += "; colon of " + millimetres(entry.skeleton_length_mm) + "; noise " +
+            number(entry.quality ? entry.quality->noise_hu : 0, "%.0f HU");
+    return {scanTitle(entry), text};
+}
+
 std::vector<Statement> markerStatements(const MarkerEntry& entry)
 {
     const Marker& marker = entry.marker;

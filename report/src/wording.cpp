@@ -4,15 +4,37 @@
 #include <cmath>
 #include <cstdio>
 
+#include "vicon/cases/finding_facts.h"
 #include "vicon/cases/printed.h"
 #include "vicon/cases/records.h"
+#include "vicon/core/colon_parts.h"
+#include "vicon/core/error.h"
 
 namespace vicon::report {
 namespace {
 
-/// Factors from the distance along a CT skeleton to that along a colonoscope, as published: the endoscope pleats the
-/// bowel. They are averages over patients, not chosen on any case here.
-constexpr double kCaecumFactor = 0.57, kRightColonFactor = 0.59, kLeftColonFactor = 0.78;
+/// Nothing where the part is not known.
+std::optional<ColonPart> partNamed(std::string_view name)
+{
+    try {
+        return colonPartFrom(std::string(name));
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+const char* sideOf(ColonPart part)
+{
+    switch (part) {
+        case ColonPart::caecum:
+            return "caecum";
+        case ColonPart::ascending:
+        case ColonPart::hepatic_flexure:
+            return "right colon";
+        default:
+            return "left colon";
+    }
+}
 
 bool isNumber(std::string_view text)
 {
@@ -106,29 +128,23 @@ std::string percent(double fraction, int decimals)
 
 std::string endoscopeEstimate(double station_mm, std::string_view part_name)
 {
-    const auto single = [&](double factor, const char* where) {
-        return "about " + wholeCentimetres(station_mm * factor) + " cm (" + format("%.2f", factor) +
-               " \u00d7 CT distance, " + where + ")";
-    };
-    if (part_name == "caecum")
-        return single(kCaecumFactor, "caecum");
-    if (part_name == "ascending" || part_name == "hepatic flexure")
-        return single(kRightColonFactor, "right colon");
-    if (part_name == "rectum" || part_name == "sigmoid" || part_name == "descending" || part_name == "splenic flexure")
-        return single(kLeftColonFactor, "left colon");
-    const std::string low = wholeCentimetres(station_mm * kRightColonFactor);
-    const std::string high = wholeCentimetres(station_mm * kLeftColonFactor);
-    return "about " + (low == high ? low : low + " to " + high) + " cm (" + format("%.2f", kRightColonFactor) + " to " +
-           format("%.2f", kLeftColonFactor) + " \u00d7 CT distance)";
+    const auto part = partNamed(part_name);
+    const auto [least, most] = endoscopeFactors(part);
+    if (least == most)
+        return "about " + wholeCentimetres(station_mm * least) + " cm (" + format("%.2f", least) +
+               " \u00d7 CT distance, " + sideOf(*part) + ")";
+    const std::string low = wholeCentimetres(station_mm * least), high = wholeCentimetres(station_mm * most);
+    return "about " + (low == high ? low : low + " to " + high) + " cm (" + format("%.2f", least) + " to " +
+           format("%.2f", most) + " \u00d7 CT distance)";
 }
 
 std::string distancesExplained()
 {
+    const auto factor = [](ColonPart part) { return format("%.2f", endoscopeFactors(part).first); };
     return "Distances are measured along the skeleton of the colon in the CT scan. An endoscope pleats the bowel and "
-           "shows "
-           "shorter ones: its distance is estimated with the published factors of the caecum (" +
-           format("%.2f", kCaecumFactor) + "), the right colon (" + format("%.2f", kRightColonFactor) +
-           ") and the left colon (" + format("%.2f", kLeftColonFactor) + ").";
+           "shows shorter ones: its distance is estimated with the published factors of the caecum (" +
+           factor(ColonPart::caecum) + "), the right colon (" + factor(ColonPart::ascending) +
+           ") and the left colon (" + factor(ColonPart::sigmoid) + ").";
 }
 
 }  // namespace vicon::report

@@ -33,6 +33,16 @@ TEST(WrongUse, EndsWithTheRightCodeAndOneLineThatSaysWhatToDo)
         {"work --until-idle --set segment.gas_below_hu=5000" + store, 2, "between"},
         {"snapshot nosuchcase --view sideways --out x.png" + store, 1, "no such case"},
         {"report nosuchcase" + store, 1, "no such case"},
+        {"finding nosuchcase" + store, 1, "no such case"},
+        {"finding nosuchcase --add m1 --remove f1" + store, 2, "--remove"},
+        {"finding nosuchcase --markers m1" + store, 2, "--change"},
+        {"assess nosuchcase --accept" + store, 1, "no such case"},
+        {"sign nosuchcase" + store, 1, "no such case"},
+        {"amend nosuchcase --reason why --cancel" + store, 2, "--cancel"},
+        {"audit nosuchcase" + store, 1, "no such case"},
+        {"export nosuchcase" + store, 2, "--as"},
+        {"export nosuchcase --as pdf" + store, 2, "{json,csv,text}"},
+        {"config --set report.signers=7", 2, "a list of texts"},
         {"phantom " + (folder / "p").string() + " --size 3x3", 2, "COLUMNSxROWSxSLICES"},
         {"phantom /proc/nowhere --size 64x64x32", 1, "/proc/nowhere"},
         {"fly nosuchcase --to moon" + store, 1, "no such case"},
@@ -50,8 +60,9 @@ TEST(Help, AnswersForEverySubcommand)
 {
     const CommandResult all = runVicon("--help");
     EXPECT_EQ(all.exit_code, 0);
-    for (const char* name : {"import", "receive", "work", "cases", "show", "mark", "markers", "fly", "snapshot",
-                             "report", "phantom", "config", "doctor"}) {
+    for (const char* name :
+         {"import", "receive", "work", "cases", "show", "mark", "markers", "fly", "snapshot", "report", "finding",
+          "assess", "sign", "amend", "audit", "export", "phantom", "config", "doctor"}) {
         EXPECT_THAT(all.output, HasSubstr(name));
         const CommandResult one = runVicon(std::string(name) + " --help");
         EXPECT_EQ(one.exit_code, 0) << name;

@@ -55,7 +55,7 @@ TEST_P(Names, ArePrintedAndCanBeReadBack)
 {
     const support::TemporaryFolder folder;
     ReportContent content = samples::plainCase(folder.path());
-    content.a_case.patient.name = GetParam().dicom;
+    content.read.record.patient.name = GetParam().dicom;
     content.markers = {samples::plainMarker(folder.path(), 1), samples::plainMarker(folder.path(), 2)};
     content.markers[0].marker.note = GetParam().dicom;
     const PdfResult result = writePdf(content, folder / "report.pdf", {});
@@ -73,7 +73,7 @@ TEST(Warnings, NameTheCharacterAndNotThePatient)
 {
     const support::TemporaryFolder folder;
     ReportContent content = samples::plainCase(folder.path());
-    content.a_case.patient.name = "Secret^Smile \ue123";
+    content.read.record.patient.name = "Secret^Smile \ue123";
     const PdfResult result = writePdf(content, folder / "report.pdf", {});
     EXPECT_THAT(result.warnings, ElementsAre("no font can show U+E123; it is printed as [U+E123]"));
     EXPECT_THAT(samples::textOf(folder / "report.pdf"), HasSubstr("Secret, Smile [U+E123]"));

@@ -18,8 +18,10 @@ protected:
 
     void addMarkers(int count)
     {
-        for (int n = 1; n <= count; ++n)
+        for (int n = 1; n <= count; ++n) {
             content_.markers.push_back(samples::plainMarker(folder_.path(), n));
+            content_.read.loose_markers.push_back(content_.markers.back().marker.id);
+        }
     }
     PdfResult write(const ReportOptions& options = {}) { return writePdf(content_, pdf_, options); }
 };

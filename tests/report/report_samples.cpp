@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "vicon/cases/finding_facts.h"
 #include "vicon/core/file.h"
 #include "vicon/picture/png_file.h"
 #include "vicon/support/support.h"
@@ -52,9 +53,9 @@ ReportContent plainCase(const std::filesystem::path& folder)
     content.created = "2026-11-21T08:15:30Z";
     content.software_version = "0.1.0";
     content.number = 2;
-    content.a_case.id = "c1";
-    content.a_case.patient = {"PID-4711", "Adams^John Robert", "19610412", "M"};
-    content.a_case.study.date = "20261120";
+    content.read.record.id = "c1";
+    content.read.record.patient = {"PID-4711", "Adams^John Robert", "19610412", "M"};
+    content.read.record.study.date = "20261120";
     ScanEntry entry;
     entry.scan.id = "s1";
     entry.scan.series.number = 3;
@@ -86,6 +87,51 @@ MarkerEntry plainMarker(const std::filesystem::path& folder, int n)
     writeQuarters(entry.endoscopic_picture, 90, 90, {{{200, shade, 0}, {150, 60, 50}, {90, 20, 20}, {40, 10, 10}}});
     writeQuarters(entry.slices_picture, 120, 90, {{{shade, 90, 0}, {50, 50, 50}, {90, 90, 90}, {120, 120, 120}}});
     return entry;
+}
+
+void addFinding(ReportContent& content, int n)
+{
+    Finding finding{.id = "f", .morphology = Morphology::sessile, .note = "what f"};
+    finding.id += std::to_string(n);
+    finding.note += std::to_string(n) + " is like";
+    std::vector<Marker> markers;
+    for (int k = n; k <= std::min(n + 1, int(content.markers.size())); ++k) {
+        Marker& marker = content.markers[std::size_t(k) - 1].marker;
+        marker.part = ColonPart::sigmoid;
+        marker.size = MarkerSize{.straight_mm = 6 + 0.3 * k, .plane = PlaneSize{.diameter_mm = 6.1 + 0.3 * k}};
+        marker.density = DensitySample{.voxels = 40, .mean_hu = 41.0 + k};
+        finding.markers.push_back(marker.id);
+        markers.push_back(marker);
+        std::erase(content.read.loose_markers, marker.id);
+    }
+    Skeleton straight;
+    straight.pieces = {{false, {{{60, 12, 0}, 0, 15}, {{60, 12, 1600}, 1600, 15}}}};
+    content.read.findings.push_back({finding, factsOf(finding, markers, {{"s1", straight}})});
+    content.read.scans = {content.scans[0].scan};
+}
+
+void makeNormal(ReportContent& content)
+{
+    content.read.scans.clear();
+    for (ScanEntry& entry : content.scans) {
+        entry.confidence = 0.98;
+        ScanQuality quality;
+        quality.whole = {.median_radius_mm = 18, .volume_ml = 1900, .fluid_ml = 60, .adequate = true};
+        for (int part = 0; part < 8; ++part) {
+            quality.parts.push_back(quality.whole);
+            quality.parts.back().part = ColonPart(part);
+            content.read.parts.push_back({entry.scan.id, ColonPart(part), Distension::good, false});
+        }
+        entry.quality = quality;
+        content.read.scans.push_back(entry.scan);
+    }
+    Assessment& said = content.read.assessment;
+    said.indication = "screening";
+    said.preparation = said.tagging = Grade::good;
+    said.colon_category = {ColonCategory::c1, ""};
+    said.extracolonic_category = {ExtracolonicCategory::e1, ""};
+    content.read.colon_proposal.category = ColonCategory::c1;
+    content.read.extracolonic_proposal.category = ExtracolonicCategory::e1;
 }
 
 std::string textOf(const std::filesystem::path& pdf)

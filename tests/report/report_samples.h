@@ -19,6 +19,11 @@ ReportContent plainCase(const std::filesystem::path& folder);
 /// Marker number `n` (from 1) of that scan, with both pictures.
 MarkerEntry plainMarker(const std::filesystem::path& folder, int n);
 
+/// Adds finding number `n` (from 1), which marker `n` and, where there is one, marker `n + 1` show.
+void addFinding(ReportContent& content, int n);
+/// The scans get quality, and the reader's assessment is that of a normal study.
+void makeNormal(ReportContent& content);
+
 struct Word {
     double left, top, right, bottom;  ///< points, from the upper left corner
     std::string text;

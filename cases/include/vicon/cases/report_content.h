@@ -37,6 +37,8 @@ struct ReadCase {
     Proposal<ExtracolonicCategory> extracolonic_proposal;
 };
 ReadCase readCase(CaseStore& store, const std::string& case_id);
+/// As it would be with another assessment.
+ReadCase readCaseWith(CaseStore& store, const std::string& case_id, const Assessment& assessment);
 
 /// The parts that are collapsed in every scan that says something of them.
 std::vector<std::string> collapsedEverywhere(const std::vector<PartState>& parts);

@@ -8,6 +8,8 @@
 #include "vicon/cases/bridges.h"
 #include "vicon/cases/marker.h"
 #include "vicon/cases/records.h"
+#include "vicon/cases/report_content.h"
+#include "vicon/cases/report_versions.h"
 #include "vicon/core/scan_quality.h"
 
 namespace vicon::report {
@@ -37,12 +39,12 @@ struct MarkerEntry {
 /// All that a report says. Patient, study, series and markers are the case's own records, never typed in anew; what an
 /// encapsulated PDF or a structured report needs (UIDs, frames of reference, positions in LPS mm) is in them.
 struct ReportContent {
-    CaseRecord a_case;
+    ReadCase read;  ///< the case, its findings and what was said of the whole study
     std::vector<ScanEntry> scans;
-    std::vector<MarkerEntry> markers;
-    std::string created;  ///< UTC, "2026-11-21T08:15:30Z"
-    int number = 1;       ///< of the report within its case
-    bool draft = true;    ///< nobody has signed it
+    std::vector<MarkerEntry> markers;      ///< all, also those that belong to a finding
+    std::string created;                   ///< UTC, "2026-11-21T08:15:30Z"
+    int number = 1;                        ///< of the report within its case
+    std::optional<ReportVersion> version;  ///< that is given out; absent: this is a draft
     std::string software_version;
 };
 

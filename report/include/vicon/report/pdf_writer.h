@@ -11,6 +11,7 @@ namespace vicon::report {
 
 struct PdfResult {
     std::vector<std::string> warnings;  ///< what could not be printed as it is, a line each, without patient data
+    int unreadable_pictures = 0;        ///< among them
     int pages = 0;
 };
 

@@ -17,6 +17,9 @@ struct Statement {
 /// Printed on every page of a report that nobody has signed.
 inline constexpr const char* kDraftLine = "DRAFT - unsigned - made by research software that is no medical device";
 
+inline constexpr const char* kPreliminaryLine =
+    "PRELIMINARY - unsigned - made by research software that is no medical device";
+
 /// Name, ID, birth date and sex; what the case does not say is said to be not given.
 std::vector<Statement> patientStatements(const CaseRecord& a_case);
 /// Date, description, accession number, referring physician and institution; only those that are given, date always.
@@ -27,6 +30,12 @@ std::string scanTitle(const ScanEntry& entry);
 /// Series, geometry, compression, result of the segmentation, colon length, bridges, quality, and what ingest repaired
 /// or refused.
 std::vector<Statement> scanStatements(const ScanEntry& entry);
+
+/// Whether there is nothing about a scan that a reader must know: a colon that was surely found, without bridges,
+/// repairs and refusals, adequate and not lossy.
+bool isPlain(const ScanEntry& entry);
+/// Its series, geometry and colon length in a line.
+Statement briefStatement(const ScanEntry& entry);
 
 /// Position, part, distances from both ends, fraction, size and paired marker where given and, last, the estimated
 /// endoscope distance.

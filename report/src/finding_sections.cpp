@@ -1,0 +1,115 @@
+// The part of Sections that is about findings.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "row_table.h"
+#include "sections.h"
+#include "vicon/report/finding_statements.h"
+#include "vicon/report/wording.h"
+
+namespace vicon::report {
+namespace {
+
+constexpr std::array<TableColumn, 8> kFindingColumns = {{{"No.", 0},
+                                                         {"Finding", 0.05},
+                                                         {"Size", 0.32},
+                                                         {"Place", 0.42},
+                                                         {"From rectum", 0.62},
+                                                         {"Endoscope, est.", 0.74},
+                                                         {"Scans", 0.87},
+                                                         {"Page", 0.94}}};
+constexpr double kSightPictures_pt = 150;
+
+std::string numberOf(const FindingWithFacts& f)
+{
+    return std::to_string(f.finding.number());
+}
+
+/// "28 - 41 cm".
+std::string endoscopeRange(const FindingFacts& facts)
+{
+    if (!facts.endoscope)
+        return "-";
+    const auto centimetres = [](double mm) { return std::to_string(std::lround(mm / 10)); };
+    return centimetres(facts.endoscope->least_mm) + " - " + centimetres(facts.endoscope->most_mm) + " cm";
+}
+
+}  // namespace
+
+void Sections::drawFindingTable()
+{
+    const auto& findings = content_.read.findings;
+    drawSection(flow_, "Findings in the colon", 3 * leadingOf(look::kBody));
+    if (findings.empty()) {
+        flow_.paragraph(flow_.left(), flow_.width(), {flow_.type.line(kNoFindings, look::kBody)}, look::kBody,
+                        look::kInk);
+        flow_.skip(look::kGap);
+        return;
+    }
+    RowTable table(flow_, kFindingColumns);
+    table.drawHead();
+    for (const FindingWithFacts& f : findings) {
+        const FindingSight* lead = f.facts.lead();
+        table.beginRow();
+        rows_[f.finding.id] = {flow_.page(), table.left(kFindingColumns.size() - 1), flow_.y()};
+        table.drawRow({numberOf(f), kindWords(f.finding), sizeWords(f.facts), placeWords(f.facts),
+                       lead ? millimetres(lead->station_mm) : "-", endoscopeRange(f.facts),
+                       std::to_string(f.facts.sights.size())});
+    }
+    flow_.paragraph(flow_.left(), flow_.width(), flow_.type.lines(distancesExplained(), look::kSmall, flow_.width()),
+                    look::kSmall, look::kMuted);
+    flow_.skip(look::kGap);
+}
+
+void Sections::drawFindingHead(const FindingWithFacts& f)
+{
+    const double x = flow_.left(), height = leadingOf(look::kEntry) + 6;
+    flow_.pdf.fill(flow_.page(), {x, flow_.y() - height, flow_.width(), height}, look::kPale);
+    const TextLine title = flow_.type.line("Finding " + numberOf(f) + ": " + kindWords(f.finding), look::kEntry);
+    flow_.put(x + 6, flow_.y() - 3, title, look::kInk);
+    flow_.putRight(x + flow_.width() - 6, flow_.y() - 3, flow_.type.line(sizeWords(f.facts), look::kEntry), look::kInk);
+    flow_.skip(height + 4);
+}
+
+void Sections::drawFinding(const FindingWithFacts& f)
+{
+    const StatementTable table(flow_.type, findingStatements(content_.read, f), flow_.width());
+    const double head = leadingOf(look::kEntry) + 10, caption = leadingOf(look::kSmall) + 4;
+    const double whole =
+        head + table.height() + (f.facts.sights.empty() ? 0 : kSightPictures_pt + caption + look::kGap);
+    flow_.need(whole <= flow_.wholePage() ? whole : head + 3 * leadingOf(look::kBody));
+    fillPageOf(f.finding.id);
+    flow_.pdf.bookmark(flow_.page(), flow_.y() + 4, "Finding " + numberOf(f) + " (" + nameOf(f.finding.kind) + ")");
+    drawFindingHead(f);
+    table.draw(flow_, flow_.left());
+    flow_.skip(5);
+    drawSights(f);
+    flow_.skip(look::kGap / 2);
+}
+
+void Sections::drawSights(const FindingWithFacts& f)
+{
+    const auto& chosen = f.finding.pictures;
+    const MarkerEntry* measured = nullptr;  // where the size that counts was taken
+    for (const FindingSight& sight : f.facts.sights) {
+        if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), sight.marker_id) == chosen.end())
+            continue;
+        const auto entry = std::find_if(content_.markers.begin(), content_.markers.end(),
+                                        [&](const MarkerEntry& e) { return e.marker.id == sight.marker_id; });
+        if (entry == content_.markers.end())
+            continue;
+        const std::string of = scanLabel(content_.read, sight.scan_id) + ", " + sight.marker_id +
+                               (isLossy(content_, sight.scan_id) ? " \u00b7 LOSSY COMPRESSION" : "");
+        const std::string owner = "marker " + sight.marker_id;
+        drawMarkerPictures(
+            framed(entry->endoscopic_picture, flow_.width() / 2, "From inside, " + of, "endoscopic", owner),
+            framed(entry->slices_picture, flow_.width(), "Slices, " + of, "slice", owner), kSightPictures_pt);
+        if (&sight == f.facts.lead())
+            measured = &*entry;
+    }
+    if (measured)
+        drawMeasuresPicture(*measured, " \u00b7 " + scanLabel(content_.read, measured->marker.scan_id));
+}
+
+}  // namespace vicon::report

@@ -1,0 +1,161 @@
+// What the PDF says of findings, and how it says that it is signed.
+#include <regex>
+
+#include "pdf_fixture.h"
+#include "vicon/report/finding_statements.h"
+#include "vicon/report/statements.h"
+
+namespace vicon::report {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class PdfOfFindings : public PdfWriter {
+protected:
+    void addFindings(int count)
+    {
+        addMarkers(2 * count);
+        for (int n = 1; n <= count; ++n)
+            samples::addFinding(content_, 2 * n - 1);
+    }
+    void expectWellMade(const PdfResult& result)
+    {
+        EXPECT_THAT(result.warnings, IsEmpty());
+        expectSound(pdf_);
+        expectTidy(pdf_);
+    }
+    static ReportVersion version(int number, ReportState state)
+    {
+        return {.version = number, .state = state, .person = "anna", .at = "2026-11-21T08:15:30Z"};
+    }
+};
+
+TEST_F(PdfOfFindings, SaysOnPageOneWhatAReferringPhysicianNeeds)
+{
+    addFindings(1);
+    content_.read.assessment.colon_category = {ColonCategory::c3, "growing"};
+    content_.read.colon_proposal = {ColonCategory::c2a, "one polyp of 6 to 9 mm"};
+    content_.read.assessment.extracolonic = {{"kidney", "a cyst", ExtracolonicCategory::e1}};
+    expectWellMade(write());
+    const std::string first = samples::pageTexts(pdf_).at(0);
+    for (const char* what : {"Finding 1: polyp, sessile, 6.7 mm, sigmoid, 3 o'clock.", "C3: polyp, possibly advanced",
+                             "proposed: C2a (one polyp of 6 to 9 mm)", "reason: growing", "Colonoscopy.",
+                             "Findings in the colon", "polyp, sessile", "6.7 mm"})
+        EXPECT_THAT(first, HasSubstr(what));
+    EXPECT_LT(first.find("C3: polyp"), first.find("Findings in the colon"));
+}
+
+TEST_F(PdfOfFindings, SaysEveryNumberOfAFinding)
+{
+    addFindings(1);
+    content_.read.findings[0].finding.height_mm = 2.5;
+    content_.read.findings[0].finding.volume_ml = 0.4;
+    write();
+    std::string text = samples::textOf(pdf_);
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    for (const char* what :
+         {"6.7 mm (largest diameter in the best plane), surface 6.6 mm, height 2.5 mm, volume 0.4 ml", "20 mm from the",
+          "1580 mm from the", "40 mm from the", "best plane 6.4 mm", "surface 6.3 mm", "43 HU, mean", "42 HU",
+          "estimated: about 3 cm (1 to 4 cm)", "what f1 is like", "From inside, prone (series 3), m1",
+          "From inside, prone (series 3), m2", "Slices, prone (series 3), m2"})
+        EXPECT_THAT(text, HasSubstr(what));
+}
+
+TEST_F(PdfOfFindings, ListsMarkersOfNoFindingAsSuch)
+{
+    addFindings(1);
+    EXPECT_THAT((write(), samples::textOf(pdf_)), Not(HasSubstr("Markers of no finding")));
+    addMarkers(3);
+    content_.markers.erase(content_.markers.begin() + 2, content_.markers.begin() + 4);  // m1 and m2 again
+    content_.read.loose_markers = {"m3"};
+    expectWellMade(write());
+    const std::string text = samples::textOf(pdf_);
+    EXPECT_THAT(text, AllOf(HasSubstr("Markers of no finding"), HasSubstr("Marker m3,"), Not(HasSubstr("Marker m1,"))));
+}
+
+TEST_F(PdfOfFindings, ShowsOnlyThePicturesThatTheReaderChose)
+{
+    addFindings(1);
+    content_.read.findings[0].finding.pictures = {"m2"};
+    write();
+    EXPECT_THAT(samples::textOf(pdf_),
+                AllOf(HasSubstr("(series 3), m2"), Not(HasSubstr("From inside, prone (series 3), m1"))));
+}
+
+TEST_F(PdfOfFindings, HoldsTwelveOfThemAndNamesTheirPages)
+{
+    addFindings(12);
+    expectWellMade(write());
+    const std::string table = support::runCommand("pdftotext -layout " + pdf_.string() + " -").output;
+    const std::vector<std::string> pages = samples::pageTexts(pdf_);
+    for (const FindingWithFacts& f : content_.read.findings) {
+        const std::string number = std::to_string(f.finding.number());
+        std::smatch found;
+        ASSERT_TRUE(
+            std::regex_search(table, found, std::regex("\n *" + number + " +polyp, sessile .*cm +2 +([0-9]+)\n")))
+            << number;
+        EXPECT_THAT(pages.at(std::stoul(found[1]) - 1), HasSubstr("Finding " + number + ": polyp, sessile\n"));
+    }
+}
+
+TEST_F(PdfOfFindings, OfANormalStudyIsOnePage)
+{
+    for (const std::size_t scans : {1u, 2u}) {
+        while (content_.scans.size() < scans) {
+            content_.scans.push_back(content_.scans[0]);
+            content_.scans.back().scan.id = "s2";
+        }
+        content_.read.parts.clear();
+        samples::makeNormal(content_);
+        for (const char* paper : {"a4", "letter"}) {
+            const PdfResult result = write({.paper = paper});
+            EXPECT_EQ(result.pages, 1) << scans << " scans on " << paper;
+            expectSound(pdf_);
+        }
+        EXPECT_THAT(samples::textOf(pdf_),
+                    AllOf(HasSubstr("No polyp of 6 mm or more was found."), HasSubstr("C1: normal colon"),
+                          HasSubstr("Continue routine screening."), HasSubstr("No findings were stated"),
+                          HasSubstr("good in every part and position"), HasSubstr("whole colon")));
+    }
+}
+
+TEST_F(PdfOfFindings, SaysOnEveryPageWhetherItIsSigned)
+{
+    addFindings(2);
+    const struct {
+        std::optional<ReportVersion> version;
+        std::vector<std::string> said, not_said;
+    } cases[] = {
+        {{}, {kDraftLine, "draft 2"}, {"Signed", "PRELIMINARY"}},
+        {version(1, ReportState::preliminary), {kPreliminaryLine, "version 1"}, {"Signed", "DRAFT"}},
+        {version(2, ReportState::final),
+         {"Signed by anna, 2026-11-21 08:15 UTC, version 2", "no medical device"},
+         {"DRAFT", "PRELIMINARY"}},
+    };
+    for (const auto& c : cases) {
+        content_.version = c.version;
+        expectWellMade(write());
+        for (const std::string& page : samples::pageTexts(pdf_)) {
+            for (const std::string& what : c.said)
+                EXPECT_THAT(page, HasSubstr(what));
+            for (const std::string& what : c.not_said)
+                EXPECT_THAT(page, Not(HasSubstr(what)));
+        }
+    }
+}
+
+TEST_F(PdfOfFindings, SaysWhatItAmendsAndWhy)
+{
+    addFindings(1);
+    content_.version = version(2, ReportState::amended);
+    content_.version->replaces = 1;
+    content_.version->reason = "size read again";
+    expectWellMade(write());
+    EXPECT_THAT(samples::pageTexts(pdf_).at(0), HasSubstr("Amends version 1, which stays: size read again"));
+}
+
+}  // namespace
+}  // namespace vicon::report
