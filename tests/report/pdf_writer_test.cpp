@@ -222,7 +222,8 @@ TEST_F(PdfWriter, PicturesAreNeitherMirroredNorTurned)
         Mean m;
         for (int y = 0; y < page.height; ++y)
             for (int x = 0; x < page.width; ++x)
-                if (const auto* p = page.at(x, y); std::abs(p[0] - red) + std::abs(p[1] - green) + std::abs(p[2] - blue) <= 2)
+                if (const auto* p = page.at(x, y);
+                    std::abs(p[0] - red) + std::abs(p[1] - green) + std::abs(p[2] - blue) <= 2)
                     m = {m.x + x, m.y + y, m.count + 1};
         return Mean{m.x / m.count, m.y / m.count, m.count};
     };
