@@ -55,6 +55,12 @@ public:
 
     void newPage();
     void skip(double height) { y_ -= height; }
+    /// Starts a page unless this one is still empty.
+    void startPage()
+    {
+        if (!atTop())
+            newPage();
+    }
     /// Starts a page when less than `height` is left, unless this one is still empty.
     void need(double height);
 

@@ -26,6 +26,9 @@ void Sections::draw()
     if (!drawQuietStudy()) {
         drawMap();
         drawFindingTable();
+        if (!content_.markers
+                 .empty())  // page one is for who referred the patient; what follows is for who looks closer
+            flow_.startPage();
         for (const FindingWithFacts& finding : content_.read.findings)
             drawFinding(finding);
         drawMarkers();

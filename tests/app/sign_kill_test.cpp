@@ -1,5 +1,6 @@
 // Killed at any moment between the command and its last file, a report is either a draft or signed with all that
 // belongs to it.
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>

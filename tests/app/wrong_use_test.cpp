@@ -42,7 +42,6 @@ TEST(WrongUse, EndsWithTheRightCodeAndOneLineThatSaysWhatToDo)
         {"audit nosuchcase" + store, 1, "no such case"},
         {"export nosuchcase" + store, 2, "--as"},
         {"export nosuchcase --as pdf" + store, 2, "{json,csv,text}"},
-        {"config --set report.signers=7", 2, "a list of texts"},
         {"phantom " + (folder / "p").string() + " --size 3x3", 2, "COLUMNSxROWSxSLICES"},
         {"phantom /proc/nowhere --size 64x64x32", 1, "/proc/nowhere"},
         {"fly nosuchcase --to moon" + store, 1, "no such case"},
