@@ -17,6 +17,7 @@ struct SnapshotArguments {
     double angle_deg = 90;
     bool ambient_occlusion = true;
     std::string window;
+    bool cleansed = false;
     std::string peel;
     double peel_offset_mm = 0;
     bool peel_middle = false;
@@ -50,6 +51,7 @@ int snapshot(Context& context, const SnapshotArguments& arguments)
     request.view_angle_deg = arguments.angle_deg;
     request.ambient_occlusion = arguments.ambient_occlusion;
     request.window = arguments.window;
+    request.cleansed = arguments.cleansed;
     request.peel = arguments.peel;
     request.peeling.offset_mm = arguments.peel_offset_mm;
     request.peel_middle_only = arguments.peel_middle;
@@ -106,6 +108,7 @@ Subcommand snapshotCommand()
             command.flag("--ambient-occlusion,!--no-ambient-occlusion", arguments->ambient_occlusion,
                          "Less light between folds and at the foot of what rises from the wall (default: on)");
             command.option("--window", arguments->window, "Window/level preset of the slices (default: the organ's)");
+            command.flag("--cleansed", arguments->cleansed, "Slices without tagging, where that was taken out");
             const auto peel =
                 command
                     .option("--peel", arguments->peel,

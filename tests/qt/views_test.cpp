@@ -7,6 +7,7 @@
 #include <QTableWidget>
 
 #include "reading.h"
+#include "vicon/scan_files/volume_file.h"
 
 namespace vicon::viewer {
 namespace {
@@ -101,6 +102,30 @@ TEST_F(Reading, AmbientOcclusionIsThereFromTheFirstAndWithoutItIsRemembered)
     EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == plain; }));
     the<QAction>("ambientOcclusion")->trigger();
     EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == shaded; }));
+}
+
+TEST_F(Reading, SlicesWithoutTaggingAreOneKeyAwayAndNeverTheFirst)
+{
+    const std::filesystem::path scan = CaseStore(store_).scanFolder(test::kCase, test::kSupine);
+    HuVolume clean = scan_files::readVolume<std::int16_t>(scan / "volume.mha");
+    std::fill(clean.voxels.begin(), clean.voxels.end(), std::int16_t(0));
+    scan_files::writeVolume(scan / "cleansed.mha", clean, scan_files::Packing::raw);
+    openCase();
+    settle();
+    const QImage acquired = pictureOf("axial");
+    for (int opened = 0; opened < 2; ++opened) {
+        key(Qt::Key_K);
+        ASSERT_TRUE(eventually([&] { return pictureOf("axial") != acquired; }));
+        settle();
+        screenshot("cleansed");
+        if (opened == 0) {
+            closeCase();
+            openCase();
+            EXPECT_TRUE(eventually([&] { return pictureOf("axial") == acquired; })) << "opened with what was acquired";
+        }
+    }
+    key(Qt::Key_K);
+    EXPECT_TRUE(eventually([&] { return pictureOf("axial") == acquired; }));
 }
 
 TEST_F(Reading, WhatWasSeenIsCountedPaintedListedAndKept)

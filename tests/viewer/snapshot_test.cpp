@@ -6,6 +6,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/picture/png_file.h"
+#include "vicon/scan_files/volume_file.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/slice_image.h"
 #include "vicon/viewer/scene/canvas.h"
@@ -265,6 +266,35 @@ TEST_F(Snapshots, ASliceOfAPatientOfWhomNothingIsKnownSaysNoDistance)
     EXPECT_GT(
         findColor(slicePicture(prepared.volume(), request), kTextColor, {0, 3.4 * line_px, 180, 3 * line_px}, 60).count,
         0);
+}
+
+TEST_F(Snapshots, SlicesShowWhatWasAcquiredOrItWithoutTaggingAndSayWhich)
+{
+    const PreparedScan acquired = scan(colon, "acquired");
+    colon.write(folder / "cleansed");
+    HuVolume around(Grid{.size = {20, 20, 20}, .spacing_mm = colon.volume.grid.spacing_mm}, 200);
+    around.grid.origin_mm = colon.polyp_mm - Vector3{10, 10, 10};
+    scan_files::writeVolume(folder / "cleansed" / "cleansed.mha", around, scan_files::Packing::raw);
+    const PreparedScan cleansed = PreparedScan::open(folder / "cleansed");
+    SliceRequest request;
+    request.view = sliceThrough(colon.volume.grid, SlicePlane::axial, colon.polyp_mm, 400, 400, 60);
+    request.point_mm = colon.polyp_mm;
+    request.window = {"test", 100, 200};
+    EXPECT_EQ(acquired.cleansed(), nullptr);
+    ASSERT_NE(cleansed.cleansed(), nullptr);
+    const auto drawn = [&](const PreparedScan& of, bool clean) {
+        request.cleansed = clean;
+        return slicePicture(of.volume(), request, of.cleansed());
+    };
+    const Pixel aside = request.view.toPixel(colon.polyp_mm + Vector3{6, 6, 0});
+    const auto greyAt = [&](const Picture& picture) {
+        return int(picture.rgb[3 * (std::size_t(aside.y) * 400 + std::size_t(aside.x))]);
+    };
+    EXPECT_NEAR(greyAt(drawn(cleansed, true)), 127, 2) << "200 HU in the middle of the window";
+    EXPECT_EQ(greyAt(drawn(cleansed, false)), greyAt(drawn(acquired, false)));
+    EXPECT_EQ(differing(drawn(acquired, true), drawn(acquired, false), 1), 0) << "there is one kind only, and no word";
+    const Picture one = drawn(cleansed, false), other = drawn(acquired, false);
+    EXPECT_GT(differing(one, other, 1), 0.001) << "as acquired";
 }
 
 TEST_F(Snapshots, LookBelowTheWallInTheMiddleOnlyWhereAskedTo)

@@ -32,10 +32,15 @@ public:
     {
     }
 
-    /// The density of a voxel of the labels' grid; where none was measured that of what its label says.
+    /// The density of a voxel of the labels' grid, or kPaddingHu.
+    std::int16_t acquired(Index3 v) const
+    {
+        return hu_.valueOr({v.i + offset_.i, v.j + offset_.j, v.k + offset_.k}, kPaddingHu);
+    }
+    /// The same; where none was measured that of what its label says.
     std::int16_t hu(Index3 v) const
     {
-        const std::int16_t value = hu_.valueOr({v.i + offset_.i, v.j + offset_.j, v.k + offset_.k}, kPaddingHu);
+        const std::int16_t value = acquired(v);
         if (value != kPaddingHu)
             return value;
         return std::int16_t(inside.valueOr(v, kOutside) == kGas ? gas_hu : tissue_hu);

@@ -45,9 +45,9 @@ HuVolume cleanse(const Mixture& mixture, const TissueVolume& tissue)
             const std::size_t begin = tissue.grid.offset({0, j, k});
             for (int i = 0; i < nx; ++i) {
                 const std::size_t n = begin + std::size_t(i);
-                const std::int16_t hu = mixture.hu({i, j, k});
+                const std::int16_t hu = mixture.acquired({i, j, k});
                 cleansed.voxels[n] = hu;
-                if (!tagged[n])
+                if (!tagged[n] || hu == kPaddingHu)
                     continue;
                 const double clean_hu =
                     kCleanGas_hu + (kCleanTissue_hu - kCleanGas_hu) * double(tissue.voxels[n]) / double(kWhole);

@@ -59,6 +59,16 @@ std::vector<float> sliceDensities(const HuView& volume, const PlaneView& view)
     return densities;
 }
 
+std::vector<float> sliceDensities(const HuView& volume, const HuView& cleansed, const PlaneView& view)
+{
+    std::vector<float> densities = sliceDensities(volume, view);
+    const std::vector<float> clean = sliceDensities(cleansed, view);
+    for (std::size_t n = 0; n < densities.size(); ++n)
+        if (clean[n] != kPaddingHu)
+            densities[n] = clean[n];
+    return densities;
+}
+
 Bounds boundsOf(const Grid& grid)
 {
     const auto corner = [&](int n) {

@@ -60,7 +60,7 @@ struct PreparedScan::Files {
     };
 
     fs::path folder;
-    Lazy<scan_files::StoredVolume<std::int16_t>> volume;
+    Lazy<scan_files::StoredVolume<std::int16_t>> volume, cleansed;
     Lazy<scan_files::StoredVolume<std::uint8_t>> inside;
     Lazy<scan_files::StoredVolume<float>> wall_distance, exit_distance;
     Lazy<scan_files::StoredVolume<std::uint16_t>> segments;
@@ -145,6 +145,14 @@ void PreparedScan::readOn() const
     bringInLumen(files_->storedExitDistance(), inside());
     const auto& stored = files_->storedVolume();
     stored.readAhead(0, stored.view().voxels.size());
+}
+
+const HuView* PreparedScan::cleansed() const
+{
+    const fs::path file = files_->folder / "cleansed.mha";
+    if (!fs::exists(file))
+        return nullptr;
+    return &files_->cleansed.get([&] { return scan_files::StoredVolume<std::int16_t>(file); }).view();
 }
 
 const HuView& PreparedScan::volume() const

@@ -14,7 +14,7 @@ Picture SlicePictures::draw(const std::shared_ptr<const PreparedScan>& scan, con
     earlier_plane_ = plane_;
     plane_ = SliceSlab::planeOf(scan->volume().grid, request.view);
     const bool held = plane_ && slab_ && slab_->holds(*plane_);
-    return slicePicture(held ? HuView(slab_->volume()) : scan->volume(), request);
+    return slicePicture(held ? HuView(slab_->volume()) : scan->volume(), request, scan->cleansed());
 }
 
 void SlicePictures::readAhead()

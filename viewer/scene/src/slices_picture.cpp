@@ -16,13 +16,20 @@ constexpr std::size_t kNoteLine = 44;  // characters
 constexpr std::size_t kMostNoteLines = 3;
 constexpr double kCloseUp_mm = 50;  // what the close-up shows: a polyp of 6 mm fills an eighth of it
 
-Picture greyPicture(const HuView& volume, const PlaneView& view, const WindowLevel& window)
+/// @param cleansed shown where it has densities; nothing: nowhere
+Picture greyPicture(const HuView& volume, const HuView* cleansed, const PlaneView& view, const WindowLevel& window)
 {
     Picture picture(view.width, view.height);
-    const auto densities = sliceDensities(volume, view);
+    const auto densities = cleansed ? sliceDensities(volume, *cleansed, view) : sliceDensities(volume, view);
     for (std::size_t n = 0; n < densities.size(); ++n)
         std::fill_n(picture.rgb.begin() + std::ptrdiff_t(3 * n), 3, window.greyOf(densities[n]));
     return picture;
+}
+
+/// Which densities are shown, where there are two kinds.
+std::string wordFor(const HuView* cleansed, bool shown)
+{
+    return !cleansed ? "" : shown ? ", CLEANSED" : ", as acquired";
 }
 
 std::string titleOf(SlicePlane plane, Point3 point)
@@ -50,7 +57,7 @@ Picture slice(const PreparedScan& scan, const SnapshotRequest& request, const Pa
     const auto& [plane, point, width, height, field_mm, cross] = panel;
     const HuView& volume = scan.volume();
     const PlaneView view = sliceThrough(volume.grid, plane, point, width, height, field_mm);
-    Picture picture = greyPicture(volume, view, windowOf(scan, request));
+    Picture picture = greyPicture(volume, request.cleansed ? scan.cleansed() : nullptr, view, windowOf(scan, request));
     Overlay overlay;
     const Area area{0, 0, double(width), double(height)};
     const double text_px = textHeightFor(width, height) * 1.15;
@@ -77,7 +84,7 @@ std::vector<OverlayText> linesOf(const PreparedScan& scan, const SnapshotRequest
     OverlayText line;
     line.color = kTextColor;
     line.text = "window " + window.name + ": " + std::to_string(std::lround(window.width_hu)) + " / " +
-                std::to_string(std::lround(window.level_hu)) + " HU";
+                std::to_string(std::lround(window.level_hu)) + " HU" + wordFor(scan.cleansed(), request.cleansed);
     lines.push_back(line);
     for (const Marker& marker : request.markers)
         if (request.look_at_mm && marker.position_mm == *request.look_at_mm) {
@@ -105,10 +112,10 @@ Picture captionAndCloseUp(const PreparedScan& scan, const SnapshotRequest& reque
 
 }  // namespace
 
-Picture slicePicture(const HuView& volume, const SliceRequest& request)
+Picture slicePicture(const HuView& volume, const SliceRequest& request, const HuView* cleansed)
 {
     const PlaneView& view = request.view;
-    Picture picture = greyPicture(volume, view, request.window);
+    Picture picture = greyPicture(volume, request.cleansed ? cleansed : nullptr, view, request.window);
     Overlay overlay;
     const Area area{0, 0, double(view.width), double(view.height)};
     const double text_px = textHeightFor(view.width, view.height, request.pixel_ratio) * 1.15;
@@ -126,7 +133,7 @@ Picture slicePicture(const HuView& volume, const SliceRequest& request)
     addLines(overlay, {0, 0, area.width * 0.46, area.height}, {line}, text_px);  // beside the letter in the middle
     std::vector<OverlayText> lines = patientLines(request.caption);
     line.text = request.window.name + " " + std::to_string(std::lround(request.window.width_hu)) + " / " +
-                std::to_string(std::lround(request.window.level_hu)) + " HU";
+                std::to_string(std::lround(request.window.level_hu)) + " HU" + wordFor(cleansed, request.cleansed);
     lines.push_back(line);
     if (request.caption.lossy) {
         line.text = "LOSSY COMPRESSION";

@@ -1,5 +1,6 @@
 #include "slices/slice_tool.h"
 
+#include <QAction>
 #include <QComboBox>
 #include <QSignalBlocker>
 
@@ -28,6 +29,13 @@ void SliceTool::addTo(ReadingLayout& layout)
     layout.addAction(ReadingMenu::view, tr("Whole slices"), QKeySequence("0"), [this] {
         for (SliceView* slice : reading_.views().slices())
             slice->resetView();
+    });
+    // Off whenever a case is opened: what is read first is what was acquired.
+    const QAction* cleansed =
+        layout.addSwitch(ReadingMenu::view, tr("Slices without tagging (cleansed)"), QKeySequence("K"));
+    connect(cleansed, &QAction::toggled, this, [this](bool on) {
+        for (SliceView* slice : reading_.views().slices())
+            slice->setCleansed(on);
     });
     connect(window_, &QComboBox::currentTextChanged, &reading_, [this](const QString& name) {
         const WindowLevel window = windowPreset(name.toStdString());

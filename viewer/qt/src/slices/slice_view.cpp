@@ -44,6 +44,12 @@ void SliceView::setWindow(const WindowLevel& window)
     draw();
 }
 
+void SliceView::setCleansed(bool cleansed)
+{
+    request_.cleansed = cleansed;
+    draw();
+}
+
 QPoint SliceView::home() const
 {
     const QPoint at = scan_ ? toWidget(shown_.toPixel(request_.point_mm)).toPoint() : rect().center();

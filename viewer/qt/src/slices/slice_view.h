@@ -19,6 +19,8 @@ public:
     /// Draws the slice through `point`, with the crosshair there.
     void look(std::shared_ptr<OpenScan> scan, Point3 point, const Pose& pose, std::vector<Marker> markers);
     void setWindow(const WindowLevel& window);
+    /// Shows the densities without tagging, where that was taken out.
+    void setCleansed(bool cleansed);
     /// The whole scan, centred on the point.
     void resetView();
     const PlaneView& shown() const { return shown_; }

@@ -12,6 +12,10 @@ namespace vicon::viewer {
 /// scan. The plane may lie in any direction, and so may the scan's axes.
 std::vector<float> sliceDensities(const HuView& volume, const PlaneView& view);
 
+/// The same with those of another volume wherever it has any: the densities without tagging, which lie around the
+/// lumen.
+std::vector<float> sliceDensities(const HuView& volume, const HuView& cleansed, const PlaneView& view);
+
 /// The orthogonal slice through `point` that shows the whole scan, or, with `field_mm` above 0, that much of it around
 /// the point.
 PlaneView sliceThrough(const Grid& grid, SlicePlane plane, Point3 point, int width, int height, double field_mm = 0);

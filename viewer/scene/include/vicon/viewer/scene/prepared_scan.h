@@ -39,6 +39,7 @@ public:
 
     // Each throws Error{not_ready} where its file is missing, Error{bad_input} where it is damaged.
     const HuView& volume() const;                 ///< volume.mha
+    const HuView* cleansed() const;               ///< cleansed.mha; nothing where no tagging was sought
     const InsideView& inside() const;             ///< inside.mha
     const FieldView& wallDistance() const;        ///< wall_distance.mha
     const FieldView& exitDistance() const;        ///< exit_distance.mha

@@ -21,9 +21,11 @@ struct SliceRequest {
     WindowLevel window;
     std::vector<Marker> markers;  ///< drawn where they lie within 5 mm of the plane
     Caption caption;
+    bool cleansed = false;  ///< without tagging, where that was taken out
 };
-/// Needs no display.
-Picture slicePicture(const HuView& volume, const SliceRequest& request);
+/// Needs no display. The picture says which densities it shows, where there are two kinds.
+/// @param cleansed PreparedScan::cleansed()
+Picture slicePicture(const HuView& volume, const SliceRequest& request, const HuView* cleansed = nullptr);
 
 /// What an endoscopic picture shows beside the wall.
 struct EndoscopicLook {

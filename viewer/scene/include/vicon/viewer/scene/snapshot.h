@@ -39,6 +39,7 @@ struct SnapshotRequest {
     double view_angle_deg = 90;     ///< endo: over the picture's height, 20 to 150
     bool ambient_occlusion = true;  ///< endo: less light where the wall is less open, see opennessOf()
     std::string window;             ///< slices: a preset of config/windows.toml; empty: the organ's default
+    bool cleansed = false;          ///< slices: without tagging, where that was taken out
     double slice_field_mm = 0;      ///< slices: how much to show around the point; 0: the whole scan
     ViewPoseOptions pose;           ///< endo: where to put the eye
     std::string peel;               ///< endo: a preset of config/transfer_functions.toml to look below the wall with
