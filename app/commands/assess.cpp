@@ -76,12 +76,12 @@ void choose(std::optional<Chosen<Category>>& chosen, const Proposal<Category>& p
     if (accept) {
         if (!proposal.category)
             throw Error(ErrorCode::bad_input, "no category can be proposed: " + proposal.reason);
-        chosen = {*proposal.category, ""};
+        chosen = {*proposal.category, "", proposal.category};
     }
     if (!name.empty())
-        chosen = {value_of(name), why};
+        chosen = {value_of(name), why, proposal.category};
     else if (!why.empty() && chosen)
-        chosen->why = why;
+        chosen = {chosen->category, why, proposal.category};
 }
 
 void takeFields(CaseStore& store, const std::string& case_id, const AssessArguments& a, Assessment& said)

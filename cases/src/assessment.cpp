@@ -34,8 +34,10 @@ constexpr std::pair<const char*, std::optional<double> Assessment::*> kFigures[]
 template <class Category>
 void putChosen(json& out, const char* key, const std::optional<Chosen<Category>>& chosen)
 {
-    if (chosen)
-        out[key] = {{"category", nameOf(chosen->category)}, {"why", chosen->why}};
+    if (!chosen)
+        return;
+    out[key] = {{"category", nameOf(chosen->category)}, {"why", chosen->why}};
+    putName(out[key], "proposed", chosen->proposed);
 }
 
 template <class Category>
@@ -43,7 +45,8 @@ std::optional<Chosen<Category>> chosenFrom(const json& from, const char* key, Ca
 {
     if (!from.contains(key))
         return std::nullopt;
-    return Chosen<Category>{value_of(from[key].at("category").get<std::string>()), from[key].value("why", "")};
+    return Chosen<Category>{value_of(from[key].at("category").get<std::string>()), from[key].value("why", ""),
+                            named(from[key], "proposed", value_of)};
 }
 
 }  // namespace

@@ -50,15 +50,18 @@ JudgedStudy judged(const ReadCase& read)
     return study;
 }
 
-/// A category that is not the proposed one, without a reason.
+/// A category that is not the proposed one, without a reason against this proposal.
 template <class Category>
 std::string unexplained(const Proposal<Category>& proposal, const std::optional<Chosen<Category>>& chosen)
 {
-    if (!chosen || !chosen->why.empty() || proposal.category == chosen->category)
+    if (!chosen || proposal.category == chosen->category)
         return {};
-    return nameOf(chosen->category) + " was chosen where " +
-           (proposal.category ? nameOf(*proposal.category) + " is proposed" : "nothing could be proposed") + " (" +
-           proposal.reason + "): say why";
+    const bool explained = !chosen->why.empty();
+    if (explained && chosen->proposed == proposal.category)
+        return {};
+    const std::string now = proposal.category ? nameOf(*proposal.category) + " is proposed" : "nothing can be proposed";
+    return nameOf(chosen->category) + " was chosen where " + now + " (" + proposal.reason + "): say why" +
+           (explained ? "; the reason given was not against this" : "");
 }
 
 }  // namespace

@@ -173,7 +173,7 @@ Assessment fullAssessment()
     a.reading_minutes = 9;
     a.coverage_percent = 97.5;
     a.extracolonic = {{"liver", "a cyst", ExtracolonicCategory::e1}, {"aorta", "48 mm", ExtracolonicCategory::e4}};
-    a.colon_category = {ColonCategory::c3, "as the patient asks"};
+    a.colon_category = {ColonCategory::c3, "as the patient asks", ColonCategory::c2a};
     a.extracolonic_category = {ExtracolonicCategory::e4, ""};
     return a;
 }

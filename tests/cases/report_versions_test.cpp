@@ -70,12 +70,26 @@ TEST_F(ReportVersions, AreSignedWhenNothingIsMissing)
     EXPECT_THAT(messageOf([&] { sign(); }), HasSubstr("C1 was chosen where C2a is proposed"));
     EXPECT_THROW(requireReasons(readCase(store_, "c1")), Error);
     Assessment explained = other;
-    explained.colon_category->why = "it was removed yesterday";
+    explained.colon_category = {ColonCategory::c1, "it was removed yesterday", ColonCategory::c2a};
     saveAssessment(store_, "c1", other, explained);
     EXPECT_NO_THROW(requireReasons(readCase(store_, "c1")));
     store_.removeMarker("c1", "m1");
     store_.removeMarker("c1", "m2");
     EXPECT_THAT(messageOf([&] { sign(); }), HasSubstr("finding f1 has no marker"));
+}
+
+TEST_F(ReportVersions, AreNotSignedWithAReasonThatWasGivenAgainstAnotherProposal)
+{
+    Assessment said;
+    said.colon_category = {ColonCategory::c1, "it was removed yesterday", ColonCategory::c2a};
+    said.extracolonic_category = {ExtracolonicCategory::e1, "", ExtracolonicCategory::e1};
+    saveAssessment(store_, "c1", {}, said);
+    EXPECT_NO_THROW(draft());
+    Finding larger = finding_;
+    larger.read_size_mm = 12;
+    editFindings(store_, "c1", {{finding_, larger}});
+    EXPECT_THAT(messageOf([&] { draft(); }), testing::AllOf(HasSubstr("C1 was chosen where C3 is proposed"),
+                                                            HasSubstr("the reason given was not against this")));
 }
 
 TEST_F(ReportVersions, HoldWhatWasSignedByWhomAndWhen)

@@ -35,11 +35,13 @@ struct ExtracolonicFinding {
     ExtracolonicCategory category = ExtracolonicCategory::e1;
 };
 
-/// The category that the reader chose. One that is not the proposed one has a reason.
+/// The category that the reader chose. One that is not the proposed one has a reason, which holds against the proposal
+/// that the reader saw and no other.
 template <class Category>
 struct Chosen {
     Category category{};
     std::string why;
+    std::optional<Category> proposed;  ///< then; nothing: none was
 };
 
 /// What the reader says of the whole study. Texts are UTF-8.
