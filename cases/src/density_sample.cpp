@@ -34,10 +34,43 @@ public:
             const Index3 there = inside.grid.indexAt(volume.grid.pointAt(v));
             lumen_[n] = inside.valueOr(there, std::uint8_t(kOutside)) != kOutside ? 1 : 0;
         });
+        beyond_.resize(lumen_.size());
+    }
+
+    /// What lies below the wall and is lighter than soft tissue, and all behind it, is not the finding's.
+    void endBehind(const CircledWall& wall, double margin_mm)
+    {
+        const double step_mm = std::cbrt(volume_->grid.voxelVolume_mm3()) / 2;
+        // A voxel more than the margin: at its edge a blurred border with gas is as light as fat.
+        beside_lumen_ = nearLumen(margin_mm + 3 * step_mm);
+        forEach([&](Index3 v, std::size_t n) {
+            const Point3 p = volume_->grid.pointAt(v);
+            const double below_mm = dot(p - wall.surface_mm, wall.inwards) - wall.raised_mm;
+            // As far behind the voxel as the margin reaches; from there up to the wall.
+            if (below_mm <= 0)
+                return;
+            for (double up = -margin_mm; up <= below_mm && !beyond_[n]; up += step_mm)
+                beyond_[n] = isLight(volume_->grid.indexAt(p - wall.inwards * up)) ? 1 : 0;
+        });
     }
 
     /// Of the ball's tissue, where no voxel of lumen has its middle within `margin_mm`.
     std::vector<int> densities(double margin_mm) const
+    {
+        const std::vector<std::uint8_t> near = nearLumen(margin_mm);
+        std::vector<int> taken;
+        forEach([&](Index3 v, std::size_t n) {
+            const int density = volume_->at(v);
+            if (!near[n] && !beyond_[n] && density != kPaddingHu &&
+                distance(volume_->grid.pointAt(v), centre_) <= radius_mm_)
+                taken.push_back(density);
+        });
+        return taken;
+    }
+
+private:
+    /// The lumen, and what has a voxel of it within `margin_mm`.
+    std::vector<std::uint8_t> nearLumen(double margin_mm) const
     {
         std::vector<std::uint8_t> near(lumen_);
         const auto ball = ballOf(margin_mm);
@@ -47,16 +80,8 @@ public:
                     if (const Index3 beside{v.i + d.i, v.j + d.j, v.k + d.k}; holds(beside))
                         near[offset(beside)] = 1;
         });
-        std::vector<int> taken;
-        forEach([&](Index3 v, std::size_t n) {
-            const int density = volume_->at(v);
-            if (!near[n] && density != kPaddingHu && distance(volume_->grid.pointAt(v), centre_) <= radius_mm_)
-                taken.push_back(density);
-        });
-        return taken;
+        return near;
     }
-
-private:
     template <class Do>
     void forEach(Do what) const
     {
@@ -65,6 +90,20 @@ private:
             for (int j = 0; j < size_[1]; ++j)
                 for (int i = 0; i < size_[0]; ++i, ++n)
                     what(Index3{from_[0] + i, from_[1] + j, from_[2] + k}, n);
+    }
+    /// Of 27 voxels the mean: noise alone makes no fat. Those beside the lumen, half gas, are not counted.
+    bool isLight(Index3 middle) const
+    {
+        double sum = 0;
+        int count = 0;
+        for (int n = 0; n < 27; ++n) {
+            const Index3 v{middle.i + n % 3 - 1, middle.j + n / 3 % 3 - 1, middle.k + n / 9 - 1};
+            if (!volume_->grid.contains(v) || (holds(v) && beside_lumen_[offset(v)]))
+                continue;
+            sum += volume_->at(v);
+            ++count;
+        }
+        return count > 0 && sum / count < kFatTo_hu;
     }
     bool holds(Index3 v) const
     {
@@ -104,7 +143,7 @@ private:
     Point3 centre_;
     double radius_mm_;
     std::array<int, 3> from_{}, size_{};
-    std::vector<std::uint8_t> lumen_;
+    std::vector<std::uint8_t> lumen_, beside_lumen_, beyond_;
 };
 
 int binOf(int density_hu)
@@ -133,18 +172,24 @@ void describe(DensitySample& sample, const std::vector<int>& densities)
 
 }  // namespace
 
-DensitySample sampleDensity(const HuView& volume, const InsideView& inside, Point3 centre, double radius_mm)
+DensitySample sampleDensity(const HuView& volume, const InsideView& inside, Point3 centre, double radius_mm,
+                            const std::optional<CircledWall>& wall)
 {
     if (!(radius_mm >= kLeastRadius_mm && radius_mm <= kMostRadius_mm))
         throw Error(ErrorCode::wrong_use, "the radius of a density sample is 0.5 to 25 mm", std::to_string(radius_mm));
     const double voxel_mm = std::cbrt(volume.grid.voxelVolume_mm3()), least_mm = kMarginVoxels * voxel_mm;
-    const Surroundings around(volume, inside, centre, radius_mm, std::max(kMargin_mm, least_mm) + voxel_mm);
+    Surroundings around(volume, inside, centre, radius_mm, std::max(kMargin_mm, least_mm) + voxel_mm);
+    if (wall)
+        around.endBehind(*wall, least_mm);
     DensitySample sample{centre, radius_mm};
     for (const double margin_mm : {std::max(kMargin_mm, least_mm), least_mm}) {
         // The lumen's border lies half a voxel outside the middles of its outermost voxels.
         const auto densities = around.densities(margin_mm + voxel_mm / 2);
-        if (densities.size() < DensitySample::kLeastVoxels)
+        if (densities.size() < DensitySample::kLeastVoxels) {
+            if (wall && wall->raised_mm <= kMargin_mm)
+                break;  // no small finding, but a thin wall
             continue;
+        }
         sample.margin_mm = margin_mm;
         describe(sample, densities);
         break;

@@ -35,15 +35,16 @@ struct Wall {
     }
 };
 
-/// A sessile polyp, half a ball or more on a wall of 1.6 mm before fat, as the phantom makes them; the picture's blur
-/// is made of the scene itself.
-struct Polyp {
+/// A scene blurred as by a scanner's kernel; its lumen is where it is nearer to gas than to tissue.
+struct Blurred {
     HuVolume volume;
     InsideVolume inside;
 
-    Polyp(double diameter_mm, double tissue_hu, double spacing_mm, double blur_mm)
+    /// @param densityAt of the unblurred scene
+    template <class DensityAt>
+    Blurred(DensityAt densityAt, double spacing_mm, double blur_mm, double tissue_hu = 40)
     {
-        constexpr double kWall_mm = 1.6, kFat_hu = -98, kHalf_mm = 12;
+        constexpr double kHalf_mm = 12;
         const double fine_mm = spacing_mm / 2;
         Grid grid;
         const int n = 2 * int(kHalf_mm / spacing_mm) + 1;
@@ -55,11 +56,8 @@ struct Polyp {
         fine.size = {2 * n, 2 * n, 2 * n};
         fine.spacing_mm = {fine_mm, fine_mm, fine_mm};
         Volume<float> scene(fine);
-        for (std::size_t v = 0; v < scene.voxels.size(); ++v) {
-            const Point3 p = fine.pointAt(fine.indexOf(v));
-            const bool in_ball = distance(p, {}) < diameter_mm / 2;
-            scene.voxels[v] = float(in_ball ? tissue_hu : p.x > 0 ? -1000 : p.x > -kWall_mm ? 42 : kFat_hu);
-        }
+        for (std::size_t v = 0; v < scene.voxels.size(); ++v)
+            scene.voxels[v] = float(densityAt(fine.pointAt(fine.indexOf(v))));
         for (int axis = 0; axis < 3; ++axis)
             blur(scene, axis, blur_mm / fine_mm);
         volume = HuVolume(grid);
@@ -97,6 +95,42 @@ private:
             }
     }
 };
+
+/// A sessile polyp, half a ball or more on a wall of 1.6 mm before fat, as the phantom makes them; the lumen is where
+/// x is above 0.
+struct Polyp : Blurred {
+    Polyp(double diameter_mm, double tissue_hu, double spacing_mm, double blur_mm)
+        : Blurred(
+              [=](Point3 p) {
+                  constexpr double kWall_mm = 1.6, kFat_hu = -98;
+                  const bool in_ball = distance(p, {}) < diameter_mm / 2;
+                  return in_ball ? tissue_hu : p.x > 0 ? -1000 : p.x > -kWall_mm ? 42 : kFat_hu;
+              },
+              spacing_mm, blur_mm, tissue_hu)
+    {
+    }
+};
+
+/// A bare wall before fat, and muscle behind the fat.
+struct FlatWall : Blurred {
+    FlatWall(double wall_mm, double spacing_mm, double blur_mm)
+        : Blurred(
+              [=](Point3 p) {
+                  constexpr double kFat_mm = 4;
+                  return p.x > 0 ? -1000.0 : p.x > -wall_mm ? 40.0 : p.x > -wall_mm - kFat_mm ? -90.0 : 60.0;
+              },
+              spacing_mm, blur_mm)
+    {
+    }
+};
+
+/// As a reader circles what stands at x = `raised_mm`, from the lumen.
+DensitySample circled(const Blurred& scene, double radius_mm, double raised_mm)
+{
+    const Point3 top{raised_mm, 0, 0};
+    return sampleDensity(scene.volume, scene.inside, top - Vector3{radius_mm / 2, 0, 0}, radius_mm,
+                         CircledWall{top, {-1, 0, 0}, raised_mm});
+}
 
 TEST(VirtualBiopsy, OfABallInTissueHasItsVolumeAndDensity)
 {
@@ -141,6 +175,36 @@ TEST(VirtualBiopsy, OfAPolypIsThePolypsDensityWhereverInItTheReaderPoints)
             EXPECT_NEAR(sample.mean_hu, c.tissue_hu, c.within_hu) << c.diameter_mm << " mm at " << at.x << ", " << at.y;
         }
     }
+}
+
+TEST(VirtualBiopsy, OfABareWallIsTheWallAndNeverTheFatBehindIt)
+{
+    // Walls of 1 to 6 mm, in voxels and kernels as scanners have them.
+    for (const double wall_mm : {1.0, 1.6, 2.0, 3.0, 4.0, 6.0})
+        for (const auto& [spacing_mm, blur_mm] : {std::pair(0.6, 0.5), std::pair(0.74, 0.65), std::pair(0.9, 0.8)})
+            for (const double radius_mm : {3.0, 5.0, 8.0}) {
+                SCOPED_TRACE(testing::Message() << wall_mm << " mm, voxels of " << spacing_mm << ", " << radius_mm);
+                const FlatWall wall(wall_mm, spacing_mm, blur_mm);
+                const DensitySample sample = circled(wall, radius_mm, 0);
+                if (sample.voxels == 0)
+                    continue;
+                EXPECT_GE(wall_mm, 2) << "too thin for a sample";
+                EXPECT_NEAR(sample.mean_hu, 40, 15);
+                EXPECT_LT(sample.fat_fraction, 0.05);
+            }
+    EXPECT_EQ(circled(FlatWall(1.6, 0.74, 0.65), 5, 0).voxels, 0U) << "refused";
+    EXPECT_GT(circled(FlatWall(6, 0.74, 0.65), 5, 0).voxels, 0U) << "thick enough";
+}
+
+TEST(VirtualBiopsy, OfWhatStandsOnTheWallIsItsOwnDensityEvenThatOfFat)
+{
+    for (const double diameter_mm : {8.0, 10.0, 14.0})
+        for (const double tissue_hu : {40.0, -100.0}) {
+            const Polyp polyp(diameter_mm, tissue_hu, 0.74, 0.65);
+            const DensitySample sample = circled(polyp, diameter_mm / 2, diameter_mm / 2);
+            ASSERT_GE(sample.voxels, DensitySample::kLeastVoxels) << diameter_mm;
+            EXPECT_NEAR(sample.mean_hu, tissue_hu, 12) << diameter_mm;
+        }
 }
 
 TEST(VirtualBiopsy, OfALargePolypIsItsDensityFromItsTipAsWell)

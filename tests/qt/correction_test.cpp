@@ -1,8 +1,13 @@
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QProgressBar>
+#include <QStatusBar>
 #include <QTableWidget>
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <map>
 #include <thread>
 
 #include "reading.h"
@@ -186,15 +191,85 @@ TEST_F(Correcting, WhatWasNotCorrectedIsNotForgottenAndWhatAddsNothingIsSaidSo)
     EXPECT_FALSE(the<QProgressBar>("redo")->isVisible()) << "nothing is done again";
     closeCase();
     test::TestColon with_gas;
-    for (std::size_t n = 0; n < with_gas.volume.voxels.size(); ++n)
-        if (!with_gas.inside.voxels[n])
+    for (std::size_t n = 0; n < with_gas.volume.voxels.size(); ++n) {
+        const Point3 p = with_gas.volume.grid.pointAt(with_gas.volume.grid.indexOf(n));
+        const bool within = std::abs(p.x) < 25 && std::abs(p.y) < 45 && std::abs(p.z) < 25;  // the body, not its edge
+        if (within && !with_gas.inside.voxels[n])
             with_gas.volume.voxels[n] = -1000;
+    }
     with_gas.write(store_ / "cases" / test::kCase / test::kSupine);
     openCase();
     press(window(), "correctAdd");
     click("coronal", middle("coronal"));
     ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); })) << warning();
     EXPECT_TRUE(eventually([] { return warning().starts_with("Nothing was added"); })) << warning();
+}
+
+TEST_F(Correcting, AddRefusesAirOutsideTheBodyAtOnce)
+{
+    // The colon's test scan has no air around its body: here it gets some, down the patient's left side.
+    test::TestColon in_air;
+    for (std::size_t n = 0; n < in_air.volume.voxels.size(); ++n)
+        if (in_air.volume.grid.pointAt(in_air.volume.grid.indexOf(n)).x > 74)
+            in_air.volume.voxels[n] = -1000;
+    in_air.write(store_ / "cases" / test::kCase / test::kSupine);
+    openCase();
+    showList(2);
+    press(window(), "correctAdd");
+    const QSize view = the<QWidget>("coronal")->size();
+    const double mm_per_pixel = std::max(160.0 / view.width(), 192.0 / view.height());  // all of the scan is shown
+    click("coronal", {view.width() / 2 + int(77 / mm_per_pixel), view.height() / 2});
+    EXPECT_TRUE(eventually([] { return warning().starts_with("This is air outside the body"); })) << warning();
+    EXPECT_FALSE(the<QProgressBar>("redo")->isVisible()) << "nothing is done again";
+}
+
+TEST_F(Correcting, WhatIsDoneAgainWhileTheOtherScanIsReadIsNotReportedAsTheOneThatIsRead)
+{
+    std::atomic<bool> go = false;
+    ReadingServices services = test::servicesFor(store_);
+    services.work = [&go, work = services.work](CaseStore& store, const std::atomic<bool>& stop) {
+        while (!go && !stop)
+            std::this_thread::yield();
+        work(store, stop);
+    };
+    room_.reset();
+    openRoom(services);
+    openCase();
+    showList(2);
+    correctAlongThePath("correctCut");
+    the<QLabel>("where")->clear();
+    key(Qt::Key_X);
+    waitForScan();
+    go = true;
+    ASSERT_TRUE(eventually([] { return !the<QProgressBar>("redo")->isVisible(); }));
+    const auto said = [] { return window()->statusBar()->currentMessage().toStdString(); };
+    EXPECT_TRUE(eventually([&] { return said().starts_with("The other scan (supine) is corrected"); })) << said();
+    EXPECT_TRUE(the<QComboBox>("scan")->currentText().startsWith("prone")) << "the reader stays where he is";
+    closeCase();
+    room_.reset();  // before what its services refer to
+}
+
+TEST_F(Correcting, NoTwoViewsShowDifferentScansWithoutSayingSo)
+{
+    // The other scan is another body: what a view shows tells which scan it is of.
+    test::TestColon mirrored(test::storages()[0], 2);
+    for (std::int16_t& hu : mirrored.volume.voxels)
+        hu = std::int16_t(hu > -500 ? hu + 300 : hu);
+    mirrored.write(store_ / "cases" / test::kCase / test::kProne);
+    openCase();
+    const QStringList views{"axial", "coronal", "sagittal", "overview", "endoscopic"};
+    std::map<QString, QImage> before;
+    for (const QString& view : views)
+        before[view] = pictureOf(view.toUtf8());
+    auto* scan = the<QComboBox>("scan");
+    key(Qt::Key_X);
+    // From the moment at which the scan is named no view shows the other one's picture.
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !the<QWidget>("opening")->isVisible(); }, patience_ms));
+    ASSERT_TRUE(scan->currentText().startsWith("prone"));
+    for (const QString& view : views)
+        EXPECT_NE(pictureOf(view.toUtf8()), before[view]) << view.toStdString();
+    screenshot("other_scan_arrived");
+    waitForScan();
 }
 
 TEST_F(Correcting, WorkThatIsStoppedLeavesTheWindowAsItWas)

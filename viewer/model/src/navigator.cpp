@@ -73,6 +73,17 @@ void Navigator::lookFrom(const Pose& pose, double station_mm)
     free_ = lumen_.inside(pose.eye_mm) ? pose : poseHere();
 }
 
+// The submarine stays where it was while the eye is led by another mode.
+void Navigator::goBackTo(const Place& place)
+{
+    direction_ = 0;
+    owed_s_ = 0;
+    mode_ = place.mode;
+    station_mm_ = place.station_mm;
+    look_back_ = place.looks_back;
+    free_ = place.free;
+}
+
 void Navigator::advance(double seconds)
 {
     switch (mode_) {

@@ -1,6 +1,7 @@
 #include "biopsy/biopsy_tool.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "peeling/peeling_panel.h"
 #include "reading/reading.h"
@@ -58,7 +59,27 @@ void BiopsyTool::circled(Pixel centre, double radius_px)
     reading_.say(tr("Taking the biopsy ..."));
     // Half of a finding's height below its top, which is as far as half of its radius where it stands as half a ball.
     const Vector3 inwards = rayThrough(shown.place.pose, shown.lens, centre);
-    reading_.session().takeBiopsy(*point + inwards * (radius_mm / 2), radius_mm);
+    const double raised_mm = std::min(raisedOver(*point, inwards, centre, radius_px), radius_mm);
+    reading_.session().takeBiopsy(*point + inwards * (radius_mm / 2), radius_mm, {*point, inwards, raised_mm});
+}
+
+/// How far the wall along the circle lies behind its middle, in the middle of all its places.
+double BiopsyTool::raisedOver(Point3 middle, Vector3 inwards, Pixel centre, double radius_px) const
+{
+    constexpr int kPlaces = 24;
+    const ShownPicture& shown = reading_.shown();
+    std::vector<double> behind_mm;
+    for (int n = 0; n < kPlaces; ++n) {
+        const double angle = radians(360.0 * n / kPlaces);
+        const Pixel at{centre.x + radius_px * std::cos(angle), centre.y + radius_px * std::sin(angle)};
+        if (const auto wall = wallAt(*reading_.scan(), shown.place.pose, shown.lens, at))
+            behind_mm.push_back(dot(*wall - middle, inwards));
+    }
+    if (behind_mm.empty())
+        return 0;
+    const auto half = behind_mm.begin() + std::ptrdiff_t(behind_mm.size() / 2);
+    std::nth_element(behind_mm.begin(), half, behind_mm.end());
+    return std::max(0.0, *half);
 }
 
 void BiopsyTool::show(const DensitySample& biopsy)
@@ -67,7 +88,8 @@ void BiopsyTool::show(const DensitySample& biopsy)
         return;
     if (biopsy.voxels == 0) {
         reading_.warn(
-            tr("The tissue there is too thin to measure its density apart from gas and fluid; draw a larger circle."));
+            tr("Within the circle there is too little tissue between its surface and its far side to measure its "
+               "density: nothing was taken."));
         return;
     }
     panel_.showHistogram(biopsy);

@@ -27,6 +27,7 @@ private:
     };
     void start();
     void circled(Pixel centre, double radius_px);
+    double raisedOver(Point3 middle, Vector3 inwards, Pixel centre, double radius_px) const;
     void show(const DensitySample& biopsy);
 
     PeelingPanel& panel_;

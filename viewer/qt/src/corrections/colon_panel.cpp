@@ -11,8 +11,8 @@
 
 namespace vicon::viewer {
 namespace {
-constexpr int kLeastRows = 4, kButtons = 6, kStateColumns = 2;
-enum Column { kStation, kLength, kConfidence, kVerdict, kColumns };
+constexpr int kLeastBridges = 4, kButtons = 6, kStateColumns = 2;
+enum BridgeColumn { kBridgeStation, kLength, kConfidence, kVerdict, kBridgeColumns };
 }  // namespace
 
 QPushButton* ColonPanel::button(const QString& title, const char* name, const QString& tip)
@@ -27,12 +27,12 @@ QPushButton* ColonPanel::button(const QString& title, const char* name, const QS
 
 ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
 {
-    table_ = new QTableWidget(0, kColumns, this);
+    table_ = new QTableWidget(0, kBridgeColumns, this);
     table_->setObjectName("bridges");
     table_->setAccessibleName(tr("Bridges over collapsed parts"));
     table_->setToolTip(tr("Where the pipeline joined two pieces of lumen. Click or Return: fly there."));
     table_->setHorizontalHeaderLabels({tr("mm"), tr("Bridge"), tr("Sure"), tr("Judged")});
-    setUpList(table_, kLeastRows);
+    setUpList(table_, kLeastBridges);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     confirm_ = button(tr("Confirm"), "confirmBridge", tr("The two pieces belong together"));
     reject_ = button(tr("Reject"), "rejectBridge", tr("They do not; kept with your name and printed in the report"));
@@ -90,7 +90,7 @@ void ColonPanel::show(const std::vector<ReviewedBridge>& bridges, const Skeleton
         const QStringList cells{QString::number(skeleton.nearest(bridge.from_mm).station_mm, 'f', 0),
                                 tr("%1 mm").arg(bridge.length_mm, 0, 'f', 0),
                                 tr("%1 %").arg(100 * bridge.confidence, 0, 'f', 0), judged};
-        for (int column = 0; column < kColumns; ++column) {
+        for (int column = 0; column < kBridgeColumns; ++column) {
             auto* item = new QTableWidgetItem(cells[column]);
             item->setToolTip(QString::fromStdString(bridge.reason + (review ? "; judged " + review->at : "")));
             if (!bridge.certain && column == kConfidence)

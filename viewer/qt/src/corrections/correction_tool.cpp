@@ -1,34 +1,17 @@
 #include "corrections/correction_tool.h"
 
-#include <array>
-#include <cmath>
 #include <utility>
 
 #include "corrections/colon_panel.h"
 #include "reading/reading.h"
+#include "vicon/viewer/model/annotate.h"
+#include "vicon/viewer/model/outside_air.h"
 #include "window/reading_layout.h"
 
 namespace vicon::viewer {
 namespace {
 
 constexpr double kBeside_mm = 4;  // a little more than a point may lie beside what it means
-
-/// Whether the pipeline might find gas or tagged fluid about a point: what is certainly tissue is not asked for.
-bool mayBeLumen(const HuView& volume, Point3 point)
-{
-    constexpr int kPerhapsGas_hu = -400, kPerhapsFluid_hu = 100;
-    const Grid& grid = volume.grid;
-    const Index3 middle = grid.indexAt(point);
-    std::array<int, 3> reach{};
-    for (std::size_t d = 0; d < 3; ++d)
-        reach[d] = int(std::ceil(kBeside_mm / grid.spacing_mm[d]));
-    for (int k = middle.k - reach[2]; k <= middle.k + reach[2]; ++k)
-        for (int j = middle.j - reach[1]; j <= middle.j + reach[1]; ++j)
-            for (int i = middle.i - reach[0]; i <= middle.i + reach[0]; ++i)
-                if (const int hu = volume.valueOr({i, j, k}, 0); hu < kPerhapsGas_hu || hu > kPerhapsFluid_hu)
-                    return true;
-    return false;
-}
 
 }  // namespace
 
@@ -88,11 +71,13 @@ void CorrectionTool::useWords(const OrganWords& words)
 
 void CorrectionTool::scanOpened(const Arrival& arrival)
 {
-    corrector_.findBridges(reading_.scan()->record);
-    if (!arrival.place_markers)
-        return;
-    reading_.session().placeAnew();
-    sayWhatIsNotAdded();
+    const ScanRecord& scan = reading_.scan()->record;
+    corrector_.findBridges(scan);
+    if (arrival.place_markers)
+        reading_.session().placeAnew(
+            tr("The corrected scan is shown; its markers have their distances on the new path."));
+    if (!corrector_.busy() && corrected_ && corrected_->scan_id == scan.id)
+        sayWhatIsNotAdded();
 }
 
 void CorrectionTool::start(Correction kind)
@@ -107,14 +92,30 @@ void CorrectionTool::start(Correction kind)
 void CorrectionTool::scanRedone(const QString& scan_id)
 {
     if (!reading_.scan() || reading_.scan()->record.id != scan_id.toStdString()) {
-        corrected_.reset();
-        reading_.session().placeAnew();
+        otherScanRedone(scan_id.toStdString());
         return;
     }
     ScanRequest request;
     request.scan_id = scan_id.toStdString();
     request.read_again = request.redone = true;
     reading_.changeScan(request);
+}
+
+/// The reader went on to another scan meanwhile: what was added is looked at when this one is opened again.
+void CorrectionTool::otherScanRedone(const std::string& scan_id)
+{
+    CaseSession& session = reading_.session();
+    QString name = QString::fromStdString(scan_id);
+    for (const ScanRecord& scan : session.scans())
+        if (scan.id == scan_id)
+            name = QString::fromStdString(positionName(scan.series.patient_position));
+    session.placeAnew(tr("The other scan (%1) is corrected, and its markers have their distances on the new path; X "
+                         "shows it.")
+                          .arg(name));
+    if (session.beside() && session.beside()->record.id == scan_id) {
+        session.closeBeside();  // it is the old one
+        session.openBeside(scan_id);
+    }
 }
 
 bool CorrectionTool::act(const ClickMeaning& meaning, const ClickedPoint& point)
@@ -132,8 +133,13 @@ void CorrectionTool::correct(const ClickedPoint& point, Correction kind)
         reading_.warn(tr("There is no lumen at this point; click into the gas or fluid that is to be cut or dropped."));
         return;
     }
-    if (kind == Correction::add && !mayBeLumen(scan.files.volume(), point.at_mm)) {
-        reading_.warn(tr("There is neither gas nor tagged fluid at this point; click into what belongs to the colon."));
+    const LumenGuess guess =
+        kind == Correction::add ? guessLumen(scan.files.volume(), point.at_mm) : LumenGuess::possible;
+    if (guess != LumenGuess::possible) {
+        reading_.warn(
+            guess == LumenGuess::outside_body
+                ? tr("This is air outside the body; click into the gas or fluid that belongs to the colon.")
+                : tr("There is neither gas nor tagged fluid at this point; click into what belongs to the colon."));
         return;
     }
     reading_.interaction().finish();

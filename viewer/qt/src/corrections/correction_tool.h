@@ -37,6 +37,7 @@ private:
     void start(Correction kind);
     void correct(const ClickedPoint& point, Correction kind);
     void scanRedone(const QString& scan_id);
+    void otherScanRedone(const std::string& scan_id);
     void sayWhatIsNotAdded();
 
     ReadingLayout* layout_ = nullptr;

@@ -13,8 +13,8 @@
 
 namespace vicon::viewer {
 namespace {
-enum Column { kStation, kPart, kArea, kColumns };
-constexpr int kLeastRows = 4;
+enum UnseenColumn { kUnseenStation, kUnseenPart, kArea, kUnseenColumns };
+constexpr int kLeastPatches = 4;
 constexpr double kMostArea_mm2 = 1000;
 }  // namespace
 
@@ -32,10 +32,10 @@ CoveragePanel::CoveragePanel(QWidget* parent) : QWidget(parent)
     paint_ = named(new QCheckBox(tr("paint what was seen"), this), "paintSeen", tr("Paint what was seen"),
                    tr("Tint the wall that was seen before the last turn or jump (V); what stays in its own colour is "
                       "new"));
-    table_ =
-        named(new QTableWidget(0, kColumns, this), "unseen", tr("Unseen patches"), tr("Click or Return: fly there"));
+    table_ = named(new QTableWidget(0, kUnseenColumns, this), "unseen", tr("Unseen patches"),
+                   tr("Click or Return: fly there"));
     table_->setHorizontalHeaderLabels({tr("mm"), tr("Part"), tr("mm² unseen")});
-    setUpList(table_, kLeastRows);
+    setUpList(table_, kLeastPatches);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     least_ = named(new QDoubleSpinBox(this), "leastUnseen", tr("Least area of an unseen patch"),
                    tr("Smaller patches are not listed; a polyp of 6 mm hides behind 28 mm²"));
@@ -73,7 +73,7 @@ CoveragePanel::CoveragePanel(QWidget* parent) : QWidget(parent)
 
 void CoveragePanel::setStationTip(const QString& tip)
 {
-    table_->horizontalHeaderItem(kStation)->setToolTip(tip);
+    table_->horizontalHeaderItem(kUnseenStation)->setToolTip(tip);
 }
 
 void CoveragePanel::setSeen(double fraction)
@@ -94,7 +94,7 @@ void CoveragePanel::show(std::vector<UnseenPatch> patches, const ColonPartRanges
         const QStringList cells{QString::number(patch.station_mm, 'f', 0),
                                 QString::fromStdString(partNameAt(parts, patch.station_mm)),
                                 QString::number(patch.area_mm2, 'f', 0)};
-        for (int column = 0; column < kColumns; ++column)
+        for (int column = 0; column < kUnseenColumns; ++column)
             table_->setItem(row, column, new QTableWidgetItem(cells[column]));
     }
 }

@@ -14,7 +14,7 @@
 
 namespace vicon::viewer {
 namespace {
-constexpr double kStep_mm = 10;
+constexpr double kButtonStep_mm = 10;
 constexpr int kButtonsInRow = 4;
 
 QString placeText(double station_mm, double length_mm, const OrganWords& words)
@@ -124,8 +124,8 @@ void NavigationPanel::connectAll()
     connect(forward_, &QPushButton::clicked, this, [this] { emit flyWanted(1); });
     connect(about_, &QPushButton::clicked, this, &NavigationPanel::turnAboutWanted);
     connect(look_back_, &QPushButton::clicked, this, &NavigationPanel::lookBackWanted);
-    connect(step_back_, &QPushButton::clicked, this, [this] { emit stepWanted(-kStep_mm); });
-    connect(step_on_, &QPushButton::clicked, this, [this] { emit stepWanted(kStep_mm); });
+    connect(step_back_, &QPushButton::clicked, this, [this] { emit stepWanted(-kButtonStep_mm); });
+    connect(step_on_, &QPushButton::clicked, this, [this] { emit stepWanted(kButtonStep_mm); });
     connect(speed_, &QSlider::valueChanged, this, [this](int mm_s) { emit speedWanted(mm_s); });
     connect(go_, &QPushButton::clicked, this, &NavigationPanel::jump);
     connect(station_->findChild<QLineEdit*>(), &QLineEdit::returnPressed, this, &NavigationPanel::jump);

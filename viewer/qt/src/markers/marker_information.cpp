@@ -29,12 +29,7 @@ QString sizeWords(const Marker& marker)
 {
     if (!marker.size)
         return {};
-    QString text = QObject::tr("%1 straight").arg(lengthText(marker.size->straight_mm));
-    if (marker.size->along_mm)
-        text += QObject::tr(", %1 along the wall").arg(lengthText(*marker.size->along_mm));
-    if (marker.size->plane)
-        text += QObject::tr(", %1 largest in the best plane").arg(lengthText(marker.size->plane->diameter_mm));
-    return text;
+    return sizeText(*marker.size);
 }
 
 QString densityWords(const Marker& marker)

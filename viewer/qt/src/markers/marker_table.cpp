@@ -10,6 +10,7 @@
 #include <map>
 
 #include "vicon/cases/case_store.h"
+#include "vicon/cases/finding_facts.h"
 #include "vicon/viewer/model/annotate.h"
 #include "widgets/panel_parts.h"
 
@@ -24,10 +25,9 @@ QString text(const std::string& utf8)
     return QString::fromStdString(utf8);
 }
 
-/// Straight between its ends, in mm.
 QString sizeOf(const Marker& marker)
 {
-    return marker.size ? QString::number(marker.size->straight_mm, 'f', 1) : QString();
+    return marker.size ? QString::number(largestDiameter_mm(*marker.size), 'f', 1) : QString();
 }
 
 QColor qtColor(MarkerColor color)
@@ -63,7 +63,9 @@ void MarkerTable::buildTable()
     table_->setAccessibleName(tr("Markers"));
     table_->setHorizontalHeaderLabels({tr("ID"), tr("Scan"), tr("mm"), tr("Part"), tr("Pair"), tr("Size"), tr("Note")});
     setUpList(table_, kLeastRows);
-    table_->horizontalHeaderItem(kSize)->setToolTip(tr("Straight between the two ends that were clicked, in mm (M)"));
+    table_->horizontalHeaderItem(kSize)->setToolTip(
+        tr("Largest diameter in mm: the longer one of the straight line between the clicked ends and the diameter in "
+           "the best plane (M). C-RADS: the polyp's head without its stalk."));
     table_->setToolTip(tr("Click or Return: fly there. Double click on the note, or N: write it."));
 }
 

@@ -1,31 +1,61 @@
 #include "measuring/measuring_tool.h"
 
+#include <QMessageBox>
+
 #include "reading/reading.h"
 #include "widgets/length_text.h"
 #include "window/reading_layout.h"
 
 namespace vicon::viewer {
+namespace {
+
+constexpr double kSame_mm = 1e-6;
+constexpr double kWorthSaying_mm = 0.05;  // what a tenth of a millimetre shows
+
+bool same(const MarkerSize& a, const MarkerSize& b)
+{
+    return distance(a.from_mm, b.from_mm) < kSame_mm && distance(a.to_mm, b.to_mm) < kSame_mm;
+}
+
+}  // namespace
+
 void MeasuringTool::addTo(ReadingLayout& layout)
 {
     layout.addAction(ReadingMenu::edit, tr("Measure between two clicks"), QKeySequence("M"), [this] { start(); });
-    connect(&reading_.session(), &CaseSession::measured, this, &MeasuringTool::show);
-    connect(&reading_, &Reading::endoscopicShown, this, &MeasuringTool::drawLine);
+    connect(&reading_.session(), &CaseSession::measured, this, &MeasuringTool::measured);
+    connect(&reading_, &Reading::endoscopicShown, this, [this] { drawLine(); });
+    connect(reading_.views().endoscopic(), &PictureView::endDragged, this, [this](int end, Pixel at, bool released) {
+        const ShownPicture& picture = reading_.shown();
+        if (reading_.scan() && picture.isOf(reading_.sharedScan()))
+            if (const auto wall = wallAt(*reading_.scan(), picture.place.pose, picture.lens, at))
+                drag(end, *wall, released);
+    });
+    for (SliceView* slice : reading_.views().slices())
+        connect(slice, &SliceView::lineDragged, this, [this](int end, Point3 to, bool released) {
+            if (shown_)
+                shown_->size.along_mm.reset();  // an end that was dragged in a slice need not lie on the wall
+            drag(end, to, released);
+        });
 }
 
 void MeasuringTool::start()
 {
-    line_mm_.clear();
-    drawLine();
+    if (!reading_.navigator())
+        return;
+    reading_.navigator()->fly(0);
+    shown_.reset();
     reading_.begin(Measure{}, tr("Measure: click on the two ends, on the wall or in a slice; or arrows and Return"));
 }
 
 bool MeasuringTool::act(const ClickMeaning& meaning, const ClickedPoint&)
 {
     if (const auto* ends = std::get_if<MeasureBetween>(&meaning)) {
-        measure(*ends);
+        reading_.toolChanged();
+        measure(ends->from_mm, ends->to_mm, ends->on_wall);
         return true;
     }
     if (std::holds_alternative<AwaitOtherEnd>(meaning)) {
+        drawLine();
         reading_.say(tr("Measure: click on the other end"));
         return true;
     }
@@ -38,56 +68,171 @@ bool MeasuringTool::act(const ClickMeaning& meaning, const ClickedPoint&)
 
 void MeasuringTool::escape()
 {
-    line_mm_.clear();
+    shown_.reset();
     drawLine();
 }
 
-void MeasuringTool::measure(const MeasureBetween& ends)
+void MeasuringTool::measure(Point3 from, Point3 to, bool on_wall)
 {
-    reading_.toolChanged();
-    if (ends.on_wall) {
+    if (!shown_)
+        shown_.emplace();
+    shown_->way_mm = {from, to};
+    shown_->size = {.straight_mm = distance(from, to), .from_mm = from, .to_mm = to};
+    drawLine();
+    if (on_wall) {
         reading_.say(tr("Measuring ..."));
-        reading_.session().measure(ends.from_mm, ends.to_mm, reading_.shown().place.pose.eye_mm);
+        reading_.session().measure(from, to, reading_.shown().place.pose.eye_mm);
     } else {
-        show({distance(ends.from_mm, ends.to_mm), 0, {ends.from_mm, ends.to_mm}}, {});
+        finish();
     }
 }
 
-void MeasuringTool::show(const WallDistance& size, const std::optional<PlaneSize>& plane)
+void MeasuringTool::measured(const WallDistance& size, const std::optional<PlaneSize>& plane)
 {
-    line_mm_ = size.way_mm;
+    if (!shown_)
+        return;  // given up meanwhile
+    shown_->way_mm = size.way_mm;
+    shown_->size = {.straight_mm = size.straight_mm,
+                    .along_mm = size.along_mm,
+                    .from_mm = size.way_mm.front(),
+                    .to_mm = size.way_mm.back(),
+                    .plane = plane};
+    finish();
+}
+
+void MeasuringTool::finish()
+{
     drawLine();
-    QString text = tr("%1 straight").arg(lengthText(size.straight_mm));
-    if (size.along_mm > 0)
-        text += tr(", %1 along the wall").arg(lengthText(size.along_mm));
-    if (plane)
-        text += tr(", %1 largest in the best plane").arg(lengthText(plane->diameter_mm));
-    const auto marker = reading_.markerNear(size.way_mm);
-    if (!marker) {
-        reading_.say(text + tr("; no marker beside it to keep it with"));
+    const MarkerSize size = shown_->size;
+    if (!shown_->marker_id.empty()) {
+        keep(shown_->marker_id, size);
         return;
     }
+    const auto marker = reading_.markerNear(shown_->way_mm);
+    if (!marker)
+        reading_.say(sizeText(size) + tr("; no marker beside it to keep it with"));
+    else if (marker->size)
+        ask(*marker, size);
+    else
+        keep(marker->id, size);
+}
+
+void MeasuringTool::ask(const Marker& marker, const MarkerSize& size)
+{
+    const QString id = QString::fromStdString(marker.id);
+    auto* box = new QMessageBox(
+        QMessageBox::Question, tr("Replace the size?"),
+        tr("%1 has a size already: %2.\n\nThe new one: %3.").arg(id, sizeText(*marker.size), sizeText(size)),
+        QMessageBox::NoButton, reading_.views().window());
+    box->setObjectName("replaceSize");
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->addButton(tr("&Replace it"), QMessageBox::AcceptRole)->setObjectName("replace");
+    auto* leave = box->addButton(tr("&Keep the old one"), QMessageBox::RejectRole);
+    leave->setObjectName("keepOld");
+    box->setDefaultButton(leave);
+    box->setEscapeButton(leave);
+    connect(box, &QMessageBox::accepted, this, [this, marker_id = marker.id, size] { keep(marker_id, size); });
+    connect(box, &QMessageBox::rejected, this, [this, id, marker_id = marker.id] {
+        if (const auto kept = reading_.session().marker(marker_id))
+            markerShown(*kept);
+        reading_.say(tr("%1 keeps its size").arg(id));
+    });
+    box->open();
+}
+
+void MeasuringTool::keep(const std::string& marker_id, const MarkerSize& size)
+{
+    const auto marker = reading_.session().marker(marker_id);
+    if (!marker)
+        return;
+    if (shown_)
+        shown_->marker_id = marker_id;
     Marker after = *marker;
-    after.size = {.straight_mm = size.straight_mm,
-                  .along_mm = size.along_mm > 0 ? std::optional(size.along_mm) : std::nullopt,
-                  .from_mm = size.way_mm.front(),
-                  .to_mm = size.way_mm.back(),
-                  .plane = plane};
+    after.size = size;
     reading_.session().changeMarker(*marker, after, false,
-                                    tr("%1; kept with %2").arg(text, QString::fromStdString(marker->id)));
+                                    tr("%1; kept with %2").arg(sizeText(size), QString::fromStdString(marker_id)));
+}
+
+void MeasuringTool::drag(int end, Point3 to, bool released)
+{
+    if (!shown_ || shown_->way_mm.empty())
+        return;
+    const Point3 other = end == 0 ? shown_->way_mm.back() : shown_->way_mm.front();
+    const bool on_wall = shown_->size.along_mm.has_value();
+    const Point3 from = end == 0 ? to : other, last = end == 0 ? other : to;
+    if (released) {
+        measure(from, last, on_wall);
+        return;
+    }
+    shown_->way_mm = {from, last};
+    shown_->size.straight_mm = distance(from, last);
+    shown_->size.plane.reset();
+    drawLine();
+}
+
+MeasuringTool::Shown MeasuringTool::shownOf(const Marker& marker)
+{
+    return {*marker.size, {marker.size->from_mm, marker.size->to_mm}, marker.id};
+}
+
+void MeasuringTool::markerShown(const Marker& marker)
+{
+    shown_.reset();
+    if (marker.size)
+        shown_ = shownOf(marker);
+    drawLine();
+}
+
+// What was undone, done again or changed by another reader is drawn as it is now.
+void MeasuringTool::markersChanged()
+{
+    if (!shown_ || shown_->marker_id.empty() || reading_.session().busy())
+        return;
+    const auto marker = reading_.session().marker(shown_->marker_id);
+    if (!marker || !marker->size)
+        shown_.reset();
+    else if (!same(*marker->size, shown_->size))
+        shown_ = shownOf(*marker);
+    drawLine();
+}
+
+std::optional<MeasuredLine> MeasuringTool::line() const
+{
+    if (const auto* under_way = reading_.interaction().inUse<Measure>())
+        return under_way->ends_mm.empty() ? std::nullopt : std::optional(MeasuredLine{under_way->ends_mm, {}});
+    if (!shown_ || shown_->way_mm.empty())
+        return std::nullopt;
+    const double largest_mm = largestDiameter_mm(shown_->size);
+    QString text = lengthText(shown_->size.straight_mm);
+    if (largest_mm > shown_->size.straight_mm + kWorthSaying_mm)
+        text += tr(" (largest %1)").arg(lengthText(largest_mm));
+    return MeasuredLine{shown_->way_mm, text};
+}
+
+/// Nothing where the wall hides both ends.
+std::optional<Calliper> MeasuringTool::seenByEye(const MeasuredLine& line) const
+{
+    constexpr double kBehind_mm = 3;  // of the wall: an end in a slice need not lie on it
+    const ShownPicture& picture = reading_.shown();
+    if (!reading_.scan() || !picture.isOf(reading_.sharedScan()))
+        return std::nullopt;
+    const Pose& pose = picture.place.pose;
+    const auto hidden = [&](Point3 end) {
+        const auto wall = wallAt(*reading_.scan(), pose, picture.lens, project(pose, picture.lens, end).at);
+        return wall && distance(pose.eye_mm, *wall) + kBehind_mm < distance(pose.eye_mm, end);
+    };
+    auto calliper = inEndoscopy(line, pose, picture.lens);
+    if (calliper && hidden(line.way_mm.front()) && hidden(line.way_mm.back()))
+        return std::nullopt;
+    return calliper;
 }
 
 void MeasuringTool::drawLine()
 {
-    const ShownPicture& shown = reading_.shown();
-    QVector<QLineF> lines;
-    for (std::size_t n = 1; n < line_mm_.size(); ++n) {
-        const Projected a = project(shown.place.pose, shown.lens, line_mm_[n - 1]);
-        const Projected b = project(shown.place.pose, shown.lens, line_mm_[n]);
-        if (a.depth_mm > 0 && b.depth_mm > 0)
-            lines << QLineF(a.at.x, a.at.y, b.at.x, b.at.y);
-    }
-    reading_.views().endoscopic()->setLines(lines);
+    const std::optional<MeasuredLine> now = line();
+    reading_.views().endoscopic()->setCalliper(now ? seenByEye(*now) : std::nullopt);
+    for (SliceView* slice : reading_.views().slices())
+        slice->setLine(now);
 }
 
 }  // namespace vicon::viewer

@@ -3,29 +3,47 @@
 #include <vector>
 
 #include "reading/reading_tool.h"
+#include "slices/measured_line.h"
 #include "vicon/viewer/model/plane_size.h"
 #include "vicon/viewer/model/wall_distance.h"
 
 namespace vicon::viewer {
 
-/// The size of a finding between two clicks, along the wall or straight; kept with the marker beside it.
+/// The size of a finding between two clicks, along the wall or straight: callipers in every view, whose ends can be
+/// dragged; kept with the marker beside it. A size that a marker has is replaced only when the reader says so.
 class MeasuringTool : public ReadingTool {
     Q_OBJECT
 public:
     using ReadingTool::ReadingTool;
 
     void addTo(ReadingLayout& layout) override;
-    void scanOpened(const Arrival&) override { line_mm_.clear(); }
+    void scanOpened(const Arrival&) override { shown_.reset(); }
+    void markersChanged() override;
+    void markerShown(const Marker& marker) override;
     bool act(const ClickMeaning& meaning, const ClickedPoint& point) override;
+    void nextClickChanged() override { drawLine(); }
     void escape() override;
 
 private:
+    /// A size, and the marker that it is kept with; none yet where that is empty.
+    struct Shown {
+        MarkerSize size;
+        std::vector<Point3> way_mm;  // from one end to the other
+        std::string marker_id;
+    };
+    static Shown shownOf(const Marker& marker);
     void start();
-    void measure(const MeasureBetween& ends);
-    void show(const WallDistance& size, const std::optional<PlaneSize>& plane);
     void drawLine();
+    std::optional<MeasuredLine> line() const;
+    std::optional<Calliper> seenByEye(const MeasuredLine& line) const;
+    void drag(int end, Point3 to, bool released);
+    void measure(Point3 from, Point3 to, bool on_wall);
+    void measured(const WallDistance& size, const std::optional<PlaneSize>& plane);
+    void finish();
+    void ask(const Marker& marker, const MarkerSize& size);
+    void keep(const std::string& marker_id, const MarkerSize& size);
 
-    std::vector<Point3> line_mm_;  // what was measured last
+    std::optional<Shown> shown_;
 };
 
 }  // namespace vicon::viewer

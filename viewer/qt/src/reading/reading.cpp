@@ -48,19 +48,24 @@ void Reading::connectSession()
     });
     connect(&drawing_, &DrawingThread::endoscopicDrawn, this, &Reading::showEndoscopic);
     connect(&drawing_, &DrawingThread::wallShaded, this, [this] { moved(true); });
-    connect(&drawing_, &DrawingThread::overviewDrawn, this, [this](const Picture& picture, const PlaneView& view) {
-        shown_overview_ = view;
-        views_.overview()->showPicture(picture);
-    });
+    connect(&drawing_, &DrawingThread::overviewDrawn, this,
+            [this](const Picture& picture, const PlaneView& view, const std::shared_ptr<OpenScan>& of) {
+                if (of != sharedScan())
+                    return;
+                shown_overview_ = view;
+                views_.overview()->showPicture(picture);
+            });
 }
 
 void Reading::connectViews()
 {
     connect(views_.endoscopic(), &PictureView::resized, this, [this] { drawEndoscopic(true); });
     connect(views_.endoscopic(), &PictureView::clicked, this, &Reading::clickedEndoscopic);
+    connect(views_.endoscopic(), &PictureView::enlargeWanted, this, &Reading::takeBackClick);
     connect(views_.overview(), &PictureView::resized, this, &Reading::drawOverview);
     for (SliceView* slice : views_.slices()) {
         connect(slice, &SliceView::pointClicked, this, &Reading::clickedSlice);
+        connect(slice, &PictureView::enlargeWanted, this, &Reading::takeBackClick);
         connect(slice, &SliceView::failed, this, &Reading::warned);
     }
     connect(&views_, &ReadingViews::sizesLeft, this,
@@ -69,12 +74,13 @@ void Reading::connectViews()
 
 void Reading::showEndoscopic(const Picture& picture, const ShownPicture& shown)
 {
+    if (!shown.isOf(sharedScan()))
+        return;  // another scan is read by now: no two views show different ones
     shown_ = shown;
     views_.endoscopic()->showPicture(picture);
-    views_.endoscopic()->setProperty("shaded", shown.shaded && shown.isOf(sharedScan()));
-    if (shown.isOf(sharedScan()))
-        views_.endoscopic()->setAccessibleDescription(
-            tr("%1 mm from the %2").arg(shown.place.station_mm, 0, 'f', 0).arg(organWords().first_end.c_str()));
+    views_.endoscopic()->setProperty("shaded", shown.shaded);
+    views_.endoscopic()->setAccessibleDescription(
+        tr("%1 mm from the %2").arg(shown.place.station_mm, 0, 'f', 0).arg(organWords().first_end.c_str()));
     emit endoscopicShown();
 }
 
@@ -226,77 +232,6 @@ void Reading::markersChanged()
     moved(true);
 }
 
-void Reading::begin(const ToolInUse& tool, const QString& prompt)
-{
-    interaction_.begin(tool);
-    for (ReadingTool* each : tools_)
-        each->nextClickChanged();
-    toolChanged();
-    say(prompt);
-}
-
-void Reading::toolChanged()
-{
-    const bool circling = interaction_.inUse<CircleFinding>();
-    views_.endoscopic()->setCircling(circling);
-    views_.setPicking(interaction_.awaitsClick());
-    emit awaitingClick(interaction_.awaitsClick());
-}
-
-bool Reading::click(const ClickedPoint& point)
-{
-    PickedPoint picked;
-    picked.at_mm = point.at_mm;
-    picked.scan_id = point.scan.record.id;
-    picked.in_scan_read = &point.scan == scan();
-    picked.on_wall = point.on_wall;
-    picked.wants_marker = point.modifiers & Qt::ShiftModifier;
-    const ClickMeaning meaning = interaction_.click(picked);
-    if (std::holds_alternative<ShowPoint>(meaning))
-        return false;
-    for (ReadingTool* tool : tools_)
-        if (tool->act(meaning, point))
-            break;
-    return true;
-}
-
-void Reading::clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers)
-{
-    if (!navigator())
-        return;
-    if (!shown_.isOf(sharedScan())) {
-        say(tr("The picture of this scan is still to come; click again when it is there."));
-        return;
-    }
-    const auto point = wallAt(*scan(), shown_.place.pose, shown_.lens, at);
-    if (!point)
-        return;
-    click({*scan(), shown_.place, *point, modifiers, true});
-    looked_at_mm_ = point;
-    showPlace();
-}
-
-void Reading::clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers)
-{
-    if (!navigator())
-        return;
-    if (click({*scan(), place(), point, modifiers, false})) {
-        looked_at_mm_ = point;
-        showPlace();
-    } else {
-        lookAt(point);
-    }
-}
-
-void Reading::giveUp()
-{
-    views_.takeKeyboard();
-    endTool();
-    for (ReadingTool* tool : tools_)
-        tool->escape();
-    warn({});
-}
-
 void Reading::changeScan(const ScanRequest& request)
 {
     for (ReadingTool* tool : tools_)
@@ -308,7 +243,8 @@ void Reading::changeScan(const ScanRequest& request)
 void Reading::arrive(const Arrival& arrival)
 {
     views_.endoscopic()->setAccessibleDescription({});  // its picture is still to come
-    shown_overview_.reset();
+    clearPictures();
+    before_click_.reset();
     interaction_.scanChanged();
     looked_at_mm_.reset();
     warn({});
@@ -316,6 +252,18 @@ void Reading::arrive(const Arrival& arrival)
     for (ReadingTool* tool : tools_)
         tool->scanOpened(arrival);
     markersChanged();
+}
+
+void Reading::clearPictures()
+{
+    shown_ = {};
+    shown_overview_.reset();
+    const QString words = tr("%1: this picture is still to come").arg(QString::fromStdString(scan()->caption.position));
+    views_.endoscopic()->setProperty("shaded", false);
+    views_.endoscopic()->clearPicture(words);
+    views_.overview()->clearPicture(words);
+    for (SliceView* slice : views_.slices())
+        slice->leave(words);
 }
 
 void Reading::stay()

@@ -65,7 +65,7 @@ public:
     /// As soon as nothing has moved for a while everything is drawn smoothly.
     void drawSmoothlySoon() { still_.start(); }
 
-    // Clicks.
+    // Clicks (clicks.cpp).
     Interaction& interaction() { return interaction_; }
     /// The next click is for this; what another tool shows is gone.
     void begin(const ToolInUse& tool, const QString& prompt);
@@ -119,6 +119,9 @@ private:
     void showEndoscopic(const Picture& picture, const ShownPicture& shown);
     void clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers);
     void clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers);
+    void takeBackClick();
+    /// Those of the scan that was read.
+    void clearPictures();
     void drawOverview();
     void showPlace();
     SnapshotRequest snapshotOf(const OpenScan& scan, const QSize& size) const;
@@ -131,6 +134,12 @@ private:
     ShownPicture shown_;
     std::optional<PlaneView> shown_overview_;
     std::optional<Point3> looked_at_mm_;  // what was clicked; else the eye's place
+    /// What the reader saw before the click in a view.
+    struct PlaceBefore {
+        Navigator::Place eye;
+        std::optional<Point3> looked_at_mm;
+    };
+    std::optional<PlaceBefore> before_click_;
     Interaction interaction_;
     QTimer still_;
 };

@@ -12,7 +12,7 @@
 
 namespace vicon::viewer {
 namespace {
-constexpr const char* kGeometry = "window/second_geometry";
+constexpr const char* kSecondGeometry = "window/second_geometry";
 constexpr const char* kRows = "window/second_rows";
 }  // namespace
 
@@ -63,7 +63,7 @@ void ReadingViews::closeSecondWindow()
 /// Where it was, else on the screen that the main window is not on.
 void ReadingViews::placeSecondWindow()
 {
-    if (second_->restoreGeometry(keptSetting(kGeometry).toByteArray())) {
+    if (second_->restoreGeometry(keptSetting(kSecondGeometry).toByteArray())) {
         second_->restoreState(keptSetting(kRows).toByteArray());
         return;
     }
@@ -82,7 +82,7 @@ QVariantMap ReadingViews::secondWindowSizes() const
 {
     if (!second_)
         return {};
-    return {{kGeometry, second_->saveGeometry()}, {kRows, second_->saveState()}};
+    return {{kSecondGeometry, second_->saveGeometry()}, {kRows, second_->saveState()}};
 }
 
 void ReadingViews::hideSecondWindow()

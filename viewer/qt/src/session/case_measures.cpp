@@ -21,10 +21,10 @@ void CaseSession::measure(Point3 from, Point3 to, Point3 eye)
     });
 }
 
-void CaseSession::takeBiopsy(Point3 centre, double radius_mm)
+void CaseSession::takeBiopsy(Point3 centre, double radius_mm, const CircledWall& wall)
 {
-    loader_.post("biopsy", [this, scan = scan_, centre, radius_mm]() -> Worker::Work {
-        const DensitySample biopsy = sampleDensity(scan->files.volume(), scan->files.inside(), centre, radius_mm);
+    loader_.post("biopsy", [this, scan = scan_, centre, radius_mm, wall]() -> Worker::Work {
+        const DensitySample biopsy = sampleDensity(scan->files.volume(), scan->files.inside(), centre, radius_mm, wall);
         return [this, scan, biopsy] {
             if (scan == scan_)
                 emit biopsied(biopsy);

@@ -199,9 +199,9 @@ std::string CaseSession::renewPlaces(CaseStore& store) const
     return lost;
 }
 
-void CaseSession::placeAnew()
+void CaseSession::placeAnew(const QString& what)
 {
-    edit(tr("The corrected scan is shown; its markers have their distances on the new path."), [this](Books& books) {
+    edit(what, [this](Books& books) {
         books.skeleton_is_new = true;
         const std::string lost = renewPlaces(books.store());
         if (!lost.empty())

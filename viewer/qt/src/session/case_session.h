@@ -74,13 +74,13 @@ public:
     /// Looks whether another reader changed something.
     void refresh();
     /// The scan's skeleton was made anew: its markers get their stations on it, now and after an undo. What cannot be
-    /// placed any more is warned of, and stays as it is.
-    void placeAnew();
+    /// placed any more is warned of, and stays as it is. @param what is said then
+    void placeAnew(const QString& what);
     void writeReport();
     /// Between two points of the open scan's wall, seen from `eye`; measured() follows, or warned().
     void measure(Point3 from, Point3 to, Point3 eye);
-    /// Of the open scan's tissue around a point; biopsied() follows, or warned().
-    void takeBiopsy(Point3 centre, double radius_mm);
+    /// Of the open scan's tissue around a point below a circled wall; biopsied() follows, or warned().
+    void takeBiopsy(Point3 centre, double radius_mm, const CircledWall& wall);
     /// What was measured of a marker of a scan that is open, as a picture; measuresDrawn() follows where there is any.
     void drawMeasures(const Marker& marker, int side_px);
     /// Keeps a picture in the case's folder, "pictures/1.png" and on.

@@ -130,7 +130,7 @@ void DrawingThread::drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotR
 {
     worker_.post("overview", [this, scan = std::move(scan), request, place](AllPictures& all) -> Worker::Work {
         auto drawn = std::make_shared<ReadingPictures::Overview>(picturesOf(all, scan).overview(request, place));
-        return [this, drawn] { emit overviewDrawn(drawn->picture, drawn->view); };
+        return [this, drawn, scan] { emit overviewDrawn(drawn->picture, drawn->view, scan); };
     });
 }
 

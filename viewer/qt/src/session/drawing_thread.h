@@ -56,7 +56,8 @@ signals:
     void filmed(const std::shared_ptr<vicon::viewer::Film>& film, bool finished);
     void endoscopicDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownPicture& shown);
     void besideDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownPicture& shown);
-    void overviewDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::PlaneView& view);
+    void overviewDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::PlaneView& view,
+                       const std::shared_ptr<vicon::viewer::OpenScan>& of);
     void seenChanged();
     /// The wall can be drawn with ambient occlusion from now on.
     void wallShaded();

@@ -19,9 +19,12 @@ SliceView::SliceView(SlicePlane plane, const QString& name, QWidget* parent) : P
     connect(this, &PictureView::dragged, this, [this](QPointF by, Qt::MouseButton button) {
         if (button == Qt::LeftButton)
             return;
-        pan_mm_ -= (shown_.right * by.x() + shown_.down * by.y()) * shown_.mm_per_pixel;
+        const PlaneView& view = request_.view;
+        pan_mm_ -= (view.right * by.x() + view.down * by.y()) * view.mm_per_pixel;
         draw();
     });
+    connect(this, &PictureView::endDragged, this,
+            [this](int end, Pixel at, bool released) { emit lineDragged(end, shown_.pointAt(at), released); });
     connect(this, &PictureView::clicked, this,
             [this](Pixel at, Qt::KeyboardModifiers modifiers) { emit pointClicked(shown_.pointAt(at), modifiers); });
 }
@@ -29,7 +32,7 @@ SliceView::SliceView(SlicePlane plane, const QString& name, QWidget* parent) : P
 void SliceView::look(std::shared_ptr<OpenScan> scan, Point3 point, const Pose& pose, std::vector<Marker> markers)
 {
     if (!(point == request_.point_mm))  // back to the slice of the point; what was panned across it stays
-        pan_mm_ -= shown_.forward() * dot(pan_mm_, shown_.forward());
+        pan_mm_ -= request_.view.forward() * dot(pan_mm_, request_.view.forward());
     scan_ = std::move(scan);
     request_.point_mm = point;
     request_.pose = pose;
@@ -72,7 +75,7 @@ void SliceView::scroll(int steps, Qt::KeyboardModifiers modifiers)
         zoom_ = std::clamp(zoom_ * std::pow(kNotch, steps), 1.0, kMost);
     } else {
         const auto& spacing = scan_->files.volume().grid.spacing_mm;
-        pan_mm_ += shown_.forward() * (steps * *std::min_element(spacing.begin(), spacing.end()));
+        pan_mm_ += request_.view.forward() * (steps * *std::min_element(spacing.begin(), spacing.end()));
     }
     draw();
 }
@@ -89,7 +92,7 @@ void SliceView::draw()
         view.centre_mm += to_point;
     }
     view.centre_mm += pan_mm_;
-    shown_ = request_.view = view;
+    request_.view = view;
     request_.pixel_ratio = devicePixelRatioF();
     worker_.post("slice", [this, scan = scan_, request = request_](SlicePictures& pictures) -> Worker::Work {
         const std::shared_ptr<const PreparedScan> files(scan, &scan->files);
@@ -98,8 +101,37 @@ void SliceView::draw()
             ahead.readAhead();
             return {};
         });
-        return [this, picture] { showPicture(*picture); };
+        return [this, picture, scan, view = request.view] {
+            if (scan == scan_)
+                show(*picture, view);
+        };
     });
+}
+
+void SliceView::show(const Picture& picture, const PlaneView& view)
+{
+    shown_ = view;
+    showPicture(picture);
+    drawLine();
+}
+
+void SliceView::leave(const QString& words)
+{
+    scan_.reset();
+    line_.reset();
+    clearPicture(words);
+}
+
+void SliceView::setLine(const std::optional<MeasuredLine>& line)
+{
+    line_ = line;
+    drawLine();
+}
+
+void SliceView::drawLine()
+{
+    const bool there = line_ && scan_ && !image().isNull();
+    setCalliper(there ? inSlice(*line_, shown_, scan_->files.volume().grid) : std::nullopt);
 }
 
 }  // namespace vicon::viewer

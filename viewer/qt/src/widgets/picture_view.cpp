@@ -39,20 +39,11 @@ double PictureView::circleRadius() const
     return std::hypot(by.x(), by.y());
 }
 
-void PictureView::setLines(const QVector<QLineF>& lines)
+void PictureView::clearPicture(const QString& words)
 {
-    lines_ = lines;
-    update();
-}
-
-void PictureView::drawLines(QPainter& painter) const
-{
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.scale(1 / devicePixelRatioF(), 1 / devicePixelRatioF());
-    for (const auto& [color, width] : {std::pair(Qt::black, 5.0), std::pair(Qt::white, 2.0)}) {
-        painter.setPen(QPen(color, width, Qt::SolidLine, Qt::RoundCap));
-        painter.drawLines(lines_);
-    }
+    image_ = {};
+    waiting_ = words;
+    setCalliper({});
 }
 
 QSize PictureView::pictureSize() const
@@ -77,9 +68,13 @@ void PictureView::paintEvent(QPaintEvent*)
     QPainter painter(this);
     painter.fillRect(rect(), Qt::black);
     const QSizeF drawn = QSizeF(image_.size()) / image_.devicePixelRatioF();
+    if (image_.isNull() && !waiting_.isEmpty()) {
+        painter.setPen(Qt::lightGray);
+        painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap, waiting_);
+    }
     if (QSizeF(pictureSize()) / devicePixelRatioF() == drawn || image_.isNull()) {
         painter.drawImage(0, 0, image_);
-        drawLines(painter);
+        drawCalliper(painter);
         if (circling_ && dragging_) {
             painter.resetTransform();
             painter.setPen(QPen(Qt::white, 2));
@@ -106,6 +101,7 @@ void PictureView::mousePressEvent(QMouseEvent* event)
     pressed_ = last_ = event->pos();
     button_ = event->button();
     dragging_ = false;
+    grip_ = button_ == Qt::LeftButton ? gripAt(pressed_) : std::nullopt;
 }
 
 void PictureView::mouseMoveEvent(QMouseEvent* event)
@@ -121,6 +117,10 @@ void PictureView::mouseMoveEvent(QMouseEvent* event)
     dragging_ = dragging_ || (event->pos() - pressed_).manhattanLength() >= QApplication::startDragDistance();
     if (!dragging_)
         return;
+    if (grip_) {
+        dragGrip(event->pos(), false);
+        return;
+    }
     if (circling_) {
         last_ = event->pos();
         update();
@@ -133,19 +133,23 @@ void PictureView::mouseMoveEvent(QMouseEvent* event)
 void PictureView::mouseReleaseEvent(QMouseEvent* event)
 {
     const bool was_click = !dragging_ && button_ == Qt::LeftButton && event->button() == Qt::LeftButton;
-    if (dragging_ && circling_)
+    if (dragging_ && grip_)
+        dragGrip(event->pos(), true);
+    else if (dragging_ && circling_)
         emit circled(toPicture(pressed_), circleRadius() * devicePixelRatioF());
     else if (dragging_)
         emit dragEnded();
     button_ = Qt::NoButton;
     dragging_ = false;
+    grip_.reset();
     if (was_click && !image_.isNull())
         emit clicked(toPicture(event->pos()), event->modifiers());
 }
 
 void PictureView::mouseDoubleClickEvent(QMouseEvent*)
 {
-    emit enlargeWanted();
+    if (!picking_ && !circling_)  // the view stays as it is between the clicks of a measurement
+        emit enlargeWanted();
 }
 
 void PictureView::wheelEvent(QWheelEvent* event)

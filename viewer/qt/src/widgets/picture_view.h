@@ -1,13 +1,12 @@
 #pragma once
 
 #include <QImage>
-#include <QLineF>
-#include <QVector>
 #include <QWidget>
 #include <optional>
 
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/scene/canvas.h"
+#include "widgets/calliper.h"
 
 class QPainter;
 
@@ -26,9 +25,12 @@ public:
     void setPicking(bool on);
     /// The arrow keys are the flight's unless a click is awaited.
     void setSteered() { steered_ = true; }
-    /// Drawn over the picture; in its pixels.
-    void setLines(const QVector<QLineF>& lines);
+    /// Drawn over the picture; endDragged() follows where one of its ends is dragged.
+    void setCalliper(const std::optional<Calliper>& calliper);
+    const std::optional<Calliper>& calliper() const { return calliper_; }
     void showPicture(const Picture& picture);
+    /// What was shown is no longer true; until the next picture these words stand there.
+    void clearPicture(const QString& words);
     const QImage& image() const { return image_; }
     /// Size that a picture should have, in device pixels.
     QSize pictureSize() const;
@@ -37,6 +39,8 @@ public:
 
 signals:
     void clicked(vicon::viewer::Pixel at, Qt::KeyboardModifiers modifiers);
+    /// Of the calliper, 0 or 1. @param released the mouse was let go there
+    void endDragged(int end, vicon::viewer::Pixel at, bool released);
     void hovered(vicon::viewer::Pixel at);  ///< where setMouseTracking() is on
     void enlargeWanted();
     void dragged(QPointF by, Qt::MouseButton button);  ///< in device pixels
@@ -69,13 +73,20 @@ private:
     void forgetCross();
     void drawFocus(QPainter& painter) const;
 
-    void drawLines(QPainter& painter) const;
+    // picture_calliper.cpp
+    std::optional<int> gripAt(QPoint at) const;
+    void dragGrip(QPoint to, bool released);
+    void drawCalliper(QPainter& painter) const;
+    void drawCalliperText(QPainter& painter) const;
+
     Pixel toPicture(QPoint at) const;
     /// Of the circle that is being drawn, in widget pixels.
     double circleRadius() const;
 
     QImage image_;
-    QVector<QLineF> lines_;
+    QString waiting_;  // instead of a picture
+    std::optional<Calliper> calliper_;
+    std::optional<int> grip_;  // the end that is held
     QPoint pressed_, last_;
     Qt::MouseButton button_ = Qt::NoButton;
     bool dragging_ = false;

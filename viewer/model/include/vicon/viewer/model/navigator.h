@@ -50,6 +50,17 @@ public:
     /// @param station_mm of the view; the eye alone does not tell between loops that touch
     void lookFrom(const Pose& pose, double station_mm);
 
+    /// Where the eye is, and in which mode.
+    struct Place {
+        NavigationMode mode = NavigationMode::planned;
+        double station_mm = 0;
+        bool looks_back = false;
+        Pose free;
+    };
+    Place place() const { return {mode_, state().station_mm, look_back_, free_}; }
+    /// After lookFrom(): as it was before, at rest.
+    void goBackTo(const Place& place);
+
     void advance(double seconds);
     NavigationState state() const;
 

@@ -1,0 +1,225 @@
+#include <QComboBox>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QStatusBar>
+#include <QTableWidget>
+#include <QWheelEvent>
+#include <cmath>
+
+#include "reading.h"
+#include "vicon/cases/finding_facts.h"
+
+namespace vicon::viewer {
+namespace {
+
+using test::Reading;
+
+const QColor kCalliper(255, 214, 102);
+
+/// Lengths in slices and on the wall, by the mouse.
+class Measuring : public Reading {
+protected:
+    void SetUp() override
+    {
+        Reading::SetUp();
+        openCase();
+        window()->resize(1600, 1000);
+        settle();
+    }
+    /// One red marker where the eye looks.
+    void mark()
+    {
+        click("endoscopic", middle("endoscopic") + QPoint(90, 60), Qt::ShiftModifier);
+        ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+        settle();
+    }
+    static void zoom(const char* view, int notches)
+    {
+        auto* widget = the<QWidget>(view);
+        const QPointF at = widget->rect().center();
+        QWheelEvent event(at, widget->mapToGlobal(at.toPoint()), {}, {0, 120 * notches}, Qt::NoButton,
+                          Qt::ControlModifier, Qt::NoScrollPhase, false);
+        QApplication::sendEvent(widget, &event);
+        settle();
+    }
+    static bool yellow(const QColor& c)
+    {
+        constexpr int kOff = 24;
+        return std::abs(c.red() - kCalliper.red()) < kOff && std::abs(c.green() - kCalliper.green()) < kOff &&
+               std::abs(c.blue() - kCalliper.blue()) < kOff;
+    }
+    /// Pixels of a calliper along the straight line between two places of a view, as a share.
+    static double calliperBetween(const char* view, QPoint a, QPoint b)
+    {
+        const QImage image = pictureOf(view);
+        constexpr int kSteps = 40;
+        int hits = 0;
+        for (int n = 0; n <= kSteps; ++n) {
+            const QPoint p = a + (b - a) * n / kSteps;
+            bool near = false;
+            for (int y = -2; y <= 2; ++y)
+                for (int x = -2; x <= 2; ++x)
+                    near = near || (image.valid(p + QPoint(x, y)) && yellow(image.pixelColor(p + QPoint(x, y))));
+            hits += near;
+        }
+        return double(hits) / (kSteps + 1);
+    }
+    static QString said() { return window()->statusBar()->currentMessage(); }
+    static double firstLength(const QString& text) { return text.section(' ', 0, 0).toDouble(); }
+    /// What the window says was measured between two clicks.
+    static double measuredBetween(const char* view, QPoint a, QPoint b)
+    {
+        key(Qt::Key_M);
+        click(view, a);
+        settle();
+        click(view, b);
+        EXPECT_TRUE(eventually([] { return said().contains("straight"); })) << said().toStdString();
+        return firstLength(said());
+    }
+    static void drag(const char* view, QPoint from, QPoint to)
+    {
+        auto* widget = the<QWidget>(view);
+        QTest::mousePress(widget, Qt::LeftButton, {}, from);
+        for (int n = 1; n <= 4; ++n)
+            QTest::mouseMove(widget, from + (to - from) * n / 4, kSettle_ms / 4);
+        QTest::mouseRelease(widget, Qt::LeftButton, {}, to);
+    }
+    static void answer(const char* button)
+    {
+        ASSERT_TRUE(eventually([] { return window()->findChild<QMessageBox*>("replaceSize") != nullptr; }));
+        QTest::mouseClick(the<QPushButton>(button), Qt::LeftButton);
+        window()->activateWindow();
+        ASSERT_TRUE(eventually([] { return window()->isActiveWindow() && settled(); }));
+    }
+    double straight() const { return stored()[0].size.value().straight_mm; }
+};
+
+TEST_F(Measuring, InAZoomedSliceEveryDirectionMeasuresWhatItsScaleSays)
+{
+    zoom("coronal", 6);
+    const QPoint first = middle("coronal") + QPoint(-40, -30);
+    // 80 pixels each way: 1 mm on the screen is 1 mm measured, whichever way and however often.
+    const double across = measuredBetween("coronal", first, first + QPoint(80, 0));
+    EXPECT_GE(calliperBetween("coronal", first, first + QPoint(80, 0)), 0.9) << "the line lies where it was clicked";
+    screenshot("measured_in_slice");
+    const double down = measuredBetween("coronal", first, first + QPoint(0, 80));
+    const double half = measuredBetween("coronal", first + QPoint(40, 0), first + QPoint(80, 0));
+    EXPECT_NEAR(across, down, 0.1);
+    EXPECT_NEAR(across, 2 * half, 0.15);
+    zoom("coronal", -6);
+    const double whole = measuredBetween("coronal", first, first + QPoint(80, 0));
+    EXPECT_NEAR(whole / across, std::pow(1.2, 6), 0.05) << "by what the wheel zoomed";
+}
+
+TEST_F(Measuring, NoViewMovesBetweenTheClicks)
+{
+    zoom("axial", 5);
+    zoom("coronal", 3);
+    settle();
+    key(Qt::Key_M);
+    const QImage coronal = pictureOf("coronal"), sagittal = pictureOf("sagittal"), inside = pictureOf("endoscopic");
+    const QImage axial = pictureOf("axial");
+    const QPoint first = middle("axial") + QPoint(50, 30);
+    click("axial", first);
+    settle();
+    EXPECT_TRUE(yellow(pictureOf("axial").pixelColor(first + QPoint(0, 4)))) << "the first end is shown";
+    const QPoint away = middle("axial") - QPoint(60, 40);
+    EXPECT_EQ(pictureOf("axial").pixel(away), axial.pixel(away));
+    EXPECT_EQ(pictureOf("endoscopic"), inside);
+    int moved = 0;
+    for (const auto& [view, before] : {std::pair("coronal", &coronal), std::pair("sagittal", &sagittal)}) {
+        const QImage now = pictureOf(view);
+        for (int y = 0; y < now.height(); y += 3)
+            for (int x = 0; x < now.width(); x += 3)
+                moved += now.pixel(x, y) != before->pixel(x, y);
+    }
+    EXPECT_LT(moved, 60) << "but for the end itself";
+}
+
+TEST_F(Measuring, ASizeIsReplacedOnlyWhenTheReaderSaysSoAndUndoBringsItBack)
+{
+    mark();
+    const QPoint first = middle("endoscopic") + QPoint(90, 60);
+    key(Qt::Key_M);
+    click("endoscopic", first);
+    click("endoscopic", first + QPoint(40, 0));
+    ASSERT_TRUE(eventually([&] { return stored()[0].size.has_value() && settled(); }));
+    const double kept = straight();
+    const auto again = [&] {
+        key(Qt::Key_M);
+        click("endoscopic", first);
+        click("endoscopic", first + QPoint(12, 0));
+    };
+    again();
+    ASSERT_TRUE(eventually([] { return window()->findChild<QMessageBox*>("replaceSize") != nullptr; }));
+    EXPECT_EQ(straight(), kept) << "asked first";
+    screenshot("replace_size");
+    the<QMessageBox>("replaceSize")->grab().save(VICON_SCREENSHOTS "/replace_size_question.png");
+    answer("keepOld");
+    settle();
+    EXPECT_EQ(straight(), kept);
+    again();
+    answer("replace");
+    ASSERT_TRUE(eventually([&] { return straight() < kept && settled(); }));
+    EXPECT_EQ(cell(0, 5), QString::number(largestDiameter_mm(stored()[0].size.value()), 'f', 1));
+    key(Qt::Key_Z, Qt::ControlModifier);
+    ASSERT_TRUE(eventually([&] { return straight() == kept && settled(); }));
+    EXPECT_TRUE(eventually([&] { return calliperBetween("endoscopic", first, first + QPoint(40, 0)) > 0.5; }))
+        << "the callipers are the old ones again";
+}
+
+TEST_F(Measuring, AnEndThatIsDraggedMeasuresAnewAndIsUndone)
+{
+    mark();
+    zoom("coronal", 4);
+    // In the slice through the marker, beside it.
+    clickRow(markers(), 0);
+    settle();
+    const QPoint first = middle("coronal") + QPoint(-20, 0), second = first + QPoint(40, 0);
+    key(Qt::Key_M);
+    click("coronal", first);
+    click("coronal", second);
+    ASSERT_TRUE(eventually([&] { return stored()[0].size.has_value() && settled(); })) << said().toStdString();
+    const double before = straight();
+    drag("coronal", second, second + QPoint(40, 0));
+    screenshot("dragged");
+    ASSERT_TRUE(eventually([&] { return straight() > before && settled(); })) << said().toStdString() << warning();
+    EXPECT_NEAR(straight(), 2 * before, 0.05 * before);
+    EXPECT_GE(calliperBetween("coronal", first, second + QPoint(40, 0)), 0.9);
+    EXPECT_EQ(window()->findChild<QMessageBox*>("replaceSize"), nullptr) << "it was this size that was dragged";
+    key(Qt::Key_Z, Qt::ControlModifier);
+    ASSERT_TRUE(eventually([&] { return straight() == before && settled(); }));
+    EXPECT_TRUE(
+        eventually([&] { return calliperBetween("coronal", second + QPoint(8, 0), second + QPoint(40, 0)) < 0.2; }));
+    key(Qt::Key_Escape);
+    EXPECT_TRUE(eventually([&] { return calliperBetween("coronal", first, second) < 0.2; }));
+    clickRow(markers(), 0);
+    EXPECT_TRUE(eventually([&] { return calliperBetween("coronal", first, second) > 0.9; }))
+        << "the marker that is chosen shows its size";
+}
+
+TEST_F(Measuring, ADoubleClickEnlargesTheViewAndLeavesTheEyeWhereItWas)
+{
+    key(Qt::Key_End);
+    ASSERT_TRUE(eventually([] { return length() - station() < 2 && pictureIsThere(); }));
+    for (const char* view : {"axial", "coronal", "endoscopic"}) {
+        SCOPED_TRACE(view);
+        auto* widget = the<QWidget>(view);
+        const QPoint at = middle(view) + QPoint(30, 20);
+        const int width = widget->width();
+        // As a mouse does: press, release, double click, release.
+        QTest::mouseClick(widget, Qt::LeftButton, {}, at);
+        QTest::mouseDClick(widget, Qt::LeftButton, {}, at);
+        ASSERT_TRUE(eventually([&] { return widget->width() > width; }));
+        settle();
+        EXPECT_LT(length() - station(), 2);
+        EXPECT_EQ(the<QComboBox>("mode")->currentText(), "planned");
+        QTest::mouseClick(widget, Qt::LeftButton, {}, at);
+        QTest::mouseDClick(widget, Qt::LeftButton, {}, at);
+        ASSERT_TRUE(eventually([&] { return widget->width() == width; }));
+        EXPECT_EQ(the<QComboBox>("mode")->currentText(), "planned");
+    }
+}
+
+}  // namespace
+}  // namespace vicon::viewer

@@ -1,0 +1,96 @@
+// What a click in a view means.
+#include <utility>
+
+#include "reading/reading.h"
+
+namespace vicon::viewer {
+
+void Reading::begin(const ToolInUse& tool, const QString& prompt)
+{
+    interaction_.begin(tool);
+    for (ReadingTool* each : tools_)
+        each->nextClickChanged();
+    toolChanged();
+    say(prompt);
+}
+
+void Reading::toolChanged()
+{
+    const bool circling = interaction_.inUse<CircleFinding>();
+    views_.endoscopic()->setCircling(circling);
+    views_.setPicking(interaction_.awaitsClick());
+    emit awaitingClick(interaction_.awaitsClick());
+}
+
+bool Reading::click(const ClickedPoint& point)
+{
+    PickedPoint picked;
+    picked.at_mm = point.at_mm;
+    picked.scan_id = point.scan.record.id;
+    picked.in_scan_read = &point.scan == scan();
+    picked.on_wall = point.on_wall;
+    picked.wants_marker = point.modifiers & Qt::ShiftModifier;
+    const ClickMeaning meaning = interaction_.click(picked);
+    if (std::holds_alternative<ShowPoint>(meaning))
+        return false;
+    for (ReadingTool* tool : tools_)
+        if (tool->act(meaning, point))
+            break;
+    return true;
+}
+
+void Reading::clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers)
+{
+    if (!navigator())
+        return;
+    if (!shown_.isOf(sharedScan())) {
+        say(tr("The picture of this scan is still to come; click again when it is there."));
+        return;
+    }
+    const auto point = wallAt(*scan(), shown_.place.pose, shown_.lens, at);
+    if (!point)
+        return;
+    const bool measuring = interaction_.inUse<Measure>();
+    before_click_ = PlaceBefore{navigator()->place(), looked_at_mm_};
+    click({*scan(), shown_.place, *point, modifiers, true});
+    if (measuring)
+        return;  // no view moves while a length is measured in it
+    looked_at_mm_ = point;
+    showPlace();
+}
+
+void Reading::clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers)
+{
+    if (!navigator())
+        return;
+    const bool measuring = interaction_.inUse<Measure>();
+    before_click_ = PlaceBefore{navigator()->place(), looked_at_mm_};
+    if (!click({*scan(), place(), point, modifiers, false})) {
+        lookAt(point);
+    } else if (!measuring) {
+        looked_at_mm_ = point;
+        showPlace();
+    }
+}
+
+// The first click of a double click has shown a place by then; what is enlarged is what was there before.
+void Reading::takeBackClick()
+{
+    const auto before = std::exchange(before_click_, {});
+    if (!before || !navigator())
+        return;
+    navigator()->goBackTo(before->eye);
+    looked_at_mm_ = before->looked_at_mm;
+    moved(true);
+}
+
+void Reading::giveUp()
+{
+    views_.takeKeyboard();
+    endTool();
+    for (ReadingTool* tool : tools_)
+        tool->escape();
+    warn({});
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,72 @@
+#include "slices/measured_line.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vicon::viewer {
+namespace {
+
+constexpr double kNearSlice_mm = 5;  // as a marker's ring
+
+QPointF toQt(Pixel at)
+{
+    return {at.x, at.y};
+}
+
+}  // namespace
+
+std::optional<Calliper> inSlice(const MeasuredLine& line, const PlaneView& view, const Grid& grid)
+{
+    if (line.way_mm.empty())
+        return std::nullopt;
+    const double half_voxel_mm = *std::min_element(grid.spacing_mm.begin(), grid.spacing_mm.end()) / 2;
+    const Point3 from = line.way_mm.front(), to = line.way_mm.back();
+    const double depth_from = view.depth_mm(from), depth_to = view.depth_mm(to);
+    const bool crosses = depth_from * depth_to < 0;
+    if (!crosses && std::min(std::abs(depth_from), std::abs(depth_to)) > kNearSlice_mm)
+        return std::nullopt;
+    Calliper made;
+    const auto ends = {std::pair(from, depth_from), std::pair(to, depth_to)};
+    std::size_t n = 0;
+    for (const auto& [end, depth] : ends) {
+        if (std::abs(depth) <= half_voxel_mm)
+            made.grips[n] = toQt(view.toPixel(end));
+        else
+            made.dashed = true;
+        ++n;
+    }
+    if (line.way_mm.size() < 2) {
+        made.grips[1].reset();
+        return made;
+    }
+    made.lines << QLineF(toQt(view.toPixel(from)), toQt(view.toPixel(to)));
+    made.label_at =
+        made.lines.front().x1() > made.lines.front().x2() ? made.lines.front().p1() : made.lines.front().p2();
+    made.text = made.dashed ? QObject::tr("%1, not in this plane").arg(line.text) : line.text;
+    return made;
+}
+
+std::optional<Calliper> inEndoscopy(const MeasuredLine& line, const Pose& pose, const Lens& lens)
+{
+    if (line.way_mm.empty())
+        return std::nullopt;
+    const auto at = [&](Point3 p) { return project(pose, lens, p); };
+    const Projected from = at(line.way_mm.front()), to = at(line.way_mm.back());
+    if (from.depth_mm <= 0 || to.depth_mm <= 0)
+        return std::nullopt;
+    Calliper made;
+    made.grips[0] = toQt(from.at);
+    if (line.way_mm.size() < 2)
+        return made;
+    made.grips[1] = toQt(to.at);
+    for (std::size_t n = 1; n < line.way_mm.size(); ++n) {
+        const Projected a = at(line.way_mm[n - 1]), b = at(line.way_mm[n]);
+        if (a.depth_mm > 0 && b.depth_mm > 0)
+            made.lines << QLineF(toQt(a.at), toQt(b.at));
+    }
+    made.label_at = from.at.x > to.at.x ? *made.grips[0] : *made.grips[1];
+    made.text = line.text;
+    return made;
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <QString>
+#include <optional>
+#include <vector>
+
+#include "vicon/core/volume.h"
+#include "vicon/viewer/model/camera.h"
+#include "widgets/calliper.h"
+
+namespace vicon::viewer {
+
+/// What is measured, in the scan: from its first to its last point; one point while the other end is missing.
+struct MeasuredLine {
+    std::vector<Point3> way_mm;
+    QString text;
+};
+
+/// The line where a slice passes within 5 mm of one of its ends or between them. An end is drawn as such, and can be
+/// dragged, where it lies within half a voxel of the slice; a line that leaves the slice is dashed, from end to end.
+std::optional<Calliper> inSlice(const MeasuredLine& line, const PlaneView& view, const Grid& grid);
+
+/// The line as the eye sees it. Nothing where an end lies behind it.
+std::optional<Calliper> inEndoscopy(const MeasuredLine& line, const Pose& pose, const Lens& lens);
+
+}  // namespace vicon::viewer

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <QLineF>
+#include <QPointF>
+#include <QString>
+#include <QVector>
+#include <array>
+#include <optional>
+
+namespace vicon::viewer {
+
+/// A measured length over a picture, in the picture's pixels.
+struct Calliper {
+    QVector<QLineF> lines;                        ///< from one end to the other; none while an end is missing
+    std::array<std::optional<QPointF>, 2> grips;  ///< the ends that the picture shows: they can be dragged
+    QPointF label_at;                             ///< beside the line
+    QString text;
+    bool dashed = false;  ///< it does not lie in the picture's plane: its length is not that of the drawn line
+};
+
+}  // namespace vicon::viewer

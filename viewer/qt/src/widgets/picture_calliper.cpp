@@ -1,0 +1,75 @@
+// Callipers over a picture: how they are drawn, and that their ends are dragged.
+#include <QMouseEvent>
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+
+#include "widgets/picture_view.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr double kGrip_px = 4, kGrasp_px = 10, kLabelOff_px = 10;  // of 96 to the inch
+const QColor kCalliperColor(255, 214, 102);                        // as in the picture of the best plane
+
+}  // namespace
+
+void PictureView::setCalliper(const std::optional<Calliper>& calliper)
+{
+    calliper_ = calliper;
+    update();
+}
+
+std::optional<int> PictureView::gripAt(QPoint at) const
+{
+    if (!calliper_ || picking_ || circling_)
+        return std::nullopt;
+    for (int n = 0; n < 2; ++n)
+        if (const auto& grip = calliper_->grips[std::size_t(n)]) {
+            const QPointF off = toWidget({grip->x(), grip->y()}) - QPointF(at);
+            if (std::hypot(off.x(), off.y()) <= kGrasp_px)
+                return n;
+        }
+    return std::nullopt;
+}
+
+void PictureView::dragGrip(QPoint to, bool released)
+{
+    const QPoint within(std::clamp(to.x(), 0, width() - 1), std::clamp(to.y(), 0, height() - 1));
+    emit endDragged(*grip_, toPicture(within), released);
+}
+
+void PictureView::drawCalliper(QPainter& painter) const
+{
+    if (!calliper_)
+        return;
+    const double ratio = devicePixelRatioF();
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.scale(1 / ratio, 1 / ratio);
+    for (const auto& [color, width] : {std::pair(QColor(Qt::black), 4.0), std::pair(kCalliperColor, 1.6)}) {
+        painter.setPen(QPen(color, width * ratio, calliper_->dashed ? Qt::DashLine : Qt::SolidLine, Qt::RoundCap));
+        painter.setBrush(Qt::NoBrush);
+        painter.drawLines(calliper_->lines);
+        for (const auto& grip : calliper_->grips)
+            if (grip)
+                painter.drawEllipse(*grip, kGrip_px * ratio, kGrip_px * ratio);
+    }
+    painter.resetTransform();
+    drawCalliperText(painter);
+}
+
+void PictureView::drawCalliperText(QPainter& painter) const
+{
+    if (calliper_->text.isEmpty())
+        return;
+    const QRectF words = painter.fontMetrics().boundingRect(calliper_->text).adjusted(-3, -1, 3, 1);
+    const QPointF at = toWidget({calliper_->label_at.x(), calliper_->label_at.y()});
+    const double x = std::clamp(at.x() + kLabelOff_px, 0.0, std::max(0.0, width() - words.width()));
+    const double y = std::clamp(at.y() - words.height() / 2, 0.0, std::max(0.0, height() - words.height()));
+    const QRectF box({x, y}, words.size());
+    painter.fillRect(box, QColor(0, 0, 0, 190));
+    painter.setPen(kCalliperColor);
+    painter.drawText(box, Qt::AlignCenter, calliper_->text);
+}
+
+}  // namespace vicon::viewer
