@@ -34,7 +34,8 @@ TEST_F(Reading, FliesToTheCaecumAndBackAndIsWhereItWasAfterReopening)
     key(Qt::Key_End);
     ASSERT_TRUE(eventually([] { return length() - station() < 2; }));
     screenshot("caecum");
-    EXPECT_EQ(the<QPushButton>("about")->text(), "To rectum") << "it looks into the colon, ready for the way back";
+    EXPECT_EQ(the<QPushButton>("about")->text(), "Heading: rectum")
+        << "it looks into the colon, ready for the way back";
     EXPECT_FALSE(the<QPushButton>("lookBack")->isChecked());
     key(Qt::Key_Space);
     ASSERT_TRUE(eventually([] { return length() - station() > 60; }));
@@ -47,7 +48,7 @@ TEST_F(Reading, FliesToTheCaecumAndBackAndIsWhereItWasAfterReopening)
     closeCase();
     openCase();
     EXPECT_NEAR(station(), 150, 2);
-    EXPECT_EQ(the<QPushButton>("about")->text(), "To rectum");
+    EXPECT_EQ(the<QPushButton>("about")->text(), "Heading: rectum");
 }
 
 TEST_F(Reading, GuidedFlightIsSteeredByKeysAndComesBackWhenLetGo)

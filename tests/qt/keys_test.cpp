@@ -91,7 +91,7 @@ TEST_F(Reading, AnotherOrganAndItsEndsAreCalledByTheirNames)
     openCase();
     EXPECT_TRUE(the<QLabel>("where")->text().contains("mm from the root (0 %)"))
         << the<QLabel>("where")->text().toStdString();
-    EXPECT_EQ(the<QPushButton>("about")->text(), "To tip");
+    EXPECT_EQ(the<QPushButton>("about")->text(), "Heading: tip");
     EXPECT_EQ(markers()->horizontalHeaderItem(2)->toolTip(), "Distance from the root along the airway");
     EXPECT_FALSE(the<QTabWidget>("lists")->isTabEnabled(2)) << "corrections are a colon's";
     auto* windows = the<QComboBox>("window");
@@ -102,7 +102,7 @@ TEST_F(Reading, AnotherOrganAndItsEndsAreCalledByTheirNames)
     the<QLabel>("where")->clear();
     QTest::keyClick(scans, Qt::Key_Down);
     waitForScan();
-    EXPECT_EQ(the<QPushButton>("about")->text(), "To caecum");
+    EXPECT_EQ(the<QPushButton>("about")->text(), "Heading: caecum");
     EXPECT_TRUE(the<QTabWidget>("lists")->isTabEnabled(2));
     windows->setCurrentText("soft-tissue");
     key(Qt::Key_X);

@@ -246,6 +246,7 @@ TEST_F(Reading, AnAreaThatIsCircledIsPeeledAloneAndItsDensityKeptWithTheMarkerUn
     settle();
     auto* view = the<QWidget>("endoscopic");
     const QImage plain = view->grab().toImage();
+    const QPoint controls = the<QWidget>("mode")->mapTo(window(), {0, 0});
     key(Qt::Key_T);
     QTest::mousePress(view, Qt::LeftButton, {}, at);
     for (int n = 1; n <= 5; ++n)
@@ -258,6 +259,8 @@ TEST_F(Reading, AnAreaThatIsCircledIsPeeledAloneAndItsDensityKeptWithTheMarkerUn
     EXPECT_GT(density.mean_hu, -90) << "a wall of 40 HU before fat of -90";
     EXPECT_LT(density.mean_hu, 45);
     EXPECT_TRUE(the<QLabel>("histogram")->isVisible());
+    EXPECT_EQ(the<QWidget>("mode")->mapTo(window(), {0, 0}), controls) << "it pushes nothing away";
+    EXPECT_FALSE(the<QWidget>("mode")->visibleRegion().isEmpty());
     settle();
     screenshot("biopsy");
     // Far from the circle the wall is drawn as it was; in its middle something else is.

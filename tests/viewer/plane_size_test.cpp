@@ -88,6 +88,14 @@ TEST(SizeOnTheBestPlane, WallThatCurvesUpBesideTheFindingIsNotPartOfIt)
     }
 }
 
+TEST(SizeOnTheBestPlane, OfALineThroughTheLumenBetweenTwoFindingsThereIsNone)
+{
+    const Point3 other{12, 0, 0};
+    const auto inside = wallWith([&](Point3 p) { return distance(p, {}) < 4 || distance(p, other) < 2.5; });
+    EXPECT_FALSE(sizeOnBestPlane(inside, {-3.7, 0, 1.5}, {14, 0, 1.5}, {5, 0, 15})) << "a calliper in air";
+    EXPECT_TRUE(sizeOnBestPlane(inside, {-3.7, 0, 1.5}, {3.7, 0, 1.5}, {5, 0, 15}));
+}
+
 TEST(SizeOnTheBestPlane, OfFlatWallOrOfPointsTooFarAsunderThereIsNone)
 {
     const auto inside = wallWith([](Point3) { return false; });

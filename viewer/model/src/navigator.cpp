@@ -82,6 +82,9 @@ void Navigator::goBackTo(const Place& place)
     station_mm_ = place.station_mm;
     look_back_ = place.looks_back;
     free_ = place.free;
+    constexpr double kElsewhere_mm = 1;
+    if (mode_ == NavigationMode::guided && std::abs(submarine_.state().station_mm - station_mm_) > kElsewhere_mm)
+        submarine_.placeAt(station_mm_, heading_);  // the click was a jump
 }
 
 void Navigator::advance(double seconds)

@@ -14,6 +14,7 @@ constexpr double kSureNormal = 0.2;   // of the sum of two unit vectors
 constexpr double kStep_mm = 0.2;      // less than a third of a voxel of clinical CT
 constexpr double kMostSteps = 100;    // along the line
 constexpr double kHeights = 3, kSpare_mm = 8;  // a polyp on a stalk is higher than wide
+constexpr double kMostAir = 0.2;               // of a diameter: the ends lie within a voxel or two of the border
 constexpr double kLarger = 1.02;               // of two planes that show as much the more upright one is taken
 
 /// How much of the place is lumen, 0 to 1, trilinear between voxels.
@@ -106,7 +107,21 @@ public:
     bool bounded() const { return bounded_; }
     double area_mm2() const { return double(pixels_) * step_ * step_; }
 
-    /// The two points that lie farthest asunder.
+    /// Whether a line runs through what stands there, and not through the lumen beside it.
+    bool inTissue(Flat a, Flat b) const
+    {
+        const int steps = std::max(1, int(std::hypot(a.u - b.u, a.v - b.v) / step_));
+        int air = 0;
+        for (int n = 0; n <= steps; ++n) {
+            const double t = double(n) / steps;
+            const int u = int(std::lround(std::lerp(a.u, b.u, t) / step_)) + line_;
+            const int v = int(std::lround(std::lerp(a.v, b.v, t) / step_));
+            air += u < 0 || u >= width_ || v < 0 || v >= height_ || !tissue_[at(u, v)] ? 1 : 0;
+        }
+        return air <= kMostAir * (steps + 1);
+    }
+
+    /// The two points that lie farthest asunder, with tissue between them.
     std::pair<Flat, Flat> diameter() const
     {
         std::pair<Flat, Flat> farthest{{0, 0}, {length_mm_, 0}};
@@ -116,7 +131,7 @@ public:
         double most = length_mm_;
         for (const Flat& a : hull)
             for (const Flat& b : hull)
-                if (const double d = std::hypot(a.u - b.u, a.v - b.v); d > most + step_) {
+                if (const double d = std::hypot(a.u - b.u, a.v - b.v); d > most + step_ && inTissue(a, b)) {
                     most = d;
                     farthest = {a, b};
                 }
@@ -197,6 +212,8 @@ std::optional<PlaneSize> sizeOnBestPlane(const InsideView& inside, Point3 a, Poi
         if (!section.bounded() || section.area_mm2() <= kLarger * best.area_mm2)
             continue;
         const auto [from, to] = section.diameter();
+        if (!section.inTissue(from, to))
+            continue;  // the clicked line runs through the lumen: its ends are not those of one finding
         best.area_mm2 = section.area_mm2();
         best.up = turned;
         best.from_mm = a + best.along * from.u + turned * from.v;

@@ -22,7 +22,9 @@ void FlightTool::addActions(ReadingLayout& layout)
     add(tr("Free"), "F", [this] { setMode(NavigationMode::free); });
     add(tr("Fly or stop"), "Space", [this] { fly(navigator() && navigator()->direction() ? 0 : 1); });
     add(tr("Turn about"), "R", [this] { turnAbout(); });
-    add(tr("Look back"), "B", [this] { lookBack(navigator() && !navigator()->looksBack()); });
+    add(tr("Look back"), "B", [this] {
+        lookBack(navigator() && !(navigator()->looksBack() && navigator()->mode() == NavigationMode::planned));
+    });
     add(tr("A centimetre on"), ".", [this] { step(kStep_mm); });
     add(tr("A centimetre back"), ",", [this] { step(-kStep_mm); });
     add(tr("Jump to a distance"), "J", [this] { panel_->askStation(); });

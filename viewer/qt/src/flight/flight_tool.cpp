@@ -58,8 +58,8 @@ QVariantMap FlightTool::kept() const
 
 void FlightTool::useWords(const OrganWords& words)
 {
-    to_first_end_->setText(tr("To the %1").arg(QString::fromStdString(words.first_end)));
-    to_last_end_->setText(tr("To the %1").arg(QString::fromStdString(words.last_end)));
+    to_first_end_->setText(tr("Jump to the %1").arg(QString::fromStdString(words.first_end)));
+    to_last_end_->setText(tr("Jump to the %1").arg(QString::fromStdString(words.last_end)));
 }
 
 void FlightTool::scanLeft()
@@ -105,7 +105,18 @@ void FlightTool::takeKeptPlace()
 void FlightTool::placeShown()
 {
     panel_->show(*navigator(), reading_.scan()->files.frames().length_mm(), reading_.organWords());
-    layout_->notice(navigator()->state().carried ? tr("collapsed or narrow part: carried along the path") : QString());
+    layout_->notice(noticeHere());
+}
+
+QString FlightTool::noticeHere() const
+{
+    const NavigationState state = navigator()->state();
+    constexpr double kAtWall_mm = 3;  // nearer, the picture shows one even patch of wall
+    if (state.carried)
+        return tr("collapsed or narrow part: carried along the path");
+    if (navigator()->mode() == NavigationMode::free && state.clearance_mm < kAtWall_mm)
+        return tr("free, close to the wall: S backs off, P goes back to the centreline");
+    return {};
 }
 
 void FlightTool::escape()
@@ -158,6 +169,12 @@ void FlightTool::fly(int direction)
         return;
     if (direction != 0 && navigator()->mode() == NavigationMode::free)
         navigator()->setMode(NavigationMode::planned);  // on along the path from where the eye is
+    if (direction > 0 && navigator()->mode() == NavigationMode::planned && navigator()->state().at_end) {
+        const OrganWords& words = reading_.organWords();
+        const std::string& end = navigator()->heading() == Heading::caecum ? words.last_end : words.first_end;
+        reading_.say(tr("This is the %1, where the flight ends; R turns about.").arg(QString::fromStdString(end)));
+        return;
+    }
     navigator()->fly(direction);
     reading_.moved(false);
 }
@@ -198,6 +215,10 @@ void FlightTool::lookBack(bool on)
 {
     if (!navigator())
         return;
+    if (on && navigator()->mode() != NavigationMode::planned) {
+        navigator()->setMode(NavigationMode::planned);
+        reading_.say(tr("Planned flight, looking back"));
+    }
     navigator()->setLookBack(on);
     reading_.flewOn();
     reading_.beginPass();
@@ -247,6 +268,11 @@ void FlightTool::clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers)
             station = s;
         }
     }
+    if (reading_.interaction().inUse<Measure>()) {
+        reading_.warn(tr("The projection has no depth: measure on the wall or in a slice."));
+        return;
+    }
+    reading_.rememberPlace();
     if (!reading_.click({*reading_.scan(), reading_.place(), path.at(station).position_mm, modifiers, false}))
         jumpTo(station);
 }

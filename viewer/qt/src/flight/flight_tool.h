@@ -42,6 +42,8 @@ private:
     void takeKeptPlace();
     void tick();
     bool waitsForPicture() const;
+    /// What the reader should know of the eye's place; empty: nothing.
+    QString noticeHere() const;
     void setMode(NavigationMode mode);
     void fly(int direction);
     void turnAbout();

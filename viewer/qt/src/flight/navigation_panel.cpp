@@ -61,8 +61,8 @@ void NavigationPanel::buildButtons()
     back_ = button(tr("Back"), "back", tr("Fly back"), tr("Fly backwards"));
     stop_ = button(tr("Stop"), "stop", tr("Stop"), tr("Stop (Space)"));
     forward_ = button(tr("Fly"), "forward", tr("Fly on"), tr("Fly the way that is chosen (Space)"));
-    about_ = button(tr("Turn about"), "about", tr("Way of flight"), tr("Turn about (R)"));
-    look_back_ = button(tr("Look back"), "lookBack", tr("Look back"), tr("Look back while flying on (B)"));
+    about_ = button(tr("Turn about"), "about", tr("Way of flight"), tr("Which way the flight goes; turn about (R)"));
+    look_back_ = button(tr("Look back"), "lookBack", tr("Look back"), tr("Look back while flying on, planned (B)"));
     look_back_->setCheckable(true);
     step_back_ = button(tr("-1 cm"), "stepBack", tr("A centimetre back"), tr("A centimetre back (,)"));
     step_on_ = button(tr("+1 cm"), "stepOn", tr("A centimetre on"), tr("A centimetre on (.)"));
@@ -161,10 +161,9 @@ void NavigationPanel::show(const Navigator& navigator, double length_mm, const O
     const NavigationState state = navigator.state();
     const bool planned = navigator.mode() == NavigationMode::planned;
     mode_->setCurrentIndex(int(navigator.mode()));
-    look_back_->setEnabled(planned);
-    look_back_->setChecked(navigator.looksBack());
+    look_back_->setChecked(planned && navigator.looksBack());
     const QString first = QString::fromStdString(words.first_end), last = QString::fromStdString(words.last_end);
-    about_->setText(tr("To %1").arg(navigator.heading() == Heading::caecum ? last : first));
+    about_->setText(tr("Heading: %1").arg(navigator.heading() == Heading::caecum ? last : first));
     for (QWidget* widget : std::initializer_list<QWidget*>{station_, go_})
         widget->setToolTip(tr("Jump to this distance from the %1").arg(first));
     {

@@ -5,7 +5,6 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QSlider>
-#include <QTimer>
 #include <algorithm>
 #include <cmath>
 
@@ -50,7 +49,6 @@ PeelingPanel::PeelingPanel(QWidget* parent) : QWidget(parent)
     histogram_->setAccessibleName(tr("Densities of the virtual biopsy"));
     histogram_->setAlignment(Qt::AlignCenter);
     histogram_->hide();
-    grid->addWidget(histogram_, 2, 0, 1, 3);
     const auto tell = [this] {
         offset_->setEnabled(on());
         circle_->setEnabled(on());
@@ -95,13 +93,16 @@ void PeelingPanel::showHistogram(const DensitySample& biopsy)
     histogram_->setVisible(biopsy.voxels > 0);
     if (biopsy.voxels == 0)
         return;
-    constexpr int kWidth = 380, kHeight = 200;
+    constexpr int kMostWidth = 380, kMargin_px = 4;
+    const QWidget* view = histogram_->parentWidget();
+    const int width = std::min(kMostWidth, view->width() / 2), height = width * 10 / 19;
     const double ratio = devicePixelRatioF();
-    const Picture drawn = histogramPicture(biopsy, int(kWidth * ratio), int(kHeight * ratio));
+    const Picture drawn = histogramPicture(biopsy, int(width * ratio), int(height * ratio));
     QImage image(drawn.rgb.data(), drawn.width, drawn.height, 3 * drawn.width, QImage::Format_RGB888);
     image.setDevicePixelRatio(ratio);
     histogram_->setPixmap(QPixmap::fromImage(image));
-    QTimer::singleShot(0, this, [this] { emit histogramShown(histogram_); });
+    histogram_->setGeometry(view->width() - width - kMargin_px, kMargin_px, width, height);
+    histogram_->raise();
 }
 
 void PeelingPanel::fill(SnapshotRequest& request) const
@@ -111,9 +112,11 @@ void PeelingPanel::fill(SnapshotRequest& request) const
     request.peel_middle_only = circle_->isChecked();
 }
 
-QWidget* PeelingPanel::histogram() const
+void PeelingPanel::showHistogramOn(QWidget* view)
 {
-    return histogram_;
+    histogram_->setParent(view);
+    histogram_->setAttribute(Qt::WA_TransparentForMouseEvents);
+    histogram_->hide();
 }
 
 }  // namespace vicon::viewer

@@ -25,15 +25,13 @@ public:
     void choose(const QString& preset, double offset_mm, bool circle_only);
     /// Puts the choice into a request for an endoscopic picture.
     void fill(SnapshotRequest& request) const;
-    /// Where it is shown.
-    QWidget* histogram() const;
+    /// In a corner of this view: the controls stay where they are.
+    void showHistogramOn(QWidget* view);
     /// Of the biopsy that was taken last; one without voxels: none is shown.
     void showHistogram(const DensitySample& biopsy);
 
 signals:
     void changed();
-    /// Room is made for it by then.
-    void histogramShown(QWidget* histogram);
 
 private:
     QComboBox* preset_;

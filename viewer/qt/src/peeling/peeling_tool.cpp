@@ -12,8 +12,8 @@ PeelingTool::PeelingTool(Reading& reading) : ReadingTool(reading), panel_(new Pe
 
 void PeelingTool::addTo(ReadingLayout& layout)
 {
-    layout.addPanel(panel_, ReadingLayout::PanelPlace::below_lists, panel_->histogram());
-    connect(panel_, &PeelingPanel::histogramShown, &layout, &ReadingLayout::scrollTo);
+    layout.addPanel(panel_, ReadingLayout::PanelPlace::below_lists);
+    panel_->showHistogramOn(reading_.views().endoscopic());
     connect(panel_, &PeelingPanel::changed, this, [this] {
         showTip();
         drawSoon();

@@ -39,6 +39,11 @@ bool Reading::click(const ClickedPoint& point)
     return true;
 }
 
+void Reading::rememberPlace()
+{
+    before_click_ = PlaceBefore{navigator()->place(), looked_at_mm_};
+}
+
 void Reading::clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers)
 {
     if (!navigator())
@@ -51,7 +56,7 @@ void Reading::clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers)
     if (!point)
         return;
     const bool measuring = interaction_.inUse<Measure>();
-    before_click_ = PlaceBefore{navigator()->place(), looked_at_mm_};
+    rememberPlace();
     click({*scan(), shown_.place, *point, modifiers, true});
     if (measuring)
         return;  // no view moves while a length is measured in it
@@ -64,7 +69,7 @@ void Reading::clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers)
     if (!navigator())
         return;
     const bool measuring = interaction_.inUse<Measure>();
-    before_click_ = PlaceBefore{navigator()->place(), looked_at_mm_};
+    rememberPlace();
     if (!click({*scan(), place(), point, modifiers, false})) {
         lookAt(point);
     } else if (!measuring) {

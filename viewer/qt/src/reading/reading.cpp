@@ -63,6 +63,7 @@ void Reading::connectViews()
     connect(views_.endoscopic(), &PictureView::clicked, this, &Reading::clickedEndoscopic);
     connect(views_.endoscopic(), &PictureView::enlargeWanted, this, &Reading::takeBackClick);
     connect(views_.overview(), &PictureView::resized, this, &Reading::drawOverview);
+    connect(views_.overview(), &PictureView::enlargeWanted, this, &Reading::takeBackClick);
     for (SliceView* slice : views_.slices()) {
         connect(slice, &SliceView::pointClicked, this, &Reading::clickedSlice);
         connect(slice, &PictureView::enlargeWanted, this, &Reading::takeBackClick);
@@ -78,6 +79,7 @@ void Reading::showEndoscopic(const Picture& picture, const ShownPicture& shown)
         return;  // another scan is read by now: no two views show different ones
     shown_ = shown;
     views_.endoscopic()->showPicture(picture);
+    sayWhatIsDrawn();
     views_.endoscopic()->setProperty("shaded", shown.shaded);
     views_.endoscopic()->setAccessibleDescription(
         tr("%1 mm from the %2").arg(shown.place.station_mm, 0, 'f', 0).arg(organWords().first_end.c_str()));
@@ -201,7 +203,18 @@ void Reading::drawEndoscopic(bool still)
     request.count_seen = view.isVisible();
     for (const ReadingTool* tool : tools_)
         tool->complete(request);
+    asked_peel_ = request.snapshot.peel;
+    sayWhatIsDrawn();
     drawing_.drawEndoscopic(sharedScan(), request);
+}
+
+// The look below the wall takes its time; until it is there the picture and its list would disagree.
+void Reading::sayWhatIsDrawn()
+{
+    const bool agrees = shown_.peel == asked_peel_;
+    views_.endoscopic()->setNote(agrees                ? QString()
+                                 : asked_peel_.empty() ? tr("the wall is being drawn ...")
+                                                       : tr("below the wall: being drawn ..."));
 }
 
 void Reading::drawOverview()

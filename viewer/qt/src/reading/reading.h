@@ -72,6 +72,8 @@ public:
     void endTool() { begin(Idle{}, {}); }
     /// Views show whether a click is awaited.
     void toolChanged();
+    /// Before a click moves the eye: where it is a double click, the eye goes back there.
+    void rememberPlace();
     /// False where the click only shows the point.
     bool click(const ClickedPoint& point);
     void giveUp();
@@ -123,6 +125,7 @@ private:
     /// Those of the scan that was read.
     void clearPictures();
     void drawOverview();
+    void sayWhatIsDrawn();
     void showPlace();
     SnapshotRequest snapshotOf(const OpenScan& scan, const QSize& size) const;
 
@@ -132,6 +135,7 @@ private:
     DrawingThread drawing_;
     Worker settings_worker_{this};
     ShownPicture shown_;
+    std::string asked_peel_;  // of the picture asked for last
     std::optional<PlaneView> shown_overview_;
     std::optional<Point3> looked_at_mm_;  // what was clicked; else the eye's place
     /// What the reader saw before the click in a view.

@@ -10,6 +10,7 @@ namespace vicon::viewer {
 namespace {
 
 constexpr int kPart_px = 150, kSideWidth_px = 430;  // of 96 to the inch, before the window is resized
+constexpr int kMostSideWidth_px = kSideWidth_px * 5 / 4;
 constexpr const char* kSlices = "window/slices";
 
 SliceView* slice(SlicePlane plane, const char* name, const QString& title)
@@ -29,14 +30,14 @@ ReadingViews::ReadingViews(QWidget* parent) : QSplitter(Qt::Horizontal, parent)
     endoscopic_->setSteered();
     overview_ = new PictureView({});
     overview_->setObjectName("overview");
-    overview_->setToolTip(tr("Click: go there"));
+    overview_->setToolTip(tr("Click: go there. Double click: enlarge."));
     slices_ = {slice(SlicePlane::axial, "axial", tr("Axial slice")),
                slice(SlicePlane::coronal, "coronal", tr("Coronal slice")),
                slice(SlicePlane::sagittal, "sagittal", tr("Sagittal slice"))};
     slice_column_ = new QSplitter(Qt::Vertical);
     slice_column_->setObjectName("slices");
     side_ = new QWidget;
-    side_->setMaximumWidth(kSideWidth_px * 5 / 4);
+    side_->setMaximumWidth(kMostSideWidth_px);
     auto* column = new QVBoxLayout(side_);
     column->setContentsMargins(0, 0, 0, 0);
     column->addWidget(overview_);
@@ -51,6 +52,7 @@ ReadingViews::ReadingViews(QWidget* parent) : QSplitter(Qt::Horizontal, parent)
         connect(view, &PictureView::enlargeWanted, this, [this, view] { enlarge(view); });
     }
     connect(endoscopic_, &PictureView::enlargeWanted, this, [this] { enlarge(endoscopic_); });
+    connect(overview_, &PictureView::enlargeWanted, this, [this] { enlarge(overview_); });
 }
 
 void ReadingViews::addBeside(QWidget* view)
@@ -64,6 +66,7 @@ void ReadingViews::addBeside(QWidget* view)
 
 void ReadingViews::addControls(QWidget* controls)
 {
+    controls_ = controls;
     side_->layout()->addWidget(controls);
 }
 
@@ -91,7 +94,11 @@ void ReadingViews::enlarge(QWidget* view)
         const bool elsewhere = second_ && (widget == endoscopic_) != (enlarged_ == endoscopic_);
         return !enlarged_ || enlarged_ == widget || elsewhere;
     };
-    overview_->setVisible(!second_ || !enlarged_ || enlarged_ == endoscopic_);
+    const bool projection_alone = enlarged_ == overview_;
+    overview_->setVisible(!second_ || !enlarged_ || enlarged_ == endoscopic_ || projection_alone);
+    side_->setMaximumWidth(projection_alone && !second_ ? QWIDGETSIZE_MAX : kMostSideWidth_px);
+    if (controls_)
+        controls_->setVisible(!projection_alone || second_);
     bool any_slice = false;
     for (SliceView* slice : slices_) {
         slice->setVisible(shown(slice));

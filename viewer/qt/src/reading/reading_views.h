@@ -71,6 +71,7 @@ private:
     QSplitter* slice_column_;
     QWidget* side_;
     QWidget* beside_ = nullptr;
+    QWidget* controls_ = nullptr;
     QWidget* enlarged_ = nullptr;
     SecondWindow* second_ = nullptr;  // the slices and the projection are in it
     QByteArray columns_in_one_;       // their widths, while two windows are used

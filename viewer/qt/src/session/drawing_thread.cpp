@@ -91,7 +91,7 @@ void DrawingThread::draw(Which which, std::shared_ptr<OpenScan> scan, const Endo
                          });
         const Lens lens{snapshot.view_angle_deg, snapshot.width, snapshot.height};
         const auto signal = which == Which::leading ? &DrawingThread::endoscopicDrawn : &DrawingThread::besideDrawn;
-        return [this, picture, signal, shown = ShownPicture{scan, request.place, lens, shaded}] {
+        return [this, picture, signal, shown = ShownPicture{scan, request.place, lens, request.snapshot.peel, shaded}] {
             emit(this->*signal)(*picture, shown);
         };
     });

@@ -27,7 +27,8 @@ struct ShownPicture {
     std::weak_ptr<OpenScan> scan;
     SnapshotResult place;
     Lens lens;
-    bool shaded = false;  ///< with the ambient occlusion that was asked for; it comes a little later than the first
+    std::string peel = {};  ///< the look below the wall; empty: none
+    bool shaded = false;    ///< with the ambient occlusion that was asked for; it comes a little later than the first
 
     bool isOf(const std::shared_ptr<OpenScan>& which) const { return which && scan.lock() == which; }
 };

@@ -7,8 +7,7 @@
 namespace vicon::viewer {
 
 /// The controls beside the views: as high as they want to be where there is room, else scrolled, so that a window
-/// never grows beyond its screen because of them. What comes and goes among them is scrolled to; what lies beside the
-/// controls keeps its size.
+/// never grows beyond its screen because of them. What lies beside the controls keeps its size.
 class ControlsArea : public QScrollArea {
 public:
     explicit ControlsArea(QWidget* controls)
@@ -21,14 +20,7 @@ public:
         setWidget(controls);
     }
 
-    /// One of the controls, which is there for a while.
-    void setPassing(const QWidget* passing) { passing_ = passing; }
-
-    QSize sizeHint() const override
-    {
-        const int extra = passing_ && passing_->isVisibleTo(widget()) ? passing_->sizeHint().height() : 0;
-        return {minimumSizeHint().width(), widget()->sizeHint().height() - extra};
-    }
+    QSize sizeHint() const override { return {minimumSizeHint().width(), widget()->sizeHint().height()}; }
     QSize minimumSizeHint() const override
     {
         constexpr int kLeastHeight = 150;
@@ -43,9 +35,6 @@ protected:
             updateGeometry();
         return QScrollArea::eventFilter(of, event);
     }
-
-private:
-    const QWidget* passing_ = nullptr;
 };
 
 }  // namespace vicon::viewer

@@ -39,6 +39,26 @@ double PictureView::circleRadius() const
     return std::hypot(by.x(), by.y());
 }
 
+void PictureView::setNote(const QString& note)
+{
+    if (note == note_)
+        return;
+    note_ = note;
+    update();
+}
+
+void PictureView::drawNote(QPainter& painter) const
+{
+    if (note_.isEmpty())
+        return;
+    constexpr int kAbove_px = 40, kSpare_px = 4;
+    QRect words = painter.fontMetrics().boundingRect(note_).adjusted(-kSpare_px, -kSpare_px, kSpare_px, kSpare_px);
+    words.moveCenter({width() / 2, height() - kAbove_px});
+    painter.fillRect(words, QColor(0, 0, 0, 190));
+    painter.setPen(Qt::white);
+    painter.drawText(words, Qt::AlignCenter, note_);
+}
+
 void PictureView::clearPicture(const QString& words)
 {
     image_ = {};
@@ -70,7 +90,8 @@ void PictureView::paintEvent(QPaintEvent*)
     const QSizeF drawn = QSizeF(image_.size()) / image_.devicePixelRatioF();
     if (image_.isNull() && !waiting_.isEmpty()) {
         painter.setPen(Qt::lightGray);
-        painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap, waiting_);
+        painter.drawText(rect().adjusted(0, height() / 4, 0, 0), Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap,
+                         waiting_);
     }
     if (QSizeF(pictureSize()) / devicePixelRatioF() == drawn || image_.isNull()) {
         painter.drawImage(0, 0, image_);
@@ -81,6 +102,7 @@ void PictureView::paintEvent(QPaintEvent*)
             painter.drawEllipse(QPointF(pressed_), circleRadius(), circleRadius());
         }
         painter.resetTransform();
+        drawNote(painter);
         drawFocus(painter);
         return;
     }

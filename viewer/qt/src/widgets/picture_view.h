@@ -29,6 +29,8 @@ public:
     void setCalliper(const std::optional<Calliper>& calliper);
     const std::optional<Calliper>& calliper() const { return calliper_; }
     void showPicture(const Picture& picture);
+    /// Said at the bottom of the picture; empty: nothing.
+    void setNote(const QString& note);
     /// What was shown is no longer true; until the next picture these words stand there.
     void clearPicture(const QString& words);
     const QImage& image() const { return image_; }
@@ -78,6 +80,7 @@ private:
     void dragGrip(QPoint to, bool released);
     void drawCalliper(QPainter& painter) const;
     void drawCalliperText(QPainter& painter) const;
+    void drawNote(QPainter& painter) const;
 
     Pixel toPicture(QPoint at) const;
     /// Of the circle that is being drawn, in widget pixels.
@@ -85,6 +88,7 @@ private:
 
     QImage image_;
     QString waiting_;  // instead of a picture
+    QString note_;
     std::optional<Calliper> calliper_;
     std::optional<int> grip_;  // the end that is held
     QPoint pressed_, last_;

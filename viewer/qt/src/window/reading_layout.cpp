@@ -83,7 +83,7 @@ void ReadingLayout::addChoice(QWidget* choice)
     choices_.push_back(choice);
 }
 
-void ReadingLayout::addPanel(QWidget* panel, PanelPlace place, QWidget* passing)
+void ReadingLayout::addPanel(QWidget* panel, PanelPlace place)
 {
     if (place == PanelPlace::above_lists) {
         controls_->insertWidget(int(above_.size()), framed(panel));
@@ -92,8 +92,6 @@ void ReadingLayout::addPanel(QWidget* panel, PanelPlace place, QWidget* passing)
         controls_->addWidget(framed(panel));
         below_.push_back(panel);
     }
-    if (passing)
-        area_->setPassing(passing);
 }
 
 void ReadingLayout::addList(QWidget* list, const QString& title)
@@ -183,11 +181,6 @@ void ReadingLayout::enableList(QWidget* list, bool on, const QString& tip)
     const int tab = lists_->indexOf(list);
     lists_->setTabEnabled(tab, on);
     lists_->setTabToolTip(tab, tip);
-}
-
-void ReadingLayout::scrollTo(QWidget* control)
-{
-    area_->ensureWidgetVisible(control);
 }
 
 void ReadingLayout::goToList()

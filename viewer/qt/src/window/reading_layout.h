@@ -32,8 +32,8 @@ public:
 
     /// Above the views.
     void addChoice(QWidget* choice);
-    /// Among the controls. @param passing a part of it that is there for a while: it is scrolled to
-    void addPanel(QWidget* panel, PanelPlace place, QWidget* passing = nullptr);
+    /// Among the controls.
+    void addPanel(QWidget* panel, PanelPlace place);
     /// It has one table, which Return and the arrow keys act on.
     void addList(QWidget* list, const QString& title);
     void addStatus(QWidget* status);
@@ -50,7 +50,6 @@ public:
     void notice(const QString& message);
     void showList(QWidget* list);
     void enableList(QWidget* list, bool on, const QString& tip);
-    void scrollTo(QWidget* control);
     /// The keyboard goes to the list that is shown.
     void goToList();
     int shownList() const;

@@ -11,8 +11,9 @@ namespace vicon::viewer {
 /// Turns a plane about the line through two points of the wall, up to 60 degrees from upright on it, and takes the
 /// plane in which what stands above the line has the largest cross-section; the diameter is the greatest distance
 /// between two points of that cross-section, the clicked ones included. What hangs over beyond the points belongs to
-/// it, the wall that curves up there does not. Nothing where nothing stands above the line in any plane, it is nowhere
-/// bounded by lumen, or the points are less than 1 or more than 80 mm asunder.
+/// it, the wall that curves up there does not. A diameter runs through tissue, at most a fifth of it beside.
+/// Nothing where nothing stands above the line in any plane, it is nowhere bounded by lumen, the line runs through the
+/// lumen, or the points are less than 1 or more than 80 mm asunder.
 /// @param eye a place in the lumen from which the points are seen
 std::optional<PlaneSize> sizeOnBestPlane(const InsideView& inside, Point3 a, Point3 b, Point3 eye);
 
