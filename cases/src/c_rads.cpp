@@ -162,6 +162,8 @@ Proposal<ColonCategory> ofWeighed(const Weighed& w, const JudgedStudy& study)
         return {c3, listed(w.large, "; ") + ": " + std::to_string(int(kLarge_mm)) + " mm or more" + but};
     if (w.medium.size() >= kManyPolyps)
         return {c3, std::to_string(w.medium.size()) + " polyps of 6 to 9 mm: " + listed(w.medium, "; ") + but};
+    if (!study.loose_markers.empty())
+        return {{}, "of no finding: marker " + listed(study.loose_markers)};
     if (!incomplete.empty())
         return {c0, incomplete + (w.medium.empty() ? "" : "; found nevertheless: " + listed(w.medium, "; "))};
     if (!w.unsized.empty())

@@ -40,6 +40,7 @@ JudgedStudy judged(const ReadCase& read)
     for (const auto& [finding, facts] : read.findings)
         study.findings.push_back(
             {finding.id, finding.kind, facts.size_mm, finding.attenuation, finding.narrows_lumen, finding.invades});
+    study.loose_markers = read.loose_markers;
     study.collapsed_parts = collapsedEverywhere(read.parts);
     study.inadequate = read.assessment.inadequate || read.assessment.preparation == Grade::inadequate;
     study.priors_awaited = read.assessment.priors_awaited;

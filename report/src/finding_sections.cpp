@@ -41,9 +41,14 @@ void Sections::drawFindingTable()
 {
     const auto& findings = content_.read.findings;
     drawSection(flow_, "Findings in the colon", 3 * leadingOf(look::kBody));
-    if (findings.empty()) {
-        flow_.paragraph(flow_.left(), flow_.width(), {flow_.type.line(kNoFindings, look::kBody)}, look::kBody,
+    const std::string of_none = looseMarkersSaid(content_.read.loose_markers);
+    if (!of_none.empty())
+        flow_.paragraph(flow_.left(), flow_.width(), flow_.type.lines(of_none, look::kBody, flow_.width()), look::kBody,
                         look::kInk);
+    if (findings.empty()) {
+        if (of_none.empty())
+            flow_.paragraph(flow_.left(), flow_.width(), {flow_.type.line(kNoFindings, look::kBody)}, look::kBody,
+                            look::kInk);
         flow_.skip(look::kGap);
         return;
     }

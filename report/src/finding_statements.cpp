@@ -194,6 +194,16 @@ std::vector<Statement> findingStatements(const ReadCase& read, const FindingWith
     return out;
 }
 
+std::string looseMarkersSaid(const std::vector<std::string>& ids)
+{
+    if (ids.empty())
+        return {};
+    std::string said = ids.size() == 1 ? "One marker was made no finding: " : "Markers that were made no finding: ";
+    for (const std::string& id : ids)
+        said += (id == ids.front() ? "" : ", ") + id;
+    return said + ". What they show is told under \"Markers of no finding\".";
+}
+
 std::string impressionText(const ReadCase& read)
 {
     if (!read.assessment.impression.empty())

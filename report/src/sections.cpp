@@ -127,8 +127,8 @@ void Sections::drawMap()
 
 bool Sections::drawQuietStudy()
 {
-    if (!content_.read.findings.empty() || !content_.markers.empty() || content_.scans.empty() ||
-        content_.scans.size() > kQuietMaps)
+    if (!content_.read.findings.empty() || !content_.markers.empty() || !content_.read.loose_markers.empty() ||
+        content_.scans.empty() || content_.scans.size() > kQuietMaps)
         return false;
     std::vector<Statement> said{{"In the colon", kNoFindings}};
     for (Statement& statement : extracolonicStatements(content_.read))

@@ -77,6 +77,15 @@ TEST_F(PdfWriter, WithoutMarkersItSaysSo)
     EXPECT_THAT(samples::textOf(pdf_), HasSubstr("This case has no scan."));
 }
 
+TEST_F(PdfWriter, MarkersOfNoFindingAreNeverDenied)
+{
+    content_.read.loose_markers = {"m1", "m2"};
+    write();
+    const std::string text = samples::textOf(pdf_);
+    EXPECT_THAT(text, HasSubstr("Markers that were made no finding: m1, m2."));
+    EXPECT_THAT(text, Not(HasSubstr("No findings were stated")));
+}
+
 TEST_F(PdfWriter, TheSameContentGivesTheSameBytes)
 {
     addMarkers(2);

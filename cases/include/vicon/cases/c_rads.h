@@ -39,6 +39,7 @@ struct JudgedFinding {
 /// All that the rules see of a study.
 struct JudgedStudy {
     std::vector<JudgedFinding> findings;
+    std::vector<std::string> loose_markers;    ///< set by a reader, of no finding: what they show is not known
     std::vector<std::string> collapsed_parts;  ///< in every position that was scanned
     bool inadequate = false;                   ///< the reader: a lesion of 10 mm or more cannot be excluded
     bool priors_awaited = false;
@@ -55,7 +56,7 @@ struct Proposal {
 
 /// Sizes are compared as they are printed, in tenths of a mm; they are not rounded to whole ones.
 /// A finding that leads to colonoscopy anyway (C4, C3) goes before an incomplete study (C0), which goes before C2 and
-/// C1.
+/// C1. Nothing else is proposed while there are markers of no finding.
 Proposal<ColonCategory> proposeColonCategory(const JudgedStudy& study);
 /// The highest of its findings; E3 and E4 go before E0.
 Proposal<ExtracolonicCategory> proposeExtracolonicCategory(const JudgedStudy& study);
