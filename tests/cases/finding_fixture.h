@@ -29,7 +29,8 @@ public:
     {
         const ReadCase read = readCase(store, "c1");
         Assessment after = read.assessment;
-        after.colon_category = {read.colon_proposal.category.value(), ""};
+        const auto proposed = read.colon_proposal.category;  // nothing where there are markers of no finding
+        after.colon_category = {proposed.value_or(ColonCategory::c2a), proposed ? "" : "the other marker is a scar"};
         after.extracolonic_category = {read.extracolonic_proposal.category.value(), ""};
         saveAssessment(store, "c1", read.assessment, after);
     }

@@ -67,6 +67,8 @@ TEST_F(ReportVersions, AreSignedWhenNothingIsMissing)
     other.colon_category = {ColonCategory::c1, ""};
     other.extracolonic_category = {ExtracolonicCategory::e1, ""};
     saveAssessment(store_, "c1", {}, other);
+    EXPECT_THAT(messageOf([&] { sign(); }), HasSubstr("nothing can be proposed (of no finding: marker m3)"));
+    store_.removeMarker("c1", "m3");
     EXPECT_THAT(messageOf([&] { sign(); }), HasSubstr("C1 was chosen where C2a is proposed"));
     EXPECT_THROW(requireReasons(readCase(store_, "c1")), Error);
     Assessment explained = other;
@@ -80,6 +82,7 @@ TEST_F(ReportVersions, AreSignedWhenNothingIsMissing)
 
 TEST_F(ReportVersions, AreNotSignedWithAReasonThatWasGivenAgainstAnotherProposal)
 {
+    store_.removeMarker("c1", "m3");
     Assessment said;
     said.colon_category = {ColonCategory::c1, "it was removed yesterday", ColonCategory::c2a};
     said.extracolonic_category = {ExtracolonicCategory::e1, "", ExtracolonicCategory::e1};
