@@ -118,7 +118,7 @@ const std::vector<std::string> kCsvHeading = {"case",
 std::vector<std::string> findingFields(const ReadCase& read, const FindingWithFacts& f)
 {
     const auto& [finding, facts] = f;
-    const auto endoscope = [&](double EndoscopeDistance::*which) {
+    const auto endoscope = [&facts = f.facts](double EndoscopeDistance::*which) {
         return facts.endoscope ? figure((*facts.endoscope).*which) : "";
     };
     return {read.record.id,
