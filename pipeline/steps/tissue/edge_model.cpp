@@ -53,7 +53,7 @@ private:
     double slopeOfStep(Index3 v, double hu, double fluid_hu) const
     {
         const auto along = [&](int di, int dj, int dk) {
-            return (mixture_.hu({v.i + di, v.j + dj, v.k + dk}) - mixture_.hu({v.i - di, v.j - dj, v.k - dk})) / 2;
+            return (mixture_.hu({v.i + di, v.j + dj, v.k + dk}) - mixture_.hu({v.i - di, v.j - dj, v.k - dk})) / 2.0;
         };
         const Vector3 slope{along(1, 0, 0), along(0, 1, 0), along(0, 0, 1)};
         const double t = (hu - mixture_.gas_hu) / (fluid_hu - mixture_.gas_hu);
