@@ -20,6 +20,7 @@
 #include "vicon/steps/densities_around.h"
 #include "vicon/steps/subdivide.h"
 #include "vicon/steps/tissue.h"
+#include "vicon/steps/wall_distance.h"
 
 namespace vicon::pipeline {
 
@@ -155,16 +156,21 @@ public:
         return surface_;
     }
 
-    /// The lumen flooded from the skeleton's paths, when an earlier step began it; it is given away.
-    std::optional<steps::PathFlood> takeFlood()
+    /// Begins to measure the distances from the surface, if that was begun.
+    void beginWallDistance()
     {
-        std::future<steps::PathFlood> flood;
-        {
-            const std::lock_guard lock(mutex_);
-            flood = std::move(flood_);
-        }
-        return flood.valid() ? std::optional(flood.get()) : std::nullopt;
+        const std::lock_guard lock(mutex_);
+        if (surface_.valid() && inside_)
+            wall_distance_ = std::async(std::launch::async, [surface = surface_, &lumen = *inside_] {
+                NoProgress quiet;
+                return steps::wallDistance(lumen, surface.get().nearWall(), quiet);
+            });
     }
+    /// The distances from the wall, when an earlier step began them; they are given away.
+    std::optional<FieldVolume> takeWallDistance() { return take(wall_distance_); }
+
+    /// The lumen flooded from the skeleton's paths, when an earlier step began it; it is given away.
+    std::optional<steps::PathFlood> takeFlood() { return take(flood_); }
     void keepFlood(std::future<steps::PathFlood> flood)
     {
         const std::lock_guard lock(mutex_);
@@ -212,6 +218,16 @@ private:
         return mask().grid;
     }
     template <class T>
+    std::optional<T> take(std::future<T>& kept)
+    {
+        std::future<T> taken;
+        {
+            const std::lock_guard lock(mutex_);
+            taken = std::move(kept);
+        }
+        return taken.valid() ? std::optional(taken.get()) : std::nullopt;
+    }
+    template <class T>
     const Volume<T>& get(std::optional<Volume<T>>& kept, const char* file)
     {
         const std::lock_guard lock(mutex_);
@@ -244,6 +260,7 @@ private:
     std::optional<SegmentVolume> segments_;
     std::optional<Skeleton> skeleton_;
     std::shared_future<steps::LumenSurface> surface_;   // reads around_lumen_, inside_ and tissue_
+    std::future<FieldVolume> wall_distance_;            // reads surface_ and inside_
     std::future<steps::PathFlood> flood_;               // reads inside_
     std::map<std::string, std::future<void>> writing_;  // last: what is written must outlive it
 };

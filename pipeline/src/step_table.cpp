@@ -4,6 +4,7 @@
 #include <functional>
 #include <future>
 #include <iterator>
+#include <optional>
 
 #include "vicon/cases/step_results.h"
 #include "vicon/scan_files/cells_file.h"
@@ -182,12 +183,13 @@ json runSkeleton(const StepInputs& inputs, ScanResults& results, const StepRecor
     const steps::LumenPlan plan = steps::lumenPlanFromJson(records.at("segment").result.at("plan"));
     if (!isColon(inputs.config))
         return runTree(plan, inputs, results, progress);
-    // Two thirds of dividing the lumen need no curve, and cores are free here.
+    // Two thirds of dividing the lumen need no curve, distances from the wall none at all, and cores are free here.
     const steps::SkeletonHooks hooks{
         .core_free =
             [&] {
                 if (!wallFromTissue(inputs.config))
                     results.beginSurface(inputs.config.get<steps::WallDensities>());
+                results.beginWallDistance();
             },
         .paths_found =
             [&](const std::vector<std::vector<Index3>>& paths) {
@@ -248,10 +250,11 @@ json runPotential(const StepInputs& inputs, ScanResults& results, const StepReco
         return *std::max_element(field.voxels.begin(), field.voxels.end());
     };
     PotentialFound found;
-    const auto surface = surfaceOf(inputs.config, results);
-    FieldVolume from_wall_mm = steps::wallDistance(results.inside(), surface.get().nearWall(), wall);
-    found.largest_wall_distance_mm = largest(from_wall_mm);
-    results.write("wall_distance.mha", std::move(from_wall_mm));
+    std::optional<FieldVolume> from_wall_mm = results.takeWallDistance();
+    if (!from_wall_mm)
+        from_wall_mm = steps::wallDistance(results.inside(), surfaceOf(inputs.config, results).get().nearWall(), wall);
+    found.largest_wall_distance_mm = largest(*from_wall_mm);
+    results.write("wall_distance.mha", *std::move(from_wall_mm));
     const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));
     FieldVolume from_exit_mm = tree.empty() ? steps::exitDistance(results.inside(), results.skeleton(), exit)
                                             : steps::exitDistance(results.inside(), tree, exit);

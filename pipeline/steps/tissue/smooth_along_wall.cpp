@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
+#include <cstddef>
 #include <cstring>
 #include <vector>
 
@@ -24,26 +24,42 @@ constexpr float kAcross_voxels = 0.5F;
 /// The fraction's rise over a voxel that tells which way the wall lies. In noise of 80 HU a mean slope is half of it.
 constexpr float kLeastSlope = 0.05F;
 
-/// The 3 x 3 x 3 voxels around one, with the weights of a binomial mean.
+/// Four numbers that the compiler keeps in one register.
+using Lanes = float __attribute__((vector_size(16)));
+using Bytes = std::uint8_t __attribute__((vector_size(4)));
+
+inline float sumOf(const Lanes& lanes)
+{
+    return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+}
+
+/// The nine rows of 3 x 3 x 3 voxels around one, each with the voxel behind it, which weighs nothing: four at a time.
 struct Around {
     explicit Around(const Grid& grid)
     {
         const std::ptrdiff_t row = grid.size[0], slice = row * grid.size[1];
         std::size_t n = 0;
         for (int dk = -1; dk <= 1; ++dk)
-            for (int dj = -1; dj <= 1; ++dj)
-                for (int di = -1; di <= 1; ++di, ++n) {
-                    i[n] = float(di);
-                    j[n] = float(dj);
-                    k[n] = float(dk);
-                    weight[n] = float((2 - di * di) * (2 - dj * dj) * (2 - dk * dk)) / 64;
-                    stride[n] = di + dj * row + dk * slice;
-                }
+            for (int dj = -1; dj <= 1; ++dj, ++n) {
+                rows[n] = {dj * row + dk * slice - 1, float(dj), float(dk), Lanes{}};
+                for (int di = -1; di <= 1; ++di)
+                    rows[n].weight[std::size_t(di + 1)] = float((2 - di * di) * (2 - dj * dj) * (2 - dk * dk)) / 64;
+            }
     }
 
-    static constexpr std::size_t kCount = 28;  // one without weight: four at a time
-    std::array<float, kCount> i{}, j{}, k{}, weight{};
-    std::array<std::ptrdiff_t, kCount> stride{};
+    struct Row {
+        std::ptrdiff_t begin;
+        float j, k;
+        Lanes weight;  ///< of a binomial mean
+    };
+    static constexpr Lanes kI = {-1, 0, 1, 0};
+    std::array<Row, 9> rows{};
+};
+
+/// A voxel's new value.
+struct Changed {
+    std::size_t voxel;
+    std::uint8_t value;
 };
 
 class Smoothing {
@@ -53,20 +69,19 @@ public:
     {
     }
 
-    /// The new values of a row.
-    void smoothRow(int j, int k, float share, std::vector<std::uint8_t>& row) const
+    /// Adds the new values of a row.
+    void smoothRow(int j, int k, float share, std::vector<Changed>& changed) const
     {
-        const std::size_t begin = tissue_.grid.offset({0, j, k}), last = row.size() - 1;
+        const std::size_t begin = tissue_.grid.offset({0, j, k}), last = std::size_t(tissue_.grid.size[0]) - 1;
         const std::uint8_t* at = &tissue_.voxels[begin];
         const std::uint8_t* of_three = of_three_.empty() ? nullptr : &of_three_[begin];
-        std::copy_n(at, row.size(), row.begin());
         for (std::size_t i = 1; i < last; ++i) {
             if (i + sizeof(std::uint64_t) <= last && isPure(at + i) && (!of_three || eightOf(of_three + i) == 0)) {
                 i += sizeof(std::uint64_t) - 1;
                 continue;
             }
             if ((at[i] >= kFrom && at[i] <= kTo) || (of_three && of_three[i]))
-                row[i] = stored((at[i] + share * (meanAlongWall(at + i) - at[i])) / kWhole);
+                changed.push_back({begin + i, stored((at[i] + share * (meanAlongWall(at + i) - at[i])) / kWhole)});
         }
     }
 
@@ -87,25 +102,32 @@ private:
     /// Of a voxel and those beside it in the plane across the slope; of all where there is none.
     float meanAlongWall(const std::uint8_t* at) const
     {
-        std::array<float, Around::kCount> values;
-        float x = 0, y = 0, z = 0;
-        for (std::size_t n = 0; n < values.size(); ++n) {
-            values[n] = float(at[around_.stride[n]]);
-            const float weighted = around_.weight[n] * values[n];
-            x += around_.i[n] * weighted;
-            y += around_.j[n] * weighted;
-            z += around_.k[n] * weighted;
+        std::array<Lanes, 9> values;
+        Lanes x{}, y{}, z{};
+        for (std::size_t r = 0; r < values.size(); ++r) {
+            const Around::Row& row = around_.rows[r];
+            Bytes four;
+            std::memcpy(&four, at + row.begin, sizeof four);
+            values[r] = __builtin_convertvector(four, Lanes);
+            const Lanes weighted = row.weight * values[r];
+            x += weighted;
+            y += row.j * weighted;
+            z += row.k * weighted;
         }
-        const float slope = std::sqrt(x * x + y * y + z * z);
+        const float gx = x[2] - x[0], gy = sumOf(y), gz = sumOf(z);
+        const float slope = std::sqrt(gx * gx + gy * gy + gz * gz);
         const float unit = slope > kLeastSlope / 2 * kWhole ? 1 / (slope * kAcross_voxels) : 0;
-        float sum = 0, weights = 0;
-        for (std::size_t n = 0; n < values.size(); ++n) {
-            const float depth = (around_.i[n] * x + around_.j[n] * y + around_.k[n] * z) * unit;
-            const float off = 1 + depth * depth, weight = around_.weight[n] / (off * off);
-            sum += weight * values[n];
+        const Lanes along = Around::kI * (gx * unit);
+        const float uy = gy * unit, uz = gz * unit;
+        Lanes sum{}, weights{};
+        for (std::size_t r = 0; r < values.size(); ++r) {
+            const Around::Row& row = around_.rows[r];
+            const Lanes depth = along + (row.j * uy + row.k * uz), off = 1 + depth * depth;
+            const Lanes weight = row.weight / (off * off);
+            sum += weight * values[r];
             weights += weight;
         }
-        return sum / weights;
+        return sumOf(sum) / sumOf(weights);
     }
 
     const TissueVolume& tissue_;
@@ -117,37 +139,20 @@ private:
 
 void smoothAlongWall(const std::vector<std::uint8_t>& of_three, TissueVolume& tissue)
 {
-    const int nx = tissue.grid.size[0], ny = tissue.grid.size[1], nz = tissue.grid.size[2];
-    // Slabs of slices, so that a pass needs little memory beside the volume itself.
-    constexpr int kSlab = 32;
+    const int ny = tissue.grid.size[1], nz = tissue.grid.size[2];
     const Smoothing smoothing(of_three, tissue);
-    const auto slice = std::size_t(nx) * std::size_t(ny);
+    std::vector<std::vector<Changed>> changed(static_cast<std::size_t>(nz));  // by slices
     for (const float share : kPasses) {
-        std::vector<std::uint8_t> last, slab(slice * kSlab);
-        for (int first = 1; first < nz - 1; first += kSlab) {
-            const int count = std::min(kSlab, nz - 1 - first);
-            tbb::parallel_for(0, count, [&](int n) {
-                std::vector<std::uint8_t> values(static_cast<std::size_t>(nx));
-                for (int j = 1; j < ny - 1; ++j) {
-                    smoothing.smoothRow(j, first + n, share, values);
-                    std::copy(values.begin(), values.end(),
-                              &slab[std::size_t(n) * slice + std::size_t(j) * std::size_t(nx)]);
-                }
-            });
-            // The slab before is put back when this one has been made of it.
-            const auto put = [&](const std::vector<std::uint8_t>& values, int at, int slices) {
-                for (int k = 0; k < slices; ++k)
-                    for (int j = 1; j < ny - 1; ++j)
-                        std::copy_n(&values[std::size_t(k) * slice + std::size_t(j) * std::size_t(nx)], nx,
-                                    &tissue.voxels[tissue.grid.offset({0, j, at + k})]);
-            };
-            if (!last.empty())
-                put(last, first - kSlab, kSlab);
-            last.swap(slab);
-            slab.resize(slice * kSlab);
-            if (first + count >= nz - 1)
-                put(last, first, count);
-        }
+        tbb::parallel_for(1, std::max(1, nz - 1), [&](int k) {
+            auto& here = changed[std::size_t(k)];
+            here.clear();
+            for (int j = 1; j < ny - 1; ++j)
+                smoothing.smoothRow(j, k, share, here);
+        });
+        tbb::parallel_for(std::size_t(0), changed.size(), [&](std::size_t k) {
+            for (const Changed& one : changed[k])
+                tissue.voxels[one.voxel] = one.value;
+        });
     }
 }
 

@@ -23,23 +23,22 @@ constexpr int kTagged_voxels = 4;
 /// Of the cleansed densities, as the field has them: gas and tissue.
 constexpr double kCleanGas_hu = -1000, kCleanTissue_hu = 40;
 
-std::vector<std::uint8_t> nearGasAndFluid(const InsideVolume& inside)
+/// @param near_fluid what is near fluid
+std::vector<std::uint8_t> nearGasToo(const InsideVolume& inside, const std::vector<std::uint8_t>& near_fluid)
 {
-    auto near = nearMask(inside, kFluid, kTagged_voxels);
-    const auto near_gas = nearMask(inside, kGas, kTagged_voxels);
+    auto near = nearMask(inside, kGas, kTagged_voxels);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, near.size(), 1 << 16), [&](const auto& part) {
         for (std::size_t n = part.begin(); n < part.end(); ++n)
-            near[n] = near[n] && near_gas[n] ? 1 : 0;
+            near[n] = near[n] && near_fluid[n] ? 1 : 0;
     });
     return near;
 }
 
-/// The densities, and beside tagging those of the fraction.
-HuVolume cleanse(const Mixture& mixture, const TissueVolume& tissue)
+/// The densities, and those of the fraction where they are tagged.
+HuVolume cleanse(const Mixture& mixture, const std::vector<std::uint8_t>& tagged, const TissueVolume& tissue)
 {
     const auto [nx, ny, nz] = tissue.grid.size;
     auto cleansed = makeVolume<std::int16_t>(tissue.grid);
-    const auto tagged = nearMask(mixture.inside, kFluid, kTagged_voxels);
     tbb::parallel_for(0, nz, [&, nx = nx, ny = ny](int k) {
         for (int j = 0; j < ny; ++j) {
             const std::size_t begin = tissue.grid.offset({0, j, k});
@@ -80,12 +79,13 @@ TissueResult findTissue(const HuVolume& hu, const InsideVolume& inside, Vector3 
     progress.report(0.5, "tissue");
     const std::size_t in_levels = applyLevels(mixture, down, levels, noise_hu, result.tissue);
     const double noise = noise_hu / (mixture.tissue_hu - mixture.gas_hu);
-    smoothAlongWall(nearGasAndFluid(inside), result.tissue);
+    const auto near_fluid = nearMask(inside, kFluid, kTagged_voxels);
+    smoothAlongWall(nearGasToo(inside, near_fluid), result.tissue);
     const SheetsFound sheets = keepSheets(inside, down.axis, noise, result.tissue);
     progress.check();
     progress.report(0.8, "tissue");
     result.lumen = lumenOf(result.tissue, inside);
-    result.cleansed = cleanse(mixture, result.tissue);
+    result.cleansed = cleanse(mixture, near_fluid, result.tissue);
     result.found = {{"level_columns", levels.columns.size()},
                     {"level_columns_fitted", levels.fitted},
                     {"level_voxels", in_levels},
