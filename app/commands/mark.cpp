@@ -6,6 +6,7 @@
 #include "../command.h"
 #include "../point_argument.h"
 #include "../text_table.h"
+#include "vicon/cases/finding_facts.h"
 #include "vicon/cases/placing.h"
 #include "vicon/core/error.h"
 
@@ -15,6 +16,7 @@ namespace {
 struct MarkArguments {
     std::string case_id, scan_id, at, color = "red", note;
     double biopsy_mm = 0;  // 0: none
+    bool outline = false;
 };
 
 void printMarkers(const std::vector<Marker>& markers)
@@ -25,9 +27,10 @@ void printMarkers(const std::vector<Marker>& markers)
                         formatNumber(m.position_mm.x, 1) + ", " + formatNumber(m.position_mm.y, 1) + ", " +
                             formatNumber(m.position_mm.z, 1),
                         formatNumber(m.station_mm, 0), formatNumber(m.from_caecum_mm, 0),
-                        formatNumber(m.fraction * 100, 0) + " %", m.part ? nameOf(*m.part) : "-", m.note});
+                        formatNumber(m.fraction * 100, 0) + " %", m.part ? nameOf(*m.part) : "-",
+                        m.size ? formatNumber(largestDiameter_mm(*m.size), 1) : "-", m.note});
     std::printf("%s", formatTable({"ID", "SCAN", "COLOR", "LPS MM", "FROM RECTUM MM", "FROM CAECUM MM", "FRACTION",
-                                   "PART", "NOTE"},
+                                   "PART", "SIZE MM", "NOTE"},
                                   rows)
                           .c_str());
 }
@@ -52,6 +55,8 @@ int mark(Context& context, const MarkArguments& arguments)
     marker = placeMarker(store, context.config().get<MarkOptions>(), case_id, marker);
     if (arguments.biopsy_mm > 0)
         addDensity(store, case_id, marker, arguments.biopsy_mm);
+    if (arguments.outline)
+        addPolypSize(store, case_id, marker);
     marker = store.saveMarker(case_id, marker);
     tellOfCopy(store);
     if (context.json)
@@ -131,6 +136,8 @@ Subcommand markCommand()
                             "Keep mean density and histogram of the tissue within this many mm of the point")
                     .typeName("MM")
                     .check(range(0.5, 25.0));
+                command.flag("--outline", arguments->outline,
+                             "Outline the polyp under the point, and keep its size with the marker");
                 return [arguments](Context& context) { return mark(context, *arguments); };
             }};
 }

@@ -94,6 +94,8 @@ double roundedSize_mm(double size_mm)
 
 double largestDiameter_mm(const MarkerSize& size)
 {
+    if (size.polyp)
+        return size.polyp->diameter_mm;
     return std::max(size.straight_mm, size.plane ? size.plane->diameter_mm : 0);
 }
 

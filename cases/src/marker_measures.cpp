@@ -19,6 +19,21 @@ PlaneSize planeSizeFromJson(const json& json)
             json.at("up").get<Vector3>()};
 }
 
+json toJson(const PolypSize& s)
+{
+    return {{"diameter_mm", s.diameter_mm}, {"least_mm", s.least_mm}, {"most_mm", s.most_mm},
+            {"from_mm", s.from_mm},         {"to_mm", s.to_mm},       {"height_mm", s.height_mm},
+            {"volume_ml", s.volume_ml},     {"rim_mm", s.rim_mm}};
+}
+
+PolypSize polypSizeFromJson(const json& json)
+{
+    return {json.at("diameter_mm").get<double>(), json.at("least_mm").get<double>(),
+            json.at("most_mm").get<double>(),     json.at("from_mm").get<Point3>(),
+            json.at("to_mm").get<Point3>(),       json.at("height_mm").get<double>(),
+            json.at("volume_ml").get<double>(),   json.at("rim_mm").get<std::vector<Point3>>()};
+}
+
 json toJson(const MarkerSize& s)
 {
     json out = {{"straight_mm", s.straight_mm}, {"from_mm", s.from_mm}, {"to_mm", s.to_mm}};
@@ -26,6 +41,8 @@ json toJson(const MarkerSize& s)
         out["along_mm"] = *s.along_mm;
     if (s.plane)
         out["plane"] = toJson(*s.plane);
+    if (s.polyp)
+        out["polyp"] = toJson(*s.polyp);
     return out;
 }
 
@@ -39,6 +56,8 @@ MarkerSize markerSizeFromJson(const json& json)
         size.along_mm = along->get<double>();
     if (const auto plane = json.find("plane"); plane != json.end())
         size.plane = planeSizeFromJson(*plane);
+    if (const auto polyp = json.find("polyp"); polyp != json.end())
+        size.polyp = polypSizeFromJson(*polyp);
     return size;
 }
 

@@ -5,8 +5,10 @@
 #include <cstdio>
 
 #include "vicon/cases/density_sample.h"
+#include "vicon/cases/polyp_size.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
+#include "vicon/scan_files/cells_file.h"
 #include "vicon/scan_files/volume_file.h"
 
 namespace fs = std::filesystem;
@@ -130,6 +132,17 @@ void addDensity(CaseStore& store, const std::string& case_id, Marker& marker, do
                            radius_mm),
                     case_id, "mark a point on the wall or within the finding, or choose a larger ball");
     marker.density = sample;
+}
+
+void addPolypSize(CaseStore& store, const std::string& case_id, Marker& marker)
+{
+    const fs::path folder = store.scanFolder(case_id, marker.scan_id);
+    const PolypOutline outline =
+        outlinePolyp(scan_files::readCells(folder / "cells.vtp"), marker.position_mm, blurOfScan_mm(folder));
+    if (!outline.size)
+        throw Error(ErrorCode::wrong_use, "the polyp cannot be outlined: " + outline.trouble, case_id,
+                    "measure it between two clicks in 'vicon read'");
+    marker.size = sizeOf(*outline.size);
 }
 
 ScanRecord requirePreparedScan(CaseStore& store, const std::string& case_id, const std::string& scan_id)

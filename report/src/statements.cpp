@@ -106,6 +106,10 @@ std::string densityWords(const DensitySample& sample)
 /// What the reader measured.
 std::string sizeWords(const MarkerSize& size)
 {
+    if (size.polyp)
+        return millimetres(size.polyp->diameter_mm, 1) + " outlined (" + number(size.polyp->least_mm, "%.1f") + " to " +
+               millimetres(size.polyp->most_mm, 1) + "), height " + millimetres(size.polyp->height_mm, 1) +
+               ", volume " + number(size.polyp->volume_ml, "%.2f") + " ml";
     std::string words = millimetres(size.straight_mm, 1) + " straight";
     if (size.along_mm)
         words += ", " + millimetres(*size.along_mm, 1) + " along the wall";

@@ -9,6 +9,8 @@
 #include <cmath>
 
 #include "reading.h"
+#include "test_colon.h"
+#include "vicon/cases/case_store.h"
 #include "vicon/cases/finding_facts.h"
 
 namespace vicon::viewer {
@@ -202,6 +204,61 @@ TEST_F(Measuring, AnEndThatIsDraggedMeasuresAnewAndIsUndone)
     clickRow(markers(), 0);
     EXPECT_TRUE(eventually([&] { return calliperBetween("coronal", first, second) > 0.9; }))
         << "the marker that is chosen shows its size";
+}
+
+/// A marker on the polyp of the colon is there from the beginning.
+class Outlining : public Measuring {
+protected:
+    void SetUp() override
+    {
+        Reading::SetUp();
+        colon_.write(store_ / "cases" / test::kCase / test::kSupine);
+        Marker marker;
+        marker.scan_id = test::kSupine;
+        const auto nearest = [&](Point3 p) { return path_.at(path_.nearest(p).station_mm).position_mm; };
+        const Vector3 inwards = normalized(nearest(colon_.polyp_mm) - colon_.polyp_mm);
+        marker.position_mm = colon_.polyp_mm + inwards * colon_.polyp_radius_mm;
+        marker.station_mm = colon_.polyp_station_mm;
+        CaseStore(store_).saveMarker(test::kCase, marker);
+        openCase();
+        window()->resize(1600, 1000);
+        settle();
+        clickRow(markers(), 0);
+        settle();
+    }
+    std::optional<PolypSize> outlined() const { return stored()[0].size ? stored()[0].size->polyp : std::nullopt; }
+
+    static constexpr double kVoxel_mm = 1;
+    const test::TestColon colon_{test::storages().front(), kVoxel_mm};
+    const Skeleton& path_ = colon_.skeleton;
+};
+
+TEST_F(Outlining, OneClickMeasuresAPolypAndAnEndThatIsDraggedMakesItTheReadersOwnSize)
+{
+    key(Qt::Key_M, Qt::ShiftModifier);
+    click("endoscopic", middle("endoscopic"));
+    ASSERT_TRUE(eventually([&] { return outlined().has_value() && settled(); })) << said().toStdString() << warning();
+    screenshot("outlined");
+    const PolypSize polyp = outlined().value();
+    EXPECT_NEAR(polyp.diameter_mm, 2 * colon_.polyp_radius_mm, kVoxel_mm);
+    EXPECT_TRUE(said().contains("outlined")) << said().toStdString();
+    EXPECT_EQ(cell(0, 5), QString::number(polyp.diameter_mm, 'f', 1));
+    key(Qt::Key_Z, Qt::ControlModifier);
+    EXPECT_TRUE(eventually([&] { return !stored()[0].size && settled(); }));
+}
+
+TEST_F(Outlining, WhereThereIsNoPolypTheTwoEndsAreAskedFor)
+{
+    key(Qt::Key_Home);
+    ASSERT_TRUE(eventually([] { return station() < 2 && pictureIsThere(); }));
+    key(Qt::Key_M, Qt::ShiftModifier);
+    const QPoint bare = middle("endoscopic") + QPoint(90, 60);
+    click("endoscopic", bare);
+    ASSERT_TRUE(eventually([] { return QString::fromStdString(warning()).contains("two ends"); })) << warning();
+    EXPECT_FALSE(stored()[0].size);
+    click("endoscopic", bare);
+    click("endoscopic", bare + QPoint(30, 0));
+    EXPECT_TRUE(eventually([] { return said().contains("straight"); })) << said().toStdString();
 }
 
 TEST_F(Measuring, ADoubleClickEnlargesTheViewAndLeavesTheEyeWhereItWas)

@@ -196,6 +196,18 @@ TEST(Interaction, ASizeLiesBetweenTwoClicks)
     EXPECT_TRUE(interaction.inUse<Idle>());
 }
 
+TEST(Interaction, OneClickOutlinesAPolypOfTheScanThatIsRead)
+{
+    Interaction interaction;
+    interaction.begin(OutlinePolyp{});
+    EXPECT_TRUE(interaction.awaitsClick());
+    PickedPoint other = onWall(1);
+    other.in_scan_read = false;
+    EXPECT_TRUE(is<Refuse>(interaction.click(other)));
+    EXPECT_TRUE(is<OutlineHere>(interaction.click(onWall(1))));
+    EXPECT_TRUE(interaction.inUse<Idle>());
+}
+
 TEST(Interaction, ASizeWithAnEndInASliceIsNotMeasuredOverTheWall)
 {
     for (const auto& [first, second] : {std::pair(pointAt(1), onWall(9)), std::pair(onWall(1), pointAt(9))}) {

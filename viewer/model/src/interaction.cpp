@@ -29,6 +29,12 @@ ClickMeaning Interaction::click(const PickedPoint& point)
         return CorrectHere{correct->kind};
     if (inUse<Measure>())
         return measureAt(point);
+    if (inUse<OutlinePolyp>()) {
+        if (!point.in_scan_read)
+            return Refuse{Refuse::Why::end_in_other_scan, {}};
+        finish();
+        return OutlineHere{};
+    }
     if (const auto* move = inUse<MoveMarker>()) {
         const MoveMarker moved = *move;
         finish();

@@ -22,6 +22,7 @@ double roundedSize_mm(double size_mm);
 
 /// The single largest dimension that was measured at a marker: of the largest diameter in the best plane and the
 /// straight line between the clicked points the longer one. The length along the wall is no diameter and never counts.
+/// Of an outlined polyp its own diameter.
 double largestDiameter_mm(const MarkerSize& size);
 
 /// The clock-face position of a point of the wall, 1 to 12: twelve is anterior, clockwise as seen from the anal side.

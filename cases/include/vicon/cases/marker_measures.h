@@ -22,12 +22,25 @@ struct PlaneSize {
 nlohmann::json toJson(const PlaneSize& size);
 PlaneSize planeSizeFromJson(const nlohmann::json& json);
 
-/// A finding's size as a reader measured it between two points of the wall.
+/// A polyp's size, found from one point on it, corrected for the scan's blur.
+struct PolypSize {
+    double diameter_mm = 0;            ///< of the head, the largest in space
+    double least_mm = 0, most_mm = 0;  ///< eight in ten true diameters lie between them
+    Point3 from_mm, to_mm;             ///< the ends of the diameter
+    double height_mm = 0;              ///< over the middle of its rim
+    double volume_ml = 0;              ///< of the head over its rim
+    std::vector<Point3> rim_mm;        ///< around it, where it ends on the wall or at its stalk
+};
+nlohmann::json toJson(const PolypSize& size);
+PolypSize polypSizeFromJson(const nlohmann::json& json);
+
+/// A finding's size as a reader measured it between two points of the wall, or as it was outlined.
 struct MarkerSize {
     double straight_mm = 0;          ///< between the two points
     std::optional<double> along_mm;  ///< over the wall; absent where no way over it joins them
     Point3 from_mm, to_mm;
     std::optional<PlaneSize> plane;  ///< in the plane where the finding is largest
+    std::optional<PolypSize> polyp;  ///< where the finding was outlined: then the two points are its diameter's ends
 };
 nlohmann::json toJson(const MarkerSize& size);
 MarkerSize markerSizeFromJson(const nlohmann::json& json);

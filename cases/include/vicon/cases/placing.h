@@ -55,6 +55,10 @@ void renewPlaces(CaseStore& store, const MarkOptions& options, const std::string
 /// radius is out of range or the ball holds no tissue.
 void addDensity(CaseStore& store, const std::string& case_id, Marker& marker, double radius_mm);
 
+/// Outlines the polyp under a placed marker and keeps its size with the marker. Throws Error{wrong_use} where it has no
+/// edge of its own.
+void addPolypSize(CaseStore& store, const std::string& case_id, Marker& marker);
+
 /// Whether the pipeline made what markers and pictures need of a scan.
 bool isPrepared(const std::filesystem::path& scan_folder);
 

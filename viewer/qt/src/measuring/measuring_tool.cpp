@@ -22,6 +22,9 @@ bool same(const MarkerSize& a, const MarkerSize& b)
 void MeasuringTool::addTo(ReadingLayout& layout)
 {
     layout.addAction(ReadingMenu::edit, tr("Measure between two clicks"), QKeySequence("M"), [this] { start(); });
+    layout.addAction(ReadingMenu::edit, tr("Outline the polyp at the next click"), QKeySequence("Shift+M"),
+                     [this] { startOutline(); });
+    connect(&reading_.session(), &CaseSession::outlined, this, &MeasuringTool::outlined);
     connect(&reading_.session(), &CaseSession::measured, this, &MeasuringTool::measured);
     connect(&reading_, &Reading::endoscopicShown, this, [this] { drawLine(); });
     connect(reading_.views().endoscopic(), &PictureView::endDragged, this, [this](int end, Pixel at, bool released) {
@@ -47,8 +50,23 @@ void MeasuringTool::start()
     reading_.begin(Measure{}, tr("Measure: click on the two ends, on the wall or in a slice; or arrows and Return"));
 }
 
-bool MeasuringTool::act(const ClickMeaning& meaning, const ClickedPoint&)
+void MeasuringTool::startOutline()
 {
+    if (!reading_.navigator())
+        return;
+    reading_.navigator()->fly(0);
+    shown_.reset();
+    reading_.begin(OutlinePolyp{}, tr("Outline: click on a polyp, on its wall"));
+}
+
+bool MeasuringTool::act(const ClickMeaning& meaning, const ClickedPoint& point)
+{
+    if (std::holds_alternative<OutlineHere>(meaning)) {
+        reading_.toolChanged();
+        reading_.say(tr("Outlining ..."));
+        reading_.session().outlinePolyp(point.at_mm);
+        return true;
+    }
     if (const auto* ends = std::get_if<MeasureBetween>(&meaning)) {
         reading_.toolChanged();
         measure(ends->from_mm, ends->to_mm, ends->on_wall);
@@ -97,6 +115,19 @@ void MeasuringTool::measured(const WallDistance& size, const std::optional<Plane
                     .from_mm = size.way_mm.front(),
                     .to_mm = size.way_mm.back(),
                     .plane = plane};
+    finish();
+}
+
+/// Where there is no outline the two ends are asked for instead.
+void MeasuringTool::outlined(const PolypOutline& outline)
+{
+    if (!outline.size) {
+        start();
+        reading_.warn(tr("The polyp cannot be outlined: %1. Click on its two ends.")
+                          .arg(QString::fromStdString(outline.trouble)));
+        return;
+    }
+    shown_ = Shown{sizeOf(*outline.size), {outline.size->from_mm, outline.size->to_mm}, {}};
     finish();
 }
 
@@ -167,6 +198,7 @@ void MeasuringTool::drag(int end, Point3 to, bool released)
     shown_->way_mm = {from, last};
     shown_->size.straight_mm = distance(from, last);
     shown_->size.plane.reset();
+    shown_->size.polyp.reset();
     drawLine();
 }
 
@@ -199,14 +231,19 @@ void MeasuringTool::markersChanged()
 std::optional<MeasuredLine> MeasuringTool::line() const
 {
     if (const auto* under_way = reading_.interaction().inUse<Measure>())
-        return under_way->ends_mm.empty() ? std::nullopt : std::optional(MeasuredLine{under_way->ends_mm, {}});
+        return under_way->ends_mm.empty() ? std::nullopt : std::optional(MeasuredLine{under_way->ends_mm, {}, {}});
     if (!shown_ || shown_->way_mm.empty())
         return std::nullopt;
     const double largest_mm = largestDiameter_mm(shown_->size);
     QString text = lengthText(shown_->size.straight_mm);
     if (largest_mm > shown_->size.straight_mm + kWorthSaying_mm)
         text += tr(" (largest %1)").arg(lengthText(largest_mm));
-    return MeasuredLine{shown_->way_mm, text};
+    MeasuredLine line{shown_->way_mm, text, {}};
+    if (const auto& polyp = shown_->size.polyp) {
+        line.text += tr(" (%1 to %2)").arg(polyp->least_mm, 0, 'f', 1).arg(polyp->most_mm, 0, 'f', 1);
+        line.rim_mm = polyp->rim_mm;
+    }
+    return line;
 }
 
 /// Nothing where the wall hides both ends.

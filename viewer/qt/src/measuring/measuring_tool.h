@@ -4,13 +4,15 @@
 
 #include "reading/reading_tool.h"
 #include "slices/measured_line.h"
+#include "vicon/cases/polyp_size.h"
 #include "vicon/viewer/model/plane_size.h"
 #include "vicon/viewer/model/wall_distance.h"
 
 namespace vicon::viewer {
 
-/// The size of a finding between two clicks, along the wall or straight: callipers in every view, whose ends can be
-/// dragged; kept with the marker beside it. A size that a marker has is replaced only when the reader says so.
+/// The size of a finding between two clicks, along the wall or straight, or of a polyp that one click outlines:
+/// callipers in every view, whose ends can be dragged; kept with the marker beside it. A size that a marker has is
+/// replaced only when the reader says so.
 class MeasuringTool : public ReadingTool {
     Q_OBJECT
 public:
@@ -38,6 +40,8 @@ private:
     std::optional<Calliper> seenByEye(const MeasuredLine& line) const;
     void drag(int end, Point3 to, bool released);
     void measure(Point3 from, Point3 to, bool on_wall);
+    void startOutline();
+    void outlined(const PolypOutline& outline);
     void measured(const WallDistance& size, const std::optional<PlaneSize>& plane);
     void finish();
     void ask(const Marker& marker, const MarkerSize& size);

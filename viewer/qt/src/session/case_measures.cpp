@@ -21,6 +21,17 @@ void CaseSession::measure(Point3 from, Point3 to, Point3 eye)
     });
 }
 
+void CaseSession::outlinePolyp(Point3 at)
+{
+    loader_.post("outline", [this, scan = scan_, at]() -> Worker::Work {
+        const PolypOutline outline = vicon::outlinePolyp(scan->files.cells(), at, blurOfScan_mm(scan->files.folder()));
+        return [this, scan, outline] {
+            if (scan == scan_)
+                emit outlined(outline);
+        };
+    });
+}
+
 void CaseSession::takeBiopsy(Point3 centre, double radius_mm, const CircledWall& wall)
 {
     loader_.post("biopsy", [this, scan = scan_, centre, radius_mm, wall]() -> Worker::Work {

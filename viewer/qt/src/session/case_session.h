@@ -10,6 +10,7 @@
 #include "session/open_scan.h"
 #include "session/own_store.h"
 #include "vicon/cases/density_sample.h"
+#include "vicon/cases/polyp_size.h"
 #include "vicon/viewer/model/marker_history.h"
 #include "vicon/viewer/model/plane_size.h"
 #include "vicon/viewer/model/wall_distance.h"
@@ -79,6 +80,8 @@ public:
     void writeReport();
     /// Between two points of the open scan's wall, seen from `eye`; measured() follows, or warned().
     void measure(Point3 from, Point3 to, Point3 eye);
+    /// The polyp of the open scan's wall under a point; outlined() follows, or warned().
+    void outlinePolyp(Point3 at);
     /// Of the open scan's tissue around a point below a circled wall; biopsied() follows, or warned().
     void takeBiopsy(Point3 centre, double radius_mm, const CircledWall& wall);
     /// What was measured of a marker of a scan that is open, as a picture; measuresDrawn() follows where there is any.
@@ -99,6 +102,7 @@ signals:
     void saved(const QString& what);
     void warned(const QString& message);
     void measured(const vicon::viewer::WallDistance& size, const std::optional<vicon::PlaneSize>& plane);
+    void outlined(const vicon::PolypOutline& outline);
     void biopsied(const vicon::DensitySample& biopsy);
     void measuresDrawn(const QString& marker, const vicon::viewer::Picture& picture);
     void filmNamed(const QString& file);

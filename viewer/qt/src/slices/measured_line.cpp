@@ -7,10 +7,22 @@ namespace vicon::viewer {
 namespace {
 
 constexpr double kNearSlice_mm = 5;  // as a marker's ring
+constexpr double kRimNearSlice_mm = 1;
 
 QPointF toQt(Pixel at)
 {
     return {at.x, at.y};
+}
+
+/// The lines from each point of a rim to the next, where both are seen.
+template <class ToPicture, class IsSeen>
+void addRim(Calliper& calliper, const std::vector<Point3>& rim_mm, ToPicture toPicture, IsSeen isSeen)
+{
+    for (std::size_t n = 0; n < rim_mm.size(); ++n) {
+        const Point3 from = rim_mm[n], to = rim_mm[(n + 1) % rim_mm.size()];
+        if (isSeen(from) && isSeen(to))
+            calliper.rim << QLineF(toQt(toPicture(from)), toQt(toPicture(to)));
+    }
 }
 
 }  // namespace
@@ -40,6 +52,9 @@ std::optional<Calliper> inSlice(const MeasuredLine& line, const PlaneView& view,
         return made;
     }
     made.lines << QLineF(toQt(view.toPixel(from)), toQt(view.toPixel(to)));
+    addRim(
+        made, line.rim_mm, [&](Point3 p) { return view.toPixel(p); },
+        [&](Point3 p) { return std::abs(view.depth_mm(p)) <= kRimNearSlice_mm; });
     made.label_at =
         made.lines.front().x1() > made.lines.front().x2() ? made.lines.front().p1() : made.lines.front().p2();
     made.text = made.dashed ? QObject::tr("%1, not in this plane").arg(line.text) : line.text;
@@ -64,6 +79,8 @@ std::optional<Calliper> inEndoscopy(const MeasuredLine& line, const Pose& pose, 
         if (a.depth_mm > 0 && b.depth_mm > 0)
             made.lines << QLineF(toQt(a.at), toQt(b.at));
     }
+    addRim(
+        made, line.rim_mm, [&](Point3 p) { return at(p).at; }, [&](Point3 p) { return at(p).depth_mm > 0; });
     made.label_at = from.at.x > to.at.x ? *made.grips[0] : *made.grips[1];
     made.text = line.text;
     return made;

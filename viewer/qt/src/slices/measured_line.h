@@ -14,6 +14,7 @@ namespace vicon::viewer {
 struct MeasuredLine {
     std::vector<Point3> way_mm;
     QString text;
+    std::vector<Point3> rim_mm;  ///< of an outlined polyp, around it
 };
 
 /// The line where a slice passes within 5 mm of one of its ends or between them. An end is drawn as such, and can be

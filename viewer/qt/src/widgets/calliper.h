@@ -12,6 +12,7 @@ namespace vicon::viewer {
 /// A measured length over a picture, in the picture's pixels.
 struct Calliper {
     QVector<QLineF> lines;                        ///< from one end to the other; none while an end is missing
+    QVector<QLineF> rim;                          ///< of an outlined polyp
     std::array<std::optional<QPointF>, 2> grips;  ///< the ends that the picture shows: they can be dragged
     QPointF label_at;                             ///< beside the line
     QString text;

@@ -50,6 +50,8 @@ void PictureView::drawCalliper(QPainter& painter) const
         painter.setPen(QPen(color, width * ratio, calliper_->dashed ? Qt::DashLine : Qt::SolidLine, Qt::RoundCap));
         painter.setBrush(Qt::NoBrush);
         painter.drawLines(calliper_->lines);
+        painter.setPen(QPen(color, width * ratio, Qt::SolidLine, Qt::RoundCap));
+        painter.drawLines(calliper_->rim);
         for (const auto& grip : calliper_->grips)
             if (grip)
                 painter.drawEllipse(*grip, kGrip_px * ratio, kGrip_px * ratio);

@@ -31,10 +31,13 @@ struct Measure {
     std::vector<Point3> ends_mm;  ///< clicked so far, one at most
     bool on_wall = true;          ///< all of them; else the size is straight, as in a slice
 };
+/// The polyp that is clicked on is outlined.
+struct OutlinePolyp {};
 /// A circle is drawn around a finding; clicks show what is there.
 struct CircleFinding {};
 
-using ToolInUse = std::variant<Idle, PlaceMarker, MoveMarker, PairMarker, Correct, Measure, CircleFinding>;
+using ToolInUse =
+    std::variant<Idle, PlaceMarker, MoveMarker, PairMarker, Correct, Measure, OutlinePolyp, CircleFinding>;
 
 /// A point that was clicked in a view.
 struct PickedPoint {
@@ -62,6 +65,7 @@ struct MeasureBetween {
     Point3 from_mm, to_mm;
     bool on_wall = true;
 };
+struct OutlineHere {};
 /// Nothing is done.
 struct Refuse {
     enum class Why { end_in_other_scan, marker_of_other_scan } why = Why::end_in_other_scan;
@@ -69,7 +73,7 @@ struct Refuse {
 };
 
 using ClickMeaning =
-    std::variant<ShowPoint, AddMarker, MoveMarkerHere, CorrectHere, AwaitOtherEnd, MeasureBetween, Refuse>;
+    std::variant<ShowPoint, AddMarker, MoveMarkerHere, CorrectHere, AwaitOtherEnd, MeasureBetween, OutlineHere, Refuse>;
 
 // What choosing a marker in the list means.
 struct ShowMarker {};
@@ -87,6 +91,7 @@ using ChoiceMeaning = std::variant<ShowMarker, PairWith, RefusePair>;
 ///     begin(tool)                   that tool
 ///     click adds, moves a marker    Idle
 ///     click on a size's first end   Measure with this end; on the other end: Idle
+///     click outlines a polyp        Idle
 ///     click refused                 as before; Idle where a marker of the other scan was to be moved
 ///     finish(), escape()            Idle
 ///     choose(marker) of a pair      Idle

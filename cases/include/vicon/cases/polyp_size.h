@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "vicon/cases/marker_measures.h"
+#include "vicon/core/cell_surface.h"
+
+namespace vicon {
+
+/// Either a size, or why there is none.
+struct PolypOutline {
+    std::optional<PolypSize> size;
+    std::string trouble;  ///< for a reader: "it has no edge all around"; empty with a size
+};
+
+/// Outlines the polyp under a point of the wall: along sections of the surface through its axis, to where each turns
+/// concave the most, at the wall or at its stalk. After the rings of curvature of Summers et al., Radiology 2000.
+/// On a fold there is no outline: its edge is not the polyp's. Figures: docs/evaluation/measuring.md.
+/// @param surface the wall, with normals into the lumen
+/// @param at on the polyp, within 2 mm of the wall; else Error{bad_input}
+/// @param blur_mm standard deviation of the scan's blur
+PolypOutline outlinePolyp(const CellSurface& surface, Point3 at, double blur_mm);
+
+/// The blur that the tissue step measured at the scan's fluid levels, in scan.json; a usual one where there are none.
+double blurOfScan_mm(const std::filesystem::path& scan_folder);
+
+/// An outlined polyp's as a marker's size.
+MarkerSize sizeOf(const PolypSize& polyp);
+
+}  // namespace vicon
