@@ -229,6 +229,23 @@ TEST(VirtualBiopsy, SaysHowMuchOfItIsFat)
     EXPECT_GT(large.fat_fraction, 0.5);
 }
 
+TEST(VirtualBiopsy, TakesEveryVoxelOfItsBallAndFatFromItsBorderOn)
+{
+    Wall wall(0);
+    for (const auto& [hu, fat] :
+         {std::pair(-201, 0.0), std::pair(-200, 1.0), std::pair(-30, 1.0), std::pair(-29, 0.0)}) {
+        std::fill(wall.volume.voxels.begin(), wall.volume.voxels.end(), std::int16_t(hu));
+        EXPECT_EQ(sampleDensity(wall.volume, wall.inside, {-8, 0, 0}, 4).fat_fraction, fat) << hu;
+    }
+    for (const double radius_mm : {3.76, 4.6, 5.0}) {
+        const Point3 centre{-9, 0, 0};
+        std::size_t voxels = 0;
+        for (std::size_t n = 0; n < wall.volume.voxels.size(); ++n)
+            voxels += distance(wall.volume.grid.pointAt(wall.volume.grid.indexOf(n)), centre) < radius_mm ? 1 : 0;
+        EXPECT_EQ(sampleDensity(wall.volume, wall.inside, centre, radius_mm).voxels, voxels) << radius_mm;
+    }
+}
+
 TEST(VirtualBiopsy, IsTheSameWithTheInsideVoxelsOfAPartOfTheScan)
 {
     const Wall wall(40);

@@ -7,6 +7,7 @@
 #include "vicon/cases/audit_trail.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
+#include "vicon/core/file.h"
 
 namespace vicon {
 namespace {
@@ -57,6 +58,13 @@ TEST_F(Findings, AreKeptWithEverything)
                         .invades = true,
                         .pictures = {"m2"},
                         .note = "größer"};
+    const nlohmann::json written = toJson(given);
+    for (const auto& [key, value] : {std::pair{"kind", "inverted diverticulum"},
+                                     {"morphology", "flat"},
+                                     {"attenuation", "soft tissue"},
+                                     {"confidence", "medium"},
+                                     {"note", "größer"}})
+        EXPECT_EQ(written.value(key, ""), value) << key;
     const Finding saved = *editFindings(store_, "c1", {{std::nullopt, given}}).at(0).after;
     EXPECT_EQ(saved.id, "f1");
     EXPECT_EQ(saved.number(), 1);
@@ -187,6 +195,33 @@ TEST_F(Findings, HaveAnAssessmentThatIsKeptWithEverything)
     const AuditLine line = auditTrail(store_, "c1").back();
     EXPECT_EQ(line.event, "assessment changed");
     EXPECT_EQ(line.after["extracolonic"][1]["category"], "E4");
+}
+
+TEST_F(Findings, HaveNothingSaidWhereTheAssessmentIsSilent)
+{
+    const nlohmann::json silent = toJson(assessmentFromJson(nlohmann::json::object()));
+    EXPECT_EQ(silent, toJson(Assessment{}));
+    for (const auto& [key, value] : silent.items())
+        EXPECT_NE(value, true) << key;
+}
+
+TEST_F(Findings, AreJudgedWithoutQualityWhereNoneWasMeasured)
+{
+    case_.record("quality", toJson(QualityFound{.not_measured = "parts and quality are those of a colon"}));
+    EXPECT_TRUE(readCase(store_, "c1").parts.empty());
+}
+
+TEST_F(Findings, AreReadWithEveryScanThatBearsAMarker)
+{
+    ScanRecord late = case_.scan;
+    late.id = "s2";
+    late.series.uid = "1.2.3.9";
+    late.role = ScanRole::refused;
+    makePrivateFolder(store_.scanFolder("c1", "s2"));
+    store_.addScan(store_.requireCase("c1"), late, {}, false);
+    EXPECT_EQ(readCase(store_, "c1").scans.size(), 1U) << "nothing is marked in it";
+    store_.saveMarker("c1", Marker{.scan_id = "s2"});
+    EXPECT_EQ(readCase(store_, "c1").scans.size(), 2U);
 }
 
 TEST_F(Findings, AreNotReadFromWhatIsNone)

@@ -173,6 +173,18 @@ TEST_F(ReportVersions, AreWhatTheyWereWhenAnAmendmentIsCancelled)
     EXPECT_EQ(auditTrail(store_, "c1").back().before["findings"].size(), 2u);
 }
 
+TEST_F(ReportVersions, AreAmendedByThoseWhoMaySign)
+{
+    case_.choose();
+    sign();
+    const SigningOptions others{{"somebody"}};
+    EXPECT_THAT(messageOf([&] { beginAmendment(store_, others, "c1", "mine"); }), HasSubstr("may not sign"));
+    EXPECT_EQ(textOf(reportStatus(store_, "c1")), "signed, version 1");
+    beginAmendment(store_, options_, "c1", "a second look");
+    EXPECT_THAT(messageOf([&] { cancelAmendment(store_, others, "c1"); }), HasSubstr("may not sign"));
+    EXPECT_TRUE(reportStatus(store_, "c1").amending);
+}
+
 TEST_F(ReportVersions, MayBePreliminaryFirst)
 {
     const ReportVersion first = keepVersion(store_, "c1", draft(false), "preliminary");

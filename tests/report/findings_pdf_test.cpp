@@ -1,4 +1,7 @@
 // What the PDF says of findings, and how it says that it is signed.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "pdf_fixture.h"
@@ -46,6 +49,28 @@ TEST_F(PdfOfFindings, SaysOnPageOneWhatAReferringPhysicianNeeds)
                              "Findings in the colon", "polyp, sessile", "6.7 mm"})
         EXPECT_THAT(first, HasSubstr(what));
     EXPECT_LT(first.find("C3: polyp"), first.find("Findings in the colon"));
+}
+
+TEST_F(PdfOfFindings, HeadsEachFindingWithItsSizeAndLeadsToItByABookmark)
+{
+    addFindings(2);
+    expectWellMade(write());
+    int heads = 0;
+    for (const std::vector<samples::Word>& words : samples::wordsByPage(pdf_))
+        for (std::size_t n = 0; n + 1 < words.size(); ++n) {
+            if (words[n].text != "Finding" || words[n + 1].text.back() != ':' || words[n].left > 70)
+                continue;
+            const bool sized = std::any_of(words.begin(), words.end(), [&](const samples::Word& w) {
+                return w.text == "mm" && w.left > 400 && std::abs(w.top - words[n].top) < 6;
+            });
+            heads += sized ? 1 : 0;
+        }
+    EXPECT_EQ(heads, 2);
+    const auto qpdf = support::runCommand("qpdf --json --json-key=outlines " + pdf_.string());
+    const auto outlines = nlohmann::json::parse(qpdf.output).at("outlines");
+    ASSERT_FALSE(outlines.empty());
+    for (const auto& entry : outlines)
+        EXPECT_TRUE(entry.at("destpageposfrom1").is_number()) << entry.at("title");
 }
 
 TEST_F(PdfOfFindings, SaysEveryNumberOfAFinding)
@@ -118,7 +143,9 @@ TEST_F(PdfOfFindings, OfANormalStudyIsOnePage)
         EXPECT_THAT(samples::textOf(pdf_),
                     AllOf(HasSubstr("No polyp of 6 mm or more was found."), HasSubstr("C1: normal colon"),
                           HasSubstr("Continue routine screening."), HasSubstr("No findings were stated"),
-                          HasSubstr("good in every part and position"), HasSubstr("whole colon")));
+                          HasSubstr("good in every part and position"), HasSubstr("whole colon"),
+                          HasSubstr("colon of "), HasSubstr("noise ")))
+            << "each scan in a line";
     }
 }
 
