@@ -10,6 +10,7 @@
 #include "command_line.h"
 #include "vicon/cases/case_store.h"
 #include "vicon/core/options.h"
+#include "vicon/core/progress.h"
 
 namespace vicon::app {
 
@@ -49,6 +50,12 @@ Config declaredConfig();
 const std::atomic<bool>& stopRequested();
 void catchStopSignals();
 
+/// Tells nobody; cancelled by these signals, so that long work does not hold up a listener's end.
+class UntilStopped : public NoProgress {
+public:
+    bool cancelled() const override { return stopRequested(); }
+};
+
 // The subcommands, one file each.
 Subcommand importCommand();
 Subcommand receiveCommand();
@@ -69,6 +76,8 @@ Subcommand signCommand();
 Subcommand amendCommand();
 Subcommand auditCommand();
 Subcommand exportCommand();
+Subcommand sendCommand();
+Subcommand outboxCommand();
 Subcommand phantomCommand();
 Subcommand configCommand();
 Subcommand doctorCommand();

@@ -22,7 +22,7 @@ std::vector<Subcommand> subcommands()
         importCommand(),  receiveCommand(), queryCommand(),   retrieveCommand(), workCommand(),     casesCommand(),
         showCommand(),    markCommand(),    markersCommand(), flyCommand(),      snapshotCommand(), reportCommand(),
         findingCommand(), assessCommand(),  signCommand(),    amendCommand(),    auditCommand(),    exportCommand(),
-        phantomCommand(), configCommand(),  doctorCommand()};
+        sendCommand(),    outboxCommand(),  phantomCommand(), configCommand(),   doctorCommand()};
 #ifdef VICON_HAS_VIEWER
     rows.push_back(readCommand());
 #endif

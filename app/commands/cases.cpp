@@ -22,8 +22,10 @@ int cases(Context& context)
     std::vector<std::vector<std::string>> rows;
     for (const WorklistCase& c : worklist)
         rows.push_back({c.record.id, c.record.patient.name, c.record.patient.id, c.record.study.date,
-                        std::to_string(c.scans.size()), std::to_string(c.markers), nameOf(c.state), c.reason});
-    std::printf("%s", formatTable({"CASE", "PATIENT", "ID", "DATE", "SCANS", "MARKERS", "STATE", ""}, rows).c_str());
+                        std::to_string(c.scans.size()), std::to_string(c.markers), nameOf(c.state), c.delivery,
+                        c.reason});
+    std::printf("%s",
+                formatTable({"CASE", "PATIENT", "ID", "DATE", "SCANS", "MARKERS", "STATE", "SENT", ""}, rows).c_str());
     return 0;
 }
 

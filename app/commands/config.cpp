@@ -2,6 +2,7 @@
 
 #include "../command.h"
 #include "../text_table.h"
+#include "vicon/cases/outbox.h"
 #include "vicon/cases/placing.h"
 #include "vicon/cases/report_versions.h"
 #include "vicon/ingest/import.h"
@@ -50,6 +51,7 @@ Config declaredConfig()
     config.declare(specsOf<MarkOptions>());
     config.declare(specsOf<report::ReportOptions>());
     config.declare(specsOf<SigningOptions>());
+    config.declare(specsOf<OutboxOptions>());
     return config;
 }
 

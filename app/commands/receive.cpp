@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "../command.h"
+#include "../delivering.h"
 #include "../peers.h"
 #include "../progress_line.h"
 #include "../scan_work.h"
@@ -14,12 +15,6 @@
 
 namespace vicon::app {
 namespace {
-
-/// Cancelled by a signal, so that a long import does not hold up the listener's end.
-class UntilStopped : public NoProgress {
-public:
-    bool cancelled() const override { return stopRequested(); }
-};
 
 /// Works on the queue in the background, over a store connection of its own, until told to stop. Whatever goes wrong
 /// with the store is said and tried again.
@@ -54,6 +49,16 @@ ingest::Receiver::Files importReceived(CaseStore& store, const Config& config, c
     return report.not_stored;
 }
 
+/// Over a store connection of its own: reports come on the threads of associations.
+void takeCommitment(const std::filesystem::path& store_folder, const ingest::CommitmentReport& report)
+{
+    CaseStore store(store_folder);
+    Outbox outbox(store.database(), {});
+    const int concerned = ingest::noteCommitment(outbox, report);
+    spdlog::info("a peer committed to {} objects and not to {}; {} wait in the outbox", report.committed.size(),
+                 report.failed.size(), concerned);
+}
+
 int receive(Context& context, bool no_work)
 {
     const Config& config = context.config();
@@ -61,15 +66,18 @@ int receive(Context& context, bool no_work)
     CaseStore store(context.storeFolder());  // one of its own: the receiver imports on its own thread
     ingest::Receiver receiver(
         options, store.folder() / "incoming",
-        [&](const ingest::Receiver::Files& files) { return importReceived(store, config, files); },
-        [](const std::string& trouble) { spdlog::warn("{}", trouble); },
-        [](const std::string& note) { spdlog::info("{}", note); });
+        {.on_received = [&](const ingest::Receiver::Files& files) { return importReceived(store, config, files); },
+         .on_trouble = [](const std::string& trouble) { spdlog::warn("{}", trouble); },
+         .on_note = [](const std::string& note) { spdlog::info("{}", note); },
+         .on_commitment = [&](const ingest::CommitmentReport& report) { takeCommitment(store.folder(), report); }});
     std::printf("listening on port %d of %s\n", receiver.port(), options.address.c_str());
     std::fflush(stdout);
     std::thread worker;
     if (!no_work)
         worker = std::thread(workInBackground, context.storeFolder(), config);
+    std::thread sender(deliverInBackground, context.storeFolder(), config);
     receiver.run(stopRequested());
+    sender.join();
     if (worker.joinable())
         worker.join();
     return 0;
@@ -79,7 +87,7 @@ int receive(Context& context, bool no_work)
 
 Subcommand receiveCommand()
 {
-    return {"receive", "Listen for DICOM (C-ECHO, C-STORE), import what comes, and run the queue",
+    return {"receive", "Listen for DICOM (C-ECHO, C-STORE), import what comes, run the queue, and deliver the outbox",
             [](CommandLine& command) {
                 auto no_work = std::make_shared<bool>(false);
                 auto port = std::make_shared<std::string>(), address = std::make_shared<std::string>();

@@ -64,7 +64,8 @@ class Listening {
 public:
     Listening(const ingest::ReceiverOptions& options, const fs::path& incoming,
               ingest::Receiver::OnReceived on_received)
-        : receiver_(options, incoming, std::move(on_received)), thread_([this] { receiver_.run(stop_); })
+        : receiver_(options, incoming, {.on_received = std::move(on_received)}),
+          thread_([this] { receiver_.run(stop_); })
     {
     }
     ~Listening() { finish(); }

@@ -66,8 +66,19 @@ const std::vector<std::vector<const char*>> kMigrations = {
         "CREATE TABLE amendments (case_id TEXT PRIMARY KEY, reason TEXT NOT NULL, person TEXT NOT NULL,"
         " at TEXT NOT NULL)",
     },
+    {
+        // One object for one peer is one item. An id is not given twice: a dropped item's never names another.
+        "CREATE TABLE outbox (id INTEGER PRIMARY KEY AUTOINCREMENT, case_id TEXT NOT NULL, peer TEXT NOT NULL,"
+        " sop_class TEXT NOT NULL, sop_uid TEXT NOT NULL, file TEXT NOT NULL, sha256 TEXT NOT NULL,"
+        " state TEXT NOT NULL, stored INTEGER NOT NULL, attempts INTEGER NOT NULL, not_before REAL NOT NULL,"
+        " fence INTEGER NOT NULL, owner TEXT NOT NULL, lease_until REAL NOT NULL, transaction_uid TEXT NOT NULL,"
+        " reason TEXT NOT NULL, created TEXT NOT NULL, changed TEXT NOT NULL, UNIQUE (peer, sop_uid))",
+        "CREATE INDEX outbox_state ON outbox (state, not_before)",
+        "CREATE INDEX outbox_case ON outbox (case_id)",
+        "CREATE INDEX outbox_transaction ON outbox (transaction_uid)",
+    },
 };
-static_assert(Database::kSchemaVersion == 2, "add a migration for every version");
+static_assert(Database::kSchemaVersion == 3, "add a migration for every version");
 
 /// In the reader's words where one can do something about it.
 Error refusal(const soci::soci_error& e)

@@ -88,11 +88,7 @@ JobQueue::JobQueue(Database& database, QueueOptions options, Clock clock)
 
 double JobQueue::nowIn(soci::session& sql) const
 {
-    if (clock_)
-        return clock_();
-    double seconds = 0;
-    sql << "SELECT (julianday('now') - 2440587.5) * 86400.0", soci::into(seconds);
-    return seconds;
+    return clock_ ? clock_() : secondsIn(sql);
 }
 
 double JobQueue::now()

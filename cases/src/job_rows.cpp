@@ -4,6 +4,13 @@
 
 namespace vicon {
 
+double secondsIn(soci::session& sql)
+{
+    double seconds = 0;
+    sql << "SELECT (julianday('now') - 2440587.5) * 86400.0", soci::into(seconds);
+    return seconds;
+}
+
 std::string furthestName(const std::string& case_id, const std::string& scan_id)
 {
     return "furthest " + case_id + "/" + scan_id;

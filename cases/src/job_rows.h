@@ -6,6 +6,9 @@
 
 namespace vicon {
 
+/// The database's clock, which all processes share: seconds since the epoch.
+double secondsIn(soci::session& sql);
+
 /// A scan's row in the queue's table, within a transaction of the caller.
 
 /// The counter of how far, in thousandths, workers that stopped without a word had got with the job.

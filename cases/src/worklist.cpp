@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "vicon/cases/corrections.h"
+#include "vicon/cases/outbox.h"
 #include "vicon/cases/report_files.h"
 #include "vicon/cases/step_results.h"
 
@@ -145,6 +146,7 @@ WorklistCase makeWorklistCase(CaseStore& store, const QueueOptions& options, con
     sumUp(a_case);
     a_case.markers = int(store.markers(record.id).size());
     a_case.reports = countReports(store, record.id);
+    a_case.delivery = deliveryInBrief(countDeliveries(store, record.id));
     return a_case;
 }
 
@@ -171,6 +173,7 @@ nlohmann::json toJson(const std::vector<WorklistCase>& worklist)
                          {"reason", c.reason},
                          {"flags", c.record.flags},
                          {"markers", c.markers},
+                         {"delivery", c.delivery},
                          {"created", c.record.created},
                          {"scans", scans}});
     }

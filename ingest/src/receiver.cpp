@@ -73,12 +73,11 @@ void requireTitle(const std::string& title)
 
 class Receiver::Implementation {
 public:
-    Implementation(const ReceiverOptions& options, const fs::path& folder, OnReceived on_received, OnTrouble on_trouble,
-                   OnNote on_note)
+    Implementation(const ReceiverOptions& options, const fs::path& folder, Handlers handlers)
         : options_((requireTitle(options.ae_title), options)),
           rules_(options.allow),
-          incoming_(folder, {options.quiet_s, options.idle_s}, std::move(on_received), std::move(on_trouble)),
-          note_(std::move(on_note)),
+          handlers_(std::move(handlers)),
+          incoming_(folder, {options.quiet_s, options.idle_s}, handlers_.on_received, handlers_.on_trouble),
           listening_(options.address, options.port),
           lobby_(options.max_half_open, options.request_s)
     {
@@ -86,7 +85,6 @@ public:
         const LentSocket none_is_opened(0);
         if (ASC_initializeNetwork(NET_ACCEPTOR, port(), int(options_.timeout_s), &network_).bad())
             throw Error(ErrorCode::peer, "the network cannot be used", std::to_string(port()));
-        shared_config_ = DcmSharedSCPConfig(configFor(options_));
     }
 
     ~Implementation()
@@ -169,9 +167,8 @@ private:
         served.crowded = crowded;
         served.thread = std::thread([this, &served, association] {
             try {
-                const StorageService service{options_, rules_, incoming_, note_};
+                const StorageService service{options_, rules_, incoming_, handlers_};
                 StorageAssociation scp(service, served.host);
-                scp.setSharedConfig(shared_config_);
                 scp.serve(association, served.crowded);
             } catch (const std::exception& e) {
                 incoming_.trouble(e.what());
@@ -259,19 +256,16 @@ private:
 
     const ReceiverOptions options_;
     const CallerRules rules_;
+    const Handlers handlers_;
     Incoming incoming_;
-    const OnNote note_;
     const ListeningSocket listening_;
     Lobby lobby_;
     T_ASC_Network* network_ = nullptr;
-    DcmSharedSCPConfig shared_config_;
     std::list<Served> served_;
 };
 
-Receiver::Receiver(const ReceiverOptions& options, const fs::path& incoming_folder, OnReceived on_received,
-                   OnTrouble on_trouble, OnNote on_note)
-    : implementation_(std::make_unique<Implementation>(options, incoming_folder, std::move(on_received),
-                                                       std::move(on_trouble), std::move(on_note)))
+Receiver::Receiver(const ReceiverOptions& options, const fs::path& incoming_folder, Handlers handlers)
+    : implementation_(std::make_unique<Implementation>(options, incoming_folder, std::move(handlers)))
 {
 }
 

@@ -53,8 +53,24 @@ std::vector<OFList<OFString>> contextsFor(const Kind& kind)
     return contexts;
 }
 
+/// Keeps what the peer made of each object, and tells of it.
+struct Outcomes {
+    SendResult& result;
+    const OnStored& on_stored;
+
+    void add(const StoreOutcome& outcome)
+    {
+        if (outcome.taken)
+            ++result.sent;
+        else
+            result.failures.push_back(outcome);
+        if (on_stored)
+            on_stored(outcome);
+    }
+};
+
 /// Reads what each file is; what cannot be read is a failure of that file.
-std::vector<Item> readKinds(const std::vector<fs::path>& files, SendResult& result)
+std::vector<Item> readKinds(const std::vector<fs::path>& files, Outcomes& outcomes)
 {
     std::vector<Item> items;
     for (const fs::path& file : files) {
@@ -62,12 +78,21 @@ std::vector<Item> readKinds(const std::vector<fs::path>& files, SendResult& resu
         const OFCondition loaded = format.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, kLargestElementInMemory);
         const auto sop_class = Dataset(*format.getDataset()).values(DCM_SOPClassUID);
         if (loaded.bad() || sop_class.empty()) {
-            result.failures.push_back({file, loaded.bad() ? loaded.text() : "it does not say its SOP Class"});
+            outcomes.add({file, false, true, loaded.bad() ? loaded.text() : "it does not say its SOP Class"});
             continue;
         }
         items.push_back({file, {sop_class.front(), DcmXfer(format.getDataset()->getOriginalXfer()).getXferID()}});
     }
     return items;
+}
+
+/// Whether a status says that the object is at fault, or the peer's rules, and not the moment (PS3.4 B.2.3).
+bool isForGood(Uint16 status)
+{
+    constexpr Uint16 kGroup = 0xff00, kDatasetMismatch = 0xa900, kCannotUnderstand = 0xc000, kFirstDigit = 0xf000;
+    constexpr Uint16 kNotAuthorized = 0x0124, kNoSuchClass = 0x0122, kDuplicate = 0x0111;
+    return (status & kGroup) == kDatasetMismatch || (status & kFirstDigit) == kCannotUnderstand ||
+           status == kNotAuthorized || status == kNoSuchClass || status == kDuplicate;
 }
 
 std::string reasonFor(const OFCondition& sent, Uint16 status)
@@ -82,8 +107,8 @@ std::string reasonFor(const OFCondition& sent, Uint16 status)
 /// Sends the items of one association.
 class Sending {
 public:
-    Sending(const Peer& peer, const std::string& title, SendResult& result, Progress& progress, std::size_t total)
-        : peer_(peer), title_(title), result_(result), progress_(progress), total_(total)
+    Sending(const Peer& peer, const std::string& title, Outcomes& outcomes, Progress& progress, std::size_t total)
+        : peer_(peer), title_(title), outcomes_(outcomes), progress_(progress), total_(total)
     {
     }
 
@@ -114,26 +139,25 @@ private:
                 if (context == 0)
                     context = scu.findPresentationContextID(item.kind.sop_class.c_str(), syntax);
         if (context == 0) {
-            result_.failures.push_back({item.file, "the peer takes neither this kind of object nor its encoding (" +
-                                                       std::string(dcmFindNameOfUID(item.kind.sop_class.c_str(), "?")) +
-                                                       ", " + DcmXfer(item.kind.transfer_syntax.c_str()).getXferName() +
-                                                       ")"});
+            outcomes_.add({item.file, false, true,
+                           "the peer takes neither this kind of object nor its encoding (" +
+                               std::string(dcmFindNameOfUID(item.kind.sop_class.c_str(), "?")) + ", " +
+                               DcmXfer(item.kind.transfer_syntax.c_str()).getXferName() + ")"});
             return;
         }
         Uint16 status = 0;
         const OFCondition sent = scu.sendSTORERequest(context, item.file.c_str(), nullptr, status);
         const bool taken = sent.good() && (status == STATUS_Success || DICOM_WARNING_STATUS(status));
-        if (taken)
-            ++result_.sent;
-        else
-            result_.failures.push_back({item.file, reasonFor(sent, status)});
+        outcomes_.add(
+            {item.file, taken, !taken && sent.good() && isForGood(status), taken ? "" : reasonFor(sent, status)});
         if (sent.bad() && !scu.isConnected())
-            peerFailed("the association broke after " + std::to_string(result_.sent) + " objects", peer_, sent);
+            peerFailed("the association broke after " + std::to_string(outcomes_.result.sent) + " objects", peer_,
+                       sent);
     }
 
     const Peer& peer_;
     const std::string& title_;
-    SendResult& result_;
+    Outcomes& outcomes_;
     Progress& progress_;
     std::size_t total_;
     std::size_t done_ = 0;
@@ -142,12 +166,13 @@ private:
 }  // namespace
 
 SendResult storeFiles(const Peer& peer, const std::vector<fs::path>& files, const std::string& our_ae_title,
-                      Progress& progress)
+                      Progress& progress, const OnStored& on_stored)
 {
     setUpDicom();
     SendResult result;
-    const std::vector<Item> items = readKinds(files, result);
-    Sending sending(peer, our_ae_title, result, progress, std::max<std::size_t>(items.size(), 1));
+    Outcomes outcomes{result, on_stored};
+    const std::vector<Item> items = readKinds(files, outcomes);
+    Sending sending(peer, our_ae_title, outcomes, progress, std::max<std::size_t>(items.size(), 1));
     // As many items as their kinds fit into one association.
     for (std::size_t from = 0; from < items.size();) {
         std::set<Kind> kinds;

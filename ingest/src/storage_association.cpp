@@ -1,8 +1,13 @@
 #include "storage_association.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <memory>
+#include <set>
+#include <string_view>
 
+#include "commitment_dataset.h"
 #include "vicon/core/file.h"
 
 namespace fs = std::filesystem;
@@ -55,9 +60,15 @@ void refuseCrowded(T_ASC_Association* association)
     ASC_destroyAssociation(&association);
 }
 
-}  // namespace
+bool isStorage(const std::string_view sop_class)
+{
+    const char* const* const begin = dcmAllStorageSOPClassUIDs;
+    return std::find(begin, begin + numberOfDcmAllStorageSOPClassUIDs, sop_class) !=
+           begin + numberOfDcmAllStorageSOPClassUIDs;
+}
 
-DcmSCPConfig configFor(const ReceiverOptions& options)
+/// What is taken of what the peer offers: DCMTK holds at most 128 contexts, and there are more storage classes.
+DcmSCPConfig configFor(const ReceiverOptions& options, const T_ASC_Association& association)
 {
     DcmSCPConfig config;
     config.setAETitle(options.ae_title.c_str());
@@ -69,11 +80,21 @@ DcmSCPConfig configFor(const ReceiverOptions& options)
     OFList<OFString> syntaxes;
     for (const char* syntax : kTransferSyntaxes)
         syntaxes.push_back(syntax);
-    config.addPresentationContext(UID_VerificationSOPClass, syntaxes);
-    for (int n = 0; n < numberOfDcmAllStorageSOPClassUIDs; ++n)
-        config.addPresentationContext(dcmAllStorageSOPClassUIDs[n], syntaxes);
+    std::set<std::string> offered;
+    for (int n = 0; n < ASC_countPresentationContexts(association.params); ++n) {
+        T_ASC_PresentationContext context;
+        if (ASC_getPresentationContext(association.params, n, &context).bad() ||
+            !offered.insert(context.abstractSyntax).second)
+            continue;
+        if (isStorage(context.abstractSyntax) || std::string_view(context.abstractSyntax) == UID_VerificationSOPClass)
+            config.addPresentationContext(context.abstractSyntax, syntaxes);
+    }
+    if (offered.contains(UID_StorageCommitmentPushModelSOPClass))  // an archive that reports is its provider
+        config.addPresentationContext(UID_StorageCommitmentPushModelSOPClass, syntaxes, ASC_SC_ROLE_SCP);
     return config;
 }
+
+}  // namespace
 
 std::string StorageAssociation::sender() const
 {
@@ -90,6 +111,7 @@ void StorageAssociation::serve(T_ASC_Association* association, bool crowded)
     }
     const auto begin = std::chrono::steady_clock::now();
     folder_ = service_.incoming.open();
+    setSharedConfig(DcmSharedSCPConfig(configFor(service_.options, *association)));
     run(association);
     service_.incoming.close(folder_);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
@@ -97,8 +119,9 @@ void StorageAssociation::serve(T_ASC_Association* association, bool crowded)
     std::snprintf(seconds, sizeof seconds, "%.1f s", took.count());
     if (!refused_.empty())
         service_.incoming.trouble("refused " + sender() + ": " + refused_);
-    else if (service_.note)
-        service_.note("association of " + sender() + ": " + std::to_string(count_) + " objects in " + seconds);
+    else if (service_.handlers.on_note)
+        service_.handlers.on_note("association of " + sender() + ": " + std::to_string(count_) + " objects in " +
+                                  seconds);
 }
 
 OFBool StorageAssociation::checkCalledAETitleAccepted(const OFString& called)
@@ -120,6 +143,8 @@ OFBool StorageAssociation::checkCallingAETitleAccepted(const OFString& calling)
 OFCondition StorageAssociation::handleIncomingCommand(T_DIMSE_Message* message,
                                                       const DcmPresentationContextInfo& context)
 {
+    if (message->CommandField == DIMSE_N_EVENT_REPORT_RQ)
+        return takeReport(message->msg.NEventReportRQ, context);
     if (message->CommandField != DIMSE_C_STORE_RQ)
         return DcmThreadSCP::handleIncomingCommand(message, context);
     T_DIMSE_C_StoreRQ& request = message->msg.CStoreRQ;
@@ -128,6 +153,45 @@ OFCondition StorageAssociation::handleIncomingCommand(T_DIMSE_Message* message,
     if (received.bad())
         return received;
     return sendSTOREResponse(context.presentationContextID, request, status);
+}
+
+/// The report is taken in before it is answered with success: an archive that did not reach us reports again. DCMTK's
+/// own answer leaves out what the request named, which Orthanc takes for an error.
+OFCondition StorageAssociation::takeReport(const T_DIMSE_N_EventReportRQ& request,
+                                           const DcmPresentationContextInfo& context)
+{
+    DcmDataset* received = nullptr;
+    T_ASC_PresentationContextID id = context.presentationContextID;
+    if (request.DataSetType != DIMSE_DATASET_NULL)
+        if (const OFCondition came = receiveDIMSEDataset(&id, &received); came.bad())
+            return came;
+    const std::unique_ptr<DcmDataset> dataset(received);
+    T_DIMSE_Message answer{};
+    answer.CommandField = DIMSE_N_EVENT_REPORT_RSP;
+    T_DIMSE_N_EventReportRSP& said = answer.msg.NEventReportRSP;
+    said.MessageIDBeingRespondedTo = request.MessageID;
+    OFStandard::strlcpy(said.AffectedSOPClassUID, request.AffectedSOPClassUID, sizeof said.AffectedSOPClassUID);
+    OFStandard::strlcpy(said.AffectedSOPInstanceUID, request.AffectedSOPInstanceUID,
+                        sizeof said.AffectedSOPInstanceUID);
+    said.EventTypeID = request.EventTypeID;
+    said.opts = O_NEVENTREPORT_AFFECTEDSOPCLASSUID | O_NEVENTREPORT_AFFECTEDSOPINSTANCEUID | O_NEVENTREPORT_EVENTTYPEID;
+    said.DataSetType = DIMSE_DATASET_NULL;
+    said.DimseStatus = takeIn(request, dataset.get());
+    return sendDIMSEMessage(context.presentationContextID, &answer, nullptr);
+}
+
+Uint16 StorageAssociation::takeIn(const T_DIMSE_N_EventReportRQ& request, DcmDataset* dataset)
+{
+    if (!service_.handlers.on_commitment || !dataset ||
+        std::string(request.AffectedSOPClassUID) != UID_StorageCommitmentPushModelSOPClass)
+        return STATUS_N_NoSuchSOPClass;
+    try {
+        service_.handlers.on_commitment(commitmentReportFrom(*dataset));
+        return STATUS_N_Success;
+    } catch (const std::exception& e) {
+        service_.incoming.trouble("a report on storage commitment of " + sender() + " was not taken: " + e.what());
+        return STATUS_N_ProcessingFailure;
+    }
 }
 
 OFCondition StorageAssociation::receive(T_DIMSE_C_StoreRQ& request, T_ASC_PresentationContextID context, Uint16& status)

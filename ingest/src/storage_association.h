@@ -18,13 +18,10 @@ struct StorageService {
     const ReceiverOptions& options;
     const CallerRules& rules;
     Incoming& incoming;
-    const Receiver::OnNote& note;
+    const Receiver::Handlers& handlers;
 };
 
-/// Presentation contexts, titles and limits of the listener.
-DcmSCPConfig configFor(const ReceiverOptions& options);
-
-/// Serves one association: C-ECHO and C-STORE.
+/// Serves one association: C-ECHO, C-STORE, and N-EVENT-REPORT of storage commitment.
 class StorageAssociation : public DcmThreadSCP {
 public:
     StorageAssociation(const StorageService& service, std::string host) : service_(service), host_(std::move(host)) {}
@@ -38,6 +35,8 @@ protected:
     OFCondition handleIncomingCommand(T_DIMSE_Message* message, const DcmPresentationContextInfo& context) override;
 
 private:
+    OFCondition takeReport(const T_DIMSE_N_EventReportRQ& request, const DcmPresentationContextInfo& context);
+    Uint16 takeIn(const T_DIMSE_N_EventReportRQ& request, DcmDataset* dataset);
     OFCondition receive(T_DIMSE_C_StoreRQ& request, T_ASC_PresentationContextID context, Uint16& status);
     std::string sender() const;
 

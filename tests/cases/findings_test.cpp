@@ -290,7 +290,7 @@ TEST_F(Findings, LiveInAStoreThatAnEarlierViconMade)
     store_.database().write([](soci::session& sql) {
         for (const char* statement :
              {"DROP TABLE findings", "DROP TABLE assessments", "DROP TABLE report_versions", "DROP TABLE amendments",
-              "DROP TABLE audit",
+              "DROP TABLE outbox", "DROP TABLE audit",
               "CREATE TABLE audit (at TEXT NOT NULL, event TEXT NOT NULL, case_id TEXT NOT NULL,"
               " scan_id TEXT NOT NULL, detail TEXT NOT NULL)",
               "INSERT INTO audit VALUES ('2026-01-02T03', 'imported', 'c1', 's1', '7 objects')",

@@ -25,9 +25,9 @@ int main(int count, char** arguments)
     options.max_associations = options.max_per_host = 500;  // all of them come from here
     NoProgress quiet;
     std::atomic<bool> stop = false;
-    ingest::Receiver receiver(options, store.folder() / "incoming", [&](const ingest::Receiver::Files& files) {
-        return ingest::importPaths(store, files, {}, quiet).not_stored;
-    });
+    ingest::Receiver receiver(options, store.folder() / "incoming", {[&](const ingest::Receiver::Files& files) {
+                                  return ingest::importPaths(store, files, {}, quiet).not_stored;
+                              }});
     std::printf("%d\n", receiver.port());
     std::fflush(stdout);
     std::thread end([&] {

@@ -37,15 +37,15 @@ public:
     RunningReceiver(const fs::path& incoming, ingest::ReceiverOptions options,
                     std::function<void(const std::vector<fs::path>&)> also = {}, std::set<std::string> not_taken = {})
         : not_taken_(std::move(not_taken)),
-          receiver_(
-              with(options), incoming,
-              [this, also](const std::vector<fs::path>& files) {
-                  if (also)
-                      also(files);
-                  return take(files);
-              },
-              [this](const std::string& what) { note(troubles_, what); },
-              [this](const std::string& what) { note(notes_, what); }),
+          receiver_(with(options), incoming,
+                    {.on_received =
+                         [this, also](const std::vector<fs::path>& files) {
+                             if (also)
+                                 also(files);
+                             return take(files);
+                         },
+                     .on_trouble = [this](const std::string& what) { note(troubles_, what); },
+                     .on_note = [this](const std::string& what) { note(notes_, what); }}),
           thread_([this] { receiver_.run(stop_); })
     {
     }
@@ -122,6 +122,11 @@ private:
     std::thread thread_;
 };
 
+ingest::Receiver::Files nothingLeft(const ingest::Receiver::Files&)
+{
+    return {};
+}
+
 class Network : public StoreFixture {
 protected:
     fs::path incoming = store.folder() / "incoming";
@@ -179,6 +184,30 @@ TEST_F(Network, EveryEncodingArrivesAsItIs)
     for (const std::string& content : contents)
         received.insert(fingerprint(content));
     EXPECT_EQ(received, sent);
+}
+
+TEST_F(Network, EveryStorageClassIsTaken)
+{
+    RunningReceiver receiver(incoming, {});
+    OFList<OFString> syntaxes;
+    syntaxes.push_back(UID_LittleEndianImplicitTransferSyntax);
+    int taken = 0;
+    constexpr int kAtOnce = 100;
+    for (int from = 0; from < numberOfDcmAllStorageSOPClassUIDs; from += kAtOnce) {
+        DcmSCU scu;
+        scu.setPeerHostName("127.0.0.1");
+        scu.setPeerPort(Uint16(receiver.port()));
+        const int to = std::min(from + kAtOnce, numberOfDcmAllStorageSOPClassUIDs);
+        for (int n = from; n < to; ++n)
+            scu.addPresentationContext(dcmAllStorageSOPClassUIDs[n], syntaxes);
+        ASSERT_TRUE(scu.initNetwork().good());
+        ASSERT_TRUE(scu.negotiateAssociation().good());
+        for (int n = from; n < to; ++n)
+            taken += scu.findPresentationContextID(dcmAllStorageSOPClassUIDs[n], "") != 0 ? 1 : 0;
+        scu.releaseAssociation();
+    }
+    EXPECT_EQ(taken, numberOfDcmAllStorageSOPClassUIDs);
+    EXPECT_GT(taken, 128) << "more than an association has contexts";
 }
 
 TEST_F(Network, AnObjectLiesInTheStoreBeforeItsSuccessIsAnswered)
@@ -256,17 +285,14 @@ TEST_F(Network, NoiseOnThePortDoesNotStopTheService)
 TEST_F(Network, TitlesPortsAndSecondReceiversAreChecked)
 {
     RunningReceiver receiver(incoming, {});
-    EXPECT_THROW(ingest::Receiver({}, incoming, [](const auto&) { return ingest::Receiver::Files{}; }), Error)
-        << "one receiver a store";
+    EXPECT_THROW(ingest::Receiver({}, incoming, {nothingLeft}), Error) << "one receiver a store";
     ingest::ReceiverOptions same_port;
     same_port.port = receiver.port();
-    EXPECT_THROW(ingest::Receiver(same_port, folder / "other", [](const auto&) { return ingest::Receiver::Files{}; }),
-                 Error);
+    EXPECT_THROW(ingest::Receiver(same_port, folder / "other", {nothingLeft}), Error);
     ingest::ReceiverOptions long_title;
     long_title.port = 0;
     long_title.ae_title = "A TITLE OF MORE THAN 16";
-    EXPECT_THROW(ingest::Receiver(long_title, folder / "third", [](const auto&) { return ingest::Receiver::Files{}; }),
-                 Error);
+    EXPECT_THROW(ingest::Receiver(long_title, folder / "third", {nothingLeft}), Error);
     EXPECT_THROW(ingest::echo({"gone", "127.0.0.1", "X", 1}, "SENDER"), Error);
 }
 
@@ -454,8 +480,7 @@ TEST_F(Network, OnlyWhoIsAllowedMayCallAndTheRefusalNamesTheSender)
     }
     EXPECT_TRUE(receiver.tells("association of 'SCANNER' at 127.0.0.1"));
     options.allow = "SCANNER@nowhere.invalid";
-    EXPECT_THROW(ingest::Receiver(options, folder / "other", [](const auto&) { return ingest::Receiver::Files{}; }),
-                 Error);
+    EXPECT_THROW(ingest::Receiver(options, folder / "other", {nothingLeft}), Error);
 }
 
 TEST_F(Network, ListensOnThisMachineAloneUnlessAnAddressIsConfigured)
@@ -498,11 +523,11 @@ TEST_F(Network, WhatNoCaseTakesIsKeptInQuarantine)
     ingest::ReceiverOptions receive;
     receive.port = 0;
     receive.quiet_s = 0;
-    ingest::Receiver receiver(receive, incoming, [&](const ingest::Receiver::Files& received) {
-        CaseStore own(store.folder());
-        ++taken;
-        return ingest::importPaths(own, received, options, quiet).not_stored;
-    });
+    ingest::Receiver receiver(receive, incoming, {[&](const ingest::Receiver::Files& received) {
+                                  CaseStore own(store.folder());
+                                  ++taken;
+                                  return ingest::importPaths(own, received, options, quiet).not_stored;
+                              }});
     std::thread thread([&] { receiver.run(stop); });
     const ingest::Peer peer{"receiver", "127.0.0.1", "VICON", receiver.port()};
     ASSERT_TRUE(ingest::storeFiles(peer, files, "S", quiet).complete());
@@ -595,12 +620,12 @@ TEST_F(Network, AFileThatKillsItsReaderIsFoundAndSetAside)
             std::atomic<bool> stop = true;
             ingest::ReceiverOptions receive;
             receive.port = 0;
-            ingest::Receiver receiver(receive, incoming, [&](const ingest::Receiver::Files& received) {
-                for (const fs::path& file : received)
-                    if (file == incoming / bad)
-                        ::_exit(1);
-                return ingest::Receiver::Files{};
-            });
+            ingest::Receiver receiver(receive, incoming, {[&](const ingest::Receiver::Files& received) {
+                                          for (const fs::path& file : received)
+                                              if (file == incoming / bad)
+                                                  ::_exit(1);
+                                          return ingest::Receiver::Files{};
+                                      }});
             receiver.run(stop);
             ::_exit(0);
         }

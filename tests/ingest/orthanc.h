@@ -67,7 +67,8 @@ inline int freePort()
 class Orthanc {
 public:
     /// @param vicon_port where "VICON" listens, for C-MOVE; 0: nowhere
-    explicit Orthanc(const fs::path& folder, int vicon_port = 0) : dicom_port_(freePort()), http_port_(freePort())
+    explicit Orthanc(const fs::path& folder, int vicon_port = 0)
+        : folder_(folder), dicom_port_(freePort()), http_port_(freePort())
     {
         fs::create_directories(folder);
         nlohmann::json config = {{"Name", "test"},
@@ -87,19 +88,28 @@ public:
         if (vicon_port != 0)
             config["DicomModalities"]["vicon"] = {"VICON", "127.0.0.1", vicon_port};
         std::ofstream(folder / "orthanc.json") << config;
+        start();
+    }
+    /// Starts it, again with what it had stored.
+    void start()
+    {
         process_ = ::fork();
         if (process_ == 0) {
-            const std::string log = (folder / "log").string(), file = (folder / "orthanc.json").string();
+            const std::string log = (folder_ / "log").string(), file = (folder_ / "orthanc.json").string();
             if (!std::freopen(log.c_str(), "w", stdout) || !std::freopen(log.c_str(), "a", stderr))
                 std::_Exit(126);
             ::execlp("Orthanc", "Orthanc", file.c_str(), nullptr);
             std::_Exit(127);
         }
     }
-    ~Orthanc()
+    ~Orthanc() { end(SIGTERM); }
+    void end(int signal)
     {
-        ::kill(process_, SIGTERM);
-        ::waitpid(process_, nullptr, 0);
+        if (process_ > 0)
+            ::kill(process_, signal);
+        if (process_ > 0)
+            ::waitpid(process_, nullptr, 0);
+        process_ = -1;
     }
     Orthanc(const Orthanc&) = delete;
     Orthanc& operator=(const Orthanc&) = delete;
@@ -137,7 +147,11 @@ public:
         return answer.substr(std::min(answer.find("\r\n\r\n"), answer.size() - 4) + 4);
     }
 
+    /// How many objects it holds.
+    std::size_t objects() const { return nlohmann::json::parse(get("/instances")).size(); }
+
 private:
+    fs::path folder_;
     int dicom_port_, http_port_;
     pid_t process_ = -1;
 };

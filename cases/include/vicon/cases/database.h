@@ -15,7 +15,7 @@ namespace vicon {
 /// One object serves one thread at a time.
 class Database {
 public:
-    static constexpr int kSchemaVersion = 2;
+    static constexpr int kSchemaVersion = 3;
 
     /// Opens (and creates) the database. Throws Error{database} when it cannot, or when its schema is newer than
     /// this VICON knows.

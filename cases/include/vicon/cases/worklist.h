@@ -49,7 +49,8 @@ struct WorklistCase {
     std::string reason;
     double progress = 0;  ///< of its jobs together, 0 to 1
     int markers = 0;
-    int reports = 0;  ///< how many were written
+    int reports = 0;       ///< how many were written
+    std::string delivery;  ///< of its objects to peers: "3 committed, 1 refused"; empty where none was sent
     std::vector<WorklistScan> scans;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vicon/core/options.h"
+#include "vicon/ingest/commitment.h"
 
 namespace vicon::ingest {
 
@@ -54,9 +55,10 @@ struct ReceiverOptions {
     }
 };
 
-/// A storage SCP: C-ECHO and C-STORE, every storage class, every transfer syntax as it comes. An image lies durably in
-/// the incoming folder before its C-STORE is answered with success, and stays in the store, with a case or in
-/// quarantine. No peer keeps others waiting: requests are read beside the accepting thread, every phase has a limit.
+/// A storage SCP: C-ECHO, C-STORE of every storage class and transfer syntax as it comes, and reports on commitments.
+/// An image lies durably in the incoming folder before its C-STORE is answered with success, and stays in the store,
+/// with a case or in quarantine. No peer keeps others waiting: requests are read beside the accepting thread, every
+/// phase has a limit.
 class Receiver {
 public:
     using Files = std::vector<std::filesystem::path>;
@@ -70,10 +72,19 @@ public:
     /// Told of each association and its sender. May be empty.
     using OnNote = std::function<void(const std::string&)>;
 
+    /// Told what an archive says of objects that it was asked to keep. When it throws, the archive is told that its
+    /// report was not taken. May be empty: then no report is taken.
+    using OnCommitment = std::function<void(const CommitmentReport&)>;
+    struct Handlers {
+        OnReceived on_received;
+        OnTrouble on_trouble = {};
+        OnNote on_note = {};
+        OnCommitment on_commitment = {};
+    };
+
     /// Starts to listen on the port. Throws Error{peer} when the port cannot be had, Error{wrong_use} for a bad title
     /// or rule.
-    Receiver(const ReceiverOptions& options, const std::filesystem::path& incoming_folder, OnReceived on_received,
-             OnTrouble on_trouble = {}, OnNote on_note = {});
+    Receiver(const ReceiverOptions& options, const std::filesystem::path& incoming_folder, Handlers handlers);
     ~Receiver();
     Receiver(const Receiver&) = delete;
     Receiver& operator=(const Receiver&) = delete;

@@ -1,0 +1,45 @@
+#include "delivering.h"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <thread>
+
+#include "command.h"
+#include "peers.h"
+#include "vicon/ingest/receiver.h"
+
+namespace vicon::app {
+
+ingest::Delivery deliveryFor(const Config& config)
+{
+    return {.options = config.get<OutboxOptions>(),
+            .peer = [&config](const std::string& name) { return requirePeer(config, name); },
+            .our_ae_title = config.get<ingest::ReceiverOptions>().ae_title};
+}
+
+void deliverInBackground(const std::filesystem::path& store_folder, const Config& config)
+{
+    constexpr auto kLook = std::chrono::seconds(1);
+    ingest::Delivery delivery = deliveryFor(config);
+    delivery.trouble = [](const std::string& what) { spdlog::warn("outbox: {}", what); };
+    std::string said;
+    while (!stopRequested()) {
+        try {
+            CaseStore store(store_folder);
+            UntilStopped quiet;
+            while (!stopRequested()) {
+                if (const int due = ingest::deliverDue(store, delivery, {}, quiet); due > 0)
+                    spdlog::info("outbox: {} objects were due", due);
+                said.clear();
+                std::this_thread::sleep_for(kLook);
+            }
+        } catch (const std::exception& e) {
+            if (e.what() != said && !stopRequested())
+                spdlog::error("the outbox waits: {}", said = e.what());
+            std::this_thread::sleep_for(kLook);
+        }
+    }
+}
+
+}  // namespace vicon::app

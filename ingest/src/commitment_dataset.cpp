@@ -1,0 +1,80 @@
+#include "commitment_dataset.h"
+
+#include <cstdio>
+
+#include "vicon/core/error.h"
+
+namespace vicon::ingest {
+namespace {
+
+std::string textIn(DcmItem& item, const DcmTagKey& tag)
+{
+    OFString text;
+    item.findAndGetOFString(tag, text);
+    return text.c_str();
+}
+
+ObjectName nameIn(DcmItem& item)
+{
+    return {textIn(item, DCM_ReferencedSOPClassUID), textIn(item, DCM_ReferencedSOPInstanceUID)};
+}
+
+template <class Use>
+void forEachItem(DcmDataset& dataset, const DcmTagKey& tag, Use use)
+{
+    DcmSequenceOfItems* sequence = nullptr;
+    if (dataset.findAndGetSequence(tag, sequence).bad() || !sequence)
+        return;
+    for (unsigned long n = 0; n < sequence->card(); ++n)
+        use(*sequence->getItem(n));
+}
+
+}  // namespace
+
+void fillRequest(DcmDataset& dataset, const std::string& transaction_uid, const std::vector<ObjectName>& objects)
+{
+    dataset.putAndInsertString(DCM_TransactionUID, transaction_uid.c_str());
+    for (const ObjectName& object : objects) {
+        DcmItem* item = nullptr;
+        constexpr long kAppend = -2;
+        if (dataset.findOrCreateSequenceItem(DCM_ReferencedSOPSequence, item, kAppend).bad())
+            throw Error(ErrorCode::no_memory, "the request for commitment cannot be written");
+        item->putAndInsertString(DCM_ReferencedSOPClassUID, object.sop_class.c_str());
+        item->putAndInsertString(DCM_ReferencedSOPInstanceUID, object.sop_uid.c_str());
+    }
+}
+
+CommitmentReport commitmentReportFrom(DcmDataset& dataset)
+{
+    CommitmentReport report;
+    report.transaction_uid = textIn(dataset, DCM_TransactionUID);
+    if (report.transaction_uid.empty())
+        throw Error(ErrorCode::bad_input, "a report on storage commitment names no transaction");
+    forEachItem(dataset, DCM_ReferencedSOPSequence, [&](DcmItem& item) { report.committed.push_back(nameIn(item)); });
+    forEachItem(dataset, DCM_FailedSOPSequence, [&](DcmItem& item) {
+        Uint16 reason = 0;
+        item.findAndGetUint16(DCM_FailureReason, reason);
+        report.failed.push_back({nameIn(item), reason});
+    });
+    return report;
+}
+
+std::string textOfFailureReason(int reason)
+{
+    // The terms of PS3.3 C.14.1.1.
+    static constexpr struct {
+        int value;
+        const char* text;
+    } kReasons[] = {{0x0110, "processing failure"},          {0x0112, "no such object instance"},
+                    {0x0213, "resource limitation"},         {0x0122, "referenced SOP class not supported"},
+                    {0x0119, "class and instance conflict"}, {0x0131, "duplicate transaction UID"}};
+    const char* text = "for a reason that it does not say";
+    for (const auto& known : kReasons)
+        if (known.value == reason)
+            text = known.text;
+    char code[16];
+    std::snprintf(code, sizeof code, " (%04x)", unsigned(reason));
+    return text + std::string(code);
+}
+
+}  // namespace vicon::ingest
