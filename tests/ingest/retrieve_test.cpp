@@ -118,11 +118,11 @@ TEST_F(Retrieve, HasASeriesMovedToTheReceiver)
     ingest::ReceiverOptions options;
     options.port = port;
     std::atomic<bool> stop = false;
-    ingest::Receiver receiver(options, store.folder() / "incoming", [&](const ingest::Receiver::Files& files) {
+    ingest::Receiver receiver(options, store.folder() / "incoming", {[&](const ingest::Receiver::Files& files) {
         for (const fs::path& file : files)
             got.insert(fingerprint(readFile(file)));
         return ingest::Receiver::Files{};
-    });
+    }});
     std::thread thread([&] { receiver.run(stop); });
     const auto result =
         ingest::moveSeries(orthanc.peer(), wanted.study_uid, {wanted.series_uid}, "VICON", "VICON", quiet);
