@@ -1,10 +1,13 @@
 #include "report_writing.h"
 
+#include "peers.h"
 #include "report_pictures.h"
+#include "vicon/cases/outbox.h"
 #include "vicon/cases/report_files.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/report/pdf_writer.h"
+#include "vicon/report/report_objects.h"
 
 namespace fs = std::filesystem;
 
@@ -39,6 +42,40 @@ WrittenReport writeReport(CaseStore& store, const Config& config, const std::str
     return {out, content.number, written.pages, content.markers.size(), written.warnings};
 }
 
+namespace {
+
+/// The signed version that an amendment takes the place of.
+std::optional<ReportVersion> amendedBy(CaseStore& store, const std::string& case_id, const ReportVersion& version)
+{
+    for (const ReportVersion& earlier : reportVersions(store, case_id))
+        if (version.replaces != 0 && earlier.version == version.replaces)
+            return earlier;
+    return std::nullopt;
+}
+
+/// The objects of what is signed, for the folder and for the outbox.
+VersionObjects objectsOf(CaseStore& store, const Config& config, const std::string& case_id,
+                         const report::ObjectContent& content, const fs::path& folder)
+{
+    const auto peers = config.get<SigningOptions>().send_to;
+    for (const std::string& peer : peers)
+        requirePeer(config, peer);
+    const auto objects = report::writeReportObjects(store, content, folder);
+    VersionObjects kept;
+    for (const report::ReportObject& object : objects)
+        kept.files.push_back(object.file);
+    kept.also = [&store, case_id, peers, objects](soci::session& sql, const ReportVersion&) {
+        std::vector<OutboxObject> queued;
+        for (const report::ReportObject& object : objects)
+            queued.push_back({reportFolder(store, case_id) / object.file.filename(), object.sop_class, object.sop_uid});
+        for (const std::string& peer : peers)
+            queueObjects(store, sql, case_id, peer, queued);
+    };
+    return kept;
+}
+
+}  // namespace
+
 GivenReport giveOutReport(CaseStore& store, const Config& config, const std::string& case_id, bool sign,
                           Progress& progress)
 {
@@ -59,7 +96,14 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
                         "nothing was signed",
                     record.id, "see whether the disk is full, then try again");
     progress.check();
-    return {keepVersion(store, record.id, draft, readFile(folder / "report.pdf")), drawn.pages, drawn.warnings};
+    const std::string pdf = readFile(folder / "report.pdf");
+    VersionObjects objects;
+    if (sign) {
+        const ReportVersion version = versionWith(store, record.id, draft, pdf);
+        objects = objectsOf(store, config, record.id,
+                            {content.read, version, amendedBy(store, record.id, version), pdf}, folder / "");
+    }
+    return {keepVersion(store, record.id, draft, pdf, objects), drawn.pages, drawn.warnings};
 }
 
 }  // namespace vicon::app

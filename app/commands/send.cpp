@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <set>
 #include <thread>
@@ -9,6 +10,8 @@
 #include "../delivering.h"
 #include "../peers.h"
 #include "../progress_line.h"
+#include "vicon/cases/report_files.h"
+#include "vicon/cases/report_versions.h"
 #include "vicon/core/error.h"
 
 namespace fs = std::filesystem;
@@ -30,6 +33,18 @@ std::vector<OutboxObject> sourceImages(CaseStore& store, const std::string& case
     for (const ScanRecord& scan : store.scans(case_id))
         for (const InstanceRecord& instance : store.instances(case_id, scan.id))
             objects.push_back(ingest::outboxObject(store.scanFolder(case_id, scan.id) / "dicom" / instance.file));
+    return objects;
+}
+
+/// The objects of the report that was signed last.
+std::vector<OutboxObject> reportObjects(CaseStore& store, const std::string& case_id)
+{
+    std::vector<OutboxObject> objects;
+    const std::vector<ReportVersion> versions = reportVersions(store, case_id);
+    const auto last = std::find_if(versions.rbegin(), versions.rend(), [](const auto& v) { return v.isSigned(); });
+    if (last != versions.rend())
+        for (const fs::path& file : versionObjects(store, case_id, last->version))
+            objects.push_back(ingest::outboxObject(file));
     return objects;
 }
 
@@ -77,11 +92,12 @@ int send(Context& context, const SendArguments& a)
     CaseStore& store = context.existingStore();
     const std::string case_id = store.requireCase(a.case_id).id;
     requirePeer(context.config(), a.peer);
-    std::vector<OutboxObject> objects;
+    std::vector<OutboxObject> objects = reportObjects(store, case_id);
     if (a.images)
-        objects = sourceImages(store, case_id);
+        std::ranges::copy(sourceImages(store, case_id), std::back_inserter(objects));
     if (objects.empty())
-        throw Error(ErrorCode::not_found, "the case has nothing to send", case_id, "--images sends its images");
+        throw Error(ErrorCode::not_found, "the case has no signed report to send", case_id,
+                    "'vicon sign' makes one; --images sends the images");
     std::vector<OutboxItem> items = queueObjects(store, case_id, a.peer, objects);
     if (!a.later) {
         ProgressLine progress("send");
@@ -107,11 +123,12 @@ int send(Context& context, const SendArguments& a)
 
 Subcommand sendCommand()
 {
-    return {"send", "Send a case's objects to a PACS, through the outbox", [](CommandLine& command) {
+    return {"send", "Send a case's signed report to a PACS, through the outbox: PDF, measurements (SR), key images",
+            [](CommandLine& command) {
                 auto a = std::make_shared<SendArguments>();
                 command.option("CASE", a->case_id, "The case's id").required();
                 command.option("PEER", a->peer, "Name of a peer in the configuration").required();
-                command.flag("--images", a->images, "Its images, as they came");
+                command.flag("--images", a->images, "Also its images, as they came");
                 const auto later =
                     command.flag("--later", a->later, "Only queue them; 'vicon receive' delivers in the background");
                 command.option("--wait", a->wait_s, "Seconds to wait for the peer to commit to them")

@@ -131,14 +131,13 @@ private:
     int descriptor_;
 };
 
-/// Nobody else may read the database, at no moment. SQLite gives its other files the same mode.
+/// Nobody else may read the database, at no moment. SQLite gives its other files the same mode. The file is made
+/// without being opened: closing it again would drop the locks of every connection that this process has to it, and
+/// another program would delete the log under them (sqlite.org/howtocorrupt.html, section 2.2).
 void createPrivately(const std::filesystem::path& file)
 {
-    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    if (descriptor < 0)
-        return;  // SQLite says why
-    ::fchmod(descriptor, 0600);
-    ::close(descriptor);
+    ::mknod(file.c_str(), S_IFREG | 0600, 0);  // that it is there, or cannot be made, SQLite finds
+    ::chmod(file.c_str(), 0600);
 }
 
 }  // namespace

@@ -18,6 +18,18 @@ std::string versionName(int version)
     return "version-" + std::to_string(version) + ".pdf";
 }
 
+std::vector<fs::path> versionObjects(const CaseStore& store, const std::string& case_id, int version)
+{
+    const std::string prefix = "version-" + std::to_string(version) + "-";
+    std::vector<fs::path> files;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(reportFolder(store, case_id), none))
+        if (entry.path().filename().string().starts_with(prefix) && entry.path().extension() == ".dcm")
+            files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
 fs::path reportFile(CaseStore& store, const std::string& case_id, int number)
 {
     const fs::path folder = reportFolder(store, case_id);

@@ -273,14 +273,22 @@ VersionDraft draftVersion(CaseStore& store, const SigningOptions& options, const
     return draft;
 }
 
-ReportVersion keepVersion(CaseStore& store, const std::string& case_id, const VersionDraft& draft, std::string_view pdf)
+ReportVersion versionWith(const CaseStore& store, const std::string& case_id, const VersionDraft& draft,
+                          std::string_view pdf)
 {
-    ReportVersion kept = draft.version;
-    kept.content = draft.content.dump();
-    kept.file_sha256 = sha256(pdf);
-    kept.digest = digestOf(kept.content, kept.file_sha256);
+    ReportVersion version = draft.version;
+    version.content = draft.content.dump();
+    version.file_sha256 = sha256(pdf);
+    version.digest = digestOf(version.content, version.file_sha256);
+    version.file = reportFolder(store, case_id) / versionName(version.version);
+    return version;
+}
+
+ReportVersion keepVersion(CaseStore& store, const std::string& case_id, const VersionDraft& draft, std::string_view pdf,
+                          const VersionObjects& objects)
+{
+    const ReportVersion kept = versionWith(store, case_id, draft, pdf);
     makePrivateFolder(reportFolder(store, case_id));
-    kept.file = reportFolder(store, case_id) / versionName(kept.version);
     store.database().write([&](soci::session& sql) {
         requireNoneFaster(sql, case_id, kept);
         requireOpenReport(sql, case_id);
@@ -292,6 +300,10 @@ ReportVersion keepVersion(CaseStore& store, const std::string& case_id, const Ve
         // Last, and while nobody else can write: a kill before the commit leaves a file that no version names, which
         // the version that takes its number replaces.
         replaceFile(kept.file, pdf);
+        for (const fs::path& file : objects.files)
+            replaceFile(reportFolder(store, case_id) / file.filename(), readFile(file));
+        if (objects.also)
+            objects.also(sql, kept);
     });
     return kept;
 }

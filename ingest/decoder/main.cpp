@@ -14,12 +14,12 @@
 
 #include "confinement.h"
 #include "descriptor_stream.h"
-#include "dicom_setup.h"
 #include "encoding.h"
 #include "gdcm_codec.h"
 #include "helper_protocol.h"
 #include "jpeg_codec.h"
 #include "vicon/core/error.h"
+#include "vicon/dicom/dicom_setup.h"
 
 namespace vicon::ingest {
 namespace {

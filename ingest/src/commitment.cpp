@@ -6,7 +6,7 @@
 
 #include "association.h"
 #include "commitment_dataset.h"
-#include "dicom_setup.h"
+#include "vicon/dicom/dicom_setup.h"
 
 namespace vicon::ingest {
 namespace {

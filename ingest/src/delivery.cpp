@@ -8,11 +8,11 @@
 #include <chrono>
 #include <map>
 
-#include "dicom_setup.h"
 #include "vicon/cases/job_queue.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/uid.h"
+#include "vicon/dicom/dicom_setup.h"
 
 namespace fs = std::filesystem;
 

@@ -6,11 +6,11 @@
 #include <atomic>
 
 #include "dataset.h"
-#include "dicom_setup.h"
 #include "helper.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/printable.h"
+#include "vicon/dicom/dicom_setup.h"
 
 namespace fs = std::filesystem;
 

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <fstream>
 
-#include "dicom_setup.h"
 #include "helper.h"
 #include "pixel_format.h"
 #include "plane_reader.h"
@@ -12,6 +11,7 @@
 #include "structure_scan.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/dicom/dicom_setup.h"
 
 namespace fs = std::filesystem;
 

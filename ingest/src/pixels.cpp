@@ -14,13 +14,13 @@
 
 #include "compressed_frames.h"
 #include "dataset.h"
-#include "dicom_setup.h"
 #include "encoding.h"
 #include "helper.h"
 #include "rle.h"
 #include "stream_guard.h"
 #include "vicon/core/error.h"
 #include "vicon/core/volume.h"
+#include "vicon/dicom/dicom_setup.h"
 
 namespace vicon::ingest {
 namespace {

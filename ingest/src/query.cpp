@@ -7,8 +7,8 @@
 
 #include "association.h"
 #include "dataset.h"
-#include "dicom_setup.h"
 #include "vicon/core/error.h"
+#include "vicon/dicom/dicom_setup.h"
 
 namespace vicon::ingest {
 namespace {

@@ -11,12 +11,12 @@
 #include <thread>
 
 #include "caller_rules.h"
-#include "dicom_setup.h"
 #include "incoming.h"
 #include "listening_socket.h"
 #include "lobby.h"
 #include "storage_association.h"
 #include "vicon/core/error.h"
+#include "vicon/dicom/dicom_setup.h"
 
 namespace fs = std::filesystem;
 

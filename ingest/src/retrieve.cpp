@@ -3,10 +3,10 @@
 #include <map>
 
 #include "association.h"
-#include "dicom_setup.h"
 #include "helper.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/dicom/dicom_setup.h"
 #include "vicon/ingest/query.h"
 
 namespace fs = std::filesystem;

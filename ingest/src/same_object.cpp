@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "dicom_setup.h"
 #include "vicon/core/file.h"
+#include "vicon/dicom/dicom_setup.h"
 
 namespace fs = std::filesystem;
 

@@ -10,8 +10,8 @@
 
 #include "association.h"
 #include "dataset.h"
-#include "dicom_setup.h"
 #include "vicon/core/error.h"
+#include "vicon/dicom/dicom_setup.h"
 
 namespace fs = std::filesystem;
 

@@ -29,7 +29,8 @@ protected:
 
     SignKill()
     {
-        replaceFile(folder_ / "c.toml", "[report]\nsigners = [\"" + account() + "\"]\n");
+        replaceFile(folder_ / "c.toml", "[report]\nsigners = [\"" + account() + "\"]\nsend_to = [\"pacs\"]\n" +
+                                            "[peers]\npacs = { host = \"127.0.0.1\", port = 9 }\n");
         viconOn(store_, "import " + smallStudy().string());
         viconOn(store_, "work --until-idle");
         case_id_ = listedScans(store_).at(0).case_id;
@@ -69,12 +70,23 @@ protected:
         return running;
     }
     nlohmann::json audit() const { return viconJson(store_, "audit " + case_id_); }
-    std::size_t files() const
+    /// The last that happened to the report, not to what was queued of it.
+    static std::string lastEvent(const nlohmann::json& trail)
     {
-        std::error_code none;
+        std::string last;
+        for (const auto& entry : trail)
+            if (const std::string event = entry["event"];
+                event.find("report") != event.npos || event.find("amend") != event.npos)
+                last = event;
+        return last;
+    }
+    /// What waits for the peer and lies in the report's folder as it was queued.
+    std::size_t wholeObjects() const
+    {
         std::size_t count = 0;
-        for (const auto& entry : fs::directory_iterator(store_ / "cases" / case_id_ / "report", none))
-            count += entry.path().filename().string().starts_with("version-");
+        const nlohmann::json outbox = viconJson(store_, "outbox " + case_id_);
+        for (const auto& item : outbox["items"])
+            count += sha256OfFile(store_ / item["file"].get<std::string>()) == item["sha256"];
         return count;
     }
 };
@@ -100,8 +112,8 @@ TEST_F(SignKill, LeavesADraftOrASignedReport)
         open = now == versions;
         completed += !open;
         versions = now;
-        EXPECT_EQ(files(), versions) << "a file for each version, and none besides";
-        EXPECT_EQ(found["trail"].back()["event"], open ? "amendment begun" : "report amended");
+        EXPECT_EQ(wholeObjects(), 2 * versions) << "PDF and measurements of each version, and none besides";
+        EXPECT_EQ(lastEvent(found["trail"]), open ? "amendment begun" : "report amended");
     }
     EXPECT_GT(killed, 0);
     viconOn(store_, open ? "sign " + case_id_ + " --config " + (folder_ / "c.toml").string() : "cases");

@@ -1,8 +1,10 @@
 // Wherever a store lies, its database lies in it, for its owner alone.
 #include <gtest/gtest.h>
+#include <soci/soci.h>
 #include <sys/stat.h>
 
 #include "vicon/cases/case_store.h"
+#include "vicon/cases/database.h"
 #include "vicon/support/support.h"
 
 namespace fs = std::filesystem;
@@ -37,5 +39,35 @@ INSTANTIATE_TEST_SUITE_P(Names, StorePath,
                          testing::Values("plain", "with space", "two  spaces ", "quote\"d", "apostrophe's",
                                          "Übung-患者", "semi;colon", "equals=sign", "dbname=x timeout=1",
                                          "latin-\xe9"));
+
+/// Another program that opens the database and closes it, as every command does.
+void openAndCloseElsewhere(const fs::path& file)
+{
+    const auto result = support::runCommand("sqlite3 '" + file.string() + "' 'SELECT count(*) FROM cases'");
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+}
+
+TEST(Database, KeepsItsLogWhileAnotherConnectionOfThisProcessCloses)
+{
+    const support::TemporaryFolder folder;
+    const fs::path file = folder / "vicon.db";
+    Database kept(file);
+    const auto count = [](Database& database) {
+        int rows = 0;
+        database.session() << "SELECT count(*) FROM counters", soci::into(rows);
+        return rows;
+    };
+    for (int n = 1; n <= 3; ++n) {
+        std::make_unique<Database>(file).reset();
+        openAndCloseElsewhere(file);
+        EXPECT_TRUE(fs::exists(file.string() + "-wal")) << "another program took it away";
+        kept.write([&](soci::session& sql) {
+            sql << "INSERT INTO counters VALUES (:name, 1)", soci::use(std::to_string(n), "name");
+        });
+        EXPECT_EQ(count(kept), n);
+        Database fresh(file);
+        EXPECT_EQ(count(fresh), n) << "what was written is there for everybody";
+    }
+}
 
 }  // namespace

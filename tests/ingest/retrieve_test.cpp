@@ -119,10 +119,10 @@ TEST_F(Retrieve, HasASeriesMovedToTheReceiver)
     options.port = port;
     std::atomic<bool> stop = false;
     ingest::Receiver receiver(options, store.folder() / "incoming", {[&](const ingest::Receiver::Files& files) {
-        for (const fs::path& file : files)
-            got.insert(fingerprint(readFile(file)));
-        return ingest::Receiver::Files{};
-    }});
+                                  for (const fs::path& file : files)
+                                      got.insert(fingerprint(readFile(file)));
+                                  return ingest::Receiver::Files{};
+                              }});
     std::thread thread([&] { receiver.run(stop); });
     const auto result =
         ingest::moveSeries(orthanc.peer(), wanted.study_uid, {wanted.series_uid}, "VICON", "VICON", quiet);

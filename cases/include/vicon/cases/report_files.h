@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "vicon/cases/case_store.h"
 
@@ -14,6 +15,9 @@ std::filesystem::path reportFile(CaseStore& store, const std::string& case_id, i
 std::filesystem::path reportFolder(const CaseStore& store, const std::string& case_id);
 /// The name there of the file of a version that was given out.
 std::string versionName(int version);
+
+/// The DICOM objects of a version that was signed, by name: version-N-KIND.dcm.
+std::vector<std::filesystem::path> versionObjects(const CaseStore& store, const std::string& case_id, int version);
 
 /// How many reports of a case lie in the store.
 int countReports(const CaseStore& store, const std::string& case_id);

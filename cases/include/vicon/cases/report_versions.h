@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -14,11 +15,13 @@ namespace vicon {
 
 struct SigningOptions {
     std::vector<std::string> signers;
+    std::vector<std::string> send_to;
 
     template <class Visitor>
     void visit(Visitor&& v)
     {
         v("report.signers", signers, "", "Local accounts that may sign reports; none: nobody may.");
+        v("report.send_to", send_to, "", "Peers that every signed report goes to, by their names in [peers].");
     }
 };
 
@@ -89,10 +92,21 @@ struct VersionDraft {
 /// signature; for one who may not sign; where the report is signed already.
 VersionDraft draftVersion(CaseStore& store, const SigningOptions& options, const std::string& case_id, bool sign,
                           const std::string& software);
-/// Keeps it with its PDF, as a whole or not at all. Throws Error{bad_input} where the case is no longer what the draft
-/// says, also where somebody else was faster; Error{store} and Error{database} where it cannot be written. Nothing was
-/// kept then.
-ReportVersion keepVersion(CaseStore& store, const std::string& case_id, const VersionDraft& draft,
+/// The version that a draft becomes with this PDF, with its digest; nothing is kept yet.
+ReportVersion versionWith(const CaseStore& store, const std::string& case_id, const VersionDraft& draft,
                           std::string_view pdf);
+
+/// What is kept beside a version's PDF.
+struct VersionObjects {
+    /// Files outside the store; each goes into the case's report folder under its name, which versionObjects() knows.
+    std::vector<std::filesystem::path> files;
+    /// Runs last within the transaction, when all files lie in the folder; may be empty.
+    std::function<void(soci::session&, const ReportVersion&)> also = {};
+};
+/// Keeps it with its PDF and its objects, as a whole or not at all. Throws Error{bad_input} where the case is no longer
+/// what the draft says, also where somebody else was faster; Error{store} and Error{database} where it cannot be
+/// written. Nothing was kept then.
+ReportVersion keepVersion(CaseStore& store, const std::string& case_id, const VersionDraft& draft, std::string_view pdf,
+                          const VersionObjects& objects = {});
 
 }  // namespace vicon

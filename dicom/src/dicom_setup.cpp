@@ -1,4 +1,4 @@
-#include "dicom_setup.h"
+#include "vicon/dicom/dicom_setup.h"
 
 #include <dcmtk/config/osconfig.h>
 
@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <mutex>
 
-namespace vicon::ingest {
+namespace vicon {
 
 void setUpDicom()
 {
@@ -22,4 +22,4 @@ void setUpDicom()
     });
 }
 
-}  // namespace vicon::ingest
+}  // namespace vicon

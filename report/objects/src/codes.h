@@ -1,0 +1,35 @@
+#pragma once
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmsr/dsrdoc.h>
+
+#include "vicon/cases/assessment.h"
+#include "vicon/cases/finding.h"
+#include "vicon/core/colon_parts.h"
+
+namespace vicon::report {
+
+/// Of concepts that no standard has a code for.
+inline constexpr const char* kPrivateScheme = "99VICON";
+
+using Code = DSRCodedEntryValue;
+
+// PS3.16 and SNOMED CT, where they have a code; else our own.
+Code codeOf(FindingKind kind);
+Code codeOf(Morphology morphology);
+Code codeOf(Attenuation attenuation);
+Code codeOf(Confidence confidence);
+Code codeOf(ColonPart part);
+Code codeOf(ColonCategory category);
+Code codeOf(ExtracolonicCategory category);
+Code codeOf(Distension distension);
+Code codeOf(Grade grade);
+
+Code dcm(const char* value, const char* meaning);
+Code sct(const char* value, const char* meaning);
+Code loinc(const char* value, const char* meaning);
+Code ours(const std::string& value, const std::string& meaning);
+Code ucum(const char* unit, const char* meaning);
+
+}  // namespace vicon::report

@@ -1,0 +1,204 @@
+#include "measurement_report.h"
+
+#include "object_writing.h"
+#include "vicon/core/error.h"
+
+namespace vicon::report {
+namespace {
+
+constexpr auto kContains = DSRTypes::RT_contains;
+constexpr auto kObserved = DSRTypes::RT_hasObsContext;
+constexpr auto kMeaning = DSRTypes::RT_hasConceptMod;
+
+void require(const OFCondition& done)
+{
+    if (done.bad())
+        throw Error(ErrorCode::internal, std::string("the structured report cannot be written (") + done.text() + ")");
+}
+
+void addContext(SrTree& tree, const ReportVersion& version)
+{
+    tree.code(kMeaning, dcm("121049", "Language of Content Item and Descendants"), {"en", "RFC5646", "English"});
+    tree.code(kObserved, dcm("121005", "Observer Type"), dcm("121006", "Person"));
+    tree.person(kObserved, dcm("121008", "Person Observer Name"), version.person);
+    tree.code(kMeaning, dcm("121058", "Procedure reported"), loinc("60515-4", "CT Colon and Rectum W air contrast PR"));
+}
+
+void addLibrary(SrTree& tree, const MarkerImages& images)
+{
+    tree.container(kContains, dcm("111028", "Image Library"), "1600", [&] {
+        tree.container(kContains, dcm("126200", "Image Library Group"), nullptr, [&] {
+            std::set<std::string> listed;
+            for (const auto& [marker, image] : images)
+                if (listed.insert(image.sop_uid).second)
+                    tree.image(nullptr, image);
+        });
+    });
+}
+
+void addWords(SrTree& tree, const Assessment& said)
+{
+    tree.textWhereGiven(loinc("18785-6", "Indications for Procedure"), said.indication);
+    tree.textWhereGiven(dcm("121065", "Procedure Description"), said.technique);
+    tree.textWhereGiven(loinc("18834-2", "Comparison study"), said.comparison);
+    tree.textWhereGiven(dcm("121073", "Impression"), said.impression);
+    tree.textWhereGiven(dcm("121075", "Recommendation"), said.recommendation);
+}
+
+void addCategories(SrTree& tree, const Assessment& said)
+{
+    if (said.colon_category) {
+        tree.code(kContains, dcm("112222", "Colon Overall Assessment"), codeOf(said.colon_category->category));
+        tree.textWhereGiven(ours("COLON_WHY", "Why not the proposed colon category"), said.colon_category->why);
+    }
+    if (said.extracolonic_category) {
+        tree.code(kContains, ours("EXTRACOLONIC", "Extracolonic category (C-RADS)"),
+                  codeOf(said.extracolonic_category->category));
+        tree.textWhereGiven(ours("EXTRACOLONIC_WHY", "Why not the proposed extracolonic category"),
+                            said.extracolonic_category->why);
+    }
+    if (said.preparation)
+        tree.code(kContains, ours("PREPARATION", "Preparation"), codeOf(*said.preparation));
+    if (said.tagging)
+        tree.code(kContains, ours("TAGGING", "Tagging"), codeOf(*said.tagging));
+    if (said.inadequate)
+        tree.code(kContains, ours("LIMIT", "Limitation"),
+                  ours("INADEQUATE", "A lesion of 10 mm or more cannot be excluded"));
+    if (said.priors_awaited)
+        tree.code(kContains, ours("LIMIT", "Limitation"), ours("PRIORS_AWAITED", "Prior studies are awaited"));
+    if (said.extracolonic_limited)
+        tree.code(kContains, ours("LIMIT", "Limitation"),
+                  ours("EXTRACOLONIC_LIMITED", "What lies outside the colon cannot be judged"));
+}
+
+void addParts(SrTree& tree, const ReadCase& read)
+{
+    for (const PartState& state : read.parts)
+        tree.container(kContains, ours("PART", "Part of the colon in a scan"), nullptr, [&] {
+            tree.code(kMeaning, sct("363698007", "Finding Site"), codeOf(state.part));
+            for (const ScanRecord& scan : read.scans)
+                if (scan.id == state.scan_id)
+                    tree.uid(kObserved, dcm("112002", "Series Instance UID"), scan.series.uid);
+            tree.code(kContains, ours("DISTENSION", "Distension"), codeOf(state.distension));
+        });
+}
+
+void addExtracolonic(SrTree& tree, const Assessment& said)
+{
+    for (const ExtracolonicFinding& finding : said.extracolonic)
+        tree.container(kContains, ours("EXTRACOLONIC_FINDING", "Extracolonic finding"), nullptr, [&] {
+            tree.textWhereGiven(ours("ORGAN", "Organ"), finding.organ);
+            tree.textWhereGiven(dcm("121071", "Finding"), finding.text);
+            tree.code(kContains, ours("EXTRACOLONIC", "Extracolonic category (C-RADS)"), codeOf(finding.category));
+        });
+}
+
+void addStudyNumbers(SrTree& tree, const Assessment& said)
+{
+    if (said.dose_mgy_cm)
+        tree.number(dcm("113838", "CT Dose Length Product Total"), *said.dose_mgy_cm, ucum("mGy.cm", "mGy.cm"));
+    if (said.coverage_percent)
+        tree.number(ours("COVERAGE", "Wall that was seen"), *said.coverage_percent, ucum("%", "percent"));
+    if (said.reading_minutes)
+        tree.number(ours("READING_TIME", "Reading time"), *said.reading_minutes, ucum("min", "minute"));
+}
+
+void fillTree(DSRDocumentTree& document, const ObjectContent& content, const MarkerImages& images)
+{
+    SrTree tree(document);
+    const ReadCase& read = content.read;
+    tree.container(DSRTypes::RT_isRoot, dcm("126000", "Imaging Measurement Report"), "1500", [&] {
+        addContext(tree, content.version);
+        if (!images.empty())
+            addLibrary(tree, images);
+        tree.container(kContains, dcm("126010", "Imaging Measurements"), nullptr, [&] {
+            addFindings(tree, read, images);
+            addStudyNumbers(tree, read.assessment);
+        });
+        tree.container(kContains, {"C0034375", "UMLS", "Qualitative Evaluations"}, nullptr, [&] {
+            addCategories(tree, read.assessment);
+            addParts(tree, read);
+            addExtracolonic(tree, read.assessment);
+        });
+        addWords(tree, read.assessment);
+    });
+}
+
+/// The images that a document refers to, by study and series.
+void addEvidence(DSRDocument& document, const ObjectContent& content, const MarkerImages& images)
+{
+    for (const auto& [marker, image] : images)
+        require(document.getCurrentRequestedProcedureEvidence().addItem(
+            content.read.record.study.uid.c_str(), image.series_uid.c_str(), image.sop_class.c_str(),
+            image.sop_uid.c_str()));
+}
+
+void verify(DSRDocument& document, const ObjectContent& content)
+{
+    require(document.completeDocument("signed"));
+    const DicomTime at = timeOf(content.version);
+    const std::string& institution = content.read.record.study.institution;
+    require(document.verifyDocument(content.version.person.c_str(),
+                                    institution.empty() ? "not stated" : institution.c_str(),
+                                    (at.date + at.time).c_str()));
+}
+
+void putPredecessor(DcmDataset& d, const ObjectContent& content)
+{
+    DcmItem *study = nullptr, *series = nullptr, *object = nullptr;
+    if (d.findOrCreateSequenceItem(DCM_PredecessorDocumentsSequence, study, 0).bad() ||
+        study->findOrCreateSequenceItem(DCM_ReferencedSeriesSequence, series, 0).bad() ||
+        series->findOrCreateSequenceItem(DCM_ReferencedSOPSequence, object, 0).bad())
+        throw Error(ErrorCode::no_memory, "the structured report cannot be written");
+    put(*study, DCM_StudyInstanceUID, content.read.record.study.uid);
+    put(*series, DCM_SeriesInstanceUID, seriesUid(*content.amended, ObjectKind::measurements));
+    put(*object, DCM_ReferencedSOPClassUID, UID_Comprehensive3DSRStorage);
+    put(*object, DCM_ReferencedSOPInstanceUID, objectUid(*content.amended, ObjectKind::measurements));
+}
+
+}  // namespace
+
+ReportObject writeMeasurementReport(const ObjectContent& content, const MarkerImages& images,
+                                    const std::filesystem::path& folder)
+{
+    DSRDocument document;
+    require(document.createNewDocument(DSRTypes::DT_Comprehensive3DSR));
+    require(document.setSpecificCharacterSetType(DSRTypes::CS_UTF8));
+    fillTree(document.getTree(), content, images);
+    addEvidence(document, content, images);
+    if (content.version.isSigned())
+        verify(document, content);
+    require(document.setPreliminaryFlag(content.version.isSigned() ? DSRTypes::PF_Final : DSRTypes::PF_Preliminary));
+    DcmFileFormat format;
+    DcmDataset& d = *format.getDataset();
+    require(document.write(d));
+    putCommon(d, content, ObjectKind::measurements, "SR", "CT colonography measurements");
+    put(d, DCM_SOPClassUID, UID_Comprehensive3DSRStorage);
+    if (content.amended)
+        putPredecessor(d, content);
+    return save(format, content, ObjectKind::measurements, folder);
+}
+
+ReportObject writeKeyImages(const ObjectContent& content, const MarkerImages& images,
+                            const std::filesystem::path& folder)
+{
+    DSRDocument document;
+    require(document.createNewDocument(DSRTypes::DT_KeyObjectSelectionDocument));
+    require(document.setSpecificCharacterSetType(DSRTypes::CS_UTF8));
+    SrTree tree(document.getTree());
+    tree.container(DSRTypes::RT_isRoot, dcm("113000", "Of Interest"), "2010", [&] {
+        tree.text(kContains, dcm("113012", "Key Object Description"), "Slices that show the findings of the report");
+        std::set<std::string> listed;
+        for (const auto& [marker, image] : images)
+            if (listed.insert(image.sop_uid).second)
+                tree.image(nullptr, image);
+    });
+    addEvidence(document, content, images);
+    DcmFileFormat format;
+    DcmDataset& d = *format.getDataset();
+    require(document.write(d));
+    putCommon(d, content, ObjectKind::key_images, "KO", "Slices with findings");
+    return save(format, content, ObjectKind::key_images, folder);
+}
+
+}  // namespace vicon::report

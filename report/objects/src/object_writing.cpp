@@ -1,0 +1,131 @@
+#include "object_writing.h"
+
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+#include "vicon/core/uid.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon::report {
+namespace {
+
+constexpr int kFirstSeriesNumber = 9901;  // behind those of scanners
+
+std::string uidOf(const ReportVersion& version, const std::string& what)
+{
+    return uidFor("vicon report\n" + version.digest + "\n" + what);
+}
+
+}  // namespace
+
+DicomTime timeOf(const ReportVersion& version)
+{
+    std::string digits;
+    for (const char c : version.at)
+        if (c >= '0' && c <= '9')
+            digits += c;
+    constexpr std::size_t kDate = 8, kTime = 6;
+    return {digits.substr(0, kDate), digits.size() >= kDate + kTime ? digits.substr(kDate, kTime) : ""};
+}
+
+std::string nameOf(ObjectKind kind)
+{
+    switch (kind) {
+        case ObjectKind::pdf:
+            return "pdf";
+        case ObjectKind::measurements:
+            return "sr";
+        case ObjectKind::key_images:
+            return "key";
+    }
+    return "object";
+}
+
+std::string objectUid(const ReportVersion& version, ObjectKind kind)
+{
+    return uidOf(version, nameOf(kind));
+}
+
+std::string seriesUid(const ReportVersion& version, ObjectKind kind)
+{
+    return uidOf(version, "series of " + nameOf(kind));
+}
+
+int seriesNumber(ObjectKind kind)
+{
+    return kFirstSeriesNumber + int(kind);
+}
+
+void put(DcmItem& item, const DcmTagKey& tag, const std::string& value)
+{
+    if (const OFCondition done = item.putAndInsertString(tag, value.c_str()); done.bad())
+        throw Error(ErrorCode::bad_input,
+                    std::string("an element of the report's object cannot be written (") + done.text() + ")",
+                    DcmTag(tag).getTagName());
+}
+
+void putCode(DcmItem& item, const DcmTagKey& tag, const char* value, const char* scheme, const char* meaning)
+{
+    DcmItem* code = nullptr;
+    item.findAndDeleteElement(tag);
+    if (item.findOrCreateSequenceItem(tag, code, 0).bad())
+        throw Error(ErrorCode::no_memory, "the report's object cannot be written");
+    put(*code, DCM_CodeValue, value);
+    put(*code, DCM_CodingSchemeDesignator, scheme);
+    put(*code, DCM_CodeMeaning, meaning);
+}
+
+void putCommon(DcmDataset& d, const ObjectContent& content, ObjectKind kind, const char* modality,
+               const char* description)
+{
+    const CaseRecord& record = content.read.record;
+    const ReportVersion& version = content.version;
+    const DicomTime at = timeOf(version);
+    put(d, DCM_SpecificCharacterSet, "ISO_IR 192");
+    put(d, DCM_TimezoneOffsetFromUTC, "+0000");
+    put(d, DCM_SOPInstanceUID, objectUid(version, kind));
+    put(d, DCM_InstanceCreationDate, at.date);
+    put(d, DCM_InstanceCreationTime, at.time);
+    put(d, DCM_PatientName, record.patient.name);
+    put(d, DCM_PatientID, record.patient.id);
+    put(d, DCM_PatientBirthDate, record.patient.birth_date);
+    put(d, DCM_PatientSex, record.patient.sex);
+    put(d, DCM_StudyInstanceUID, record.study.uid);
+    put(d, DCM_StudyDate, record.study.date);
+    put(d, DCM_StudyTime, record.study.time);
+    put(d, DCM_StudyID, record.study.id);
+    put(d, DCM_StudyDescription, record.study.description);
+    put(d, DCM_AccessionNumber, record.study.accession_number);
+    put(d, DCM_ReferringPhysicianName, record.study.referring_physician);
+    put(d, DCM_Modality, modality);
+    put(d, DCM_SeriesInstanceUID, seriesUid(version, kind));
+    put(d, DCM_SeriesNumber, std::to_string(seriesNumber(kind)));
+    put(d, DCM_SeriesDescription, description);
+    put(d, DCM_SeriesDate, at.date);
+    put(d, DCM_SeriesTime, at.time);
+    put(d, DCM_InstanceNumber, std::to_string(version.version));
+    put(d, DCM_ContentDate, at.date);
+    put(d, DCM_ContentTime, at.time);
+    put(d, DCM_Manufacturer, "VICON");
+    put(d, DCM_ManufacturerModelName, "VICON");
+    put(d, DCM_DeviceSerialNumber, "1");
+    put(d, DCM_SoftwareVersions, version.software);
+}
+
+ReportObject save(DcmFileFormat& format, const ObjectContent& content, ObjectKind kind, const fs::path& folder)
+{
+    OFString sop_class, sop_uid;
+    format.getDataset()->findAndGetOFString(DCM_SOPClassUID, sop_class);
+    format.getDataset()->findAndGetOFString(DCM_SOPInstanceUID, sop_uid);
+    const fs::path file = folder / ("version-" + std::to_string(content.version.version) + "-" + nameOf(kind) + ".dcm");
+    replaceFile(file, [&](const fs::path& temporary) {
+        const OFCondition saved = format.saveFile(temporary.c_str(), EXS_LittleEndianExplicit, EET_ExplicitLength,
+                                                  EGL_withoutGL, EPD_withoutPadding);
+        if (saved.bad())
+            throw Error(ErrorCode::store, std::string("the object cannot be written (") + saved.text() + ")",
+                        file.filename().string(), "see whether the disk is full");
+    });
+    return {kind, sop_class.c_str(), sop_uid.c_str(), file};
+}
+
+}  // namespace vicon::report

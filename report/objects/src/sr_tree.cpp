@@ -1,0 +1,99 @@
+#include "sr_tree.h"
+
+#include <array>
+#include <charconv>
+#include <cstdio>
+
+#include "vicon/core/error.h"
+
+namespace vicon::report {
+namespace {
+
+/// At most the 16 characters of a DS.
+std::string decimalString(double value)
+{
+    std::array<char, 64> text{};
+    for (int digits = 15; digits > 0; --digits)
+        if (std::snprintf(text.data(), text.size(), "%.*g", digits, value) <= 16)
+            break;
+    return text.data();
+}
+
+}  // namespace
+
+void SrTree::check(const OFCondition& done, const std::optional<Code>& concept_name)
+{
+    if (done.bad())
+        throw Error(ErrorCode::internal, std::string("the structured report cannot be written (") + done.text() + ")",
+                    concept_name ? concept_name->getCodeMeaning().c_str() : "");
+}
+
+void SrTree::add(Relation relation, DSRTypes::E_ValueType type, const std::optional<Code>& concept_name)
+{
+    if (tree_.addContentItem(relation, type, DSRTypes::AM_belowCurrent) == 0)
+        check(SR_EC_CannotAddContentItem, concept_name);
+    if (concept_name)
+        check(item().setConceptName(*concept_name), concept_name);
+}
+
+void SrTree::close(const OFCondition& done, const std::optional<Code>& concept_name)
+{
+    check(done, concept_name);
+    tree_.goUp();
+}
+
+void SrTree::text(Relation relation, const Code& concept_name, const std::string& value)
+{
+    add(relation, DSRTypes::VT_Text, concept_name);
+    close(item().setStringValue(value.c_str()), concept_name);
+}
+
+void SrTree::textWhereGiven(const Code& concept_name, const std::string& value)
+{
+    if (!value.empty())
+        text(DSRTypes::RT_contains, concept_name, value);
+}
+
+void SrTree::code(Relation relation, const Code& concept_name, const Code& value)
+{
+    add(relation, DSRTypes::VT_Code, concept_name);
+    close(item().setCodeValue(value), concept_name);
+}
+
+void SrTree::person(Relation relation, const Code& concept_name, const std::string& name)
+{
+    add(relation, DSRTypes::VT_PName, concept_name);
+    close(item().setStringValue(name.c_str()), concept_name);
+}
+
+void SrTree::uid(Relation relation, const Code& concept_name, const std::string& value)
+{
+    add(relation, DSRTypes::VT_UIDRef, concept_name);
+    close(item().setStringValue(value.c_str()), concept_name);
+}
+
+void SrTree::number(const Code& concept_name, double value, const Code& unit)
+{
+    add(DSRTypes::RT_contains, DSRTypes::VT_Num, concept_name);
+    DSRNumericMeasurementValue measured(decimalString(value).c_str(), unit);
+    check(measured.setFloatingPointRepresentation(value), concept_name);
+    close(item().setNumericValue(measured), concept_name);
+}
+
+void SrTree::image(const Code* concept_name, const SourceImage& image)
+{
+    const auto name = concept_name ? std::optional(*concept_name) : std::nullopt;
+    add(DSRTypes::RT_contains, DSRTypes::VT_Image, name);
+    close(item().setImageReference(DSRImageReferenceValue(image.sop_class.c_str(), image.sop_uid.c_str())), name);
+}
+
+void SrTree::point(const Code& concept_name, Point3 position_mm, const std::string& frame_of_reference_uid)
+{
+    add(DSRTypes::RT_contains, DSRTypes::VT_SCoord3D, concept_name);
+    DSRSpatialCoordinates3DValue point(DSRTypes::GT3_Point);
+    point.getGraphicDataList().addItem(Float32(position_mm.x), Float32(position_mm.y), Float32(position_mm.z));
+    check(point.setFrameOfReferenceUID(frame_of_reference_uid.c_str()), concept_name);
+    close(item().setSpatialCoordinates3D(point), concept_name);
+}
+
+}  // namespace vicon::report

@@ -1,0 +1,108 @@
+// From the signature to the archive: every object of a report arrives, is committed to, and is found there.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "orthanc.h"
+#include "study.h"
+#include "vicon/ingest/sender.h"
+
+namespace vicon::support {
+namespace {
+
+namespace fs = std::filesystem;
+
+using test::freePort;
+using test::Orthanc;
+
+/// 'vicon receive', which delivers the outbox and takes the archive's answers.
+class Listener {
+public:
+    Listener(const fs::path& store, const fs::path& config)
+    {
+        process_ = ::fork();
+        if (process_ == 0) {
+            if (!::freopen((store.parent_path() / "listener.log").c_str(), "w", stderr) ||
+                !::freopen("/dev/null", "w", stdout))
+                ::_exit(126);
+            ::execl(viconBinary().c_str(), "vicon", "receive", "--no-work", "--store", store.c_str(), "--config",
+                    config.c_str(), nullptr);
+            ::_exit(127);
+        }
+    }
+    ~Listener()
+    {
+        ::kill(process_, SIGTERM);
+        ::waitpid(process_, nullptr, 0);
+    }
+    Listener(const Listener&) = delete;
+    Listener& operator=(const Listener&) = delete;
+
+private:
+    pid_t process_ = -1;
+};
+
+class SentReport : public testing::Test {
+protected:
+    TemporaryFolder folder_;
+    const int port_ = freePort();
+    Orthanc orthanc_{folder_ / "orthanc", port_};
+    const fs::path store_ = folder_ / "store", config_ = folder_ / "c.toml";
+    std::string case_id_;
+
+    void SetUp() override
+    {
+        std::string account = runCommand("id -un").output;
+        account.erase(account.find_last_not_of('\n') + 1);
+        replaceFile(config_, "[receive]\nport = " + std::to_string(port_) + "\n[report]\nsigners = [\"" + account +
+                                 "\"]\nsend_to = [\"pacs\"]\n[outbox]\nfirst_backoff_s = 0.2\ncommitment_s = 5\n" +
+                                 "[peers]\npacs = { host = \"127.0.0.1\", port = " +
+                                 std::to_string(orthanc_.peer().port) + ", ae_title = \"ORTHANC\" }\n");
+        viconOn(store_, "import " + smallStudy().string());
+        case_id_ = listedScans(store_).at(0).case_id;
+        viconOn(store_, "assess " + case_id_ + " --c-rads C1 --why test --e-rads E1 --e-why test");
+        ASSERT_TRUE(orthanc_.answers());
+    }
+    void run(const std::string& arguments) { viconOn(store_, arguments + " --config " + config_.string()); }
+    std::string sent() { return viconJson(store_, "cases")["cases"][0]["delivery"]; }
+    /// What the archive holds of this kind of object: the body of a GET below each instance.
+    std::vector<std::string> held(const std::string& what)
+    {
+        std::vector<std::string> out;
+        for (const std::string id : nlohmann::json::parse(orthanc_.get("/instances")))
+            out.push_back(orthanc_.get("/instances/" + id + what));
+        return out;
+    }
+};
+
+TEST_F(SentReport, IsStoredCommittedAndFoundInTheArchive)
+{
+    const Listener listener(store_, config_);
+    run("sign " + case_id_);
+    EXPECT_TRUE(waitUntil([&] { return sent() == "2 committed"; })) << sent() << readFile(folder_ / "listener.log");
+    EXPECT_THAT(held("/content/0008-0060"),
+                testing::UnorderedElementsAre(testing::StartsWith("DOC"), testing::StartsWith("SR")));
+    const std::string pdf = readFile(store_ / "cases" / case_id_ / "report" / "version-1.pdf");
+    EXPECT_THAT(held("/pdf"), testing::Contains(testing::StartsWith(pdf))) << "an even length may add one byte";
+    EXPECT_EQ(nlohmann::json::parse(orthanc_.get("/studies")).size(), 1u) << "in one study";
+    run("amend " + case_id_ + " --reason 'another word'");
+    run("sign " + case_id_);
+    EXPECT_TRUE(waitUntil([&] { return sent() == "4 committed"; })) << sent() << readFile(folder_ / "listener.log");
+    EXPECT_EQ(orthanc_.objects(), 4u);
+    run("send " + case_id_ + " pacs");
+    EXPECT_EQ(sent(), "4 committed") << "nothing is sent twice";
+}
+
+TEST_F(SentReport, IsNotSignedWhereAPeerItShallGoToIsNotConfigured)
+{
+    const auto refused = runVicon("sign " + case_id_ + " --store " + store_.string() + " --config " + config_.string() +
+                                  " --set 'report.send_to=[\"nobody\"]'");
+    EXPECT_EQ(refused.exit_code, 2) << refused.output;
+    EXPECT_THAT(refused.output, testing::HasSubstr("no peer of that name"));
+    EXPECT_TRUE(viconJson(store_, "audit " + case_id_)["versions"].empty());
+    EXPECT_TRUE(viconJson(store_, "outbox")["items"].empty());
+}
+
+}  // namespace
+}  // namespace vicon::support
