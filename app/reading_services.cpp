@@ -11,9 +11,11 @@
 #include "vicon/cases/bridges.h"
 #include "vicon/cases/corrections.h"
 #include "vicon/cases/placing.h"
+#include "vicon/cases/report_content.h"
 #include "vicon/cases/worklist.h"
 #include "vicon/ingest/receiver.h"
 #include "vicon/pipeline/worker.h"
+#include "vicon/report/forms.h"
 
 namespace fs = std::filesystem;
 
@@ -53,6 +55,43 @@ void addCorrectionServices(viewer::ReadingServices& services, const Config& conf
     services.work = [&config](CaseStore& store, const std::atomic<bool>& stop) { runQueue(store, config, stop); };
 }
 
+std::string textOfReport(CaseStore& store, const std::string& case_id)
+{
+    const std::vector<ReportVersion> versions = reportVersions(store, case_id);
+    if (versions.empty() || reportStatus(store, case_id).open())
+        return report::asText(readCase(store, case_id), std::nullopt);
+    return report::asText(readCaseFromContent(nlohmann::json::parse(versions.back().content)), versions.back());
+}
+
+std::string pdfOfReport(CaseStore& store, const Config& config, const std::string& case_id)
+{
+    const std::vector<ReportVersion> versions = reportVersions(store, case_id);
+    if (!versions.empty() && !reportStatus(store, case_id).open())
+        return readFile(versions.back().file);
+    const PictureFolder folder;
+    NoProgress progress;
+    return readFile(writeReport(store, config, case_id, folder / "preview.pdf", progress).file);
+}
+
+void addReportServices(viewer::ReportServices& services, const Config& config)
+{
+    services.texts = config.get<ReportTexts>();
+    services.text = textOfReport;
+    services.pdf = [&config](CaseStore& store, const std::string& case_id) {
+        return pdfOfReport(store, config, case_id);
+    };
+    services.sign = [&config](CaseStore& store, const std::string& case_id) {
+        NoProgress progress;
+        return giveOutReport(store, config, case_id, true, progress).version;
+    };
+    services.amend = [&config](CaseStore& store, const std::string& case_id, const std::string& reason) {
+        beginAmendment(store, config.get<SigningOptions>(), case_id, reason);
+    };
+    services.cancel_amendment = [&config](CaseStore& store, const std::string& case_id) {
+        cancelAmendment(store, config.get<SigningOptions>(), case_id);
+    };
+}
+
 std::string receiverOf(const Config& config)
 {
     const auto options = config.get<ingest::ReceiverOptions>();
@@ -82,6 +121,7 @@ viewer::ReadingServices readingServices(const fs::path& store, const Config& con
         return importOf(store, config.get<MarkOptions>(), case_id, file);
     };
     addCorrectionServices(services, config);
+    addReportServices(services.reporting, config);
     services.report = [&config](CaseStore& store, const std::string& case_id) {
         NoProgress progress;
         return writeReport(store, config, case_id, {}, progress).file;

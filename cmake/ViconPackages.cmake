@@ -59,7 +59,7 @@ endif()
 find_package(VTK 9 REQUIRED COMPONENTS CommonCore CommonDataModel FiltersCore IOOggTheora IOXML RenderingCore
              RenderingFreeType RenderingOpenGL2)
 if(VICON_BUILD_VIEWER)
-  find_package(Qt5 REQUIRED COMPONENTS Core Gui Widgets Test)
+  find_package(Qt5 REQUIRED COMPONENTS Core Gui Widgets Pdf PdfWidgets Test)
 endif()
 if(VICON_BUILD_TESTS)
   find_package(GTest REQUIRED)

@@ -4,6 +4,7 @@
 #include "../text_table.h"
 #include "vicon/cases/outbox.h"
 #include "vicon/cases/placing.h"
+#include "vicon/cases/report_texts.h"
 #include "vicon/cases/report_versions.h"
 #include "vicon/ingest/import.h"
 #include "vicon/ingest/receiver.h"
@@ -51,6 +52,7 @@ Config declaredConfig()
     config.declare(specsOf<MarkOptions>());
     config.declare(specsOf<report::ReportOptions>());
     config.declare(specsOf<SigningOptions>());
+    config.declare(specsOf<ReportTexts>());
     config.declare(specsOf<OutboxOptions>());
     return config;
 }

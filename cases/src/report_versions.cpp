@@ -287,7 +287,7 @@ ReportVersion versionWith(const CaseStore& store, const std::string& case_id, co
 ReportVersion keepVersion(CaseStore& store, const std::string& case_id, const VersionDraft& draft, std::string_view pdf,
                           const VersionObjects& objects)
 {
-    const ReportVersion kept = versionWith(store, case_id, draft, pdf);
+    ReportVersion kept = versionWith(store, case_id, draft, pdf);
     makePrivateFolder(reportFolder(store, case_id));
     store.database().write([&](soci::session& sql) {
         requireNoneFaster(sql, case_id, kept);

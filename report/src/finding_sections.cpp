@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::array<TableColumn, 8> kFindingColumns = {{{"No.", 0},
                                                          {"Finding", 0.05},
-                                                         {"Size", 0.32},
-                                                         {"Place", 0.42},
+                                                         {"Size", 0.285},
+                                                         {"Place", 0.375},
                                                          {"From rectum", 0.62},
                                                          {"Endoscope, est.", 0.74},
                                                          {"Scans", 0.87},

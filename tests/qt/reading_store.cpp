@@ -8,6 +8,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/scan_files/skeleton_file.h"
+#include "vicon/support/support.h"
 
 namespace fs = std::filesystem;
 
@@ -142,6 +143,31 @@ void addMarkerFiles(ReadingServices& services)
     };
 }
 
+SigningOptions signedHere()
+{
+    std::string account = support::runCommand("id -un").output;
+    account.erase(account.find_last_not_of('\n') + 1);
+    return {{account}, {}};
+}
+
+void addReporting(ReadingServices& services)
+{
+    ReportServices& reporting = services.reporting;
+    reporting.texts.technique = "Low dose, tagged.";
+    reporting.text = [](CaseStore&, const std::string& case_id) { return "the report of " + case_id; };
+    reporting.pdf = [](CaseStore&, const std::string&) { return readFile(VICON_A_PDF); };
+    reporting.sign = [](CaseStore& store, const std::string& case_id) {
+        const VersionDraft draft = draftVersion(store, signedHere(), case_id, true, "test");
+        return keepVersion(store, case_id, draft, readFile(VICON_A_PDF));
+    };
+    reporting.amend = [](CaseStore& store, const std::string& case_id, const std::string& reason) {
+        beginAmendment(store, signedHere(), case_id, reason);
+    };
+    reporting.cancel_amendment = [](CaseStore& store, const std::string& case_id) {
+        cancelAmendment(store, signedHere(), case_id);
+    };
+}
+
 }  // namespace
 
 ReadingServices servicesFor(const fs::path& folder)
@@ -186,6 +212,7 @@ ReadingServices servicesFor(const fs::path& folder)
     addBridges(services, said);
     addWork(services, said);
     addMarkerFiles(services);
+    addReporting(services);
     return services;
 }
 

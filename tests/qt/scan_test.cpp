@@ -38,6 +38,7 @@ TEST_F(RealScan, IsReadFromWorklistToReportAndAllIsBackAfterReopening)
     ASSERT_NO_FATAL_FAILURE(circleAndTakeDensity());
     ASSERT_NO_FATAL_FAILURE(keepPictureAndMarkers());
     ASSERT_NO_FATAL_FAILURE(writeReport());
+    ASSERT_NO_FATAL_FAILURE(signReport());
     ASSERT_NO_FATAL_FAILURE(closeAndReopen());
     EXPECT_EQ(stored(case_id_.c_str()).size(), 2U);
     closeCase();

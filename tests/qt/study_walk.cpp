@@ -42,6 +42,9 @@ void StudyReader::openStore(const fs::path& store, const std::string& name)
     for (const Marker& marker : opened.markers(case_id_))  // of somebody who looked at the kept store
         opened.removeMarker(case_id_, marker.id);
     config_ = app::declaredConfig();
+    std::string account = support::runCommand("id -un").output;
+    account.erase(account.find_last_not_of('\n') + 1);
+    config_->set("report.signers=[\"" + account + "\"]");
     openRoom(app::readingServices(store_, *config_));
 }
 
@@ -127,7 +130,7 @@ std::vector<std::string> StudyReader::filesIn(const fs::path& folder)
 void StudyWalk::markAndEdit()
 {
     jumpTo(length() * 0.6);
-    place(Qt::Key_1, {80, 60});
+    place(Qt::Key_1, {140, 60});
     writeNote(0, "sessile, on a fold");
     auto* color = the<QComboBox>("markerColor");
     color->setFocus();
@@ -156,7 +159,7 @@ void StudyWalk::markAndEdit()
 
 void StudyWalk::measure()
 {
-    const QPoint first = middle("endoscopic") + QPoint(80, 60);
+    const QPoint first = middle("endoscopic") + QPoint(140, 60);
     key(Qt::Key_M);
     click("endoscopic", first);
     click("endoscopic", first + QPoint(24, 24));
@@ -184,7 +187,7 @@ void StudyWalk::lookBelowTheWall()
 void StudyWalk::circleAndTakeDensity()
 {
     auto* view = the<QWidget>("endoscopic");
-    const QPoint at = middle("endoscopic") + QPoint(80, 60);
+    const QPoint at = middle("endoscopic") + QPoint(140, 60);
     key(Qt::Key_T);
     QTest::mousePress(view, Qt::LeftButton, {}, at);
     for (int n = 1; n <= 5; ++n)
@@ -215,6 +218,47 @@ void StudyWalk::writeReport()
         << warning();
     screenshot("reported");
     EXPECT_EQ(warning(), "");
+}
+
+void StudyWalk::signReport()
+{
+    const auto ready = [] { return the<QPushButton>("reportPreview")->isEnabled(); };
+    key(Qt::Key_R, Qt::ControlModifier);
+    ASSERT_TRUE(eventually([&] { return the<QPushButton>("findingAdd")->isEnabled() && ready(); })) << warning();
+    press(window(), "findingAdd");
+    ASSERT_TRUE(eventually([&] { return the<QTableWidget>("findings")->rowCount() == 2 && ready(); })) << warning();
+    ASSERT_TRUE(eventually([] { return the<QLabel>("findingPicture")->isVisible(); }));
+    auto* size = the<QDoubleSpinBox>("findingSize");
+    size->setFocus();
+    size->selectAll();
+    QTest::keyClicks(size, "8");
+    QTest::keyClick(size, Qt::Key_Tab);
+    ASSERT_TRUE(eventually([&] { return the<QLabel>("colonCategoryReason")->text().contains("C2a") && ready(); }))
+        << the<QLabel>("colonCategoryReason")->text().toStdString();
+    press(window(), "reportAccept");
+    ASSERT_TRUE(eventually([] { return the<QPushButton>("reportSign")->isEnabled(); }));
+    screenshot("form");
+    press(window(), "reportPreview");
+    QWidget* pages = nullptr;
+    ASSERT_TRUE(eventually([&] {
+        for (QWidget* widget : QApplication::topLevelWidgets())
+            if (widget->objectName() == "reportPreview" && widget->isVisible())
+                pages = widget;
+        return pages != nullptr;
+    })) << warning();
+    QTest::qWait(3 * kSettle_ms);  // its pages are drawn behind the window's back
+    pages->grab().save(QString(VICON_SCREENSHOTS "/%1-preview.png").arg(QString::fromStdString(name_)));
+    pages->close();
+    window()->activateWindow();
+    press(window(), "reportSign");
+    ASSERT_TRUE(eventually([] { return QApplication::activeModalWidget() != nullptr; }));
+    QApplication::activeModalWidget()->findChild<QPushButton*>("confirmSign")->click();
+    ASSERT_TRUE(eventually([&] { return the<QLabel>("reportState")->text().contains("signed") && ready(); }))
+        << warning();
+    screenshot("signed");
+    EXPECT_EQ(warning(), "");
+    window()->activateWindow();
+    key(Qt::Key_R, Qt::ControlModifier);
 }
 
 void StudyWalk::closeAndReopen()

@@ -38,6 +38,8 @@ protected:
     void circleAndTakeDensity();
     void keepPictureAndMarkers();
     void writeReport();
+    /// Findings of the markers, categories as proposed, the pages looked at, signed.
+    void signReport();
     void closeAndReopen();
 };
 

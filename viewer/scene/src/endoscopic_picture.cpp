@@ -102,6 +102,8 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
         note.text += ", " + std::to_string(std::lround(distance(place.pose.eye_mm, *request.look_at_mm))) + " mm away";
     note.color = kTextColor;
     lines.push_back(note);
+    if (!request.captioned)
+        lines.clear();
     if (!request.peel.empty()) {
         note.text = peelingText(request);
         lines.push_back(note);

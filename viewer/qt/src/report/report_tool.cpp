@@ -1,18 +1,195 @@
 #include "report/report_tool.h"
 
+#include <QApplication>
+#include <QClipboard>
+#include <QDockWidget>
+#include <QInputDialog>
+#include <QMessageBox>
+#include <QPushButton>
+
 #include "reading/reading.h"
+#include "report/findings_part.h"
+#include "report/report_form.h"
+#include "report/report_preview.h"
+#include "vicon/cases/printed.h"
 #include "window/reading_layout.h"
 
 namespace vicon::viewer {
 
+ReportTool::ReportTool(Reading& reading, const ReadingServices& services, const std::string& case_id)
+    : ReadingTool(reading), books_(services, case_id, this), form_(new ReportForm(services.reporting.texts))
+{
+}
+
 void ReportTool::addTo(ReadingLayout& layout)
 {
+    dock_ = layout.addForm(form_, tr("Report"));
+    layout.addAction(ReadingMenu::a_case, tr("Report: findings, categories, signature"), QKeySequence("Ctrl+R"),
+                     [this] { toggle(); });
     layout.addAction(ReadingMenu::a_case, tr("Write report"), QKeySequence("Ctrl+P"), [this] {
         reading_.say(tr("Writing the report ..."));
         reading_.session().writeReport();
     });
     connect(&reading_.session(), &CaseSession::reportWritten, this,
             [this](const QString& file) { reading_.say(tr("Report written: %1").arg(file)); });
+    connectBooks();
+    connectForm();
+}
+
+void ReportTool::connectBooks()
+{
+    connect(&books_, &ReportBooks::shown, form_, &ReportForm::show);
+    connect(&books_, &ReportBooks::busyChanged, form_, &ReportForm::setBusy);
+    connect(&books_, &ReportBooks::said, &reading_, &Reading::say);
+    connect(&books_, &ReportBooks::warned, &reading_, &Reading::warn);
+    connect(&books_, &ReportBooks::pdfMade, this, &ReportTool::preview);
+    connect(&books_, &ReportBooks::textMade, this, [this](const QString& text) {
+        QApplication::clipboard()->setText(text);
+        reading_.say(tr("The report is on the clipboard, as text"));
+    });
+}
+
+void ReportTool::connectForm()
+{
+    connect(form_, &ReportForm::said, &books_, &ReportBooks::say);
+    connect(form_, &ReportForm::textWanted, &books_, &ReportBooks::makeText);
+    connect(form_, &ReportForm::previewWanted, this, [this] {
+        reading_.say(tr("Drawing the pages ..."));
+        books_.makePdf();
+    });
+    connect(form_, &ReportForm::signWanted, this, &ReportTool::confirmSigning);
+    connect(form_, &ReportForm::amendWanted, this, &ReportTool::askWhyAmend);
+    connect(form_, &ReportForm::cancelWanted, &books_, &ReportBooks::cancelAmendment);
+    connect(form_, &ReportForm::leaveWanted, this, &ReportTool::leave);
+    FindingsPart* findings = form_->findings();
+    connect(findings, &FindingsPart::changed, &books_, &ReportBooks::changeFinding);
+    connect(findings, &FindingsPart::addWanted, &books_, &ReportBooks::addFindings);
+    connect(findings, &FindingsPart::removeWanted, &books_, &ReportBooks::removeFinding);
+    connect(findings, &FindingsPart::joinWanted, this, [this](const std::string& finding) {
+        if (shown_marker_.empty())
+            reading_.say(tr("Go to the marker first, in the list of markers"));
+        else
+            books_.join(finding, {shown_marker_});
+    });
+    connect(findings, &FindingsPart::pictureWanted, this, &ReportTool::drawFinding);
+    connect(&reading_.drawing(), &DrawingThread::findingDrawn, this,
+            [this](const QString& finding, const Picture& drawn) {
+                form_->findings()->showPicture(
+                    finding,
+                    QImage(drawn.rgb.data(), drawn.width, drawn.height, 3 * drawn.width, QImage::Format_RGB888).copy());
+            });
+    connect(findings, &FindingsPart::flyWanted, this, [this](const QString& id) {
+        if (const auto marker = reading_.session().marker(id.toStdString()))
+            reading_.showMarker(*marker);
+    });
+}
+
+void ReportTool::useWords(const OrganWords& words)
+{
+    has_report_ = words.organ == wordsFor("colon").organ;
+    if (!has_report_)
+        dock_->hide();
+}
+
+void ReportTool::scanOpened(const Arrival&)
+{
+    form_->findings()->askForPicture();
+}
+
+void ReportTool::markersChanged()
+{
+    if (dock_->isVisible())
+        books_.refresh();
+}
+
+void ReportTool::markerShown(const Marker& marker)
+{
+    shown_marker_ = marker.id;
+}
+
+void ReportTool::stop()
+{
+    form_->commit();
+}
+
+void ReportTool::toggle()
+{
+    if (!has_report_) {
+        reading_.say(tr("There is a report of a colon only."));
+        return;
+    }
+    if (dock_->isVisible() && form_->isAncestorOf(QApplication::focusWidget())) {
+        leave();
+        dock_->hide();
+        return;
+    }
+    dock_->show();
+    books_.refresh();
+    form_->takeKeyboard();
+}
+
+void ReportTool::leave()
+{
+    form_->commit();
+    reading_.views().endoscopic()->setFocus();
+}
+
+void ReportTool::drawFinding(const QString& finding, const QStringList& markers)
+{
+    constexpr int kSide_px = 360;
+    const CaseSession& session = reading_.session();
+    for (const QString& id : markers)
+        for (const auto& scan : {session.sharedScan(), session.sharedBeside()}) {
+            const auto marker = session.marker(id.toStdString());
+            if (!scan || !marker || marker->scan_id != scan->record.id)
+                continue;
+            const ViewPose view = viewOfMarker(*scan, *marker);
+            NavigationState at;
+            at.pose = view.pose;
+            at.station_mm = view.station_mm;
+            at.clearance_mm = view.clearance_mm;
+            EndoscopicRequest request = reading_.requestFor(*scan, at, QSize(kSide_px, kSide_px), true);
+            request.snapshot.captioned = false;  // it is small, and the form is this patient's
+            request.snapshot.markers = {*marker};
+            request.snapshot.peel.clear();
+            reading_.drawing().drawFinding(scan, request, finding);
+            return;
+        }
+}
+
+void ReportTool::confirmSigning()
+{
+    form_->commit();
+    auto* box = new QMessageBox(QMessageBox::Question, tr("Sign the report"), form_->summary(), QMessageBox::Cancel,
+                                form_->window());
+    box->setObjectName("confirmSigning");
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    QPushButton* sign = box->addButton(tr("Sign"), QMessageBox::AcceptRole);
+    sign->setObjectName("confirmSign");
+    box->setDefaultButton(sign);
+    connect(sign, &QPushButton::clicked, this, [this] {
+        reading_.say(tr("Signing ..."));
+        books_.sign();
+    });
+    box->open();
+}
+
+void ReportTool::askWhyAmend()
+{
+    auto* ask = new QInputDialog(form_->window());
+    ask->setObjectName("whyAmend");
+    ask->setAttribute(Qt::WA_DeleteOnClose);
+    ask->setWindowTitle(tr("Amend the report"));
+    ask->setLabelText(tr("Why is it amended? The signed version stays, and the new one refers to it."));
+    connect(ask, &QInputDialog::textValueSelected, &books_, &ReportBooks::amend);
+    ask->open();
+}
+
+void ReportTool::preview(const QByteArray& pdf)
+{
+    auto* pages = new ReportPreview(pdf, form_->window());
+    pages->show();
+    reading_.say({});
 }
 
 }  // namespace vicon::viewer

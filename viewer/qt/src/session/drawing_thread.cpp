@@ -97,6 +97,16 @@ void DrawingThread::draw(Which which, std::shared_ptr<OpenScan> scan, const Endo
     });
 }
 
+void DrawingThread::drawFinding(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request,
+                                const QString& finding)
+{
+    worker_.post("finding", [this, scan = std::move(scan), request, finding](AllPictures& all) -> Worker::Work {
+        auto picture = std::make_shared<Picture>(picturesOf(all, scan).endoscopic(
+            request.snapshot, request.place, true, {nullptr, false, request.lamp_factor}));
+        return [this, picture, finding] { emit findingDrawn(finding, *picture); };
+    });
+}
+
 void DrawingThread::countSeen(AllPictures& all, const std::shared_ptr<OpenScan>& scan, bool always)
 {
     for (ScanPictures& some : all) {

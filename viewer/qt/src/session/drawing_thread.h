@@ -48,6 +48,8 @@ public:
     /// The same of the other scan; besideDrawn() follows.
     void drawBeside(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
     void drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place);
+    /// What a finding looks like, for the report's form; findingDrawn() follows.
+    void drawFinding(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, const QString& finding);
     /// A picture of a film, looking along the path from the request's station; filmed() follows.
     /// @param last the film is finished with it
     void film(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, Heading heading,
@@ -59,6 +61,7 @@ signals:
     void besideDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownPicture& shown);
     void overviewDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::PlaneView& view,
                        const std::shared_ptr<vicon::viewer::OpenScan>& of);
+    void findingDrawn(const QString& finding, const vicon::viewer::Picture& picture);
     void seenChanged();
     /// The wall can be drawn with ambient occlusion from now on.
     void wallShaded();

@@ -5,6 +5,7 @@
 #include <QAbstractSlider>
 #include <QAbstractSpinBox>
 #include <QComboBox>
+#include <QDockWidget>
 #include <QKeyEvent>
 #include <QTabBar>
 
@@ -41,6 +42,14 @@ bool moves(const QKeyEvent& key)
     }
 }
 
+bool isInForm(const QWidget* control)
+{
+    for (; control; control = control->parentWidget())
+        if (qobject_cast<const QDockWidget*>(control))
+            return true;
+    return false;
+}
+
 }  // namespace
 
 ControlKeys::ControlKeys(QWidget* window, QWidget* picture) : QObject(window), picture_(picture)
@@ -48,6 +57,8 @@ ControlKeys::ControlKeys(QWidget* window, QWidget* picture) : QObject(window), p
     for (QWidget* control : window->findChildren<QWidget*>()) {
         if (control->window() != window)
             continue;  // an open list has all keys anyway
+        if (isInForm(control))
+            continue;
         const bool is_list = qobject_cast<QComboBox*>(control) || qobject_cast<QAbstractItemView*>(control);
         const bool is_slider = qobject_cast<QAbstractSlider*>(control);
         const bool is_pressed = qobject_cast<QAbstractButton*>(control) || qobject_cast<QTabBar*>(control);

@@ -12,7 +12,8 @@ namespace vicon::viewer {
 class ControlKeys : public QObject {
     Q_OBJECT
 public:
-    /// Of all controls that the window has by now. @param picture has the keyboard unless it is given to another
+    /// Of all controls that the window has by now, but for those of a form: its keys are its own. @param picture has
+    /// the keyboard unless it is given to another
     ControlKeys(QWidget* window, QWidget* picture);
 
 protected:

@@ -1,6 +1,7 @@
 #include "window/reading_layout.h"
 
 #include <QAction>
+#include <QDockWidget>
 #include <QFrame>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -103,6 +104,17 @@ void ReadingLayout::addStatus(QWidget* status)
 {
     window_.statusBar()->addPermanentWidget(status);
     status_.push_back(status);
+}
+
+QDockWidget* ReadingLayout::addForm(QWidget* form, const QString& title)
+{
+    auto* dock = new QDockWidget(title, &window_);
+    dock->setObjectName(form->objectName() + "Dock");
+    dock->setWidget(form);
+    dock->setAllowedAreas(Qt::LeftDockWidgetArea | Qt::RightDockWidgetArea);
+    window_.addDockWidget(Qt::RightDockWidgetArea, dock);
+    dock->hide();
+    return dock;
 }
 
 QMenu* ReadingLayout::menuOf(ReadingMenu menu)

@@ -8,6 +8,7 @@
 #include "reading/reading_views.h"
 
 class QAction;
+class QDockWidget;
 class QHBoxLayout;
 class QLabel;
 class QMenu;
@@ -37,6 +38,8 @@ public:
     /// It has one table, which Return and the arrow keys act on.
     void addList(QWidget* list, const QString& title);
     void addStatus(QWidget* status);
+    /// Beside views and controls, hidden until it is shown; it can be taken out into a window of its own.
+    QDockWidget* addForm(QWidget* form, const QString& title);
     QAction* addAction(ReadingMenu menu, const QString& title, const QKeySequence& key, std::function<void()> what);
     /// @param key may be empty
     QAction* addSwitch(ReadingMenu menu, const QString& title, const QKeySequence& key);

@@ -35,7 +35,7 @@ ReadingTools makeReadingTools(Reading& reading, const ReadingServices& services,
     add(std::make_unique<PictureTool>(reading));
     add(std::make_unique<FilmTool>(reading));
     add(std::make_unique<MarkerTool>(reading));
-    add(std::make_unique<ReportTool>(reading));
+    add(std::make_unique<ReportTool>(reading, services, case_row.record.id));
     add(std::make_unique<MeasuringTool>(reading));
     const auto* peeling = add(std::make_unique<PeelingTool>(reading));
     add(std::make_unique<BiopsyTool>(reading, peeling->panel()));

@@ -9,12 +9,26 @@
 
 #include "vicon/cases/bridges.h"
 #include "vicon/cases/case_store.h"
+#include "vicon/cases/report_texts.h"
+#include "vicon/cases/report_versions.h"
 #include "vicon/cases/worklist.h"
 #include "vicon/core/corrections.h"
 
 class QWidget;
 
 namespace vicon::viewer {
+
+/// What the report's form needs from rooms it does not know, as below.
+struct ReportServices {
+    ReportTexts texts;
+    /// As plain text: the last version that was given out, or the draft while the report is open.
+    std::function<std::string(CaseStore&, const std::string& case_id)> text;
+    /// The bytes of the PDF of the same.
+    std::function<std::string(CaseStore&, const std::string& case_id)> pdf;
+    std::function<ReportVersion(CaseStore&, const std::string& case_id)> sign;
+    std::function<void(CaseStore&, const std::string& case_id, const std::string& reason)> amend;
+    std::function<void(CaseStore&, const std::string& case_id)> cancel_amendment;
+};
 
 /// What the reading room needs from rooms it does not know; `app` gives it. Each is called on a thread other than the
 /// window's, with that thread's connection to the store.
@@ -41,6 +55,7 @@ struct ReadingServices {
     /// The change that adds the markers of a file, placed.
     std::function<std::vector<MarkerEdit>(CaseStore&, const std::string& case_id, const std::filesystem::path&)>
         import_markers;
+    ReportServices reporting;
 };
 
 /// The worklist's window; it opens cases in windows of their own. `case_id` not empty: opens that case at once.

@@ -33,6 +33,7 @@ struct SnapshotRequest {
     double station_mm = 0;             ///< used without `look_at_mm`; beyond the ends: the end
     std::vector<Marker> markers;       ///< drawn where they are in view
     Caption caption;
+    bool captioned = true;          ///< endo: who, when and where is written into the picture
     int width = 0;                  ///< pixels, kLeastSide to kMostSide; 0: 1024
     int height = 0;                 ///< 0: 768, or 1024 for the overview
     double pixel_ratio = 1;         ///< of the screen that it is shown on; text is as high there as on any other

@@ -1,0 +1,242 @@
+// The report's form beside the views: from markers to a signed report, by keyboard and mouse.
+#include <gmock/gmock.h>
+
+#include <QCheckBox>
+#include <QClipboard>
+#include <QComboBox>
+#include <QDialog>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QInputDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMessageBox>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QTableWidget>
+
+#include "reading.h"
+#include "vicon/cases/findings.h"
+#include "vicon/cases/report_versions.h"
+
+namespace vicon::viewer {
+namespace {
+
+using test::Reading;
+
+class Form : public Reading {
+protected:
+    void SetUp() override
+    {
+        Reading::SetUp();
+        openCase();
+    }
+    void openForm()
+    {
+        key(Qt::Key_R, Qt::ControlModifier);
+        ASSERT_TRUE(eventually([&] { return form()->isVisible() && state().startsWith("Report:") && ready(); }));
+        ASSERT_TRUE(eventually([] { return the<QComboBox>("distension-rectum-supine")->isVisible(); }));
+    }
+    static QWidget* form() { return the<QWidget>("reportForm"); }
+    static QString state() { return the<QLabel>("reportState")->text(); }
+    static bool ready() { return the<QPushButton>("reportPreview")->isEnabled(); }
+    /// To what has the keyboard.
+    static void type(int which, Qt::KeyboardModifiers modifiers = {})
+    {
+        QTest::keyClick(QApplication::focusWidget(), Qt::Key(which), modifiers);
+    }
+    static void tabTo(const char* name)
+    {
+        constexpr int kMost = 120;
+        std::string way;
+        for (int n = 0; n < kMost && QApplication::focusWidget()->objectName() != name; ++n) {
+            type(Qt::Key_Tab);
+            way += QApplication::focusWidget()->objectName().toStdString() + " ";
+        }
+        ASSERT_EQ(QApplication::focusWidget()->objectName().toStdString(), name) << way;
+    }
+    static void choose(const char* combo, int down)
+    {
+        ASSERT_NO_FATAL_FAILURE(tabTo(combo));
+        for (int n = 0; n < down; ++n)
+            type(Qt::Key_Down);
+    }
+    template <class T>
+    static bool dialog(const char* name, T** found)
+    {
+        return eventually([&] {
+            for (QWidget* widget : QApplication::topLevelWidgets())
+                for (T* one : widget->findChildren<T*>(name) + QList<T*>{qobject_cast<T*>(widget)})
+                    if (one && one->objectName() == name && one->isVisible())
+                        *found = one;
+            return *found != nullptr;
+        });
+    }
+    Assessment said() { return assessmentOf(*store(), test::kCase); }
+    std::vector<Finding> found() { return findings(*store(), test::kCase); }
+    std::unique_ptr<CaseStore> store() const { return std::make_unique<CaseStore>(store_); }
+    void sign()
+    {
+        type(Qt::Key_G, Qt::AltModifier);
+        QMessageBox* box = nullptr;
+        ASSERT_TRUE(dialog("confirmSigning", &box));
+        screenshot("form-confirm");
+        box->findChild<QPushButton*>("confirmSign")->click();
+        window()->activateWindow();
+        ASSERT_TRUE(eventually([&] { return state().contains("signed") && ready(); }))
+            << state().toStdString() << warning();
+    }
+    /// A study without findings, said by keyboard alone.
+    void sayNormal()
+    {
+        ASSERT_NO_FATAL_FAILURE(choose("distension-rectum-supine", 1));
+        ASSERT_TRUE(eventually([&] { return the<QPushButton>("reportNormal")->isEnabled(); }));
+        type(Qt::Key_L, Qt::AltModifier);
+        ASSERT_TRUE(eventually([&] { return the<QPushButton>("reportSign")->isEnabled(); }));
+    }
+};
+
+TEST_F(Form, IsSignedByKeyboardAloneForANormalStudy)
+{
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    EXPECT_FALSE(the<QPushButton>("reportSign")->isEnabled());
+    EXPECT_THAT(the<QLabel>("reportMissing")->text().toStdString(), testing::HasSubstr("category"));
+    ASSERT_NO_FATAL_FAILURE(sayNormal());
+    EXPECT_EQ(nameOf(said().colon_category->category), "C1");
+    EXPECT_EQ(said().technique, "Low dose, tagged.") << "as the site has it";
+    EXPECT_EQ(said().preparation, Grade::good);
+    screenshot("form-normal");
+    ASSERT_NO_FATAL_FAILURE(sign());
+    EXPECT_EQ(reportStatus(*store(), test::kCase).state, ReportState::final);
+    EXPECT_FALSE(the<QPlainTextEdit>("impression")->isEnabled());
+    EXPECT_FALSE(the<QPushButton>("reportSign")->isVisible());
+    screenshot("form-signed");
+}
+
+TEST_F(Form, IsOpenedAgainByAnAmendmentThatCanBeTakenBack)
+{
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    ASSERT_NO_FATAL_FAILURE(sayNormal());
+    ASSERT_NO_FATAL_FAILURE(sign());
+    press(window(), "reportAmend");
+    QInputDialog* why = nullptr;
+    ASSERT_TRUE(dialog("whyAmend", &why));
+    why->setTextValue("a word was missing");
+    why->accept();
+    window()->activateWindow();
+    ASSERT_TRUE(eventually([] { return state().contains("amendment") && ready(); }));
+    auto* impression = the<QPlainTextEdit>("impression");
+    QTest::mouseClick(impression->viewport(), Qt::LeftButton);
+    QTest::keyClicks(impression, "Normal.");
+    type(Qt::Key_Tab);
+    ASSERT_TRUE(eventually([&] { return said().impression == "Normal." && ready(); }));
+    press(window(), "reportCancel");
+    ASSERT_TRUE(eventually([] { return state().contains("signed") && ready(); }));
+    EXPECT_EQ(said().impression, "");
+    EXPECT_EQ(the<QPlainTextEdit>("impression")->toPlainText(), "");
+}
+
+TEST_F(Form, MakesAFindingOfMarkersAndKeepsWhatIsSaidOfIt)
+{
+    key(Qt::Key_2);
+    click("endoscopic", middle("endoscopic") + QPoint(90, 60));
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    const double at = stored()[0].station_mm;
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    EXPECT_THAT(the<QLabel>("looseMarkers")->text().toStdString(), testing::HasSubstr("m1"));
+    type(Qt::Key_N, Qt::AltModifier);
+    ASSERT_TRUE(eventually([&] { return the<QTableWidget>("findings")->rowCount() == 1; })) << warning();
+    EXPECT_THAT(found().at(0).markers, testing::ElementsAre("m1"));
+    ASSERT_NO_FATAL_FAILURE(choose("morphology", 1));
+    ASSERT_TRUE(eventually([&] { return found()[0].morphology == Morphology::sessile; }));
+    ASSERT_NO_FATAL_FAILURE(tabTo("findingSize"));
+    QTest::keyClicks(QApplication::focusWidget(), "12.5");
+    type(Qt::Key_Tab);
+    ASSERT_TRUE(eventually([&] { return found()[0].read_size_mm == 12.5; }));
+    ASSERT_NO_FATAL_FAILURE(tabTo("findingNote"));
+    QTest::keyClicks(QApplication::focusWidget(), "1 of 2, N");  // commands of the window elsewhere
+    type(Qt::Key_Tab);
+    ASSERT_TRUE(eventually([&] { return found()[0].note == "1 of 2, N"; }));
+    EXPECT_EQ(stored().size(), 1U);
+    EXPECT_TRUE(eventually([] { return the<QLabel>("colonCategoryReason")->text().contains("C3"); }));
+    EXPECT_TRUE(eventually([] { return the<QLabel>("findingPicture")->isVisible(); }));
+    screenshot("form-finding");
+    type(Qt::Key_Escape);
+    key(Qt::Key_End);
+    ASSERT_TRUE(eventually([] { return length() - station() < 2; }));
+    clickRow(the<QTableWidget>("findings"), 0);
+    EXPECT_TRUE(eventually([&] { return std::abs(station() - at) < 40; })) << "flies there";
+    press(window(), "findingRemove");
+    ASSERT_TRUE(eventually([&] { return found().empty(); }));
+    EXPECT_EQ(stored().size(), 1U) << "its marker stays";
+}
+
+TEST_F(Form, AsksWhyWhereTheChosenCategoryIsNotTheProposedOne)
+{
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    ASSERT_NO_FATAL_FAILURE(choose("distension-rectum-supine", 1));
+    ASSERT_TRUE(eventually([] { return the<QPushButton>("reportNormal")->isEnabled(); }));
+    form()->setFocus();
+    ASSERT_NO_FATAL_FAILURE(choose("colonCategoryChoice", 1));  // C0
+    EXPECT_EQ(QApplication::focusWidget()->objectName(), "colonCategoryWhy");
+    EXPECT_FALSE(said().colon_category) << "not without a reason";
+    QTest::keyClicks(QApplication::focusWidget(), "stool everywhere");
+    type(Qt::Key_Return);
+    ASSERT_TRUE(eventually([&] { return said().colon_category.has_value(); }));
+    EXPECT_EQ(nameOf(said().colon_category->category), "C0");
+    EXPECT_EQ(said().colon_category->why, "stool everywhere");
+}
+
+TEST_F(Form, KeepsWhatAnotherReaderSaidFirst)
+{
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    Assessment other;
+    other.impression = "somebody else's";
+    saveAssessment(*store(), test::kCase, {}, other);
+    ASSERT_NO_FATAL_FAILURE(choose("preparation", 1));
+    EXPECT_TRUE(eventually([] { return !warning().empty(); }));
+    EXPECT_EQ(the<QPlainTextEdit>("impression")->toPlainText(), "somebody else's");
+    EXPECT_FALSE(said().preparation);
+}
+
+TEST_F(Form, ListsWhatLiesOutsideTheColon)
+{
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    ASSERT_NO_FATAL_FAILURE(tabTo("extracolonicOrgan"));
+    QTest::keyClicks(QApplication::focusWidget(), "kidney");
+    type(Qt::Key_Tab);
+    QTest::keyClicks(QApplication::focusWidget(), "cyst of 20 mm");
+    type(Qt::Key_Return);
+    ASSERT_TRUE(eventually([&] { return said().extracolonic.size() == 1; }));
+    EXPECT_EQ(said().extracolonic[0].organ, "kidney");
+    EXPECT_EQ(said().extracolonic[0].category, ExtracolonicCategory::e1);
+    ASSERT_TRUE(eventually([] { return the<QTableWidget>("extracolonic")->rowCount() == 1 && ready(); }));
+    clickRow(the<QTableWidget>("extracolonic"), 0);
+    press(window(), "extracolonicRemove");
+    EXPECT_TRUE(eventually([&] { return said().extracolonic.empty(); }));
+}
+
+TEST_F(Form, ShowsItsPagesAndGivesItsText)
+{
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    type(Qt::Key_P, Qt::AltModifier);
+    QDialog* pages = nullptr;
+    ASSERT_TRUE(dialog("reportPreview", &pages));
+    EXPECT_THAT(pages->windowTitle().toStdString(), testing::HasSubstr("2 page"));
+    pages->close();
+    window()->activateWindow();
+    press(window(), "reportCopy");
+    EXPECT_TRUE(eventually([] { return QApplication::clipboard()->text() == "the report of c1"; }));
+}
+
+TEST_F(Form, LosesNoWordThatWasBeingTypedWhenTheWindowCloses)
+{
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    ASSERT_NO_FATAL_FAILURE(tabTo("indication"));
+    QTest::keyClicks(QApplication::focusWidget(), "Screening.");
+    closeCase();
+    EXPECT_EQ(said().indication, "Screening.");
+}
+
+}  // namespace
+}  // namespace vicon::viewer

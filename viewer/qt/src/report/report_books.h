@@ -1,0 +1,73 @@
+#pragma once
+
+#include <QObject>
+#include <functional>
+#include <optional>
+
+#include "session/own_store.h"
+#include "vicon/cases/report_content.h"
+#include "vicon/viewer/qt/reading_room.h"
+#include "widgets/worker_with.h"
+
+namespace vicon::viewer {
+
+/// What the form shows, as the database has it.
+struct ReportPage {
+    ReadCase read;
+    ReportStatus status;
+    std::vector<std::string> missing;  ///< for a signature
+    std::string delivery;              ///< "2 committed"; empty: nothing was to be sent
+};
+
+/// Findings, what is said of the study, and the report's state, on a thread of their own. A change is applied to what
+/// this reader saw last, and refused where another reader was faster; the page follows in either case.
+class ReportBooks : public QObject {
+    Q_OBJECT
+public:
+    ReportBooks(const ReadingServices& services, std::string case_id, QObject* parent);
+
+    void refresh();
+    void say(std::function<void(Assessment&)> change);
+    void changeFinding(const std::string& id, std::function<void(Finding&)> change);
+    /// One of each of these markers, with those that it is paired with: all in one step, or none.
+    void addFindings(const std::vector<std::string>& markers);
+    /// These markers and their partners show this finding as well.
+    void join(const std::string& id, const std::vector<std::string>& markers);
+    /// Its markers stay.
+    void removeFinding(const std::string& id);
+    void sign();
+    void amend(const QString& reason);
+    void cancelAmendment();
+    /// textMade() follows.
+    void makeText();
+    /// pdfMade() follows, or warned().
+    void makePdf();
+    bool busy() const { return under_way_ > 0; }
+
+signals:
+    void shown(const vicon::viewer::ReportPage& page);
+    void said(const QString& what);
+    void warned(const QString& what);
+    void textMade(const QString& text);
+    void pdfMade(const QByteArray& pdf);
+    void busyChanged(bool busy);
+
+private:
+    struct Books {
+        explicit Books(std::filesystem::path folder) : store(std::move(folder)) {}
+        OwnStore store;
+        std::optional<ReadCase> seen;  ///< what was shown last
+    };
+    using Change = std::function<void(CaseStore&, const ReadCase& seen)>;
+    /// @param done is said when it is done; may be empty
+    void change(const QString& done, Change change);
+    void end();
+    ReportPage pageOf(CaseStore& store) const;
+
+    const ReportServices services_;
+    const std::string case_id_;
+    int under_way_ = 0;
+    WorkerWith<Books> books_;  // last: it ends first
+};
+
+}  // namespace vicon::viewer

@@ -1,0 +1,290 @@
+#include "report/report_form.h"
+
+#include <QGridLayout>
+#include <QGroupBox>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QVBoxLayout>
+
+#include "report/category_part.h"
+#include "report/distension_part.h"
+#include "report/extracolonic_part.h"
+#include "report/findings_part.h"
+#include "report/study_part.h"
+#include "vicon/cases/printed.h"
+#include "widgets/panel_parts.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr int kLeastWidth_px = 400;
+
+template <class Category>
+CategoryPart::State stateOf(const Proposal<Category>& proposal, const std::optional<Chosen<Category>>& chosen)
+{
+    CategoryPart::State state;
+    state.reason = proposal.reason;
+    if (proposal.category)
+        state.proposed = nameOf(*proposal.category);
+    if (chosen) {
+        state.chosen = nameOf(chosen->category);
+        state.why = chosen->why;
+    }
+    return state;
+}
+
+template <class Category>
+void accept(std::optional<Chosen<Category>>& chosen, const Proposal<Category>& proposal)
+{
+    if (proposal.category && (!chosen || chosen->category != *proposal.category))
+        chosen = {*proposal.category, "", proposal.category};
+}
+
+std::vector<std::string> colonNames()
+{
+    std::vector<std::string> names;
+    for (const auto category : {ColonCategory::c0, ColonCategory::c1, ColonCategory::c2a, ColonCategory::c2b,
+                                ColonCategory::c3, ColonCategory::c4})
+        names.push_back(nameOf(category));
+    return names;
+}
+
+std::vector<std::string> outsideNames()
+{
+    std::vector<std::string> names;
+    for (const auto category :
+         {ExtracolonicCategory::e0, ExtracolonicCategory::e1, ExtracolonicCategory::e3, ExtracolonicCategory::e4})
+        names.push_back(nameOf(category));
+    return names;
+}
+
+}  // namespace
+
+ReportForm::ReportForm(const ReportTexts& texts, QWidget* parent) : QWidget(parent), texts_(texts)
+{
+    setObjectName("reportForm");
+    setMinimumWidth(kLeastWidth_px);
+    build();
+    connectParts();
+}
+
+void ReportForm::build()
+{
+    auto* all = new QVBoxLayout(this);
+    state_ = new QLabel(this);
+    state_->setObjectName("reportState");
+    state_->setWordWrap(true);
+    all->addWidget(state_);
+    all->addWidget(buildScrolled(), 1);
+    missing_ = new QLabel(this);
+    missing_->setObjectName("reportMissing");
+    missing_->setWordWrap(true);
+    missing_->setStyleSheet("color: #ff9a4a;");
+    all->addWidget(missing_);
+    buildButtons(all);
+}
+
+QWidget* ReportForm::buildScrolled()
+{
+    auto* area = new QScrollArea(this);
+    area->setWidgetResizable(true);
+    area->setFocusPolicy(Qt::NoFocus);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    auto* inside = new QWidget(area);
+    auto* column = new QVBoxLayout(inside);
+    const auto group = [&](const QString& title, std::initializer_list<QWidget*> parts) {
+        auto* box = new QGroupBox(title, inside);
+        auto* rows = new QVBoxLayout(box);
+        for (QWidget* part : parts)
+            rows->addWidget(part);
+        column->addWidget(box);
+    };
+    findings_ = new FindingsPart(inside);
+    extracolonic_ = new ExtracolonicPart(inside);
+    colon_ = new CategoryPart("colonCategory", tr("Colon"), colonNames(), inside);
+    outside_ = new CategoryPart("outsideCategory", tr("Outside it"), outsideNames(), inside);
+    study_ = new StudyPart(inside);
+    distension_ = new DistensionPart(inside);
+    group(tr("Findings"), {findings_});
+    group(tr("Outside the colon"), {extracolonic_});
+    group(tr("C-RADS"), {colon_, outside_});
+    group(tr("Study"), {study_});
+    group(tr("Distension"), {distension_});
+    column->addStretch(1);
+    area->setWidget(inside);
+    return area;
+}
+
+void ReportForm::buildButtons(QVBoxLayout* below)
+{
+    auto* grid = new QGridLayout;
+    const auto add = [&](int row, int column, const char* name, const QString& title, const QString& tip) {
+        auto* button = new QPushButton(title, this);
+        button->setObjectName(name);
+        button->setToolTip(tip);
+        grid->addWidget(button, row, column);
+        return button;
+    };
+    normal_ = add(0, 0, "reportNormal", tr("Norma&l study"), {});
+    accept_ = add(0, 1, "reportAccept", tr("&Accept categories"), tr("Choose both categories as proposed"));
+    cancel_ = add(0, 2, "reportCancel", tr("Take back"), tr("Without the amendment: all as it was signed"));
+    preview_ = add(1, 0, "reportPreview", tr("&Preview"), tr("The pages as they are printed"));
+    text_ = add(1, 1, "reportCopy", tr("Copy as &text"), tr("For another system, by pasting"));
+    // Never both at once.
+    sign_ = add(1, 2, "reportSign", tr("Si&gn ..."), tr("After that the report can only be amended"));
+    amend_ = add(1, 2, "reportAmend", tr("Amen&d ..."), tr("Open the signed report again; it stays as it is"));
+    below->addLayout(grid);
+}
+
+void ReportForm::connectParts()
+{
+    connect(extracolonic_, &ExtracolonicPart::said, this, &ReportForm::said);
+    connect(study_, &StudyPart::said, this, &ReportForm::said);
+    connect(distension_, &DistensionPart::said, this, &ReportForm::said);
+    connect(colon_, &CategoryPart::chosen, this,
+            [this](const std::optional<std::string>& name, const std::string& why) {
+                emit said([name, why, proposed = page_.read.colon_proposal.category](Assessment& a) {
+                    a.colon_category.reset();
+                    if (name)
+                        a.colon_category = {colonCategoryFrom(*name), why, proposed};
+                });
+            });
+    connect(outside_, &CategoryPart::chosen, this,
+            [this](const std::optional<std::string>& name, const std::string& why) {
+                emit said([name, why, proposed = page_.read.extracolonic_proposal.category](Assessment& a) {
+                    a.extracolonic_category.reset();
+                    if (name)
+                        a.extracolonic_category = {extracolonicCategoryFrom(*name), why, proposed};
+                });
+            });
+    connect(normal_, &QPushButton::clicked, this, &ReportForm::fillNormal);
+    connect(accept_, &QPushButton::clicked, this,
+            [this] { emit said([this, read = page_.read](Assessment& a) { acceptCategories(a, read); }); });
+    connect(preview_, &QPushButton::clicked, this, &ReportForm::previewWanted);
+    connect(text_, &QPushButton::clicked, this, &ReportForm::textWanted);
+    connect(sign_, &QPushButton::clicked, this, &ReportForm::signWanted);
+    connect(amend_, &QPushButton::clicked, this, &ReportForm::amendWanted);
+    connect(cancel_, &QPushButton::clicked, this, &ReportForm::cancelWanted);
+}
+
+void ReportForm::acceptCategories(Assessment& said, const ReadCase& read) const
+{
+    accept(said.colon_category, read.colon_proposal);
+    accept(said.extracolonic_category, read.extracolonic_proposal);
+}
+
+void ReportForm::fillNormal()
+{
+    emit said([this, read = page_.read](Assessment& a) {
+        fillAsNormal(a, texts_);
+        acceptCategories(a, read);
+    });
+}
+
+void ReportForm::show(const ReportPage& page)
+{
+    page_ = page;
+    findings_->show(page.read);
+    extracolonic_->show(page.read);
+    study_->show(page.read);
+    distension_->show(page.read);
+    orderTabs();
+    colon_->show(stateOf(page.read.colon_proposal, page.read.assessment.colon_category));
+    outside_->show(stateOf(page.read.extracolonic_proposal, page.read.assessment.extracolonic_category));
+    showState(page);
+}
+
+// Some controls come with the scans.
+void ReportForm::orderTabs()
+{
+    const std::vector<QWidget*> order = reachableIn(this);
+    for (std::size_t n = 1; n < order.size(); ++n)
+        QWidget::setTabOrder(order[n - 1], order[n]);
+}
+
+void ReportForm::showState(const ReportPage& page)
+{
+    const bool open = page.status.open();
+    QString state = tr("Report: %1").arg(QString::fromStdString(textOf(page.status)));
+    if (!page.delivery.empty())
+        state += tr("; PACS: %1").arg(QString::fromStdString(page.delivery));
+    state_->setText(state);
+    QStringList missing;
+    for (const std::string& line : page.missing)
+        missing << QString::fromStdString(line);
+    missing_->setText(tr("Before it can be signed: %1").arg(missing.join("; ")));
+    missing_->setVisible(open && !missing.empty());
+    findings_->setReadOnly(!open);
+    for (QWidget* part : std::initializer_list<QWidget*>{extracolonic_, colon_, outside_, study_, distension_})
+        part->setEnabled(open);
+    for (QPushButton* button : {normal_, accept_, sign_})
+        button->setVisible(open);
+    amend_->setVisible(!open);
+    cancel_->setVisible(page.status.amending);
+    const bool normal = page.read.findings.empty() && page.read.colon_proposal.category == ColonCategory::c1;
+    normal_->setEnabled(!busy_ && normal);
+    normal_->setToolTip(normal ? tr("Fill in what the site says of a study without findings, and choose both "
+                                    "categories as proposed")
+                               : QString::fromStdString(page.read.colon_proposal.reason));
+    accept_->setEnabled(!busy_ && (page.read.colon_proposal.category || page.read.extracolonic_proposal.category));
+    sign_->setEnabled(!busy_ && missing.empty());
+}
+
+void ReportForm::setBusy(bool busy)
+{
+    busy_ = busy;
+    for (QPushButton* button : {preview_, text_, amend_, cancel_})
+        button->setEnabled(!busy);
+    if (!page_.read.record.id.empty())
+        showState(page_);
+}
+
+void ReportForm::commit()
+{
+    if (QWidget* focus = focusWidget())
+        focus->clearFocus();
+}
+
+QString ReportForm::summary() const
+{
+    const Assessment& said = page_.read.assessment;
+    const auto name = [](const auto& chosen) {
+        return chosen ? QString::fromStdString(nameOf(chosen->category)) : QString();
+    };
+    return tr("%1\n%n finding(s), colon %2, outside the colon %3.\n\nAfter this it can only be amended.", nullptr,
+              int(page_.read.findings.size()))
+        .arg(QString::fromStdString(patientName(page_.read.record.patient.name)), name(said.colon_category),
+             name(said.extracolonic_category));
+}
+
+void ReportForm::takeKeyboard()
+{
+    setFocus(Qt::TabFocusReason);
+    focusNextChild();
+}
+
+bool ReportForm::event(QEvent* event)
+{
+    if (event->type() == QEvent::ShortcutOverride) {
+        const auto& key = *static_cast<QKeyEvent*>(event);
+        const bool with_others = key.modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier);
+        const bool function_key = key.key() >= Qt::Key_F1 && key.key() <= Qt::Key_F35;
+        if (!with_others && !function_key) {
+            event->accept();
+            return true;
+        }
+    }
+    return QWidget::event(event);
+}
+
+void ReportForm::keyPressEvent(QKeyEvent* event)
+{
+    if (event->key() == Qt::Key_Escape)
+        emit leaveWanted();
+    // No key of the form's means anything to the window.
+    event->accept();
+}
+
+}  // namespace vicon::viewer

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <QWidget>
+
+#include "report/report_books.h"
+#include "vicon/cases/report_texts.h"
+
+class QLabel;
+class QPushButton;
+class QVBoxLayout;
+
+namespace vicon::viewer {
+
+class CategoryPart;
+class DistensionPart;
+class ExtracolonicPart;
+class FindingsPart;
+class StudyPart;
+
+/// The report beside the views: what is known is filled in, what is not is said here, and here it is signed. Plain keys
+/// are its own, not the window's, while it has the keyboard; Escape gives it back.
+class ReportForm : public QWidget {
+    Q_OBJECT
+public:
+    explicit ReportForm(const ReportTexts& texts, QWidget* parent = nullptr);
+
+    void show(const ReportPage& page);
+    void setBusy(bool busy);
+    FindingsPart* findings() { return findings_; }
+    /// Words that are still being typed are saved.
+    void commit();
+    /// What would be signed, in words.
+    QString summary() const;
+    /// The keyboard goes to the first control.
+    void takeKeyboard();
+
+signals:
+    void said(const std::function<void(vicon::Assessment&)>& change);
+    void previewWanted();
+    void textWanted();
+    void signWanted();
+    void amendWanted();
+    void cancelWanted();
+    void leaveWanted();
+
+protected:
+    bool event(QEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+
+private:
+    void build();
+    QWidget* buildScrolled();
+    void buildButtons(QVBoxLayout* below);
+    void connectParts();
+    void acceptCategories(Assessment& said, const ReadCase& read) const;
+    void fillNormal();
+    void orderTabs();
+    void showState(const ReportPage& page);
+
+    const ReportTexts texts_;
+    ReportPage page_;
+    bool busy_ = false;
+    QLabel *state_, *missing_;
+    FindingsPart* findings_;
+    ExtracolonicPart* extracolonic_;
+    CategoryPart *colon_, *outside_;
+    StudyPart* study_;
+    DistensionPart* distension_;
+    QPushButton *normal_, *accept_, *preview_, *text_, *sign_, *amend_, *cancel_;
+};
+
+}  // namespace vicon::viewer
