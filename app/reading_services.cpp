@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "report_pictures.h"
 #include "report_writing.h"
 #include "scan_work.h"
 #include "vicon/cases/bridges.h"
@@ -13,6 +14,7 @@
 #include "vicon/cases/placing.h"
 #include "vicon/cases/report_content.h"
 #include "vicon/cases/worklist.h"
+#include "vicon/core/file.h"
 #include "vicon/ingest/receiver.h"
 #include "vicon/pipeline/worker.h"
 #include "vicon/report/forms.h"

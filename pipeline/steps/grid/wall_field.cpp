@@ -9,7 +9,8 @@
 namespace vicon::steps {
 namespace {
 
-/// A pool's density must differ from tissue by this much to place a wall; less is taken as this. No case recorded.
+/// A pool's density must differ from tissue by this much to place a wall; less is taken as this. No case recorded;
+/// half and double leave the three cases (CONTRIBUTING.md) as they are.
 constexpr double kLeastContrast_hu = 50;
 
 }  // namespace

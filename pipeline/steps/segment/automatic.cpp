@@ -29,7 +29,7 @@ namespace {
 // Half-way densities of pools that differ by no more than this lie a tenth of a voxel apart.
 constexpr double kSameFluid_hu = 60;
 constexpr int kMostCandidates = 10;  // the exact ordering takes 2^n steps
-constexpr double kSameEnd_mm = 15;   // between ends of the lumen: nearer, they are one; no case recorded
+constexpr double kSameEnd_mm = 15;   // between ends of the lumen: nearer, they are one
 
 /// The parts that a person's cuts separate from the larger rest.
 std::set<int> separated(const RunLabels& lumen, const std::vector<std::vector<Index3>>& around_cuts)

@@ -14,7 +14,7 @@
 namespace vicon::steps {
 namespace {
 
-// No case recorded; reasons stand beside them.
+// No case recorded; reasons stand beside them. They act on a person's cuts alone.
 constexpr double kReach_mm = 45;        // no colon is wider
 constexpr double kHalfGap_mm = 1.5;     // half of what is cut out, so that its sides do not touch
 constexpr int kDirections = 200;        // some 10 degrees apart: an area is at most 2 % too large

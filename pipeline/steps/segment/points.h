@@ -8,7 +8,8 @@
 
 namespace vicon::steps {
 
-/// How far a person's point may lie beside what it means. No case recorded.
+/// How far a person's point may lie beside what it means: a click in a slice of the
+/// whole body is good to a pixel or two, some 2 mm.
 inline constexpr double kCatch_mm = 3;
 
 /// "x,y,z" for a person, in whole mm.

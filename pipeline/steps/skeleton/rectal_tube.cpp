@@ -11,7 +11,8 @@
 namespace vicon::steps {
 namespace {
 
-// No case recorded; reason: sizes of rectal tubes and rectums.
+// No case recorded; reason: sizes of rectal tubes and rectums. Half and double leave the three cases (CONTRIBUTING.md)
+// as they are, but for kTubeReach_mm, which moves the start of ways of equal cost.
 constexpr double kTubeReach_mm = 150;     // from the rectal end: a rectal tube lies no higher
 constexpr double kTubeSection_mm2 = 200;  // of a tube of up to 12 mm, cut obliquely
 constexpr double kMargin_mm = 24;         // about the tube: hardly a rectum is wider; what is wider is tried again

@@ -11,7 +11,7 @@
 namespace vicon::steps {
 namespace {
 
-// Of how the pictures look; no case recorded.
+// Of how the pictures look.
 /// Pixels are computed this many times finer in both directions and averaged.
 constexpr int kFiner = 2;
 /// Free border around the surface.

@@ -13,7 +13,8 @@ namespace vicon::steps {
 namespace {
 
 // Costs of an order, in mm of soft tissue. No case recorded but for kFat; reason: each is the length of bridge against
-// which it is weighed. The order that comes out is held by chain_family_test, on seeds that nothing was chosen on.
+// which it is weighed. The order that comes out is held by chain_family_test, on seeds that nothing was chosen on;
+// half and double of each leave the three cases (CONTRIBUTING.md) as they are.
 constexpr double kWrongEnd = 60;  // a last end that is not in the patient's right lower half, in mm of tissue
 constexpr double kTurn = 15;      // a bridge that leaves a piece backwards
 constexpr double kOneMore = 20;   // every further piece: none is added without need

@@ -190,7 +190,7 @@ void FindingsPart::connectEditor()
             [this] { change([text = note_->words()](Finding& f) { f.note = text; }); });
 }
 
-void FindingsPart::change(std::function<void(Finding&)> what)
+void FindingsPart::change(const std::function<void(Finding&)>& what)
 {
     if (!filling_ && !chosen_.empty())
         emit changed(chosen_, what);

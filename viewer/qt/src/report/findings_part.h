@@ -51,7 +51,7 @@ private:
     const FindingWithFacts* chosen() const;
     void choose();
     void showChosen();
-    void change(std::function<void(Finding&)> what);
+    void change(const std::function<void(Finding&)>& what);
 
     ReadCase read_;
     std::string chosen_, pictured_;
