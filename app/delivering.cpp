@@ -20,16 +20,19 @@ ingest::Delivery deliveryFor(const Config& config)
 
 void deliverInBackground(const std::filesystem::path& store_folder, const Config& config)
 {
-    constexpr auto kLook = std::chrono::seconds(1);
+    constexpr auto kLook = std::chrono::milliseconds(100), kAfterTrouble = std::chrono::milliseconds(1000);
     ingest::Delivery delivery = deliveryFor(config);
     delivery.trouble = [](const std::string& what) { spdlog::warn("outbox: {}", what); };
     std::string said;
     while (!stopRequested()) {
         try {
             CaseStore store(store_folder);
+            Outbox outbox(store.database(), delivery.options);
             UntilStopped quiet;
             while (!stopRequested()) {
-                if (const int due = ingest::deliverDue(store, delivery, {}, quiet); due > 0)
+                const auto next = outbox.nextDue();
+                if (const int due = next && *next <= outbox.now() ? ingest::deliverDue(store, delivery, {}, quiet) : 0;
+                    due > 0)
                     spdlog::info("outbox: {} objects were due", due);
                 said.clear();
                 std::this_thread::sleep_for(kLook);
@@ -37,7 +40,7 @@ void deliverInBackground(const std::filesystem::path& store_folder, const Config
         } catch (const std::exception& e) {
             if (e.what() != said && !stopRequested())
                 spdlog::error("the outbox waits: {}", said = e.what());
-            std::this_thread::sleep_for(kLook);
+            std::this_thread::sleep_for(kAfterTrouble);
         }
     }
 }

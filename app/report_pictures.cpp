@@ -1,7 +1,10 @@
 #include "report_pictures.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
+#include <functional>
+#include <future>
 #include <optional>
 #include <set>
 
@@ -10,7 +13,6 @@
 #include "vicon/cases/placing.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
-#include "vicon/viewer/scene/display.h"
 #include "vicon/viewer/scene/measures_picture.h"
 #include "vicon/viewer/scene/snapshot.h"
 
@@ -56,14 +58,20 @@ std::string labelOf(const ScanRecord& scan)
     return positionName(scan.series.patient_position) + " (series " + std::to_string(scan.series.number) + ")";
 }
 
-SnapshotRequest requestFor(SnapshotRequest::View view, const CaseRecord& record, const ScanRecord& scan, int width,
-                           int height)
+/// What a picture says about its scan; the page says whose it is, and the heading of the picture which scan's.
+viewer::Caption captionOf(const ScanRecord& scan)
+{
+    return {.named = false, .lossy = scan.series.lossy};
+}
+
+SnapshotRequest requestFor(SnapshotRequest::View view, const ScanRecord& scan, int width, int height)
 {
     SnapshotRequest request;
     request.view = view;
-    request.caption = viewer::captionFor(record, scan);
+    request.caption = captionOf(scan);
     request.width = width;
     request.height = height;
+    request.lasting = false;
     return request;
 }
 
@@ -92,29 +100,70 @@ std::optional<viewer::PreparedScan> openPrepared(const fs::path& folder)
     return viewer::PreparedScan::open(folder);
 }
 
-void drawPictures(const viewer::PreparedScan& prepared, const std::pair<const CaseRecord&, const ScanRecord&>& of,
-                  const PictureFolder& pictures, report::MarkerEntry& entry)
-{
-    const CaseRecord& record = of.first;
-    const ScanRecord& scan = of.second;
-    const Marker& marker = entry.marker;
-    const auto draw = [&](SnapshotRequest::View view, int width, int height, const std::string& name) {
-        auto request = requestFor(view, record, scan, width, height);
+/// A scan's finding pictures. OpenGL's are drawn on the thread that asks, all others meanwhile on a second one.
+class FindingPictures {
+public:
+    FindingPictures(const viewer::PreparedScan& prepared, const ScanRecord& scan, const PictureFolder& folder)
+        : prepared_(prepared), endoscopic_(prepared), scan_(scan), folder_(folder)
+    {
+    }
+
+    /// @param each is told of every finding before it is drawn; what it throws ends the drawing
+    void draw(const std::vector<report::MarkerEntry*>& entries, const std::function<void(const Marker&)>& each)
+    {
+        std::atomic<bool> given_up = false;
+        auto others = std::async(std::launch::async, [&] {
+            for (report::MarkerEntry* entry : entries)
+                if (!given_up)
+                    drawOthers(*entry);
+        });
+        try {
+            for (report::MarkerEntry* entry : entries) {
+                each(entry->marker);
+                drawEndoscopic(*entry);
+            }
+        } catch (...) {
+            given_up = true;
+            throw;
+        }
+        others.get();
+    }
+
+private:
+    SnapshotRequest requestFor(SnapshotRequest::View view, const Marker& marker, int width, int height) const
+    {
+        auto request = app::requestFor(view, scan_, width, height);
         request.look_at_mm = marker.position_mm;
         request.station_mm = marker.station_mm;
         request.markers = {marker};
-        viewer::renderSnapshot(prepared, request, pictures / name);
-        return pictures / name;
-    };
-    entry.endoscopic_picture =
-        draw(SnapshotRequest::View::endo, kEndoscopicSide, kEndoscopicSide, marker.id + "-endo.png");
-    entry.slices_picture = draw(SnapshotRequest::View::slices, kSlicesWidth, kSlicesHeight, marker.id + "-slices.png");
-    if (const auto measures =
-            viewer::measuresPicture(prepared, marker, viewer::captionFor(record, scan), kMeasuresSide)) {
-        entry.measures_picture = pictures / (marker.id + "-measures.png");
-        viewer::writePng(entry.measures_picture, *measures);
+        return request;
     }
-}
+
+    void drawEndoscopic(report::MarkerEntry& entry)
+    {
+        const Marker& marker = entry.marker;
+        entry.endoscopic_picture = folder_ / (marker.id + "-endo.png");
+        endoscopic_.render(requestFor(SnapshotRequest::View::endo, marker, kEndoscopicSide, kEndoscopicSide),
+                           entry.endoscopic_picture);
+    }
+
+    void drawOthers(report::MarkerEntry& entry) const
+    {
+        const Marker& marker = entry.marker;
+        entry.slices_picture = folder_ / (marker.id + "-slices.png");
+        const auto request = requestFor(SnapshotRequest::View::slices, marker, kSlicesWidth, kSlicesHeight);
+        viewer::renderSnapshot(prepared_, request, entry.slices_picture);
+        if (const auto measures = viewer::measuresPicture(prepared_, marker, captionOf(scan_), kMeasuresSide)) {
+            entry.measures_picture = folder_ / (marker.id + "-measures.png");
+            viewer::writePng(entry.measures_picture, *measures, request.lasting);
+        }
+    }
+
+    const viewer::PreparedScan& prepared_;
+    viewer::Snapshots endoscopic_;
+    const ScanRecord& scan_;
+    const PictureFolder& folder_;
+};
 
 }  // namespace
 
@@ -135,7 +184,6 @@ PictureFolder::~PictureFolder()
 std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read, const PictureFolder& pictures,
                                          Progress& progress)
 {
-    const viewer::Display display;
     const CaseRecord& record = read.record;
     std::vector<report::ScanEntry> entries;
     for (const ScanRecord& scan : store.scans(record.id)) {
@@ -150,7 +198,7 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read,
             entry.reason = "not a colon, and no part of this report";
             entry.skeleton_length_mm = 0;
         } else if (hasColon(folder)) {
-            auto request = requestFor(SnapshotRequest::View::overview, record, scan, kOverviewWidth, kOverviewHeight);
+            auto request = requestFor(SnapshotRequest::View::overview, scan, kOverviewWidth, kOverviewHeight);
             request.markers = numbered(read, markersOf(read, scan));
             entry.overview_picture = pictures / (scan.id + "-overview.png");
             viewer::renderSnapshot(viewer::PreparedScan::open(folder), request, entry.overview_picture);
@@ -164,28 +212,27 @@ std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const ReadCase& r
                                              const std::vector<report::ScanEntry>& scans, const PictureFolder& pictures,
                                              Progress& progress)
 {
-    const viewer::Display display;
     std::vector<report::MarkerEntry> entries;
+    entries.reserve(read.markers.size());
     std::set<std::string> told;
-    const CaseRecord& record = read.record;
-    const double all = double(read.markers.size());
+    double drawn = 0;
     for (const report::ScanEntry& scan_entry : scans) {
         const ScanRecord& scan = scan_entry.scan;
-        const std::vector<Marker> markers = markersOf(read, scan);
-        if (markers.empty())
-            continue;
-        const auto prepared = openPrepared(store.scanFolder(record.id, scan.id));
+        std::vector<report::MarkerEntry*> of_scan;
         const ColonPartRanges parts = partsOf(store, scan);
-        for (const Marker& marker : markers) {
-            progress.check();
-            progress.report(double(entries.size()) / all, "pictures of marker " + marker.id);
-            report::MarkerEntry entry{.marker = marker, .scan_label = labelOf(scan)};
-            entry.part_name = partNameAt(parts, marker.station_mm);
-            if (prepared)
-                drawPictures(*prepared, {record, scan}, pictures, entry);
+        for (const Marker& marker : markersOf(read, scan)) {
             told.insert(marker.id);
-            entries.push_back(std::move(entry));
+            entries.push_back(
+                {.marker = marker, .scan_label = labelOf(scan), .part_name = partNameAt(parts, marker.station_mm)});
+            of_scan.push_back(&entries.back());
         }
+        if (of_scan.empty())
+            continue;
+        if (const auto prepared = openPrepared(store.scanFolder(scan.case_id, scan.id)))
+            FindingPictures(*prepared, scan, pictures).draw(of_scan, [&](const Marker& marker) {
+                progress.check();
+                progress.report(drawn++ / double(read.markers.size()), "pictures of marker " + marker.id);
+            });
     }
     // A report never leaves a marker out, wherever its scan has gone.
     for (const Marker& marker : read.markers)

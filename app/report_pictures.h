@@ -24,6 +24,7 @@ private:
 
 /// What the report says about each scan, with its overview drawn. A scan that has not been prepared, or holds no colon,
 /// is listed without a picture. The overview bears the numbers of the findings, and the ids of markers of none.
+/// No picture says whose it is: the page does. Needs a viewer::Display that lives on, or starts one of its own.
 std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read, const PictureFolder& pictures,
                                          Progress& progress);
 

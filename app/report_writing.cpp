@@ -1,5 +1,7 @@
 #include "report_writing.h"
 
+#include <algorithm>
+
 #include "peers.h"
 #include "report_pictures.h"
 #include "vicon/cases/outbox.h"
@@ -8,6 +10,7 @@
 #include "vicon/core/file.h"
 #include "vicon/report/pdf_writer.h"
 #include "vicon/report/report_objects.h"
+#include "vicon/viewer/scene/display.h"
 
 namespace fs = std::filesystem;
 
@@ -15,9 +18,8 @@ namespace vicon::app {
 namespace {
 
 report::PdfResult drawReport(CaseStore& store, const Config& config, report::ReportContent& content,
-                             const fs::path& pdf, Progress& progress)
+                             const PictureFolder& pictures, const fs::path& pdf, Progress& progress)
 {
-    const PictureFolder pictures;
     content.scans = drawScans(store, content.read, pictures, progress);
     content.markers = drawMarkers(store, content.read, content.scans, pictures, progress);
     return report::writePdf(content, pdf, config.get<report::ReportOptions>());
@@ -37,7 +39,8 @@ WrittenReport writeReport(CaseStore& store, const Config& config, const std::str
     content.number = store.nextNumber("report " + record.id);
     if (out.empty())
         out = reportFile(store, record.id, content.number);
-    const report::PdfResult written = drawReport(store, config, content, out, progress);
+    const viewer::Display display;  // one for all pictures
+    const report::PdfResult written = drawReport(store, config, content, PictureFolder(), out, progress);
     store.audit("report written", record.id, "", "number " + std::to_string(content.number));
     return {out, content.number, written.pages, content.markers.size(), written.warnings};
 }
@@ -53,14 +56,42 @@ std::optional<ReportVersion> amendedBy(CaseStore& store, const std::string& case
     return std::nullopt;
 }
 
+/// The pictures of the findings, in the order of the report.
+std::vector<report::SightPictures> picturesOf(const report::ReportContent& content)
+{
+    std::vector<report::SightPictures> pictures;
+    for (const auto& [finding, facts] : content.read.findings)
+        for (const report::MarkerEntry& entry : content.markers) {
+            const std::string& id = entry.marker.id;
+            if (std::find(finding.markers.begin(), finding.markers.end(), id) == finding.markers.end())
+                continue;
+            report::SightPictures of{
+                id, "Finding " + std::to_string(finding.number()) + ", marker " + id + ", " + entry.scan_label, {}};
+            for (const fs::path& file : {entry.endoscopic_picture, entry.slices_picture, entry.measures_picture})
+                if (!file.empty())
+                    of.files.push_back(file);
+            if (!of.files.empty())
+                pictures.push_back(std::move(of));
+        }
+    return pictures;
+}
+
+std::vector<report::ObjectKind> kindsOf(const Config& config)
+{
+    std::vector<report::ObjectKind> kinds;
+    for (const std::string& name : config.get<SigningOptions>().objects)
+        kinds.push_back(report::objectKindNamed(name));
+    return kinds;
+}
+
 /// The objects of what is signed, for the folder and for the outbox.
-VersionObjects objectsOf(CaseStore& store, const Config& config, const std::string& case_id,
+VersionObjects objectsOf(CaseStore& store, const Config& config, const std::string& case_id, report::ShownScans& scans,
                          const report::ObjectContent& content, const fs::path& folder)
 {
     const auto peers = config.get<SigningOptions>().send_to;
     for (const std::string& peer : peers)
         requirePeer(config, peer);
-    const auto objects = report::writeReportObjects(store, content, folder);
+    const auto objects = report::writeReportObjects(scans, content, folder);
     VersionObjects kept;
     for (const report::ReportObject& object : objects)
         kept.files.push_back(object.file);
@@ -80,6 +111,7 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
                           Progress& progress)
 {
     const CaseRecord record = store.requireCase(case_id);
+    const std::vector<report::ObjectKind> kinds = kindsOf(config);
     requireReportable(store, record);
     const VersionDraft draft = draftVersion(store, config.get<SigningOptions>(), record.id, sign, VICON_VERSION);
     report::ReportContent content;
@@ -87,8 +119,12 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
     content.created = draft.version.at;
     content.software_version = VICON_VERSION;
     content.version = draft.version;
+    const viewer::Display display;  // one for all pictures, before there are other threads
+    std::optional<report::ShownScans> scans;
+    if (sign)
+        scans.emplace(store, content.read, kinds);
     const PictureFolder folder;
-    const report::PdfResult drawn = drawReport(store, config, content, folder / "report.pdf", progress);
+    const report::PdfResult drawn = drawReport(store, config, content, folder, folder / "report.pdf", progress);
     if (drawn.unreadable_pictures > 0)
         throw Error(ErrorCode::store,
                     "a picture of the report could not be drawn (" + drawn.warnings.front() +
@@ -100,8 +136,10 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
     VersionObjects objects;
     if (sign) {
         const ReportVersion version = versionWith(store, record.id, draft, pdf);
-        objects = objectsOf(store, config, record.id,
-                            {content.read, version, amendedBy(store, record.id, version), pdf}, folder / "");
+        objects =
+            objectsOf(store, config, record.id, *scans,
+                      {content.read, version, amendedBy(store, record.id, version), pdf, picturesOf(content), kinds},
+                      folder / "");
     }
     return {keepVersion(store, record.id, draft, pdf, objects), drawn.pages, drawn.warnings};
 }

@@ -30,6 +30,9 @@ target_link_libraries(vicon_hpdf INTERFACE hpdf)
 add_library(vicon_dcmtk INTERFACE)
 target_include_directories(vicon_dcmtk SYSTEM INTERFACE ${DCMTK_INCLUDE_DIRS})
 target_link_libraries(vicon_dcmtk INTERFACE dcmnet dcmsr dcmjpeg dcmjpls dcmimage dcmimgle dcmdata dcmtls oflog ofstd)
+# DCMTK's writer of segmentations.
+add_library(vicon_dcmseg INTERFACE)
+target_link_libraries(vicon_dcmseg INTERFACE dcmseg dcmfg dcmiod vicon_dcmtk)
 
 # ITK: find_package() sets global variables for the modules asked for, so each set of modules is asked for in a scope of
 # its own and kept as a target.

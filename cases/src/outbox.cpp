@@ -267,11 +267,16 @@ void Outbox::drop(int id)
 
 std::optional<double> Outbox::nextDue()
 {
+    soci::session& sql = database_.session();
     std::optional<double> due;
-    for (const OutboxItem& item : items()) {
-        const bool held = item.state == DeliveryState::sending;
-        if (held || item.state == DeliveryState::queued || item.state == DeliveryState::sent)
-            due = std::min(due.value_or(1e300), held ? item.lease_until : item.not_before);
+    for (const char* earliest : {"SELECT MIN(not_before) FROM outbox WHERE state = 'queued'",
+                                 "SELECT MIN(not_before) FROM outbox WHERE state = 'sent'",
+                                 "SELECT MIN(lease_until) FROM outbox WHERE state = 'sending'"}) {
+        double at = 0;
+        soci::indicator there = soci::i_null;
+        sql << earliest, soci::into(at, there);
+        if (there == soci::i_ok)
+            due = std::min(due.value_or(at), at);
     }
     return due;
 }

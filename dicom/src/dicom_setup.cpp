@@ -3,6 +3,8 @@
 #include <dcmtk/config/osconfig.h>
 
 #include <dcmtk/dcmdata/dcdict.h>
+#include <dcmtk/dcmdata/dcrledrg.h>
+#include <dcmtk/dcmdata/dcrleerg.h>
 #include <dcmtk/oflog/oflog.h>
 
 #include <cstdlib>
@@ -19,6 +21,10 @@ void setUpDicom()
         // Read now: its first use by several threads at once is not safe.
         dcmDataDict.rdlock();
         dcmDataDict.rdunlock();
+        // What VICON itself compresses, and unpacks again for a peer that takes no RLE; what comes in is decoded in the
+        // helper process alone.
+        DcmRLEEncoderRegistration::registerCodecs();
+        DcmRLEDecoderRegistration::registerCodecs();
     });
 }
 

@@ -32,19 +32,13 @@ struct Item {
     Kind kind;
 };
 
-bool isUncompressed(const std::string& syntax)
-{
-    const DcmXfer xfer(syntax.c_str());
-    return !xfer.isEncapsulated() && xfer.getStreamCompression() == ESC_none;
-}
-
 /// The transfer syntaxes that may carry an object, by presentation context: its own alone, so that a peer that takes it
-/// gets it unchanged; then any uncompressed one for an uncompressed object.
+/// gets it unchanged; then any uncompressed one, but for an object of a compression that is not undone here.
 std::vector<OFList<OFString>> contextsFor(const Kind& kind)
 {
     std::vector<OFList<OFString>> contexts(1);
     contexts.front().push_back(kind.transfer_syntax.c_str());
-    if (!isUncompressed(kind.transfer_syntax))
+    if (DcmXfer(kind.transfer_syntax.c_str()).isEncapsulated() && kind.transfer_syntax != UID_RLELosslessTransferSyntax)
         return contexts;
     contexts.emplace_back();
     for (const char* other : {UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax})
@@ -116,6 +110,7 @@ public:
     {
         DcmSCU scu;
         configure(scu, peer_, title_);
+        scu.setDatasetConversionMode(OFTrue);
         std::set<Kind> kinds;
         for (const Item& item : items)
             if (kinds.insert(item.kind).second)

@@ -85,8 +85,9 @@ const PictureShelf::Shelved& PictureShelf::get(const std::filesystem::path& file
         key = sha256OfFile(file);
         if (shelf_.contains(key))
             return shelf_[key];
-        const Picture picture = readForPrint(file, int(print_width / kPointsPerInch * kPrintDpi));
-        return shelf_[key] = {pdf_.addPicture(picture), double(picture.width), double(picture.height), false};
+        Picture picture = readForPrint(file, int(print_width / kPointsPerInch * kPrintDpi));
+        const double width = picture.width, height = picture.height;
+        return shelf_[key] = {pdf_.addPicture(std::move(picture)), width, height, false};
     } catch (const Error& e) {
         if (e.code() == ErrorCode::no_memory || e.code() == ErrorCode::internal)
             throw;

@@ -60,6 +60,8 @@ struct FramedPicture {
     std::string caption;
     std::string absent;  ///< said instead of the picture
 
+    /// Width over height; a square stands for one that is absent.
+    double aspect() const { return picture.number >= 0 ? picture.width / picture.height : 1; }
     /// Size of the picture within a box.
     Box fitted(double width, double height) const;
     /// Draws at (x, y) = left, top; returns the height used, caption included.

@@ -19,7 +19,7 @@ constexpr std::array<TableColumn, 8> kFindingColumns = {{{"No.", 0},
                                                          {"Endoscope, est.", 0.74},
                                                          {"Scans", 0.87},
                                                          {"Page", 0.94}}};
-constexpr double kSightPictures_pt = 150;
+constexpr double kSightPictures_pt = 190;  // two findings of one sight fill a page
 
 std::string numberOf(const FindingWithFacts& f)
 {
@@ -96,7 +96,6 @@ void Sections::drawFinding(const FindingWithFacts& f)
 void Sections::drawSights(const FindingWithFacts& f)
 {
     const auto& chosen = f.finding.pictures;
-    const MarkerEntry* measured = nullptr;  // where the size that counts was taken
     for (const FindingSight& sight : f.facts.sights) {
         if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), sight.marker_id) == chosen.end())
             continue;
@@ -106,15 +105,8 @@ void Sections::drawSights(const FindingWithFacts& f)
             continue;
         const std::string of = scanLabel(content_.read, sight.scan_id) + ", " + sight.marker_id +
                                (isLossy(content_, sight.scan_id) ? " \u00b7 LOSSY COMPRESSION" : "");
-        const std::string owner = "marker " + sight.marker_id;
-        drawMarkerPictures(
-            framed(entry->endoscopic_picture, flow_.width() / 2, "From inside, " + of, "endoscopic", owner),
-            framed(entry->slices_picture, flow_.width(), "Slices, " + of, "slice", owner), kSightPictures_pt);
-        if (&sight == f.facts.lead())
-            measured = &*entry;
+        drawMarkerPictures(*entry, of, &sight == f.facts.lead(), kSightPictures_pt);
     }
-    if (measured)
-        drawMeasuresPicture(*measured, " \u00b7 " + scanLabel(content_.read, measured->marker.scan_id));
 }
 
 }  // namespace vicon::report

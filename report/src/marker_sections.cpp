@@ -1,6 +1,7 @@
 // The part of Sections that is about markers.
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "row_table.h"
 #include "sections.h"
@@ -11,7 +12,7 @@ namespace {
 
 // Of a marker's pictures, in points: as high as lets two entries fill a page, within these.
 constexpr double kSmallestPictures = 165, kTallestPictures = 200;
-constexpr double kMeasuresHeight = 150;
+constexpr double kMeasuresHeight = 150, kLeastWithMeasures = 130;
 constexpr double kPictureGap = 12;
 constexpr double kDiscRadius = 4;
 
@@ -106,11 +107,6 @@ void Sections::drawMarker(const MarkerEntry& entry)
 {
     const Marker& marker = entry.marker;
     const std::string mark = isLossy(content_, marker.scan_id) ? " \u00b7 LOSSY COMPRESSION" : "";
-    const FramedPicture endoscopic =
-        framed(entry.endoscopic_picture, flow_.width() / 2, "Endoscopic view at " + marker.id + mark, "endoscopic",
-               "marker " + marker.id);
-    const FramedPicture slices = framed(entry.slices_picture, flow_.width(), "Slices through " + marker.id + mark,
-                                        "slice", "marker " + marker.id);
     const StatementTable table(flow_.type, markerStatements(entry), flow_.width());
     const double note_width = flow_.width() - look::kLabelWidth;
     const std::vector<TextLine> note =
@@ -120,8 +116,7 @@ void Sections::drawMarker(const MarkerEntry& entry)
     const double caption = leadingOf(look::kSmall) + 4;
     const double pictures_height =
         std::clamp((flow_.wholePage() - look::kGap) / 2 - text - caption, kSmallestPictures, kTallestPictures);
-    const double measures = entry.measures_picture.empty() ? 0 : kMeasuresHeight + caption + look::kGap;
-    const double whole = text + pictures_height + caption + measures;
+    const double whole = text + pictures_height + caption;
     flow_.need(whole <= flow_.wholePage() ? whole : head + table.height() + 3 * leading);
 
     fillPageOf(marker.id);
@@ -130,19 +125,7 @@ void Sections::drawMarker(const MarkerEntry& entry)
     table.draw(flow_, flow_.left());
     drawNote(marker, note);
     flow_.skip(5);
-    drawMarkerPictures(endoscopic, slices, pictures_height);
-    drawMeasuresPicture(entry, mark);
-}
-
-void Sections::drawMeasuresPicture(const MarkerEntry& entry, const std::string& mark)
-{
-    if (entry.measures_picture.empty())
-        return;
-    const FramedPicture measures =
-        framed(entry.measures_picture, flow_.width(), "Measured at " + entry.marker.id + mark, "measures",
-               "marker " + entry.marker.id);
-    flow_.need(kMeasuresHeight + leadingOf(look::kSmall) + 4);
-    flow_.skip(measures.draw(flow_, flow_.left(), flow_.y(), flow_.width(), kMeasuresHeight) + look::kGap);
+    drawMarkerPictures(entry, marker.id + mark, true, pictures_height);
 }
 
 void Sections::drawNote(const Marker& marker, const std::vector<TextLine>& note)
@@ -160,17 +143,46 @@ void Sections::drawNote(const Marker& marker, const std::vector<TextLine>& note)
     }
 }
 
-void Sections::drawMarkerPictures(const FramedPicture& endoscopic, const FramedPicture& slices, double height)
+double Sections::stripHeight(const std::vector<FramedPicture>& pictures, double tallest) const
 {
+    double aspects = 0;
+    for (const FramedPicture& framed : pictures)
+        aspects += framed.aspect();
+    return std::min(tallest, (flow_.width() - double(pictures.size() - 1) * kPictureGap) / aspects);
+}
+
+void Sections::drawStrip(const std::vector<FramedPicture>& pictures, double tallest)
+{
+    const double height = stripHeight(pictures, tallest);
     flow_.need(height + leadingOf(look::kSmall) + 4);
-    const double left_width =
-        endoscopic.picture.number >= 0 ? endoscopic.fitted(flow_.width() * 0.45, height).width : height;
-    const double x = flow_.left() + left_width + kPictureGap;
-    const double right_width = flow_.left() + flow_.width() - x;
-    const double slices_width = slices.picture.number >= 0 ? right_width : std::min(right_width, height * 4 / 3);
-    const double used = std::max(endoscopic.draw(flow_, flow_.left(), flow_.y(), left_width, height),
-                                 slices.draw(flow_, x, flow_.y(), slices_width, height));
+    double x = flow_.left(), used = 0;
+    for (const FramedPicture& framed : pictures) {
+        const double width = framed.aspect() * height;
+        used = std::max(used, framed.draw(flow_, x, flow_.y(), width, height));
+        x += width + kPictureGap;
+    }
     flow_.skip(used + look::kGap);
+}
+
+void Sections::drawMarkerPictures(const MarkerEntry& entry, const std::string& of, bool measures, double tallest)
+{
+    const std::string owner = "marker " + entry.marker.id;
+    std::vector<FramedPicture> strip{
+        framed(entry.endoscopic_picture, flow_.width() / 2, "From inside, " + of, "endoscopic", owner),
+        framed(entry.slices_picture, flow_.width(), "Slices, " + of, "slice", owner)};
+    std::optional<FramedPicture> measured;
+    if (measures && !entry.measures_picture.empty())
+        measured = framed(entry.measures_picture, flow_.width(), "Measured, " + of, "measures", owner);
+    if (measured) {
+        strip.push_back(*measured);
+        if (stripHeight(strip, tallest) >= kLeastWithMeasures)
+            measured.reset();
+        else
+            strip.pop_back();
+    }
+    drawStrip(strip, tallest);
+    if (measured)
+        drawStrip({*measured}, kMeasuresHeight);
 }
 
 }  // namespace vicon::report

@@ -1,6 +1,7 @@
 #include "pdf_document.h"
 
 #include <cstdio>
+#include <future>
 
 #include "haru.h"
 #include "pdf_objects.h"
@@ -37,6 +38,7 @@ struct PdfDocument::State {
     PdfText text;
     std::vector<HPDF_Page> pages;
     std::vector<HPDF_Image> pictures;
+    std::vector<std::future<std::vector<std::uint8_t>>> streams;  ///< of the pictures, packed while pages are drawn
 };
 
 PdfDocument::PdfDocument(text::FontSet& fonts, const PdfInfo& info) : state_(std::make_unique<State>(fonts))
@@ -104,10 +106,12 @@ void PdfDocument::disc(int page, double x, double y, double radius, Color color)
     state_->check();
 }
 
-int PdfDocument::addPicture(const Picture& picture)
+int PdfDocument::addPicture(Picture picture)
 {
-    state_->pictures.push_back(embedPicture(state_->haru.document(), picture));
+    state_->pictures.push_back(addImage(state_->haru.document(), picture.width, picture.height, picture.channels));
     state_->check();
+    state_->streams.push_back(
+        std::async(std::launch::async, [picture = std::move(picture)] { return packed(picture); }));
     return int(state_->pictures.size()) - 1;
 }
 
@@ -132,6 +136,9 @@ std::string PdfDocument::finish()
 {
     HPDF_Doc document = state_->haru.document();
     state_->text.finish();
+    for (std::size_t n = 0; n < state_->pictures.size(); ++n)
+        setPacked(state_->pictures[n], state_->streams[n].get());
+    state_->check();
     HPDF_SaveToStream(document);
     state_->check();
     std::string bytes(HPDF_GetStreamSize(document), '\0');

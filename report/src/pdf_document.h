@@ -43,7 +43,7 @@ public:
     /// A filled disc with a thin dark rim.
     void disc(int page, double x, double y, double radius, Color color);
     /// Embeds a picture once; the number that it returns can be drawn anywhere.
-    int addPicture(const Picture& picture);
+    int addPicture(Picture picture);
     void draw(int page, int picture, Box box);
     /// An entry of the document's outline, which leads to `y` of the page. ASCII.
     void bookmark(int page, double y, const std::string& title);

@@ -4,6 +4,7 @@
 #include <hpdf_fontdef.h>
 #include <hpdf_objects.h>
 #include <hpdf_streams.h>
+#include <zlib.h>
 
 #include <array>
 #include <cstdio>
@@ -19,6 +20,8 @@ namespace {
 /// PNG's filter type "Paeth" and PDF's predictor for rows with a filter type each (PDF 32000-1, 7.4.4.4).
 constexpr std::uint8_t kPaethRow = 4;
 constexpr int kPngPredictor = 15;
+/// zlib's level for pictures.
+constexpr int kPictureLevel = 3;
 
 std::uint8_t paeth(int left, int above, int above_left)
 {
@@ -63,27 +66,46 @@ std::string hexUtf16(char32_t c)
 
 }  // namespace
 
-HPDF_Image embedPicture(HPDF_Doc document, const Picture& picture)
+std::vector<std::uint8_t> packed(const Picture& picture)
 {
-    // libharu knows no predictors. Loaded as a grey picture as wide as a predicted row is long, and then described as
-    // what it is.
     const std::vector<std::uint8_t> rows = predicted(picture);
-    const int row = picture.channels * picture.width + 1;
-    HPDF_Image image = HPDF_LoadRawImageFromMem(document, rows.data(), HPDF_UINT(row), HPDF_UINT(picture.height),
-                                                HPDF_CS_DEVICE_GRAY, 8);
+    uLongf size = compressBound(uLong(rows.size()));
+    std::vector<std::uint8_t> out(size);
+    if (compress2(out.data(), &size, rows.data(), uLong(rows.size()), kPictureLevel) != Z_OK)
+        throw Error(ErrorCode::no_memory, "there is not enough memory for the report");
+    out.resize(size);
+    return out;
+}
+
+HPDF_Image addImage(HPDF_Doc document, int width, int height, int channels)
+{
+    // libharu knows neither predictors nor data deflated already. One grey pixel is then described as what it becomes.
+    const HPDF_BYTE pixel = 0;
+    HPDF_Image image = HPDF_LoadRawImageFromMem(document, &pixel, 1, 1, HPDF_CS_DEVICE_GRAY, 8);
     if (!image)
         return nullptr;
-    HPDF_Dict_AddNumber(image, "Width", picture.width);
-    HPDF_Dict_AddName(image, "ColorSpace", picture.channels == 1 ? "DeviceGray" : "DeviceRGB");
+    HPDF_Dict_AddNumber(image, "Width", width);
+    HPDF_Dict_AddNumber(image, "Height", height);
+    HPDF_Dict_AddName(image, "ColorSpace", channels == 1 ? "DeviceGray" : "DeviceRGB");
     HPDF_Array parameters = HPDF_Array_New(image->mmgr);
     HPDF_Dict predictor = HPDF_Dict_New(image->mmgr);
     HPDF_Dict_AddNumber(predictor, "Predictor", kPngPredictor);
-    HPDF_Dict_AddNumber(predictor, "Colors", picture.channels);
+    HPDF_Dict_AddNumber(predictor, "Colors", channels);
     HPDF_Dict_AddNumber(predictor, "BitsPerComponent", 8);
-    HPDF_Dict_AddNumber(predictor, "Columns", picture.width);
+    HPDF_Dict_AddNumber(predictor, "Columns", width);
     HPDF_Array_Add(parameters, predictor);
     HPDF_Dict_Add(image, "DecodeParms", parameters);
+    image->filter = HPDF_STREAM_FILTER_NONE;  // for libharu, which would deflate it, and take another entry out
+    image->write_fn = [](HPDF_Dict, HPDF_Stream stream) {
+        return HPDF_Stream_WriteStr(stream, "/Filter [ /FlateDecode ]\012");
+    };
     return image;
+}
+
+void setPacked(HPDF_Image image, const std::vector<std::uint8_t>& stream)
+{
+    HPDF_MemStream_FreeData(image->stream);
+    HPDF_Stream_Write(image->stream, stream.data(), HPDF_UINT(stream.size()));
 }
 
 void embedGlyphs(HPDF_Font font, const std::vector<unsigned>& glyphs)

@@ -2,6 +2,7 @@
 
 #include <hpdf.h>
 
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -9,9 +10,12 @@
 
 namespace vicon::report {
 
-/// Embeds a picture losslessly, each row predicted from the one above as in PNG, which compresses rendered pictures far
-/// better than libharu's own way.
-HPDF_Image embedPicture(HPDF_Doc document, const Picture& picture);
+/// A picture's stream: each row predicted from the one above as in PNG, which compresses rendered pictures far better
+/// than libharu's own way, and deflated. Any thread may make it.
+std::vector<std::uint8_t> packed(const Picture& picture);
+/// Embeds a picture whose stream comes later, by setPacked().
+HPDF_Image addImage(HPDF_Doc document, int width, int height, int channels);
+void setPacked(HPDF_Image image, const std::vector<std::uint8_t>& stream);
 
 /// Has these glyphs embedded with the font. libharu follows a composed glyph to its parts, but not to their parts: an
 /// Arabic letter made of a base of other pieces and a dot would come out as the dot.

@@ -26,8 +26,8 @@ void Sections::draw()
     if (!drawQuietStudy()) {
         drawMap();
         drawFindingTable();
-        if (!content_.markers
-                 .empty())  // page one is for who referred the patient; what follows is for who looks closer
+        // Page one is for who referred the patient; what follows is for who looks closer.
+        if (!content_.markers.empty() && flow_.page() == 1)
             flow_.startPage();
         for (const FindingWithFacts& finding : content_.read.findings)
             drawFinding(finding);

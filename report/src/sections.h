@@ -46,8 +46,11 @@ private:
     void fillPageOf(const std::string& id);
     void drawNote(const Marker& marker, const std::vector<TextLine>& note);
     void drawMarkerHead(const MarkerEntry& entry);
-    void drawMarkerPictures(const FramedPicture& endoscopic, const FramedPicture& slices, double height);
-    void drawMeasuresPicture(const MarkerEntry& entry, const std::string& mark);
+    /// Side by side over the page's width, all as high as that allows, at most `tallest`.
+    void drawStrip(const std::vector<FramedPicture>& pictures, double tallest);
+    double stripHeight(const std::vector<FramedPicture>& pictures, double tallest) const;
+    /// @param of what captions name; @param measures with what was measured there, too
+    void drawMarkerPictures(const MarkerEntry& entry, const std::string& of, bool measures, double tallest);
     FramedPicture framed(const std::filesystem::path& file, double print_width, const std::string& caption,
                          const std::string& kind, const std::string& of);
 

@@ -1,10 +1,7 @@
 // From the signature to the archive: every object of a report arrives, is committed to, and is found there.
 #include <gmock/gmock.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "orthanc.h"
+#include "delivering_listener.h"
 #include "study.h"
 #include "vicon/ingest/sender.h"
 
@@ -16,33 +13,6 @@ namespace fs = std::filesystem;
 using test::freePort;
 using test::Orthanc;
 
-/// 'vicon receive', which delivers the outbox and takes the archive's answers.
-class Listener {
-public:
-    Listener(const fs::path& store, const fs::path& config)
-    {
-        process_ = ::fork();
-        if (process_ == 0) {
-            if (!::freopen((store.parent_path() / "listener.log").c_str(), "w", stderr) ||
-                !::freopen("/dev/null", "w", stdout))
-                ::_exit(126);
-            ::execl(viconBinary().c_str(), "vicon", "receive", "--no-work", "--store", store.c_str(), "--config",
-                    config.c_str(), nullptr);
-            ::_exit(127);
-        }
-    }
-    ~Listener()
-    {
-        ::kill(process_, SIGTERM);
-        ::waitpid(process_, nullptr, 0);
-    }
-    Listener(const Listener&) = delete;
-    Listener& operator=(const Listener&) = delete;
-
-private:
-    pid_t process_ = -1;
-};
-
 class SentReport : public testing::Test {
 protected:
     TemporaryFolder folder_;
@@ -53,12 +23,7 @@ protected:
 
     void SetUp() override
     {
-        std::string account = runCommand("id -un").output;
-        account.erase(account.find_last_not_of('\n') + 1);
-        replaceFile(config_, "[receive]\nport = " + std::to_string(port_) + "\n[report]\nsigners = [\"" + account +
-                                 "\"]\nsend_to = [\"pacs\"]\n[outbox]\nfirst_backoff_s = 0.2\ncommitment_s = 5\n" +
-                                 "[peers]\npacs = { host = \"127.0.0.1\", port = " +
-                                 std::to_string(orthanc_.peer().port) + ", ae_title = \"ORTHANC\" }\n");
+        replaceFile(config_, deliveringConfig(port_, orthanc_.peer().port));
         viconOn(store_, "import " + smallStudy().string());
         case_id_ = listedScans(store_).at(0).case_id;
         viconOn(store_, "assess " + case_id_ + " --c-rads C1 --why test --e-rads E1 --e-why test");
@@ -78,7 +43,7 @@ protected:
 
 TEST_F(SentReport, IsStoredCommittedAndFoundInTheArchive)
 {
-    const Listener listener(store_, config_);
+    const DeliveringListener listener(store_, config_);
     run("sign " + case_id_);
     EXPECT_TRUE(waitUntil([&] { return sent() == "2 committed"; })) << sent() << readFile(folder_ / "listener.log");
     EXPECT_THAT(held("/content/0008-0060"),

@@ -63,6 +63,12 @@ protected:
         ASSERT_EQ(store.cases().size(), 1u) << lines(report);
         case_id_ = store.cases().at(0).id;
     }
+    std::vector<report::ReportObject> writeFrom(const ReadCase& read, const report::ObjectContent& content,
+                                                const fs::path& where)
+    {
+        report::ShownScans scans(store, read);
+        return report::writeReportObjects(scans, content, where);
+    }
     /// A marker in the middle of this voxel.
     Marker mark(int column, int row, int slice)
     {
@@ -92,7 +98,7 @@ protected:
     {
         fs::create_directories(where);
         const ReadCase read = readCase(store, case_id_);
-        return report::writeReportObjects(store, {read, version_, std::nullopt, pdf_}, where);
+        return writeFrom(read, {read, version_, std::nullopt, pdf_}, where);
     }
     /// What dciodvfy and pydicom find wrong.
     std::string faults(const fs::path& where)
@@ -210,7 +216,7 @@ TEST_F(ReportObjects, AnAmendedReportNamesItsPredecessor)
                 .digest = "e"};
     const ReadCase read = readCase(store, case_id_);
     fs::create_directories(folder / "out");
-    const auto objects = report::writeReportObjects(store, {read, version_, first, pdf_}, folder / "out");
+    const auto objects = writeFrom(read, {read, version_, first, pdf_}, folder / "out");
     ASSERT_EQ(objects.size(), 2u) << "without findings there are no key images";
     const auto dump = support::runCommand("dcmdump +P PredecessorDocumentsSequence +P ReferencedSOPInstanceUID " +
                                           objects.at(1).file.string());

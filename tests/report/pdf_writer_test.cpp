@@ -62,7 +62,7 @@ TEST_F(PdfWriter, SaysAllOfAMarker)
     const std::string text = samples::textOf(pdf_);
     for (const char* what : {"Marker m1, red", "prone (series 3)", "L 85.2, P 12.0, H 340.5 mm", "sigmoid",
                              "412 mm along the skeleton", "1188 mm along the skeleton", "25.8 % of the whole, 1600 mm",
-                             "estimated: about 32 cm", "note of m1", "Endoscopic view at m1", "Slices through m1"})
+                             "estimated: about 32 cm", "note of m1", "From inside, m1", "Slices, m1"})
         EXPECT_THAT(text, HasSubstr(what));
     EXPECT_LT(text.find("1188 mm"), text.find("estimated: about"));
     expectTidy(pdf_);

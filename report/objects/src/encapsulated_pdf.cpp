@@ -8,8 +8,9 @@ ReportObject writeEncapsulatedPdf(const ObjectContent& content, const std::files
 {
     DcmFileFormat format;
     DcmDataset& d = *format.getDataset();
+    const ObjectName name{ObjectKind::pdf, "DOC", "CT colonography report"};
     put(d, DCM_SOPClassUID, UID_EncapsulatedPDFStorage);
-    putCommon(d, content, ObjectKind::pdf, "DOC", "CT colonography report");
+    putCommon(d, content, name);
     put(d, DCM_ConversionType, "WSD");
     put(d, DCM_AcquisitionDateTime, "");
     put(d, DCM_BurnedInAnnotation, "YES");
@@ -26,7 +27,7 @@ ReportObject writeEncapsulatedPdf(const ObjectContent& content, const std::files
         DCM_EncapsulatedDocument, reinterpret_cast<const Uint8*>(pdf.data()), static_cast<unsigned long>(pdf.size()));
     if (put_in.bad())
         throw Error(ErrorCode::no_memory, "the PDF does not go into an object", put_in.text());
-    return save(format, content, ObjectKind::pdf, folder);
+    return save(format, content, name, folder);
 }
 
 }  // namespace vicon::report

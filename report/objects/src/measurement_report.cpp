@@ -103,7 +103,8 @@ void addStudyNumbers(SrTree& tree, const Assessment& said)
         tree.number(ours("READING_TIME", "Reading time"), *said.reading_minutes, ucum("min", "minute"));
 }
 
-void fillTree(DSRDocumentTree& document, const ObjectContent& content, const MarkerImages& images)
+void fillTree(DSRDocumentTree& document, const ObjectContent& content, const MarkerImages& images,
+              const std::vector<Centreline>& centrelines)
 {
     SrTree tree(document);
     const ReadCase& read = content.read;
@@ -113,6 +114,7 @@ void fillTree(DSRDocumentTree& document, const ObjectContent& content, const Mar
             addLibrary(tree, images);
         tree.container(kContains, dcm("126010", "Imaging Measurements"), nullptr, [&] {
             addFindings(tree, read, images);
+            addCentrelines(tree, centrelines);
             addStudyNumbers(tree, read.assessment);
         });
         tree.container(kContains, {"C0034375", "UMLS", "Qualitative Evaluations"}, nullptr, [&] {
@@ -159,12 +161,12 @@ void putPredecessor(DcmDataset& d, const ObjectContent& content)
 }  // namespace
 
 ReportObject writeMeasurementReport(const ObjectContent& content, const MarkerImages& images,
-                                    const std::filesystem::path& folder)
+                                    const std::vector<Centreline>& centrelines, const std::filesystem::path& folder)
 {
     DSRDocument document;
     require(document.createNewDocument(DSRTypes::DT_Comprehensive3DSR));
     require(document.setSpecificCharacterSetType(DSRTypes::CS_UTF8));
-    fillTree(document.getTree(), content, images);
+    fillTree(document.getTree(), content, images, centrelines);
     addEvidence(document, content, images);
     if (content.version.isSigned())
         verify(document, content);
@@ -172,11 +174,12 @@ ReportObject writeMeasurementReport(const ObjectContent& content, const MarkerIm
     DcmFileFormat format;
     DcmDataset& d = *format.getDataset();
     require(document.write(d));
-    putCommon(d, content, ObjectKind::measurements, "SR", "CT colonography measurements");
+    const ObjectName name{ObjectKind::measurements, "SR", "CT colonography measurements"};
+    putCommon(d, content, name);
     put(d, DCM_SOPClassUID, UID_Comprehensive3DSRStorage);
     if (content.amended)
         putPredecessor(d, content);
-    return save(format, content, ObjectKind::measurements, folder);
+    return save(format, content, name, folder);
 }
 
 ReportObject writeKeyImages(const ObjectContent& content, const MarkerImages& images,
@@ -197,8 +200,9 @@ ReportObject writeKeyImages(const ObjectContent& content, const MarkerImages& im
     DcmFileFormat format;
     DcmDataset& d = *format.getDataset();
     require(document.write(d));
-    putCommon(d, content, ObjectKind::key_images, "KO", "Slices with findings");
-    return save(format, content, ObjectKind::key_images, folder);
+    const ObjectName name{ObjectKind::key_images, "KO", "Slices with findings"};
+    putCommon(d, content, name);
+    return save(format, content, name, folder);
 }
 
 }  // namespace vicon::report

@@ -1,7 +1,9 @@
 #include "object_writing.h"
 
+#include <array>
+#include <cstdio>
+
 #include "vicon/core/error.h"
-#include "vicon/core/file.h"
 #include "vicon/core/uid.h"
 
 namespace fs = std::filesystem;
@@ -37,13 +39,17 @@ std::string nameOf(ObjectKind kind)
             return "sr";
         case ObjectKind::key_images:
             return "key";
+        case ObjectKind::lumen:
+            return "lumen";
+        case ObjectKind::picture:
+            return "picture";
     }
     return "object";
 }
 
-std::string objectUid(const ReportVersion& version, ObjectKind kind)
+std::string objectUid(const ReportVersion& version, ObjectKind kind, const std::string& which)
 {
-    return uidOf(version, nameOf(kind));
+    return uidOf(version, nameOf(kind) + (which.empty() ? "" : " " + which));
 }
 
 std::string seriesUid(const ReportVersion& version, ObjectKind kind)
@@ -54,6 +60,16 @@ std::string seriesUid(const ReportVersion& version, ObjectKind kind)
 int seriesNumber(ObjectKind kind)
 {
     return kFirstSeriesNumber + int(kind);
+}
+
+std::string decimalString(double value)
+{
+    constexpr int kMostDigits = 15, kMostCharacters = 16;
+    std::array<char, 64> text{};
+    for (int digits = kMostDigits; digits > 0; --digits)
+        if (std::snprintf(text.data(), text.size(), "%.*g", digits, value) <= kMostCharacters)
+            break;
+    return text.data();
 }
 
 void put(DcmItem& item, const DcmTagKey& tag, const std::string& value)
@@ -75,15 +91,14 @@ void putCode(DcmItem& item, const DcmTagKey& tag, const char* value, const char*
     put(*code, DCM_CodeMeaning, meaning);
 }
 
-void putCommon(DcmDataset& d, const ObjectContent& content, ObjectKind kind, const char* modality,
-               const char* description)
+void putCommon(DcmDataset& d, const ObjectContent& content, const ObjectName& name)
 {
     const CaseRecord& record = content.read.record;
     const ReportVersion& version = content.version;
     const DicomTime at = timeOf(version);
     put(d, DCM_SpecificCharacterSet, "ISO_IR 192");
     put(d, DCM_TimezoneOffsetFromUTC, "+0000");
-    put(d, DCM_SOPInstanceUID, objectUid(version, kind));
+    put(d, DCM_SOPInstanceUID, objectUid(version, name.kind, name.which));
     put(d, DCM_InstanceCreationDate, at.date);
     put(d, DCM_InstanceCreationTime, at.time);
     put(d, DCM_PatientName, record.patient.name);
@@ -97,13 +112,13 @@ void putCommon(DcmDataset& d, const ObjectContent& content, ObjectKind kind, con
     put(d, DCM_StudyDescription, record.study.description);
     put(d, DCM_AccessionNumber, record.study.accession_number);
     put(d, DCM_ReferringPhysicianName, record.study.referring_physician);
-    put(d, DCM_Modality, modality);
-    put(d, DCM_SeriesInstanceUID, seriesUid(version, kind));
-    put(d, DCM_SeriesNumber, std::to_string(seriesNumber(kind)));
-    put(d, DCM_SeriesDescription, description);
+    put(d, DCM_Modality, name.modality);
+    put(d, DCM_SeriesInstanceUID, seriesUid(version, name.kind));
+    put(d, DCM_SeriesNumber, std::to_string(seriesNumber(name.kind)));
+    put(d, DCM_SeriesDescription, name.series);
     put(d, DCM_SeriesDate, at.date);
     put(d, DCM_SeriesTime, at.time);
-    put(d, DCM_InstanceNumber, std::to_string(version.version));
+    put(d, DCM_InstanceNumber, std::to_string(name.number > 0 ? name.number : version.version));
     put(d, DCM_ContentDate, at.date);
     put(d, DCM_ContentTime, at.time);
     put(d, DCM_Manufacturer, "VICON");
@@ -112,20 +127,21 @@ void putCommon(DcmDataset& d, const ObjectContent& content, ObjectKind kind, con
     put(d, DCM_SoftwareVersions, version.software);
 }
 
-ReportObject save(DcmFileFormat& format, const ObjectContent& content, ObjectKind kind, const fs::path& folder)
+ReportObject save(DcmFileFormat& format, const ObjectContent& content, const ObjectName& name, const fs::path& folder,
+                  E_TransferSyntax syntax)
 {
     OFString sop_class, sop_uid;
     format.getDataset()->findAndGetOFString(DCM_SOPClassUID, sop_class);
     format.getDataset()->findAndGetOFString(DCM_SOPInstanceUID, sop_uid);
-    const fs::path file = folder / ("version-" + std::to_string(content.version.version) + "-" + nameOf(kind) + ".dcm");
-    replaceFile(file, [&](const fs::path& temporary) {
-        const OFCondition saved = format.saveFile(temporary.c_str(), EXS_LittleEndianExplicit, EET_ExplicitLength,
-                                                  EGL_withoutGL, EPD_withoutPadding);
-        if (saved.bad())
-            throw Error(ErrorCode::store, std::string("the object cannot be written (") + saved.text() + ")",
-                        file.filename().string(), "see whether the disk is full");
-    });
-    return {kind, sop_class.c_str(), sop_uid.c_str(), file};
+    const fs::path file = folder / ("version-" + std::to_string(content.version.version) + "-" + nameOf(name.kind) +
+                                    (name.which.empty() ? "" : "-" + name.which) + ".dcm");
+    // Straight there: the folder is the caller's, who flushes what he keeps.
+    const OFCondition saved =
+        format.saveFile(file.c_str(), syntax, EET_ExplicitLength, EGL_withoutGL, EPD_withoutPadding);
+    if (saved.bad())
+        throw Error(ErrorCode::store, std::string("the object cannot be written (") + saved.text() + ")",
+                    file.filename().string(), "see whether the disk is full");
+    return {name.kind, sop_class.c_str(), sop_uid.c_str(), file};
 }
 
 }  // namespace vicon::report

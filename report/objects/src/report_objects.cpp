@@ -1,41 +1,61 @@
 #include "vicon/report/report_objects.h"
 
+#include <algorithm>
+#include <future>
+
 #include "measurement_report.h"
 #include "object_writing.h"
-#include "vicon/dicom/dicom_setup.h"
+#include "shown_scans.h"
+#include "vicon/core/error.h"
 
 namespace vicon::report {
 namespace {
 
-MarkerImages imagesOfFindings(CaseStore& store, const ReadCase& read)
+std::vector<ReportObject> writeSights(const ObjectContent& content, const MarkerImages& images,
+                                      const std::filesystem::path& folder)
 {
-    MarkerImages images;
-    for (const ScanRecord& scan : read.scans) {
-        std::optional<SourceImages> of_scan;  // read only where something was found
-        for (const auto& [finding, facts] : read.findings)
-            for (const FindingSight& sight : facts.sights) {
-                if (sight.scan_id != scan.id)
-                    continue;
-                if (!of_scan)
-                    of_scan.emplace(store, scan);
-                if (const auto image = of_scan->nearest(sight.position_mm))
-                    images.emplace(sight.marker_id, *image);
-            }
+    std::vector<ReportObject> objects;
+    for (const SightPictures& pictures : content.pictures) {
+        const auto source = images.find(pictures.marker_id);
+        objects.push_back(writePictures(content, pictures, int(objects.size()) + 1,
+                                        source == images.end() ? nullptr : &source->second, folder));
     }
-    return images;
+    return objects;
 }
 
 }  // namespace
 
-std::vector<ReportObject> writeReportObjects(CaseStore& store, const ObjectContent& content,
+ObjectKind objectKindNamed(const std::string& name)
+{
+    for (const ObjectKind kind : kAllObjects)
+        if (nameOf(kind) == name)
+            return kind;
+    throw Error(ErrorCode::wrong_use, "a kind of object must be pdf, sr, key, lumen or picture", "'" + name + "'",
+                "see 'report.objects' in the configuration");
+}
+
+std::vector<ReportObject> writeReportObjects(ShownScans& scans, const ObjectContent& content,
                                              const std::filesystem::path& folder)
 {
-    setUpDicom();
-    const MarkerImages images = imagesOfFindings(store, content.read);
-    std::vector<ReportObject> objects{writeEncapsulatedPdf(content, folder),
-                                      writeMeasurementReport(content, images, folder)};
-    if (!images.empty())
-        objects.push_back(writeKeyImages(content, images, folder));
+    const ShownScans::Parts& shown = scans.parts();
+    const auto wanted = [&](ObjectKind kind) {
+        return std::find(content.kinds.begin(), content.kinds.end(), kind) != content.kinds.end();
+    };
+    auto pictures = std::async(std::launch::async, [&] {
+        return wanted(ObjectKind::picture) ? writeSights(content, shown.findings, folder) : std::vector<ReportObject>{};
+    });
+    std::vector<ReportObject> objects;
+    if (wanted(ObjectKind::pdf))
+        objects.push_back(writeEncapsulatedPdf(content, folder));
+    if (wanted(ObjectKind::measurements))
+        objects.push_back(writeMeasurementReport(content, shown.findings, shown.centrelines, folder));
+    if (wanted(ObjectKind::key_images) && !shown.findings.empty())
+        objects.push_back(writeKeyImages(content, shown.findings, folder));
+    if (wanted(ObjectKind::lumen))
+        for (const auto& [scan_id, lumen] : shown.lumens)
+            objects.push_back(writeLumen(content, scan_id, *lumen, folder));
+    const std::vector<ReportObject> drawn = pictures.get();
+    objects.insert(objects.end(), drawn.begin(), drawn.end());
     return objects;
 }
 

@@ -3,6 +3,7 @@
 #include <dcmtk/config/osconfig.h>
 
 #include <dcmtk/dcmdata/dctk.h>
+#include <tbb/parallel_for.h>
 
 #include <cmath>
 
@@ -20,6 +21,13 @@ std::optional<std::array<double, Count>> numbers(DcmDataset& dataset, const DcmT
     return values;
 }
 
+int size(DcmDataset& dataset, const DcmTagKey& tag)
+{
+    Uint16 value = 0;
+    dataset.findAndGetUint16(tag, value);
+    return value;
+}
+
 std::string text(DcmDataset& dataset, const DcmTagKey& tag)
 {
     OFString value;
@@ -27,39 +35,48 @@ std::string text(DcmDataset& dataset, const DcmTagKey& tag)
     return value.c_str();
 }
 
+std::optional<ImagePlane> planeOf(const std::filesystem::path& file, const std::string& sop_uid)
+{
+    DcmFileFormat format;
+    if (format
+            .loadFileUntilTag(file.c_str(), EXS_Unknown, EGL_noChange, DCM_MaxReadLength, ERM_autoDetect,
+                              DCM_BitsAllocated)
+            .bad())
+        return std::nullopt;
+    DcmDataset& d = *format.getDataset();
+    const auto origin = numbers<3>(d, DCM_ImagePositionPatient);
+    const auto axes = numbers<6>(d, DCM_ImageOrientationPatient);
+    if (!origin || !axes)
+        return std::nullopt;
+    const auto spacing = numbers<2>(d, DCM_PixelSpacing).value_or(std::array<double, 2>{});
+    const auto& a = *axes;
+    return ImagePlane{{(*origin)[0], (*origin)[1], (*origin)[2]},
+                      {a[0], a[1], a[2]},
+                      {a[3], a[4], a[5]},
+                      spacing[1],
+                      spacing[0],
+                      size(d, DCM_Rows),
+                      size(d, DCM_Columns),
+                      {text(d, DCM_SeriesInstanceUID), text(d, DCM_SOPClassUID), sop_uid}};
+}
+
 }  // namespace
 
-SourceImages::SourceImages(CaseStore& store, const ScanRecord& scan)
+SourceImages::SourceImages(const std::filesystem::path& folder, const std::vector<InstanceRecord>& instances)
 {
-    const auto folder = store.scanFolder(scan.case_id, scan.id) / "dicom";
-    for (const InstanceRecord& instance : store.instances(scan.case_id, scan.id)) {
-        DcmFileFormat format;
-        if (format
-                .loadFileUntilTag((folder / instance.file).c_str(), EXS_Unknown, EGL_noChange, DCM_MaxReadLength,
-                                  ERM_autoDetect, DCM_SamplesPerPixel)
-                .bad())
-            continue;
-        DcmDataset& d = *format.getDataset();
-        const auto origin = numbers<3>(d, DCM_ImagePositionPatient);
-        const auto axes = numbers<6>(d, DCM_ImageOrientationPatient);
-        if (!origin || !axes)
-            continue;
-        const auto& a = *axes;
-        planes_.push_back({{(*origin)[0], (*origin)[1], (*origin)[2]},
-                           {a[1] * a[5] - a[2] * a[4], a[2] * a[3] - a[0] * a[5], a[0] * a[4] - a[1] * a[3]},
-                           {text(d, DCM_SeriesInstanceUID), text(d, DCM_SOPClassUID), instance.sop_uid}});
-    }
+    std::vector<std::optional<ImagePlane>> planes(instances.size());
+    tbb::parallel_for(std::size_t(0), instances.size(),
+                      [&](std::size_t n) { planes[n] = planeOf(folder / instances[n].file, instances[n].sop_uid); });
+    for (auto& plane : planes)
+        if (plane)
+            planes_.push_back(std::move(*plane));
 }
 
 std::optional<SourceImage> SourceImages::nearest(Point3 point_mm) const
 {
-    const auto distance = [&](const Plane& plane) {
-        return std::abs((point_mm.x - plane.origin_mm.x) * plane.normal.x +
-                        (point_mm.y - plane.origin_mm.y) * plane.normal.y +
-                        (point_mm.z - plane.origin_mm.z) * plane.normal.z);
-    };
-    const auto found = std::min_element(planes_.begin(), planes_.end(),
-                                        [&](const Plane& a, const Plane& b) { return distance(a) < distance(b); });
+    const auto found = std::min_element(planes_.begin(), planes_.end(), [&](const ImagePlane& a, const ImagePlane& b) {
+        return std::abs(a.height_mm(point_mm)) < std::abs(b.height_mm(point_mm));
+    });
     return found == planes_.end() ? std::nullopt : std::optional(found->image);
 }
 

@@ -1,26 +1,9 @@
 #include "sr_tree.h"
 
-#include <array>
-#include <charconv>
-#include <cstdio>
-
+#include "object_writing.h"
 #include "vicon/core/error.h"
 
 namespace vicon::report {
-namespace {
-
-/// At most the 16 characters of a DS.
-std::string decimalString(double value)
-{
-    std::array<char, 64> text{};
-    for (int digits = 15; digits > 0; --digits)
-        if (std::snprintf(text.data(), text.size(), "%.*g", digits, value) <= 16)
-            break;
-    return text.data();
-}
-
-}  // namespace
-
 void SrTree::check(const OFCondition& done, const std::optional<Code>& concept_name)
 {
     if (done.bad())
@@ -94,6 +77,17 @@ void SrTree::point(const Code& concept_name, Point3 position_mm, const std::stri
     point.getGraphicDataList().addItem(Float32(position_mm.x), Float32(position_mm.y), Float32(position_mm.z));
     check(point.setFrameOfReferenceUID(frame_of_reference_uid.c_str()), concept_name);
     close(item().setSpatialCoordinates3D(point), concept_name);
+}
+
+void SrTree::line(const Code& concept_name, const std::vector<Point3>& points_mm,
+                  const std::string& frame_of_reference_uid)
+{
+    add(DSRTypes::RT_contains, DSRTypes::VT_SCoord3D, concept_name);
+    DSRSpatialCoordinates3DValue line(DSRTypes::GT3_Polyline);
+    for (const Point3& p : points_mm)
+        line.getGraphicDataList().addItem(Float32(p.x), Float32(p.y), Float32(p.z));
+    check(line.setFrameOfReferenceUID(frame_of_reference_uid.c_str()), concept_name);
+    close(item().setSpatialCoordinates3D(line), concept_name);
 }
 
 }  // namespace vicon::report

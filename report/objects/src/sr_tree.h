@@ -33,6 +33,9 @@ public:
     /// @param concept_name of a finding's image; none for one of the library
     void image(const Code* concept_name, const SourceImage& image);
     void point(const Code& concept_name, Point3 position_mm, const std::string& frame_of_reference_uid);
+    /// An open line of at least two points.
+    void line(const Code& concept_name, const std::vector<Point3>& points_mm,
+              const std::string& frame_of_reference_uid);
 
 private:
     DSRContentItem& item() { return tree_.getCurrentContentItem(); }

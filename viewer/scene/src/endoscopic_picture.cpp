@@ -121,16 +121,22 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
     return overlay;
 }
 
-Picture endoscopicPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
+EndoscopicPictures::EndoscopicPictures(PreparedScan scan)
+    : scan_(std::move(scan)), scene_(scan_.cells()), offscreen_(scene_.renderer())
 {
-    SurfaceScene scene(scan.cells());
-    scene.lookFrom(place.pose, request.view_angle_deg);
-    scene.setLampReach(lampReachAt_mm(scan.frames(), place.station_mm));
-    if (request.ambient_occlusion)
-        scene.shadeByOpenness(scan.cells(), scan.openness());
-    Offscreen offscreen(scene.renderer());
-    Picture picture = offscreen.render(request.width, request.height, kSmooth);
-    finishEndoscopic(picture, scan, request, place);
+}
+
+Picture EndoscopicPictures::draw(const SnapshotRequest& request, const SnapshotResult& place)
+{
+    scene_.lookFrom(place.pose, request.view_angle_deg);
+    scene_.setLampReach(lampReachAt_mm(scan_.frames(), place.station_mm));
+    if (request.ambient_occlusion && !occluded_)
+        scene_.shadeByOpenness(scan_.cells(), scan_.openness());
+    if (!request.ambient_occlusion && occluded_)
+        scene_.shadeEvenly();
+    occluded_ = request.ambient_occlusion;
+    Picture picture = offscreen_.render(request.width, request.height, kSmooth);
+    finishEndoscopic(picture, scan_, request, place);
     return picture;
 }
 

@@ -23,7 +23,18 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
 
 /// The wall where the densities of tissue begin, for want of OpenGL; as fine as the request says that it is peeled.
 void castWall(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose);
-Picture endoscopicPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
+/// Endoscopic pictures of one scan; its surface is handed to the driver once.
+class EndoscopicPictures {
+public:
+    explicit EndoscopicPictures(PreparedScan scan);
+    Picture draw(const SnapshotRequest& request, const SnapshotResult& place);
+
+private:
+    PreparedScan scan_;
+    SurfaceScene scene_;
+    Offscreen offscreen_;
+    bool occluded_ = false;  ///< the scene shades with ambient occlusion
+};
 /// Lays what the request asks to peel, and everything that is written, over a picture of the surface.
 void finishEndoscopic(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request,
                       const SnapshotResult& place);

@@ -40,25 +40,14 @@ OverlayText lineOf(const std::string& text, Rgb color)
     return line;
 }
 
-Picture pictureOf(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
-{
-    switch (request.view) {
-        case SnapshotRequest::View::slices:
-            return slicesPicture(scan, request, place);
-        case SnapshotRequest::View::overview:
-            return overviewPicture(scan, request, place);
-        default:
-            return endoscopicPicture(scan, request, place);
-    }
-}
-
 }  // namespace
 
 Caption captionFor(const CaseRecord& a_case, const ScanRecord& scan)
 {
     return {a_case.patient.name,       a_case.patient.id,
             a_case.patient.birth_date, positionName(scan.series.patient_position),
-            a_case.study.date,         scan.series.lossy};
+            a_case.study.date,         true,
+            scan.series.lossy};
 }
 
 SnapshotRequest::View snapshotViewFrom(const std::string& name)
@@ -90,6 +79,8 @@ SnapshotResult placeOf(const PreparedScan& scan, const SnapshotRequest& request)
 std::vector<OverlayText> patientLines(const Caption& caption)
 {
     std::vector<OverlayText> lines;
+    if (!caption.named)
+        return lines;
     const auto joined = [](const std::string& a, const std::string& b) {
         return a.empty() || b.empty() ? a + b : a + "   " + b;
     };
@@ -116,9 +107,27 @@ std::vector<OverlayText> captionLines(const Caption& caption, double station_mm,
 SnapshotResult renderSnapshot(const PreparedScan& scan, const SnapshotRequest& request,
                               const std::filesystem::path& png)
 {
+    return Snapshots(scan).render(request, png);
+}
+
+Snapshots::Snapshots(PreparedScan scan) : scan_(std::move(scan)) {}
+
+Snapshots::~Snapshots() = default;
+
+SnapshotResult Snapshots::render(const SnapshotRequest& request, const std::filesystem::path& png)
+{
     const SnapshotRequest whole = completed(request);
-    const SnapshotResult place = placeOf(scan, whole);
-    writePng(png, pictureOf(scan, whole, place));
+    const SnapshotResult place = placeOf(scan_, whole);
+    const auto write = [&](const Picture& picture) { writePng(png, picture, whole.lasting); };
+    if (whole.view == SnapshotRequest::View::slices) {
+        write(slicesPicture(scan_, whole, place));
+    } else if (whole.view == SnapshotRequest::View::overview) {
+        write(overviewPicture(scan_, whole, place));
+    } else {
+        if (!endoscopic_)
+            endoscopic_ = std::make_unique<EndoscopicPictures>(scan_);
+        write(endoscopic_->draw(whole, place));
+    }
     return place;
 }
 

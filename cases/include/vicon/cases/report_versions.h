@@ -16,12 +16,16 @@ namespace vicon {
 struct SigningOptions {
     std::vector<std::string> signers;
     std::vector<std::string> send_to;
+    std::vector<std::string> objects{"pdf", "sr", "key", "lumen", "picture"};
 
     template <class Visitor>
     void visit(Visitor&& v)
     {
         v("report.signers", signers, "", "Local accounts that may sign reports; none: nobody may.");
         v("report.send_to", send_to, "", "Peers that every signed report goes to, by their names in [peers].");
+        v("report.objects", objects, "",
+          "DICOM objects that a signed report is made into: pdf, sr (measurements), key (slices with findings), lumen "
+          "(segmentation), picture (secondary captures).");
     }
 };
 

@@ -17,6 +17,7 @@ struct Picture {
 
 struct PngOptions {
     int compression = 6;        ///< zlib's level, 0 to 9
+    bool lasting = true;        ///< false: read soon and thrown away, so neither compressed nor flushed
     bool says_srgb = false;     ///< with a chunk that says which colours are meant
     std::string keyword, text;  ///< of a text chunk; none where the keyword is empty
 };

@@ -36,6 +36,7 @@ Area textArea(const OverlayText& text);
 void copyInto(Picture& target, const Picture& source, int x, int y);
 
 /// Writes a PNG by replaceFile(). Throws Error{store}.
-void writePng(const std::filesystem::path& file, const Picture& picture);
+/// @param lasting false: read soon and thrown away, so neither compressed nor flushed
+void writePng(const std::filesystem::path& file, const Picture& picture, bool lasting = true);
 
 }  // namespace vicon::viewer

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct Caption {
     std::string birth_date;  ///< YYYYMMDD or as it shall be printed
     std::string position;    ///< "supine", "prone", ...
     std::string study_date;  ///< YYYYMMDD or as it shall be printed
+    bool named = true;       ///< false: it does not say whose it is, as what surrounds it does
     bool lossy = false;      ///< the pixels went through a lossy compression: printed as a warning
 };
 
@@ -45,6 +47,7 @@ struct SnapshotRequest {
     ViewPoseOptions pose;           ///< endo: where to put the eye
     std::string peel;               ///< endo: a preset of config/transfer_functions.toml to look below the wall with
     PeelingOptions peeling;         ///< used with `peel`
+    bool lasting = true;            ///< false: read soon and thrown away, so neither compressed nor flushed
     int peel_coarse = 1;            ///< one ray for a square of so many pixels a side: quicker, while the eye moves
     bool peel_middle_only = false;  ///< only within a circle; the surface stays around it
     std::optional<Pixel> peel_circle_at;  ///< its centre; nothing: the middle of the picture
@@ -70,5 +73,19 @@ struct SnapshotResult {
 /// Throws Error{wrong_use} for a size or an angle out of range, Error{not_ready}, Error{no_display}, Error{store}.
 SnapshotResult renderSnapshot(const PreparedScan& scan, const SnapshotRequest& request,
                               const std::filesystem::path& png);
+
+/// Many pictures of one scan, the same as of renderSnapshot(): what is costly is made once. To be used, and to end, on
+/// one thread, as OpenGL is.
+class Snapshots {
+public:
+    explicit Snapshots(PreparedScan scan);
+    ~Snapshots();
+    /// As renderSnapshot() does.
+    SnapshotResult render(const SnapshotRequest& request, const std::filesystem::path& png);
+
+private:
+    PreparedScan scan_;
+    std::unique_ptr<class EndoscopicPictures> endoscopic_;
+};
 
 }  // namespace vicon::viewer

@@ -1,0 +1,156 @@
+#include "lumen_on_planes.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vicon::report {
+namespace {
+
+constexpr int kBlock = 8;
+
+using Position = std::array<double, 3>;  // in voxels
+
+Position positionOf(const Grid& grid, Point3 point_mm)
+{
+    const ContinuousIndex3 at = grid.continuousIndexAt(point_mm);
+    return {at.i, at.j, at.k};
+}
+
+Position stepOf(const Grid& grid, Vector3 step_mm)
+{
+    return {dot(step_mm, grid.axis[0]) / grid.spacing_mm[0], dot(step_mm, grid.axis[1]) / grid.spacing_mm[1],
+            dot(step_mm, grid.axis[2]) / grid.spacing_mm[2]};
+}
+
+/// The columns whose places lie in a box, for a row from `start` with `step`: [first, second).
+std::pair<int, int> columnsIn(const Position& start, const Position& step, int columns, const Position& least,
+                              const Position& most)
+{
+    constexpr double kStill = 1e-9;
+    double from = 0, to = columns - 1;
+    for (int a = 0; a < 3; ++a) {
+        if (std::abs(step[a]) < kStill) {
+            if (start[a] < least[a] || start[a] > most[a])
+                return {0, 0};
+            continue;
+        }
+        const double enter = (least[a] - start[a]) / step[a], leave = (most[a] - start[a]) / step[a];
+        from = std::max(from, std::min(enter, leave));
+        to = std::min(to, std::max(enter, leave));
+    }
+    return from > to ? std::pair{0, 0} : std::pair{int(std::ceil(from)), int(std::floor(to)) + 1};
+}
+
+}  // namespace
+
+LumenOnPlanes::LumenOnPlanes(const InsideView& inside) : inside_(inside)
+{
+    findExtent();
+    sortBlocks();
+}
+
+void LumenOnPlanes::findExtent()
+{
+    const auto& size = inside_.grid.size;
+    std::array<int, 3> least = size, most{-1, -1, -1};
+    const std::uint8_t* voxel = inside_.voxels.data();
+    for (int k = 0; k < size[2]; ++k)
+        for (int j = 0; j < size[1]; ++j, voxel += size[0]) {
+            const std::uint8_t* end = voxel + size[0];
+            const std::uint8_t* first = std::find_if(voxel, end, [](std::uint8_t label) { return label != 0; });
+            if (first == end)
+                continue;
+            const auto last = std::find_if(std::reverse_iterator(end), std::reverse_iterator(first),
+                                           [](std::uint8_t label) { return label != 0; });
+            least = {std::min(least[0], int(first - voxel)), std::min(least[1], j), std::min(least[2], k)};
+            most = {std::max(most[0], int(last.base() - voxel) - 1), std::max(most[1], j), std::max(most[2], k)};
+        }
+    for (std::size_t a = 0; a < 3; ++a) {  // the border lies half a voxel outside
+        least_[a] = least[a] - 1.0;
+        most_[a] = most[a] + 1.0;
+    }
+}
+
+void LumenOnPlanes::sortBlocks()
+{
+    const auto& size = inside_.grid.size;
+    for (std::size_t a = 0; a < 3; ++a)
+        block_count_[a] = (size[a] + kBlock - 1) / kBlock;
+    blocks_.resize(std::size_t(block_count_[0]) * std::size_t(block_count_[1]) * std::size_t(block_count_[2]));
+    tbb::parallel_for(0, block_count_[2], [&](int bk) {
+        for (int bj = 0; bj < block_count_[1]; ++bj)
+            for (int bi = 0; bi < block_count_[0]; ++bi)
+                blocks_[std::size_t(bi) + std::size_t(block_count_[0]) *
+                                              (std::size_t(bj) + std::size_t(block_count_[1]) * std::size_t(bk))] =
+                    blockAt({bi * kBlock, bj * kBlock, bk * kBlock});
+    });
+}
+
+LumenOnPlanes::Block LumenOnPlanes::blockAt(Index3 first) const
+{
+    const auto& size = inside_.grid.size;
+    bool any = false, all = first.i + kBlock < size[0] && first.j + kBlock < size[1] && first.k + kBlock < size[2];
+    for (int k = first.k; k <= std::min(first.k + kBlock, size[2] - 1); ++k)
+        for (int j = first.j; j <= std::min(first.j + kBlock, size[1] - 1); ++j)
+            for (int i = first.i; i <= std::min(first.i + kBlock, size[0] - 1); ++i) {
+                const bool in = inside_.at({i, j, k}) != 0;
+                any |= in;
+                all &= in;
+            }
+    return all ? Block::inside : any ? Block::border : Block::outside;
+}
+
+bool LumenOnPlanes::holds(const Position& at) const
+{
+    constexpr double kRounding = 1e-6;
+    std::array<int, 3> base{}, last{};
+    std::array<double, 3> part{};
+    bool in_grid = true;
+    for (std::size_t a = 0; a < 3; ++a) {
+        base[a] = int(std::floor(at[a] + kRounding));
+        part[a] = at[a] - base[a];
+        last[a] = part[a] < kRounding ? 0 : 1;
+        in_grid &= base[a] >= 0 && base[a] < inside_.grid.size[a];
+    }
+    if (in_grid) {
+        const Block block =
+            blocks_[std::size_t(base[0] / kBlock) +
+                    std::size_t(block_count_[0]) *
+                        (std::size_t(base[1] / kBlock) + std::size_t(block_count_[1]) * std::size_t(base[2] / kBlock))];
+        if (block != Block::border)
+            return block == Block::inside;
+    }
+    double share = 0;
+    for (int dk = 0; dk <= last[2]; ++dk)
+        for (int dj = 0; dj <= last[1]; ++dj)
+            for (int di = 0; di <= last[0]; ++di)
+                if (inside_.valueOr({base[0] + di, base[1] + dj, base[2] + dk}, 0) != 0)
+                    share += (di ? part[0] : 1 - part[0]) * (dj ? part[1] : 1 - part[1]) * (dk ? part[2] : 1 - part[2]);
+    return share >= 0.5 - kRounding;
+}
+
+std::vector<std::uint8_t> LumenOnPlanes::on(const ImagePlane& plane) const
+{
+    const Grid& grid = inside_.grid;
+    const Position column_step = stepOf(grid, plane.along_row * plane.column_step_mm);
+    std::vector<std::uint8_t> mask;
+    for (int row = 0; row < plane.rows; ++row) {
+        const Position start = positionOf(grid, plane.origin_mm + plane.along_column * (plane.row_step_mm * row));
+        const auto [from, to] = columnsIn(start, column_step, plane.columns, least_, most_);
+        for (int column = from; column < to; ++column) {
+            Position at = start;
+            for (std::size_t a = 0; a < 3; ++a)
+                at[a] += column_step[a] * column;
+            if (!holds(at))
+                continue;
+            if (mask.empty())
+                mask.resize(std::size_t(plane.rows) * std::size_t(plane.columns));
+            mask[std::size_t(row) * std::size_t(plane.columns) + std::size_t(column)] = 1;
+        }
+    }
+    return mask;
+}
+
+}  // namespace vicon::report
