@@ -27,7 +27,7 @@ void Sections::draw()
         drawMap();
         drawFindingTable();
         // Page one is for who referred the patient; what follows is for who looks closer.
-        if (!content_.markers.empty() && flow_.page() == 1)
+        if (!content_.markers.empty() && flow_.page() == 0)
             flow_.startPage();
         for (const FindingWithFacts& finding : content_.read.findings)
             drawFinding(finding);
