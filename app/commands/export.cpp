@@ -3,10 +3,13 @@
 
 #include "../command.h"
 #include "vicon/cases/report_content.h"
+#include "vicon/cases/report_files.h"
 #include "vicon/cases/report_versions.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/report/forms.h"
+
+namespace fs = std::filesystem;
 
 namespace vicon::app {
 namespace {
@@ -31,11 +34,33 @@ std::optional<ReportVersion> versionFor(CaseStore& store, const std::string& cas
     return *found;
 }
 
+/// The DICOM objects of a signed version, copied into a folder.
+int exportObjects(CaseStore& store, const std::string& case_id, const std::optional<ReportVersion>& version,
+                  const fs::path& folder)
+{
+    if (folder.empty())
+        throw Error(ErrorCode::wrong_use, "DICOM objects need a folder", case_id, "give one with --out");
+    if (!version || !version->isSigned())
+        throw Error(ErrorCode::bad_input, "only a signed report has DICOM objects", case_id,
+                    "'vicon sign " + case_id + "' signs it");
+    fs::create_directories(folder);
+    for (const fs::path& object : versionObjects(store, case_id, version->version)) {
+        const fs::path copy = folder / object.filename();
+        replaceFile(copy, readFile(object));
+        std::printf("%s\n", copy.c_str());
+    }
+    return 0;
+}
+
 std::string formOf(const std::string& form, const std::optional<ReportVersion>& version, const nlohmann::json& content)
 {
     if (form == "json")
         return reportDocument(version, content).dump(2) + "\n";
     const ReadCase read = readCaseFromContent(content);
+    if (form == "fhir")
+        return report::asFhir(read, version).dump(2) + "\n";
+    if (form == "hl7")
+        return report::asHl7(read, version);
     return form == "csv" ? report::asCsv(read) : report::asText(read, version);
 }
 
@@ -44,6 +69,8 @@ int exportReport(Context& context, const ExportArguments& a)
     CaseStore& store = context.existingStore();
     const std::string case_id = store.requireCase(a.case_id).id;
     const auto version = versionFor(store, case_id, a);
+    if (a.form == "dicom" && !context.json)
+        return exportObjects(store, case_id, version, a.out);
     const nlohmann::json content =
         version ? nlohmann::json::parse(version->content) : reportContent(readCase(store, case_id));
     const std::string text = formOf(context.json ? "json" : a.form, version, content);
@@ -60,12 +87,14 @@ int exportReport(Context& context, const ExportArguments& a)
 
 Subcommand exportCommand()
 {
-    return {"export", "Write a case's report in another form: JSON, CSV of its findings, or plain text",
+    return {"export", "Write a case's report in another form: plain text, JSON, CSV, FHIR, HL7, or its DICOM objects",
             [](CommandLine& command) {
                 auto a = std::make_shared<ExportArguments>();
                 command.option("CASE", a->case_id, "The case's id").required();
-                command.option("--as", a->form, "json, csv or text").required().check(oneOf({"json", "csv", "text"}));
-                command.option("--out", a->out, "The file (default: printed)").typeName("FILE");
+                command.option("--as", a->form, "text, json, csv (of its findings), fhir (R4 bundle), hl7 (ORU), dicom")
+                    .required()
+                    .check(oneOf({"text", "json", "csv", "fhir", "hl7", "dicom"}));
+                command.option("--out", a->out, "The file (default: printed); of dicom the folder").typeName("PATH");
                 const auto version =
                     command.option("--version-number", a->version, "This version, in place of the last one")
                         .typeName("N")

@@ -50,6 +50,10 @@ TEST_F(SentReport, IsStoredCommittedAndFoundInTheArchive)
                 testing::UnorderedElementsAre(testing::StartsWith("DOC"), testing::StartsWith("SR")));
     const std::string pdf = readFile(store_ / "cases" / case_id_ / "report" / "version-1.pdf");
     EXPECT_THAT(held("/pdf"), testing::Contains(testing::StartsWith(pdf))) << "an even length may add one byte";
+    viconOn(store_, "export " + case_id_ + " --as dicom --out " + (folder_ / "out").string());
+    EXPECT_EQ(readFile(folder_ / "out" / "version-1-pdf.dcm"),
+              readFile(store_ / "cases" / case_id_ / "report" / "version-1-pdf.dcm"));
+    EXPECT_TRUE(fs::exists(folder_ / "out" / "version-1-sr.dcm"));
     EXPECT_EQ(nlohmann::json::parse(orthanc_.get("/studies")).size(), 1u) << "in one study";
     run("amend " + case_id_ + " --reason 'another word'");
     run("sign " + case_id_);

@@ -8,11 +8,13 @@
 #include <thread>
 
 #include "delivering_listener.h"
+#include "orthanc.h"
 #include "vicon/cases/findings.h"
 #include "vicon/cases/outbox.h"
 #include "vicon/cases/report_versions.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/ingest/sender.h"
 
 using namespace vicon;
 namespace fs = std::filesystem;

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "pdf_fixture.h"
+#include "vicon/core/file.h"
 #include "vicon/report/statements.h"
 
 namespace vicon::report {
@@ -83,6 +84,98 @@ TEST_F(Forms, AsCsvListAFindingThatNoMarkerShows)
     const std::string csv = asCsv(read());
     EXPECT_EQ(std::count(csv.begin(), csv.begin() + long(csv.find("\r\n", csv.find("\r\n") + 2)), ','), 2 * 31 + 1)
         << "the note holds one more";
+}
+
+ReportVersion signedVersion(ReportState state)
+{
+    return {.version = 1, .state = state, .person = "anna", .at = "2026-11-21T08:15:30Z", .digest = "d"};
+}
+
+/// What another program's parser makes of a message: its segments, fields and components.
+nlohmann::json parsedHl7(const std::filesystem::path& file)
+{
+    const auto result = support::runCommand("/usr/bin/python3 " VICON_READ_HL7 " " + file.string());
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return nlohmann::json::parse(result.output);
+}
+
+class Fhir : public Forms {
+protected:
+    std::string faults(const nlohmann::json& bundle)
+    {
+        replaceFile(folder_ / "bundle.json", bundle.dump());
+        return support::runCommand("/usr/bin/python3 " VICON_CHECK_FHIR " < " + (folder_ / "bundle.json").string())
+            .output;
+    }
+    static const nlohmann::json& only(const nlohmann::json& bundle, const std::string& type)
+    {
+        for (const auto& entry : bundle["entry"])
+            if (entry["resource"]["resourceType"] == type)
+                return entry["resource"];
+        throw std::runtime_error("no " + type);
+    }
+};
+
+TEST_F(Fhir, ACaseIsAValidBundleWithEveryNumber)
+{
+    samples::makeNormal(content_);
+    content_.read.record.study.uid = "1.2.3";
+    content_.read.scans.at(0).series.uid = "1.2.3.4";
+    content_.read.assessment.extracolonic = {{"liver", "cyst, < 10 mm & simple", ExtracolonicCategory::e3}};
+    const auto bundle = asFhir(read(), signedVersion(ReportState::final));
+    EXPECT_EQ(faults(bundle), "");
+    const auto& report = only(bundle, "DiagnosticReport");
+    EXPECT_EQ(report["status"], "final");
+    EXPECT_EQ(report["issued"], "2026-11-21T08:15:30Z");
+    EXPECT_EQ(only(bundle, "Patient")["name"][0]["given"], nlohmann::json({"John Robert"}));
+    EXPECT_EQ(only(bundle, "Patient")["birthDate"], "1961-04-12");
+    EXPECT_EQ(only(bundle, "ImagingStudy")["identifier"][0]["value"], "urn:oid:1.2.3");
+    const std::string text = bundle.dump();
+    for (const FindingSight& sight : read().findings[0].facts.sights)
+        for (const double value : {sight.station_mm, sight.from_caecum_mm, sight.fraction, *sight.size_3d_mm})
+            EXPECT_THAT(text, HasSubstr("\"value\":" + nlohmann::json(value).dump())) << sight.marker_id;
+    EXPECT_THAT(text, testing::AllOf(HasSubstr("größer"), HasSubstr("liver: cyst, < 10 mm & simple")));
+}
+
+TEST_F(Fhir, ACaseOfWhichLittleIsKnownIsValid)
+{
+    ReadCase bare;
+    bare.record.study.uid = "1.2.3";
+    const auto bundle = asFhir(bare, {});
+    EXPECT_EQ(faults(bundle), "");
+    EXPECT_EQ(only(bundle, "DiagnosticReport")["status"], "partial");
+}
+
+TEST_F(Fhir, AResourceKeepsItsUrlWhenTheReportIsAmended)
+{
+    const auto first = asFhir(read(), signedVersion(ReportState::final));
+    const auto then = asFhir(read(), signedVersion(ReportState::amended));
+    EXPECT_EQ(only(then, "DiagnosticReport")["status"], "amended");
+    for (std::size_t n = 0; n < first["entry"].size(); ++n)
+        EXPECT_EQ(first["entry"][n]["fullUrl"], then["entry"][n]["fullUrl"]);
+}
+
+TEST_F(Forms, AsHl7AreReadBackByAnotherProgram)
+{
+    content_.read.record.patient.name = "Yamada^Tarou^^Dr=山田^太郎";
+    content_.read.assessment.impression = "one | two ^ three & four ~ five \\ six\nseven";
+    replaceFile(folder_ / "m.hl7", asHl7(read(), signedVersion(ReportState::amended)));
+    const auto message = parsedHl7(folder_ / "m.hl7");
+    EXPECT_EQ(message["PID"][0][5], "Yamada^Tarou^^^Dr^^L^A~山田^太郎^^^^^L^I");
+    EXPECT_EQ(message["PID"][0][7], "19610412");
+    EXPECT_EQ(message["MSH"][0][18], "UNICODE UTF-8");
+    EXPECT_EQ(message["OBR"][0][25], "C");
+    std::map<std::string, std::string> said;
+    for (const auto& observation : message["OBX"]) {
+        const std::string code = observation[3], name = code.substr(0, code.find('^'));
+        said[name + "/" + std::string(observation[4])] += std::string(observation[5]) + "\n";
+        EXPECT_EQ(observation[11], "C");
+    }
+    EXPECT_EQ(said["19005-8/"], "one | two ^ three & four ~ five \\ six\nseven\n");
+    EXPECT_EQ(said["18782-3/"], asText(read(), signedVersion(ReportState::amended)));
+    const FindingFacts& facts = read().findings[0].facts;
+    EXPECT_EQ(std::stod(said["373197004/1"]), *facts.size_mm);
+    EXPECT_NEAR(std::stod(said["112233/1.2"]), facts.sights[1].station_mm, 1e-5);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ void addContext(SrTree& tree, const ReportVersion& version)
     tree.code(kMeaning, dcm("121049", "Language of Content Item and Descendants"), {"en", "RFC5646", "English"});
     tree.code(kObserved, dcm("121005", "Observer Type"), dcm("121006", "Person"));
     tree.person(kObserved, dcm("121008", "Person Observer Name"), version.person);
-    tree.code(kMeaning, dcm("121058", "Procedure reported"), loinc("60515-4", "CT Colon and Rectum W air contrast PR"));
+    tree.code(kMeaning, dcm("121058", "Procedure reported"), procedureReported());
 }
 
 void addLibrary(SrTree& tree, const MarkerImages& images)
@@ -45,37 +45,11 @@ void addWords(SrTree& tree, const Assessment& said)
     tree.textWhereGiven(dcm("121075", "Recommendation"), said.recommendation);
 }
 
-void addCategories(SrTree& tree, const Assessment& said)
-{
-    if (said.colon_category) {
-        tree.code(kContains, dcm("112222", "Colon Overall Assessment"), codeOf(said.colon_category->category));
-        tree.textWhereGiven(ours("COLON_WHY", "Why not the proposed colon category"), said.colon_category->why);
-    }
-    if (said.extracolonic_category) {
-        tree.code(kContains, ours("EXTRACOLONIC", "Extracolonic category (C-RADS)"),
-                  codeOf(said.extracolonic_category->category));
-        tree.textWhereGiven(ours("EXTRACOLONIC_WHY", "Why not the proposed extracolonic category"),
-                            said.extracolonic_category->why);
-    }
-    if (said.preparation)
-        tree.code(kContains, ours("PREPARATION", "Preparation"), codeOf(*said.preparation));
-    if (said.tagging)
-        tree.code(kContains, ours("TAGGING", "Tagging"), codeOf(*said.tagging));
-    if (said.inadequate)
-        tree.code(kContains, ours("LIMIT", "Limitation"),
-                  ours("INADEQUATE", "A lesion of 10 mm or more cannot be excluded"));
-    if (said.priors_awaited)
-        tree.code(kContains, ours("LIMIT", "Limitation"), ours("PRIORS_AWAITED", "Prior studies are awaited"));
-    if (said.extracolonic_limited)
-        tree.code(kContains, ours("LIMIT", "Limitation"),
-                  ours("EXTRACOLONIC_LIMITED", "What lies outside the colon cannot be judged"));
-}
-
 void addParts(SrTree& tree, const ReadCase& read)
 {
     for (const PartState& state : read.parts)
         tree.container(kContains, ours("PART", "Part of the colon in a scan"), nullptr, [&] {
-            tree.code(kMeaning, sct("363698007", "Finding Site"), codeOf(state.part));
+            tree.code(kMeaning, findingSiteConcept(), codeOf(state.part));
             for (const ScanRecord& scan : read.scans)
                 if (scan.id == state.scan_id)
                     tree.uid(kObserved, dcm("112002", "Series Instance UID"), scan.series.uid);
@@ -89,18 +63,8 @@ void addExtracolonic(SrTree& tree, const Assessment& said)
         tree.container(kContains, ours("EXTRACOLONIC_FINDING", "Extracolonic finding"), nullptr, [&] {
             tree.textWhereGiven(ours("ORGAN", "Organ"), finding.organ);
             tree.textWhereGiven(dcm("121071", "Finding"), finding.text);
-            tree.code(kContains, ours("EXTRACOLONIC", "Extracolonic category (C-RADS)"), codeOf(finding.category));
+            tree.code(kContains, extracolonicConcept(), codeOf(finding.category));
         });
-}
-
-void addStudyNumbers(SrTree& tree, const Assessment& said)
-{
-    if (said.dose_mgy_cm)
-        tree.number(dcm("113838", "CT Dose Length Product Total"), *said.dose_mgy_cm, ucum("mGy.cm", "mGy.cm"));
-    if (said.coverage_percent)
-        tree.number(ours("COVERAGE", "Wall that was seen"), *said.coverage_percent, ucum("%", "percent"));
-    if (said.reading_minutes)
-        tree.number(ours("READING_TIME", "Reading time"), *said.reading_minutes, ucum("min", "minute"));
 }
 
 void fillTree(DSRDocumentTree& document, const ObjectContent& content, const MarkerImages& images,
@@ -108,6 +72,7 @@ void fillTree(DSRDocumentTree& document, const ObjectContent& content, const Mar
 {
     SrTree tree(document);
     const ReadCase& read = content.read;
+    const CodedFacts study = factsOfStudy(read.assessment);
     tree.container(DSRTypes::RT_isRoot, dcm("126000", "Imaging Measurement Report"), "1500", [&] {
         addContext(tree, content.version);
         if (!images.empty())
@@ -115,10 +80,10 @@ void fillTree(DSRDocumentTree& document, const ObjectContent& content, const Mar
         tree.container(kContains, dcm("126010", "Imaging Measurements"), nullptr, [&] {
             addFindings(tree, read, images);
             addCentrelines(tree, centrelines);
-            addStudyNumbers(tree, read.assessment);
+            tree.numbers(study.numbers);
         });
         tree.container(kContains, {"C0034375", "UMLS", "Qualitative Evaluations"}, nullptr, [&] {
-            addCategories(tree, read.assessment);
+            tree.words(study);
             addParts(tree, read);
             addExtracolonic(tree, read.assessment);
         });

@@ -4,11 +4,20 @@
 #include "vicon/core/error.h"
 
 namespace vicon::report {
+namespace {
+
+DSRCodedEntryValue entry(const Code& code)
+{
+    return {code.value.c_str(), code.scheme.c_str(), code.meaning.c_str()};
+}
+
+}  // namespace
+
 void SrTree::check(const OFCondition& done, const std::optional<Code>& concept_name)
 {
     if (done.bad())
         throw Error(ErrorCode::internal, std::string("the structured report cannot be written (") + done.text() + ")",
-                    concept_name ? concept_name->getCodeMeaning().c_str() : "");
+                    concept_name ? concept_name->meaning : "");
 }
 
 void SrTree::add(Relation relation, DSRTypes::E_ValueType type, const std::optional<Code>& concept_name)
@@ -16,7 +25,7 @@ void SrTree::add(Relation relation, DSRTypes::E_ValueType type, const std::optio
     if (tree_.addContentItem(relation, type, DSRTypes::AM_belowCurrent) == 0)
         check(SR_EC_CannotAddContentItem, concept_name);
     if (concept_name)
-        check(item().setConceptName(*concept_name), concept_name);
+        check(item().setConceptName(entry(*concept_name)), concept_name);
 }
 
 void SrTree::close(const OFCondition& done, const std::optional<Code>& concept_name)
@@ -40,7 +49,7 @@ void SrTree::textWhereGiven(const Code& concept_name, const std::string& value)
 void SrTree::code(Relation relation, const Code& concept_name, const Code& value)
 {
     add(relation, DSRTypes::VT_Code, concept_name);
-    close(item().setCodeValue(value), concept_name);
+    close(item().setCodeValue(entry(value)), concept_name);
 }
 
 void SrTree::person(Relation relation, const Code& concept_name, const std::string& name)
@@ -58,9 +67,23 @@ void SrTree::uid(Relation relation, const Code& concept_name, const std::string&
 void SrTree::number(const Code& concept_name, double value, const Code& unit)
 {
     add(DSRTypes::RT_contains, DSRTypes::VT_Num, concept_name);
-    DSRNumericMeasurementValue measured(decimalString(value).c_str(), unit);
+    DSRNumericMeasurementValue measured(decimalString(value).c_str(), entry(unit));
     check(measured.setFloatingPointRepresentation(value), concept_name);
     close(item().setNumericValue(measured), concept_name);
+}
+
+void SrTree::numbers(const std::vector<CodedFacts::Number>& numbers)
+{
+    for (const auto& [name, value, unit] : numbers)
+        number(name, value, unit);
+}
+
+void SrTree::words(const CodedFacts& facts)
+{
+    for (const auto& [name, value] : facts.words)
+        code(DSRTypes::RT_contains, name, value);
+    for (const auto& [name, said] : facts.texts)
+        text(DSRTypes::RT_contains, name, said);
 }
 
 void SrTree::image(const Code* concept_name, const SourceImage& image)

@@ -1,7 +1,11 @@
 #pragma once
 
-#include "codes.h"
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmsr/dsrdoc.h>
+
 #include "source_images.h"
+#include "vicon/report/coded_findings.h"
 
 namespace vicon::report {
 
@@ -30,6 +34,14 @@ public:
     void uid(Relation relation, const Code& concept_name, const std::string& value);
     /// The number is also kept as a double, exactly.
     void number(const Code& concept_name, double value, const Code& unit);
+    void numbers(const std::vector<CodedFacts::Number>& numbers);
+    /// Its words and texts.
+    void words(const CodedFacts& facts);
+    void facts(const CodedFacts& facts)
+    {
+        numbers(facts.numbers);
+        words(facts);
+    }
     /// @param concept_name of a finding's image; none for one of the library
     void image(const Code* concept_name, const SourceImage& image);
     void point(const Code& concept_name, Point3 position_mm, const std::string& frame_of_reference_uid);

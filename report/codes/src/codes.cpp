@@ -1,4 +1,4 @@
-#include "codes.h"
+#include "vicon/report/codes.h"
 
 #include <algorithm>
 
@@ -20,6 +20,21 @@ Code oursFor(const std::string& name)
 
 }  // namespace
 
+Code procedureReported()
+{
+    return loinc("60515-4", "CT Colon and Rectum W air contrast PR");
+}
+
+Code extracolonicConcept()
+{
+    return ours("EXTRACOLONIC", "Extracolonic category (C-RADS)");
+}
+
+Code findingSiteConcept()
+{
+    return sct("363698007", "Finding Site");
+}
+
 Code dcm(const char* value, const char* meaning)
 {
     return {value, "DCM", meaning};
@@ -37,7 +52,7 @@ Code loinc(const char* value, const char* meaning)
 
 Code ours(const std::string& value, const std::string& meaning)
 {
-    return {value.c_str(), kPrivateScheme, meaning.c_str()};
+    return {value, kPrivateScheme, meaning};
 }
 
 Code ucum(const char* unit, const char* meaning)

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <dcmtk/config/osconfig.h>
-
-#include <dcmtk/dcmsr/dsrdoc.h>
+#include <string>
 
 #include "vicon/cases/assessment.h"
 #include "vicon/cases/finding.h"
@@ -13,7 +11,10 @@ namespace vicon::report {
 /// Of concepts that no standard has a code for.
 inline constexpr const char* kPrivateScheme = "99VICON";
 
-using Code = DSRCodedEntryValue;
+/// A concept by DICOM's coding: "68496003", "SCT", "Polyp of colon".
+struct Code {
+    std::string value, scheme, meaning;
+};
 
 // PS3.16 and SNOMED CT, where they have a code; else our own.
 Code codeOf(FindingKind kind);
@@ -25,6 +26,11 @@ Code codeOf(ColonCategory category);
 Code codeOf(ExtracolonicCategory category);
 Code codeOf(Distension distension);
 Code codeOf(Grade grade);
+
+// Of whole reports.
+Code procedureReported();    ///< CT of colon and rectum
+Code extracolonicConcept();  ///< C-RADS outside the colon
+Code findingSiteConcept();
 
 Code dcm(const char* value, const char* meaning);
 Code sct(const char* value, const char* meaning);

@@ -1,0 +1,125 @@
+#include "vicon/report/coded_findings.h"
+
+#include "vicon/core/uid.h"
+
+namespace vicon::report {
+namespace {
+
+Code millimetre()
+{
+    return ucum("mm", "millimeter");
+}
+
+/// Adds what is given.
+class Facts {
+public:
+    CodedFacts out;
+
+    void number(const Code& name, const std::optional<double>& value, const Code& unit)
+    {
+        if (value)
+            out.numbers.push_back({name, *value, unit});
+    }
+    template <class Enum>
+    void word(const Code& name, const std::optional<Enum>& value)
+    {
+        if (value)
+            out.words.push_back({name, codeOf(*value)});
+    }
+    void wordIf(bool holds, const Code& name, const Code& value)
+    {
+        if (holds)
+            out.words.push_back({name, value});
+    }
+    void text(const Code& name, const std::string& text)
+    {
+        if (!text.empty())
+            out.texts.push_back({name, text});
+    }
+};
+
+Code sizeSourceCode(SizeSource source)
+{
+    return ours(source == SizeSource::reader  ? "READER"
+                : source == SizeSource::plane ? "BEST_PLANE"
+                                              : "SURFACE",
+                nameOf(source));
+}
+
+}  // namespace
+
+CodedFacts factsOfWhole(const FindingWithFacts& one)
+{
+    const auto& [finding, facts] = one;
+    Facts f;
+    f.number(sct("373197004", "Largest dimension"), facts.size_mm, millimetre());
+    f.wordIf(facts.size_mm.has_value(), ours("SIZE_FROM", "Largest dimension taken from"),
+             sizeSourceCode(facts.size_source));
+    f.number(ours("HEIGHT", "Height above the wall"), finding.height_mm, millimetre());
+    f.number(sct("118565006", "Volume"), finding.volume_ml, ucum("ml", "milliliter"));
+    if (const auto& far = facts.endoscope) {
+        const std::string name = "Estimated endoscope distance from anus";
+        f.number(ours("ENDOSCOPE_ABOUT", name), far->about_mm, millimetre());
+        f.number(ours("ENDOSCOPE_LEAST", name + ", least"), far->least_mm, millimetre());
+        f.number(ours("ENDOSCOPE_MOST", name + ", most"), far->most_mm, millimetre());
+    }
+    f.word(ours("MORPHOLOGY", "Morphology"), finding.morphology);
+    f.word(ours("ATTENUATION", "Attenuation"), finding.attenuation);
+    f.word(ours("CONFIDENCE", "Confidence of the reader"), finding.confidence);
+    const Code extent = ours("EXTENT", "Extent");
+    f.wordIf(finding.narrows_lumen, extent, ours("NARROWS_LUMEN", "Narrows the lumen"));
+    f.wordIf(finding.invades, extent, ours("INVADES", "Reaches beyond the wall"));
+    f.text(dcm("121106", "Comment"), finding.note);
+    return f.out;
+}
+
+CodedFacts factsOfSight(const FindingSight& sight)
+{
+    Facts f;
+    f.number(dcm("112233", "Distance from anus"), sight.station_mm, millimetre());
+    f.number(ours("FROM_CAECUM", "Distance from caecum"), sight.from_caecum_mm, millimetre());
+    f.number(ours("FRACTION", "Fraction of the colon's length from the anus"), sight.fraction, ucum("1", "no units"));
+    f.number(ours("SIZE_2D", "Largest diameter in the best plane"), sight.size_2d_mm, millimetre());
+    f.number(ours("SIZE_3D", "Largest diameter on the surface"), sight.size_3d_mm, millimetre());
+    f.number(sct("112031007", "Mean density"), sight.mean_hu, ucum("[hnsf'U]", "Hounsfield unit"));
+    if (sight.clock_hour)
+        f.text(ours("CLOCK_FACE", "Clock-face position, seen from the anal side"),
+               std::to_string(*sight.clock_hour) + " o'clock");
+    return f.out;
+}
+
+CodedFacts factsOfStudy(const Assessment& said)
+{
+    Facts f;
+    if (const auto& chosen = said.colon_category) {
+        f.word(dcm("112222", "Colon Overall Assessment"), std::optional(chosen->category));
+        f.text(ours("COLON_WHY", "Why not the proposed colon category"), chosen->why);
+    }
+    if (const auto& chosen = said.extracolonic_category) {
+        f.word(extracolonicConcept(), std::optional(chosen->category));
+        f.text(ours("EXTRACOLONIC_WHY", "Why not the proposed extracolonic category"), chosen->why);
+    }
+    f.word(ours("PREPARATION", "Preparation"), said.preparation);
+    f.word(ours("TAGGING", "Tagging"), said.tagging);
+    const Code limit = ours("LIMIT", "Limitation");
+    f.wordIf(said.inadequate, limit, ours("INADEQUATE", "A lesion of 10 mm or more cannot be excluded"));
+    f.wordIf(said.priors_awaited, limit, ours("PRIORS_AWAITED", "Prior studies are awaited"));
+    f.wordIf(said.extracolonic_limited, limit,
+             ours("EXTRACOLONIC_LIMITED", "What lies outside the colon cannot be judged"));
+    f.number(dcm("113838", "CT Dose Length Product Total"), said.dose_mgy_cm, ucum("mGy.cm", "mGy.cm"));
+    f.number(ours("COVERAGE", "Wall that was seen"), said.coverage_percent, ucum("%", "percent"));
+    f.number(ours("READING_TIME", "Reading time"), said.reading_minutes, ucum("min", "minute"));
+    return f.out;
+}
+
+std::string trackingName(const Finding& finding)
+{
+    return "Finding " + std::to_string(finding.number());
+}
+
+std::string trackingUid(const ReadCase& read, const Finding& finding)
+{
+    return uidFor("vicon finding\n" + read.record.study.uid + "\n" + finding.id);
+}
+
+}  // namespace vicon::report
