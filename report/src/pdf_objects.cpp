@@ -133,7 +133,7 @@ void setToUnicode(HPDF_Font font, const std::map<char16_t, char32_t>& meaning)
         const std::size_t to = std::min(from + kMostInBlock, list.size());
         text += std::to_string(to - from) + " beginbfchar\n";
         for (std::size_t n = from; n < to; ++n)
-            text += "<" + hex(list[n].first) + "> <" + hexUtf16(list[n].second) + ">\n";
+            text.append("<").append(hex(list[n].first)).append("> <").append(hexUtf16(list[n].second)).append(">\n");
         text += "endbfchar\n";
     }
     text += "endcmap\nCMapName currentdict /CMap defineresource pop\nend\nend\n";
