@@ -7,7 +7,6 @@
 #include <dcmtk/dcmfg/fgplanpo.h>
 #include <dcmtk/dcmseg/segdoc.h>
 #include <dcmtk/dcmseg/segment.h>
-#include <tbb/parallel_for.h>
 
 #include "lumen_on_planes.h"
 #include "object_writing.h"
@@ -19,7 +18,6 @@
 namespace vicon::report {
 namespace {
 
-constexpr std::size_t kPlanesAtOnce = 64;  // so many masks of a byte a pixel are in memory
 constexpr Uint16 kSegment = 1;
 
 void require(const OFCondition& done)
@@ -128,14 +126,9 @@ void addFrame(DcmSegmentation& segmentation, const ImagePlane& plane, Uint32 num
 Uint32 addFrames(DcmSegmentation& segmentation, const std::vector<ImagePlane>& planes, const LumenOnPlanes& lumen)
 {
     Uint32 frames = 0;
-    for (std::size_t from = 0; from < planes.size(); from += kPlanesAtOnce) {
-        const std::size_t to = std::min(from + kPlanesAtOnce, planes.size());
-        std::vector<std::vector<std::uint8_t>> masks(to - from);
-        tbb::parallel_for(from, to, [&](std::size_t n) { masks[n - from] = lumen.on(planes[n]); });
-        for (std::size_t n = from; n < to; ++n)
-            if (!masks[n - from].empty())
-                addFrame(segmentation, planes[n], ++frames, masks[n - from]);
-    }
+    for (const ImagePlane& plane : planes)
+        if (std::vector<std::uint8_t> mask = lumen.on(plane); !mask.empty())
+            addFrame(segmentation, plane, ++frames, mask);
     return frames;
 }
 

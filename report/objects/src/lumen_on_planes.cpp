@@ -1,14 +1,14 @@
 #include "lumen_on_planes.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vicon::report {
 namespace {
 
 constexpr int kBlock = 8;
+constexpr double kRounding = 1e-6;  // voxels
 
 using Position = std::array<double, 3>;  // in voxels
 
@@ -79,48 +79,58 @@ void LumenOnPlanes::sortBlocks()
     for (std::size_t a = 0; a < 3; ++a)
         block_count_[a] = (size[a] + kBlock - 1) / kBlock;
     blocks_.resize(std::size_t(block_count_[0]) * std::size_t(block_count_[1]) * std::size_t(block_count_[2]));
-    tbb::parallel_for(0, block_count_[2], [&](int bk) {
+    auto block = blocks_.begin();
+    for (int bk = 0; bk < block_count_[2]; ++bk)
         for (int bj = 0; bj < block_count_[1]; ++bj)
             for (int bi = 0; bi < block_count_[0]; ++bi)
-                blocks_[std::size_t(bi) + std::size_t(block_count_[0]) *
-                                              (std::size_t(bj) + std::size_t(block_count_[1]) * std::size_t(bk))] =
-                    blockAt({bi * kBlock, bj * kBlock, bk * kBlock});
-    });
+                *block++ = blockAt({bi * kBlock, bj * kBlock, bk * kBlock});
 }
 
 LumenOnPlanes::Block LumenOnPlanes::blockAt(Index3 first) const
 {
     const auto& size = inside_.grid.size;
     bool any = false, all = first.i + kBlock < size[0] && first.j + kBlock < size[1] && first.k + kBlock < size[2];
+    const int columns = std::min(kBlock + 1, size[0] - first.i);
     for (int k = first.k; k <= std::min(first.k + kBlock, size[2] - 1); ++k)
-        for (int j = first.j; j <= std::min(first.j + kBlock, size[1] - 1); ++j)
-            for (int i = first.i; i <= std::min(first.i + kBlock, size[0] - 1); ++i) {
-                const bool in = inside_.at({i, j, k}) != 0;
-                any |= in;
-                all &= in;
-            }
+        for (int j = first.j; j <= std::min(first.j + kBlock, size[1] - 1); ++j) {
+            const std::uint8_t* row = &inside_.at({first.i, j, k});
+            const auto in = std::count_if(row, row + columns, [](std::uint8_t label) { return label != 0; });
+            any |= in > 0;
+            all &= in == columns;
+            if (any && !all)
+                return Block::border;
+        }
     return all ? Block::inside : any ? Block::border : Block::outside;
+}
+
+LumenOnPlanes::Run LumenOnPlanes::runAt(const Position& at, const Position& step) const
+{
+    std::array<int, 3> block{};
+    double columns = std::numeric_limits<int>::max();
+    for (std::size_t a = 0; a < 3; ++a) {
+        const int base = int(std::floor(at[a] + kRounding));
+        if (base < 0 || base >= inside_.grid.size[a])
+            return {Block::border, 1};
+        block[a] = base / kBlock;
+        if (step[a] > 0)
+            columns = std::min(columns, ((block[a] + 1) * kBlock - 2 * kRounding - at[a]) / step[a]);
+        else if (step[a] < 0)
+            columns = std::min(columns, (block[a] * kBlock - at[a]) / step[a]);
+    }
+    const Block kind = blocks_[std::size_t(block[0]) +
+                               std::size_t(block_count_[0]) *
+                                   (std::size_t(block[1]) + std::size_t(block_count_[1]) * std::size_t(block[2]))];
+    return {kind, kind == Block::border ? 1 : 1 + std::max(0, int(columns))};
 }
 
 bool LumenOnPlanes::holds(const Position& at) const
 {
-    constexpr double kRounding = 1e-6;
     std::array<int, 3> base{}, last{};
     std::array<double, 3> part{};
-    bool in_grid = true;
     for (std::size_t a = 0; a < 3; ++a) {
         base[a] = int(std::floor(at[a] + kRounding));
         part[a] = at[a] - base[a];
         last[a] = part[a] < kRounding ? 0 : 1;
-        in_grid &= base[a] >= 0 && base[a] < inside_.grid.size[a];
-    }
-    if (in_grid) {
-        const Block block =
-            blocks_[std::size_t(base[0] / kBlock) +
-                    std::size_t(block_count_[0]) *
-                        (std::size_t(base[1] / kBlock) + std::size_t(block_count_[1]) * std::size_t(base[2] / kBlock))];
-        if (block != Block::border)
-            return block == Block::inside;
     }
     double share = 0;
     for (int dk = 0; dk <= last[2]; ++dk)
@@ -139,15 +149,19 @@ std::vector<std::uint8_t> LumenOnPlanes::on(const ImagePlane& plane) const
     for (int row = 0; row < plane.rows; ++row) {
         const Position start = positionOf(grid, plane.origin_mm + plane.along_column * (plane.row_step_mm * row));
         const auto [from, to] = columnsIn(start, column_step, plane.columns, least_, most_);
-        for (int column = from; column < to; ++column) {
+        for (int column = from; column < to;) {
             Position at = start;
             for (std::size_t a = 0; a < 3; ++a)
                 at[a] += column_step[a] * column;
-            if (!holds(at))
+            const auto [block, columns] = runAt(at, column_step);
+            const int first = column;
+            column = std::min(to, column + columns);
+            if (block == Block::outside || (block == Block::border && !holds(at)))
                 continue;
             if (mask.empty())
                 mask.resize(std::size_t(plane.rows) * std::size_t(plane.columns));
-            mask[std::size_t(row) * std::size_t(plane.columns) + std::size_t(column)] = 1;
+            const auto pixels = mask.begin() + std::ptrdiff_t(row) * plane.columns;
+            std::fill(pixels + first, pixels + column, std::uint8_t(1));
         }
     }
     return mask;

@@ -23,6 +23,12 @@ private:
     void findExtent();
     void sortBlocks();
     Block blockAt(Index3 first) const;
+    /// In what kind of block a place lies, and for how many columns from it.
+    struct Run {
+        Block block;
+        int columns;
+    };
+    Run runAt(const std::array<double, 3>& at, const std::array<double, 3>& step) const;
     bool holds(const std::array<double, 3>& at) const;
 
     InsideView inside_;
