@@ -41,7 +41,7 @@ TEST(WrongUse, EndsWithTheRightCodeAndOneLineThatSaysWhatToDo)
         {"amend nosuchcase --reason why --cancel" + store, 2, "--cancel"},
         {"audit nosuchcase" + store, 1, "no such case"},
         {"export nosuchcase" + store, 2, "--as"},
-        {"export nosuchcase --as pdf" + store, 2, "{json,csv,text}"},
+        {"export nosuchcase --as pdf" + store, 2, "{text,json,csv,fhir,hl7,dicom}"},
         {"phantom " + (folder / "p").string() + " --size 3x3", 2, "COLUMNSxROWSxSLICES"},
         {"phantom /proc/nowhere --size 64x64x32", 1, "/proc/nowhere"},
         {"fly nosuchcase --to moon" + store, 1, "no such case"},

@@ -57,7 +57,7 @@ private:
 
     std::string add(const std::string& name, const json& resource)
     {
-        const std::string url = fhir::urlOf(read_, name);
+        std::string url = fhir::urlOf(read_, name);
         entries_.push_back({{"fullUrl", url}, {"resource", resource}});
         return url;
     }

@@ -55,14 +55,15 @@ void addFindings(SrTree& tree, const ReadCase& read, const MarkerImages& images)
 
 void addCentrelines(SrTree& tree, const std::vector<Centreline>& centrelines)
 {
-    for (const auto& [scan, points_mm, length_mm] : centrelines)
+    for (const Centreline& line : centrelines)
         tree.container(kContains, dcm("125007", "Measurement Group"), "1501", [&] {
-            tree.text(DSRTypes::RT_hasObsContext, dcm("112039", "Tracking Identifier"), "Centerline of " + scan.id);
+            tree.text(DSRTypes::RT_hasObsContext, dcm("112039", "Tracking Identifier"),
+                      "Centerline of " + line.scan.id);
             tree.uid(DSRTypes::RT_hasObsContext, dcm("112040", "Tracking Unique Identifier"),
-                     uidFor("vicon centreline\n" + scan.series.uid));
+                     uidFor("vicon centreline\n" + line.scan.series.uid));
             tree.code(kContains, dcm("121071", "Finding"), sct("71854001", "Colon"));
-            tree.line(dcm("130490", "Centerline"), points_mm, scan.series.frame_of_reference_uid);
-            tree.number(dcm("121211", "Path length"), length_mm, ucum("mm", "millimeter"));
+            tree.line(dcm("130490", "Centerline"), line.points_mm, line.scan.series.frame_of_reference_uid);
+            tree.number(dcm("121211", "Path length"), line.length_mm, ucum("mm", "millimeter"));
         });
 }
 
