@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "../command.h"
+#include "../peers.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/viewer/scene/display.h"
@@ -49,6 +50,21 @@ std::string checkStore(Context& context)
     return store.folder().string() + ", schema version " + std::to_string(Database::kSchemaVersion);
 }
 
+std::string checkDatabase(Context& context)
+{
+    if (const std::string damage = context.store().database().damage(); !damage.empty())
+        throw Error(ErrorCode::database, "the database is damaged (" + damage.substr(0, damage.find('\n')) + ")",
+                    (context.storeFolder() / "vicon.db").string(), "restore it from a backup");
+    return "whole";
+}
+
+std::string checkPeer(const Config& config, const std::string& name)
+{
+    const ingest::Peer peer = requirePeer(config, name);
+    ingest::echo(peer, config.get<ingest::ReceiverOptions>().ae_title);
+    return peer.ae_title + " at " + peer.host + ":" + std::to_string(peer.port) + " answers";
+}
+
 std::string checkSpace(Context& context)
 {
     struct statvfs info {};
@@ -77,13 +93,16 @@ std::string checkDisplay()
 
 int doctor(Context& context)
 {
-    const std::vector<Check> checks = {
+    std::vector<Check> checks = {
         checked("configuration", [&] { return std::to_string(context.config().specs().size()) + " options"; }),
         checked("store", [&] { return checkStore(context); }),
+        checked("database", [&] { return checkDatabase(context); }),
         checked("disk space", [&] { return checkSpace(context); }),
         checked("memory", [] { return checkMemory(); }),
         checked("display", [] { return checkDisplay(); }),
     };
+    for (const auto& [name, about] : context.config().peers().items())
+        checks.push_back(checked("peer " + name, [&, &name = name] { return checkPeer(context.config(), name); }));
     bool all_good = true;
     nlohmann::json list = nlohmann::json::array();
     for (const Check& check : checks) {

@@ -181,6 +181,17 @@ void Database::migrate()
     });
 }
 
+std::string Database::damage()
+{
+    try {
+        std::string found;
+        *session_ << "PRAGMA integrity_check(1)", soci::into(found);
+        return found == "ok" ? "" : found;
+    } catch (const soci::soci_error& e) {
+        return e.what();
+    }
+}
+
 std::string Database::version()
 {
     try {

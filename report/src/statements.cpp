@@ -82,7 +82,7 @@ std::string bridgeWords(const std::vector<ReviewedBridge>& bridges)
         return "none";
     std::string out;
     for (const auto& [bridge, review] : bridges) {
-        out += (out.empty() ? "" : "\n") + millimetres(bridge.length_mm);
+        out.append(out.empty() ? "" : "\n").append(millimetres(bridge.length_mm));
         out += bridge.certain ? ", certain" : ", uncertain";
         out += ", confidence " + percent(bridge.confidence, 0);
         if (!bridge.reason.empty())

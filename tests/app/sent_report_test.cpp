@@ -44,6 +44,7 @@ protected:
 TEST_F(SentReport, IsStoredCommittedAndFoundInTheArchive)
 {
     const DeliveringListener listener(store_, config_);
+    EXPECT_THAT(viconOn(store_, "doctor --config " + config_.string()), testing::HasSubstr("ok   peer pacs"));
     run("sign " + case_id_);
     EXPECT_TRUE(waitUntil([&] { return sent() == "2 committed"; })) << sent() << readFile(folder_ / "listener.log");
     EXPECT_THAT(held("/content/0008-0060"),

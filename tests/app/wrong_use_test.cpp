@@ -91,5 +91,25 @@ TEST(Doctor, FindsNothingWrongHere)
     EXPECT_THAT(result.output, HasSubstr("display"));
 }
 
+TEST(Doctor, FindsADamagedDatabaseAndAPeerThatDoesNotAnswer)
+{
+    const TemporaryFolder folder;
+    const auto store = folder / "store";
+    runVicon("cases --store " + store.string());
+    ASSERT_EQ(runVicon("doctor --store " + store.string()).exit_code, 0);
+    std::fstream file(store / "vicon.db", std::ios::in | std::ios::out | std::ios::binary);
+    constexpr long kPage = 4096;
+    file.seekp(0, std::ios::end);
+    file.seekp(long(file.tellp()) - kPage);
+    file << std::string(kPage, 'x');
+    file.close();
+    std::ofstream(folder / "c.toml") << "[peers]\npacs = { host = \"127.0.0.1\", port = 9 }\n";
+    const CommandResult result =
+        runVicon("doctor --store " + store.string() + " --config " + (folder / "c.toml").string());
+    EXPECT_EQ(result.exit_code, 1) << result.output;
+    EXPECT_THAT(result.output, testing::ContainsRegex("BAD  database +.*damaged"));
+    EXPECT_THAT(result.output, testing::ContainsRegex("BAD  peer pacs +.*no association"));
+}
+
 }  // namespace
 }  // namespace vicon::support

@@ -155,7 +155,7 @@ private:
                     {3, escaped(study.accession_number)},
                     {4, codeField(procedureReported())},
                     {7, escaped(study.date + study.time.substr(0, study.time.find('.')))},
-                    {16, referrer.empty() ? "" : "^" + referrer.substr(0, referrer.find('~'))},
+                    {16, referrer.empty() ? "" : std::string("^").append(referrer, 0, referrer.find('~'))},
                     {22, version_ ? timeFrom(version_->at) : ""},
                     {24, "RAD"},
                     {25, status_},

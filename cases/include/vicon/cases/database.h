@@ -30,6 +30,9 @@ public:
     /// this object said before.
     std::string version();
 
+    /// Reads all of it: what is damaged, in SQLite's words; empty where nothing is.
+    std::string damage();
+
     /// Runs `work` in one write transaction (BEGIN IMMEDIATE), rolled back when it throws. Database errors become
     /// Error{database}.
     void write(const std::function<void(soci::session&)>& work);
