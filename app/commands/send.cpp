@@ -123,7 +123,9 @@ int send(Context& context, const SendArguments& a)
 
 Subcommand sendCommand()
 {
-    return {"send", "Send a case's signed report to a PACS, through the outbox: as DICOM", [](CommandLine& command) {
+    return {"send",
+            "Send a case's signed report to a PACS, through the outbox: PDF, measurements (SR), lumen, pictures",
+            [](CommandLine& command) {
                 auto a = std::make_shared<SendArguments>();
                 command.option("CASE", a->case_id, "The case's id").required();
                 command.option("PEER", a->peer, "Name of a peer in the configuration").required();

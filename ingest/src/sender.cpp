@@ -32,13 +32,19 @@ struct Item {
     Kind kind;
 };
 
+/// Whether VICON compressed it and may unpack it here. What came in, RLE as well, is decoded in the helper alone.
+bool isPackedHere(const Kind& kind)
+{
+    return kind.sop_class == UID_SecondaryCaptureImageStorage && kind.transfer_syntax == UID_RLELosslessTransferSyntax;
+}
+
 /// The transfer syntaxes that may carry an object, by presentation context: its own alone, so that a peer that takes it
 /// gets it unchanged; then any uncompressed one, but for an object of a compression that is not undone here.
 std::vector<OFList<OFString>> contextsFor(const Kind& kind)
 {
     std::vector<OFList<OFString>> contexts(1);
     contexts.front().push_back(kind.transfer_syntax.c_str());
-    if (DcmXfer(kind.transfer_syntax.c_str()).isEncapsulated() && kind.transfer_syntax != UID_RLELosslessTransferSyntax)
+    if (DcmXfer(kind.transfer_syntax.c_str()).isEncapsulated() && !isPackedHere(kind))
         return contexts;
     contexts.emplace_back();
     for (const char* other : {UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax})
