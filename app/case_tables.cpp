@@ -91,7 +91,7 @@ void printFindings(bool json, CaseStore& store, const ReadCase& read)
     if (rows.empty())
         std::printf("no findings; 'vicon finding %s --add MARKER' makes one\n", read.record.id.c_str());
     else
-        std::printf("%s", formatTable({"ID", "KIND", "SIZE MM", "PART", "FROM RECTUM MM", "FROM CAECUM MM", "CLOCK",
+        std::printf("%s", formatTable({"ID", "KIND", "SIZE MM", "SEGMENT", "FROM RECTUM MM", "FROM CAECUM MM", "CLOCK",
                                        "MARKERS", "SCANS", "NOTE"},
                                       rows)
                               .c_str());

@@ -9,6 +9,7 @@
 
 #include "command_line.h"
 #include "vicon/cases/case_store.h"
+#include "vicon/cases/roles.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 
@@ -24,7 +25,12 @@ public:
 
     /// The effective configuration. Throws Error{wrong_use}.
     const Config& config();
+    /// Throws Error{bad_input} where whoever runs this does not have a role, and Error{wrong_use}.
+    void require(Role role);
     std::filesystem::path storeFolder() const;
+    /// Another store from now on, which is in this folder alone: whatever database the configuration names is left be.
+    void useStoreOfItsOwn(const std::filesystem::path& folder);
+    StorePlace storePlace();
     /// The store, which is made when there is none.
     CaseStore& store();
     /// The store; throws Error{not_found} when there is none.
@@ -33,6 +39,7 @@ public:
 private:
     std::unique_ptr<Config> config_;
     std::unique_ptr<CaseStore> store_;
+    bool store_of_its_own_ = false;
 };
 
 /// A row of the command's table: its name, one sentence, and a function that declares its own options and returns what
@@ -61,11 +68,14 @@ Subcommand importCommand();
 Subcommand receiveCommand();
 Subcommand queryCommand();
 Subcommand retrieveCommand();
+Subcommand watchCommand();
+Subcommand orderCommand();
 Subcommand workCommand();
 Subcommand casesCommand();
 Subcommand showCommand();
 Subcommand markCommand();
 Subcommand markersCommand();
+Subcommand matchCommand();
 Subcommand flyCommand();
 Subcommand snapshotCommand();
 Subcommand readCommand();  ///< only with the viewer built
@@ -75,9 +85,15 @@ Subcommand assessCommand();
 Subcommand signCommand();
 Subcommand amendCommand();
 Subcommand auditCommand();
+Subcommand priorsCommand();
 Subcommand exportCommand();
 Subcommand sendCommand();
 Subcommand outboxCommand();
+Subcommand deleteCommand();
+Subcommand purgeCommand();
+Subcommand backupCommand();
+Subcommand anonymiseCommand();
+Subcommand restoreCommand();
 Subcommand phantomCommand();
 Subcommand configCommand();
 Subcommand doctorCommand();

@@ -2,6 +2,9 @@
 #include <cstdlib>
 
 #include "command.h"
+#include "configuration.h"
+#include "log_lines.h"
+#include "vicon/cases/case_deletion.h"
 #include "vicon/core/error.h"
 
 namespace fs = std::filesystem;
@@ -18,6 +21,22 @@ fs::path homeFolder(const char* variable, const char* below_home)
         return folder;
     const char* home = std::getenv("HOME");
     return fs::path(home && *home ? home : ".") / below_home;
+}
+
+/// Does not wait for another program that is at it, or that imports.
+void finishDeletionsNow(CaseStore& store)
+{
+    class Impatient : public NoProgress {
+    public:
+        bool cancelled() const override { return true; }
+    } impatient;
+    try {
+        if (hasBegunDeletions(store))
+            finishDeletions(store, StoreLock(store.folder(), impatient));
+    } catch (const Error& e) {
+        if (e.code() != ErrorCode::cancelled)
+            throw;
+    }
 }
 
 }  // namespace
@@ -51,31 +70,48 @@ const Config& Context::config()
 {
     if (config_)
         return *config_;
-    auto config = std::make_unique<Config>(declaredConfig());
     const fs::path usual = homeFolder("XDG_CONFIG_HOME", ".config") / "vicon" / "config.toml";
     if (!config_file.empty() && !fs::exists(config_file))
         throw Error(ErrorCode::wrong_use, "no such configuration file", config_file);
-    if (!config_file.empty())
-        config->readFile(config_file);
-    else if (fs::exists(usual))
-        config->readFile(usual);
-    for (const std::string& assignment : assignments)
-        config->set(assignment);
-    config_ = std::move(config);
+    config_ = std::make_unique<Config>(
+        readConfig({kSystemConfig, config_file.empty() ? usual : fs::path(config_file), assignments}));
+    writeLogAs(config_->get<LogOptions>());
+    setRoles(config_->get<RoleOptions>());
     return *config_;
+}
+
+StorePlace Context::storePlace()
+{
+    return {storeFolder(), store_of_its_own_ ? "" : config().get<StoreOptions>().database};
+}
+
+void Context::useStoreOfItsOwn(const fs::path& folder)
+{
+    store_.reset();
+    store_folder = folder.string();
+    store_of_its_own_ = true;
+}
+
+void Context::require(Role role)
+{
+    config();
+    requireRole(role);
+    config_.reset();  // the command may have more to set
 }
 
 CaseStore& Context::store()
 {
     config();  // a wrong configuration is told before anything is made
-    if (!store_)
-        store_ = std::make_unique<CaseStore>(storeFolder());
+    if (!store_) {
+        store_ = std::make_unique<CaseStore>(storePlace());
+        finishDeletionsNow(*store_);
+    }
     return *store_;
 }
 
 CaseStore& Context::existingStore()
 {
-    if (!fs::exists(storeFolder() / "vicon.db"))
+    if (!StorePlace(storeFolder()).holdsStore())
         throw Error(ErrorCode::not_found, "there is no store here", storeFolder().string(),
                     "'vicon import' makes one; --store names another folder");
     return store();

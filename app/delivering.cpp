@@ -14,11 +14,11 @@ namespace vicon::app {
 ingest::Delivery deliveryFor(const Config& config)
 {
     return {.options = config.get<OutboxOptions>(),
-            .peer = [&config](const std::string& name) { return requirePeer(config, name); },
+            .peer = [&config](const std::string& name) { return requirePeer(config, name, PeerUse::send); },
             .our_ae_title = config.get<ingest::ReceiverOptions>().ae_title};
 }
 
-void deliverInBackground(const std::filesystem::path& store_folder, const Config& config)
+void deliverInBackground(const StorePlace& place, const Config& config)
 {
     constexpr auto kLook = std::chrono::milliseconds(100), kAfterTrouble = std::chrono::milliseconds(1000);
     ingest::Delivery delivery = deliveryFor(config);
@@ -26,7 +26,7 @@ void deliverInBackground(const std::filesystem::path& store_folder, const Config
     std::string said;
     while (!stopRequested()) {
         try {
-            CaseStore store(store_folder);
+            CaseStore store(place);
             Outbox outbox(store.database(), delivery.options);
             UntilStopped quiet;
             while (!stopRequested()) {

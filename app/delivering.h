@@ -10,6 +10,6 @@ ingest::Delivery deliveryFor(const Config& config);
 
 /// Delivers in the background, over a store connection of its own, until told to stop. Whatever goes wrong is said and
 /// tried again.
-void deliverInBackground(const std::filesystem::path& store_folder, const Config& config);
+void deliverInBackground(const StorePlace& place, const Config& config);
 
 }  // namespace vicon::app

@@ -2,10 +2,15 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <new>
+#include <optional>
+#include <string_view>
 
 #include "command.h"
+#include "log_lines.h"
+#include "vicon/cases/roles.h"
 #include "vicon/core/error.h"
 #include "vicon/core/printable.h"
 
@@ -19,14 +24,31 @@ constexpr const char* kCommonFooter =
 std::vector<Subcommand> subcommands()
 {
     std::vector<Subcommand> rows{
-        importCommand(),  receiveCommand(), queryCommand(),   retrieveCommand(), workCommand(),     casesCommand(),
-        showCommand(),    markCommand(),    markersCommand(), flyCommand(),      snapshotCommand(), reportCommand(),
-        findingCommand(), assessCommand(),  signCommand(),    amendCommand(),    auditCommand(),    exportCommand(),
-        sendCommand(),    outboxCommand(),  phantomCommand(), configCommand(),   doctorCommand()};
+        importCommand(), receiveCommand(), queryCommand(),   retrieveCommand(), workCommand(),      casesCommand(),
+        showCommand(),   markCommand(),    markersCommand(), matchCommand(),    flyCommand(),       snapshotCommand(),
+        reportCommand(), findingCommand(), assessCommand(),  signCommand(),     amendCommand(),     auditCommand(),
+        exportCommand(), priorsCommand(),  sendCommand(),    outboxCommand(),   watchCommand(),     orderCommand(),
+        deleteCommand(), purgeCommand(),   backupCommand(),  restoreCommand(),  anonymiseCommand(), phantomCommand(),
+        configCommand(), doctorCommand()};
 #ifdef VICON_HAS_VIEWER
     rows.push_back(readCommand());
 #endif
     return rows;
+}
+
+/// What a subcommand takes; nothing: anybody may. What is not listed takes who operates VICON.
+std::optional<Role> roleFor(std::string_view subcommand)
+{
+    constexpr std::string_view kReading[] = {"cases", "show",   "markers", "match",  "fly",   "snapshot",
+                                             "read",  "report", "audit",   "export", "query", "priors"};
+    constexpr std::string_view kMarking[] = {"mark", "finding", "assess", "sign", "amend"};
+    constexpr std::string_view kAnybody[] = {"config", "doctor", "phantom"};
+    const auto has = [&](const auto& names) {
+        return std::find(std::begin(names), std::end(names), subcommand) != std::end(names);
+    };
+    if (has(kAnybody))
+        return {};
+    return has(kReading) ? Role::read : has(kMarking) ? Role::mark : Role::operate;
 }
 
 void addCommonOptions(CLI::App& command, Context& context)
@@ -65,7 +87,13 @@ int run(int argc, char** argv)
         sub->fallthrough();
         sub->footer(kCommonFooter);
         CommandLine line(*sub);
-        sub->final_callback([&chosen, action = row.declare(line)] { chosen = action; });
+        sub->final_callback([&chosen, action = row.declare(line), role = roleFor(row.name)] {
+            chosen = [action, role](Context& given) {
+                if (role)
+                    given.require(*role);
+                return action(given);
+            };
+        });
     }
     try {
         command.parse(argc, argv);
@@ -84,7 +112,7 @@ int main(int argc, char** argv)
 {
     using namespace vicon;
     spdlog::set_default_logger(spdlog::stderr_logger_mt("vicon"));
-    spdlog::set_pattern("%Y-%m-%dT%H:%M:%S %^%l%$ %v");
+    app::writeLogAs({});
     app::catchStopSignals();
     try {
         return app::run(argc, argv);

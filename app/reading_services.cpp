@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "priors.h"
+#include "report_known.h"
 #include "report_pictures.h"
 #include "report_writing.h"
 #include "scan_work.h"
@@ -78,6 +80,7 @@ std::string pdfOfReport(CaseStore& store, const Config& config, const std::strin
 void addReportServices(viewer::ReportServices& services, const Config& config)
 {
     services.texts = config.get<ReportTexts>();
+    services.known = knownOf;
     services.text = textOfReport;
     services.pdf = [&config](CaseStore& store, const std::string& case_id) {
         return pdfOfReport(store, config, case_id);
@@ -105,13 +108,16 @@ std::string receiverOf(const Config& config)
 
 }  // namespace
 
-viewer::ReadingServices readingServices(const fs::path& store, const Config& config)
+viewer::ReadingServices readingServices(const StorePlace& store, const Config& config)
 {
     viewer::ReadingServices services;
     services.store = store;
     services.receiver = receiverOf(config);
     services.worklist = [&config](CaseStore& store) { return makeWorklist(store, config.get<QueueOptions>()); };
     services.worklist_version = [](CaseStore& store) { return store.database().version(); };
+    services.opened = [&config](CaseStore& store, const std::string& case_id) {
+        JobQueue(store.database(), config.get<QueueOptions>()).putFirst(case_id);
+    };
     services.retry = [&config](CaseStore& store, const std::string& case_id) {
         retryCase(store, config.get<QueueOptions>(), case_id);
         requeueOutdated(store, config, case_id);
@@ -124,6 +130,7 @@ viewer::ReadingServices readingServices(const fs::path& store, const Config& con
     };
     addCorrectionServices(services, config);
     addReportServices(services.reporting, config);
+    services.priors = {config.get<PriorOptions>(), priorsOf, imagedScans};
     services.report = [&config](CaseStore& store, const std::string& case_id) {
         NoProgress progress;
         return writeReport(store, config, case_id, {}, progress).file;

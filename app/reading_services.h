@@ -6,6 +6,6 @@
 namespace vicon::app {
 
 /// What the reading room needs of the other rooms, on a store. `config` must outlive it.
-viewer::ReadingServices readingServices(const std::filesystem::path& store, const Config& config);
+viewer::ReadingServices readingServices(const StorePlace& store, const Config& config);
 
 }  // namespace vicon::app

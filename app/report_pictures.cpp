@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
+#include <cmath>
 #include <functional>
 #include <future>
 #include <optional>
@@ -13,6 +13,7 @@
 #include "vicon/cases/placing.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
+#include "vicon/viewer/model/orientation.h"
 #include "vicon/viewer/scene/measures_picture.h"
 #include "vicon/viewer/scene/snapshot.h"
 
@@ -22,10 +23,19 @@ using vicon::viewer::SnapshotRequest;
 namespace vicon::app {
 namespace {
 
-constexpr int kEndoscopicSide = 900;
-constexpr int kSlicesWidth = 1200, kSlicesHeight = 900;
-constexpr int kMeasuresSide = 600;
+// Printed 144 points wide and less, slices 242: a printer has 300 pixels to the inch.
+constexpr int kEndoscopicSide = 600;
+constexpr int kSlicesWidth = 1008, kSlicesHeight = 756;
+constexpr int kMeasuresSide = 440;
+constexpr double kTextRatio = 2.0, kMeasuresTextRatio = 1.6;  // so that words are read where they are printed
+// Below the wall: densities of voxels of 0.7 mm and more, so that rays three pixels apart miss nothing.
+constexpr const char* kBelowTheWall = "biopsy";
+// The blurred edge from gas to tissue passes fat's density: a look that begins at the surface shows it as fat.
+constexpr double kBelowDeep_mm = 2;
+constexpr int kBelowCoarse = 3;
+constexpr double kBelowRadius_px = 0.36 * kEndoscopicSide;
 constexpr int kOverviewWidth = 900, kOverviewHeight = 1100;
+constexpr double kOverviewTextRatio = 3.2;  // so that its words are read where it is printed 150 to 190 points wide
 
 std::vector<Marker> markersOf(const ReadCase& read, const ScanRecord& scan)
 {
@@ -80,7 +90,8 @@ report::ScanEntry describeScan(CaseStore& store, const ScanRecord& scan)
     report::ScanEntry entry{.scan = scan};
     const StepResults results = resultsOf(store.steps(scan.case_id, scan.id));
     if (results.segment) {
-        entry.verdict = results.segment->verdictText();
+        entry.verdict = results.segment->verdict;
+        entry.organ_title = results.segment->organ_title;
         entry.confidence = results.segment->confidence;
         entry.reason = results.segment->reason;
     }
@@ -88,6 +99,7 @@ report::ScanEntry describeScan(CaseStore& store, const ScanRecord& scan)
         entry.skeleton_length_mm = results.skeleton->length_mm;
     if (results.quality)
         entry.quality = results.quality->quality;
+    entry.parts = results.parts();
     entry.bridges = reviewedBridges(store, scan);
     return entry;
 }
@@ -103,8 +115,9 @@ std::optional<viewer::PreparedScan> openPrepared(const fs::path& folder)
 /// A scan's finding pictures. OpenGL's are drawn on the thread that asks, all others meanwhile on a second one.
 class FindingPictures {
 public:
-    FindingPictures(const viewer::PreparedScan& prepared, const ScanRecord& scan, const PictureFolder& folder)
-        : prepared_(prepared), endoscopic_(prepared), scan_(scan), folder_(folder)
+    FindingPictures(const viewer::PreparedScan& prepared, const ScanRecord& scan, const PictureFolder& folder,
+                    const PicturesMade& made)
+        : prepared_(prepared), endoscopic_(prepared), scan_(scan), folder_(folder), made_(made)
     {
     }
 
@@ -112,15 +125,25 @@ public:
     void draw(const std::vector<report::MarkerEntry*>& entries, const std::function<void(const Marker&)>& each)
     {
         std::atomic<bool> given_up = false;
+        std::vector<std::atomic<int>> halves(entries.size());  // of each marker, that are drawn
+        const auto drawn = [&](std::size_t n) {
+            if (++halves[n] == 2)
+                made_.marker(*entries[n]);
+        };
         auto others = std::async(std::launch::async, [&] {
-            for (report::MarkerEntry* entry : entries)
-                if (!given_up)
-                    drawOthers(*entry);
+            // What the endoscopic pictures need of it, while their driver starts.
+            prepared_.openness();
+            prepared_.bricks();
+            for (std::size_t n = 0; n < entries.size() && !given_up; ++n) {
+                drawOthers(*entries[n]);
+                drawn(n);
+            }
         });
         try {
-            for (report::MarkerEntry* entry : entries) {
-                each(entry->marker);
-                drawEndoscopic(*entry);
+            for (std::size_t n = 0; n < entries.size(); ++n) {
+                each(entries[n]->marker);
+                drawEndoscopic(*entries[n]);
+                drawn(n);
             }
         } catch (...) {
             given_up = true;
@@ -133,6 +156,8 @@ private:
     SnapshotRequest requestFor(SnapshotRequest::View view, const Marker& marker, int width, int height) const
     {
         auto request = app::requestFor(view, scan_, width, height);
+        request.captioned = false;  // the page says it
+        request.pixel_ratio = kTextRatio;
         request.look_at_mm = marker.position_mm;
         request.station_mm = marker.station_mm;
         request.markers = {marker};
@@ -142,9 +167,21 @@ private:
     void drawEndoscopic(report::MarkerEntry& entry)
     {
         const Marker& marker = entry.marker;
+        auto request = requestFor(SnapshotRequest::View::endo, marker, kEndoscopicSide, kEndoscopicSide);
         entry.endoscopic_picture = folder_ / (marker.id + "-endo.png");
-        endoscopic_.render(requestFor(SnapshotRequest::View::endo, marker, kEndoscopicSide, kEndoscopicSide),
-                           entry.endoscopic_picture);
+        const viewer::SnapshotResult seen = endoscopic_.render(request, entry.endoscopic_picture);
+        made_.picture(entry.endoscopic_picture);
+        entry.seen_from = "towards " + viewer::sideName(seen.pose.forward) + ", " +
+                          std::to_string(std::lround(distance(seen.pose.eye_mm, marker.position_mm))) + " mm away";
+        request.markers.clear();  // its ring would lie over what is seen in it
+        request.peel.preset = kBelowTheWall;
+        request.peel.options.offset_mm = kBelowDeep_mm;
+        request.peel.middle_only = true;
+        request.peel.coarse = kBelowCoarse;
+        request.peel.circle_px = kBelowRadius_px;
+        entry.below_picture = folder_ / (marker.id + "-below.png");
+        endoscopic_.render(request, entry.below_picture);
+        made_.picture(entry.below_picture);
     }
 
     void drawOthers(report::MarkerEntry& entry) const
@@ -153,9 +190,12 @@ private:
         entry.slices_picture = folder_ / (marker.id + "-slices.png");
         const auto request = requestFor(SnapshotRequest::View::slices, marker, kSlicesWidth, kSlicesHeight);
         viewer::renderSnapshot(prepared_, request, entry.slices_picture);
-        if (const auto measures = viewer::measuresPicture(prepared_, marker, captionOf(scan_), kMeasuresSide)) {
+        made_.picture(entry.slices_picture);
+        if (const auto measures =
+                viewer::measuresPicture(prepared_, marker, captionOf(scan_), kMeasuresSide, kMeasuresTextRatio)) {
             entry.measures_picture = folder_ / (marker.id + "-measures.png");
             viewer::writePng(entry.measures_picture, *measures, request.lasting);
+            made_.picture(entry.measures_picture);
         }
     }
 
@@ -163,26 +203,13 @@ private:
     viewer::Snapshots endoscopic_;
     const ScanRecord& scan_;
     const PictureFolder& folder_;
+    const PicturesMade& made_;
 };
 
 }  // namespace
 
-PictureFolder::PictureFolder()
-{
-    std::string name = (fs::temp_directory_path() / "vicon-report-XXXXXX").string();
-    if (!::mkdtemp(name.data()))
-        throw Error(ErrorCode::store, "a temporary folder cannot be made", name);
-    path_ = name;
-}
-
-PictureFolder::~PictureFolder()
-{
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
-
 std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read, const PictureFolder& pictures,
-                                         Progress& progress)
+                                         Progress& progress, const PicturesMade& made)
 {
     const CaseRecord& record = read.record;
     std::vector<report::ScanEntry> entries;
@@ -194,14 +221,18 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read,
         report::ScanEntry entry = describeScan(store, scan);
         const fs::path folder = store.scanFolder(record.id, scan.id);
         if (const Organ organ = organOf(store, scan); !organ.isColon()) {
-            entry.verdict = organ.name();
+            entry.verdict = Verdict::found;
+            entry.organ_title = organ.name();
             entry.reason = "not a colon, and no part of this report";
             entry.skeleton_length_mm = 0;
         } else if (hasColon(folder)) {
             auto request = requestFor(SnapshotRequest::View::overview, scan, kOverviewWidth, kOverviewHeight);
             request.markers = numbered(read, markersOf(read, scan));
+            request.pixel_ratio = kOverviewTextRatio;
+            request.captioned = false;  // the page says whose it is
             entry.overview_picture = pictures / (scan.id + "-overview.png");
             viewer::renderSnapshot(viewer::PreparedScan::open(folder), request, entry.overview_picture);
+            made.picture(entry.overview_picture);
         }
         entries.push_back(std::move(entry));
     }
@@ -210,7 +241,7 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read,
 
 std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const ReadCase& read,
                                              const std::vector<report::ScanEntry>& scans, const PictureFolder& pictures,
-                                             Progress& progress)
+                                             Progress& progress, const PicturesMade& made)
 {
     std::vector<report::MarkerEntry> entries;
     entries.reserve(read.markers.size());
@@ -229,7 +260,7 @@ std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const ReadCase& r
         if (of_scan.empty())
             continue;
         if (const auto prepared = openPrepared(store.scanFolder(scan.case_id, scan.id)))
-            FindingPictures(*prepared, scan, pictures).draw(of_scan, [&](const Marker& marker) {
+            FindingPictures(*prepared, scan, pictures, made).draw(of_scan, [&](const Marker& marker) {
                 progress.check();
                 progress.report(drawn++ / double(read.markers.size()), "pictures of marker " + marker.id);
             });

@@ -17,12 +17,30 @@ namespace fs = std::filesystem;
 namespace vicon::app {
 namespace {
 
-report::PdfResult drawReport(CaseStore& store, const Config& config, report::ReportContent& content,
-                             const PictureFolder& pictures, const fs::path& pdf, Progress& progress)
+/// From left to right, as an object shows them.
+std::vector<fs::path> filesOf(const report::MarkerEntry& entry)
 {
-    content.scans = drawScans(store, content.read, pictures, progress);
-    content.markers = drawMarkers(store, content.read, content.scans, pictures, progress);
-    return report::writePdf(content, pdf, config.get<report::ReportOptions>());
+    std::vector<fs::path> files{entry.endoscopic_picture, entry.below_picture, entry.slices_picture,
+                                entry.measures_picture};
+    std::erase_if(files, [](const fs::path& file) { return file.empty(); });
+    return files;
+}
+
+report::PdfResult drawReport(CaseStore& store, const Config& config, report::ReportContent& content,
+                             const PictureFolder& pictures, const fs::path& pdf, Progress& progress,
+                             report::PackedSights* packed = nullptr)
+{
+    report::PrintPictures printed;
+    PicturesMade made{.picture = [&](const fs::path& file) { printed.begin(file); }};
+    if (packed)
+        made.marker = [&](const report::MarkerEntry& entry) {
+            const auto& loose = content.read.loose_markers;
+            if (std::find(loose.begin(), loose.end(), entry.marker.id) == loose.end())
+                packed->begin(entry.marker.id, filesOf(entry));
+        };
+    content.scans = drawScans(store, content.read, pictures, progress, made);
+    content.markers = drawMarkers(store, content.read, content.scans, pictures, progress, made);
+    return report::writePdf(content, pdf, config.get<report::ReportOptions>(), &printed);
 }
 
 }  // namespace
@@ -66,10 +84,8 @@ std::vector<report::SightPictures> picturesOf(const report::ReportContent& conte
             if (std::find(finding.markers.begin(), finding.markers.end(), id) == finding.markers.end())
                 continue;
             report::SightPictures of{
-                id, "Finding " + std::to_string(finding.number()) + ", marker " + id + ", " + entry.scan_label, {}};
-            for (const fs::path& file : {entry.endoscopic_picture, entry.slices_picture, entry.measures_picture})
-                if (!file.empty())
-                    of.files.push_back(file);
+                id, "Finding " + std::to_string(finding.number()) + ", marker " + id + ", " + entry.scan_label,
+                filesOf(entry)};
             if (!of.files.empty())
                 pictures.push_back(std::move(of));
         }
@@ -90,7 +106,7 @@ VersionObjects objectsOf(CaseStore& store, const Config& config, const std::stri
 {
     const auto peers = config.get<SigningOptions>().send_to;
     for (const std::string& peer : peers)
-        requirePeer(config, peer);
+        requirePeer(config, peer, PeerUse::send);
     const auto objects = report::writeReportObjects(scans, content, folder);
     VersionObjects kept;
     for (const report::ReportObject& object : objects)
@@ -124,7 +140,10 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
     if (sign)
         scans.emplace(store, content.read, kinds);
     const PictureFolder folder;
-    const report::PdfResult drawn = drawReport(store, config, content, folder, folder / "report.pdf", progress);
+    report::PackedSights packed;
+    const bool pictured = sign && std::find(kinds.begin(), kinds.end(), report::ObjectKind::picture) != kinds.end();
+    const report::PdfResult drawn =
+        drawReport(store, config, content, folder, folder / "report.pdf", progress, pictured ? &packed : nullptr);
     if (drawn.unreadable_pictures > 0)
         throw Error(ErrorCode::store,
                     "a picture of the report could not be drawn (" + drawn.warnings.front() +
@@ -136,10 +155,10 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
     VersionObjects objects;
     if (sign) {
         const ReportVersion version = versionWith(store, record.id, draft, pdf);
-        objects =
-            objectsOf(store, config, record.id, *scans,
-                      {content.read, version, amendedBy(store, record.id, version), pdf, picturesOf(content), kinds},
-                      folder / "");
+        objects = objectsOf(
+            store, config, record.id, *scans,
+            {content.read, version, amendedBy(store, record.id, version), pdf, picturesOf(content), kinds, &packed},
+            folder / "");
     }
     return {keepVersion(store, record.id, draft, pdf, objects), drawn.pages, drawn.warnings};
 }

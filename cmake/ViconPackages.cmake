@@ -1,11 +1,14 @@
 # Libraries from Debian's packages, each as a target that carries only the modules used.
 
 find_package(Threads REQUIRED)
-find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(CURL REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto SSL)
 find_package(TBB REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(pugixml REQUIRED)
+find_package(prometheus-cpp REQUIRED COMPONENTS pull)
 find_package(ICU REQUIRED COMPONENTS uc i18n data)
 find_package(LibArchive REQUIRED)
 find_package(PNG REQUIRED)
@@ -13,6 +16,7 @@ find_package(ZLIB REQUIRED)
 find_package(DCMTK REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(FRIBIDI REQUIRED IMPORTED_TARGET fribidi)
+pkg_check_modules(LIBPQ REQUIRED IMPORTED_TARGET libpq)
 pkg_check_modules(HARFBUZZ REQUIRED IMPORTED_TARGET harfbuzz)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 
@@ -20,7 +24,7 @@ pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 find_path(SOCI_INCLUDE_DIR soci/soci.h REQUIRED)
 add_library(vicon_soci INTERFACE)
 target_include_directories(vicon_soci SYSTEM INTERFACE ${SOCI_INCLUDE_DIR} ${SOCI_INCLUDE_DIR}/soci)
-target_link_libraries(vicon_soci INTERFACE soci_core soci_sqlite3 soci_postgresql)
+target_link_libraries(vicon_soci INTERFACE soci_core soci_sqlite3 soci_postgresql sqlite3 PkgConfig::LIBPQ)
 
 find_path(HPDF_INCLUDE_DIR hpdf.h REQUIRED)
 add_library(vicon_hpdf INTERFACE)
@@ -53,8 +57,8 @@ if(VICON_BUILD_TESTS)
   vicon_itk(vicon_itk_references ITKCommon ITKDistanceMap ITKFastMarching ITKImageFunction ITKImageGrid)
 endif()
 if(VICON_BUILD_BENCHMARKS)
-  vicon_itk(vicon_itk_rivals ITKCommon ITKConnectedComponents ITKDistanceMap ITKFastMarching ITKImageFunction
-            ITKImageGrid ITKMathematicalMorphology)
+  vicon_itk(vicon_itk_rivals ITKAnisotropicSmoothing ITKCommon ITKConnectedComponents ITKDistanceMap ITKFastMarching
+            ITKImageFunction ITKImageGrid ITKMathematicalMorphology)
   vicon_itk(vicon_itk_chain ITKCommon ITKConnectedComponents ITKDistanceMap ITKFastMarching ITKImageGrid ITKIOGDCM
             ITKIOImageBase ITKThresholding)
 endif()

@@ -3,6 +3,7 @@
 
 #include "../case_tables.h"
 #include "../command.h"
+#include "../report_known.h"
 #include "vicon/core/error.h"
 
 namespace vicon::app {
@@ -40,7 +41,7 @@ struct AssessArguments {
     std::array<bool, kTexts.size()> text_given{};
     std::array<bool, kFlags.size()> flags{}, flag_given{};
     std::vector<std::string> distension, extracolonic;
-    bool accept = false, no_extracolonic = false;
+    bool accept = false, no_extracolonic = false, fill = false;
 };
 
 /// "SCAN:PART=GRADE"; "measured" goes back to what was measured.
@@ -117,6 +118,8 @@ int assess(Context& context, const AssessArguments& a)
     const Assessment before = assessmentOf(store, case_id);
     Assessment said = before;
     takeFields(store, case_id, a, said);
+    if (a.fill)
+        fillIn(said, knownOf(store, case_id));
     ReadCase read = readCaseWith(store, case_id, said);
     choose(read.assessment.colon_category, read.colon_proposal, a.accept, a.colon, a.colon_why, colonCategoryFrom);
     choose(read.assessment.extracolonic_category, read.extracolonic_proposal, a.accept, a.extracolonic_category,
@@ -158,11 +161,13 @@ Subcommand assessCommand()
                     texts.push_back(command.option(kTexts[n].name, a->texts[n], kTexts[n].help).typeName("TEXT"));
                 for (std::size_t n = 0; n < kFlags.size(); ++n)
                     flags.push_back(command.flag(kFlags[n].name, a->flags[n], kFlags[n].help));
+                command.flag("--fill", a->fill,
+                             "Take what the images say of indication, technique and dose, where nothing was said yet");
                 command.option("--preparation", a->preparation, "good, fair or inadequate").typeName("GRADE");
                 command.option("--tagging", a->tagging, "good, fair or inadequate").typeName("GRADE");
                 command
                     .option("--distension", a->distension,
-                            "Of a part in a scan: good, limited or collapsed, in place of what was measured")
+                            "Of a segment in a scan: good, limited or collapsed, in place of what was measured")
                     .oneValueEach()
                     .typeName("SCAN:PART=GRADE");
                 command.option("--dose", a->dose, "Dose length product, mGy cm").typeName("NUMBER");

@@ -29,7 +29,8 @@ std::string changeIn(const nlohmann::json& before, const nlohmann::json& after)
 int audit(Context& context, const std::string& given_id)
 {
     CaseStore& store = context.existingStore();
-    const std::string case_id = store.requireCase(given_id).id;
+    // The trail of a case that was deleted stays.
+    const std::string case_id = auditTrail(store, given_id).empty() ? store.requireCase(given_id).id : given_id;
     const std::vector<AuditLine> lines = auditTrail(store, case_id);
     const std::vector<ReportVersion> versions = reportVersions(store, case_id);
     bool intact = true;

@@ -1,13 +1,17 @@
-#include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
 #include "../command.h"
 #include "../peers.h"
+#include "vicon/cases/purge.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/ingest/receiver.h"
+#include "vicon/ingest/sender.h"
+#include "vicon/ingest/tls.h"
 #include "vicon/viewer/scene/display.h"
 
 namespace fs = std::filesystem;
@@ -54,7 +58,7 @@ std::string checkDatabase(Context& context)
 {
     if (const std::string damage = context.store().database().damage(); !damage.empty())
         throw Error(ErrorCode::database, "the database is damaged (" + damage.substr(0, damage.find('\n')) + ")",
-                    (context.storeFolder() / "vicon.db").string(), "restore it from a backup");
+                    context.store().database().where(), "restore it from a backup");
     return "whole";
 }
 
@@ -62,15 +66,12 @@ std::string checkPeer(const Config& config, const std::string& name)
 {
     const ingest::Peer peer = requirePeer(config, name);
     ingest::echo(peer, config.get<ingest::ReceiverOptions>().ae_title);
-    return peer.ae_title + " at " + peer.host + ":" + std::to_string(peer.port) + " answers";
+    return ingest::whereIs(peer) + " answers";
 }
 
 std::string checkSpace(Context& context)
 {
-    struct statvfs info {};
-    if (::statvfs(context.storeFolder().c_str(), &info) != 0)
-        throw Error(ErrorCode::store, "free space cannot be found out", context.storeFolder().string());
-    const double gb = double(info.f_bavail) * double(info.f_frsize) / 1e9;
+    const double gb = freeGb(context.store());
     if (gb < kLeastFreeGb)
         throw Error(ErrorCode::store, "only " + formatGb(gb) + " free", context.storeFolder().string(),
                     "a case takes about 2.5 GB; make room");
@@ -91,6 +92,20 @@ std::string checkDisplay()
     return display.isPrivate() ? "private Xvfb " + display.name() : display.name();
 }
 
+std::string checkCertificates(const ingest::TlsOptions& tls)
+{
+    constexpr int kSoonDays = 30;
+    const auto terms = ingest::certificateTerms(tls);
+    const auto first = std::min_element(terms.begin(), terms.end(),
+                                        [](const auto& a, const auto& b) { return a.days_left < b.days_left; });
+    if (first->days_left < kSoonDays)
+        throw Error(
+            ErrorCode::wrong_use,
+            first->days_left < 0 ? "a certificate ended on " + first->ends : "a certificate ends on " + first->ends,
+            first->file, "replace it; 'vicon receive' uses the new one at once");
+    return "the first ends on " + first->ends;
+}
+
 int doctor(Context& context)
 {
     std::vector<Check> checks = {
@@ -103,6 +118,8 @@ int doctor(Context& context)
     };
     for (const auto& [name, about] : context.config().peers().items())
         checks.push_back(checked("peer " + name, [&, &name = name] { return checkPeer(context.config(), name); }));
+    if (const auto tls = context.config().get<ingest::TlsOptions>(); !tls.certificate.empty())
+        checks.push_back(checked("certificates", [&] { return checkCertificates(tls); }));
     bool all_good = true;
     nlohmann::json list = nlohmann::json::array();
     for (const Check& check : checks) {

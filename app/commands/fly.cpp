@@ -100,7 +100,8 @@ int fly(Context& context, const FlyArguments& arguments)
 Subcommand flyCommand()
 {
     return {
-        "fly", "Fly through a scan along its skeleton: frames, poses, coverage and figures", [](CommandLine& command) {
+        "fly", "Fly through a scan along its centreline: frames, poses, coverage and figures",
+        [](CommandLine& command) {
             auto arguments = std::make_shared<FlyArguments>();
             viewer::FlightRequest& request = arguments->request;
             command.option("CASE", arguments->case_id, "The case's id").required();
@@ -120,7 +121,7 @@ Subcommand flyCommand()
             command.option("--width", request.width, "Pixels of a frame").check(range(200, 4096));
             command.option("--height", request.height, "Pixels of a frame").check(range(200, 4096));
             command.option("--angle", request.view_angle_deg, "Viewing angle, degrees")
-                .check(range(20, 150))
+                .check(range(20.0, 150.0))
                 .captureDefault();
             command.flag("--ambient-occlusion,!--no-ambient-occlusion", request.ambient_occlusion,
                          "Less light between folds and at the foot of what rises from the wall (default: on)");

@@ -12,11 +12,7 @@ nlohmann::json toJson(const ingest::ImportReport& report)
 {
     nlohmann::json lines = nlohmann::json::array();
     for (const ingest::ImportLine& line : report.lines)
-        lines.push_back({{"kind", ingest::nameOf(line.kind)},
-                         {"subject", line.subject},
-                         {"text", line.text},
-                         {"case", line.case_id},
-                         {"scan", line.scan_id}});
+        lines.push_back(toJson(line));
     return {{"lines", lines}};
 }
 

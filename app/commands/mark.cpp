@@ -7,6 +7,7 @@
 #include "../point_argument.h"
 #include "../text_table.h"
 #include "vicon/cases/finding_facts.h"
+#include "vicon/cases/pair_proposals.h"
 #include "vicon/cases/placing.h"
 #include "vicon/core/error.h"
 
@@ -30,7 +31,7 @@ void printMarkers(const std::vector<Marker>& markers)
                         formatNumber(m.fraction * 100, 0) + " %", m.part ? nameOf(*m.part) : "-",
                         m.size ? formatNumber(largestDiameter_mm(*m.size), 1) : "-", m.note});
     std::printf("%s", formatTable({"ID", "SCAN", "COLOR", "LPS MM", "FROM RECTUM MM", "FROM CAECUM MM", "FRACTION",
-                                   "PART", "SIZE MM", "NOTE"},
+                                   "SEGMENT", "SIZE MM", "NOTE"},
                                   rows)
                           .c_str());
 }
@@ -114,6 +115,8 @@ int markers(Context& context, const MarkersArguments& arguments)
         std::printf("no markers; 'vicon mark %s --at X,Y,Z' adds one\n", case_id.c_str());
     else
         printMarkers(list);
+    if (!context.json && !proposePairs(list, matchesOf(store, case_id)).empty())
+        std::printf("some of them may be one finding; 'vicon match %s' proposes pairs\n", case_id.c_str());
     return 0;
 }
 

@@ -5,6 +5,7 @@
 #include "../command.h"
 #include "../progress_line.h"
 #include "vicon/core/error.h"
+#include "vicon/core/organ.h"
 #include "vicon/phantom/organ_phantom.h"
 
 namespace vicon::app {
@@ -37,7 +38,7 @@ int makePhantom(const PhantomArguments& arguments)
         options.prone = arguments.prone;
     }
     ProgressLine progress("phantom");
-    if (arguments.organ == "colon") {
+    if (Organ(arguments.organ).isColon()) {
         phantom::writeStudy(arguments.out, options, progress);
     } else {
         phantom::OrganPhantomOptions other{.organ = arguments.organ, .seed = options.seed};
@@ -67,11 +68,13 @@ Subcommand phantomCommand()
             command.flag("--prone", arguments->prone, "Make the prone scan");
             command.option("--decubitus", options.decubitus, "One scan more, lying on this side")
                 .check(oneOf({"none", "left", "right"}));
+            command.flag("--stretch", options.stretch,
+                         "The wall is drawn out, turned and distended otherwise in every position");
             command.flag("--feet-first", options.feet_first, "The patient enters the scanner feet first");
             command.option("--oblique", options.oblique_deg, "Turn the slices by so many degrees")
-                .check(range(-30, 30));
+                .check(range(-30.0, 30.0));
             command.flag("--fluid,!--no-fluid", options.fluid, "Pools of tagged fluid (default: yes)");
-            command.option("--gap", options.gaps, "Collapsed parts in each scan; without a number: 1")
+            command.option("--gap", options.gaps, "Collapsed segments in each scan; without a number: 1")
                 .valueIfBare("1")
                 .check(range(0, 4));
             command.option("--polyps", options.polyps, "Polyps of 5 to 10 mm").check(range(0, 12)).captureDefault();

@@ -5,6 +5,7 @@
 #include "../command.h"
 #include "../peers.h"
 #include "../text_table.h"
+#include "vicon/ingest/modality_worklist.h"
 #include "vicon/ingest/receiver.h"
 
 namespace vicon::app {
@@ -31,10 +32,49 @@ std::string countText(int count)
     return count < 0 ? "" : std::to_string(count);
 }
 
+nlohmann::json toJson(const std::vector<ingest::ScheduledStep>& steps)
+{
+    nlohmann::json list = nlohmann::json::array();
+    for (const ingest::ScheduledStep& s : steps)
+        list.push_back({{"patient", s.patient},
+                        {"study_uid", s.study_uid},
+                        {"accession_number", s.accession_number},
+                        {"referring_physician", s.referring_physician},
+                        {"procedure_id", s.procedure_id},
+                        {"procedure", s.procedure},
+                        {"reason", s.reason},
+                        {"modality", s.modality},
+                        {"station", s.station},
+                        {"date", s.date},
+                        {"time", s.time},
+                        {"description", s.description}});
+    return {{"steps", list}};
+}
+
+int queryWorklist(Context& context, const std::string& peer_name, const ingest::StudyQuery& query)
+{
+    NoProgress quiet;
+    const auto steps = ingest::findScheduledSteps(requirePeer(context.config(), peer_name, PeerUse::query), query,
+                                                  context.config().get<ingest::ReceiverOptions>().ae_title, quiet);
+    if (context.json) {
+        std::printf("%s\n", toJson(steps).dump(2).c_str());
+        return 0;
+    }
+    std::vector<std::vector<std::string>> rows;
+    for (const ingest::ScheduledStep& s : steps)
+        rows.push_back({s.date, s.time, s.patient.id, s.patient.name, s.accession_number, s.procedure,
+                        s.referring_physician, s.modality, s.station});
+    std::printf("%s", formatTable({"date", "time", "patient", "name", "accession", "procedure", "referring", "modality",
+                                   "station"},
+                                  rows)
+                          .c_str());
+    return 0;
+}
+
 int query(Context& context, const std::string& peer_name, const ingest::StudyQuery& query)
 {
     NoProgress quiet;
-    const auto studies = ingest::findStudies(requirePeer(context.config(), peer_name), query,
+    const auto studies = ingest::findStudies(requirePeer(context.config(), peer_name, PeerUse::query), query,
                                              context.config().get<ingest::ReceiverOptions>().ae_title, quiet);
     if (context.json) {
         std::printf("%s\n", toJson(studies).dump(2).c_str());
@@ -54,9 +94,11 @@ int query(Context& context, const std::string& peer_name, const ingest::StudyQue
 
 Subcommand queryCommand()
 {
-    return {"query", "Look for studies in a PACS (C-FIND)", [](CommandLine& command) {
+    return {"query", "Look for studies in a PACS, or for scheduled ones in a modality worklist (C-FIND)",
+            [](CommandLine& command) {
                 auto peer = std::make_shared<std::string>();
                 auto wanted = std::make_shared<ingest::StudyQuery>();
+                auto scheduled = std::make_shared<bool>(false);
                 command.option("PEER", *peer, "Name of a peer in the configuration").required();
                 command.option("--patient", wanted->patient_id, "Patient ID; * and ? match anything");
                 command.option("--name", wanted->patient_name, "Patient's name, as 'FAMILY*'");
@@ -65,7 +107,11 @@ Subcommand queryCommand()
                 command.option("--accession", wanted->accession_number, "Accession number");
                 command.option("--study", wanted->study_uid, "Study Instance UID");
                 command.option("--modality", wanted->modality, "That some series has; empty: any").captureDefault();
-                return [peer, wanted](Context& context) { return query(context, *peer, *wanted); };
+                command.flag("--worklist", *scheduled,
+                             "What is scheduled, by the peer's modality worklist; --date is that of the step");
+                return [peer, wanted, scheduled](Context& context) {
+                    return *scheduled ? queryWorklist(context, *peer, *wanted) : query(context, *peer, *wanted);
+                };
             }};
 }
 

@@ -1,15 +1,21 @@
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <thread>
 
+#include "../audit_forwarding.h"
 #include "../command.h"
 #include "../delivering.h"
+#include "../metrics.h"
+#include "../ordering.h"
 #include "../peers.h"
 #include "../progress_line.h"
 #include "../scan_work.h"
 #include "spdlog/spdlog.h"
 #include "vicon/core/error.h"
+#include "vicon/ingest/completeness.h"
 #include "vicon/ingest/import.h"
+#include "vicon/ingest/orders.h"
 #include "vicon/ingest/receiver.h"
 #include "vicon/pipeline/worker.h"
 
@@ -18,12 +24,12 @@ namespace {
 
 /// Works on the queue in the background, over a store connection of its own, until told to stop. Whatever goes wrong
 /// with the store is said and tried again.
-void workInBackground(const std::filesystem::path& store_folder, const Config& config)
+void workInBackground(const StorePlace& place, const Config& config)
 {
     constexpr auto kPause = std::chrono::seconds(10), kLook = std::chrono::seconds(1);
     while (!stopRequested()) {
         try {
-            CaseStore store(store_folder);
+            CaseStore store(place);
             pipeline::WorkerEvents events;
             events.ended = [](const Job& job, JobState state, const std::string& reason) {
                 spdlog::info("{}/{}: {}{}", job.case_id, job.scan_id, nameOf(state),
@@ -50,33 +56,58 @@ ingest::Receiver::Files importReceived(CaseStore& store, const Config& config, c
 }
 
 /// Over a store connection of its own: reports come on the threads of associations.
-void takeCommitment(const std::filesystem::path& store_folder, const ingest::CommitmentReport& report)
+void takeCommitment(const StorePlace& place, const ingest::CommitmentReport& report)
 {
-    CaseStore store(store_folder);
+    CaseStore store(place);
     Outbox outbox(store.database(), {});
     const int concerned = ingest::noteCommitment(outbox, report);
     spdlog::info("a peer committed to {} objects and not to {}; {} wait in the outbox", report.committed.size(),
                  report.failed.size(), concerned);
 }
 
+/// As above: peers ask on the threads of associations.
+ingest::CommitmentReport giveCommitment(const StorePlace& place, const ingest::CommitmentDemand& demand)
+{
+    CaseStore store(place);
+    ingest::CommitmentReport report = ingest::commitTo(store, demand);
+    spdlog::info("committed to {} objects, not to {}", report.committed.size(), report.failed.size());
+    return report;
+}
+
 int receive(Context& context, bool no_work)
 {
     const Config& config = context.config();
-    const ingest::ReceiverOptions options = receiverOptions(config);
-    CaseStore store(context.storeFolder());  // one of its own: the receiver imports on its own thread
+    const ingest::ReceiverOptions options = config.get<ingest::ReceiverOptions>();
+    const MetricsServer metrics(context.storePlace(), config);
+    CaseStore store(context.storePlace());  // one of its own: the receiver imports on its own thread
+    std::optional<ingest::Completeness> completeness;
+    if (!options.count_at.empty())
+        completeness.emplace(store.place(), requirePeer(config, options.count_at, PeerUse::query), options.ae_title);
+    if (const auto orders = config.get<ingest::OrderOptions>(); !orders.peer.empty())
+        requirePeer(config, orders.peer, PeerUse::query);  // a wrong one is told before anybody waits for it
+    ingest::Receiver::OnQuiet missing;
+    if (completeness)
+        missing = [&](const ingest::Receiver::Files& files) { return completeness->missing(files); };
     ingest::Receiver receiver(
         options, store.folder() / "incoming",
         {.on_received = [&](const ingest::Receiver::Files& files) { return importReceived(store, config, files); },
          .on_trouble = [](const std::string& trouble) { spdlog::warn("{}", trouble); },
          .on_note = [](const std::string& note) { spdlog::info("{}", note); },
-         .on_commitment = [&](const ingest::CommitmentReport& report) { takeCommitment(store.folder(), report); }});
+         .on_commitment = [&](const ingest::CommitmentReport& report) { takeCommitment(store.place(), report); },
+         .on_demand = [&](const ingest::CommitmentDemand& demand) { return giveCommitment(store.place(), demand); },
+         .on_quiet = missing},
+        networkOf(config));
     std::printf("listening on port %d of %s\n", receiver.port(), options.address.c_str());
     std::fflush(stdout);
     std::thread worker;
     if (!no_work)
-        worker = std::thread(workInBackground, context.storeFolder(), config);
-    std::thread sender(deliverInBackground, context.storeFolder(), config);
+        worker = std::thread(workInBackground, store.place(), config);
+    std::thread sender(deliverInBackground, store.place(), config);
+    std::thread asker(askForOrdersInBackground, store.place(), config);
+    std::thread auditor(forwardAuditInBackground, store.place(), config.get<AuditOptions>());
     receiver.run(stopRequested());
+    auditor.join();
+    asker.join();
     sender.join();
     if (worker.joinable())
         worker.join();

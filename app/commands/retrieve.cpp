@@ -5,11 +5,10 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
-#include <iterator>
-#include <set>
 #include <thread>
 
 #include "../command.h"
+#include "../fetching.h"
 #include "../peers.h"
 #include "../progress_line.h"
 #include "vicon/core/error.h"
@@ -25,46 +24,15 @@ namespace {
 
 struct Request {
     std::string peer, study_uid, method = "get";
-};
-
-/// A folder of the store for what comes of a study. It stays until all of it was imported, so that a retrieval that
-/// broke off, or was killed, goes on where it stopped. One retrieval of a study works at a time.
-class ArrivalFolder {
-public:
-    ArrivalFolder(const fs::path& store, const std::string& study_uid)
-        : path_(store / "retrieve" / CaseStore::caseIdFor(study_uid))
-    {
-        makePrivateFolder(path_);
-        lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (lock_ < 0 || ::flock(lock_, LOCK_EX | LOCK_NB) != 0)
-            throw Error(ErrorCode::store, "this study is being retrieved by another program", study_uid,
-                        "wait until it is done");
-    }
-    ~ArrivalFolder() { ::close(lock_); }
-    ArrivalFolder(const ArrivalFolder&) = delete;
-    ArrivalFolder& operator=(const ArrivalFolder&) = delete;
-    const fs::path& path() const { return path_; }
-    std::size_t files() const
-    {
-        return std::size_t(std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
-    }
-    void remove() const
-    {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-
-private:
-    fs::path path_;
-    int lock_ = -1;
+    bool reports = false;  ///< in place of images
 };
 
 /// Runs a receiver for as long as a peer sends to it. What arrives stays in the receiver's folder; the import takes it.
 class Listening {
 public:
     Listening(const ingest::ReceiverOptions& options, const fs::path& incoming,
-              ingest::Receiver::OnReceived on_received)
-        : receiver_(options, incoming, {.on_received = std::move(on_received)}),
+              ingest::Receiver::OnReceived on_received, const ingest::Receiver::Network& network)
+        : receiver_(options, incoming, {.on_received = std::move(on_received)}, network),
           thread_([this] { receiver_.run(stop_); })
     {
     }
@@ -91,50 +59,9 @@ void addTo(ingest::ImportReport& all, ingest::ImportReport more)
     all.scans_stored += more.scans_stored;
     all.scans_unchanged += more.scans_unchanged;
     all.images_kept += more.images_kept;
+    all.reports += more.reports;
     all.set_aside += more.set_aside;
     all.refused += more.refused;
-}
-
-std::set<std::string> storedObjects(CaseStore& store, const std::string& study_uid)
-{
-    std::set<std::string> uids;
-    if (const auto known = store.findCaseByStudy(study_uid))
-        for (const ScanRecord& scan : store.scans(known->id))
-            for (const InstanceRecord& instance : store.instances(known->id, scan.id))
-                uids.insert(instance.sop_uid);
-    return uids;
-}
-
-struct Fetched {
-    ingest::RetrieveResult result;
-    ingest::ImportReport report;
-    bool by_listener = false;  ///< a running listener imports what comes
-    bool whole = false;        ///< everything was there before
-};
-
-Fetched fetchByGet(Context& context, const Request& request, const ingest::Peer& peer,
-                   const std::vector<std::string>& series, Progress& progress)
-{
-    CaseStore& store = context.store();
-    const std::string title = receiverOptions(context.config()).ae_title;
-    const ArrivalFolder arrival(store.folder(), request.study_uid);
-    const std::set<std::string> have = storedObjects(store, request.study_uid);
-    Fetched fetched;
-    try {
-        fetched.result = ingest::getSeries(peer, request.study_uid, series, arrival.path(), title, progress, have);
-    } catch (const Error& e) {
-        if (e.code() != ErrorCode::peer || arrival.files() == 0)
-            throw;
-        throw Error(e.code(), e.what(), request.study_uid,
-                    "run the same again: it goes on where it stopped, " + std::to_string(arrival.files()) +
-                        " objects are here");
-    }
-    fetched.whole = arrival.files() == 0 && !have.empty() && fetched.result.failed == 0;
-    if (arrival.files() > 0)
-        fetched.report =
-            ingest::importPaths(store, {arrival.path()}, context.config().get<ingest::ImportOptions>(), progress);
-    arrival.remove();
-    return fetched;
 }
 
 /// Waits until a running listener has taken what lies in its folder.
@@ -166,7 +93,7 @@ bool listenerRuns(const fs::path& incoming)
 Fetched fetchByMove(Context& context, const Request& request, const ingest::Peer& peer,
                     const std::vector<std::string>& series, Progress& progress)
 {
-    const ingest::ReceiverOptions options = receiverOptions(context.config());
+    const ingest::ReceiverOptions options = context.config().get<ingest::ReceiverOptions>();
     CaseStore& store = context.store();
     const fs::path incoming = store.folder() / "incoming";
     Fetched fetched;
@@ -180,13 +107,16 @@ Fetched fetchByMove(Context& context, const Request& request, const ingest::Peer
         waitForListener(incoming, progress);
         return fetched;
     }
-    Listening listening(options, incoming, [&](const ingest::Receiver::Files& files) {
-        CaseStore own(store.folder());  // the receiver hands over on its own thread
-        NoProgress quiet;
-        auto report = ingest::importPaths(own, files, context.config().get<ingest::ImportOptions>(), quiet);
-        addTo(fetched.report, report);
-        return report.not_stored;
-    });
+    Listening listening(
+        options, incoming,
+        [&](const ingest::Receiver::Files& files) {
+            CaseStore own(store.place());  // the receiver hands over on its own thread
+            NoProgress quiet;
+            auto report = ingest::importPaths(own, files, context.config().get<ingest::ImportOptions>(), quiet);
+            addTo(fetched.report, report);
+            return report.not_stored;
+        },
+        networkOf(context.config()));
     move();
     listening.finish();
     return fetched;
@@ -194,14 +124,16 @@ Fetched fetchByMove(Context& context, const Request& request, const ingest::Peer
 
 int retrieve(Context& context, const Request& request)
 {
-    const ingest::Peer peer = requirePeer(context.config(), request.peer);
+    const ingest::Peer peer = requirePeer(context.config(), request.peer, PeerUse::query);
     const std::string title = context.config().get<ingest::ReceiverOptions>().ae_title;
     ProgressLine progress("retrieve");
-    const auto series = ingest::findSeries(peer, request.study_uid, "CT", title, progress);
+    const auto series = ingest::findSeries(peer, request.study_uid, request.reports ? "SR" : "CT", title, progress);
     if (series.empty())
-        throw Error(ErrorCode::not_found, "the peer has no CT series of this study", request.study_uid,
-                    "look for it with 'vicon query " + request.peer + "'");
-    const Fetched fetched = request.method == "get" ? fetchByGet(context, request, peer, series, progress)
+        throw Error(ErrorCode::not_found,
+                    request.reports ? "the peer has no structured report of this study"
+                                    : "the peer has no CT series of this study",
+                    request.study_uid, "look for it with 'vicon query " + request.peer + "'");
+    const Fetched fetched = request.method == "get" ? fetchByGet(context, request.study_uid, peer, series, progress)
                                                     : fetchByMove(context, request, peer, series, progress);
     const ingest::RetrieveResult& result = fetched.result;
     const ingest::ImportReport& report = fetched.report;
@@ -209,11 +141,7 @@ int retrieve(Context& context, const Request& request)
     if (context.json) {
         nlohmann::json lines = nlohmann::json::array();
         for (const ingest::ImportLine& line : report.lines)
-            lines.push_back({{"kind", ingest::nameOf(line.kind)},
-                             {"subject", line.subject},
-                             {"text", line.text},
-                             {"case", line.case_id},
-                             {"scan", line.scan_id}});
+            lines.push_back(toJson(line));
         std::printf("%s\n", nlohmann::json{{"retrieved", result.completed}, {"failed", result.failed}, {"lines", lines}}
                                 .dump(2)
                                 .c_str());
@@ -237,7 +165,7 @@ int retrieve(Context& context, const Request& request)
 
 Subcommand retrieveCommand()
 {
-    return {"retrieve", "Fetch the CT series of a study from a PACS (C-GET or C-MOVE) and import them",
+    return {"retrieve", "Fetch the CT series or the reports of a study from a PACS (C-GET or C-MOVE) and import them",
             [](CommandLine& command) {
                 auto request = std::make_shared<Request>();
                 command.option("PEER", request->peer, "Name of a peer in the configuration").required();
@@ -248,6 +176,8 @@ Subcommand retrieveCommand()
                             "to 'vicon receive' where it runs, and must know receive.ae_title")
                     .check(oneOf({"get", "move"}))
                     .captureDefault();
+                command.flag("--reports", request->reports,
+                             "Its structured reports in place of images: earlier reports for 'vicon priors'");
                 return [request](Context& context) { return retrieve(context, *request); };
             }};
 }

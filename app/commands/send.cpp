@@ -91,7 +91,7 @@ int send(Context& context, const SendArguments& a)
 {
     CaseStore& store = context.existingStore();
     const std::string case_id = store.requireCase(a.case_id).id;
-    requirePeer(context.config(), a.peer);
+    requirePeer(context.config(), a.peer, PeerUse::send);
     std::vector<OutboxObject> objects = reportObjects(store, case_id);
     if (a.images)
         std::ranges::copy(sourceImages(store, case_id), std::back_inserter(objects));

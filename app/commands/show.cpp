@@ -4,6 +4,7 @@
 #include "../organs.h"
 #include "../text_table.h"
 #include "vicon/cases/corrections.h"
+#include "vicon/cases/orders.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/cases/worklist.h"
 #include "vicon/scan_files/subdivision_file.h"
@@ -63,11 +64,19 @@ std::string inWords(const nlohmann::json& line)
     return (line.contains("object") ? line.value("object", "") + ": " : "") + line.value("why", "");
 }
 
+/// What is being done with a scan, and how far it is.
+std::string stateOf(const WorklistScan& scan)
+{
+    if (scan.state != WorkState::running)
+        return nameOf(scan.state);
+    return nameOf(scan.state) + " " + formatNumber(100 * scan.progress, 0) + " %, " + scan.step;
+}
+
 void printScan(CaseStore& store, const WorklistScan& scan)
 {
     const ScanRecord& r = scan.record;
     std::printf("\nscan %s: %s, series %d '%s', %s%s\n", r.id.c_str(), positionName(r.series.patient_position).c_str(),
-                r.series.number, r.series.description.c_str(), nameOf(scan.state).c_str(),
+                r.series.number, r.series.description.c_str(), stateOf(scan).c_str(),
                 scan.reason.empty() ? "" : (" (" + scan.reason + ")").c_str());
     std::printf("  %s\n", scan.folder.c_str());
     std::vector<std::vector<std::string>> rows;
@@ -117,6 +126,19 @@ int printSubdivisionTable(CaseStore& store, const WorklistCase& c, const std::st
     return 0;
 }
 
+/// What the study was asked for by whom, and what a modality worklist says of it.
+void printOrder(const CaseRecord& record, const std::optional<Order>& order)
+{
+    if (!record.study.accession_number.empty())
+        std::printf("accession number %s\n", record.study.accession_number.c_str());
+    if (!record.study.referring_physician.empty())
+        std::printf("referred by %s\n", record.study.referring_physician.c_str());
+    if (order)
+        std::printf("ordered as %s%s%s, by the worklist of %s\n",
+                    order->procedure.empty() ? "an unnamed procedure" : order->procedure.c_str(),
+                    order->reason.empty() ? "" : ": ", order->reason.c_str(), order->peer.c_str());
+}
+
 int show(Context& context, const ShowArguments& arguments)
 {
     CaseStore& store = context.existingStore();
@@ -126,8 +148,10 @@ int show(Context& context, const ShowArguments& arguments)
         return printSubdivisionTable(store, c, arguments.scan_id);
     if (context.json) {
         nlohmann::json out = toJson(std::vector{c})["cases"][0];
+        if (const auto order = orderOf(store, record.id))
+            out["order"] = *order;
         for (nlohmann::json& scan : out["scans"])
-            scan.update(store.describeScan(record.id, scan["id"]));
+            scan.update(toJson(store.describeScan(record.id, scan["id"])));
         std::printf("%s\n", out.dump(2).c_str());
         return 0;
     }
@@ -135,6 +159,7 @@ int show(Context& context, const ShowArguments& arguments)
                 nameOf(c.state).c_str(), record.patient.name.c_str(), record.patient.id.c_str(),
                 record.patient.birth_date.c_str(), record.patient.sex.c_str(), record.study.date.c_str(),
                 record.study.description.c_str());
+    printOrder(record, orderOf(store, record.id));
     for (const std::string& flag : record.flags)
         std::printf("! %s\n", flag.c_str());
     for (const WorklistScan& scan : c.scans)

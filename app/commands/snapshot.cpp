@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "../command.h"
+#include "../priors.h"
 #include "vicon/cases/placing.h"
 #include "vicon/core/error.h"
 
@@ -17,10 +18,11 @@ struct SnapshotArguments {
     double angle_deg = 90;
     bool ambient_occlusion = true;
     std::string window;
-    bool cleansed = false;
+    bool cleansed = false, from_caecum = false;
     std::string peel;
     double peel_offset_mm = 0;
-    bool peel_middle = false;
+    bool peel_middle = false, peel_over = false;
+    bool priors = false;
     int branch = -1;
 };
 
@@ -52,10 +54,17 @@ int snapshot(Context& context, const SnapshotArguments& arguments)
     request.ambient_occlusion = arguments.ambient_occlusion;
     request.window = arguments.window;
     request.cleansed = arguments.cleansed;
-    request.peel = arguments.peel;
-    request.peeling.offset_mm = arguments.peel_offset_mm;
-    request.peel_middle_only = arguments.peel_middle;
+    request.from_caecum = arguments.from_caecum;
+    request.whole_band = !arguments.at_station && arguments.marker.empty();
+    request.peel.preset = arguments.peel;
+    request.peel.options.offset_mm = arguments.peel_offset_mm;
+    request.peel.middle_only = arguments.peel_middle;
+    request.peel.over_surface = arguments.peel_over;
     const auto prepared = viewer::PreparedScan::open(store.scanFolder(record.id, scan.id), arguments.branch);
+    for (const ScanColon& colon : arguments.priors ? colonsOf(store, record.id) : std::vector<ScanColon>{})
+        if (colon.scan_id == scan.id)
+            request.priors = viewer::priorPlacesIn(priorsOf(store, record.id), colon, prepared.skeleton(),
+                                                   context.config().get<PriorOptions>());
     const auto result = viewer::renderSnapshot(prepared, request, arguments.out);
     if (!result.sees_target)
         std::fprintf(
@@ -91,7 +100,8 @@ Subcommand snapshotCommand()
                 .typeName("SCAN");
             command
                 .option("--view", arguments->view,
-                        "endo (from inside), slices (three planes) or overview (whole colon)")
+                        "endo (from inside), slices (three planes), overview (whole colon), cube (all around the eye) "
+                        "or band (whole colon cut open)")
                 .required();
             const auto marker = command.option("--marker", arguments->marker, "Look at this marker").typeName("ID");
             const auto station =
@@ -103,22 +113,29 @@ Subcommand snapshotCommand()
             command.option("--width", arguments->width, "Pixels").check(range(200, 4096));
             command.option("--height", arguments->height, "Pixels").check(range(200, 4096));
             command.option("--angle", arguments->angle_deg, "Viewing angle of the endoscopic view, degrees")
-                .check(range(20, 150))
+                .check(range(20.0, 150.0))
                 .captureDefault();
             command.flag("--ambient-occlusion,!--no-ambient-occlusion", arguments->ambient_occlusion,
                          "Less light between folds and at the foot of what rises from the wall (default: on)");
             command.option("--window", arguments->window, "Window/level preset of the slices (default: the organ's)");
+            command.flag("--priors", arguments->priors,
+                         "Slices and overview: where findings of earlier reports should lie");
             command.flag("--cleansed", arguments->cleansed, "Slices without tagging, where that was taken out");
+            command.flag("--from-caecum", arguments->from_caecum, "The band begins at the caecum");
             const auto peel =
                 command
                     .option("--peel", arguments->peel,
                             "Endoscopic view: look below the wall, with this preset (" + peelingPresets() + ")")
                     .typeName("PRESET");
-            command.option("--peel-offset", arguments->peel_offset_mm, "How far below the surface the look begins, mm")
-                .check(range(0, 20))
+            command
+                .option("--peel-offset", arguments->peel_offset_mm,
+                        "How far below the surface the look begins, mm; below 0: before it")
+                .check(range(-20.0, 20.0))
                 .needs(peel)
                 .captureDefault();
             command.flag("--peel-middle", arguments->peel_middle, "Peel only a circle in the middle").needs(peel);
+            command.flag("--peel-over", arguments->peel_over, "Lay it over the surface instead of in its place")
+                .needs(peel);
             return [arguments, station](Context& context) {
                 arguments->at_station = station.given();
                 return snapshot(context, *arguments);

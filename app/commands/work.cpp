@@ -7,6 +7,7 @@
 #include "../point_argument.h"
 #include "../progress_line.h"
 #include "../scan_work.h"
+#include "../worker_processes.h"
 #include "vicon/cases/corrections.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
@@ -22,6 +23,8 @@ struct WorkArguments {
     std::string case_id, scan_id, organ;
     std::vector<std::string> add, cut, drop;
     bool forget_corrections = false;
+    std::string first;
+    int jobs = 1;
 
     bool correct() const { return forget_corrections || !add.empty() || !cut.empty() || !drop.empty(); }
 };
@@ -77,7 +80,8 @@ void keepMemory()
 
 int work(Context& context, const WorkArguments& arguments)
 {
-    keepMemory();
+    if (arguments.jobs == 1)
+        keepMemory();
     CaseStore& store = context.existingStore();
     const auto queue_options = context.config().get<QueueOptions>();
     if (arguments.retry)
@@ -92,6 +96,10 @@ int work(Context& context, const WorkArguments& arguments)
     if (arguments.redo_outdated)
         requeueOutdated(store, context.config(),
                         arguments.case_id.empty() ? "" : store.requireCase(arguments.case_id).id);
+    if (!arguments.first.empty())
+        JobQueue(store.database(), queue_options).putFirst(store.requireCase(arguments.first).id);
+    if (arguments.jobs > 1)
+        return runWorkers(context, arguments.jobs, arguments.until_idle);
     auto options = context.config().get<pipeline::WorkOptions>();
     options.until_idle = arguments.until_idle;
 
@@ -136,6 +144,11 @@ Subcommand workCommand()
             [](CommandLine& command) {
                 auto arguments = std::make_shared<WorkArguments>();
                 command.flag("--until-idle", arguments->until_idle, "Stop when the queue is empty");
+                command.option("--jobs", arguments->jobs, "So many scans at once, each by a process of its own")
+                    .typeName("N")
+                    .check(range(1, 1000));
+                command.option("--first", arguments->first, "What waits of this case comes before what waits of others")
+                    .typeName("CASE");
                 command.flag("--retry", arguments->retry, "Put failed jobs back into the queue first");
                 command.flag("--redo-outdated", arguments->redo_outdated,
                              "Put finished scans that other options or another version would make otherwise back "

@@ -4,6 +4,8 @@
 
 #include "bridge_reviews_file.h"
 #include "this_person.h"
+#include "vicon/cases/roles.h"
+#include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
@@ -37,9 +39,11 @@ std::vector<ReviewedBridge> reviewedBridges(CaseStore& store, const ScanRecord& 
 {
     const std::vector<ReviewedBridge> reviews = readBridgeReviews(store.scanFolder(scan.case_id, scan.id));
     std::vector<ReviewedBridge> bridges;
-    const json all = store.describeScan(scan.case_id, scan.id).value("bridges", json::array());
-    for (const json& entry : all) {
-        ReviewedBridge bridge{bridgeFromJson(entry), std::nullopt};
+    const StepResults results = resultsOf(store.steps(scan.case_id, scan.id));
+    if (!results.segment)
+        return bridges;
+    for (const Bridge& found : results.segment->bridges) {
+        ReviewedBridge bridge{found, std::nullopt};
         for (const ReviewedBridge& review : reviews)
             if (isSameBridge(bridge.bridge, review.bridge))
                 bridge.review = review.review;
@@ -50,6 +54,7 @@ std::vector<ReviewedBridge> reviewedBridges(CaseStore& store, const ScanRecord& 
 
 void reviewBridge(CaseStore& store, const ScanRecord& scan, const ReviewedBridge& given)
 {
+    requireRole(Role::mark);
     const auto same = [&](const ReviewedBridge& other) { return isSameBridge(other.bridge, given.bridge); };
     const std::vector<ReviewedBridge> known = reviewedBridges(store, scan);
     if (std::none_of(known.begin(), known.end(), same))

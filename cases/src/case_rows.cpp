@@ -1,5 +1,6 @@
 #include "case_rows.h"
 
+#include "search_words.h"
 #include "this_person.h"
 #include "vicon/core/file.h"
 
@@ -48,6 +49,14 @@ StepRecord stepFrom(const soci::row& row)
             row.get<std::string>("finished")};
 }
 
+std::string inList(const std::vector<CaseRecord>& cases)
+{
+    std::string list;
+    for (const CaseRecord& c : cases)
+        list += (list.empty() ? "('" : ", '") + c.id + "'";
+    return list + ")";
+}
+
 void putCase(soci::session& sql, const CaseRecord& c)
 {
     const std::string study = json(c.study).dump(), flags = json(c.flags).dump();
@@ -57,6 +66,7 @@ void putCase(soci::session& sql, const CaseRecord& c)
         soci::use(c.id), soci::use(c.study.uid), soci::use(c.patient.id), soci::use(c.patient.name),
         soci::use(c.patient.birth_date), soci::use(c.patient.sex), soci::use(study), soci::use(flags),
         soci::use(c.created);
+    putSearchWords(sql, c);
 }
 
 void putScan(soci::session& sql, const ScanRecord& s)
@@ -104,7 +114,7 @@ int takeNumber(soci::session& sql, const std::string& name)
 {
     int value = 0;
     sql << "INSERT INTO counters (name, value) VALUES (:name, 1)"
-           " ON CONFLICT (name) DO UPDATE SET value = value + 1 RETURNING value",
+           " ON CONFLICT (name) DO UPDATE SET value = counters.value + 1 RETURNING value",
         soci::use(name), soci::into(value);
     return value;
 }

@@ -25,6 +25,9 @@ std::vector<Record> collect(Statement&& rows, Record (*from)(const soci::row&))
     return records;
 }
 
+/// Their ids as SQL's list: "('c1', 'c2')". Ids are VICON's own.
+std::string inList(const std::vector<CaseRecord>& cases);
+
 void putCase(soci::session& sql, const CaseRecord& c);
 void putScan(soci::session& sql, const ScanRecord& s);
 void putInstances(soci::session& sql, const std::vector<InstanceRecord>& instances);

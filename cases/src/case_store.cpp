@@ -2,11 +2,16 @@
 
 #include <soci/soci.h>
 
+#include <algorithm>
+#include <random>
+
 #include "case_rows.h"
+#include "database_backup.h"
+#include "database_engine.h"
 #include "job_rows.h"
+#include "search_words.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
-#include "vicon/scan_files/description_file.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -17,18 +22,88 @@ namespace {
 constexpr std::size_t kIdDigits =
     10;  // 40 bits: among 10,000 cases two ids collide with probability 5e-5, and then import refuses
 
+constexpr const char* kOwnDatabase = "vicon.db";
+
+/// Makes the store's folder, and says where its database lies.
+std::string databaseOf(const StorePlace& place)
+{
+    const bool on_server = !place.database.empty();
+    if (on_server && !isServerAddress(place.database))
+        throw Error(ErrorCode::wrong_use, "this is no address of a database", "store.database",
+                    "give it as postgresql://USER@HOST:PORT/NAME");
+    if (fs::exists(place.folder / (on_server ? kOwnDatabase : kServersDatabase)))
+        throw Error(ErrorCode::store,
+                    on_server ? "the store keeps its state in its own vicon.db, not in store.database"
+                              : "the store keeps its state in a PostgreSQL database",
+                    place.folder.string(),
+                    on_server ? "give another --store, or no store.database" : "set store.database to its address");
+    makePrivateFolder(place.folder / "cases");
+    return on_server ? place.database : (place.folder / kOwnDatabase).string();
+}
+
+/// State and data of two stores must never be mixed: the folder and the server's database hold the same name.
+void requireOneStore(const fs::path& folder, Database& database)
+{
+    const fs::path file = folder / kServersDatabase;
+    database.write([&](soci::session& sql) {
+        std::string in_database, in_folder = fs::exists(file) ? readFile(file) : "";
+        sql << "SELECT id FROM store", soci::into(in_database);
+        if (in_database.empty() && in_folder.empty()) {
+            in_database = in_folder = sha256(std::to_string(std::random_device()()) + nowUtc() + folder.string());
+            sql << "UPDATE store SET id = :id", soci::use(in_database);
+            replaceFile(file, in_folder);
+        }
+        if (in_database != in_folder)
+            throw Error(ErrorCode::store, "the folder and store.database belong to different stores", folder.string(),
+                        "give the folder that all machines share, and the database that goes with it");
+    });
+}
+
+std::vector<ScanRecord> inOrder(std::vector<ScanRecord> scans)
+{
+    std::stable_sort(scans.begin(), scans.end(), [](const ScanRecord& a, const ScanRecord& b) {
+        return a.role == b.role && a.series.number < b.series.number;
+    });
+    return scans;
+}
+
 }  // namespace
 
-CaseStore::CaseStore(const fs::path& folder)
-    : folder_(fs::absolute(folder).lexically_normal()),
-      database_((makePrivateFolder(folder_ / "cases"), folder_ / "vicon.db"))
+bool StorePlace::holdsStore() const
 {
+    return fs::exists(folder / kOwnDatabase) || fs::exists(folder / kServersDatabase);
+}
+
+CaseStore::CaseStore(const StorePlace& place)
+    : place_(fs::absolute(place.folder).lexically_normal(), place.database), database_(databaseOf(place_))
+{
+    if (!place_.database.empty())
+        requireOneStore(folder(), database_);
+    makeSearchWords();
     renewMarkerFiles();
+}
+
+/// Cases that a version without a search took in have no words yet.
+void CaseStore::makeSearchWords()
+{
+    constexpr const char* kIsMade = "SELECT COUNT(*) FROM counters WHERE name = 'search words'";
+    int made = 0;
+    database_.session() << kIsMade, soci::into(made);
+    if (made > 0)
+        return;
+    database_.write([&](soci::session& sql) {
+        sql << kIsMade, soci::into(made);
+        if (made > 0)
+            return;
+        for (const CaseRecord& c : cases())
+            putSearchWords(sql, c);
+        sql << "INSERT INTO counters (name, value) VALUES ('search words', 1)";
+    });
 }
 
 fs::path CaseStore::caseFolder(const std::string& case_id) const
 {
-    return folder_ / "cases" / case_id;
+    return folder() / "cases" / case_id;
 }
 
 fs::path CaseStore::scanFolder(const std::string& case_id, const std::string& scan_id) const
@@ -93,10 +168,16 @@ CaseRecord CaseStore::requireCase(const std::string& case_id)
 std::vector<ScanRecord> CaseStore::scans(const std::string& case_id)
 {
     const soci::rowset<soci::row> rows =
-        (database_.session().prepare << "SELECT * FROM scans WHERE case_id = :id"
-                                        " ORDER BY role DESC, CAST(json_extract(series, '$.number') AS INTEGER), id",
+        (database_.session().prepare << "SELECT * FROM scans WHERE case_id = :id ORDER BY role DESC, id",
          soci::use(case_id));
-    return collect(rows, scanFrom);
+    return inOrder(collect(rows, scanFrom));
+}
+
+std::vector<ScanRecord> CaseStore::scans(const std::vector<CaseRecord>& cases)
+{
+    const soci::rowset<soci::row> rows = (database_.session().prepare << "SELECT * FROM scans WHERE case_id IN " +
+                                                                             inList(cases) + " ORDER BY role DESC, id");
+    return inOrder(collect(rows, scanFrom));
 }
 
 ScanRecord CaseStore::requireScan(const std::string& case_id, const std::string& scan_id)
@@ -197,29 +278,19 @@ std::vector<StepRecord> CaseStore::steps(const std::string& case_id, const std::
     return collect(rows, stepFrom);
 }
 
-json CaseStore::describeScan(const std::string& case_id, const std::string& scan_id)
+scan_files::ScanDescription CaseStore::describeScan(const std::string& case_id, const std::string& scan_id)
 {
     const CaseRecord c = requireCase(case_id);
     const ScanRecord scan = requireScan(case_id, scan_id);
-    json out = {{"case", c.id},
-                {"scan", scan.id},
-                {"patient", c.patient},
-                {"study", c.study},
-                {"series", scan.series},
-                {"position", positionName(scan.series.patient_position)},
-                {"role", nameOf(scan.role)},
-                {"created", scan.created}};
-    out.update(scan.ingest);
-    json& done = out["steps"] = json::object();
-    for (const StepRecord& step : steps(case_id, scan_id)) {
-        done[step.step] = {{"version", step.version}, {"digest", step.digest},   {"parameters", step.parameters},
-                           {"result", step.result},   {"seconds", step.seconds}, {"finished", step.finished}};
-        // What readers of a scan ask for first stands at the top level, under the contract's names.
-        for (const char* key : {"bridges", "parts", "quality", "verdict", "confidence", "organ"})
-            if (step.result.contains(key))
-                out[key] = step.result[key];
-    }
-    return out;
+    return {.case_id = c.id,
+            .scan_id = scan.id,
+            .patient = c.patient,
+            .study = c.study,
+            .series = scan.series,
+            .role = scan.role,
+            .created = scan.created,
+            .ingest = scan.ingest,
+            .steps = steps(case_id, scan_id)};
 }
 
 void CaseStore::writeScanFile(const std::string& case_id, const std::string& scan_id)

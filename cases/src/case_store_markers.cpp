@@ -4,6 +4,7 @@
 
 #include "case_rows.h"
 #include "vicon/cases/case_store.h"
+#include "vicon/cases/roles.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
@@ -158,6 +159,7 @@ Marker CaseStore::requireMarker(const std::string& case_id, const std::string& m
 
 Marker CaseStore::saveMarker(const std::string& case_id, Marker marker)
 {
+    requireRole(Role::mark);
     database_.write([&](soci::session& sql) {
         MarkerRows rows(sql, case_id);
         const MarkerEdit edit{rows.find(marker.id), marker};
@@ -172,6 +174,7 @@ Marker CaseStore::saveMarker(const std::string& case_id, Marker marker)
 
 void CaseStore::removeMarker(const std::string& case_id, const std::string& marker_id)
 {
+    requireRole(Role::mark);
     database_.write([&](soci::session& sql) {
         MarkerRows rows(sql, case_id);
         const MarkerEdit edit{requireMarker(case_id, marker_id), std::nullopt};
@@ -185,6 +188,7 @@ void CaseStore::removeMarker(const std::string& case_id, const std::string& mark
 
 std::vector<MarkerEdit> CaseStore::editMarkers(const std::string& case_id, std::vector<MarkerEdit> edits)
 {
+    requireRole(Role::mark);
     database_.write([&](soci::session& sql) {
         if (!findCase(case_id))
             throw Error(ErrorCode::not_found, "no such case", "'" + case_id + "'", "'vicon cases' lists them");

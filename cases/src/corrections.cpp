@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "vicon/cases/organs.h"
+#include "vicon/cases/roles.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/json_text.h"
@@ -69,6 +70,7 @@ void writeCorrections(const fs::path& scan_folder, const Corrections& correction
 
 void replaceCorrections(CaseStore& store, const QueueOptions& options, const ScanRecord& scan, const Corrections& all)
 {
+    requireRole(Role::mark);
     const fs::path folder = store.scanFolder(scan.case_id, scan.id);
     requireColon(store, scan);
     requireInside(folder, all);

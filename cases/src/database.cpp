@@ -1,17 +1,19 @@
 #include "vicon/cases/database.h"
 
-#include <fcntl.h>
-#include <soci/soci.h>
-#include <soci/sqlite3/soci-sqlite3.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <chrono>
+#include <thread>
+#include <utility>
 
-#include "vicon/core/error.h"
+#include "database_engine.h"
 
 namespace vicon {
 namespace {
 
-constexpr int kBusyTimeoutSeconds = 60;
+/// A server that is started anew answers again within this.
+constexpr std::chrono::seconds kReconnect{20};
+constexpr std::chrono::milliseconds kBetweenTries{100};
+/// What is run again after the connection broke.
+constexpr int kMostRuns = 3;
 
 /// The statements that lead from schema version n to n+1.
 const std::vector<std::vector<const char*>> kMigrations = {
@@ -77,85 +79,75 @@ const std::vector<std::vector<const char*>> kMigrations = {
         "CREATE INDEX outbox_case ON outbox (case_id)",
         "CREATE INDEX outbox_transaction ON outbox (transaction_uid)",
     },
+    {
+        // A million of each: what waits, what runs and what failed have indexes of their own.
+        "ALTER TABLE jobs ADD COLUMN opened REAL NOT NULL DEFAULT 0",
+        "ALTER TABLE jobs ADD COLUMN queued REAL NOT NULL DEFAULT 0",
+        "ALTER TABLE jobs ADD COLUMN memory_mb REAL NOT NULL DEFAULT 0",
+        "DROP INDEX jobs_state",
+        "CREATE INDEX jobs_waiting ON jobs (opened DESC, queued) WHERE state = 'queued'",
+        "CREATE INDEX jobs_due ON jobs (not_before) WHERE state = 'queued'",
+        "CREATE INDEX jobs_running ON jobs (lease_until) WHERE state = 'running'",
+        "CREATE INDEX jobs_failed ON jobs (case_id, scan_id) WHERE state = 'failed'",
+        "CREATE INDEX cases_created ON cases (created, id)",
+        "CREATE TABLE case_words (word TEXT NOT NULL, case_id TEXT NOT NULL, PRIMARY KEY (word, case_id))",
+    },
+    {
+        // Structured reports that came from elsewhere belong to a patient, whether or not their study is a case.
+        "CREATE TABLE kept_reports (sop_uid TEXT PRIMARY KEY, sop_class TEXT NOT NULL, series_uid TEXT NOT NULL,"
+        " study_uid TEXT NOT NULL, study_date TEXT NOT NULL, patient_id TEXT NOT NULL, patient TEXT NOT NULL,"
+        " study TEXT NOT NULL, sha256 TEXT NOT NULL, file TEXT NOT NULL, created TEXT NOT NULL)",
+        "CREATE INDEX kept_reports_patient ON kept_reports (patient_id)",
+        "CREATE TABLE comparisons (case_id TEXT NOT NULL, finding_id TEXT NOT NULL, report_uid TEXT NOT NULL,"
+        " prior_uid TEXT NOT NULL, content TEXT NOT NULL, PRIMARY KEY (case_id, finding_id, report_uid, prior_uid))",
+    },
+    {
+        // A case that is deleted takes its report along; nothing else does.
+        "CREATE TABLE deletions (mark TEXT PRIMARY KEY, case_id TEXT NOT NULL)",
+        "DROP TRIGGER report_versions_are_not_deleted",
+        "CREATE TRIGGER report_versions_are_not_deleted BEFORE DELETE ON report_versions"
+        " WHEN NOT EXISTS (SELECT 1 FROM deletions WHERE case_id = OLD.case_id)"
+        " BEGIN SELECT RAISE(ABORT, 'a version of a report never changes'); END",
+    },
+    {
+        // What a modality worklist said of a case.
+        "CREATE TABLE orders (case_id TEXT PRIMARY KEY, content TEXT NOT NULL)",
+    },
 };
-static_assert(Database::kSchemaVersion == 3, "add a migration for every version");
+static_assert(Database::kSchemaVersion == 7, "add a migration for every version");
 
-/// In the reader's words where one can do something about it.
-Error refusal(const soci::soci_error& e)
-{
-    constexpr const char* kRemedy = "check the disk, then run again";
-    const auto* sqlite = dynamic_cast<const soci::sqlite3_soci_error*>(&e);
-    switch (sqlite ? sqlite->result() & 0xff : SQLITE_OK) {  // the rest of it tells kinds of the same trouble apart
-        case SQLITE_FULL:
-            return {ErrorCode::database,
-                    "the store's disk is full; nothing was saved",
-                    {},
-                    "free some space on it and try again"};
-        case SQLITE_IOERR:
-            return {ErrorCode::database,
-                    "the store's disk cannot be written; nothing was saved",
-                    {},
-                    "see whether it is full or at fault, then try again"};
-        case SQLITE_BUSY:
-            return {ErrorCode::database,
-                    "another program keeps the database busy; nothing was saved",
-                    {},
-                    "try again in a moment"};
-        default:
-            return {ErrorCode::database, std::string("the database refused (") + e.what() + ")", {}, kRemedy};
-    }
-}
-
-/// The folder of a database, by a name without any sign that a connection string reads in its own way. SQLite finds the
-/// place behind it, and keeps that.
-class Folder {
-public:
-    explicit Folder(const std::filesystem::path& file)
-        : descriptor_(
-              ::open(file.has_parent_path() ? file.parent_path().c_str() : ".", O_PATH | O_DIRECTORY | O_CLOEXEC))
-    {
-    }
-    ~Folder()
-    {
-        if (descriptor_ >= 0)
-            ::close(descriptor_);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string name(const std::filesystem::path& file) const
-    {
-        return "/proc/self/fd/" + std::to_string(descriptor_) + "/" + file.filename().string();
-    }
-
-private:
-    int descriptor_;
-};
-
-/// Nobody else may read the database, at no moment. SQLite gives its other files the same mode. The file is made
-/// without being opened: closing it again would drop the locks of every connection that this process has to it, and
-/// another program would delete the log under them (sqlite.org/howtocorrupt.html, section 2.2).
-void createPrivately(const std::filesystem::path& file)
-{
-    ::mknod(file.c_str(), S_IFREG | 0600, 0);  // that it is there, or cannot be made, SQLite finds
-    ::chmod(file.c_str(), 0600);
-}
+/// The connection broke before the server had committed.
+struct NotCommitted {};
 
 }  // namespace
 
-Database::Database(const std::filesystem::path& file)
+const std::vector<std::vector<const char*>>& schemaMigrations()
+{
+    return kMigrations;
+}
+
+std::string inOneLine(const std::string& text)
+{
+    std::string line;
+    for (const char c : text)
+        if (c != '\n' && c != '\r' && c != '\t')
+            line += c;
+        else if (!line.empty() && line.back() != ' ')
+            line += ' ';
+    while (!line.empty() && line.back() == ' ')
+        line.pop_back();
+    return line;
+}
+
+Database::Database(const std::string& where)
+    : where_(where), engine_(isServerAddress(where) ? makePostgresql(where) : makeSqlite(where))
 {
     try {
-        const Folder folder(file);
-        createPrivately(file);
-        session_ = std::make_unique<soci::session>(
-            soci::sqlite3, "dbname=" + folder.name(file) + " timeout=" + std::to_string(kBusyTimeoutSeconds));
-        *session_ << "PRAGMA journal_mode = WAL";
-        *session_ << "PRAGMA synchronous = FULL";
-        *session_ << "PRAGMA foreign_keys = ON";
+        session_ = engine_->connect();
+        engine_->prepare(*session_);
         migrate();
     } catch (const soci::soci_error& e) {
-        throw Error(ErrorCode::database, std::string("database cannot be opened (") + e.what() + ")", file.string(),
-                    "check that the folder is yours, on a local disk, and not full");
+        throw engine_->cannotBeOpened(e);
     }
 }
 
@@ -163,12 +155,12 @@ Database::~Database() = default;
 
 void Database::migrate()
 {
-    int version = 0;
-    *session_ << "PRAGMA user_version", soci::into(version);
-    if (version == kSchemaVersion)
+    if (engine_->schemaVersion(*session_) == kSchemaVersion)
         return;
-    write([&](soci::session& sql) {
-        sql << "PRAGMA user_version", soci::into(version);  // again: another process may have migrated meanwhile
+    writing_ = true;
+    try {
+        engine_->beginMigration(*session_);
+        int version = engine_->schemaVersion(*session_);  // again: another process may have migrated meanwhile
         if (version > kSchemaVersion)
             throw Error(ErrorCode::database,
                         "the store has schema version " + std::to_string(version) + ", this VICON knows up to " +
@@ -176,50 +168,137 @@ void Database::migrate()
                         {}, "use the newer VICON that wrote it");
         for (; version < kSchemaVersion; ++version)
             for (const char* statement : kMigrations[std::size_t(version)])
-                sql << statement;
-        sql << "PRAGMA user_version = " + std::to_string(kSchemaVersion);
-    });
+                *session_ << engine_->schemaStatement(statement);
+        engine_->setSchemaVersion(*session_, kSchemaVersion);
+        *session_ << "COMMIT";
+    } catch (...) {
+        rollBack();
+        throw;
+    }
+    writing_ = false;
+}
+
+soci::session& Database::session()
+{
+    if (!writing_ && engine_->isLost(*session_))
+        reconnect();
+    return *session_;
+}
+
+void Database::reconnect()
+{
+    const auto end = std::chrono::steady_clock::now() + kReconnect;
+    while (true) {
+        try {
+            session_->reconnect();
+            engine_->prepare(*session_);
+            return;
+        } catch (const soci::soci_error& e) {
+            if (std::chrono::steady_clock::now() > end)
+                throw engine_->cannotBeOpened(e);
+            std::this_thread::sleep_for(kBetweenTries);
+        }
+    }
 }
 
 std::string Database::damage()
 {
     try {
-        std::string found;
-        *session_ << "PRAGMA integrity_check(1)", soci::into(found);
-        return found == "ok" ? "" : found;
+        return engine_->damage(session());
     } catch (const soci::soci_error& e) {
-        return e.what();
+        return inOneLine(e.what());
     }
 }
 
 std::string Database::version()
 {
     try {
-        long long by_others = 0, by_this = 0;
-        *session_ << "PRAGMA data_version", soci::into(by_others);
-        *session_ << "SELECT total_changes()", soci::into(by_this);
-        return std::to_string(by_others) + "/" + std::to_string(by_this);
+        return engine_->version(session());
     } catch (const soci::soci_error& e) {
-        throw refusal(e);
+        throw engine_->refusal(e, session_.get());
     }
 }
 
 void Database::write(const std::function<void(soci::session&)>& work)
 {
-    try {
-        *session_ << "BEGIN IMMEDIATE";
+    transact(work, Beside::nobody);
+}
+
+void Database::writeRows(const std::function<void(soci::session&)>& work)
+{
+    transact(work, Beside::others);
+}
+
+void Database::transact(const std::function<void(soci::session&)>& work, Beside beside)
+{
+    if (writing_)
+        throw Error(ErrorCode::internal, "a transaction within a transaction");
+    const int runs = beside == Beside::others ? kMostRuns : 1;
+    for (int run = 1;; ++run) {
         try {
-            work(*session_);
-            *session_ << "COMMIT";
-        } catch (...) {
+            begin(beside);
             try {
-                *session_ << "ROLLBACK";
-            } catch (const soci::soci_error&) {  // SQLite has rolled back by itself, as it does on a full disk
+                work(*session_);
+                commit();
+            } catch (...) {
+                rollBack();
+                throw;
             }
+            return;
+        } catch (const soci::soci_error& e) {
+            if (run == runs || !engine_->isLost(*session_))
+                throw engine_->refusal(e, session_.get());
+        } catch (const NotCommitted&) {
+            if (run == runs)
+                throw engine_->connectionBroke();
+        }
+    }
+}
+
+/// Over a connection that broke while it idled as well: nothing was done yet.
+void Database::begin(Beside beside)
+{
+    const auto begin = [&] {
+        beside == Beside::nobody ? engine_->beginAlone(*session_) : engine_->beginBesideOthers(*session_);
+    };
+    if (engine_->isLost(*session_))
+        reconnect();
+    writing_ = true;
+    try {
+        begin();
+    } catch (const soci::soci_error&) {
+        if (!engine_->isLost(*session_)) {
+            rollBack();
             throw;
         }
-    } catch (const soci::soci_error& e) {
-        throw refusal(e);
+        reconnect();
+        begin();
+    }
+}
+
+/// Where the connection breaks meanwhile, it is asked over a new one whether the transaction was committed.
+void Database::commit()
+{
+    const std::string name = engine_->transactionName(*session_);
+    try {
+        *session_ << "COMMIT";
+    } catch (const soci::soci_error&) {
+        if (name.empty() || !engine_->isLost(*session_))
+            throw;
+        writing_ = false;
+        reconnect();
+        if (!engine_->wasCommitted(*session_, name))
+            throw NotCommitted();
+    }
+    writing_ = false;
+}
+
+void Database::rollBack()
+{
+    try {
+        if (std::exchange(writing_, false) && !engine_->isLost(*session_))
+            *session_ << "ROLLBACK";
+    } catch (const soci::soci_error&) {  // it has rolled back by itself: SQLite on a full disk, a server that broke off
     }
 }
 

@@ -27,7 +27,25 @@ std::optional<double> larger(std::optional<double> a, std::optional<double> b)
     return a && b ? std::max(a, b) : a ? a : b;
 }
 
-FindingSight sightOf(const Marker& marker, const std::map<std::string, Skeleton>& skeletons)
+/// How far along its part a station lies; nothing where the part has no length, or is not where the marker says.
+std::optional<double> fractionIn(const ColonPartRanges& parts, std::optional<ColonPart> part, double station_mm)
+{
+    for (const ColonPartRange& range : parts)
+        if (part == range.part && range.to_mm > range.from_mm)
+            return std::clamp((station_mm - range.from_mm) / (range.to_mm - range.from_mm), 0.0, 1.0);
+    return std::nullopt;
+}
+
+void takeOutline(FindingSight& sight, const PolypSize& polyp)
+{
+    sight.size_least_mm = roundedSize_mm(polyp.least_mm);
+    sight.size_most_mm = roundedSize_mm(polyp.most_mm);
+    sight.height_mm = polyp.height_mm;
+    sight.volume_ml = polyp.volume_ml;
+}
+
+FindingSight sightOf(const Marker& marker, const std::map<std::string, Skeleton>& skeletons,
+                     const std::map<std::string, ColonPartRanges>& parts)
 {
     FindingSight sight{marker.id,
                        marker.scan_id,
@@ -44,7 +62,11 @@ FindingSight sightOf(const Marker& marker, const std::map<std::string, Skeleton>
         sight.size_3d_mm = roundedSize_mm(marker.size->straight_mm);
         if (marker.size->plane)
             sight.size_2d_mm = roundedSize_mm(marker.size->plane->diameter_mm);
+        if (marker.size->polyp)
+            takeOutline(sight, *marker.size->polyp);
     }
+    if (const auto known = parts.find(marker.scan_id); known != parts.end())
+        sight.part_fraction = fractionIn(known->second, marker.part, marker.station_mm);
     if (marker.density && marker.density->voxels > 0)
         sight.mean_hu = marker.density->mean_hu;
     const auto skeleton = skeletons.find(marker.scan_id);
@@ -134,13 +156,14 @@ EndoscopeDistance endoscopeDistance(double station_mm, std::optional<ColonPart> 
 }
 
 FindingFacts factsOf(const Finding& finding, const std::vector<Marker>& markers,
-                     const std::map<std::string, Skeleton>& skeletons)
+                     const std::map<std::string, Skeleton>& skeletons,
+                     const std::map<std::string, ColonPartRanges>& parts)
 {
     FindingFacts facts;
     for (const std::string& id : finding.markers) {
         const auto marker = std::find_if(markers.begin(), markers.end(), [&](const Marker& m) { return m.id == id; });
         if (marker != markers.end())
-            facts.sights.push_back(sightOf(*marker, skeletons));
+            facts.sights.push_back(sightOf(*marker, skeletons, parts));
     }
     takeSize(facts, finding);
     if (facts.sights.empty())

@@ -11,6 +11,12 @@ namespace {
 constexpr EnumNames<SizeSource, 3> kSizeSourceNames = {
     {{SizeSource::reader, "reader"}, {SizeSource::plane, "best plane"}, {SizeSource::surface, "surface"}}};
 
+constexpr std::pair<const char*, std::optional<double> FindingSight::*> kOfPartAndOutline[] = {
+    {"part_fraction", &FindingSight::part_fraction}, {"size_least_mm", &FindingSight::size_least_mm},
+    {"size_most_mm", &FindingSight::size_most_mm},   {"height_mm", &FindingSight::height_mm},
+    {"volume_ml", &FindingSight::volume_ml},
+};
+
 SizeSource sizeSourceFrom(const std::string& name)
 {
     return valueIn(kSizeSourceNames, name, "a size's source");
@@ -29,6 +35,8 @@ json sightJson(const FindingSight& s)
     putValue(out, "size_2d_mm", s.size_2d_mm);
     putValue(out, "size_3d_mm", s.size_3d_mm);
     putValue(out, "mean_hu", s.mean_hu);
+    for (const auto& [key, figure] : kOfPartAndOutline)
+        putValue(out, key, s.*figure);
     return out;
 }
 
@@ -47,6 +55,8 @@ FindingSight sightFromJson(const json& from)
     s.size_2d_mm = number(from, "size_2d_mm");
     s.size_3d_mm = number(from, "size_3d_mm");
     s.mean_hu = number(from, "mean_hu");
+    for (const auto& [key, figure] : kOfPartAndOutline)
+        s.*figure = number(from, key);
     return s;
 }
 

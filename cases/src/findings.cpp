@@ -6,6 +6,7 @@
 
 #include "case_rows.h"
 #include "report_rows.h"
+#include "vicon/cases/roles.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
@@ -106,6 +107,7 @@ Finding requireFinding(CaseStore& store, const std::string& case_id, const std::
 
 std::vector<FindingEdit> editFindings(CaseStore& store, const std::string& case_id, std::vector<FindingEdit> edits)
 {
+    requireRole(Role::mark);
     store.database().write([&](soci::session& sql) {
         requireCaseInStore(store, case_id);
         requireOpenReport(sql, case_id);
@@ -150,6 +152,7 @@ Assessment assessmentOf(CaseStore& store, const std::string& case_id)
 
 void saveAssessment(CaseStore& store, const std::string& case_id, const Assessment& before, const Assessment& after)
 {
+    requireRole(Role::mark);
     const std::string seen = toJson(before).dump(), content = toJson(after).dump();
     store.database().write([&](soci::session& sql) {
         requireCaseInStore(store, case_id);

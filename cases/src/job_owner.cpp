@@ -46,6 +46,11 @@ std::string thisOwner()
     return thisMachine() + "/" + pid + "/" + startOf(pid);
 }
 
+std::string machineOf(const std::string& owner)
+{
+    return owner.substr(0, owner.rfind('/', owner.rfind('/') - 1));
+}
+
 bool ownerIsGone(const std::string& owner)
 {
     const std::string machine = thisMachine() + "/";

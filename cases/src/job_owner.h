@@ -8,4 +8,7 @@ namespace vicon {
 /// worker need not be waited for. Of other machines' processes nothing is known: false.
 bool ownerIsGone(const std::string& owner);
 
+/// The machine that a worker runs on.
+std::string machineOf(const std::string& owner);
+
 }  // namespace vicon

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case_rows.h"
+#include "database_engine.h"
 #include "job_owner.h"
 #include "job_rows.h"
 #include "vicon/core/error.h"
@@ -37,6 +39,7 @@ Job jobFrom(const soci::row& row)
     job.reason = row.get<std::string>("reason");
     job.not_before = row.get<double>("not_before");
     job.lease_until = row.get<double>("lease_until");
+    job.memory_mb = row.get<double>("memory_mb");
     return job;
 }
 
@@ -46,6 +49,22 @@ std::vector<Job> collect(const soci::rowset<soci::row>& rows)
     for (const soci::row& row : rows)
         jobs.push_back(jobFrom(row));
     return jobs;
+}
+
+/// Others claim at the same time where the database lets them: each takes a row that nobody has in hand.
+std::string skippingLocked(soci::session& sql)
+{
+    return isPostgresql(sql) ? " FOR UPDATE SKIP LOCKED" : "";
+}
+
+/// Keeps the job's row from all others until the transaction ends, if it is still as it was seen.
+bool hold(soci::session& sql, const Job& job)
+{
+    long long fence = 0;
+    sql << "UPDATE jobs SET fence = fence WHERE case_id = :c AND scan_id = :s AND state = 'running' AND fence = :f"
+           " RETURNING fence",
+        soci::use(job.case_id), soci::use(job.scan_id), soci::use(job.fence), soci::into(fence);
+    return sql.got_data();
 }
 
 /// Whether the job was further when its worker stopped than it was whenever one stopped before.
@@ -99,7 +118,7 @@ double JobQueue::now()
 std::optional<Job> JobQueue::claim(const std::string& owner)
 {
     std::optional<Job> claimed;
-    database_.write([&](soci::session& sql) {
+    database_.writeRows([&](soci::session& sql) {
         capTimes(sql);
         dropLost(sql);
         const double now = nowIn(sql), lease_until = now + options_.lease_s;
@@ -107,8 +126,9 @@ std::optional<Job> JobQueue::claim(const std::string& owner)
         const soci::rowset<soci::row> rows =
             (sql.prepare
                  << "UPDATE jobs SET state = 'running', owner = :owner, lease_until = :until, fence = fence + 1,"
-                    " changed = :changed WHERE rowid = (SELECT rowid FROM jobs WHERE state = 'queued'"
-                    " AND not_before <= :now ORDER BY not_before, rowid LIMIT 1) RETURNING *",
+                    " changed = :changed WHERE (case_id, scan_id) = (SELECT case_id, scan_id FROM jobs"
+                    " WHERE state = 'queued' AND not_before <= :now ORDER BY opened DESC, queued, rowid LIMIT 1" +
+                        skippingLocked(sql) + ") RETURNING *",
              soci::use(owner), soci::use(lease_until), soci::use(changed), soci::use(now));
         const auto jobs = collect(rows);
         if (!jobs.empty())
@@ -132,8 +152,9 @@ void JobQueue::dropLost(soci::session& sql)
     const double now = nowIn(sql);
     const soci::rowset<soci::row> rows = (sql.prepare << "SELECT * FROM jobs WHERE state = 'running'");
     for (Job& job : collect(rows)) {
-        if (job.lease_until > now && !ownerIsGone(job.owner))
-            continue;
+        const auto isLost = [&](const Job& seen) { return seen.lease_until <= now || ownerIsGone(seen.owner); };
+        if (!isLost(job) || !hold(sql, job) || !isLost(*find(job.case_id, job.scan_id)))
+            continue;  // others may have renewed or dropped it since it was read
         const int attempts = gotFurther(sql, job) ? 1 : job.attempts + 1;
         const bool last = attempts >= options_.most_drops;
         settle(sql, job, last ? JobState::failed : JobState::queued, now,
@@ -143,16 +164,13 @@ void JobQueue::dropLost(soci::session& sql)
 
 void JobQueue::requireFence(soci::session& sql, const Job& job)
 {
-    int mine = 0;
-    sql << "SELECT COUNT(*) FROM jobs WHERE case_id = :c AND scan_id = :s AND state = 'running' AND fence = :f",
-        soci::use(job.case_id), soci::use(job.scan_id), soci::use(job.fence), soci::into(mine);
-    if (mine == 0)
+    if (!hold(sql, job))
         throw Error(ErrorCode::lease_lost, "another worker has this scan now", job.case_id + "/" + job.scan_id);
 }
 
 void JobQueue::renew(const Job& job, const std::string& step, double progress)
 {
-    database_.write([&](soci::session& sql) {
+    database_.writeRows([&](soci::session& sql) {
         requireFence(sql, job);
         const double lease_until = nowIn(sql) + options_.lease_s;
         sql << "UPDATE jobs SET lease_until = :u, step = :step, progress = :p WHERE case_id = :c AND scan_id = :s",
@@ -163,7 +181,7 @@ void JobQueue::renew(const Job& job, const std::string& step, double progress)
 
 void JobQueue::underFence(const Job& job, const std::function<void()>& action)
 {
-    database_.write([&](soci::session& sql) {
+    database_.writeRows([&](soci::session& sql) {
         requireFence(sql, job);
         action();
     });
@@ -172,7 +190,7 @@ void JobQueue::underFence(const Job& job, const std::function<void()>& action)
 void JobQueue::commitStep(const Job& job, const StepRecord& step, const std::function<void()>& publish)
 {
     const std::string parameters = step.parameters.dump(), result = step.result.dump();
-    database_.write([&](soci::session& sql) {
+    database_.writeRows([&](soci::session& sql) {
         requireFence(sql, job);
         if (publish)
             publish();
@@ -194,14 +212,14 @@ void JobQueue::settle(soci::session& sql, const Job& job, JobState state, double
 {
     const std::string name = nameOf(state), changed = nowUtc();
     sql << "UPDATE jobs SET state = :state, not_before = :nb, reason = :reason, attempts = :a, owner = '',"
-           " lease_until = 0, changed = :ch WHERE case_id = :c AND scan_id = :s",
+           " lease_until = 0, memory_mb = 0, changed = :ch WHERE case_id = :c AND scan_id = :s",
         soci::use(name), soci::use(not_before), soci::use(reason), soci::use(attempts), soci::use(changed),
         soci::use(job.case_id), soci::use(job.scan_id);
 }
 
 void JobQueue::complete(const Job& job)
 {
-    database_.write([&](soci::session& sql) {
+    database_.writeRows([&](soci::session& sql) {
         requireFence(sql, job);
         settle(sql, job, JobState::done, 0, "", 0);
     });
@@ -209,7 +227,7 @@ void JobQueue::complete(const Job& job)
 
 void JobQueue::fail(const Job& job, const std::string& reason, bool permanent)
 {
-    database_.write([&](soci::session& sql) {
+    database_.writeRows([&](soci::session& sql) {
         requireFence(sql, job);
         int attempts = 0;
         sql << "SELECT attempts FROM jobs WHERE case_id = :c AND scan_id = :s", soci::use(job.case_id),
@@ -226,7 +244,7 @@ void JobQueue::fail(const Job& job, const std::string& reason, bool permanent)
 
 void JobQueue::release(const Job& job)
 {
-    database_.write([&](soci::session& sql) {
+    database_.writeRows([&](soci::session& sql) {
         requireFence(sql, job);
         settle(sql, job, JobState::queued, nowIn(sql), "", job.attempts);
     });
@@ -234,7 +252,7 @@ void JobQueue::release(const Job& job)
 
 void JobQueue::postpone(const Job& job, const std::string& reason, double wait_s)
 {
-    database_.write([&](soci::session& sql) {
+    database_.writeRows([&](soci::session& sql) {
         requireFence(sql, job);
         settle(sql, job, JobState::queued, nowIn(sql) + wait_s, reason, job.attempts);
     });
@@ -244,7 +262,7 @@ void JobQueue::retry(const std::string& case_id, const std::string& scan_id)
 {
     if (!find(case_id, scan_id))
         throw Error(ErrorCode::not_found, "the scan has no job", case_id + "/" + scan_id);
-    database_.write([&](soci::session& sql) { enqueueJob(sql, case_id, scan_id); });
+    database_.writeRows([&](soci::session& sql) { enqueueJob(sql, case_id, scan_id); });
 }
 
 std::optional<Job> JobQueue::find(const std::string& case_id, const std::string& scan_id)
@@ -262,15 +280,83 @@ std::vector<Job> JobQueue::jobs()
     return collect(rows);
 }
 
+std::vector<Job> JobQueue::jobs(JobState state)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM jobs WHERE state = '" + nameOf(state) + "' ORDER BY rowid");
+    return collect(rows);
+}
+
+std::vector<Job> JobQueue::jobs(const std::vector<CaseRecord>& cases)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM jobs WHERE case_id IN " + inList(cases));
+    return collect(rows);
+}
+
+int JobQueue::count(JobState state)
+{
+    int count = 0;
+    database_.session() << "SELECT COUNT(*) FROM jobs WHERE state = '" + nameOf(state) + "'", soci::into(count);
+    return count;
+}
+
+std::vector<Job> JobQueue::workedOnSince(const std::string& utc)
+{
+    const soci::rowset<soci::row> rows =
+        (database_.session().prepare << "SELECT * FROM jobs WHERE state = 'running' OR changed >= :since",
+         soci::use(utc));
+    return collect(rows);
+}
+
+double JobQueue::oldestWait_s()
+{
+    double due = 0;
+    soci::indicator there = soci::i_null;
+    database_.session() << "SELECT MIN(not_before) FROM jobs WHERE state = 'queued' AND not_before > 0",
+        soci::into(due, there);
+    return there == soci::i_ok ? std::max(0.0, now() - due) : 0;
+}
+
 std::optional<double> JobQueue::nextDue()
 {
     std::optional<double> due;
-    for (const Job& job : jobs()) {
-        const bool waiting = job.state == JobState::queued, running = job.state == JobState::running;
-        if (waiting || running)
-            due = std::min(due.value_or(1e300), waiting ? job.not_before : job.lease_until);
+    for (const char* earliest : {"SELECT MIN(not_before) FROM jobs WHERE state = 'queued'",
+                                 "SELECT MIN(lease_until) FROM jobs WHERE state = 'running'"}) {
+        double at = 0;
+        soci::indicator there = soci::i_null;
+        database_.session() << earliest, soci::into(at, there);
+        if (there == soci::i_ok)
+            due = std::min(due.value_or(at), at);
     }
     return due;
+}
+
+void JobQueue::putFirst(const std::string& case_id)
+{
+    database_.writeRows([&](soci::session& sql) {
+        const double now = nowIn(sql);
+        sql << "UPDATE jobs SET opened = :now WHERE case_id = :c AND state <> 'done'", soci::use(now),
+            soci::use(case_id);
+    });
+}
+
+bool JobQueue::reserveMemory(const Job& job, double mb, double most_mb)
+{
+    bool reserved = false;
+    database_.write([&](soci::session& sql) {  // alone: two must not see the same room
+        requireFence(sql, job);
+        const std::string machine = machineOf(job.owner);
+        double others_mb = 0;
+        for (const Job& other : jobs(JobState::running))
+            if (machineOf(other.owner) == machine && (other.case_id != job.case_id || other.scan_id != job.scan_id))
+                others_mb += other.memory_mb;
+        reserved = others_mb == 0 || others_mb + mb <= most_mb;
+        if (reserved)
+            sql << "UPDATE jobs SET memory_mb = :mb WHERE case_id = :c AND scan_id = :s", soci::use(mb),
+                soci::use(job.case_id), soci::use(job.scan_id);
+    });
+    return reserved;
 }
 
 }  // namespace vicon

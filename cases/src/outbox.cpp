@@ -152,12 +152,12 @@ void Outbox::postpone(const OutboxItem& item, const std::string& reason)
     database_.write([&](soci::session& sql) { settleAsPostponed(sql, requireMine(sql, item), reason); });
 }
 
-void Outbox::markUnconfirmed(const OutboxItem& item)
+void Outbox::markUnconfirmed(const OutboxItem& item, const std::string& reason)
 {
     database_.write([&](soci::session& sql) {
         OutboxItem mine = requireMine(sql, item);
         mine.state = DeliveryState::unconfirmed;
-        mine.reason = "the peer took it and offers no storage commitment";
+        mine.reason = reason;
         settle(sql, mine);
     });
 }

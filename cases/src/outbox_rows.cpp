@@ -43,6 +43,11 @@ std::string nameOf(DeliveryState state)
     return nameIn(kDeliveryNames, state);
 }
 
+DeliveryState deliveryStateFrom(const std::string& name)
+{
+    return valueIn(kDeliveryNames, name, "a state of the outbox");
+}
+
 nlohmann::json toJson(const OutboxItem& item)
 {
     return {{"id", item.id},

@@ -7,6 +7,8 @@
 
 #include "polyp_profile.h"
 #include "surface_patch.h"
+#include "vicon/cases/step_results.h"
+#include "vicon/core/scanner_blur.h"
 #include "vicon/scan_files/description_file.h"
 
 namespace vicon {
@@ -264,10 +266,8 @@ PolypOutline outlinePolyp(const CellSurface& surface, Point3 at, double blur_mm)
 
 double blurOfScan_mm(const std::filesystem::path& scan_folder)
 {
-    constexpr double kUsual_mm = 0.7;  // of a soft kernel
-    const nlohmann::json scan = scan_files::readDescription(scan_folder);
-    const nlohmann::json::json_pointer at("/steps/tissue/result/measures/blur_mm");
-    return scan.contains(at) && scan[at].is_number() ? scan[at].get<double>() : kUsual_mm;
+    const StepResults results = resultsOf(scan_files::readDescription(scan_folder).steps);
+    return results.tissue ? results.tissue->blur_mm.value_or(kUsualBlur_mm) : kUsualBlur_mm;
 }
 
 MarkerSize sizeOf(const PolypSize& polyp)

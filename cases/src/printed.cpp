@@ -71,7 +71,7 @@ bool isNumber(std::string_view text)
 
 }  // namespace
 
-std::string personName(std::string_view dicom_name)
+std::string printedName(std::string_view dicom_name)
 {
     std::vector<std::string> groups;
     for (const std::string& group : split(dicom_name, '='))
@@ -84,9 +84,9 @@ std::string personName(std::string_view dicom_name)
     return groups.empty() ? first : first + " (" + joined(groups, ", ") + ")";
 }
 
-std::string patientName(std::string_view dicom_name)
+std::string printedPatientName(std::string_view dicom_name)
 {
-    const std::string name = personName(dicom_name);
+    const std::string name = printedName(dicom_name);
     return name.empty() ? "name not given" : name;
 }
 

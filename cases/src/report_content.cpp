@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "vicon/cases/placing.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
 
@@ -21,6 +22,15 @@ std::vector<PartState> measuredParts(CaseStore& store, const ScanRecord& scan)
     return out;
 }
 
+/// Of each scan, where its parts lie.
+std::map<std::string, ColonPartRanges> partsOfScans(CaseStore& store, const std::string& case_id)
+{
+    std::map<std::string, ColonPartRanges> out;
+    for (const ScanRecord& scan : store.scans(case_id))
+        out[scan.id] = partsOf(store, scan);
+    return out;
+}
+
 /// What the reader says goes before what was measured.
 void takeReaders(std::vector<PartState>& parts, const std::vector<PartDistension>& said)
 {
@@ -32,6 +42,21 @@ void takeReaders(std::vector<PartState>& parts, const std::vector<PartDistension
         found->distension = one.distension;
         found->by_reader = true;
     }
+}
+
+/// Those of findings that are there.
+std::vector<ComparedFinding> comparedFindings(CaseStore& store, const ReadCase& read)
+{
+    std::vector<ComparedFinding> out;
+    for (Comparison& said : comparisons(store, read.record.id))
+        for (const auto& [finding, facts] : read.findings)
+            if (finding.id == said.finding_id) {
+                const TakenSize now = takenSizeOf(finding, facts, read.scans, read.record.study);
+                const Growth growth = growthBetween(said.before, now);
+                out.push_back({std::move(said), now, growth});
+                break;
+            }
+    return out;
 }
 
 JudgedStudy judged(const ReadCase& read)
@@ -81,8 +106,9 @@ ReadCase readCaseWith(CaseStore& store, const std::string& case_id, const Assess
     read.markers = store.markers(id);
     std::set<std::string> joined;
     const auto skeletons = skeletonsOf(store, id);
+    const auto parts = partsOfScans(store, id);
     for (const Finding& finding : findings(store, id)) {
-        read.findings.push_back({finding, factsOf(finding, read.markers, skeletons)});
+        read.findings.push_back({finding, factsOf(finding, read.markers, skeletons, parts)});
         joined.insert(finding.markers.begin(), finding.markers.end());
     }
     for (const Marker& marker : read.markers)
@@ -99,6 +125,7 @@ ReadCase readCaseWith(CaseStore& store, const std::string& case_id, const Assess
             read.parts.push_back(part);
     }
     takeReaders(read.parts, read.assessment.distension);
+    read.comparisons = comparedFindings(store, read);
     const JudgedStudy study = judged(read);
     read.colon_proposal = proposeColonCategory(study);
     read.extracolonic_proposal = proposeExtracolonicCategory(study);

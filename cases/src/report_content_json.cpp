@@ -68,6 +68,7 @@ json reportContent(const ReadCase& read)
                 {"markers", json::array()},
                 {"loose_markers", read.loose_markers},
                 {"assessment", toJson(read.assessment)},
+                {"comparisons", json::array()},
                 {"distension", json::array()},
                 {"c_rads",
                  {{"colon", categoryJson(read.colon_proposal, read.assessment.colon_category)},
@@ -81,6 +82,12 @@ json reportContent(const ReadCase& read)
     }
     for (const Marker& marker : read.markers)
         out["markers"].push_back(toJson(marker));
+    for (const ComparedFinding& compared : read.comparisons) {
+        json entry = toJson(compared.said);
+        entry["now"] = toJson(compared.now);
+        entry["growth"] = toJson(compared.growth);
+        out["comparisons"].push_back(entry);
+    }
     for (const PartState& part : read.parts)
         out["distension"].push_back({{"scan", part.scan_id},
                                      {"part", nameOf(part.part)},
@@ -107,6 +114,11 @@ ReadCase readCaseFromContent(const json& from)
             read.markers.push_back(markerFromJson(marker));
         read.loose_markers = from.at("loose_markers").get<std::vector<std::string>>();
         read.assessment = assessmentFromJson(from.at("assessment"));
+        for (const json& entry : from.value("comparisons", json::array())) {  // of VICON before there were any: none
+            ComparedFinding compared{comparisonFromJson(entry), takenSizeFromJson(entry.at("now")),
+                                     growthFromJson(entry.at("growth"))};
+            read.comparisons.push_back(std::move(compared));
+        }
         for (const json& part : from.at("distension"))
             read.parts.push_back({part.at("scan").get<std::string>(), colonPartFrom(part.at("part").get<std::string>()),
                                   distensionFrom(part.at("distension").get<std::string>()),

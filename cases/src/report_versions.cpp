@@ -1,12 +1,15 @@
 #include "vicon/cases/report_versions.h"
 
 #include <algorithm>
+#include <future>
 
 #include "case_rows.h"
+#include "comparison_rows.h"
 #include "report_rows.h"
 #include "this_person.h"
 #include "vicon/cases/report_content.h"
 #include "vicon/cases/report_files.h"
+#include "vicon/cases/roles.h"
 #include "vicon/core/enum_names.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
@@ -42,10 +45,10 @@ ReportVersion versionFrom(const soci::row& row)
 void requireSigner(const SigningOptions& options)
 {
     const std::string person = thisPerson();
-    if (std::find(options.signers.begin(), options.signers.end(), person) == options.signers.end())
+    if (!isAmong(person, options.signers))
         throw Error(
             ErrorCode::bad_input, "this account may not sign reports", "'" + person + "'",
-            "who runs VICON here names those who may in the configuration: [report] signers = [\"" + person + "\"]");
+            "who runs VICON here names those who may in the configuration: [roles] sign = [\"" + person + "\"]");
 }
 
 void requireComplete(const ReadCase& read)
@@ -92,6 +95,21 @@ void putVersion(soci::session& sql, const std::string& case_id, const ReportVers
         soci::use(v.person), soci::use(v.at), soci::use(v.software), soci::use(v.digest), soci::use(v.content),
         soci::use(file), soci::use(v.file_sha256);
     putAudit(sql, {"report " + state, case_id, "", "version " + std::to_string(v.version), "", toJson(v).dump()});
+}
+
+/// In place of what a kill left of another try at this version. All at once: the disk flushes many files in the time of
+/// one.
+void putObjects(const CaseStore& store, const std::string& case_id, int version, const std::vector<fs::path>& files)
+{
+    for (const fs::path& left : versionObjects(store, case_id, version))
+        fs::remove(left);
+    std::vector<std::future<void>> writing;
+    for (const fs::path& file : files)
+        writing.push_back(std::async(std::launch::async, [file, to = reportFolder(store, case_id) / file.filename()] {
+            replaceFile(to, readFile(file));
+        }));
+    for (std::future<void>& one : writing)
+        one.get();
 }
 
 void requireNoneFaster(soci::session& sql, const std::string& case_id, const ReportVersion& wanted)
@@ -232,12 +250,18 @@ void cancelAmendment(CaseStore& store, const SigningOptions& options, const std:
             sql << "INSERT INTO findings (case_id, id, content) VALUES (:case, :id, :content)", soci::use(case_id),
                 soci::use(finding.id), soci::use(content);
         }
+        sql << "DELETE FROM comparisons WHERE case_id = :c", soci::use(case_id);
+        for (const ComparedFinding& compared : readCaseFromContent(signed_content).comparisons)
+            putComparison(sql, case_id, compared.said);
         const std::string assessment = toJson(assessmentFromJson(signed_content.at("assessment"))).dump();
         sql << "UPDATE assessments SET content = :content WHERE case_id = :c", soci::use(assessment),
             soci::use(case_id);
         sql << "DELETE FROM amendments WHERE case_id = :c", soci::use(case_id);
         const auto said = [](const json& content) {
-            return json{{"findings", content.at("findings")}, {"assessment", content.at("assessment")}}.dump();
+            return json{{"findings", content.at("findings")},
+                        {"comparisons", content.value("comparisons", json::array())},
+                        {"assessment", content.at("assessment")}}
+                .dump();
         };
         putAudit(sql, {"amendment cancelled", case_id, "", "", said(before), said(signed_content)});
     });
@@ -300,8 +324,7 @@ ReportVersion keepVersion(CaseStore& store, const std::string& case_id, const Ve
         // Last, and while nobody else can write: a kill before the commit leaves a file that no version names, which
         // the version that takes its number replaces.
         replaceFile(kept.file, pdf);
-        for (const fs::path& file : objects.files)
-            replaceFile(reportFolder(store, case_id) / file.filename(), readFile(file));
+        putObjects(store, case_id, kept.version, objects.files);
         if (objects.also)
             objects.also(sql, kept);
     });

@@ -1,5 +1,8 @@
 #include "vicon/cases/step_results.h"
 
+#include <map>
+#include <string_view>
+
 #include "vicon/core/error.h"
 
 using nlohmann::json;
@@ -79,6 +82,27 @@ SegmentFound segmentFoundFromJson(const json& json)
     return found;
 }
 
+json toJson(const TissueFound& found)
+{
+    if (!found.not_sought.empty())
+        return {{"not_sought", found.not_sought}};
+    json measures = found.measures;
+    if (found.blur_mm)
+        measures["blur_mm"] = *found.blur_mm;
+    return {{"measures", std::move(measures)}};
+}
+
+TissueFound tissueFoundFromJson(const json& json)
+{
+    TissueFound found;
+    take(json, "not_sought", found.not_sought);
+    take(json, "measures", found.measures);
+    if (found.measures.contains("blur_mm"))
+        found.blur_mm = found.measures["blur_mm"].get<double>();
+    found.measures.erase("blur_mm");
+    return found;
+}
+
 json toJson(const SkeletonFound& found)
 {
     json out = found.measures;
@@ -149,23 +173,28 @@ std::string StepResults::warning() const
     return segment->verdictText() + ": " + segment->reason;
 }
 
+namespace {
+
+/// How the result of a step is read, by the step's name.
+const std::map<std::string_view, void (*)(const json&, StepResults&)> kReaders = {
+    {"resample", [](const json& from, StepResults& to) { to.resample = resampleFoundFromJson(from); }},
+    {"segment", [](const json& from, StepResults& to) { to.segment = segmentFoundFromJson(from); }},
+    {"tissue", [](const json& from, StepResults& to) { to.tissue = tissueFoundFromJson(from); }},
+    {"skeleton", [](const json& from, StepResults& to) { to.skeleton = skeletonFoundFromJson(from); }},
+    {"quality", [](const json& from, StepResults& to) { to.quality = qualityFoundFromJson(from); }},
+    {"subdivide", [](const json& from, StepResults& to) { to.subdivide = subdivideFoundFromJson(from); }},
+    {"potential", [](const json& from, StepResults& to) { to.potential = potentialFoundFromJson(from); }},
+};
+
+}  // namespace
+
 StepResults resultsOf(const std::vector<StepRecord>& steps)
 {
     StepResults results;
     for (const StepRecord& step : steps)
         try {
-            if (step.step == "resample")
-                results.resample = resampleFoundFromJson(step.result);
-            else if (step.step == "segment")
-                results.segment = segmentFoundFromJson(step.result);
-            else if (step.step == "skeleton")
-                results.skeleton = skeletonFoundFromJson(step.result);
-            else if (step.step == "quality")
-                results.quality = qualityFoundFromJson(step.result);
-            else if (step.step == "subdivide")
-                results.subdivide = subdivideFoundFromJson(step.result);
-            else if (step.step == "potential")
-                results.potential = potentialFoundFromJson(step.result);
+            if (const auto reader = kReaders.find(step.step); reader != kReaders.end())
+                reader->second(step.result, results);
         } catch (const json::exception& e) {
             throw Error(ErrorCode::database, "what step '" + step.step + "' found cannot be read: " + e.what(), {},
                         "'vicon work' does a step again whose parameters are changed");

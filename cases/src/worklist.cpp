@@ -8,6 +8,7 @@
 #include "vicon/cases/outbox.h"
 #include "vicon/cases/report_files.h"
 #include "vicon/cases/step_results.h"
+#include "worklist_rows.h"
 
 namespace vicon {
 namespace {
@@ -32,7 +33,7 @@ std::string whyNotQueued(const ScanRecord& record)
     return {};
 }
 
-WorklistScan makeScan(CaseStore& store, JobQueue& queue, const ScanRecord& record)
+WorklistScan makeScan(const CaseStore& store, const WorklistRows& rows, const ScanRecord& record)
 {
     WorklistScan scan{.record = record, .folder = store.scanFolder(record.case_id, record.id)};
     if (record.role == ScanRole::refused) {  // whatever was done before late images spoilt it
@@ -40,13 +41,16 @@ WorklistScan makeScan(CaseStore& store, JobQueue& queue, const ScanRecord& recor
         scan.reason = whyNotQueued(record);
         return scan;
     }
-    if (const auto job = queue.find(record.case_id, record.id)) {
-        scan.state = workStateOf(job->state);
-        scan.step = job->step;
-        scan.progress = job->state == JobState::done ? 1 : job->progress;
-        scan.reason = job->reason;
+    const WorklistRows::ScanKey key{record.case_id, record.id};
+    if (const auto found = rows.jobs.find(key); found != rows.jobs.end()) {
+        const Job& job = found->second;
+        scan.state = workStateOf(job.state);
+        scan.step = job.step;
+        scan.progress = job.state == JobState::done ? 1 : job.progress;
+        scan.reason = job.reason;
     }
-    const StepResults results = resultsOf(store.steps(record.case_id, record.id));
+    const auto steps = rows.steps.find(key);
+    const StepResults results = steps == rows.steps.end() ? StepResults{} : resultsOf(steps->second);
     if (scan.reason.empty())
         scan.reason = results.warning();
     if (scan.reason.empty() && scan.state == WorkState::kept)
@@ -84,6 +88,28 @@ void sumUp(WorklistCase& a_case)
         }
     if (jobs > 0)
         a_case.progress /= jobs;
+}
+
+std::vector<WorklistCase> makeWorklistCases(CaseStore& store, const QueueOptions& options,
+                                            const std::vector<CaseRecord>& records)
+{
+    const WorklistRows rows = worklistRows(store, options, records);
+    const auto of = [](const auto& all, const std::string& case_id) {
+        const auto found = all.find(case_id);
+        return found == all.end() ? typename std::decay_t<decltype(all)>::mapped_type{} : found->second;
+    };
+    std::vector<WorklistCase> out;
+    for (const CaseRecord& record : records) {
+        WorklistCase a_case{.record = record};
+        for (const ScanRecord& scan : of(rows.scans, record.id))
+            a_case.scans.push_back(makeScan(store, rows, scan));
+        sumUp(a_case);
+        a_case.markers = of(rows.markers, record.id);
+        a_case.reports = countReports(store, record.id);
+        a_case.delivery = deliveryInBrief(of(rows.deliveries, record.id));
+        out.push_back(std::move(a_case));
+    }
+    return out;
 }
 
 nlohmann::json toJson(const WorklistScan& s)
@@ -139,23 +165,31 @@ WorkState workStateOf(JobState state)
 
 WorklistCase makeWorklistCase(CaseStore& store, const QueueOptions& options, const CaseRecord& record)
 {
-    JobQueue queue(store.database(), options);
-    WorklistCase a_case{.record = record};
-    for (const ScanRecord& scan : store.scans(record.id))
-        a_case.scans.push_back(makeScan(store, queue, scan));
-    sumUp(a_case);
-    a_case.markers = int(store.markers(record.id).size());
-    a_case.reports = countReports(store, record.id);
-    a_case.delivery = deliveryInBrief(countDeliveries(store, record.id));
-    return a_case;
+    return makeWorklistCases(store, options, {record}).front();
 }
 
 std::vector<WorklistCase> makeWorklist(CaseStore& store, const QueueOptions& options)
 {
+    constexpr std::size_t kAtOnce = 500;
+    const std::vector<CaseRecord> records = store.cases();
     std::vector<WorklistCase> out;
-    for (const CaseRecord& record : store.cases())
-        out.push_back(makeWorklistCase(store, options, record));
+    for (std::size_t from = 0; from < records.size(); from += kAtOnce) {
+        const auto begin = records.begin() + std::ptrdiff_t(from);
+        const auto end = begin + std::ptrdiff_t(std::min(kAtOnce, records.size() - from));
+        std::ranges::move(makeWorklistCases(store, options, {begin, end}), std::back_inserter(out));
+    }
     return out;
+}
+
+WorklistPage makeWorklistPage(CaseStore& store, const QueueOptions& options, const WorklistPageWanted& wanted)
+{
+    std::vector<CaseRecord> records = casesOfPage(store, wanted);
+    WorklistPage page;
+    page.more = int(records.size()) > wanted.most;
+    if (page.more)
+        records.pop_back();
+    page.cases = makeWorklistCases(store, options, records);
+    return page;
 }
 
 nlohmann::json toJson(const std::vector<WorklistCase>& worklist)

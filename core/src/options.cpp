@@ -213,8 +213,9 @@ void Config::readFile(const std::filesystem::path& file)
             line << file.string() << ":" << value.source().begin.line;
             if (room == "peers") {
                 const toml::table* peer = value.as_table();
-                if (!peer || !(*peer)["host"].is_string() || !(*peer)["port"].is_integer())
-                    throw Error(ErrorCode::wrong_use, "a peer needs host and port", line.str());
+                const bool has_host = peer && (*peer)["host"].is_string() && (*peer)["port"].is_integer();
+                if (!has_host && (!peer || !peer->contains("url")))
+                    throw Error(ErrorCode::wrong_use, "a peer needs host and port, or url", line.str());
                 for (const auto& [field, v] : *peer)
                     peers_[std::string(name.str())][std::string(field.str())] = fromToml(v);
             } else {

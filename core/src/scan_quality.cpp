@@ -58,6 +58,28 @@ json toJson(const QualityNote& note)
     return out;
 }
 
+json toJson(const LumenAlong& along)
+{
+    json out = {{"step_mm", along.step_mm}, {"radius_mm", along.radius_mm}, {"fluid_fraction", along.fluid_fraction}};
+    json& collapsed = out["collapsed"] = json::array();
+    for (const StationRange& range : along.collapsed)
+        collapsed.push_back({{"from_mm", range.from_mm}, {"to_mm", range.to_mm}});
+    return out;
+}
+
+LumenAlong alongFrom(const json& json)
+{
+    LumenAlong along{json.at("step_mm").get<double>(),
+                     json.at("radius_mm").get<std::vector<double>>(),
+                     json.at("fluid_fraction").get<std::vector<double>>(),
+                     {}};
+    if (along.step_mm <= 0 || along.radius_mm.size() != along.fluid_fraction.size())
+        throw Error(ErrorCode::bad_input, "the lumen along the centreline does not fit together");
+    for (const auto& range : json.at("collapsed"))
+        along.collapsed.push_back({range.at("from_mm").get<double>(), range.at("to_mm").get<double>()});
+    return along;
+}
+
 QualityNote noteFrom(const json& json)
 {
     QualityNote note{qualityReasonFrom(json.at("reason").get<std::string>()), {}, json.at("value").get<double>()};
@@ -108,6 +130,8 @@ json toJson(const ScanQuality& quality)
     out["noise_hu"] = quality.noise_hu;
     out["reason"] = quality.reason;
     out["thresholds"] = quality.thresholds;
+    if (!quality.along.radius_mm.empty())
+        out["along"] = toJson(quality.along);
     json& notes = out["notes"] = json::array();
     for (const QualityNote& note : quality.notes)
         notes.push_back(toJson(note));
@@ -124,6 +148,8 @@ ScanQuality scanQualityFromJson(const json& json)
     quality.noise_hu = json.at("noise_hu").get<double>();
     quality.reason = json.at("reason").get<std::string>();
     quality.thresholds = json.value("thresholds", nlohmann::json::object());
+    if (const auto along = json.find("along"); along != json.end())
+        quality.along = alongFrom(*along);
     for (const auto& note : json.value("notes", nlohmann::json::array()))
         quality.notes.push_back(noteFrom(note));
     for (const auto& part : json.at("parts"))

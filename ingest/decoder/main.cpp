@@ -84,15 +84,17 @@ std::vector<char> decode(const HelperRequest& request, const std::string& stream
                                                     : decodeWithDcmtk(stream, format, request.transfer_syntax);
 }
 
-/// Whether it is DICOM does not matter, only that reading it and giving it up again ends.
+/// Whether it is DICOM does not matter, only that reading it and giving it up again ends, in the memory there is.
 void read(int descriptor)
 {
     constexpr Uint32 kLargestElementInMemory = 16384;
     DescriptorStream stream(descriptor, 0);
     DcmFileFormat format;
     format.transferInit();
-    format.read(stream, EXS_Unknown, EGL_noChange, kLargestElementInMemory);
+    const OFCondition loaded = format.read(stream, EXS_Unknown, EGL_noChange, kLargestElementInMemory);
     format.transferEnd();
+    if (loaded == EC_MemoryExhausted)
+        throw std::bad_alloc();
 }
 
 void serve(const Asked& asked)

@@ -2,20 +2,24 @@
 
 #include <algorithm>
 
+#include "tls_layer.h"
 #include "vicon/core/error.h"
 
 namespace vicon::ingest {
 namespace {
 
-constexpr Uint32 kPduBytes = 131072;
 constexpr Uint32 kTimeoutSeconds = 30;
 
 }  // namespace
 
+std::string whereIs(const Peer& peer)
+{
+    return peer.web ? peer.web->url : peer.ae_title + " at " + peer.host + ":" + std::to_string(peer.port);
+}
+
 std::string nameOf(const Peer& peer)
 {
-    return (peer.name.empty() ? "" : peer.name + " ") + "(" + peer.ae_title + " at " + peer.host + ":" +
-           std::to_string(peer.port) + ")";
+    return (peer.name.empty() ? "" : peer.name + " ") + "(" + whereIs(peer) + ")";
 }
 
 void peerFailed(const std::string& what, const Peer& peer, const OFCondition& condition)
@@ -26,7 +30,7 @@ void peerFailed(const std::string& what, const Peer& peer, const OFCondition& co
                 "check its address, port and titles, and that it knows this application");
 }
 
-void configure(DcmSCU& scu, const Peer& peer, const std::string& our_ae_title)
+void configure(PeerScu& scu, const Peer& peer, const std::string& our_ae_title)
 {
     scu.setAETitle(our_ae_title.c_str());
     scu.setPeerHostName(peer.host.c_str());
@@ -39,10 +43,29 @@ void configure(DcmSCU& scu, const Peer& peer, const std::string& our_ae_title)
     scu.setConnectionTimeout(int(kTimeoutSeconds));
 }
 
-void connect(DcmSCU& scu, const Peer& peer)
+PeerScu::~PeerScu()
 {
-    if (const OFCondition opened = scu.initNetwork(); opened.bad())
-        peerFailed("the network cannot be used", peer, opened);
+    if (isConnected())  // what it does so by goes with this object
+        closeAssociation(DCMSCU_ABORT_ASSOCIATION);
+}
+
+void PeerScu::useNetwork(const Peer& peer)
+{
+    if (peer.host.empty())
+        throw Error(ErrorCode::wrong_use, "this takes DICOM's own protocol", nameOf(peer),
+                    "add host, port and ae_title to the peer");
+    OFCondition ready = initNetwork();
+    if (ready.good() && peer.tls) {
+        layer_ = tlsLayerFor(peer);
+        ready = useSecureConnection(layer_.get());
+    }
+    if (ready.bad())
+        peerFailed("the network cannot be used", peer, ready);
+}
+
+void connect(PeerScu& scu, const Peer& peer)
+{
+    scu.useNetwork(peer);
     if (const OFCondition agreed = scu.negotiateAssociation(); agreed.bad())
         peerFailed("no association with the peer", peer, agreed);
 }

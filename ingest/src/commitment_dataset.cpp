@@ -29,19 +29,42 @@ void forEachItem(DcmDataset& dataset, const DcmTagKey& tag, Use use)
         use(*sequence->getItem(n));
 }
 
+DcmItem& append(DcmDataset& dataset, const DcmTagKey& sequence, const ObjectName& object)
+{
+    constexpr long kAppend = -2;
+    DcmItem* item = nullptr;
+    if (dataset.findOrCreateSequenceItem(sequence, item, kAppend).bad())
+        throw Error(ErrorCode::no_memory, "a message on storage commitment cannot be written");
+    item->putAndInsertString(DCM_ReferencedSOPClassUID, object.sop_class.c_str());
+    item->putAndInsertString(DCM_ReferencedSOPInstanceUID, object.sop_uid.c_str());
+    return *item;
+}
+
 }  // namespace
 
 void fillRequest(DcmDataset& dataset, const std::string& transaction_uid, const std::vector<ObjectName>& objects)
 {
     dataset.putAndInsertString(DCM_TransactionUID, transaction_uid.c_str());
-    for (const ObjectName& object : objects) {
-        DcmItem* item = nullptr;
-        constexpr long kAppend = -2;
-        if (dataset.findOrCreateSequenceItem(DCM_ReferencedSOPSequence, item, kAppend).bad())
-            throw Error(ErrorCode::no_memory, "the request for commitment cannot be written");
-        item->putAndInsertString(DCM_ReferencedSOPClassUID, object.sop_class.c_str());
-        item->putAndInsertString(DCM_ReferencedSOPInstanceUID, object.sop_uid.c_str());
-    }
+    for (const ObjectName& object : objects)
+        append(dataset, DCM_ReferencedSOPSequence, object);
+}
+
+int fillReport(DcmDataset& dataset, const CommitmentReport& report)
+{
+    fillRequest(dataset, report.transaction_uid, report.committed);
+    for (const CommitmentReport::Failed& failed : report.failed)
+        append(dataset, DCM_FailedSOPSequence, failed.object)
+            .putAndInsertUint16(DCM_FailureReason, Uint16(failed.reason));
+    return report.failed.empty() ? kAllCommitted : kSomeFailed;
+}
+
+CommitmentDemand commitmentDemandFrom(DcmDataset& dataset)
+{
+    CommitmentDemand demand{textIn(dataset, DCM_TransactionUID), {}};
+    forEachItem(dataset, DCM_ReferencedSOPSequence, [&](DcmItem& item) { demand.objects.push_back(nameIn(item)); });
+    if (demand.transaction_uid.empty() || demand.objects.empty())
+        throw Error(ErrorCode::bad_input, "a request for commitment names no transaction or no object");
+    return demand;
 }
 
 CommitmentReport commitmentReportFrom(DcmDataset& dataset)
@@ -65,9 +88,12 @@ std::string textOfFailureReason(int reason)
     static constexpr struct {
         int value;
         const char* text;
-    } kReasons[] = {{0x0110, "processing failure"},          {0x0112, "no such object instance"},
-                    {0x0213, "resource limitation"},         {0x0122, "referenced SOP class not supported"},
-                    {0x0119, "class and instance conflict"}, {0x0131, "duplicate transaction UID"}};
+    } kReasons[] = {{kProcessingFailure, "processing failure"},
+                    {kNoSuchObject, "no such object instance"},
+                    {0x0213, "resource limitation"},
+                    {0x0122, "referenced SOP class not supported"},
+                    {kClassConflict, "class and instance conflict"},
+                    {0x0131, "duplicate transaction UID"}};
     const char* text = "for a reason that it does not say";
     for (const auto& known : kReasons)
         if (known.value == reason)

@@ -143,6 +143,21 @@ std::string Dataset::text(const DcmTagKey& tag) const
     return printable(trimmed(toUtf8(raw(tag), character_sets_, TextKind::single_line)));
 }
 
+std::string Dataset::longText(const DcmTagKey& tag) const
+{
+    const std::string all = toUtf8(raw(tag), character_sets_, TextKind::single_line);
+    std::string out;
+    for (std::size_t from = 0; from < all.size();) {
+        const std::size_t to = std::min(all.find('\n', from), all.size());
+        std::string line = all.substr(from, to - from);
+        if (line.ends_with('\r'))
+            line.pop_back();
+        out += printable(line) + (to < all.size() ? "\n" : "");
+        from = to + 1;
+    }
+    return trimmed(out);
+}
+
 std::string Dataset::personName(const DcmTagKey& tag) const
 {
     return printable(tidyPersonName(toUtf8(raw(tag), character_sets_, TextKind::person_name)));
@@ -200,6 +215,18 @@ std::optional<Dataset> Dataset::item(const DcmTagKey& sequence, long index) cons
     if (item_->findAndGetSequenceItem(sequence, found, index).bad() || !found)
         return {};
     return Dataset(*found, character_sets_);
+}
+
+std::vector<Dataset> Dataset::items(const DcmTagKey& sequence) const
+{
+    std::vector<Dataset> out;
+    DcmSequenceOfItems* found = nullptr;
+    if (item_->findAndGetSequence(sequence, found).bad() || !found)
+        return out;
+    for (DcmObject* next = found->nextInContainer(nullptr); next; next = found->nextInContainer(next))
+        if (auto* item = dynamic_cast<DcmItem*>(next))
+            out.push_back(Dataset(*item, character_sets_));
+    return out;
 }
 
 unsigned long Dataset::itemCount(const DcmTagKey& sequence) const

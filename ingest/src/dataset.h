@@ -13,6 +13,15 @@
 
 namespace vicon::ingest {
 
+/// Elements larger than this many bytes (pixels) stay in the file when its header is read.
+inline constexpr Uint32 kLargestElementInMemory = 16384;
+
+/// The first of an element's values; empty where it has none.
+inline std::string firstOf(const std::vector<std::string>& values)
+{
+    return values.empty() ? std::string() : values.front();
+}
+
 /// Reads elements of a data set or item: absent and malformed ones are empty. Texts are UTF-8 without control
 /// characters, see printable(). An element that was written as UN is read as what the dictionary says it is.
 class Dataset {
@@ -25,6 +34,8 @@ public:
     /// The values of a code string or UID.
     std::vector<std::string> values(const DcmTagKey& tag) const;
     std::string text(const DcmTagKey& tag) const;
+    /// A text of several lines, which end as in Unix.
+    std::string longText(const DcmTagKey& tag) const;
     std::string personName(const DcmTagKey& tag) const;
     /// A decimal string may have a comma for its point; see hasDecimalComma().
     std::optional<double> number(const DcmTagKey& tag, unsigned long index = 0) const;
@@ -36,6 +47,8 @@ public:
     /// An item of a sequence, or nothing.
     std::optional<Dataset> item(const DcmTagKey& sequence, long index = 0) const;
     unsigned long itemCount(const DcmTagKey& sequence) const;
+    /// All items of a sequence, in order.
+    std::vector<Dataset> items(const DcmTagKey& sequence) const;
     DcmItem& dcmItem() const { return *item_; }
 
 private:

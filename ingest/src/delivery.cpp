@@ -8,11 +8,14 @@
 #include <chrono>
 #include <map>
 
+#include "commitment_dataset.h"
 #include "vicon/cases/job_queue.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/uid.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/ingest/sender.h"
+#include "web_peer.h"
 
 namespace fs = std::filesystem;
 
@@ -21,7 +24,6 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr int kNoSuchObject = 0x0112;  // PS3.3 C.14.1.1
 /// Peers that answer over the same association do so at once.
 constexpr double kAnswerWait_s = 1;
 
@@ -38,7 +40,7 @@ public:
         try {
             const Peer peer = delivery_.peer(items_.front().peer);
             store(peer, progress);
-            commit(peer);
+            commit(peer, progress);
         } catch (const Error& e) {
             if (e.code() == ErrorCode::database || e.code() == ErrorCode::cancelled)
                 throw;
@@ -138,12 +140,14 @@ private:
         return rest;
     }
 
-    void commit(const Peer& peer)
+    void commit(const Peer& peer, Progress& progress)
     {
         const std::string transaction = randomUid();
         const std::vector<OutboxItem> asked = outbox_.beginCommitment(unsettled(), transaction);
         if (asked.empty())
             return;
+        if (peer.web)
+            return commitByReading(peer, transaction, asked, progress);
         std::vector<ObjectName> names;
         for (const OutboxItem& item : asked)
             names.push_back({item.object.sop_class, item.object.sop_uid});
@@ -159,6 +163,28 @@ private:
             noteCommitment(outbox_, *answer);
         for (const OutboxItem& item : asked)
             settled_.push_back(item.id);
+    }
+
+    /// By DICOMweb nobody commits to anything: what the peer gives back as it was sent counts as committed.
+    void commitByReading(const Peer& peer, const std::string& transaction, const std::vector<OutboxItem>& asked,
+                         Progress& progress)
+    {
+        for (const OutboxItem& item : asked) {
+            renew();
+            const web::Kept kept = web::readBack(peer, store_.folder() / item.object.file, progress);
+            const ObjectName name{item.object.sop_class, item.object.sop_uid};
+            if (kept == web::Kept::whole)
+                noteCommitment(outbox_, {transaction, {name}, {}});
+            else if (kept == web::Kept::missing)
+                noteCommitment(outbox_, {transaction, {}, {{name, kNoSuchObject}}});
+            else
+                ifMine([&] {
+                    outbox_.markUnconfirmed(item, kept == web::Kept::changed
+                                                      ? "the peer took it, and gives it back changed"
+                                                      : "the peer took it, and gives nothing back");
+                });
+            settled_.push_back(item.id);
+        }
     }
 
     void postponeRest(const std::string& reason)

@@ -10,7 +10,7 @@
 namespace vicon::ingest {
 namespace {
 
-constexpr std::size_t kBlockBytes = 16384;
+constexpr std::size_t kSourceBlockBytes = 16384;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ const unsigned char* ElementSource::at(std::uint64_t place, std::size_t count)
     if (place > size_ || size_ - place < count)
         return nullptr;
     if (place < block_from_ || place + count > block_from_ + block_.size()) {
-        block_.resize(kBlockBytes);
+        block_.resize(kSourceBlockBytes);
         const ssize_t some = ::pread(descriptor_, block_.data(), block_.size(), off_t(place));
         if (some < 0)
             error_ = errno;

@@ -69,10 +69,11 @@ struct ImageObject {
 
 /// What a file turned out to be.
 struct Inspection {
-    enum class Verdict { image, set_aside, refused, directory, archive };
+    enum class Verdict { image, report, set_aside, refused, directory, archive };
     Verdict verdict = Verdict::refused;
     std::string reason;  ///< of set_aside and refused
-    /// Complete for an image; of other DICOM objects only the UIDs, as far as they could be read.
+    /// Complete for an image; of a report with its patient and study; of other DICOM objects only the UIDs, as far as
+    /// they could be read.
     ImageObject object;
 };
 

@@ -2,15 +2,17 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <atomic>
 #include <mutex>
 
 #include "helper.h"
+#include "import_reporter.h"
 #include "input_files.h"
 #include "inspect.h"
+#include "report_import.h"
 #include "stored_files.h"
 #include "study_import.h"
+#include "vicon/cases/store_locks.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/printable.h"
@@ -137,6 +139,10 @@ private:
             study.push_back({std::move(object), found.file.shown});
             return;
         }
+        if (inspection.verdict == Verdict::report) {
+            takeReport(object, found.file.shown, found.file.unpacked, context_);
+            return;
+        }
         if (inspection.verdict == Verdict::directory) {  // says nothing that the files do not say
             report_.not_stored.push_back(found.file.path);
             return;
@@ -151,10 +157,7 @@ private:
         const std::string name =
             object.sop_uid.empty() ? printable(found.file.path.filename().string()) : object.sop_uid;
         SeriesNotes& notes = notes_[object.series.uid];
-        auto& list = aside ? notes.set_aside : notes.refused;
-        nlohmann::json entry = {{"object", name}, {"why", inspection.reason}};
-        if (std::find(list.begin(), list.end(), entry) == list.end())
-            list.push_back(std::move(entry));
+        addNote(aside ? notes.set_aside : notes.refused, noteOf(name, inspection.reason));
     }
 
     void importStudies()
@@ -175,7 +178,7 @@ private:
             shown.push_back(arrival.shown);
         const std::string series = arrivals.front().object.series.uid;
         try {
-            StudyImport(store_, options_, report_, reporter_, progress_).run(std::move(arrivals), notes_);
+            StudyImport(context_).run(std::move(arrivals), notes_);
         } catch (const Error& e) {
             if (e.code() != ErrorCode::bad_input && e.code() != ErrorCode::no_memory)
                 throw;
@@ -196,12 +199,22 @@ private:
     Progress& progress_;
     ImportReport report_;
     Reporter reporter_{report_};
+    const ImportContext context_{store_, options_, report_, reporter_, progress_};
     std::vector<std::string> order_;  ///< study UIDs as they were found first
     std::map<std::string, std::vector<Arrival>> studies_;
     std::map<std::string, SeriesNotes> notes_;
 };
 
 }  // namespace
+
+nlohmann::json toJson(const ImportLine& line)
+{
+    return {{"kind", nameOf(line.kind)},
+            {"subject", line.subject},
+            {"text", line.text},
+            {"case", line.case_id},
+            {"scan", line.scan_id}};
+}
 
 std::string nameOf(ImportLine::Kind kind)
 {
@@ -224,34 +237,6 @@ std::string nameOf(ImportLine::Kind kind)
             return "flagged";
     }
     return "unknown";
-}
-
-void Reporter::object(ImportLine::Kind kind, const std::string& shown, const std::string& series_uid,
-                      const std::string& why, const std::string& case_id)
-{
-    ++(kind == ImportLine::Kind::set_aside ? report_.set_aside : report_.refused);
-    const auto same = std::find_if(lines_.begin(), lines_.end(), [&](const Counted& counted) {
-        return !series_uid.empty() && counted.series_uid == series_uid && counted.line.kind == kind &&
-               counted.line.text == why;
-    });
-    if (same != lines_.end())
-        ++same->count;
-    else
-        lines_.push_back({{kind, shown, why, case_id, {}}, 1, series_uid});
-}
-
-void Reporter::finish()
-{
-    for (Counted& counted : lines_) {
-        if (counted.count > 1) {
-            counted.line.subject = counted.series_uid;
-            counted.line.text += " (" + std::to_string(counted.count) + " files)";
-        }
-        counted.line.subject = printable(counted.line.subject);
-        counted.line.text = printable(counted.line.text);
-        report_.lines.push_back(std::move(counted.line));
-    }
-    lines_.clear();
 }
 
 ImportReport importPaths(CaseStore& store, const std::vector<fs::path>& paths, const ImportOptions& options,

@@ -24,13 +24,13 @@ inline constexpr const char* kReceiverLock = "receiver.lock";
 class Incoming {
 public:
     struct Pauses {
-        double quiet_s = 5;  ///< after the last object of a study, once its associations are closed
-        double idle_s = 10;  ///< after the last object of a study whose association stays open
+        double quiet_s = 5;         ///< after the last object of a study, once its associations are closed
+        double idle_s = 10;         ///< after the last object of a study whose association stays open
+        double incomplete_s = 900;  ///< for objects that are known to be missing, after the last that came
     };
 
     /// Finds what an earlier run left. Throws Error{store} when another receiver uses the folder.
-    Incoming(std::filesystem::path folder, Pauses pauses, Receiver::OnReceived on_received,
-             Receiver::OnTrouble on_trouble);
+    Incoming(std::filesystem::path folder, Pauses pauses, const Receiver::Handlers& handlers);
     ~Incoming();
     Incoming(const Incoming&) = delete;
     Incoming& operator=(const Incoming&) = delete;
@@ -39,8 +39,10 @@ public:
     /// Hands over everything that is complete, and ends the thread.
     void finish();
 
-    /// The name of a folder of its own for an association, which is made with its first object.
-    std::filesystem::path open();
+    /// The name of a folder of its own for an association of this caller, which is made with its first object.
+    std::filesystem::path open(const std::string& caller = {});
+    /// How many objects of this caller wait to be taken.
+    int waitingOf(const std::string& caller);
     /// A file that lies durably in the folder.
     void add(const std::filesystem::path& folder, const std::filesystem::path& file);
     /// The association is over.
@@ -56,28 +58,34 @@ private:
         Time last;
         Time not_before;  ///< held back after a failure
         int failures = 0;
-        int deaths = 0;  ///< of processes that were taking exactly these files
+        int deaths = 0;   ///< of processes that were taking exactly these files
+        int missing = 0;  ///< objects that are known not to have come
+        int asked = 0;    ///< how often it was missing some since the last object came
+        Time incomplete_since;
     };
     void lockFolder();
     void findLeftovers();
     void work();
     bool isReady(const Batch& batch) const;
+    bool waitsForMore(const std::string& study, Batch& batch);
+    void putBack(const std::string& study, const Batch& taken);
     bool handOverOne(std::unique_lock<std::mutex>& lock);
     /// False when it is to be tried again later.
     bool take(const Files& files, int deaths);
     bool takeInHalves(const Files& files, const std::string& why);
     void quarantine(const Files& files, const std::string& why);
-    void removeEmptyFolders(const Files& files);
+    void forget(const Files& files);
 
     std::filesystem::path folder_;
     Pauses pauses_;
-    Receiver::OnReceived on_received_;
-    Receiver::OnTrouble on_trouble_;
+    const Receiver::Handlers& handlers_;
     int lock_descriptor_ = -1;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::map<std::string, Batch> batches_;  ///< by study
     std::set<std::filesystem::path> open_;
+    std::map<std::filesystem::path, std::string> callers_;  ///< by folder, as long as it is there
+    std::map<std::string, int> waiting_;                    ///< objects, by caller
     bool finishing_ = false;
     bool told_to_stop_ = false;
     int count_ = 0;

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "dataset.h"
 #include "helper.h"
 #include "pixel_format.h"
 #include "plane_reader.h"
@@ -12,23 +13,16 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/ingest/structured_report.h"
 
 namespace fs = std::filesystem;
 
 namespace vicon::ingest {
 namespace {
 
-/// Elements larger than this (pixels) stay in the file when a header is read.
-constexpr Uint32 kLargestElementInMemory = 16384;
-
 Inspection refused(std::string reason)
 {
     return {Inspection::Verdict::refused, std::move(reason), {}};
-}
-
-std::string firstOf(const std::vector<std::string>& values)
-{
-    return values.empty() ? std::string() : values.front();
 }
 
 /// What the first bytes of a file say, before DCMTK sees it; nothing when they say nothing.
@@ -152,6 +146,10 @@ Inspection judge(const Dataset& dataset, const ImportOptions& options, ImageObje
     using Verdict = Inspection::Verdict;
     if (object.sop_class.empty() && object.series.modality.empty())
         return {Verdict::refused, "a DICOM object that does not say what it is (no SOP Class, no Modality)", object};
+    if (isMeasurementClass(object.sop_class)) {  // what it holds is seen when it is read
+        readPatientAndStudy(dataset, object);
+        return {Verdict::report, {}, std::move(object)};
+    }
     if (std::string why = whySetAside(dataset, object); !why.empty())
         return {Verdict::set_aside, std::move(why), object};
     if (std::string why = readPixelFormat(dataset, options, object); !why.empty())
@@ -178,11 +176,24 @@ OFCondition load(const fs::path& file, const Structure& structure, DcmFileFormat
     return structure.trailing_bytes > 0 ? EC_Normal : loaded;
 }
 
+/// A value that breaks off with the file stays in the data set with the length that it claims, and memory is asked for
+/// where it is read. Compressed pixels claim none.
+void removeBrokenOff(DcmItem& dataset, const fs::path& file)
+{
+    const std::uintmax_t file_bytes = fs::file_size(file);
+    for (unsigned long n = dataset.card(); n-- > 0;)
+        if (const DcmElement* element = dataset.getElement(n); !element->valueLoaded() &&
+                                                               element->getLengthField() != DCM_UndefinedLength &&
+                                                               element->getLengthField() > file_bytes)
+            delete dataset.remove(n);
+}
+
 /// Reads a file whose structure a library may see.
 Inspection inspectElements(const fs::path& file, const Structure& structure, const ImportOptions& options)
 {
     DcmFileFormat format;
     const OFCondition loaded = load(file, structure, format);
+    removeBrokenOff(*format.getDataset(), file);
     ImageObject object;
     object.file = file;
     const Dataset dataset(*format.getDataset()), meta(*format.getMetaInfo());

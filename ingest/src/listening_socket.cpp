@@ -87,7 +87,7 @@ std::optional<Caller> ListeningSocket::accept() const
         return {};
     const int yes = 1;  // a response is two short packets: the second must not wait for the first to be acknowledged
     ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-    return Caller{socket, digitsOf(from.sin_addr)};
+    return Caller{socket, digitsOf(from.sin_addr), nullptr};
 }
 
 unsigned long long bytesReceived(int socket)

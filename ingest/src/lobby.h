@@ -5,16 +5,23 @@
 #include <chrono>
 #include <cstdint>
 #include <list>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "tls_server.h"
 
 namespace vicon::ingest {
 
 /// A connection that is accepted and has said nothing whole yet, or what it has become.
 struct Caller {
     int socket = -1;
-    std::string host;  ///< IPv4 address
+    std::string host;                 ///< IPv4 address
+    std::unique_ptr<TlsSession> tls;  ///< null: it speaks plainly
 };
+
+/// Whether callers speak TLS.
+enum class TlsUse { off, offered, required };
 
 /// The connections whose association request has not come completely. They wait here without a thread of their own, so
 /// that a silent, partial or trickling one stops nobody; when there are too many, the oldest of the host with the most
@@ -23,7 +30,11 @@ class Lobby {
 public:
     /// @param most connections that may wait at once
     /// @param longest_s that one may take for its whole request
-    Lobby(int most, double longest_s) : most_(std::size_t(most)), longest_(longest_s) {}
+    /// @param tls null: where none is spoken
+    Lobby(int most, double longest_s, TlsUse use, TlsServer* tls)
+        : most_(std::size_t(most)), longest_(longest_s), use_(use), tls_(tls)
+    {
+    }
     ~Lobby();
     Lobby(const Lobby&) = delete;
     Lobby& operator=(const Lobby&) = delete;
@@ -36,16 +47,21 @@ public:
     std::vector<Caller> takeReady(std::vector<std::string>& ended);
 
 private:
-    enum class Request { partial, complete, none };
+    using State = TlsSession::State;
     struct Waiting {
         Caller caller;
         std::chrono::steady_clock::time_point since;
+        std::string why_ended = {};  ///< where it is worth a line
     };
-    static Request lookAt(int socket);
+    State lookAt(Waiting& one) const;
+    State beginTls(Waiting& one) const;
+    static State goOnWithTls(Waiting& one);
     void endOne();
 
     std::size_t most_;
     std::chrono::duration<double> longest_;
+    TlsUse use_;
+    TlsServer* tls_;
     std::list<Waiting> waiting_;  ///< oldest first
 };
 

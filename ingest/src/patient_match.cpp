@@ -1,4 +1,4 @@
-#include "patient_match.h"
+#include "vicon/ingest/patient_match.h"
 
 #include <algorithm>
 #include <vector>

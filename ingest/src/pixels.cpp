@@ -25,8 +25,6 @@
 namespace vicon::ingest {
 namespace {
 
-constexpr Uint32 kLargestElementInMemory = 16384;
-
 /// No tissue, and no air however noisy, is this light: what is below was not measured, whether or not the object
 /// declares its padding value. (GE's -2000, the -3024 that a -2000 becomes with the usual intercept.)
 constexpr double kLightest_hu = -1500;

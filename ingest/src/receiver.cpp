@@ -7,14 +7,19 @@
 #include <algorithm>
 #include <chrono>
 #include <list>
+#include <map>
 #include <mutex>
 #include <thread>
 
+#include "association_reader.h"
 #include "caller_rules.h"
+#include "commitment_desk.h"
 #include "incoming.h"
 #include "listening_socket.h"
 #include "lobby.h"
+#include "pace.h"
 #include "storage_association.h"
+#include "tls_server.h"
 #include "vicon/core/error.h"
 #include "vicon/dicom/dicom_setup.h"
 
@@ -25,41 +30,11 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr Uint32 kPduBytes = 131072;
 constexpr int kLookMilliseconds = 200;  // how soon a stop is noticed
 constexpr int kAcceptedAtOnce = 64;
 /// What a peer must send within receive.timeout_s: a thousandth of what the slowest line brings, more than a trickle.
 constexpr unsigned long long kLeastBytes = 4096;
 constexpr std::size_t kMostRefusing = 16;  // threads that tell too many peers that they are too many
-
-/// DCMTK takes a socket that it did not accept itself from a variable of the process, which threads share.
-class LentSocket {
-public:
-    explicit LentSocket(int socket) : lock_(mutex()) { dcmExternalSocketHandle.set(socket); }
-    ~LentSocket() { dcmExternalSocketHandle.set(-1); }
-    LentSocket(const LentSocket&) = delete;
-    LentSocket& operator=(const LentSocket&) = delete;
-
-private:
-    static std::mutex& mutex()
-    {
-        static std::mutex shared;
-        return shared;
-    }
-    std::lock_guard<std::mutex> lock_;
-};
-
-/// One association and the thread that serves it.
-struct Served {
-    std::thread thread;
-    std::string host;
-    int socket = -1;  ///< a duplicate of DCMTK's, so that it cannot name another connection
-    bool crowded = false;
-    bool ended = false;
-    std::atomic<bool> finished = false;
-    SteadyClock::time_point alive = SteadyClock::now();  ///< when it last had sent enough
-    unsigned long long bytes = 0;                        ///< that it had sent then
-};
 
 void requireTitle(const std::string& title)
 {
@@ -72,42 +47,55 @@ void requireTitle(const std::string& title)
 }  // namespace
 
 class Receiver::Implementation {
+    /// One association and the thread that serves it.
+    struct Served {
+        std::thread thread;
+        std::string host;
+        const Peer* peer = nullptr;  ///< by the configuration
+        int socket = -1;             ///< a duplicate of DCMTK's, so that it cannot name another connection
+        bool crowded = false;
+        bool ended = false;
+        std::atomic<bool> finished = false;
+        SteadyClock::time_point alive = SteadyClock::now();  ///< when it last had sent enough
+        unsigned long long bytes = 0;                        ///< that it had sent then
+    };
+
 public:
-    Implementation(const ReceiverOptions& options, const fs::path& folder, Handlers handlers)
-        : options_((requireTitle(options.ae_title), options)),
-          rules_(options.allow),
+    Implementation(const ReceiverOptions& options, const fs::path& folder, Handlers handlers, const Network& network)
+        : options_((setUpDicom(), requireTitle(options.ae_title), options)),
+          rules_(options, network.peers),
           handlers_(std::move(handlers)),
-          incoming_(folder, {options.quiet_s, options.idle_s}, handlers_.on_received, handlers_.on_trouble),
+          pace_(options.mb_per_s),
+          desk_(folder.parent_path() / "commitments", options_, handlers_, rules_),
+          incoming_(folder, {options.quiet_s, options.idle_s, options.incomplete_s}, handlers_),
           listening_(options.address, options.port),
-          lobby_(options.max_half_open, options.request_s)
+          tls_(tlsUse() == TlsUse::off ? nullptr : std::make_unique<TlsServer>(network.tls, handlers_.on_trouble)),
+          lobby_(options.max_half_open, options.request_s, tlsUse(), tls_.get()),
+          reader_(port(), int(options.timeout_s))
     {
-        setUpDicom();
-        const LentSocket none_is_opened(0);
-        if (ASC_initializeNetwork(NET_ACCEPTOR, port(), int(options_.timeout_s), &network_).bad())
-            throw Error(ErrorCode::peer, "the network cannot be used", std::to_string(port()));
     }
 
-    ~Implementation()
-    {
-        endAssociations();
-        ASC_dropNetwork(&network_);
-    }
+    ~Implementation() { endAssociations(); }
 
     void run(const std::atomic<bool>& stop)
     {
         incoming_.start();
+        desk_.start();
+        for (const std::string& peer : rules_.unreachablePeers())
+            incoming_.trouble("the host of peer " + peer + " has no address: it is refused");
         while (!stop) {
             joinFinished();
             waitForNews();
             acceptCallers();
             std::vector<std::string> ended;
-            for (const Caller& caller : lobby_.takeReady(ended))
-                serve(caller);
+            for (Caller& caller : lobby_.takeReady(ended))
+                serve(std::move(caller));
             for (const std::string& line : ended)
                 incoming_.trouble(line);
             endSilent();
         }
         endAssociations();
+        desk_.finish();
         incoming_.finish();
     }
 
@@ -124,51 +112,44 @@ private:
     void acceptCallers()
     {
         for (int n = 0; n < kAcceptedAtOnce; ++n)
-            if (const auto caller = listening_.accept())
-                lobby_.enter(*caller);
+            if (auto caller = listening_.accept())
+                lobby_.enter(std::move(*caller));
             else
                 return;
     }
 
-    /// The request is there as a whole: reading it does not wait.
-    T_ASC_Association* readRequest(const Caller& caller)
+    TlsUse tlsUse() const
     {
-        constexpr int kNoWait = 1;
-        T_ASC_Association* association = nullptr;
-        const LentSocket lent(caller.socket);
-        const OFCondition received =
-            ASC_receiveAssociation(network_, &association, kPduBytes, nullptr, nullptr, OFFalse, DUL_NOBLOCK, kNoWait);
-        if (received.good())
-            return association;
-        incoming_.trouble("a connection from " + caller.host + " made no proper association request");
-        if (association) {
-            ASC_dropSCPAssociation(association);
-            ASC_destroyAssociation(&association);
-        }
-        return nullptr;
+        return options_.tls == "off" ? TlsUse::off : options_.tls == "offered" ? TlsUse::offered : TlsUse::required;
     }
 
-    void serve(const Caller& caller)
+    void serve(Caller caller)
     {
-        const bool crowded = !makeRoomFor(caller.host);
+        const std::string host = caller.host;
+        const bool secure = caller.tls != nullptr, crowded = !makeRoomFor(host);
         if (crowded && refusing() >= kMostRefusing) {
             ::close(caller.socket);
             return;
         }
         const int socket = ::dup(caller.socket);
-        T_ASC_Association* association = readRequest(caller);
+        T_ASC_Association* association = reader_.read(std::move(caller));
         if (!association || socket < 0) {
+            incoming_.trouble("a connection from " + host + " made no proper association request");
             ::close(socket);
             return;
         }
+        const Peer* peer = rules_.peerOf(association->params->DULparams.callingAPTitle, host);
+        const bool too_many = peer && !makeRoomFor(*peer);
         Served& served = served_.emplace_back();
-        served.host = caller.host;
+        served.host = host;
+        served.peer = peer;
         served.socket = socket;
-        served.crowded = crowded;
-        served.thread = std::thread([this, &served, association] {
+        served.crowded = crowded || too_many;
+        Pace* const pace = peer ? &paces_.try_emplace(peer, peer->mb_per_s).first->second : nullptr;
+        served.thread = std::thread([this, &served, pace, secure, association] {
             try {
-                const StorageService service{options_, rules_, incoming_, handlers_};
-                StorageAssociation scp(service, served.host);
+                const StorageService service{options_, rules_, incoming_, desk_, pace_, handlers_};
+                StorageAssociation scp(service, {served.host, served.socket, secure, served.peer, pace});
                 scp.serve(association, served.crowded);
             } catch (const std::exception& e) {
                 incoming_.trouble(e.what());
@@ -193,6 +174,13 @@ private:
         if (std::count_if(served_.begin(), served_.end(), counts) >= options_.max_associations)
             return endIdlest(counts);
         return true;
+    }
+
+    bool makeRoomFor(const Peer& peer)
+    {
+        const auto of_peer = [&](const Served& s) { return !s.crowded && !s.ended && !s.finished && s.peer == &peer; };
+        return peer.max_associations == 0 ||
+               std::count_if(served_.begin(), served_.end(), of_peer) < peer.max_associations || endIdlest(of_peer);
     }
 
     template <class Which>
@@ -257,15 +245,25 @@ private:
     const ReceiverOptions options_;
     const CallerRules rules_;
     const Handlers handlers_;
+    Pace pace_;                          ///< of all
+    std::map<const Peer*, Pace> paces_;  ///< of each
+    CommitmentDesk desk_;
     Incoming incoming_;
     const ListeningSocket listening_;
+    const std::unique_ptr<TlsServer> tls_;
     Lobby lobby_;
-    T_ASC_Network* network_ = nullptr;
+    AssociationReader reader_;
     std::list<Served> served_;
 };
 
+Receiver::Receiver(const ReceiverOptions& options, const fs::path& incoming_folder, Handlers handlers,
+                   const Network& network)
+    : implementation_(std::make_unique<Implementation>(options, incoming_folder, std::move(handlers), network))
+{
+}
+
 Receiver::Receiver(const ReceiverOptions& options, const fs::path& incoming_folder, Handlers handlers)
-    : implementation_(std::make_unique<Implementation>(options, incoming_folder, std::move(handlers)))
+    : Receiver(options, incoming_folder, std::move(handlers), Network{})
 {
 }
 

@@ -8,6 +8,7 @@
 #include "vicon/core/file.h"
 #include "vicon/dicom/dicom_setup.h"
 #include "vicon/ingest/query.h"
+#include "web_peer.h"
 
 namespace fs = std::filesystem;
 
@@ -17,6 +18,12 @@ namespace {
 const char* const kKinds[] = {UID_CTImageStorage, UID_EnhancedCTImageStorage, UID_LegacyConvertedEnhancedCTImageStorage,
                               // CT scanners put their dose pages into series of modality CT.
                               UID_SecondaryCaptureImageStorage};
+/// What series of modality SR hold; import sets aside what is no measurement report.
+const char* const kReports[] = {UID_Comprehensive3DSRStorage,  UID_ComprehensiveSRStorage, UID_EnhancedSRStorage,
+                                UID_ExtensibleSRStorage,       UID_BasicTextSRStorage,     UID_ColonCADSRStorage,
+                                UID_XRayRadiationDoseSRStorage};
+const char* const kReportSyntaxes[] = {UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax,
+                                       UID_DeflatedExplicitVRLittleEndianTransferSyntax};
 /// Each in a context of its own, so that a peer can send what it keeps as it keeps it.
 const char* const kSyntaxes[] = {
     UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax,
@@ -28,7 +35,7 @@ const char* const kSyntaxes[] = {
     UID_JPEGProcess2_4TransferSyntax};
 
 /// C-GET and C-MOVE: tells of what has come, and stops when told to.
-class Retrieving : public DcmSCU {
+class Retrieving : public PeerScu {
 public:
     Retrieving(Progress& progress, std::size_t series_done, std::size_t series)
         : progress_(progress), done_(series_done), series_(series)
@@ -105,14 +112,21 @@ RetrieveResult retrieveOne(Retrieving& scu, const Peer& peer, const char* model,
     return scu.result;
 }
 
-void offerImages(DcmSCU& scu)
+void offerAlone(PeerScu& scu, const char* kind, const char* syntax)
+{
+    OFList<OFString> alone;
+    alone.push_back(syntax);
+    scu.addPresentationContext(kind, alone, ASC_SC_ROLE_SCP);
+}
+
+void offerObjects(PeerScu& scu)
 {
     for (const char* kind : kKinds)
-        for (const char* syntax : kSyntaxes) {
-            OFList<OFString> alone;
-            alone.push_back(syntax);
-            scu.addPresentationContext(kind, alone, ASC_SC_ROLE_SCP);
-        }
+        for (const char* syntax : kSyntaxes)
+            offerAlone(scu, kind, syntax);
+    for (const char* kind : kReports)
+        for (const char* syntax : kReportSyntaxes)
+            offerAlone(scu, kind, syntax);
 }
 
 /// SOP Instance UIDs of what an earlier try left. The last one may be half there, and is removed.
@@ -185,6 +199,8 @@ RetrieveResult getSeries(const Peer& peer, const std::string& study_uid, const s
     makePrivateFolder(folder);
     std::set<std::string> here = objectsIn(folder);
     here.insert(have.begin(), have.end());
+    if (peer.web)
+        return web::getSeries(peer, study_uid, series_uids, folder, here, progress);
     RetrieveResult all;
     for (std::size_t n = 0; n < series_uids.size(); ++n) {
         for (DcmDataset& keys : requestsFor(peer, study_uid, series_uids[n], here, our_ae_title, progress)) {
@@ -193,7 +209,7 @@ RetrieveResult getSeries(const Peer& peer, const std::string& study_uid, const s
             scu.setStorageDir(folder.c_str());
             const RetrieveResult one = retrieveOne(
                 scu, peer, UID_GETStudyRootQueryRetrieveInformationModel, our_ae_title, progress,
-                [&] { offerImages(scu); },
+                [&] { offerObjects(scu); },
                 [&](T_ASC_PresentationContextID context) { return scu.sendCGETRequest(context, &keys, nullptr); });
             add(all, one);
         }
@@ -205,6 +221,8 @@ RetrieveResult moveSeries(const Peer& peer, const std::string& study_uid, const 
                           const std::string& destination_ae_title, const std::string& our_ae_title, Progress& progress)
 {
     setUpDicom();
+    if (peer.web)
+        throw Error(ErrorCode::wrong_use, "by DICOMweb nothing is moved", nameOf(peer), "retrieve with --method get");
     RetrieveResult all;
     for (std::size_t n = 0; n < series_uids.size(); ++n) {
         Retrieving scu(progress, n, series_uids.size());

@@ -10,8 +10,10 @@
 
 #include "association.h"
 #include "dataset.h"
+#include "outcomes.h"
 #include "vicon/core/error.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "web_peer.h"
 
 namespace fs = std::filesystem;
 
@@ -19,28 +21,26 @@ namespace vicon::ingest {
 namespace {
 
 constexpr std::size_t kMostKinds = 60;  // an association has room for 128 contexts, a kind takes one or two
-constexpr Uint32 kLargestElementInMemory = 16384;
-
-struct Kind {
+struct ObjectKind {
     std::string sop_class, transfer_syntax;
     // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 means the 0 that such an operator is compared with
-    friend auto operator<=>(const Kind&, const Kind&) = default;
+    friend auto operator<=>(const ObjectKind&, const ObjectKind&) = default;
 };
 
 struct Item {
     fs::path file;
-    Kind kind;
+    ObjectKind kind;
 };
 
 /// Whether VICON compressed it and may unpack it here. What came in, RLE as well, is decoded in the helper alone.
-bool isPackedHere(const Kind& kind)
+bool isPackedHere(const ObjectKind& kind)
 {
     return kind.sop_class == UID_SecondaryCaptureImageStorage && kind.transfer_syntax == UID_RLELosslessTransferSyntax;
 }
 
 /// The transfer syntaxes that may carry an object, by presentation context: its own alone, so that a peer that takes it
 /// gets it unchanged; then any uncompressed one, but for an object of a compression that is not undone here.
-std::vector<OFList<OFString>> contextsFor(const Kind& kind)
+std::vector<OFList<OFString>> contextsFor(const ObjectKind& kind)
 {
     std::vector<OFList<OFString>> contexts(1);
     contexts.front().push_back(kind.transfer_syntax.c_str());
@@ -52,22 +52,6 @@ std::vector<OFList<OFString>> contextsFor(const Kind& kind)
             contexts.back().push_back(other);
     return contexts;
 }
-
-/// Keeps what the peer made of each object, and tells of it.
-struct Outcomes {
-    SendResult& result;
-    const OnStored& on_stored;
-
-    void add(const StoreOutcome& outcome)
-    {
-        if (outcome.taken)
-            ++result.sent;
-        else
-            result.failures.push_back(outcome);
-        if (on_stored)
-            on_stored(outcome);
-    }
-};
 
 /// Reads what each file is; what cannot be read is a failure of that file.
 std::vector<Item> readKinds(const std::vector<fs::path>& files, Outcomes& outcomes)
@@ -84,15 +68,6 @@ std::vector<Item> readKinds(const std::vector<fs::path>& files, Outcomes& outcom
         items.push_back({file, {sop_class.front(), DcmXfer(format.getDataset()->getOriginalXfer()).getXferID()}});
     }
     return items;
-}
-
-/// Whether a status says that the object is at fault, or the peer's rules, and not the moment (PS3.4 B.2.3).
-bool isForGood(Uint16 status)
-{
-    constexpr Uint16 kGroup = 0xff00, kDatasetMismatch = 0xa900, kCannotUnderstand = 0xc000, kFirstDigit = 0xf000;
-    constexpr Uint16 kNotAuthorized = 0x0124, kNoSuchClass = 0x0122, kDuplicate = 0x0111;
-    return (status & kGroup) == kDatasetMismatch || (status & kFirstDigit) == kCannotUnderstand ||
-           status == kNotAuthorized || status == kNoSuchClass || status == kDuplicate;
 }
 
 std::string reasonFor(const OFCondition& sent, Uint16 status)
@@ -114,10 +89,10 @@ public:
 
     void send(const std::vector<Item>& items)
     {
-        DcmSCU scu;
+        PeerScu scu;
         configure(scu, peer_, title_);
         scu.setDatasetConversionMode(OFTrue);
-        std::set<Kind> kinds;
+        std::set<ObjectKind> kinds;
         for (const Item& item : items)
             if (kinds.insert(item.kind).second)
                 for (const auto& syntaxes : contextsFor(item.kind))
@@ -132,7 +107,7 @@ public:
     }
 
 private:
-    void sendOne(DcmSCU& scu, const Item& item)
+    void sendOne(PeerScu& scu, const Item& item)
     {
         T_ASC_PresentationContextID context = 0;
         for (const auto& syntaxes : contextsFor(item.kind))
@@ -166,17 +141,27 @@ private:
 
 }  // namespace
 
+bool isForGood(unsigned status)
+{
+    constexpr Uint16 kGroup = 0xff00, kDatasetMismatch = 0xa900, kCannotUnderstand = 0xc000, kFirstDigit = 0xf000;
+    constexpr Uint16 kNotAuthorized = 0x0124, kNoSuchClass = 0x0122, kDuplicate = 0x0111;
+    return (status & kGroup) == kDatasetMismatch || (status & kFirstDigit) == kCannotUnderstand ||
+           status == kNotAuthorized || status == kNoSuchClass || status == kDuplicate;
+}
+
 SendResult storeFiles(const Peer& peer, const std::vector<fs::path>& files, const std::string& our_ae_title,
                       Progress& progress, const OnStored& on_stored)
 {
     setUpDicom();
+    if (peer.web)
+        return web::storeFiles(peer, files, progress, on_stored);
     SendResult result;
     Outcomes outcomes{result, on_stored};
     const std::vector<Item> items = readKinds(files, outcomes);
     Sending sending(peer, our_ae_title, outcomes, progress, std::max<std::size_t>(items.size(), 1));
     // As many items as their kinds fit into one association.
     for (std::size_t from = 0; from < items.size();) {
-        std::set<Kind> kinds;
+        std::set<ObjectKind> kinds;
         std::size_t to = from;
         for (; to < items.size(); ++to) {
             kinds.insert(items[to].kind);
@@ -191,8 +176,10 @@ SendResult storeFiles(const Peer& peer, const std::vector<fs::path>& files, cons
 
 void echo(const Peer& peer, const std::string& our_ae_title)
 {
+    if (peer.web)
+        return web::echo(peer);
     setUpDicom();
-    DcmSCU scu;
+    PeerScu scu;
     configure(scu, peer, our_ae_title);
     OFList<OFString> syntaxes;
     syntaxes.push_back(UID_LittleEndianImplicitTransferSyntax);

@@ -1,13 +1,15 @@
 #include "storage_association.h"
 
+#include <sys/socket.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <memory>
-#include <set>
-#include <string_view>
 
-#include "commitment_dataset.h"
+#include "association_services.h"
+#include "kept_name.h"
+#include "structure_scan.h"
+#include "study_key.h"
 #include "vicon/core/file.h"
 
 namespace fs = std::filesystem;
@@ -15,40 +17,29 @@ namespace fs = std::filesystem;
 namespace vicon::ingest {
 namespace {
 
-constexpr Uint32 kPduBytes = 131072;  // the largest that DCMTK receives
 constexpr Uint16 kOutOfResources = STATUS_STORE_Refused_OutOfResources;
+/// Of a message that is held in memory; a request for commitment of 10,000 objects has 2 MB.
+constexpr unsigned long kMostMessageBytes = 16U << 20U;
 
-/// In order of preference where a peer offers several at once: what is not compressed first, so that nobody compresses
-/// for VICON; what loses nothing before what does.
-const char* const kTransferSyntaxes[] = {
-    UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax,
-    UID_BigEndianExplicitTransferSyntax,    UID_DeflatedExplicitVRLittleEndianTransferSyntax,
-    UID_JPEGProcess14SV1TransferSyntax,     UID_JPEGProcess14TransferSyntax,
-    UID_JPEGLSLosslessTransferSyntax,       UID_JPEG2000LosslessOnlyTransferSyntax,
-    UID_RLELosslessTransferSyntax,          UID_JPEG2000TransferSyntax,
-    UID_JPEGLSLossyTransferSyntax,          UID_JPEGProcess2_4TransferSyntax,
-    UID_JPEGProcess6_8TransferSyntax,       UID_JPEGProcess10_12TransferSyntax,
-    UID_JPEGProcess1TransferSyntax};
+/// What is wrong with an object that was received: the status to answer with, and why.
+struct Fault {
+    Uint16 status = STATUS_Success;
+    std::string why;
+};
 
-/// A title as it may stand in a log.
-std::string printable(std::string title)
+/// What import could not take under this name is refused at once, so that its sender knows.
+Fault faultOf(const fs::path& file, const T_DIMSE_C_StoreRQ& request)
 {
-    for (char& c : title)
-        if (c < ' ' || c > '~')
-            c = '?';
-    return title;
-}
-
-/// Why the store takes no more objects; empty when it does. The sender is told before one of them fails half-way, or
-/// lands in a folder that was made anew where the store was deleted.
-std::string whyNoPlace(const fs::path& incoming)
-{
-    constexpr std::uintmax_t kLeastFree = 32U << 20U;
-    if (!fs::exists(incoming / kReceiverLock))
-        return "the store is gone";
-    std::error_code unknown;
-    const fs::space_info space = fs::space(incoming, unknown);
-    return !unknown && space.available < kLeastFree ? "the store's disk is full" : "";
+    const Structure structure = scanStructure(file);
+    if (structure.fate == Structure::Fate::refused)
+        return {STATUS_STORE_Error_CannotUnderstand, structure.why};
+    const ObjectUids uids = uidsOf(file);
+    const bool deflated = structure.fate == Structure::Fate::odd && uids.object.empty();
+    if (!deflated && uids.object != request.AffectedSOPInstanceUID)
+        return {STATUS_STORE_Error_DataSetDoesNotMatchSOPClass, "its SOP Instance UID is not what was announced"};
+    if (!uids.sop_class.empty() && uids.sop_class != request.AffectedSOPClassUID)
+        return {STATUS_STORE_Error_DataSetDoesNotMatchSOPClass, "its SOP Class UID is not what was announced"};
+    return {};
 }
 
 void refuseCrowded(T_ASC_Association* association)
@@ -60,45 +51,11 @@ void refuseCrowded(T_ASC_Association* association)
     ASC_destroyAssociation(&association);
 }
 
-bool isStorage(const std::string_view sop_class)
-{
-    const char* const* const begin = dcmAllStorageSOPClassUIDs;
-    return std::find(begin, begin + numberOfDcmAllStorageSOPClassUIDs, sop_class) !=
-           begin + numberOfDcmAllStorageSOPClassUIDs;
-}
-
-/// What is taken of what the peer offers: DCMTK holds at most 128 contexts, and there are more storage classes.
-DcmSCPConfig configFor(const ReceiverOptions& options, const T_ASC_Association& association)
-{
-    DcmSCPConfig config;
-    config.setAETitle(options.ae_title.c_str());
-    config.setMaxReceivePDULength(kPduBytes);
-    config.setHostLookupEnabled(OFFalse);
-    config.setDIMSEBlockingMode(DIMSE_NONBLOCKING);
-    config.setDIMSETimeout(Uint32(options.timeout_s));
-    config.setACSETimeout(Uint32(options.timeout_s));
-    OFList<OFString> syntaxes;
-    for (const char* syntax : kTransferSyntaxes)
-        syntaxes.push_back(syntax);
-    std::set<std::string> offered;
-    for (int n = 0; n < ASC_countPresentationContexts(association.params); ++n) {
-        T_ASC_PresentationContext context;
-        if (ASC_getPresentationContext(association.params, n, &context).bad() ||
-            !offered.insert(context.abstractSyntax).second)
-            continue;
-        if (isStorage(context.abstractSyntax) || std::string_view(context.abstractSyntax) == UID_VerificationSOPClass)
-            config.addPresentationContext(context.abstractSyntax, syntaxes);
-    }
-    if (offered.contains(UID_StorageCommitmentPushModelSOPClass))  // an archive that reports is its provider
-        config.addPresentationContext(UID_StorageCommitmentPushModelSOPClass, syntaxes, ASC_SC_ROLE_SCP);
-    return config;
-}
-
 }  // namespace
 
 std::string StorageAssociation::sender() const
 {
-    return "'" + printable(calling_) + "' at " + host_;
+    return "'" + printableTitle(calling_) + "' at " + from_.host;
 }
 
 void StorageAssociation::serve(T_ASC_Association* association, bool crowded)
@@ -110,8 +67,9 @@ void StorageAssociation::serve(T_ASC_Association* association, bool crowded)
         return;
     }
     const auto begin = std::chrono::steady_clock::now();
-    folder_ = service_.incoming.open();
-    setSharedConfig(DcmSharedSCPConfig(configFor(service_.options, *association)));
+    association_ = association;
+    folder_ = service_.incoming.open(sender());
+    setSharedConfig(DcmSharedSCPConfig(configFor(service_, from_.peer, *association)));
     run(association);
     service_.incoming.close(folder_);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
@@ -128,24 +86,40 @@ OFBool StorageAssociation::checkCalledAETitleAccepted(const OFString& called)
 {
     const bool ours = service_.options.any_called_title || called == service_.options.ae_title.c_str();
     if (!ours)
-        refused_ = "it calls '" + printable(called.c_str()) + "', not us";
+        refused_ = "it calls '" + printableTitle(called.c_str()) + "', not us";
     return ours;
 }
 
 OFBool StorageAssociation::checkCallingAETitleAccepted(const OFString& calling)
 {
-    const bool known = service_.rules.allows(calling.c_str(), host_);
-    if (!known)
-        refused_ = "receive.allow does not name it";
-    return known;
+    refused_ = service_.rules.whyRefused(calling.c_str(), from_.host);
+    if (refused_.empty() && from_.peer && from_.peer->tls && !from_.secure)
+        refused_ = "it is configured to speak TLS, and does not";
+    return refused_.empty();
+}
+
+/// Called for every block of a data set.
+void StorageAssociation::notifyRECEIVEProgress(const unsigned long bytes)
+{
+    const std::size_t more = bytes - std::min(bytes, bytes_);
+    bytes_ = bytes;
+    if (!storing_ && bytes > kMostMessageBytes)
+        ::shutdown(from_.socket, SHUT_RD);
+    service_.pace.take(more);
+    if (from_.pace)
+        from_.pace->take(more);
 }
 
 OFCondition StorageAssociation::handleIncomingCommand(T_DIMSE_Message* message,
                                                       const DcmPresentationContextInfo& context)
 {
+    bytes_ = 0;
+    storing_ = message->CommandField == DIMSE_C_STORE_RQ;
     if (message->CommandField == DIMSE_N_EVENT_REPORT_RQ)
         return takeReport(message->msg.NEventReportRQ, context);
-    if (message->CommandField != DIMSE_C_STORE_RQ)
+    if (message->CommandField == DIMSE_N_ACTION_RQ)
+        return takeDemand(message->msg.NActionRQ, context);
+    if (!storing_)
         return DcmThreadSCP::handleIncomingCommand(message, context);
     T_DIMSE_C_StoreRQ& request = message->msg.CStoreRQ;
     Uint16 status = STATUS_Success;
@@ -155,66 +129,54 @@ OFCondition StorageAssociation::handleIncomingCommand(T_DIMSE_Message* message,
     return sendSTOREResponse(context.presentationContextID, request, status);
 }
 
-/// The report is taken in before it is answered with success: an archive that did not reach us reports again. DCMTK's
-/// own answer leaves out what the request named, which Orthanc takes for an error.
-OFCondition StorageAssociation::takeReport(const T_DIMSE_N_EventReportRQ& request,
-                                           const DcmPresentationContextInfo& context)
+/// Why the store takes no more objects of this peer; empty when it does. The sender is told before one of them fails
+/// half-way, or lands in a folder that was made anew where the store was deleted.
+std::string StorageAssociation::whyNoPlace() const
 {
-    DcmDataset* received = nullptr;
-    T_ASC_PresentationContextID id = context.presentationContextID;
-    if (request.DataSetType != DIMSE_DATASET_NULL)
-        if (const OFCondition came = receiveDIMSEDataset(&id, &received); came.bad())
-            return came;
-    const std::unique_ptr<DcmDataset> dataset(received);
-    T_DIMSE_Message answer{};
-    answer.CommandField = DIMSE_N_EVENT_REPORT_RSP;
-    T_DIMSE_N_EventReportRSP& said = answer.msg.NEventReportRSP;
-    said.MessageIDBeingRespondedTo = request.MessageID;
-    OFStandard::strlcpy(said.AffectedSOPClassUID, request.AffectedSOPClassUID, sizeof said.AffectedSOPClassUID);
-    OFStandard::strlcpy(said.AffectedSOPInstanceUID, request.AffectedSOPInstanceUID,
-                        sizeof said.AffectedSOPInstanceUID);
-    said.EventTypeID = request.EventTypeID;
-    said.opts = O_NEVENTREPORT_AFFECTEDSOPCLASSUID | O_NEVENTREPORT_AFFECTEDSOPINSTANCEUID | O_NEVENTREPORT_EVENTTYPEID;
-    said.DataSetType = DIMSE_DATASET_NULL;
-    said.DimseStatus = takeIn(request, dataset.get());
-    return sendDIMSEMessage(context.presentationContextID, &answer, nullptr);
-}
-
-Uint16 StorageAssociation::takeIn(const T_DIMSE_N_EventReportRQ& request, DcmDataset* dataset)
-{
-    if (!service_.handlers.on_commitment || !dataset ||
-        std::string(request.AffectedSOPClassUID) != UID_StorageCommitmentPushModelSOPClass)
-        return STATUS_N_NoSuchSOPClass;
-    try {
-        service_.handlers.on_commitment(commitmentReportFrom(*dataset));
-        return STATUS_N_Success;
-    } catch (const std::exception& e) {
-        service_.incoming.trouble("a report on storage commitment of " + sender() + " was not taken: " + e.what());
-        return STATUS_N_ProcessingFailure;
-    }
+    constexpr std::uintmax_t kLeastFree = 32U << 20U;
+    const fs::path incoming = folder_.parent_path();
+    if (!fs::exists(incoming / kReceiverLock))
+        return "the store is gone";
+    std::error_code unknown;
+    const fs::space_info space = fs::space(incoming, unknown);
+    if (!unknown && space.available < kLeastFree)
+        return "the store's disk is full";
+    return service_.incoming.waitingOf(sender()) >= service_.options.max_waiting
+               ? "receive.max_waiting of its objects wait for the import"
+               : "";
 }
 
 OFCondition StorageAssociation::receive(T_DIMSE_C_StoreRQ& request, T_ASC_PresentationContextID context, Uint16& status)
 {
     OFCondition received = EC_Normal;
-    if (const std::string why = whyNoPlace(folder_.parent_path()); !why.empty()) {
+    if (const std::string why = whyNoPlace(); !why.empty()) {
         status = kOutOfResources;
         service_.incoming.trouble("an object of " + sender() + " was refused: " + why);
         return receiveSTORERequest(request, context, "/dev/null");
     }
-    const fs::path file = folder_ / (std::to_string(count_) + ".dcm");
+    std::string name = keptNameOf(request.AffectedSOPInstanceUID);
+    name += '-';
+    name += std::to_string(count_);
+    const fs::path file = folder_ / name.append(".dcm");
     struct NotReceived {};
+    struct Faulty {};
+    Fault fault;
     try {
         makePrivateFolder(folder_);
         replaceFile(file, [&](const fs::path& temporary) {
             received = receiveSTORERequest(request, context, OFString(temporary.c_str()));
             if (received.bad())
                 throw NotReceived{};
+            if (fault = faultOf(temporary, request); fault.status != STATUS_Success)
+                throw Faulty{};
         });
         service_.incoming.add(folder_, file);
         ++count_;
     } catch (const NotReceived&) {
         service_.incoming.trouble("an object of " + sender() + " was not received completely: " + received.text());
+    } catch (const Faulty&) {
+        status = fault.status;
+        service_.incoming.trouble("an object of " + sender() + " was refused: " + fault.why);
     } catch (const std::exception& e) {
         status = kOutOfResources;
         service_.incoming.trouble("an object of " + sender() + " was refused: " + e.what());

@@ -9,22 +9,34 @@
 
 #include "caller_rules.h"
 #include "incoming.h"
+#include "pace.h"
 #include "vicon/ingest/receiver.h"
 
 namespace vicon::ingest {
+
+class CommitmentDesk;
 
 /// What every association of a receiver shares.
 struct StorageService {
     const ReceiverOptions& options;
     const CallerRules& rules;
     Incoming& incoming;
+    CommitmentDesk& desk;
+    Pace& pace;
     const Receiver::Handlers& handlers;
 };
 
-/// Serves one association: C-ECHO, C-STORE, and N-EVENT-REPORT of storage commitment.
+/// Serves one association: C-ECHO, C-STORE, and storage commitment, asked for or reported.
 class StorageAssociation : public DcmThreadSCP {
 public:
-    StorageAssociation(const StorageService& service, std::string host) : service_(service), host_(std::move(host)) {}
+    struct From {
+        std::string host;
+        int socket;
+        bool secure;       ///< it came by TLS
+        const Peer* peer;  ///< who it is by the configuration; null: nobody that it knows
+        Pace* pace;        ///< the peer's own; may be null
+    };
+    StorageAssociation(const StorageService& service, From from) : service_(service), from_(std::move(from)) {}
 
     /// Takes the association over. `crowded`: it is refused, because too many are served.
     void serve(T_ASC_Association* association, bool crowded);
@@ -32,16 +44,28 @@ public:
 protected:
     OFBool checkCalledAETitleAccepted(const OFString& called) override;
     OFBool checkCallingAETitleAccepted(const OFString& calling) override;
+    void notifyRECEIVEProgress(unsigned long bytes) override;
     OFCondition handleIncomingCommand(T_DIMSE_Message* message, const DcmPresentationContextInfo& context) override;
 
 private:
     OFCondition takeReport(const T_DIMSE_N_EventReportRQ& request, const DcmPresentationContextInfo& context);
     Uint16 takeIn(const T_DIMSE_N_EventReportRQ& request, DcmDataset* dataset);
+    OFCondition takeDemand(const T_DIMSE_N_ActionRQ& request, const DcmPresentationContextInfo& context);
+    Uint16 takeIn(const T_DIMSE_N_ActionRQ& request, DcmDataset* dataset, CommitmentDemand& demand,
+                  std::string& number);
+    bool awaitsAnswer() const;
+    bool reportHere(T_ASC_PresentationContextID context, const CommitmentDemand& demand, const std::string& number,
+                    OFCondition& over);
+    std::string whyNoPlace() const;
     OFCondition receive(T_DIMSE_C_StoreRQ& request, T_ASC_PresentationContextID context, Uint16& status);
     std::string sender() const;
 
     const StorageService& service_;
-    std::string host_, calling_, refused_;
+    const From from_;
+    std::string calling_, refused_;
+    T_ASC_Association* association_ = nullptr;
+    unsigned long bytes_ = 0;  ///< of the message that is being received
+    bool storing_ = false;
     std::filesystem::path folder_;
     int count_ = 0;
 };

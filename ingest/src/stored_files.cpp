@@ -1,7 +1,6 @@
 #include "stored_files.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -9,10 +8,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <mutex>
-#include <thread>
 
 #include "vicon/core/file.h"
 
@@ -104,29 +101,6 @@ void copyDurably(const fs::path& folder, const std::vector<FileCopy>& copies, Pr
         throw;
     }
     flush(folder, O_RDONLY | O_DIRECTORY);
-}
-
-StoreLock::StoreLock(const fs::path& store, Progress& progress)
-    : descriptor_(::open((store / "import.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600))
-{
-    constexpr auto kPause = std::chrono::milliseconds(100);
-    if (descriptor_ < 0)
-        failed("the store cannot be locked", store, errno);
-    while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-        try {
-            progress.report(0, "waiting for another import into this store");
-            progress.check();
-        } catch (...) {
-            ::close(descriptor_);
-            throw;
-        }
-        std::this_thread::sleep_for(kPause);
-    }
-}
-
-StoreLock::~StoreLock()
-{
-    ::close(descriptor_);
 }
 
 }  // namespace vicon::ingest

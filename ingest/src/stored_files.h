@@ -25,17 +25,4 @@ void copyDurably(const std::filesystem::path& folder, const std::vector<FileCopy
 /// What is told of a copy that failed with a number of the system: a full disk is the store's trouble, not the file's.
 Error notCopied(const std::filesystem::path& from, const std::filesystem::path& to, int number);
 
-/// Only one import works on a store at a time. Waits for the lock, and holds it while the object lives.
-class StoreLock {
-public:
-    /// Throws Error{store}, Error{cancelled}.
-    StoreLock(const std::filesystem::path& store, Progress& progress);
-    ~StoreLock();
-    StoreLock(const StoreLock&) = delete;
-    StoreLock& operator=(const StoreLock&) = delete;
-
-private:
-    int descriptor_;
-};
-
 }  // namespace vicon::ingest

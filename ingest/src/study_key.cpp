@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <span>
 #include <string_view>
 
 namespace vicon::ingest {
@@ -11,8 +12,11 @@ namespace {
 /// The identifying groups of a header lie well within it.
 constexpr std::size_t kLooked = 65536;
 constexpr std::size_t kLongestUid = 64;
-constexpr std::string_view kLittleEndianTag{"\x20\x00\x0D\x00", 4};
-constexpr std::string_view kBigEndianTag{"\x00\x20\x00\x0D", 4};
+/// Little and big endian.
+constexpr std::string_view kClass[] = {{"\x08\x00\x16\x00", 4}, {"\x00\x08\x00\x16", 4}};
+constexpr std::string_view kObject[] = {{"\x08\x00\x18\x00", 4}, {"\x00\x08\x00\x18", 4}};
+constexpr std::string_view kStudy[] = {{"\x20\x00\x0D\x00", 4}, {"\x00\x20\x00\x0D", 4}};
+constexpr std::string_view kSeries[] = {{"\x20\x00\x0E\x00", 4}, {"\x00\x20\x00\x0E", 4}};
 
 std::string beginningOf(const std::filesystem::path& file)
 {
@@ -34,16 +38,21 @@ std::string uidAt(std::string_view bytes, std::size_t at)
     return uid;
 }
 
-}  // namespace
-
-std::string studyKeyOf(const std::filesystem::path& file)
+std::string uidOf(std::string_view bytes, std::span<const std::string_view> tags)
 {
-    const std::string bytes = beginningOf(file);
-    for (const std::string_view tag : {kLittleEndianTag, kBigEndianTag})
+    for (const std::string_view tag : tags)
         if (const std::size_t at = bytes.find(tag); at != std::string::npos)
             if (std::string uid = uidAt(bytes, at); !uid.empty())
                 return uid;
     return {};
+}
+
+}  // namespace
+
+ObjectUids uidsOf(const std::filesystem::path& file)
+{
+    const std::string bytes = beginningOf(file);
+    return {uidOf(bytes, kStudy), uidOf(bytes, kSeries), uidOf(bytes, kObject), uidOf(bytes, kClass)};
 }
 
 }  // namespace vicon::ingest

@@ -5,8 +5,12 @@
 
 namespace vicon::ingest {
 
-/// What groups received objects by study before anybody parses them: the first Study Instance UID in the beginning of
-/// the file, found by its bytes alone. Empty when there is none. Only what waits together depends on it.
-std::string studyKeyOf(const std::filesystem::path& file);
+/// What a DICOM file belongs to; empty where it does not say, or is none.
+struct ObjectUids {
+    std::string study, series, object, sop_class;
+};
+
+/// Found without a parser, so that nothing that a peer sent can do harm.
+ObjectUids uidsOf(const std::filesystem::path& file);
 
 }  // namespace vicon::ingest

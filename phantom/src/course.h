@@ -5,6 +5,7 @@
 
 #include "anatomy.h"
 #include "folds.h"
+#include "posture_warp.h"
 #include "vicon/core/geometry.h"
 
 namespace vicon::phantom {
@@ -45,6 +46,7 @@ struct CourseOptions {
     bool self_contact = false;
     double thinnest_fold_mm = 2;
     int polyps = 5;
+    bool stretch = false;  ///< the wall lies otherwise along the course in every position
 };
 
 struct DrawnCourse {
@@ -52,6 +54,7 @@ struct DrawnCourse {
     Relief relief;  ///< stretched to the course
     Trunk trunk;
     std::vector<Contact> contacts;
+    PostureWarp warp;                     ///< from the patient's own colon to stations of the course
     std::vector<double> stop_station_mm;  ///< where the stops of usualWay() lie on the course
 };
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "densities.h"
 #include "random.h"
 #include "vicon/core/error.h"
 
 namespace vicon::phantom {
 namespace {
 
-constexpr double kWall_hu = 42, kGas_hu = -1000;
 constexpr double kWall_mm = 2, kStep_mm = 4, kApart_mm = 3;
 constexpr double kShortest_mm = 100;
 constexpr double kLowest_mm = 105;  // the pelvis is left to the rectum

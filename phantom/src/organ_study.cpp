@@ -19,7 +19,7 @@ namespace {
 constexpr double kWidth_mm = 300, kChest_mm = 280, kTrunk_mm = 400;
 constexpr double kLumenBlur_mm = 0.65;
 constexpr double kThinnestWall_mm = 1.2, kWallShare = 0.2;  // of the radius
-constexpr double kWall_hu = 30, kAir_hu = -1000, kContrast_hu = 320;
+constexpr double kOrganWall_hu = 30, kAir_hu = -1000, kContrast_hu = 320;
 
 bool isAirway(const OrganPhantomOptions& options)
 {
@@ -96,7 +96,7 @@ OrganScan makeOrganScan(const OrganPhantomOptions& options, Progress& progress)
         const Point3 p = grid.pointAt(grid.indexOf(n));
         const double inside_mm = double(lumen_mm.voxels[n]);
         double hu = airway ? chestHu(p) : trunkHu(p, inside_mm);
-        hu += (kWall_hu - hu) * share(double(wall_mm.voxels[n]), voxel_mm);
+        hu += (kOrganWall_hu - hu) * share(double(wall_mm.voxels[n]), voxel_mm);
         hu += ((airway ? kAir_hu : kContrast_hu) - hu) * share(inside_mm, voxel_mm);
         scene.voxels[n] = std::int16_t(std::lround(hu));
         scan.truth.inside.voxels[n] = inside_mm < 0 ? kGas : kOutside;

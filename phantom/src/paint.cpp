@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "densities.h"
 #include "trunk_painter.h"
 
 namespace vicon::phantom {
 namespace {
 
-constexpr double kGas_hu = -1000, kWall_hu = 42, kFat_hu = -98;
+constexpr double kFat_hu = -98;
 constexpr double kFatRim_mm = 2.5;  // of fat around the colon's wall
 
 struct Box {

@@ -100,6 +100,7 @@ PhantomTruth describe(const DrawnCourse& drawn, const Wall& wall)
     for (std::size_t n = 0; n < drawn.course.samples.size(); ++n) {
         const double station_mm = drawn.course.stationOf(n);
         truth.curve.push_back({drawn.course.samples[n].position_mm, station_mm, innerRadius_mm(wall, station_mm)});
+        truth.wall_mm.push_back(drawn.warp.wallAt(station_mm));
     }
     truth.parts = partsOf(drawn);
     truth.polyps = wall.polyps;
@@ -187,7 +188,8 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
                                            .thin_wall_mm = std::max(kThinWall_mm, kThinWallVoxels * coarsest_mm),
                                            .self_contact = options.self_contact,
                                            .thinnest_fold_mm = 2 * coarsest_mm,
-                                           .polyps = options.polyps});
+                                           .polyps = options.polyps,
+                                           .stretch = options.stretch});
     const Wall wall = Wall::draw(options, course, placement.position, std::max(1.0, 0.75 * coarsest_mm));
     PhantomScan scan;
     scan.patient_position = patient_position;

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "densities.h"
+
 namespace vicon::phantom {
 namespace {
 
-constexpr double kGas_hu = -1000, kSoft_hu = 45, kCortex_hu = 550, kMarrow_hu = 190;
+constexpr double kSoft_hu = 45, kCortex_hu = 550, kMarrow_hu = 190;
 
 Solid ellipsoid(Point3 centre, Vector3 radii, double hu)
 {

@@ -69,13 +69,14 @@ nlohmann::json describeTruth(const PhantomTruth& truth)
         out["ileum"] = {{"valve_mm", triple(truth.ileum.valve_mm)},     {"station_mm", truth.ileum.station_mm},
                         {"neck_radius_mm", truth.ileum.neck_radius_mm}, {"radius_mm", truth.ileum.radius_mm},
                         {"length_mm", truth.ileum.length_mm},           {"through_fluid", truth.ileum.through_fluid}};
-    for (const char* list : {"curve_mm", "station_mm", "radius_mm", "polyps", "gaps", "pools"})
+    for (const char* list : {"curve_mm", "station_mm", "wall_mm", "radius_mm", "polyps", "gaps", "pools"})
         out[list] = nlohmann::json::array();
     for (const SkeletonPoint& point : truth.curve) {
         out["curve_mm"].push_back(triple(point.position_mm));
         out["station_mm"].push_back(point.station_mm);
         out["radius_mm"].push_back(point.radius_mm);
     }
+    out["wall_mm"] = truth.wall_mm;
     for (const Polyp& polyp : truth.polyps)
         out["polyps"].push_back({{"position_mm", triple(polyp.position_mm)},
                                  {"station_mm", polyp.station_mm},

@@ -6,13 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "openness.h"
+
 namespace vicon::phantom {
 namespace {
 
 using std::numbers::pi;
 constexpr double kWall_mm = 1.6;         // thickness of the distended colon's wall
 constexpr double kCollapsed_mm = 6.5;    // outer radius of a collapsed part
-constexpr double kGapRamp_mm = 10;       // length over which the lumen closes
 constexpr double kNoLumen_mm = -4;       // radius that stands for none
 constexpr double kPolypSunk = 0.25;      // of the radius: how far inside the wall line a polyp's centre lies
 constexpr double kContactClear_mm = 16;  // no relief this near to a contact between loops
@@ -57,18 +58,6 @@ double bendTowards(const Course& course, double station_mm, double angle)
         largest = std::max(largest, dot(at.bend, at.normal * std::cos(angle) + at.binormal * std::sin(angle)));
     }
     return largest;
-}
-
-/// What gaps leave of the lumen: 1 far from them, 0 within.
-double openness(const std::vector<CollapsedGap>& gaps, double station_mm)
-{
-    double open = 1;
-    for (const CollapsedGap& gap : gaps) {
-        const double away = std::max(gap.from_mm - station_mm, station_mm - gap.to_mm);
-        const double u = 1 - std::clamp(away / kGapRamp_mm, 0.0, 1.0);
-        open = std::min(open, std::sqrt(std::max(0.0, 1 - u * u)));
-    }
-    return open;
 }
 
 struct Shape {

@@ -17,6 +17,8 @@ constexpr double kMega = 1e6;
 // Least resident set of the steps, docs/evaluation/time-and-memory.md: 4.6 bytes a voxel where the colon is small, 8
 // where it is large, and what libraries and tables take in a scan of no size. The least counts: who has it is not
 // refused.
+constexpr double kMostPerVoxel_bytes = 8;
+constexpr double kShareOfMachine = 0.8;
 constexpr double kResident_bytes = 60 * kMega, kResidentPerVoxel_bytes = 4.6;
 // Address space is also taken by what is never touched: stacks and arenas of threads. Measured on the 160 x 160 x 134
 // phantom: the work ends in a plain error from 200 MB of free addresses on, and succeeds from 400 MB on.
@@ -51,6 +53,18 @@ MemoryLimits memoryLimits()
         if (line.starts_with("MemAvailable:"))
             limits.available = std::stod(line.substr(line.find(':') + 1)) * 1024;
     return limits;
+}
+
+double expectedMemory_mb(double voxels)
+{
+    return (kResident_bytes + kMostPerVoxel_bytes * voxels) / kMega;
+}
+
+double machineMemory_mb(double configured_mb)
+{
+    if (configured_mb > 0)
+        return configured_mb;
+    return kShareOfMachine * double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE)) / kMega;
 }
 
 void requireMemory(double voxels, double most_mb, const MemoryLimits& limits)

@@ -18,4 +18,10 @@ MemoryLimits memoryLimits();
 /// @param most_mb what the configuration allows, MB of 10^6 bytes; 0: no limit of its own
 void requireMemory(double voxels, double most_mb, const MemoryLimits& limits = memoryLimits());
 
+/// What the steps of a scan take at their peak, MB of 10^6 bytes.
+double expectedMemory_mb(double voxels);
+
+/// What all workers of this machine may take: as configured, or four fifths of what it has.
+double machineMemory_mb(double configured_mb);
+
 }  // namespace vicon::pipeline

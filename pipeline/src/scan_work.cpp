@@ -129,6 +129,9 @@ public:
 
     void run()
     {
+        if (const double voxels = isotropicVoxels(scan_.ingest, inputs_.config); voxels > 0)
+            context_.reserveMemory(expectedMemory_mb(voxels),
+                                   machineMemory_mb(inputs_.config.get<WorkOptions>().machine_memory_mb));
         makePrivateFolder(folder_ / "projections");
         removeTemporaries(folder_ / "projections");
         StepRunner(stepTable(),

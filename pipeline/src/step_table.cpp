@@ -87,13 +87,14 @@ json runResample(const StepInputs& inputs, ScanResults& results, const StepRecor
 /// Whether the wall is contoured from the fraction of tissue, and not from labels and densities.
 bool wallFromTissue(const Config& config)
 {
-    return isColon(config) && config.get<steps::WallOptions>().wall == "tissue";
+    return isColon(config) && config.get<steps::WallOptions>().wall == steps::WallSource::tissue;
 }
 
 json tissueParameters(const Config& config)
 {
-    return wallFromTissue(config) ? parametersFrom<steps::WallOptions, steps::WallDensities>(config)
-                                  : parametersFrom<steps::WallOptions>(config);
+    return wallFromTissue(config)
+               ? parametersFrom<steps::WallOptions, steps::WallDensities, steps::TissueOptions>(config)
+               : parametersFrom<steps::WallOptions>(config);
 }
 
 std::shared_future<steps::LumenSurface> surfaceOf(const Config& config, ScanResults& results)
@@ -143,21 +144,22 @@ json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords
     if (!wallFromTissue(inputs.config)) {
         results.put(InsideVolume(results.mask()));
         results.dropMask();
-        return {{"not_sought", "the wall is not taken from it"}};
+        return toJson(TissueFound{.not_sought = "the wall is not taken from it"});
     }
     steps::TissueResult found = steps::findTissue(
         results.densitiesAroundLumen(), results.mask(), inputs.gravity, inputs.config.get<steps::WallDensities>(),
-        segmentFoundFromJson(records.at("segment").result).noise_hu.value_or(0), progress);
+        segmentFoundFromJson(records.at("segment").result).noise_hu.value_or(0), progress,
+        inputs.config.get<steps::TissueOptions>());
     results.dropMask();
     results.write("cleansed.mha", std::move(found.cleansed));
     results.put(std::move(found.lumen));
     results.putTissue(std::move(found.tissue));
-    return {{"measures", std::move(found.found)}};
+    return toJson(TissueFound{.blur_mm = found.blur_mm, .measures = std::move(found.found)});
 }
 
 std::vector<std::string> tissueFiles(const json& result)
 {
-    if (result.contains("not_sought"))
+    if (!tissueFoundFromJson(result).not_sought.empty())
         return {"inside.mha"};
     return {"inside.mha", "tissue.mha", "cleansed.mha"};
 }
@@ -193,7 +195,7 @@ json runSkeleton(const StepInputs& inputs, ScanResults& results, const StepRecor
             },
         .paths_found =
             [&](const std::vector<std::vector<Index3>>& paths) {
-                if (inputs.config.get<steps::SubdivideOptions>().method == "flood")
+                if (inputs.config.get<steps::SubdivideOptions>().method == steps::SubdivideMethod::flood)
                     results.keepFlood(std::async(std::launch::async, [&inside = results.inside(), paths] {
                         return steps::floodFromPaths(inside, paths);
                     }));
@@ -228,7 +230,7 @@ json runSubdivide(const StepInputs& inputs, ScanResults& results, const StepReco
     auto options = inputs.config.get<steps::SubdivideOptions>();
     const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));
     if (!tree.empty())
-        options.method = "flood";  // planes across one path do not part branches
+        options.method = steps::SubdivideMethod::flood;  // planes across one path do not part branches
     steps::Subdivided divided = steps::subdivide(inside, tree.empty() ? results.skeleton() : tree.allBranches(),
                                                  scan_files::readSkeletonVoxels(results.source("skeleton_voxels.vtp")),
                                                  options, divide, results.takeFlood());
@@ -287,7 +289,7 @@ std::vector<Step> stepsOfLumen()
          parametersByOrgan<SegmentOptions, OrganOptions>,
          runSegment},
         {"tissue",
-         2,
+         4,
          0.55,
          0.6,
          {"resample", "segment"},
@@ -313,7 +315,7 @@ std::vector<Step> stepsOfResults()
     using namespace steps;
     return {
         {"quality",
-         2,
+         3,
          0.65,
          0.67,
          {"segment", "tissue", "skeleton"},
@@ -370,6 +372,7 @@ std::vector<OptionSpec> stepOptionSpecs()
     add(specsOf<steps::ResampleOptions>());
     add(specsOf<steps::SegmentOptions>());
     add(specsOf<steps::OrganOptions>());
+    add(specsOf<steps::TissueOptions>());
     add(specsOf<steps::SkeletonOptions>());
     add(specsOf<steps::QualityOptions>());
     add(specsOf<steps::SubdivideOptions>());

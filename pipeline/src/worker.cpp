@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstring>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -18,6 +19,7 @@ namespace vicon::pipeline {
 namespace {
 
 constexpr double kIdlePoll_s = 0.5;
+constexpr double kRoomWait_s = 2;
 constexpr double kSpaceWait_s = 30;  // until a full disk is looked at again
 constexpr double kFirstTroubleWait_s = 1, kLongestTroubleWait_s = 60;
 constexpr const char* kNoMemory =
@@ -26,7 +28,7 @@ constexpr const char* kNoMemory =
 /// Renews a job's lease from a thread and a connection of its own until it is destroyed or the lease is lost.
 class Heartbeat {
 public:
-    Heartbeat(const std::filesystem::path& database, const QueueOptions& options, const Job& job)
+    Heartbeat(const std::string& database, const QueueOptions& options, const Job& job)
         : thread_([this, database, options, job] { run(database, options, job); })
     {
     }
@@ -51,32 +53,28 @@ public:
     bool leaseLost() const { return lost_; }
 
 private:
-    void run(const std::filesystem::path& file, const QueueOptions& options, const Job& job)
+    void run(const std::string& where, const QueueOptions& options, const Job& job)
     {
         const auto interval = std::chrono::duration<double>(std::min(options.lease_s / 3, 2.0));
-        try {
-            Database database(file);
-            JobQueue queue(database, options);
-            std::unique_lock lock(mutex_);
-            while (!changed_.wait_for(lock, interval, [this] { return over_; })) {
-                const std::string step = step_;
-                const double progress = progress_;
-                lock.unlock();
-                renew(queue, job, step, progress);
-                lock.lock();
-            }
-        } catch (const std::exception&) {  // without a database there is no lease either
-            lost_ = true;
-        }
-    }
-    void renew(JobQueue& queue, const Job& job, const std::string& step, double progress)
-    {
-        try {
-            queue.renew(job, step, progress);
-        } catch (const Error& e) {
-            if (e.code() == ErrorCode::lease_lost)
+        std::unique_ptr<Database> database;
+        std::unique_lock lock(mutex_);
+        while (!changed_.wait_for(lock, interval, [this] { return over_; })) {
+            const std::string step = step_;
+            const double progress = progress_;
+            lock.unlock();
+            try {
+                if (!database)
+                    database = std::make_unique<Database>(where);
+                JobQueue(*database, options).renew(job, step, progress);
+            } catch (const Error& e) {
+                if (e.code() == ErrorCode::lease_lost)
+                    lost_ = true;
+                // Anything else may pass (a busy disk, a server that is started anew); if it does not, the lease
+                // lapses and the fence keeps order.
+            } catch (const std::exception&) {
                 lost_ = true;
-            // Anything else may pass (a busy disk); if it does not, the lease lapses and the fence keeps order.
+            }
+            lock.lock();
         }
     }
 
@@ -88,6 +86,9 @@ private:
     std::atomic<bool> lost_ = false;
     std::thread thread_;  // last: it uses everything above
 };
+
+/// Others of this machine have the memory.
+struct NoRoom {};
 
 class Context : public JobContext {
 public:
@@ -123,6 +124,11 @@ public:
         queue_.commitStep(job_, step, publish);
     }
     void underFence(const std::function<void()>& action) override { queue_.underFence(job_, action); }
+    void reserveMemory(double mb, double most_mb) override
+    {
+        if (!queue_.reserveMemory(job_, mb, most_mb))
+            throw NoRoom();
+    }
 
 private:
     void tell(double whole, std::string_view what)
@@ -165,7 +171,7 @@ bool isFullDisk(const Error& e)
 }
 
 struct Outcome {
-    enum class Kind { done, failed, no_space, stopped, lost } kind = Kind::done;
+    enum class Kind { done, failed, no_space, no_room, stopped, lost } kind = Kind::done;
     std::string reason;
     bool permanent = false;
 };
@@ -183,6 +189,8 @@ Outcome doWork(const JobWork& work, Context& context)
         if (isFullDisk(e))
             return {Outcome::Kind::no_space, e.what()};
         return {Outcome::Kind::failed, e.what(), isPermanent(e.code())};
+    } catch (const NoRoom&) {
+        return {Outcome::Kind::no_room};
     } catch (const std::bad_alloc&) {
         return {Outcome::Kind::failed, kNoMemory};
     } catch (const std::system_error& e) {
@@ -194,8 +202,8 @@ Outcome doWork(const JobWork& work, Context& context)
 }
 
 /// Does one job to its end and says how it ended; nothing when it is another worker's now.
-std::optional<JobState> doJob(const Job& job, JobQueue& queue, const std::filesystem::path& database,
-                              const JobWork& work, const WorkerEvents& events, const std::atomic<bool>& stop)
+std::optional<JobState> doJob(const Job& job, JobQueue& queue, const std::string& database, const JobWork& work,
+                              const WorkerEvents& events, const std::atomic<bool>& stop)
 {
     Outcome outcome;
     {
@@ -216,6 +224,9 @@ std::optional<JobState> doJob(const Job& job, JobQueue& queue, const std::filesy
             case Outcome::Kind::no_space:
                 queue.postpone(job, "waits for space: " + outcome.reason, kSpaceWait_s);
                 break;
+            case Outcome::Kind::no_room:
+                queue.postpone(job, "waits for memory that other scans take", kRoomWait_s);
+                return std::nullopt;
             case Outcome::Kind::stopped:
                 queue.release(job);
                 break;
@@ -234,17 +245,15 @@ std::optional<JobState> doJob(const Job& job, JobQueue& queue, const std::filesy
 
 bool othersWork(JobQueue& queue)
 {
-    const auto jobs = queue.jobs();
-    return std::any_of(jobs.begin(), jobs.end(), [](const Job& job) { return job.state == JobState::running; });
+    return queue.count(JobState::running) > 0;
 }
 
 /// Each with its fence: one that fails again is another one.
 std::set<std::string> failedJobs(JobQueue& queue)
 {
     std::set<std::string> failed;
-    for (const Job& job : queue.jobs())
-        if (job.state == JobState::failed)
-            failed.insert(job.case_id + "/" + job.scan_id + " " + std::to_string(job.fence));
+    for (const Job& job : queue.jobs(JobState::failed))
+        failed.insert(job.case_id + "/" + job.scan_id + " " + std::to_string(job.fence));
     return failed;
 }
 
@@ -270,7 +279,7 @@ WorkSummary runWorker(CaseStore& store, const QueueOptions& queue_options, const
             if (!failed_before)
                 failed_before = failedJobs(queue);
             if (const auto job = queue.claim(owner)) {
-                const auto end = doJob(*job, queue, store.folder() / "vicon.db", work, events, stop);
+                const auto end = doJob(*job, queue, store.database().where(), work, events, stop);
                 summary.done += end == JobState::done;
                 trouble_wait_s = kFirstTroubleWait_s;
                 continue;
@@ -290,8 +299,7 @@ WorkSummary runWorker(CaseStore& store, const QueueOptions& queue_options, const
             trouble_wait_s = std::min(2 * trouble_wait_s, kLongestTroubleWait_s);
         }
     }
-    for (const Job& job : queue.jobs())
-        summary.waiting += job.state == JobState::queued;
+    summary.waiting = queue.count(JobState::queued);
     for (const std::string& job : failedJobs(queue))
         summary.failed += failed_before && failed_before->contains(job) ? 0 : 1;
     return summary;

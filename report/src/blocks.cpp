@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ready_picture.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
@@ -54,6 +55,9 @@ void drawSection(PageFlow& flow, const std::string& title, double following)
 {
     const double height = leadingOf(look::kSection) + 8;
     flow.need(height + following);
+    std::string ascii = title;  // as the outline takes it
+    std::erase_if(ascii, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+    flow.pdf.bookmark(flow.page(), flow.y() + 4, ascii);
     flow.put(flow.left(), flow.y(), flow.type.line(title, look::kSection), look::kAccent);
     flow.skip(leadingOf(look::kSection) + 1);
     flow.pdf.line(flow.page(), flow.left(), flow.y(), flow.left() + flow.width(), flow.y(), look::kThinLine,
@@ -80,12 +84,19 @@ const PictureShelf::Shelved& PictureShelf::get(const std::filesystem::path& file
     static const Shelved nothing;
     if (file.empty())
         return nothing;
+    const int most_pixels = int(print_width / kPointsPerInch * kPrintDpi);
+    if (const PrintPictures::Ready* ready = begun_ ? begun_->get(file) : nullptr;
+        ready && ready->width <= most_pixels) {
+        if (!shelf_.contains(ready->sha256))
+            shelf_[ready->sha256] = {pdf_.addPicture(*ready), double(ready->width), double(ready->height), false};
+        return shelf_[ready->sha256];
+    }
     std::string key = "not readable: " + file.string();
     try {
         key = sha256OfFile(file);
         if (shelf_.contains(key))
             return shelf_[key];
-        Picture picture = readForPrint(file, int(print_width / kPointsPerInch * kPrintDpi));
+        Picture picture = readForPrint(file, most_pixels);
         const double width = picture.width, height = picture.height;
         return shelf_[key] = {pdf_.addPicture(std::move(picture)), width, height, false};
     } catch (const Error& e) {

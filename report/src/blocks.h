@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "page_flow.h"
+#include "vicon/report/print_pictures.h"
 #include "vicon/report/statements.h"
 
 namespace vicon::report {
@@ -30,7 +31,7 @@ private:
     std::vector<StatementBlock> blocks_;
 };
 
-/// A section's heading with a rule below it; kept with `following` points of what comes next.
+/// A section's heading with a rule below it, and its bookmark; kept with `following` points of what comes next.
 void drawSection(PageFlow& flow, const std::string& title, double following);
 
 /// A tinted box with lines of text.
@@ -39,7 +40,8 @@ void drawNotice(PageFlow& flow, const std::vector<std::string>& lines);
 /// The report's pictures: each file is embedded once.
 class PictureShelf {
 public:
-    explicit PictureShelf(PdfDocument& pdf) : pdf_(pdf) {}
+    /// @param begun pictures that are being made ready; may be none
+    explicit PictureShelf(PdfDocument& pdf, const PrintPictures* begun = nullptr) : pdf_(pdf), begun_(begun) {}
 
     struct Shelved {
         int number = -1;               ///< in the document; below 0: there is no picture
@@ -51,6 +53,7 @@ public:
 
 private:
     PdfDocument& pdf_;
+    const PrintPictures* begun_;
     std::map<std::string, Shelved> shelf_;
 };
 

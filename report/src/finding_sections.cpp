@@ -19,7 +19,6 @@ constexpr std::array<TableColumn, 8> kFindingColumns = {{{"No.", 0},
                                                          {"Endoscope, est.", 0.74},
                                                          {"Scans", 0.87},
                                                          {"Page", 0.94}}};
-constexpr double kSightPictures_pt = 190;  // two findings of one sight fill a page
 
 std::string numberOf(const FindingWithFacts& f)
 {
@@ -36,6 +35,19 @@ std::string endoscopeRange(const FindingFacts& facts)
 }
 
 }  // namespace
+
+double Sections::findingTableHeight() const
+{
+    const auto linesOf = [&](const std::string& text, TextStyle style) {
+        return text.empty() ? 0.0 : double(flow_.type.lines(text, style, flow_.width()).size()) * leadingOf(style);
+    };
+    const auto count = double(content_.read.findings.size());
+    return leadingOf(look::kSection) + 8 + linesOf(looseMarkersSaid(content_.read.loose_markers), look::kBody) +
+           (count > 0
+                ? RowTable::headHeight() + count * RowTable::rowHeight() + linesOf(distancesExplained(), look::kSmall)
+                : leadingOf(look::kBody)) +
+           look::kGap;
+}
 
 void Sections::drawFindingTable()
 {
@@ -80,33 +92,21 @@ void Sections::drawFindingHead(const FindingWithFacts& f)
 void Sections::drawFinding(const FindingWithFacts& f)
 {
     const StatementTable table(flow_.type, findingStatements(content_.read, f), flow_.width());
-    const double head = leadingOf(look::kEntry) + 10, caption = leadingOf(look::kSmall) + 4;
-    const double whole =
-        head + table.height() + (f.facts.sights.empty() ? 0 : kSightPictures_pt + caption + look::kGap);
+    const double head = leadingOf(look::kEntry) + 10;
+    const std::vector<PictureBlock> pictures = sightsOf(f);
+    double whole = head + table.height() + look::kGap;
+    for (const PictureBlock& block : pictures)
+        whole += heightOf(block);
     flow_.need(whole <= flow_.wholePage() ? whole : head + 3 * leadingOf(look::kBody));
     fillPageOf(f.finding.id);
-    flow_.pdf.bookmark(flow_.page(), flow_.y() + 4, "Finding " + numberOf(f) + " (" + nameOf(f.finding.kind) + ")");
+    flow_.pdf.bookmark(flow_.page(), flow_.y() + 4, "Finding " + numberOf(f) + " (" + nameOf(f.finding.kind) + ")",
+                       true);
     drawFindingHead(f);
     table.draw(flow_, flow_.left());
     flow_.skip(5);
-    drawSights(f);
+    for (const PictureBlock& block : pictures)
+        drawPictures(block);
     flow_.skip(look::kGap / 2);
-}
-
-void Sections::drawSights(const FindingWithFacts& f)
-{
-    const auto& chosen = f.finding.pictures;
-    for (const FindingSight& sight : f.facts.sights) {
-        if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), sight.marker_id) == chosen.end())
-            continue;
-        const auto entry = std::find_if(content_.markers.begin(), content_.markers.end(),
-                                        [&](const MarkerEntry& e) { return e.marker.id == sight.marker_id; });
-        if (entry == content_.markers.end())
-            continue;
-        const std::string of = scanLabel(content_.read, sight.scan_id) + ", " + sight.marker_id +
-                               (isLossy(content_, sight.scan_id) ? " \u00b7 LOSSY COMPRESSION" : "");
-        drawMarkerPictures(*entry, of, &sight == f.facts.lead(), kSightPictures_pt);
-    }
 }
 
 }  // namespace vicon::report

@@ -29,21 +29,6 @@ std::string noDigit(double value)
     return text.data();
 }
 
-/// What is no cause for anything further.
-bool isBenign(FindingKind kind)
-{
-    switch (kind) {
-        case FindingKind::lipoma:
-        case FindingKind::stool:
-        case FindingKind::diverticulum:
-        case FindingKind::inverted_diverticulum:
-        case FindingKind::valve:
-            return true;
-        default:
-            return false;
-    }
-}
-
 /// Every size that there is, the one that counts first.
 std::string allSizes(const FindingWithFacts& f)
 {
@@ -111,7 +96,7 @@ std::string distensionWords(const ReadCase& read)
                            [&](const PartState& part) { return part.scan_id == scan.id; });
     });
     if (all_good && all_known)
-        return "good in every part and position";
+        return "good in every segment and position";
     std::string out;
     for (const ScanRecord& scan : read.scans) {
         std::string poor;
@@ -204,44 +189,24 @@ std::string looseMarkersSaid(const std::vector<std::string>& ids)
     return said + ". What they show is told under \"Markers of no finding\".";
 }
 
-std::string impressionText(const ReadCase& read)
-{
-    if (!read.assessment.impression.empty())
-        return read.assessment.impression;
-    std::string out;
-    for (const FindingWithFacts& f : read.findings) {
-        if (isBenign(f.finding.kind))
-            continue;
-        const std::string place = placeWords(f.facts);
-        out += (out.empty() ? "Finding " : "\nFinding ") + std::to_string(f.finding.number()) + ": " +
-               kindWords(f.finding) + ", " + sizeWords(f.facts) + (place.empty() ? "" : ", " + place) + ".";
-    }
-    if (!out.empty())
-        return out;
-    const auto& chosen = read.assessment.colon_category;
-    return chosen && chosen->category == ColonCategory::c1 ? "No polyp of 6 mm or more was found."
-                                                           : "No impression was given.";
-}
-
-std::string recommendationText(const ReadCase& read)
-{
-    if (!read.assessment.recommendation.empty())
-        return read.assessment.recommendation;
-    return read.assessment.colon_category ? adviceFor(read.assessment.colon_category->category) : "not given";
-}
-
 std::vector<Statement> categoryStatements(const ReadCase& read)
 {
     return {categoryStatement("C-RADS colon", read.colon_proposal, read.assessment.colon_category),
             categoryStatement("C-RADS outside", read.extracolonic_proposal, read.assessment.extracolonic_category)};
 }
 
-std::vector<Statement> assessmentStatements(const ReadCase& read)
+std::vector<Statement> occasionStatements(const ReadCase& read)
+{
+    std::vector<Statement> out;
+    addWhereGiven(out, "Indication", read.assessment.indication);
+    addWhereGiven(out, "Comparison", read.assessment.comparison);
+    return out;
+}
+
+std::vector<Statement> reliabilityStatements(const ReadCase& read)
 {
     const Assessment& said = read.assessment;
     std::vector<Statement> out;
-    addWhereGiven(out, "Indication", said.indication);
-    addWhereGiven(out, "Comparison", said.comparison);
     if (said.preparation)
         out.push_back({"Preparation", nameOf(*said.preparation)});
     if (said.tagging)
@@ -251,6 +216,13 @@ std::vector<Statement> assessmentStatements(const ReadCase& read)
         out.push_back({"Adequacy", "a lesion of 10 mm or more cannot be excluded"});
     if (said.priors_awaited)
         out.push_back({"Priors", "earlier studies are awaited"});
+    return out;
+}
+
+std::vector<Statement> techniqueStatements(const ReadCase& read)
+{
+    const Assessment& said = read.assessment;
+    std::vector<Statement> out;
     addWhereGiven(out, "Technique", said.technique);
     if (said.dose_mgy_cm)
         out.push_back({"Dose", oneDigit(*said.dose_mgy_cm, "mGy cm") + " (dose length product)"});
@@ -258,6 +230,14 @@ std::vector<Statement> assessmentStatements(const ReadCase& read)
         out.push_back({"Wall seen", oneDigit(*said.coverage_percent, "%")});
     if (said.reading_minutes)
         out.push_back({"Reading time", oneDigit(*said.reading_minutes, "min")});
+    return out;
+}
+
+std::vector<Statement> assessmentStatements(const ReadCase& read)
+{
+    std::vector<Statement> out = occasionStatements(read);
+    for (const auto& some : {reliabilityStatements(read), techniqueStatements(read)})
+        out.insert(out.end(), some.begin(), some.end());
     return out;
 }
 

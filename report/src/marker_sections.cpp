@@ -1,7 +1,6 @@
 // The part of Sections that is about markers.
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "row_table.h"
 #include "sections.h"
@@ -10,10 +9,6 @@
 namespace vicon::report {
 namespace {
 
-// Of a marker's pictures, in points: as high as lets two entries fill a page, within these.
-constexpr double kSmallestPictures = 165, kTallestPictures = 200;
-constexpr double kMeasuresHeight = 150, kLeastWithMeasures = 130;
-constexpr double kPictureGap = 12;
 constexpr double kDiscRadius = 4;
 
 Color inkOf(MarkerColor color)
@@ -31,7 +26,7 @@ Color inkOf(MarkerColor color)
 
 constexpr std::array<TableColumn, 7> kColumns = {{{"Marker", 0.028},
                                                   {"Scan", 0.19},
-                                                  {"Part of colon", 0.42},
+                                                  {"Segment", 0.42},
                                                   {"From rectum", 0.58},
                                                   {"From caecum", 0.71},
                                                   {"Fraction", 0.84},
@@ -106,26 +101,23 @@ void Sections::drawMarkerHead(const MarkerEntry& entry)
 void Sections::drawMarker(const MarkerEntry& entry)
 {
     const Marker& marker = entry.marker;
-    const std::string mark = isLossy(content_, marker.scan_id) ? " \u00b7 LOSSY COMPRESSION" : "";
     const StatementTable table(flow_.type, markerStatements(entry), flow_.width());
     const double note_width = flow_.width() - look::kLabelWidth;
     const std::vector<TextLine> note =
         marker.note.empty() ? std::vector<TextLine>{} : flow_.type.lines(marker.note, look::kBody, note_width);
     const double leading = leadingOf(look::kBody), head = leadingOf(look::kEntry) + 10;
     const double text = head + table.height() + double(note.size()) * leading + 5;
-    const double caption = leadingOf(look::kSmall) + 4;
-    const double pictures_height =
-        std::clamp((flow_.wholePage() - look::kGap) / 2 - text - caption, kSmallestPictures, kTallestPictures);
-    const double whole = text + pictures_height + caption;
+    const PictureBlock pictures = blockOf({{&entry, entry.scan_label + ", " + marker.id}}, &entry);
+    const double whole = text + heightOf(pictures);
     flow_.need(whole <= flow_.wholePage() ? whole : head + table.height() + 3 * leading);
 
     fillPageOf(marker.id);
-    flow_.pdf.bookmark(flow_.page(), flow_.y() + 4, "Marker " + marker.id + " (" + nameOf(marker.color) + ")");
+    flow_.pdf.bookmark(flow_.page(), flow_.y() + 4, "Marker " + marker.id + " (" + nameOf(marker.color) + ")", true);
     drawMarkerHead(entry);
     table.draw(flow_, flow_.left());
     drawNote(marker, note);
     flow_.skip(5);
-    drawMarkerPictures(entry, marker.id + mark, true, pictures_height);
+    drawPictures(pictures);
 }
 
 void Sections::drawNote(const Marker& marker, const std::vector<TextLine>& note)
@@ -141,48 +133,6 @@ void Sections::drawNote(const Marker& marker, const std::vector<TextLine>& note)
         flow_.paragraph(flow_.left() + look::kLabelWidth, flow_.width() - look::kLabelWidth, {line}, look::kBody,
                         look::kInk);
     }
-}
-
-double Sections::stripHeight(const std::vector<FramedPicture>& pictures, double tallest) const
-{
-    double aspects = 0;
-    for (const FramedPicture& framed : pictures)
-        aspects += framed.aspect();
-    return std::min(tallest, (flow_.width() - double(pictures.size() - 1) * kPictureGap) / aspects);
-}
-
-void Sections::drawStrip(const std::vector<FramedPicture>& pictures, double tallest)
-{
-    const double height = stripHeight(pictures, tallest);
-    flow_.need(height + leadingOf(look::kSmall) + 4);
-    double x = flow_.left(), used = 0;
-    for (const FramedPicture& framed : pictures) {
-        const double width = framed.aspect() * height;
-        used = std::max(used, framed.draw(flow_, x, flow_.y(), width, height));
-        x += width + kPictureGap;
-    }
-    flow_.skip(used + look::kGap);
-}
-
-void Sections::drawMarkerPictures(const MarkerEntry& entry, const std::string& of, bool measures, double tallest)
-{
-    const std::string owner = "marker " + entry.marker.id;
-    std::vector<FramedPicture> strip{
-        framed(entry.endoscopic_picture, flow_.width() / 2, "From inside, " + of, "endoscopic", owner),
-        framed(entry.slices_picture, flow_.width(), "Slices, " + of, "slice", owner)};
-    std::optional<FramedPicture> measured;
-    if (measures && !entry.measures_picture.empty())
-        measured = framed(entry.measures_picture, flow_.width(), "Measured, " + of, "measures", owner);
-    if (measured) {
-        strip.push_back(*measured);
-        if (stripHeight(strip, tallest) >= kLeastWithMeasures)
-            measured.reset();
-        else
-            strip.pop_back();
-    }
-    drawStrip(strip, tallest);
-    if (measured)
-        drawStrip({*measured}, kMeasuresHeight);
 }
 
 }  // namespace vicon::report

@@ -49,7 +49,8 @@ PageFurniture::PageFurniture(const ReportContent& content, Typesetter& type, dou
 {
     const Patient& patient = content.read.record.patient;
     const double width = page_width - 2 * look::kMargin - kStudyWidth - look::kGap;
-    name_ = shortened(type.lines(patientName(patient.name), kName, width), kMostNameLines, type.line(" \u2026", kName));
+    name_ = shortened(type.lines(printedPatientName(patient.name), kName, width), kMostNameLines,
+                      type.line(" \u2026", kName));
     const std::string sex = sexWords(patient.sex);
     details_ = type.lines("ID " + orNone(patient.id, "not given") + "  \u00b7  born " +
                               orNone(printedDate(patient.birth_date), "(date not given)") +

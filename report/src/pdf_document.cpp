@@ -6,6 +6,7 @@
 #include "haru.h"
 #include "pdf_objects.h"
 #include "pdf_text.h"
+#include "ready_picture.h"
 #include "vicon/core/error.h"
 
 namespace vicon::report {
@@ -17,6 +18,7 @@ constexpr Color kRimColor{0.25F, 0.25F, 0.25F};
 void setInfo(HPDF_Doc document, const PdfInfo& info)
 {
     HPDF_SetInfoAttr(document, HPDF_INFO_TITLE, info.title.c_str());
+    HPDF_SetInfoAttr(document, HPDF_INFO_SUBJECT, info.subject.c_str());
     HPDF_SetInfoAttr(document, HPDF_INFO_CREATOR, info.creator.c_str());
     HPDF_Date date{};
     if (std::sscanf(info.created_utc.c_str(), "%4d-%2d-%2dT%2d:%2d:%2dZ", &date.year, &date.month, &date.day,
@@ -38,6 +40,7 @@ struct PdfDocument::State {
     PdfText text;
     std::vector<HPDF_Page> pages;
     std::vector<HPDF_Image> pictures;
+    HPDF_Outline section = nullptr;                               ///< the last one below none
     std::vector<std::future<std::vector<std::uint8_t>>> streams;  ///< of the pictures, packed while pages are drawn
 };
 
@@ -95,6 +98,19 @@ void PdfDocument::line(int page, double x0, double y0, double x1, double y1, dou
     state_->check();
 }
 
+void PdfDocument::polygon(int page, const std::vector<Corner>& corners, Color color)
+{
+    if (corners.empty())
+        return;
+    HPDF_Page target = state_->page(page);
+    HPDF_Page_SetRGBFill(target, color.red, color.green, color.blue);
+    HPDF_Page_MoveTo(target, float(corners.front().x), float(corners.front().y));
+    for (const Corner& corner : corners)
+        HPDF_Page_LineTo(target, float(corner.x), float(corner.y));
+    HPDF_Page_Fill(target);
+    state_->check();
+}
+
 void PdfDocument::disc(int page, double x, double y, double radius, Color color)
 {
     HPDF_Page target = state_->page(page);
@@ -115,6 +131,16 @@ int PdfDocument::addPicture(Picture picture)
     return int(state_->pictures.size()) - 1;
 }
 
+int PdfDocument::addPicture(const PrintPictures::Ready& picture)
+{
+    state_->pictures.push_back(addImage(state_->haru.document(), picture.width, picture.height, picture.channels));
+    state_->check();
+    std::promise<std::vector<std::uint8_t>> packed;
+    packed.set_value(picture.stream);
+    state_->streams.push_back(packed.get_future());
+    return int(state_->pictures.size()) - 1;
+}
+
 void PdfDocument::draw(int page, int picture, Box box)
 {
     HPDF_Page_DrawImage(state_->page(page), state_->pictures.at(std::size_t(picture)), float(box.x), float(box.y),
@@ -122,9 +148,12 @@ void PdfDocument::draw(int page, int picture, Box box)
     state_->check();
 }
 
-void PdfDocument::bookmark(int page, double y, const std::string& title)
+void PdfDocument::bookmark(int page, double y, const std::string& title, bool below)
 {
-    HPDF_Outline entry = HPDF_CreateOutline(state_->haru.document(), nullptr, title.c_str(), nullptr);
+    HPDF_Outline entry =
+        HPDF_CreateOutline(state_->haru.document(), below ? state_->section : nullptr, title.c_str(), nullptr);
+    if (!below)
+        state_->section = entry;
     HPDF_Destination target = HPDF_Page_CreateDestination(state_->page(page));
     state_->check();
     HPDF_Destination_SetFitH(target, float(y));

@@ -20,6 +20,12 @@ PageFlow::Paper paperOf(const std::string& name)
     return {.width = kA4Width, .height = kA4Height};
 }
 
+/// What the file says of itself; nothing of the patient.
+std::string subjectOf(const std::optional<ReportVersion>& version)
+{
+    return version ? nameOf(version->state) + ", version " + std::to_string(version->version) : "draft";
+}
+
 std::string missingWords(char32_t c)
 {
     if (c == Typesetter::kInvalidUtf8)
@@ -32,20 +38,22 @@ std::string missingWords(char32_t c)
 
 }  // namespace
 
-PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pdf, const ReportOptions& options)
+PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pdf, const ReportOptions& options,
+                   const PrintPictures* begun)
 {
     text::FontSet fonts({options.font_folder}, text::FontSet::Medium::paper);
     if (!fonts.find(U'A'))
         throw Error(ErrorCode::not_found, "no font for the report is installed here", options.font_folder,
                     "install the packages fonts-noto-core and fonts-dejavu-core, or set report.font_folder");
     Typesetter typesetter(fonts);
-    PdfDocument document(fonts, {"CT colonography report", "VICON " + content.software_version, content.created});
+    PdfDocument document(fonts, {"CT colonography report", subjectOf(content.version),
+                                 "VICON " + content.software_version, content.created});
     PageFlow::Paper paper = paperOf(options.paper);
     const PageFurniture furniture(content, typesetter, paper.width);
     paper.top = furniture.topHeight();
     paper.bottom = furniture.bottomHeight();
     PageFlow flow(document, typesetter, paper);
-    Sections sections(content, flow);
+    Sections sections(content, {options.site, options.logo}, flow, begun);
     sections.draw();
     for (int page = 0; page < document.pages(); ++page)
         furniture.draw(document, typesetter, page, paper.height);

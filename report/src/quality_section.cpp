@@ -1,92 +1,213 @@
-// The part of Sections that is about quality: how far open and how wet each part of the colon is, position beside
+// The part of Sections that is about quality: how far open and how wet each part of the colon is, position below
 // position.
 #include <algorithm>
-#include <array>
 
 #include "quality_table.h"
 #include "sections.h"
+#include "strip_chart.h"
+#include "vicon/report/wording.h"
 
 namespace vicon::report {
 namespace {
 
-// Widths in points.
-constexpr double kPartWidth = 80, kScanGap = 8;
-struct QualityColumn {
-    const char* title;
-    double width;
-};
-constexpr std::array<QualityColumn, 4> kColumns = {
-    {{"Radius", 44}, {"Fluid", 64}, {"Collapsed", 62}, {"Adequate", 36}}};
-constexpr std::size_t kScansBeside = 2;  // as many as a page's width holds
+// Of the table, with a column for each part: points.
+constexpr double kLabelWidth = 52, kLastWidth = 60, kCellGap = 3, kRowGap = 0.8;
+const TextStyle kCell{7.5, false}, kCellBold{7.5, true};
+constexpr std::size_t kParts = std::size_t(ColonPart::caecum) + 1;
 
-double scanLeft(const PageFlow& flow, std::size_t n)
+// Of the colons laid straight: as much as the page has, within these. Points, from the middle to the largest radius.
+constexpr double kLeastHalf = 9, kMostHalf = 30, kBelowStrips = 6;
+constexpr double kBelowHead = 5;  ///< of the table
+
+/// What the numbers and colours of the chart mean.
+std::string stripLegend(const std::vector<const ScanEntry*>& scans, bool marked)
 {
-    double width = kScanGap;
-    for (const QualityColumn& column : kColumns)
-        width += column.width;
-    return flow.left() + kPartWidth + double(n) * width;
+    std::string out = "The colon laid straight, as wide as the disc of its cross-section. Blue: tagged fluid.";
+    for (const ScanEntry* entry : scans)
+        if (!entry->quality->along.collapsed.empty()) {
+            out += " Red: collapsed, under " +
+                   millimetres(entry->quality->thresholds.value("quality.collapsed_radius_mm", 0.0), 1) + " of radius.";
+            break;
+        }
+    return out + (marked ? " Numbers: findings." : "");
 }
 
 }  // namespace
 
-void Sections::drawQuality()
+std::vector<const ScanEntry*> Sections::measuredScans() const
 {
     std::vector<const ScanEntry*> measured;
     for (const ScanEntry& entry : content_.scans)
         if (!qualityRows({&entry}).empty())
             measured.push_back(&entry);
-    for (std::size_t n = 0; n < measured.size(); n += kScansBeside)
-        drawQualityOf(
-            {measured.begin() + long(n), measured.begin() + long(std::min(n + kScansBeside, measured.size()))});
+    return measured;
 }
 
-void Sections::drawQualityOf(const std::vector<const ScanEntry*>& scans)
+void Sections::drawQuality()
 {
-    const std::vector<QualityRow> rows = qualityRows(scans);
-    const double row_height = leadingOf(look::kBody) + 1;
-    drawSection(flow_, "Distension and fluid", double(rows.size() + 3) * row_height);
-    drawQualityHead(scans);
-    for (const QualityRow& row : rows) {
-        const TextStyle style = &row == &rows.back() ? look::kBold : look::kBody;
-        flow_.put(flow_.left(), flow_.y(), flow_.type.line(row.part, style), look::kInk);
-        for (std::size_t n = 0; n < row.scans.size(); ++n) {
-            double x = scanLeft(flow_, n);
-            const auto put = [&](std::size_t column, const std::string& text, Color ink) {
-                flow_.put(x, flow_.y(), flow_.type.line(text, style), ink);
-                x += kColumns[column].width;
-            };
-            if (!row.scans[n]) {
-                put(0, "not found", look::kMuted);
-                continue;
-            }
-            put(0, row.scans[n]->radius, look::kInk);
-            put(1, row.scans[n]->fluid, look::kInk);
-            put(2, row.scans[n]->collapsed, look::kInk);
-            put(3, row.scans[n]->adequate ? "yes" : "NO", row.scans[n]->adequate ? look::kInk : look::kNoticeInk);
+    const std::vector<const ScanEntry*> measured = measuredScans();
+    if (!drawStrips() && !measured.empty())
+        drawSection(flow_, "Distension and fluid", partHeadHeight() + scanRowsHeight(*measured.front()));
+    if (measured.empty())
+        return;
+    flow_.need(partHeadHeight() + scanRowsHeight(*measured.front()));
+    drawPartHead();
+    for (const ScanEntry* entry : measured)
+        drawScanRows(*entry);
+    flow_.skip(look::kGap / 2);
+}
+
+StripColon Sections::stripOf(const ScanEntry& entry) const
+{
+    StripColon colon{.title = scanTitle(entry),
+                     .about = scansToldInStrips() ? briefStatement(entry).text : "",
+                     .along = entry.quality->along,
+                     .parts = entry.parts,
+                     .length_mm = entry.skeleton_length_mm,
+                     .marks = {}};
+    for (const FindingWithFacts& f : content_.read.findings)
+        for (const FindingSight& sight : f.facts.sights)
+            if (sight.scan_id == entry.scan.id)
+                colon.marks.push_back({std::to_string(f.finding.number()), sight.station_mm});
+    return colon;
+}
+
+bool Sections::scansToldInStrips() const
+{
+    return isQuiet() && stripScans().size() == content_.scans.size() &&
+           std::all_of(content_.scans.begin(), content_.scans.end(), isPlain);
+}
+
+std::vector<const ScanEntry*> Sections::stripScans() const
+{
+    std::vector<const ScanEntry*> out;
+    for (const ScanEntry& entry : content_.scans)
+        if (entry.quality && !entry.quality->along.radius_mm.empty() && entry.skeleton_length_mm > 0)
+            out.push_back(&entry);
+    return out;
+}
+
+std::vector<StripColon> Sections::strips() const
+{
+    std::vector<StripColon> colons;
+    for (const ScanEntry* entry : stripScans())
+        colons.push_back(stripOf(*entry));
+    return colons;
+}
+
+double Sections::qualityHeight() const
+{
+    const std::vector<StripColon> colons = strips();
+    double height = leadingOf(look::kSection) + 8 + partHeadHeight() + look::kGap;
+    if (!colons.empty())
+        height += leadingOf(look::kSmall) * 2 + kBelowStrips +
+                  StripChart(flow_.type, colons, flow_.width(), kLeastHalf + 4).height();
+    for (const ScanEntry* entry : measuredScans())
+        height += scanRowsHeight(*entry);
+    return height;
+}
+
+bool Sections::drawStrips()
+{
+    const std::vector<StripColon> colons = strips();
+    if (colons.empty())
+        return false;
+    const auto legend =
+        flow_.type.lines(stripLegend(stripScans(), !content_.read.findings.empty()), look::kSmall, flow_.width());
+    const double words = double(legend.size()) * leadingOf(look::kSmall);
+    const double least = StripChart(flow_.type, colons, flow_.width(), kLeastHalf).height();
+    constexpr double kSlack = 2;  // sums in another order differ in their last digit
+    const double spare =
+        flow_.room() - leadingOf(look::kSection) - 8 - words - kBelowStrips - least - tailHeight() - kSlack;
+    const double half = spare < 0 && !isQuiet()
+                            ? kMostHalf
+                            : std::clamp(kLeastHalf + spare / (2 * double(colons.size())), kLeastHalf, kMostHalf);
+    const StripChart chart(flow_.type, colons, flow_.width(), half);
+    drawSection(flow_, "Distension and fluid along the colon", words + chart.height());
+    flow_.paragraph(flow_.left(), flow_.width(), legend, look::kSmall, look::kMuted);
+    chart.draw(flow_);
+    flow_.skip(kBelowStrips);
+    return true;
+}
+
+/// What follows the chart on its page: where nothing was found, the whole rest.
+double Sections::tailHeight() const
+{
+    double height = partHeadHeight() + look::kGap / 2;
+    if (isQuiet())
+        height += leadingOf(look::kBold) + (scansToldInStrips() ? 0 : briefScansHeight());
+    for (const ScanEntry* entry : measuredScans())
+        height += scanRowsHeight(*entry);
+    return height;
+}
+
+double Sections::partColumn(std::size_t n) const
+{
+    return flow_.left() + kLabelWidth + double(n) * (flow_.width() - kLabelWidth - kLastWidth) / double(kParts);
+}
+
+double Sections::partHeadHeight()
+{
+    return 2 * leadingOf(kCell) + kBelowHead;  // the flexures take two lines
+}
+
+void Sections::drawPartHead()
+{
+    for (std::size_t n = 0; n <= kParts; ++n) {
+        const std::string name = n < kParts ? nameOf(ColonPart(n)) : "whole colon";
+        const double width = (n < kParts ? partColumn(n + 1) : flow_.left() + flow_.width()) - partColumn(n) - kCellGap;
+        const auto lines = flow_.type.lines(name, kCell, width);
+        double y = flow_.y() - double(2 - std::min<std::size_t>(2, lines.size())) * leadingOf(kCell);
+        for (const TextLine& line : lines) {
+            flow_.put(partColumn(n), y, line, look::kMuted);
+            y -= leadingOf(kCell);
+        }
+    }
+    flow_.skip(2 * leadingOf(kCell) + 2);  // then the rule
+    flow_.pdf.line(flow_.page(), flow_.left(), flow_.y(), flow_.left() + flow_.width(), flow_.y(), look::kThinLine,
+                   look::kRule);
+    flow_.skip(kBelowHead - 2);
+}
+
+double Sections::scanRowsHeight(const ScanEntry& entry) const
+{
+    constexpr double kWithTitle = 3;  // title, radius, fluid
+    return (kWithTitle + (isOpen(entry) ? 0 : 2)) * (leadingOf(kCell) + kRowGap) + 2;
+}
+
+bool Sections::isOpen(const ScanEntry& entry)
+{
+    return entry.quality && entry.quality->whole.adequate && entry.quality->whole.collapsed_mm <= 0;
+}
+
+void Sections::drawScanRows(const ScanEntry& entry)
+{
+    const double row_height = leadingOf(kCell) + kRowGap;
+    flow_.need(scanRowsHeight(entry));
+    flow_.put(flow_.left(), flow_.y(), flow_.type.line(scanTitle(entry), kCellBold), look::kAccent);
+    flow_.skip(row_height);
+    const std::vector<QualityRow> rows = qualityRows({&entry});
+    const auto drawRow = [&](const char* label, auto&& cellOf) {
+        flow_.put(flow_.left(), flow_.y(), flow_.type.line(label, kCell), look::kMuted);
+        for (std::size_t n = 0; n <= kParts; ++n) {
+            const std::string part = n < kParts ? nameOf(ColonPart(n)) : rows.back().part;
+            const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.part == part; });
+            const bool found = row != rows.end() && row->scans[0];
+            const std::string text = found ? cellOf(*row->scans[0]) : "not found";
+            flow_.put(partColumn(n), flow_.y(), flow_.type.line(text, n < kParts ? kCell : kCellBold),
+                      !found         ? look::kMuted
+                      : text == "NO" ? look::kNoticeInk
+                                     : look::kInk);
         }
         flow_.skip(row_height);
+    };
+    drawRow("Radius", [](const QualityTexts& texts) { return texts.radius; });
+    drawRow("Fluid", [](const QualityTexts& texts) { return texts.fluid; });
+    if (!isOpen(entry)) {
+        drawRow("Collapsed", [](const QualityTexts& texts) { return texts.collapsed; });
+        drawRow("Adequate", [](const QualityTexts& texts) { return std::string(texts.adequate ? "yes" : "NO"); });
     }
-    flow_.skip(look::kGap);
-}
-
-void Sections::drawQualityHead(const std::vector<const ScanEntry*>& scans)
-{
-    if (scans.size() > 1) {
-        for (std::size_t n = 0; n < scans.size(); ++n)
-            flow_.put(scanLeft(flow_, n), flow_.y(), flow_.type.line(scanTitle(*scans[n]), look::kBold), look::kAccent);
-        flow_.skip(leadingOf(look::kBold) + 2);
-    }
-    for (std::size_t n = 0; n < scans.size(); ++n) {
-        double x = scanLeft(flow_, n);
-        for (const QualityColumn& column : kColumns) {
-            flow_.put(x, flow_.y(), flow_.type.line(column.title, look::kSmall), look::kMuted);
-            x += column.width;
-        }
-    }
-    flow_.skip(leadingOf(look::kSmall) + 2);
-    flow_.pdf.line(flow_.page(), flow_.left(), flow_.y(), scanLeft(flow_, scans.size()) - kScanGap, flow_.y(),
-                   look::kThinLine, look::kRule);
-    flow_.skip(3);
+    flow_.skip(2);
 }
 
 }  // namespace vicon::report

@@ -16,9 +16,9 @@ std::string whole(double value, const char* unit)
     return text.data();
 }
 
-QualityCells cellsOf(const StretchQuality& q)
+QualityTexts textsOf(const StretchQuality& q)
 {
-    QualityCells out;
+    QualityTexts out;
     out.radius = whole(q.median_radius_mm, "mm");
     out.fluid = whole(q.fluid_ml, "ml") + ", " + percent(q.fluidFraction(), 0);
     out.collapsed = q.collapsed_mm > 0 ? whole(q.collapsed_mm, "mm") + ", " + percent(q.collapsed_fraction, 0) : "none";
@@ -30,7 +30,7 @@ QualityRow& rowOf(std::vector<QualityRow>& rows, const std::string& part, std::s
 {
     auto found = std::find_if(rows.begin(), rows.end(), [&](const QualityRow& row) { return row.part == part; });
     if (found == rows.end())
-        found = rows.insert(rows.end(), {part, std::vector<std::optional<QualityCells>>(scans)});
+        found = rows.insert(rows.end(), {part, std::vector<std::optional<QualityTexts>>(scans)});
     return *found;
 }
 
@@ -39,14 +39,14 @@ QualityRow& rowOf(std::vector<QualityRow>& rows, const std::string& part, std::s
 std::vector<QualityRow> qualityRows(const std::vector<const ScanEntry*>& scans)
 {
     std::vector<QualityRow> rows;
-    QualityRow total{"whole colon", std::vector<std::optional<QualityCells>>(scans.size())};
+    QualityRow total{"whole colon", std::vector<std::optional<QualityTexts>>(scans.size())};
     for (std::size_t n = 0; n < scans.size(); ++n) {
         const auto& quality = scans[n]->quality;
         if (!quality || quality->parts.empty())
             continue;
-        total.scans[n] = cellsOf(quality->whole);
+        total.scans[n] = textsOf(quality->whole);
         for (const StretchQuality& part : quality->parts)
-            rowOf(rows, part.part ? nameOf(*part.part) : "", scans.size()).scans[n] = cellsOf(part);
+            rowOf(rows, part.part ? nameOf(*part.part) : "", scans.size()).scans[n] = textsOf(part);
     }
     if (!rows.empty())
         rows.push_back(std::move(total));

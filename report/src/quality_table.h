@@ -9,7 +9,7 @@
 namespace vicon::report {
 
 /// What the table of quality says of one part of the colon in one scan.
-struct QualityCells {
+struct QualityTexts {
     std::string radius;     ///< "25 mm", the median
     std::string fluid;      ///< "146 ml, 31 %"
     std::string collapsed;  ///< "14 mm, 3 %" or "none"
@@ -20,7 +20,7 @@ struct QualityCells {
 /// shown by the other.
 struct QualityRow {
     std::string part;
-    std::vector<std::optional<QualityCells>> scans;  ///< as many as were asked for, in their order
+    std::vector<std::optional<QualityTexts>> scans;  ///< as many as were asked for, in their order
 };
 
 /// The parts in the order in which the scans name them, then "whole colon"; nothing when no scan measures its parts.

@@ -7,7 +7,7 @@ namespace vicon::report {
 
 std::string qualityWords(const ScanQuality& quality)
 {
-    std::string out = quality.whole.adequate ? "adequate" : "NOT ADEQUATE";
+    std::string out = quality.whole.adequate ? "adequate" : "not adequate";
     if (!quality.reason.empty())
         out += ": " + quality.reason;
     std::array<char, 48> noise{};

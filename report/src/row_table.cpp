@@ -3,7 +3,7 @@
 namespace vicon::report {
 namespace {
 
-constexpr double kRowGap_pt = 2.5, kCellGap_pt = 4;
+constexpr double kRowGap_pt = 2.5, kCellGap_pt = 4, kBelowRule_pt = 3;
 
 }  // namespace
 
@@ -18,6 +18,16 @@ TextLine cutTo(Typesetter& type, const std::string& text, TextStyle style, doubl
     return cut;
 }
 
+double RowTable::headHeight()
+{
+    return leadingOf(look::kSmall) + 2 + kBelowRule_pt;
+}
+
+double RowTable::rowHeight()
+{
+    return leadingOf(look::kBody) + kRowGap_pt;
+}
+
 void RowTable::drawHead()
 {
     for (std::size_t n = 0; n < columns_.size(); ++n)
@@ -25,12 +35,12 @@ void RowTable::drawHead()
     flow_.skip(leadingOf(look::kSmall) + 2);
     flow_.pdf.line(flow_.page(), flow_.left(), flow_.y(), flow_.left() + flow_.width(), flow_.y(), look::kThinLine,
                    look::kRule);
-    flow_.skip(3);
+    flow_.skip(kBelowRule_pt);
 }
 
 void RowTable::beginRow()
 {
-    if (leadingOf(look::kBody) + kRowGap_pt <= flow_.room())
+    if (rowHeight() <= flow_.room())
         return;
     flow_.newPage();
     drawHead();
@@ -41,7 +51,7 @@ void RowTable::drawRow(const std::vector<std::string>& cells)
     for (std::size_t n = 0; n < cells.size(); ++n)
         flow_.put(left(n), flow_.y(), cutTo(flow_.type, cells[n], look::kBody, right(n) - left(n) - kCellGap_pt),
                   look::kInk);
-    flow_.skip(leadingOf(look::kBody) + kRowGap_pt);
+    flow_.skip(rowHeight());
 }
 
 }  // namespace vicon::report

@@ -22,6 +22,8 @@ class RowTable {
 public:
     RowTable(PageFlow& flow, std::span<const TableColumn> columns) : flow_(flow), columns_(columns) {}
 
+    static double headHeight();
+    static double rowHeight();
     void drawHead();
     /// Starts a page where none of this one is left.
     void beginRow();

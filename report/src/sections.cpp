@@ -8,13 +8,7 @@
 namespace vicon::report {
 namespace {
 
-// Of the map, an overview for each scan: points.
-constexpr double kSmallestMap = 120, kTallestMap = 235, kWidestOverview = 246;
-constexpr double kTallestQuietMap = 105, kWidestQuietMap = 122, kMapGap = 8;  // where nothing was found
-constexpr std::size_t kMapsBeside = 3, kQuietMaps = 2;                        // in a row
-constexpr double kColumnGap = 18, kScanLabelWidth = 150;
-
-constexpr const char* kLossyMark = "\nLOSSY COMPRESSION";
+constexpr double kScanLabelWidth = 150;
 
 }  // namespace
 
@@ -23,134 +17,56 @@ void Sections::draw()
     drawTitle();
     drawCase();
     drawImpression();
-    if (!drawQuietStudy()) {
+    bool study_told = drawMapBesideFacts();
+    if (!study_told)
         drawMap();
+    if (!study_told || !isQuiet())
         drawFindingTable();
-        // Page one is for who referred the patient; what follows is for who looks closer.
-        if (!content_.markers.empty() && flow_.page() == 0)
-            flow_.startPage();
-        for (const FindingWithFacts& finding : content_.read.findings)
-            drawFinding(finding);
-        drawMarkers();
+    drawComparison();
+    if (!study_told && studyHeight() <= flow_.room() && flow_.page() == 0) {
         drawStudy();
+        study_told = true;
     }
-    drawQuality();
-    drawScans();
+    // Page one has it too where that leaves the room: then nothing follows findings but what is technical.
+    bool quality_told = !isQuiet() && flow_.page() == 0 && study_told && qualityHeight() <= flow_.room();
+    if (quality_told)
+        drawQuality();
+    // Page one is for who referred the patient; what follows is for who looks closer.
+    if (!content_.markers.empty() && flow_.page() == 0)
+        flow_.startPage();
+    if (!content_.read.findings.empty())
+        flow_.pdf.bookmark(flow_.page(), flow_.y() + 4, "Findings, one by one");
+    for (const FindingWithFacts& finding : content_.read.findings)
+        drawFinding(finding);
+    drawMarkers();
+    if (!study_told)
+        drawStudy();
+    if (!quality_told)
+        drawQuality();
+    if (!scansToldInStrips())
+        drawScans();
     drawSignature();
 }
 
-void Sections::drawTitle()
+bool Sections::isQuiet() const
 {
-    flow_.put(flow_.left(), flow_.y(), flow_.type.line("CT colonography report", look::kTitle), look::kAccent);
-    flow_.skip(leadingOf(look::kTitle));
-    const std::string made = content_.version
-                                 ? stateWords(content_.version)
-                                 : "Draft " + std::to_string(content_.number) +
-                                       " of this study's report, "
-                                       "made on " +
-                                       utcWords(content_.created) + " with VICON " + content_.software_version;
-    flow_.put(flow_.left(), flow_.y(), flow_.type.line(made, look::kBody), look::kMuted);
-    flow_.skip(leadingOf(look::kBody) + 10);
-    drawNotice(flow_, content_.read.record.flags);
-    if (!content_.read.record.flags.empty())
-        flow_.skip(look::kGap / 2);
+    return content_.read.findings.empty() && content_.markers.empty() && content_.read.loose_markers.empty();
 }
 
-void Sections::drawCase()
+double Sections::studyHeight() const
 {
-    const double column = (flow_.width() - kColumnGap) / 2;
-    const StatementTable patient(flow_.type, patientStatements(content_.read.record), column, look::kNarrowLabelWidth);
-    const StatementTable study(flow_.type, studyStatements(content_.read.record), column, look::kNarrowLabelWidth);
-    const double heading = leadingOf(look::kEntry) + 2;
-    const double height = heading + std::max(patient.height(), study.height());
-    if (height > flow_.wholePage()) {  // texts of several pages: below each other
-        patient.draw(flow_, flow_.left());
-        study.draw(flow_, flow_.left());
-        return;
-    }
-    flow_.need(height);
-    const auto drawColumn = [&](const char* title, const StatementTable& table, double x) {
-        flow_.put(x, flow_.y(), flow_.type.line(title, look::kEntry), look::kInk);
-        flow_.skip(heading);
-        table.draw(flow_, x);
-        flow_.skip(-heading - table.height());
-    };
-    drawColumn("Patient", patient, flow_.left());
-    drawColumn("Study", study, flow_.left() + column + kColumnGap);
-    flow_.skip(height + look::kGap);
+    const double heading = leadingOf(look::kSection) + 8;
+    return 2 * (heading + look::kGap) +
+           StatementTable(flow_.type, extracolonicStatements(content_.read), flow_.width()).height() +
+           StatementTable(flow_.type, examinationStatements(), flow_.width()).height();
 }
 
-FramedPicture Sections::overviewOf(const ScanEntry& entry)
+std::vector<Statement> Sections::examinationStatements() const
 {
-    return framed(entry.overview_picture, kWidestOverview,
-                  scanTitle(entry) + (entry.scan.series.lossy ? kLossyMark : ", from the front"), "overview",
-                  "scan " + entry.scan.id);
-}
-
-void Sections::drawImpression()
-{
-    const ReadCase& read = content_.read;
-    std::vector<Statement> said{{"Impression", impressionText(read)}};
-    for (Statement& statement : categoryStatements(read))
+    std::vector<Statement> said = reliabilityStatements(content_.read);
+    for (Statement& statement : techniqueStatements(content_.read))
         said.push_back(std::move(statement));
-    said.push_back({"Recommended", recommendationText(read)});
-    if (const std::string amends = amendmentWords(content_.version); !amends.empty())
-        said.push_back({"Amendment", amends});
-    const StatementTable table(flow_.type, said, flow_.width());
-    drawSection(flow_, "Impression", std::min(table.height(), flow_.wholePage() / 2));
-    table.draw(flow_, flow_.left());
-    flow_.skip(look::kGap);
-}
-
-void Sections::drawMap()
-{
-    if (content_.scans.empty()) {
-        flow_.paragraph(flow_.left(), flow_.width(), {flow_.type.line("This case has no scan.", look::kBody)},
-                        look::kBody, look::kInk);
-        flow_.skip(look::kGap);
-        return;
-    }
-    const double captions = 2 * leadingOf(look::kSmall) + 8;
-    const std::size_t beside = std::min(content_.scans.size(), kMapsBeside);
-    const double column = (flow_.width() - double(beside - 1) * kColumnGap) / double(beside);
-    for (std::size_t n = 0; n < content_.scans.size(); n += beside) {
-        flow_.need(kSmallestMap + captions);
-        const double height = std::clamp(flow_.room() - captions, kSmallestMap, kTallestMap);
-        double used = 0;
-        for (std::size_t k = n; k < std::min(n + beside, content_.scans.size()); ++k)
-            used = std::max(used, overviewOf(content_.scans[k])
-                                      .draw(flow_, flow_.left() + double(k - n) * (column + kColumnGap), flow_.y(),
-                                            column, height));
-        flow_.skip(used + look::kGap / 2);
-    }
-}
-
-bool Sections::drawQuietStudy()
-{
-    if (!content_.read.findings.empty() || !content_.markers.empty() || !content_.read.loose_markers.empty() ||
-        content_.scans.empty() || content_.scans.size() > kQuietMaps)
-        return false;
-    std::vector<Statement> said{{"In the colon", kNoFindings}};
-    for (Statement& statement : extracolonicStatements(content_.read))
-        said.push_back({"Outside", (statement.label == "None" ? "" : statement.label + ", ") + statement.text});
-    for (Statement& statement : assessmentStatements(content_.read))
-        said.push_back(std::move(statement));
-    const double column = (flow_.width() - kColumnGap) / 2, maps = double(content_.scans.size());
-    const double map_width = std::min((column - (maps - 1) * kMapGap) / maps, kWidestQuietMap);
-    const StatementTable table(flow_.type, said, column, look::kNarrowLabelWidth);
-    const double captions = 3 * leadingOf(look::kSmall) + 4, heading = leadingOf(look::kSection) + 8;
-    if (heading + std::max(table.height(), kSmallestMap + captions) > flow_.room())
-        return false;
-    drawSection(flow_, "Findings", table.height());
-    const double top = flow_.y();
-    double used = table.height();
-    for (std::size_t n = 0; n < content_.scans.size(); ++n)
-        used = std::max(
-            used, overviewOf(content_.scans[n])
-                      .draw(flow_, flow_.left() + double(n) * (map_width + kMapGap), top, map_width, kTallestQuietMap));
-    table.draw(flow_, flow_.left() + column + kColumnGap);
-    flow_.skip(used - table.height() + look::kGap / 2);
-    return true;
+    return said;
 }
 
 void Sections::drawStudy()
@@ -162,15 +78,29 @@ void Sections::drawStudy()
         flow_.skip(look::kGap);
     };
     drawTable("Outside the colon", extracolonicStatements(content_.read));
-    drawTable("Study", assessmentStatements(content_.read));
+    drawTable("Examination", examinationStatements());
+}
+
+std::vector<Statement> Sections::briefScans() const
+{
+    std::vector<Statement> said;
+    if (std::all_of(content_.scans.begin(), content_.scans.end(), isPlain))
+        for (const ScanEntry& entry : content_.scans)
+            said.push_back(briefStatement(entry));
+    return said;
+}
+
+double Sections::briefScansHeight() const
+{
+    const std::vector<Statement> said = briefScans();
+    return said.empty() ? 0
+                        : leadingOf(look::kSection) + 8 + look::kGap / 2 +
+                              StatementTable(flow_.type, said, flow_.width(), kScanLabelWidth).height();
 }
 
 void Sections::drawScans()
 {
-    if (std::all_of(content_.scans.begin(), content_.scans.end(), isPlain) && !content_.scans.empty()) {
-        std::vector<Statement> said;
-        for (const ScanEntry& entry : content_.scans)
-            said.push_back(briefStatement(entry));
+    if (const std::vector<Statement> said = briefScans(); !said.empty()) {
         const StatementTable table(flow_.type, said, flow_.width(), kScanLabelWidth);
         drawSection(flow_, "Scans", table.height());
         table.draw(flow_, flow_.left());
@@ -197,6 +127,8 @@ void Sections::drawScans()
         }
         flow_.need(heading + height);
         const double top = flow_.y();
+        if (n == 0)
+            flow_.pdf.bookmark(flow_.page(), top + 4, "Scans");
         for (std::size_t k = n; k < end; ++k) {
             const double x = flow_.left() + double(k - n) * (column + kColumnGap);
             flow_.put(x, top, flow_.type.line(scanTitle(content_.scans[k]), look::kEntry), look::kAccent);

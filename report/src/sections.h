@@ -5,39 +5,99 @@
 #include <vector>
 
 #include "blocks.h"
+#include "strip_chart.h"
 #include "vicon/report/content.h"
 
 namespace vicon::report {
 
+/// Whose reports they are.
+struct Site {
+    std::vector<std::string> name_lines;  ///< name and address
+    std::filesystem::path logo;           ///< PNG; empty: none
+};
+
+/// A marker whose pictures are shown.
+struct ShownMarker {
+    const MarkerEntry* entry = nullptr;
+    std::string head;  ///< which scan, which marker
+};
+
+/// Pictures side by side.
+struct PictureStrip {
+    std::vector<FramedPicture> pictures;
+    double tallest = 0;  ///< points
+};
+
+/// Pictures of a place, strip below strip; of two places, each its half of the width.
+struct PictureBlock {
+    std::vector<std::string> heads;
+    std::vector<PictureStrip> strips;
+};
+
 /// The parts of a report, drawn one after the other.
 class Sections {
 public:
-    Sections(const ReportContent& content, PageFlow& flow) : content_(content), flow_(flow), shelf_(flow.pdf) {}
+    Sections(const ReportContent& content, Site site, PageFlow& flow, const PrintPictures* begun)
+        : content_(content), site_(std::move(site)), flow_(flow), shelf_(flow.pdf, begun)
+    {
+    }
 
     void draw();
     /// What could not be printed as it is.
     const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
+    static constexpr double kColumnGap = 18;  ///< points
+
+    /// With the site's name and logo, where the configuration has them.
     void drawTitle();
+    double drawSite(double width);
     void drawCase();
     void drawImpression();
-    /// Map and study beside each other, where nothing was found; false, and nothing drawn, where something was or they
-    /// do not fit.
-    bool drawQuietStudy();
+    /// Whether there is nothing in the colon to be told.
+    bool isQuiet() const;
+    /// What is said of the study beside the map, where that leaves the room; false, and nothing drawn, where it does
+    /// not.
+    bool drawMapBesideFacts();
+    /// @param of_colon with what is said of the colon
+    std::vector<Statement> studyFacts(bool of_colon) const;
+    std::vector<Statement> examinationStatements() const;
     void drawMap();
+    double findingTableHeight() const;
     void drawFindingTable();
+    /// With earlier reports, where the reader confirmed any.
+    void drawComparison();
     void drawFinding(const FindingWithFacts& finding);
     void drawFindingHead(const FindingWithFacts& finding);
-    void drawSights(const FindingWithFacts& finding);
+    /// The pictures of its sights that the reader chose, two scans side by side.
+    std::vector<PictureBlock> sightsOf(const FindingWithFacts& finding);
     void drawStudy();
+    double studyHeight() const;
     void drawScans();
     void drawSignature();
     /// The markers of no finding.
     std::vector<const MarkerEntry*> looseMarkers() const;
     void drawQuality();
-    void drawQualityOf(const std::vector<const ScanEntry*>& scans);
-    void drawQualityHead(const std::vector<const ScanEntry*>& scans);
+    double qualityHeight() const;
+    /// The colons laid straight; false where no scan has one.
+    bool drawStrips();
+    /// Whether what is to be said of the scans stands with their strips: that is little, and nothing was found.
+    bool scansToldInStrips() const;
+    std::vector<const ScanEntry*> stripScans() const;
+    std::vector<StripColon> strips() const;
+    StripColon stripOf(const ScanEntry& entry) const;
+    std::vector<const ScanEntry*> measuredScans() const;
+    double tailHeight() const;
+    double partColumn(std::size_t n) const;
+    static double partHeadHeight();
+    void drawPartHead();
+    /// Whether no part of it is collapsed anywhere.
+    static bool isOpen(const ScanEntry& entry);
+    double scanRowsHeight(const ScanEntry& entry) const;
+    void drawScanRows(const ScanEntry& entry);
+    /// Of the scans in a line each; 0 where there is more to be said of one.
+    double briefScansHeight() const;
+    std::vector<Statement> briefScans() const;
     FramedPicture overviewOf(const ScanEntry& entry);
     void drawMarkers();
     void drawMarkerTable(const std::vector<const MarkerEntry*>& markers);
@@ -46,11 +106,18 @@ private:
     void fillPageOf(const std::string& id);
     void drawNote(const Marker& marker, const std::vector<TextLine>& note);
     void drawMarkerHead(const MarkerEntry& entry);
-    /// Side by side over the page's width, all as high as that allows, at most `tallest`.
-    void drawStrip(const std::vector<FramedPicture>& pictures, double tallest);
-    double stripHeight(const std::vector<FramedPicture>& pictures, double tallest) const;
-    /// @param of what captions name; @param measures with what was measured there, too
-    void drawMarkerPictures(const MarkerEntry& entry, const std::string& of, bool measures, double tallest);
+    /// @param shown one or two markers
+    /// @param measured the one with what was measured there; may be none
+    PictureBlock blockOf(const std::vector<ShownMarker>& shown, const MarkerEntry* measured);
+    void addMeasures(PictureBlock& block, const MarkerEntry& entry);
+    std::vector<FramedPicture> fromInside(const MarkerEntry& entry);
+    FramedPicture slicesOf(const MarkerEntry& entry);
+    /// As high as they fit side by side over the page's width, and as the strip allows.
+    double stripHeight(const PictureStrip& strip) const;
+    double captionHeight(const PictureStrip& strip) const;
+    double heightOf(const PictureBlock& block) const;
+    void drawStrip(const PictureStrip& strip);
+    void drawPictures(const PictureBlock& block);
     FramedPicture framed(const std::filesystem::path& file, double print_width, const std::string& caption,
                          const std::string& kind, const std::string& of);
 
@@ -61,6 +128,7 @@ private:
     };
 
     const ReportContent& content_;
+    const Site site_;
     PageFlow& flow_;
     PictureShelf shelf_;
     std::map<std::string, TableRow> rows_;  ///< by the id of marker or finding

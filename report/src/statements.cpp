@@ -68,9 +68,9 @@ std::string geometryWords(const json& geometry)
 
 std::string resultWords(const ScanEntry& entry)
 {
-    if (entry.verdict.empty())
+    if (!entry.verdict)
         return "not prepared";
-    std::string out = entry.verdict + ", confidence " + percent(entry.confidence, 0);
+    std::string out = verdictText(*entry.verdict, entry.organ_title) + ", confidence " + percent(entry.confidence, 0);
     if (!entry.reason.empty())
         out += ": " + entry.reason;
     return out;
@@ -83,14 +83,14 @@ std::string bridgeWords(const std::vector<ReviewedBridge>& bridges)
     std::string out;
     for (const auto& [bridge, review] : bridges) {
         out.append(out.empty() ? "" : "\n").append(millimetres(bridge.length_mm));
-        out += bridge.certain ? ", certain" : ", uncertain";
-        out += ", confidence " + percent(bridge.confidence, 0);
+        out += ", confidence " + percent(bridge.confidence, 0) + (bridge.certain ? "" : " (low)");
         if (!bridge.reason.empty())
             out += ": " + bridge.reason;
         if (review)
             out += "; " + nameOf(review->verdict) + " by " + review->by + ", " + review->at;
     }
-    return std::to_string(bridges.size()) + (bridges.size() == 1 ? " collapsed part: " : " collapsed parts:\n") + out;
+    return std::to_string(bridges.size()) + (bridges.size() == 1 ? " collapsed segment: " : " collapsed segments:\n") +
+           out;
 }
 
 std::string densityWords(const DensitySample& sample)
@@ -99,7 +99,7 @@ std::string densityWords(const DensitySample& sample)
                         std::to_string(sample.voxels) + " voxels within " + millimetres(sample.radius_mm, 1);
     constexpr double kWorthSaying = 0.2;
     if (sample.fat_fraction >= kWorthSaying)
-        words += "; " + percent(sample.fat_fraction, 0) + " of them are as light as fat";
+        words += "; " + percent(sample.fat_fraction, 0) + " of them of fat attenuation";
     return words;
 }
 
@@ -123,7 +123,7 @@ std::string sizeWords(const MarkerSize& size)
 std::vector<Statement> patientStatements(const CaseRecord& a_case)
 {
     const Patient& patient = a_case.patient;
-    return {{"Name", orNotGiven(personName(patient.name))},
+    return {{"Name", orNotGiven(printedName(patient.name))},
             {"Patient ID", orNotGiven(patient.id)},
             {"Birth date", orNotGiven(printedDate(patient.birth_date))},
             {"Sex", orNotGiven(sexWords(patient.sex))}};
@@ -136,7 +136,7 @@ std::vector<Statement> studyStatements(const CaseRecord& a_case)
     addGiven(out, "Description", study.description);
     addGiven(out, "Accession", study.accession_number);
     addGiven(out, "Study ID", study.id);
-    addGiven(out, "Referred by", personName(study.referring_physician));
+    addGiven(out, "Referred by", printedName(study.referring_physician));
     addGiven(out, "Institution", study.institution);
     return out;
 }
@@ -159,8 +159,8 @@ std::vector<Statement> scanStatements(const ScanEntry& entry)
         out.push_back({"Compression", "LOSSY: the images lost detail before VICON received them"});
     out.push_back({"Verdict", resultWords(entry)});
     if (entry.skeleton_length_mm > 0) {
-        out.push_back({"Colon length", millimetres(entry.skeleton_length_mm) + " along the skeleton"});
-        out.push_back({"Bridges", bridgeWords(entry.bridges)});
+        out.push_back({"Colon length", millimetres(entry.skeleton_length_mm) + " along the centreline"});
+        out.push_back({"Collapsed", bridgeWords(entry.bridges)});
     }
     if (entry.quality)
         out.push_back({"Quality", qualityWords(*entry.quality)});
@@ -178,7 +178,7 @@ bool isPlain(const ScanEntry& entry)
     const auto empty = [&](const char* list) {
         return !ingest.is_object() || describeNotes(ingest.value(list, json::array())).empty();
     };
-    return entry.verdict == "colon" && entry.confidence >= kSure && entry.skeleton_length_mm > 0 &&
+    return entry.verdict == Verdict::found && entry.confidence >= kSure && entry.skeleton_length_mm > 0 &&
            entry.bridges.empty() && !entry.scan.series.lossy && entry.quality && entry.quality->whole.adequate &&
            entry.quality->reason.empty() && empty("repairs") && empty("refused");
 }
@@ -200,9 +200,9 @@ std::vector<Statement> markerStatements(const MarkerEntry& entry)
     const double length_mm = marker.station_mm + marker.from_caecum_mm;
     std::vector<Statement> out;
     out.push_back({"Position", positionLetters(marker.position_mm) + " (" + positionWords(marker.position_mm) + ")"});
-    addGiven(out, "Part of colon", entry.part_name);
-    out.push_back({"From rectal end", millimetres(marker.station_mm) + " along the skeleton"});
-    out.push_back({"From caecal end", millimetres(marker.from_caecum_mm) + " along the skeleton"});
+    addGiven(out, "Segment", entry.part_name);
+    out.push_back({"From rectal end", millimetres(marker.station_mm) + " along the centreline"});
+    out.push_back({"From caecal end", millimetres(marker.from_caecum_mm) + " along the centreline"});
     out.push_back(
         {"Fraction", percent(marker.fraction) + " of the whole, " + millimetres(length_mm) + ", from the rectal end"});
     if (marker.size)

@@ -94,9 +94,10 @@ std::string patientPositionWords(const std::string& patient_position)
 {
     if (patient_position.empty())
         return "position not given";
-    std::string words = positionName(patient_position);
-    if (words == "unknown")
+    const BodyPosition position = bodyPositionFrom(patient_position);
+    if (position == BodyPosition::unknown)
         return patient_position;
+    std::string words = nameOf(position);
     if (patient_position.starts_with("HF"))
         words += ", head first";
     if (patient_position.starts_with("FF"))
@@ -141,7 +142,7 @@ std::string endoscopeEstimate(double station_mm, std::string_view part_name)
 std::string distancesExplained()
 {
     const auto factor = [](ColonPart part) { return format("%.2f", endoscopeFactors(part).first); };
-    return "Distances are measured along the skeleton of the colon in the CT scan. An endoscope pleats the bowel and "
+    return "Distances are measured along the centreline of the colon in the CT scan. An endoscope pleats the bowel and "
            "shows shorter ones: its distance is estimated with the published factors of the caecum (" +
            factor(ColonPart::caecum) + "), the right colon (" + factor(ColonPart::ascending) +
            ") and the left colon (" + factor(ColonPart::sigmoid) + ").";

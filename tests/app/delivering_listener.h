@@ -19,8 +19,8 @@ inline std::string deliveringConfig(int port, int orthanc_port)
 {
     std::string account = runCommand("id -un").output;
     account.erase(account.find_last_not_of('\n') + 1);
-    return "[receive]\nport = " + std::to_string(port) + "\n[report]\nsigners = [\"" + account +
-           "\"]\nsend_to = [\"pacs\"]\n[outbox]\nfirst_backoff_s = 0.2\ncommitment_s = 5\n" +
+    return "[receive]\nport = " + std::to_string(port) + "\n[roles]\nsign = [\"" + account +
+           "\"]\n[report]\nsend_to = [\"pacs\"]\n[outbox]\nfirst_backoff_s = 0.2\ncommitment_s = 5\n" +
            "[peers]\npacs = { host = \"127.0.0.1\", port = " + std::to_string(orthanc_port) +
            ", ae_title = \"ORTHANC\" }\n";
 }

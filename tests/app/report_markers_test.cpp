@@ -1,12 +1,21 @@
 // A report lists every marker of its case, whatever became of the marker's scan.
 #include <gtest/gtest.h>
 #include <soci/soci.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
 
 #include "command.h"
 #include "dicom_writer.h"
+#include "report_folder.h"
 #include "report_writing.h"
 #include "study.h"
+#include "vicon/core/file.h"
 #include "vicon/core/progress.h"
+
+namespace fs = std::filesystem;
 
 namespace vicon::support {
 namespace {
@@ -33,6 +42,40 @@ TEST_P(ReportOfAMarkedCase, NeverDeniesTheMarker)
     EXPECT_NE(text.find("Marker m1"), std::string::npos) << text;
     EXPECT_NE(text.find("polyp in the sigmoid"), std::string::npos) << text;
     EXPECT_EQ(text.find("No markers"), std::string::npos) << text;
+}
+
+TEST(PictureFolder, OfAKilledCommandGoesWithTheNextOneAndThatOfARunningOneStays)
+{
+    const TemporaryFolder temporary;
+    ::setenv("TMPDIR", temporary.path().c_str(), 1);
+    const auto folders = [&] {
+        return std::distance(fs::directory_iterator(temporary.path()), fs::directory_iterator());
+    };
+    int ready[2];
+    ASSERT_EQ(::pipe(ready), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const app::PictureFolder pictures;
+        replaceFile(pictures / "m1.png", "a picture");
+        ::write(ready[1], "r", 1);
+        ::pause();
+        ::_exit(0);
+    }
+    char byte = 0;
+    ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+    {
+        const app::PictureFolder beside;
+        EXPECT_EQ(folders(), 2) << "the other command runs";
+    }
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    EXPECT_EQ(folders(), 1);
+    {
+        const app::PictureFolder next;
+        EXPECT_EQ(folders(), 1);
+    }
+    EXPECT_EQ(folders(), 0);
+    ::unsetenv("TMPDIR");
 }
 
 INSTANTIATE_TEST_SUITE_P(WhateverItsScanIs, ReportOfAMarkedCase,

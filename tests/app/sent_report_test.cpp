@@ -56,12 +56,20 @@ TEST_F(SentReport, IsStoredCommittedAndFoundInTheArchive)
               readFile(store_ / "cases" / case_id_ / "report" / "version-1-pdf.dcm"));
     EXPECT_TRUE(fs::exists(folder_ / "out" / "version-1-sr.dcm"));
     EXPECT_EQ(nlohmann::json::parse(orthanc_.get("/studies")).size(), 1u) << "in one study";
-    run("amend " + case_id_ + " --reason 'another word'");
-    run("sign " + case_id_);
+    viconJson(store_, "amend " + case_id_ + " --reason 'another word' --config " + config_.string());
+    viconJson(store_, "sign " + case_id_ + " --config " + config_.string());
     EXPECT_TRUE(waitUntil([&] { return sent() == "4 committed"; })) << sent() << readFile(folder_ / "listener.log");
     EXPECT_EQ(orthanc_.objects(), 4u);
-    run("send " + case_id_ + " pacs");
+    viconJson(store_, "send " + case_id_ + " pacs --config " + config_.string());
     EXPECT_EQ(sent(), "4 committed") << "nothing is sent twice";
+    const std::string study = viconJson(store_, "cases")["cases"][0]["study_uid"];
+    EXPECT_EQ(viconJson(folder_ / "first", "query pacs --modality '' --config " + config_.string())["studies"].size(),
+              1u);
+    viconJson(folder_ / "first", "retrieve pacs " + study + " --reports --config " + config_.string());
+    const std::string fetched =
+        viconOn(folder_ / "elsewhere", "retrieve pacs " + study + " --reports --config " + config_.string());
+    EXPECT_THAT(fetched, testing::HasSubstr("2 objects retrieved, 0 failed")) << "both versions";
+    EXPECT_THAT(fetched, testing::HasSubstr("measurement report by VICON"));
 }
 
 TEST_F(SentReport, IsNotSignedWhereAPeerItShallGoToIsNotConfigured)

@@ -12,14 +12,12 @@
 #include "study.h"
 #include "vicon/core/file.h"
 
-#ifndef VICON_SIGN_KILLS
-#define VICON_SIGN_KILLS 8  // a sample; the label `long` runs all
-#endif
-
 namespace fs = std::filesystem;
 
 namespace vicon::support {
 namespace {
+
+const int kKills = inFull() ? 200 : 8;
 
 class SignKill : public testing::Test {
 protected:
@@ -29,7 +27,7 @@ protected:
 
     SignKill()
     {
-        replaceFile(folder_ / "c.toml", "[report]\nsigners = [\"" + account() + "\"]\nsend_to = [\"pacs\"]\n" +
+        replaceFile(folder_ / "c.toml", "[roles]\nsign = [\"" + account() + "\"]\n[report]\nsend_to = [\"pacs\"]\n" +
                                             "[peers]\npacs = { host = \"127.0.0.1\", port = 9 }\n");
         viconOn(store_, "import " + smallStudy().string());
         viconOn(store_, "work --until-idle");
@@ -62,6 +60,7 @@ protected:
             ::execv(arguments[0], arguments.data());
             ::_exit(127);
         }
+        // The moment of the kill is what is tried.
         std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
         const bool running = ::waitpid(child, nullptr, WNOHANG) == 0;
         ::kill(-child, SIGKILL);
@@ -104,7 +103,7 @@ TEST_F(SignKill, LeavesADraftOrASignedReport)
     std::size_t versions = 2;
     int killed = 0, completed = 0;
     bool open = false;
-    for (int n = 0; n < VICON_SIGN_KILLS; ++n) {
+    for (int n = 0; n < kKills; ++n) {
         if (!open)
             viconOn(store_, "amend " + case_id_ + " --reason again --config " + (folder_ / "c.toml").string());
         // Most kills late: that is when it is written.
@@ -121,7 +120,7 @@ TEST_F(SignKill, LeavesADraftOrASignedReport)
     }
     EXPECT_GT(killed, 0);
     viconOn(store_, open ? "sign " + case_id_ + " --config " + (folder_ / "c.toml").string() : "cases");
-    std::printf("%d of %d were killed while at work, %d had signed\n", killed, VICON_SIGN_KILLS, completed);
+    std::printf("%d of %d were killed while at work, %d had signed\n", killed, kKills, completed);
 }
 
 }  // namespace

@@ -82,12 +82,11 @@ TEST_F(SignedObjects, AreTakenByAPeerThatKnowsOnlyImplicitLittleEndian)
         std::_Exit(127);
     }
     CommandResult sent{1, ""};
-    for (int n = 0; n < 50 && sent.exit_code != 0; ++n) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    EXPECT_TRUE(waitUntil([&] {  // until the peer listens
         sent = runVicon("send " + scan_.case_id + " pacs --wait 0 --store " + store_.string() + " --config " +
                         config_.string());
-    }
-    EXPECT_EQ(sent.exit_code, 0) << sent.output;
+        return sent.exit_code == 0;
+    })) << sent.output;
     ::kill(peer, SIGTERM);
     ::waitpid(peer, nullptr, 0);
     EXPECT_EQ(std::distance(fs::directory_iterator(taken), fs::directory_iterator{}), 5) << sent.output;

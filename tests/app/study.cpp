@@ -1,6 +1,8 @@
 #include "study.h"
 
 #include <fstream>
+#include <map>
+#include <set>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -27,7 +29,28 @@ void removeTimes(nlohmann::json& json)
             removeTimes(child);
 }
 
+/// The schema of what a subcommand prints with --json; most have its name.
+std::string schemaOf(const std::string& arguments)
+{
+    static const std::map<std::string, std::string> others = {
+        {"assess", "finding"}, {"export", "report"},         {"mark", "marker"},
+        {"restore", "backup"}, {"report", "written_report"}, {"send", "outbox"},
+    };
+    const std::string subcommand = arguments.substr(0, arguments.find(' '));
+    if (subcommand == "query" && arguments.find("--worklist") != std::string::npos)
+        return "query_worklist";
+    const auto other = others.find(subcommand);
+    return other == others.end() ? subcommand : other->second;
+}
+
 }  // namespace
+
+void expectSchema(const std::string& schema, const nlohmann::json& json)
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "printed.json") << json;
+    EXPECT_EQ(schemaFaults(schema, {folder / "printed.json"}), "") << schema;
+}
 
 std::string viconOn(const fs::path& store, const std::string& arguments)
 {
@@ -44,6 +67,9 @@ nlohmann::json viconJson(const fs::path& store, const std::string& arguments)
     EXPECT_EQ(result.exit_code, 0) << "vicon " << arguments << "\n" << result.output;
     auto json = nlohmann::json::parse(result.output, nullptr, false);
     EXPECT_FALSE(json.is_discarded()) << arguments;
+    static std::set<std::string> held;
+    if (const std::string schema = schemaOf(arguments); !json.is_discarded() && held.insert(schema).second)
+        expectSchema(schema, json);
     return json;
 }
 

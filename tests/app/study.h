@@ -12,6 +12,9 @@ namespace vicon::support {
 
 /// Runs vicon on a store and expects exit code 0; returns what it printed.
 std::string viconOn(const std::filesystem::path& store, const std::string& arguments);
+/// Expects that what was printed is as docs/dev/schemas/SCHEMA.schema.json says.
+void expectSchema(const std::string& schema, const nlohmann::json& json);
+/// The same with --json. What each subcommand prints first in a program is held against its schema.
 nlohmann::json viconJson(const std::filesystem::path& store, const std::string& arguments);
 
 /// A small synthetic study, made once per test program: 160 x 160 x 134 voxels, a colon of full length, without the

@@ -230,8 +230,9 @@ TEST_F(Study, NamesThePartOfTheColonInShowMarkersAndReport)
                 const fs::path pdf = folder_->path() / "named.pdf";
                 viconOn(store(), "report " + scan_.case_id + " --out " + pdf.string());
                 const std::string text = runCommand("pdftotext -layout " + pdf.string() + " -").output;
-                EXPECT_THAT(text, testing::ContainsRegex("Part of colon +" + name));
-                EXPECT_THAT(text, testing::ContainsRegex("whole colon +[0-9]+ mm +[0-9]+ ml, [0-9]+ %"));
+                EXPECT_THAT(text, testing::ContainsRegex("Segment +" + name));
+                EXPECT_THAT(text, testing::ContainsRegex("Radius +[0-9]+ mm"));
+                EXPECT_THAT(text, testing::ContainsRegex("Fluid +[0-9]+ ml, [0-9]+ %"));
             }
             viconOn(store(), "markers " + scan_.case_id + " --remove " + id);
         }
@@ -302,6 +303,17 @@ TEST_F(Study, WritesJsonAsItsSchemasSay)
     EXPECT_EQ(schemaFaults("show", {show}), "");
     EXPECT_THAT(schemaFaults("cases", {show}), HasSubstr("'cases' is a required property")) << "the judge judges";
     viconOn(store(), "markers " + scan_.case_id + " --remove " + id);
+    for (const std::string command :
+         {"import " + smallStudy().string(), std::string("work --until-idle"), std::string("doctor"),
+          "finding " + scan_.case_id, "assess " + scan_.case_id + " --preparation good", "priors " + scan_.case_id,
+          "audit " + scan_.case_id, std::string("outbox"), "delete " + scan_.case_id,
+          "anonymise " + scan_.case_id + " " + (folder_->path() / "anonymous").string(),
+          "report " + scan_.case_id + " --out " + (folder_->path() / "r.pdf").string(),
+          "export " + scan_.case_id + " --as json", std::string("config"), "match " + scan_.case_id,
+          "markers " + scan_.case_id})
+        viconJson(store(), command);
+    EXPECT_EQ(schemaFaults("fly", {folder_->path() / "flight/flight.json"}), "");
+    EXPECT_EQ(schemaFaults("truth", {smallStudy() / "truth-supine.json"}), "");
 }
 
 TEST_F(Study, NamesNoPatientInWhatWorkPrints)

@@ -14,6 +14,11 @@ TEST(WrongUse, EndsWithTheRightCodeAndOneLineThatSaysWhatToDo)
     const TemporaryFolder folder;
     std::ofstream(folder / "empty.txt") << "no DICOM";
     std::ofstream(folder / "bad.toml") << "[segment]\ngas_below = 3\n";
+    std::ofstream(folder / "peers.toml")
+        << "[peers]\nscanner = { host = \"127.0.0.1\", port = 104, roles = [\"store\"] }\n"
+           "odd = { host = \"127.0.0.1\", port = 104, role = \"store\" }\n"
+           "guest = { host = \"127.0.0.1\", port = 104, roles = [\"stores\"] }\n";
+    const std::string peers = " --config " + (folder / "peers.toml").string();
     const std::string store = " --store " + (folder / "store").string();
     ASSERT_EQ(runVicon("import " + (folder / "empty.txt").string() + store).exit_code, 1);
     struct Case {
@@ -32,6 +37,11 @@ TEST(WrongUse, EndsWithTheRightCodeAndOneLineThatSaysWhatToDo)
         {"work --until-idle --config /nonexistent.toml" + store, 2, "no such configuration file"},
         {"work --until-idle --set segment.gas_below_hu=5000" + store, 2, "between"},
         {"snapshot nosuchcase --view sideways --out x.png" + store, 1, "no such case"},
+        {"query scanner" + peers, 2, "not to be asked"},
+        {"retrieve scanner 1.2.3" + peers + store, 2, "not to be asked"},
+        {"query odd" + peers, 2, "not understood"},
+        {"query guest" + peers, 2, "not a role"},
+        {"receive --address 0.0.0.0 --port 0" + store, 2, "[peers]"},
         {"report nosuchcase" + store, 1, "no such case"},
         {"finding nosuchcase" + store, 1, "no such case"},
         {"finding nosuchcase --add m1 --remove f1" + store, 2, "--remove"},
@@ -45,6 +55,7 @@ TEST(WrongUse, EndsWithTheRightCodeAndOneLineThatSaysWhatToDo)
         {"phantom " + (folder / "p").string() + " --size 3x3", 2, "COLUMNSxROWSxSLICES"},
         {"phantom /proc/nowhere --size 64x64x32", 1, "/proc/nowhere"},
         {"fly nosuchcase --to moon" + store, 1, "no such case"},
+        {"read nosuchcase --demo" + store, 2, "leave out CASE"},
     };
     for (const Case& c : cases) {
         const CommandResult result = runVicon(c.arguments);

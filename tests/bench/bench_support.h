@@ -12,6 +12,8 @@
 
 namespace vicon::bench {
 
+inline NoProgress quiet;
+
 /// A folded tube in a box of 300 x 300 x 500 voxels of 0.7 mm, as long and wide as a colon: four limbs up and down,
 /// joined by bends.
 struct Tube {

@@ -30,8 +30,6 @@ namespace {
 using namespace vicon;
 using namespace vicon::bench;
 
-NoProgress quiet;
-
 /// Noise without padding.
 HuVolume slices(double slice_mm, int count)
 {
@@ -41,7 +39,7 @@ HuVolume slices(double slice_mm, int count)
     return volume;
 }
 
-void resampleVicon(benchmark::State& state, const char* interpolation, double slice_mm, int count = 200)
+void resampleVicon(benchmark::State& state, steps::Interpolation interpolation, double slice_mm, int count = 200)
 {
     const HuVolume acquired = slices(slice_mm, count);
     for ([[maybe_unused]] auto unused : state) {
@@ -78,7 +76,7 @@ void resampleItk(benchmark::State& state, double slice_mm, int count = 200)
 
 void thickVicon(benchmark::State& state)
 {
-    resampleVicon(state, "linear", 1);
+    resampleVicon(state, steps::Interpolation::linear, 1);
 }
 void thickItk(benchmark::State& state)
 {
@@ -86,7 +84,7 @@ void thickItk(benchmark::State& state)
 }
 void thinVicon(benchmark::State& state)
 {
-    resampleVicon(state, "linear", 0.5);
+    resampleVicon(state, steps::Interpolation::linear, 0.5);
 }
 void thinItk(benchmark::State& state)
 {
@@ -94,7 +92,7 @@ void thinItk(benchmark::State& state)
 }
 void bsplineVicon(benchmark::State& state)
 {
-    resampleVicon(state, "bspline", 1, 50);
+    resampleVicon(state, steps::Interpolation::bspline, 1, 50);
 }
 void bsplineItk(benchmark::State& state)
 {
@@ -102,7 +100,7 @@ void bsplineItk(benchmark::State& state)
 }
 void sincVicon(benchmark::State& state)
 {
-    resampleVicon(state, "windowed_sinc", 1, 20);
+    resampleVicon(state, steps::Interpolation::windowed_sinc, 1, 20);
 }
 void sincItk(benchmark::State& state)
 {
@@ -191,7 +189,7 @@ void cellsVtk(benchmark::State& state)
     });
 }
 
-const bool registered = [] {
+const bool fields_registered = [] {
     addBenchmark("resample/vicon", thickVicon);
     addBenchmark("resample/itk_ResampleImageFilter", thickItk);
     addBenchmark("resample_thin/vicon", thinVicon);

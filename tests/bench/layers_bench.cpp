@@ -134,7 +134,7 @@ void fillItk(benchmark::State& state)
     });
 }
 
-const bool registered = [] {
+const bool layers_registered = [] {
     addBenchmark("grow_to_wall/vicon", growVicon);
     addBenchmark("grow_to_wall/itk_GeodesicDilate", growItk);
     addBenchmark("fluid_rim/vicon", rimVicon);

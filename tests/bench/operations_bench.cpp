@@ -1,6 +1,7 @@
 // The general image operations that the steps do themselves, each beside ITK's filter for the same thing.
 #include <itkBinShrinkImageFilter.h>
 #include <itkConnectedComponentImageFilter.h>
+#include <itkCurvatureAnisotropicDiffusionImageFilter.h>
 #include <itkFastMarchingExtensionImageFilter.h>
 #include <itkFastMarchingImageFilter.h>
 #include <itkFlatStructuringElement.h>
@@ -14,6 +15,8 @@
 #include "segment/body.h"
 #include "segment/lumen.h"
 #include "segment/region_grower.h"
+#include "tissue/near_mask.h"
+#include "tissue/smooth_along_wall.h"
 #include "vicon/steps/subdivide.h"
 #include "vicon/steps/wall_distance.h"
 
@@ -21,8 +24,6 @@ namespace {
 
 using namespace vicon;
 using namespace vicon::bench;
-
-NoProgress quiet;
 
 using Mask = itk::Image<std::uint8_t, 3>;
 using Hu = itk::Image<std::int16_t, 3>;
@@ -80,6 +81,64 @@ void openingItk(benchmark::State& state)
         dilate->SetKernel(box);
         dilate->Update();
         return dilate->GetOutput()->GetBufferPointer()[0];
+    });
+}
+
+constexpr int kReach_voxels = 8;
+
+void nearVicon(benchmark::State& state)
+{
+    repeat(state, [] { return steps::nearMask(tube().inside, kGas, kReach_voxels); });
+}
+
+void nearItk(benchmark::State& state)
+{
+    const auto image = itkImage(tube().inside);
+    using Box = itk::FlatStructuringElement<3>;
+    const Box box = Box::Box(Box::SizeType::Filled(kReach_voxels));
+    repeat(state, [&] {
+        auto dilate = itk::GrayscaleDilateImageFilter<Mask, Mask, Box>::New();
+        dilate->SetInput(image);
+        dilate->SetKernel(box);
+        dilate->Update();
+        return dilate->GetOutput()->GetBufferPointer()[0];
+    });
+}
+
+/// The tube's wall as a fraction of tissue.
+steps::TissueVolume fractionOfTissue()
+{
+    steps::TissueVolume tissue(tube().hu.grid);
+    std::transform(tube().hu.voxels.begin(), tube().hu.voxels.end(), tissue.voxels.begin(),
+                   [](std::int16_t hu) { return std::uint8_t((hu + 1000) * 255 / 1040); });
+    return tissue;
+}
+
+void smoothVicon(benchmark::State& state)
+{
+    const steps::TissueVolume tissue = fractionOfTissue();
+    repeat(state, [&] {
+        steps::TissueVolume smoothed = tissue;
+        steps::smoothAlongWall({}, smoothed);
+        return smoothed.voxels[0];
+    });
+}
+
+/// What comes closest: it, too, keeps edges and evens out what runs along them, in as many passes.
+void smoothItk(benchmark::State& state)
+{
+    FieldVolume fraction(tube().hu.grid);
+    const steps::TissueVolume tissue = fractionOfTissue();
+    std::copy(tissue.voxels.begin(), tissue.voxels.end(), fraction.voxels.begin());
+    const auto image = itkImage(fraction);
+    repeat(state, [&] {
+        auto diffusion = itk::CurvatureAnisotropicDiffusionImageFilter<Field, Field>::New();
+        diffusion->SetInput(image);
+        diffusion->SetNumberOfIterations(3);
+        diffusion->SetTimeStep(0.04);  // below its limit of spacing / 2^4
+        diffusion->SetConductanceParameter(3);
+        diffusion->Update();
+        return diffusion->GetOutput()->GetBufferPointer()[0];
     });
 }
 
@@ -202,13 +261,17 @@ void geodesicItk(benchmark::State& state)
     });
 }
 
-const bool registered = [] {
+const bool operations_registered = [] {
     addBenchmark("label_faces/vicon", labelFaces);
     addBenchmark("label_faces/itk_ConnectedComponent", labelItk<false>);
     addBenchmark("label_corners/vicon", labelCorners);
     addBenchmark("label_corners/itk_ConnectedComponent", labelItk<true>);
     addBenchmark("opening/vicon", openingVicon);
     addBenchmark("opening/itk_GrayscaleErodeDilate", openingItk);
+    addBenchmark("near_mask/vicon", nearVicon);
+    addBenchmark("near_mask/itk_GrayscaleDilate", nearItk);
+    addBenchmark("smooth_along_wall/vicon", smoothVicon);
+    addBenchmark("smooth_along_wall/itk_CurvatureAnisotropicDiffusion", smoothItk);
     addBenchmark("block_means/vicon", blocksVicon);
     addBenchmark("block_means/itk_BinShrink", blocksItk);
     addBenchmark("region/vicon", regionVicon);

@@ -9,6 +9,7 @@
 #include <QApplication>
 #include <QLabel>
 #include <QMainWindow>
+#include <QMouseEvent>
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -195,6 +196,7 @@ void open(TimedApplication& application, QWidget& room)
     QTest::mouseClick(room.findChild<QPushButton*>("open"), Qt::LeftButton);
     await("a first picture", [] { return shows("endoscopic"); });
     const double first_s = millisecondsSince(begin) / 1000;
+    window()->activateWindow();  // without a window manager nobody else does, and keys would do nothing
     await("all pictures", [] { return shows("overview") && shows("axial") && shows("coronal") && shows("sagittal"); });
     const qint64 shown = the<PictureView>("endoscopic")->image().cacheKey();
     press("stepOn");
@@ -231,6 +233,52 @@ void use(TimedApplication& application)
     std::printf("\n%s\n", the<QLabel>("seen")->text().toUtf8().constData());
 }
 
+void drag(const char* view, QPoint by)
+{
+    auto* over = the<QWidget>(view);
+    const QPoint from = over->rect().center();
+    QTest::mousePress(over, Qt::LeftButton, {}, from);
+    constexpr int kSteps = 30, kBetween_ms = 30;
+    for (int n = 1; n <= kSteps; ++n) {
+        QMouseEvent move(QEvent::MouseMove, from + by * n / kSteps, Qt::LeftButton, Qt::LeftButton, {});
+        QApplication::sendEvent(over, &move);
+        QTest::qWait(kBetween_ms);
+    }
+    QTest::mouseRelease(over, Qt::LeftButton, {}, from + by);
+}
+
+/// The unfolded cube, the band and the projection that turns.
+void useAllOfTheWall(TimedApplication& application)
+{
+    constexpr int kFlight_ms = 4000, kRest_ms = 1500;
+    const auto fly = [] {
+        press("forward");
+        QTest::qWait(kFlight_ms);
+        press("stop");
+        QTest::qWait(kRest_ms);
+    };
+    QTest::keyClick(window(), Qt::Key_U);
+    await("a cube", [] { return shows("cube"); });
+    fly();
+    QTest::mouseClick(the<QWidget>("cube"), Qt::LeftButton, {}, the<QWidget>("cube")->rect().center());
+    QTest::qWait(kRest_ms);
+    QTest::keyClick(window(), Qt::Key_U);
+    application.print("cube, flight of 4 s");
+    const auto begin = Clock::now();
+    QTest::keyClick(window(), Qt::Key_B, Qt::ShiftModifier);
+    await("a band", [] { return shows("band"); });
+    std::fprintf(stderr, "  first band after %.2f s\n", millisecondsSince(begin) / 1000);
+    fly();
+    QTest::mouseClick(the<QWidget>("band"), Qt::LeftButton, {}, the<QWidget>("band")->rect().center());
+    QTest::qWait(kRest_ms);
+    QTest::keyClick(window(), Qt::Key_B, Qt::ShiftModifier);
+    application.print("band, flight of 4 s");
+    drag("overview", {90, 40});
+    QTest::qWait(kRest_ms);
+    QTest::keyClick(window(), Qt::Key_Z);
+    application.print("projection turned");
+}
+
 void close(TimedApplication& application)
 {
     application.begin();
@@ -260,6 +308,7 @@ int run(int argc, char** argv)
             cases->selectRow(row);
     open(application, *room);
     use(application);
+    useAllOfTheWall(application);
     close(application);
     return 0;
 }

@@ -68,10 +68,9 @@ JudgedFinding invading(FindingKind kind, double size_mm = kNone)
     return f;
 }
 
-const std::vector<ColonCase>& colonCases()
+std::vector<ColonCase> casesOfC1()
 {
-    static const std::vector<ColonCase> cases = {
-        // C1
+    return {
         {"nothing", "2005, 2023", of({}), "C1", "no polyp of 6 mm or more"},
         {"a diminutive polyp", "2005, 2023", of(polyps({4})), "C1", "smaller: f1, polyp of 4.0 mm"},
         {"below the border", "2005, 2023", of(polyps({5.9})), "C1", "within 0.5 mm of the 6 mm border"},
@@ -97,7 +96,12 @@ const std::vector<ColonCase>& colonCases()
          "C3",
          "12.0 mm"},
         {"distension not measured", "house: said", {.parts_known = false}, "C1", "distension was not measured"},
-        // C2a
+    };
+}
+
+std::vector<ColonCase> casesOfC2()
+{
+    return {
         {"on the border", "2005, 2023", of(polyps({6})), "C2a", "one polyp of 6 to 9 mm: f1, polyp of 6.0 mm"},
         {"printed as 6.0", "house: as printed", of(polyps({5.96})), "C2a", "polyp of 6.0 mm"},
         {"one of 7 mm", "2005, 2023", of(polyps({7})), "C2a", "one polyp"},
@@ -112,12 +116,16 @@ const std::vector<ColonCase>& colonCases()
         {"a polyp beside a stricture", "house: the polyp leads", of({thing(polyp, 7), thing(diverticular_stricture)}),
          "C2a", "also f1, diverticular stricture"},
         {"a polyp beside a lipoma", "2005, 2023", of({thing(polyp, 7), thing(lipoma, 20)}), "C2a", "one polyp"},
-        // C2b
         {"a diverticular stricture", "2023", of({thing(diverticular_stricture)}), "C2b",
          "likely benign diverticular finding"},
         {"with a small polyp", "2023", of({thing(diverticular_stricture), thing(polyp, 4)}), "C2b", "diverticular"},
         {"narrow as strictures are", "2023", of({narrowing(diverticular_stricture)}), "C2b", "diverticular stricture"},
-        // C3
+    };
+}
+
+std::vector<ColonCase> casesOfC3()
+{
+    return {
         {"on the border of 10 mm", "2005, 2023", of(polyps({10})), "C3", "f1, polyp of 10.0 mm"},
         {"printed as 10.0", "house: as printed", of(polyps({9.95})), "C3", "polyp of 10.0 mm"},
         {"three of 6 to 9 mm", "2005, 2023", of(polyps({6, 7, 9.9})), "C3", "3 polyps of 6 to 9 mm"},
@@ -125,7 +133,12 @@ const std::vector<ColonCase>& colonCases()
         {"below a mass", "2005, 2023", of(polyps({29.9})), "C3", "within 0.5 mm of the 30 mm border"},
         {"large, with a stricture", "2023", of({thing(polyp, 12), thing(diverticular_stricture)}), "C3", "12.0 mm"},
         {"large, one without a size", "house", of({thing(polyp, 12), thing(polyp)}), "C3", "12.0 mm"},
-        // C4
+    };
+}
+
+std::vector<ColonCase> casesOfC4()
+{
+    return {
         {"30 mm is a mass", "2023", of(polyps({30})), "C4", "polyp of 30.0 mm"},
         {"a mass", "2005, 2023", of({thing(mass, 45)}), "C4", "f1, mass of 45.0 mm"},
         {"a mass without a size", "2005", of({thing(mass)}), "C4", "f1, mass"},
@@ -133,7 +146,13 @@ const std::vector<ColonCase>& colonCases()
         {"a polyp that narrows the lumen", "2005, 2023", of({narrowing(polyp, 15)}), "C4", "compromises the lumen"},
         {"invasion", "2005, 2023", of({invading(polyp, 22)}), "C4", "reaches beyond the wall"},
         {"a stricture that invades", "2023", of({invading(diverticular_stricture)}), "C4", "reaches beyond the wall"},
-        // C0
+    };
+}
+
+/// Incomplete ones, and those that no category is proposed for.
+std::vector<ColonCase> casesWithoutAnAnswer()
+{
+    return {
         {"a part collapsed in both positions", "2005, 2023", collapsed({"sigmoid"}), "C0",
          "sigmoid collapsed in every position scanned"},
         {"two parts", "2005, 2023", collapsed({"sigmoid", "descending"}), "C0", "sigmoid, descending collapsed"},
@@ -146,11 +165,17 @@ const std::vector<ColonCase>& colonCases()
          "the study is incomplete as well: sigmoid collapsed"},
         {"bad preparation, a mass", "house: C4 before C0", inadequate({thing(mass, 50)}), "C4",
          "the study is incomplete as well"},
-        // None
         {"a polyp without a size", "house", of({thing(polyp)}), "", "no size was measured of f1"},
         {"indeterminate without a size", "house", of({thing(indeterminate)}), "", "no size was measured of f1"},
     };
-    return cases;
+}
+
+std::vector<ColonCase> colonCases()
+{
+    std::vector<ColonCase> all;
+    for (const auto& cases : {casesOfC1(), casesOfC2(), casesOfC3(), casesOfC4(), casesWithoutAnAnswer()})
+        all.insert(all.end(), cases.begin(), cases.end());
+    return all;
 }
 
 TEST(ColonCategory, IsProposedWithItsReason)

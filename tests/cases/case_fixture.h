@@ -5,6 +5,7 @@
 #include "vicon/cases/case_store.h"
 #include "vicon/cases/job_queue.h"
 #include "vicon/core/file.h"
+#include "vicon/support/store_place.h"
 #include "vicon/support/support.h"
 
 namespace vicon::test {
@@ -12,7 +13,7 @@ namespace vicon::test {
 /// A store with a case "c1" and its scan "s1", which is in the queue.
 class StoreOfOneScan {
 public:
-    StoreOfOneScan() : store(folder_ / "store")
+    StoreOfOneScan() : store(support::storePlace(folder_ / "store"))
     {
         CaseRecord a_case;
         a_case.id = "c1";

@@ -5,6 +5,7 @@
 
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/support/store_place.h"
 #include "vicon/support/support.h"
 
 namespace fs = std::filesystem;
@@ -17,7 +18,7 @@ using testing::HasSubstr;
 class Store : public testing::Test {
 protected:
     support::TemporaryFolder folder_;
-    CaseStore store_{folder_.path()};
+    CaseStore store_{support::storePlace(folder_.path())};
 
     void addScan(const std::string& scan_id)
     {
@@ -44,7 +45,7 @@ TEST_F(Store, SaysWhetherAnybodyChangedAnything)
     store_.audit("opened", "c1", "s1", "");
     const std::string second = store_.database().version();
     EXPECT_NE(second, first) << "changed over this connection";
-    CaseStore(folder_.path()).audit("opened", "c1", "s1", "");
+    CaseStore(store_.place()).audit("opened", "c1", "s1", "");
     const std::string third = store_.database().version();
     EXPECT_NE(third, second) << "changed over another one";
     EXPECT_EQ(store_.database().version(), third);
@@ -118,9 +119,10 @@ TEST_F(Store, FlagsACaseOncePerLine)
 
 TEST_F(Store, RefusesADatabaseOfANewerVersion)
 {
-    store_.database().session() << "PRAGMA user_version = 99";
+    store_.database().session() << (support::usesPostgresql() ? "UPDATE store SET schema_version = 99"
+                                                              : "PRAGMA user_version = 99");
     try {
-        const CaseStore again(folder_.path());
+        const CaseStore again(store_.place());
         FAIL();
     } catch (const Error& e) {
         EXPECT_EQ(e.code(), ErrorCode::database);

@@ -12,12 +12,12 @@ using namespace vicon;
 
 namespace {
 
-class StorePath : public testing::TestWithParam<const char*> {
+class SqlitePath : public testing::TestWithParam<const char*> {
 protected:
     support::TemporaryFolder folder;
 };
 
-TEST_P(StorePath, HoldsItsDatabaseAndNothingBesideIt)
+TEST_P(SqlitePath, HoldsItsDatabaseAndNothingBesideIt)
 {
     const fs::path root = folder / "root", place = root / GetParam();
     fs::create_directories(root);
@@ -35,7 +35,7 @@ TEST_P(StorePath, HoldsItsDatabaseAndNothingBesideIt)
     EXPECT_NO_THROW(CaseStore again(place));
 }
 
-INSTANTIATE_TEST_SUITE_P(Names, StorePath,
+INSTANTIATE_TEST_SUITE_P(Names, SqlitePath,
                          testing::Values("plain", "with space", "two  spaces ", "quote\"d", "apostrophe's",
                                          "Übung-患者", "semi;colon", "equals=sign", "dbname=x timeout=1",
                                          "latin-\xe9"));
@@ -47,7 +47,7 @@ void openAndCloseElsewhere(const fs::path& file)
     ASSERT_EQ(result.exit_code, 0) << result.output;
 }
 
-TEST(Database, KeepsItsLogWhileAnotherConnectionOfThisProcessCloses)
+TEST(SqliteDatabase, KeepsItsLogWhileAnotherConnectionOfThisProcessCloses)
 {
     const support::TemporaryFolder folder;
     const fs::path file = folder / "vicon.db";

@@ -44,6 +44,52 @@ TEST_F(Queue, GivesJobsInTheOrderTheyCameAndEachOnce)
     EXPECT_FALSE(queue_.claim("d"));
 }
 
+TEST_F(Queue, GivesWhatAReaderOpenedFirstAndThatOfTheLastOpenedBeforeAll)
+{
+    fake_.addJobs(2);
+    for (const std::string id : {"d", "e"}) {
+        std::filesystem::create_directories(fake_.store.scanFolder(id, "s0"));
+        fake_.store.addScan({.id = id, .study = {.uid = id}}, {.id = "s0", .case_id = id}, {}, true);
+    }
+    queue_.putFirst("d");
+    now_ += 1;
+    queue_.putFirst("e");
+    EXPECT_EQ(queue_.claim("a")->case_id, "e");
+    queue_.fail(*queue_.find("e", "s0"), "busy", false);
+    EXPECT_EQ(queue_.claim("a")->case_id, "d");
+    EXPECT_EQ(queue_.claim("a")->case_id, "c") << "what failed is held back all the same";
+    now_ += 2;
+    EXPECT_EQ(queue_.claim("a")->case_id, "e");
+}
+
+TEST_F(Queue, CountsAndListsJobsOfAState)
+{
+    fake_.addJobs(3);
+    queue_.fail(*queue_.claim("a"), "not a CT", true);
+    queue_.claim("a");
+    EXPECT_EQ(queue_.count(JobState::queued), 1);
+    EXPECT_EQ(queue_.count(JobState::running), 1);
+    EXPECT_EQ(queue_.jobs(JobState::failed).at(0).scan_id, "s0");
+    EXPECT_TRUE(queue_.jobs(JobState::done).empty());
+}
+
+TEST_F(Queue, GivesTheMemoryOfAMachineOnce)
+{
+    fake_.addJobs(4);
+    constexpr double kMost_mb = 1000;
+    const Job one = *queue_.claim("here/boot/1/1"), other = *queue_.claim("here/boot/2/1"),
+              elsewhere = *queue_.claim("there/boot/3/1");
+    EXPECT_TRUE(queue_.reserveMemory(one, 1500, kMost_mb)) << "alone it gets what it needs";
+    EXPECT_FALSE(queue_.reserveMemory(other, 100, kMost_mb));
+    EXPECT_TRUE(queue_.reserveMemory(elsewhere, 900, kMost_mb)) << "another machine has its own";
+    EXPECT_TRUE(queue_.reserveMemory(one, 600, kMost_mb)) << "instead of what it had";
+    EXPECT_TRUE(queue_.reserveMemory(other, 400, kMost_mb));
+    EXPECT_FALSE(queue_.reserveMemory(*queue_.claim("here/boot/4/1"), 1, kMost_mb));
+    queue_.complete(one);
+    EXPECT_TRUE(queue_.reserveMemory(*queue_.find("c", "s3"), 600, kMost_mb)) << "what ended gave it back";
+    EXPECT_EQ(codeOf([&] { queue_.reserveMemory(one, 1, kMost_mb); }), ErrorCode::lease_lost);
+}
+
 TEST_F(Queue, GivesEachJobToOneOfManyProcessesOnly)
 {
     fake_.addJobs(40);
@@ -51,7 +97,7 @@ TEST_F(Queue, GivesEachJobToOneOfManyProcessesOnly)
     std::array<std::vector<std::string>, 4> taken;
     for (auto& mine : taken)
         threads.emplace_back([&] {
-            Database database(fake_.store.folder() / "vicon.db");
+            Database database(fake_.store.database().where());
             JobQueue queue(database, queue_.options());
             while (const auto job = queue.claim("elsewhere/x/1/1"))
                 mine.push_back(job->scan_id);
@@ -171,7 +217,9 @@ TEST_F(Queue, TheDatabasesClockCounts)
 {
     JobQueue queue(fake_.store.database(), queue_.options());
     double seconds = 0;
-    fake_.store.database().session() << "SELECT CAST(strftime('%s', 'now') AS REAL)", soci::into(seconds);
+    fake_.store.database().session() << (support::usesPostgresql() ? "SELECT EXTRACT(EPOCH FROM now())"
+                                                                   : "SELECT CAST(strftime('%s', 'now') AS REAL)"),
+        soci::into(seconds);
     EXPECT_NEAR(queue.now(), seconds, 5);
 }
 

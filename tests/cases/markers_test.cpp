@@ -6,6 +6,7 @@
 #include "vicon/cases/case_store.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/support/store_place.h"
 #include "vicon/support/support.h"
 
 namespace fs = std::filesystem;
@@ -19,7 +20,7 @@ using testing::UnorderedElementsAre;
 class Markers : public testing::Test {
 protected:
     support::TemporaryFolder folder_;
-    CaseStore store_{folder_.path()};
+    CaseStore store_{support::storePlace(folder_.path())};
 
     Markers()
     {
@@ -175,7 +176,7 @@ TEST_F(Markers, AreSavedOnceThoughTheirFileCannotBeWritten)
     EXPECT_THAT(all(), UnorderedElementsAre("m1 changed "));
 
     fs::remove_all(file);
-    EXPECT_EQ(CaseStore(folder_.path()).markerFileTrouble(), "");
+    EXPECT_EQ(CaseStore(store_.place()).markerFileTrouble(), "");
     EXPECT_EQ(inFile(), 1u) << "opening the store writes what was owed";
 }
 
@@ -189,7 +190,7 @@ TEST_F(Markers, FileIsWrittenByTheNextChangeWhenThePlaceCanBeWrittenAgain)
     EXPECT_EQ(inFile(), 2u);
 }
 
-TEST_F(Markers, OnAFullDiskAreNotSavedAndThenSavedOnce)
+TEST_F(Markers, SqliteOnAFullDiskAreNotSavedAndThenSavedOnce)
 {
     const Marker first = saved("s1", "first");
     // No further page, as on a full disk: SQLite's own answer to it.
@@ -209,7 +210,7 @@ TEST_F(Markers, LoseNoChangeWhenTwoReadersRace)
     constexpr int kChanges = 15;  // of each reader
     const Marker start = saved("s1", "0");
     const auto read = [&] {
-        CaseStore store(folder_.path());
+        CaseStore store(store_.place());
         for (int done = 0; done < kChanges;) {
             const Marker seen = store.requireMarker("c1", start.id);
             try {

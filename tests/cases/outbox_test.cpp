@@ -94,7 +94,8 @@ TEST_F(OutboxRows, TakesNoOtherBytesUnderAUidThatIsThere)
 TEST_F(OutboxRows, TakesNothingFromOutsideTheCase)
 {
     OutboxObject outside = object("1.1");
-    outside.file = store_.folder() / "vicon.db";
+    outside.file = store_.folder() / "outside.dcm";
+    replaceFile(outside.file, "no object of the case");
     EXPECT_EQ(codeOf([&] { queueObjects(store_, "c1", "main", {outside}); }), ErrorCode::bad_input);
     outside.file = store_.caseFolder("c1") / "none.dcm";
     EXPECT_EQ(codeOf([&] { queueObjects(store_, "c1", "main", {outside}); }), ErrorCode::store);
@@ -121,7 +122,7 @@ TEST_F(OutboxRows, GivesEachItemToOneOfManySendersOnly)
     std::vector<std::thread> threads;
     for (auto& mine : taken)
         threads.emplace_back([&] {
-            Database database(store_.folder() / "vicon.db");
+            Database database(store_.database().where());
             Outbox outbox(database, few);
             for (auto items = outbox.claim("elsewhere/x/1/1"); !items.empty(); items = outbox.claim("elsewhere/x/1/1"))
                 for (const OutboxItem& one : items)
@@ -250,12 +251,13 @@ TEST_F(OutboxRows, ASenderWhoseClockIsAheadHidesNoItem)
 
 TEST_F(OutboxRows, LivesInAStoreThatAnEarlierViconMade)
 {
-    store_.database().write([](soci::session& sql) {
-        sql << "DROP TABLE outbox";
-        sql << "PRAGMA user_version = 2";
-    });
-    CaseStore migrated(store_.folder());
-    EXPECT_EQ(queueObjects(migrated, "c1", "main", {object("1.1")}).size(), 1u);
+    constexpr int kBeforeTheOutbox = 2;
+    const support::TemporaryFolder folder;
+    CaseStore migrated(support::storeOfVersion(kBeforeTheOutbox, folder / "store"));
+    const auto file = migrated.caseFolder("c1") / "report" / "1.1.dcm";
+    makePrivateFolder(file.parent_path());
+    replaceFile(file, "object");
+    EXPECT_EQ(queueObjects(migrated, "c1", "main", {{file, "1.2.840.10008.5.1.4.1.1.104.1", "1.1"}}).size(), 1u);
     EXPECT_EQ(Outbox(migrated.database(), options_).items("c1").size(), 1u);
 }
 

@@ -29,13 +29,15 @@ TEST(Printed, PersonNamesAreForPeople)
              {"Люкceмбypг", "Люкceмбypг"},
              {"קאם^דנה", "קאם, דנה"},
              {"قباني^لنزار", "قباني، لنزار"}})
-        EXPECT_EQ(personName(c.given), c.printed) << c.given;
+        EXPECT_EQ(printedName(c.given), c.printed) << c.given;
 }
 
 TEST(Printed, DatesAreUnambiguousAndWhatIsNoDateIsKept)
 {
     for (const Words& c : std::initializer_list<Words>{{"19610412", "1961-04-12"},
                                                        {"20261101", "2026-11-01"},
+                                                       {"20261231", "2026-12-31"},
+                                                       {"20260101", "2026-01-01"},
                                                        {"", ""},
                                                        {"1961", "1961"},
                                                        {"19611312", "19611312"},
@@ -46,8 +48,8 @@ TEST(Printed, DatesAreUnambiguousAndWhatIsNoDateIsKept)
 
 TEST(Printed, APatientWithoutANameIsSaidToHaveNone)
 {
-    EXPECT_EQ(patientName("^^^^"), "name not given");
-    EXPECT_EQ(patientName("Doe^Jane^Q^Dr^PhD"), "Doe, Dr Jane Q, PhD");
+    EXPECT_EQ(printedPatientName("^^^^"), "name not given");
+    EXPECT_EQ(printedPatientName("Doe^Jane^Q^Dr^PhD"), "Doe, Dr Jane Q, PhD");
 }
 
 }  // namespace

@@ -9,9 +9,10 @@
 #include "finding_fixture.h"
 #include "this_person.h"
 #include "vicon/cases/audit_trail.h"
+#include "vicon/cases/reader_input.h"
 #include "vicon/cases/report_files.h"
-#include "vicon/cases/said_of_scan.h"
 #include "vicon/core/error.h"
+#include "vicon/core/file.h"
 
 namespace fs = std::filesystem;
 
@@ -53,7 +54,7 @@ TEST_F(ReportVersions, AreSignedByThoseWhoMay)
     options_.signers = {"somebody"};
     EXPECT_THAT(messageOf([&] { sign(); }), HasSubstr("may not sign"));
     options_.signers.clear();
-    EXPECT_THAT(messageOf([&] { sign(); }), HasSubstr("[report] signers"));
+    EXPECT_THAT(messageOf([&] { sign(); }), HasSubstr("[roles] sign"));
     EXPECT_NO_THROW(draft(false)) << "a preliminary report bears no signature";
     options_.signers = {thisPerson()};
     EXPECT_EQ(sign().version, 1);
@@ -111,7 +112,7 @@ TEST_F(ReportVersions, HoldWhatWasSignedByWhomAndWhen)
     EXPECT_EQ(nlohmann::json::parse(versions[0].content), reportContent(readCase(store_, "c1")));
     EXPECT_EQ(faultOf(versions[0]), "");
     EXPECT_EQ(textOf(reportStatus(store_, "c1")), "signed, version 1");
-    EXPECT_TRUE(isSpokenOf(store_, case_.scan));
+    EXPECT_TRUE(hasReaderInput(store_, case_.scan));
     const AuditLine line = auditTrail(store_, "c1").back();
     EXPECT_EQ(line.event, "report signed");
     EXPECT_EQ(line.after["digest"], kept.digest);
@@ -202,10 +203,10 @@ TEST_F(ReportVersions, OfTwoWhoSignAtOnceOneWinsAndTheOtherIsTold)
 {
     case_.choose();
     constexpr int kReaders = 4;
-    const fs::path folder = store_.folder();
+    const StorePlace place = store_.place();
     std::atomic<int> ready = 0, signed_by = 0, told = 0;
     const auto read = [&] {
-        CaseStore store(folder);
+        CaseStore store(place);
         const VersionDraft mine = draftVersion(store, options_, "c1", true, "0.1.0");
         ++ready;
         while (ready < kReaders)
@@ -249,7 +250,7 @@ TEST_F(ReportVersions, AreNotKeptWhereTheFileCannotBeWritten)
     EXPECT_EQ(keepVersion(store_, "c1", mine, "a PDF").version, 1);
 }
 
-TEST_F(ReportVersions, AreNotKeptOnAFullDisk)
+TEST_F(ReportVersions, SqliteAreNotKeptOnAFullDisk)
 {
     changeNote(std::string(200'000, 'n'));
     case_.choose();
@@ -269,6 +270,21 @@ TEST_F(ReportVersions, LeaveNoFileThatNoneOfThemNames)
     replaceFile(orphan, "written, and killed before the commit");
     EXPECT_TRUE(reportVersions(store_, "c1").empty());
     EXPECT_FALSE(fs::exists(orphan));
+}
+
+TEST_F(ReportVersions, HaveNoObjectThatAKillLeftOfAnotherTry)
+{
+    case_.choose();
+    const support::TemporaryFolder elsewhere;
+    const fs::path folder = reportFolder(store_, "c1"), made = elsewhere / "version-1-sr.dcm";
+    fs::create_directories(folder);
+    for (const char* left : {"version-1-sr.dcm", "version-1-picture-m9.dcm", "version-2-sr.dcm"})
+        replaceFile(folder / left, "left");
+    replaceFile(made, "made");
+    keepVersion(store_, "c1", draft(), "a PDF", {.files = {made}});
+    EXPECT_THAT(versionObjects(store_, "c1", 1), testing::ElementsAre(folder / "version-1-sr.dcm"));
+    EXPECT_EQ(readFile(folder / "version-1-sr.dcm"), "made");
+    EXPECT_TRUE(fs::exists(folder / "version-2-sr.dcm")) << "of no concern of this one";
 }
 
 TEST_F(ReportVersions, SayWhatIsNoLongerAsItWasSigned)

@@ -28,10 +28,17 @@ TEST(StepResults, HaveOneJsonFormThatIsReadBack)
     const json resample = json::parse(R"({"acquired_size": [512, 512, 400], "acquired_spacing_mm": [0.7, 0.7, 1],
                                           "size": [512, 512, 570], "spacing_mm": 0.7})");
     EXPECT_EQ(toJson(resampleFoundFromJson(resample)), resample);
+    for (const char* tissue : {R"({"not_sought": "no wall"})", R"({"measures": {"blur_mm": 0.71, "level_voxels": 9}})",
+                               R"({"measures": {"level_voxels": 9}})"})
+        EXPECT_EQ(toJson(tissueFoundFromJson(json::parse(tissue))), json::parse(tissue));
+    EXPECT_EQ(tissueFoundFromJson(json::parse(R"({"measures": {"blur_mm": 0.71}})")).blur_mm, 0.71);
     const json subdivide = {{"method", "flood"}, {"triangles", 1000}, {"segments", 40}};
     EXPECT_EQ(toJson(subdivideFoundFromJson(subdivide)), subdivide);
     const json potential = {{"largest_wall_distance_mm", 31.5}, {"largest_exit_distance_mm", 1700.5}};
     EXPECT_EQ(toJson(potentialFoundFromJson(potential)), potential);
+    json recorded = potential;
+    recorded["files"] = {{"wall_distance.mha", 12}};
+    EXPECT_EQ(toJson(potentialFoundFromJson(recorded)), potential) << "the record's files are not the step's";
     for (const char* quality : {R"({"not_measured": "of a colon"})", R"({"parts": [], "parts_unknown": "too short"})"})
         EXPECT_EQ(toJson(qualityFoundFromJson(json::parse(quality))), json::parse(quality));
 }

@@ -7,13 +7,12 @@
 
 #include "polyp_scene.h"
 #include "vicon/core/error.h"
+#include "vicon/support/support.h"
 
 namespace vicon {
 namespace {
 
-#ifndef VICON_POLYP_DIRECTIONS
-#define VICON_POLYP_DIRECTIONS 1  // a sample; the label `long` runs all
-#endif
+const int kDirections = support::inFull() ? 5 : 1;
 
 /// What was found of many polyps.
 struct Tally {
@@ -41,7 +40,7 @@ Tally tallyOf(const std::vector<double>& diameters_mm, unsigned seed)
         for (const PolypShape shape : {PolypShape::sessile, PolypShape::flat, PolypShape::stalked})
             for (const WallShape wall : {WallShape::plane, WallShape::tube})
                 for (const double blur_mm : {0.5, 0.7, 0.9})
-                    for (int n = 0; n < VICON_POLYP_DIRECTIONS; ++n, ++seed)
+                    for (int n = 0; n < kDirections; ++n, ++seed)
                         tally.add({shape, wall, diameter_mm, blur_mm, 10.0 * (seed % 4), seed});
     return tally;
 }

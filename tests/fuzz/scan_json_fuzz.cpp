@@ -1,5 +1,6 @@
 // Whatever stands in a scan's JSON files - scan.json, subdivision.json, the corrections, the bridges' reviews - it is
 // read as what it means, or refused by an Error.
+#include <cstdlib>
 #include <fstream>
 
 #include "memory_file.h"
@@ -8,6 +9,7 @@
 #include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
 #include "vicon/core/json_text.h"
+#include "vicon/scan_files/description_file.h"
 #include "vicon/scan_files/subdivision_file.h"
 
 namespace fs = std::filesystem;
@@ -26,7 +28,7 @@ void tryTo(Read read)
 
 void readSteps(const nlohmann::json& scan)
 {
-    for (const char* step : {"resample", "segment", "skeleton", "quality", "subdivide", "potential"})
+    for (const char* step : {"resample", "segment", "tissue", "skeleton", "quality", "subdivide", "potential"})
         tryTo([&] {
             StepRecord record;
             record.step = step;
@@ -53,15 +55,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     tryTo([&] { (void)scan_files::readSubdivision(file.path()); });
     std::ofstream(folder / "corrections.json").write(reinterpret_cast<const char*>(data), std::streamsize(size));
     tryTo([&] { (void)readCorrections(folder); });
+    std::ofstream(folder / "scan.json").write(reinterpret_cast<const char*>(data), std::streamsize(size));
+    tryTo([&] {
+        const scan_files::ScanDescription read = scan_files::readDescription(folder);
+        scan_files::writeDescription(folder, read);
+        if (!scan_files::isDescribedBy(folder, read))
+            std::abort();
+    });
     const nlohmann::json scan = parsedJson({reinterpret_cast<const char*>(data), size});
     if (!scan.is_object())
         return 0;
     readSteps(scan);
-    try {
-        (void)scan.value("series", nlohmann::json::object()).get<Series>();
-        (void)scan.value("patient", nlohmann::json::object()).get<Patient>();
-        (void)scan.value("study", nlohmann::json::object()).get<Study>();
-    } catch (const nlohmann::json::exception&) {
-    }
     return 0;
 }

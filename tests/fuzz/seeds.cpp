@@ -103,6 +103,9 @@ void writeJson(const fs::path& out)
     subdivision.portals.emplace_back();
     scan_files::writeSubdivision(out / "scan_json" / "subdivision", subdivision);
     save(out / "scan_json" / "corrections", R"({"add":[[1,2,3]],"cut":[],"drop":[[4,5,6.5]]})");
+    save(out / "web" / "parts", "?--b\r\nContent-Type: application/dicom\r\n\r\none\r\n--b\r\n\r\ntwo\r\n--b--");
+    save(out / "web" / "matches",
+         R"(?[{"0020000D":{"vr":"UI","Value":["1.2","1.3"]},"00100010":{"vr":"PN","Value":[{"Alphabetic":"A^B"}]}}])");
     save(out / "scan_json" / "segment",
          R"({"verdict":"colon","confidence":0.9,"reason":"r","organ":"colon","noise_hu":12.5,"plan":{},)"
          R"("bridges":[{"from_mm":[0,0,0],"to_mm":[0,0,9],"length_mm":9,"confidence":0.5}],"method":"planes",)"

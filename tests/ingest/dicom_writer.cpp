@@ -53,7 +53,11 @@ void setCommon(DicomItem& d, const SeriesSpec& spec)
     d.set(DCM_PatientBirthDate, spec.birth_date);
     d.set(DCM_PatientPosition, spec.patient_position);
     d.set(DCM_ImageType, spec.image_type);
-    d.set(DCM_StudyDate, "20260102");
+    d.set(DCM_StudyDate, spec.study_date);
+    if (!spec.accession_number.empty())
+        d.set(DCM_AccessionNumber, spec.accession_number);
+    if (!spec.referring_physician.empty())
+        d.set(DCM_ReferringPhysicianName, spec.referring_physician);
     d.set(DCM_StudyTime, "101010");
     d.set(DCM_AcquisitionDate, "20260102");
     d.set(DCM_AcquisitionTime, spec.acquisition_time);

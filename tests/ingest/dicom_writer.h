@@ -21,6 +21,8 @@ struct SeriesSpec {
     std::string patient_id = "P1";
     std::string patient_name = "Doe^Jane";
     std::string birth_date = "19600101";
+    std::string study_date = "20260102";
+    std::string accession_number, referring_physician;  ///< empty: it has none
     std::string patient_position = "HFS";
     std::string modality = "CT";
     std::string image_type = "ORIGINAL\\PRIMARY\\AXIAL";

@@ -70,6 +70,16 @@ const HostileCase kCases[] = {
     {"15-trailing-bytes-un/trail_padding_element", Kind::kept, "1 slice"},
 };
 
+/// The most address space that this program ever asked for.
+long peakOfAddressesKb()
+{
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("VmPeak:"))
+            return std::stol(line.substr(7));
+    return 0;
+}
+
 class Hostile : public Import {};
 class EachReproducer : public Import, public testing::WithParamInterface<HostileCase> {};
 
@@ -131,6 +141,19 @@ TEST_F(Hostile, AFileThatKillsItsReaderIsRefusedAndKillsNothingElse)
         EXPECT_EQ(report.lines.front().kind, Kind::refused);
         EXPECT_NE(report.lines.front().text.find("cannot be read safely"), std::string::npos) << lines(report);
     }
+}
+
+/// A value that breaks off with the file stays in the library's data set with the length that it claims.
+TEST_F(Hostile, NoMemoryIsAskedForAValueThatTheFileCannotHold)
+{
+    const fs::path claims = folder / "claims.dcm";
+    std::string headless{'\0', '\x08', '\0', '\x05'};
+    headless.append(400, '\xf6');
+    std::ofstream(claims, std::ios::binary) << headless;
+    const long before_kb = peakOfAddressesKb();
+    const auto report = import({claims});
+    EXPECT_TRUE(says(report, Kind::refused, "damaged beyond reading")) << lines(report);
+    EXPECT_LT(peakOfAddressesKb() - before_kb, 1'000'000);
 }
 
 TEST_F(Hostile, ZerosAreNoDicom)

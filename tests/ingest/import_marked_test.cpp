@@ -47,7 +47,7 @@ protected:
             EXPECT_EQ(after[n].file + after[n].sha256, instances[n].file + instances[n].sha256);
         EXPECT_EQ(load(now()).grid.size[2], spec.slices);
         EXPECT_EQ(jobs(), 0) << "nothing of it is done again";
-        EXPECT_TRUE(says(report, Kind::flagged, "marked or reported")) << lines(report);
+        EXPECT_TRUE(says(report, Kind::flagged, "came after")) << lines(report);
         const auto flags = store.requireCase(scan.case_id).flags;
         ASSERT_EQ(flags.size(), 1u);
         EXPECT_NE(flags[0].find(scan.id), std::string::npos);
@@ -131,6 +131,20 @@ TEST_F(MarkedScan, AReportHoldsIt)
 {
     store.audit("report written", scan.case_id, "", "number 1");
     expectUntouched(importThinner());
+}
+
+TEST_F(MarkedScan, ASignedReportIsNamedByWhatCameAfterIt)
+{
+    store.database().session() << "INSERT INTO report_versions (case_id, version, state, replaces, reason, person, at,"
+                                  " software, digest, content, file, file_sha256)"
+                                  " VALUES (:c, 1, 'signed', 0, '', 'a', '', '', 'd', '{}', '', '')",
+        soci::use(scan.case_id);
+    expectUntouched(importThinner());
+    EXPECT_NE(store.requireCase(scan.case_id).flags.at(0).find("came after its report was signed (version 1)"),
+              std::string::npos);
+    std::string content;
+    store.database().session() << "SELECT digest || content FROM report_versions", soci::into(content);
+    EXPECT_EQ(content, "d{}") << "it stays as it is";
 }
 
 TEST_F(MarkedScan, TheSameImagesAgainChangeNothingAndAFlagComesOnce)

@@ -14,6 +14,8 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <random>
 #include <thread>
 
 #include "vicon/core/error.h"
@@ -27,6 +29,19 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr auto kPatience = 60s;  // for a loaded machine; nothing waits so long when it works
+
+/// Whether a peer comes to answer an echo.
+inline bool comesToAnswer(const ingest::Peer& peer)
+{
+    return support::waitUntil([&] {
+        try {
+            ingest::echo(peer, "VICON");
+            return true;
+        } catch (const Error&) {
+            return false;
+        }
+    });
+}
 
 /// The data set of a file: what follows the meta header.
 inline std::string datasetBytes(const std::string& file)
@@ -50,25 +65,46 @@ inline std::string fingerprint(const std::string& file)
     return std::string(DcmXfer(syntax).getXferID()) + " " + sha256(datasetBytes(readFile(folder / "out.dcm")));
 }
 
+/// For servers that cannot be told to choose a port and say which (Orthanc, DCMTK's tools), and where two servers must
+/// know each other's before either runs; VICON's own listener chooses by itself. Below those that the system gives to
+/// connections: a test that opens thousands of them takes ports at any moment.
 inline int freePort()
 {
-    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t length = sizeof address;
-    ::bind(socket, reinterpret_cast<sockaddr*>(&address), length);
-    ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &length);
-    ::close(socket);
-    return ntohs(address.sin_port);
+    constexpr int kFirst = 10000, kLast = 32000;
+    static std::mt19937 dice(std::random_device{}());
+    for (;;) {
+        const int port = std::uniform_int_distribution(kFirst, kLast)(dice);
+        const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_ANY);
+        address.sin_port = htons(std::uint16_t(port));
+        const bool is_free = ::bind(socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+        ::close(socket);
+        if (is_free)
+            return port;
+    }
+}
+
+/// Orthanc's configuration of its DICOMweb service, and more.
+inline nlohmann::json withDicomWeb(nlohmann::json more = nlohmann::json::object())
+{
+    more["Plugins"] = {"/usr/share/orthanc/plugins/libOrthancDicomWeb.so"};
+    return more;
 }
 
 /// A PACS of somebody else's, for the length of a test.
 class Orthanc {
 public:
+    /// With which files each side speaks TLS.
+    struct Secured {
+        ingest::TlsOptions orthanc, vicon;
+    };
     /// @param vicon_port where "VICON" listens, for C-MOVE; 0: nowhere
-    explicit Orthanc(const fs::path& folder, int vicon_port = 0)
-        : folder_(folder), dicom_port_(freePort()), http_port_(freePort())
+    /// @param more of its configuration: plugins and what they are told
+    explicit Orthanc(const fs::path& folder, int vicon_port = 0, const std::optional<Secured>& secured = {},
+                     const nlohmann::json& more = nlohmann::json::object())
+        : folder_(folder), dicom_port_(freePort()), http_port_(freePort()), secured_(secured)
     {
         fs::create_directories(folder);
         nlohmann::json config = {{"Name", "test"},
@@ -86,7 +122,14 @@ public:
                                  {"DicomAlwaysAllowMove", true},
                                  {"Plugins", nlohmann::json::array()}};
         if (vicon_port != 0)
-            config["DicomModalities"]["vicon"] = {"VICON", "127.0.0.1", vicon_port};
+            config["DicomModalities"]["vicon"] = {
+                {"AET", "VICON"}, {"Host", "127.0.0.1"}, {"Port", vicon_port}, {"UseDicomTls", secured.has_value()}};
+        if (secured)
+            config.update({{"DicomTlsEnabled", true},
+                           {"DicomTlsCertificate", secured->orthanc.certificate},
+                           {"DicomTlsPrivateKey", secured->orthanc.key},
+                           {"DicomTlsTrustedCertificates", secured->orthanc.trusted}});
+        config.update(more);
         std::ofstream(folder / "orthanc.json") << config;
         start();
     }
@@ -114,21 +157,34 @@ public:
     Orthanc(const Orthanc&) = delete;
     Orthanc& operator=(const Orthanc&) = delete;
 
-    ingest::Peer peer() const { return {"orthanc", "127.0.0.1", "ORTHANC", dicom_port_}; }
-    bool answers() const
+    ingest::Peer peer() const
     {
-        for (const auto end = std::chrono::steady_clock::now() + kPatience; std::chrono::steady_clock::now() < end;) {
-            try {
-                ingest::echo(peer(), "VICON");
-                return true;
-            } catch (const Error&) {
-                std::this_thread::sleep_for(100ms);
-            }
-        }
-        return false;
+        ingest::Peer peer{"orthanc", "127.0.0.1", "ORTHANC", dicom_port_};
+        if (secured_)
+            peer.tls = secured_->vicon;
+        return peer;
     }
+    /// By DICOMweb, with its plugin.
+    ingest::Peer webPeer(const std::string& scheme = "http") const
+    {
+        ingest::Peer peer;
+        peer.name = "web";
+        peer.web = {scheme + "://localhost:" + std::to_string(http_port_) + "/dicom-web", "", ""};
+        return peer;
+    }
+    bool answers() const { return comesToAnswer(peer()); }
     /// The body that a GET of its REST interface gives.
-    std::string get(const std::string& path) const
+    std::string get(const std::string& path) const { return ask("GET " + path + " HTTP/1.0\r\n\r\n"); }
+    std::string post(const std::string& path, const std::string& body) const
+    {
+        return ask("POST " + path + " HTTP/1.0\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+    }
+
+    /// How many objects it holds.
+    std::size_t objects() const { return nlohmann::json::parse(get("/instances")).size(); }
+
+private:
+    std::string ask(const std::string& request) const
     {
         const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
         sockaddr_in address{};
@@ -137,7 +193,6 @@ public:
         address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
         std::string answer;
         if (::connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) {
-            const std::string request = "GET " + path + " HTTP/1.0\r\nHost: localhost\r\n\r\n";
             EXPECT_EQ(::send(socket, request.data(), request.size(), MSG_NOSIGNAL), ssize_t(request.size()));
             char block[65536];
             for (ssize_t count = 0; (count = ::recv(socket, block, sizeof block, 0)) > 0;)
@@ -147,12 +202,9 @@ public:
         return answer.substr(std::min(answer.find("\r\n\r\n"), answer.size() - 4) + 4);
     }
 
-    /// How many objects it holds.
-    std::size_t objects() const { return nlohmann::json::parse(get("/instances")).size(); }
-
-private:
     fs::path folder_;
     int dicom_port_, http_port_;
+    std::optional<Secured> secured_;
     pid_t process_ = -1;
 };
 

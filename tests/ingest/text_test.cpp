@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "dataset.h"
-#include "patient_match.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/ingest/patient_match.h"
 #include "vicon/support/support.h"
 
 using namespace vicon;

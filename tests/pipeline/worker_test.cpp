@@ -79,7 +79,7 @@ TEST(Worker, RenewsItsLeaseWhileItWorks)
     FakeStore fake;
     fake.addJobs(1);
     const auto summary = work(fake, [&](JobContext&) {
-        Database database(fake.store.folder() / "vicon.db");
+        Database database(fake.store.database().where());
         const auto leaseUntil = [&] { return JobQueue(database, kQuick).find("c", "s0")->lease_until; };
         const double first = leaseUntil();
         ASSERT_TRUE(support::waitUntil([&] { return leaseUntil() > first; }));
@@ -96,7 +96,7 @@ TEST(Worker, StopsWhenItsJobWasTakenAndLeavesTheSuccessorAlone)
     const auto summary =
         work(fake,
              [&](JobContext& context) {
-                 Database database(fake.store.folder() / "vicon.db");
+                 Database database(fake.store.database().where());
                  JobQueue later(database, kQuick, [&] { return JobQueue(database, kQuick).now() + 100; });
                  ASSERT_TRUE(later.claim("somebody/else/1/1"));
                  EXPECT_THROW(context.commitStep({.step = "segment", .version = 1, .digest = "d"}), Error);
@@ -191,11 +191,46 @@ TEST(Worker, WaitsForSpaceOnAFullDiskWithoutCountingItAsAFailure)
     EXPECT_EQ(work(fake, [](JobContext&) {}).done, 1);
 }
 
+TEST(Worker, WaitsForMemoryThatAnotherScanTakesWithoutCountingItAsAFailure)
+{
+    FakeStore fake;
+    fake.addJobs(2);
+    std::atomic<int> most_at_once = 0, at_once = 0, done = 0;
+    const auto need = [&](JobContext& context) {
+        context.reserveMemory(600, 1000);
+        most_at_once = std::max<int>(most_at_once, ++at_once);
+        EXPECT_TRUE(support::waitUntil([&] {
+            return done > 0 || JobQueue(fake.store.database(), kQuick).jobs(JobState::queued).size() == 1;
+        })) << "the other one is given back";
+        --at_once;
+        ++done;
+    };
+    std::thread beside([&] {
+        CaseStore own(fake.store.place());
+        const std::atomic<bool> stop = false;
+        runWorker(
+            own, kQuick, kUntilIdle,
+            [&](JobContext& context) {
+                context.reserveMemory(600, 1000);
+                most_at_once = std::max<int>(most_at_once, ++at_once);
+                --at_once;
+                ++done;
+            },
+            {}, stop);
+    });
+    EXPECT_EQ(work(fake, need).failed, 0);
+    beside.join();
+    EXPECT_EQ(most_at_once, 1);
+    EXPECT_EQ(done, 2);
+    for (const Job& job : JobQueue(fake.store.database(), kQuick).jobs(JobState::done))
+        EXPECT_EQ(job.attempts, 0);
+}
+
 TEST(Worker, GoesOnWhenTheDatabaseCanBeUsedAgain)
 {
     FakeStore fake;
     fake.addJobs(1);
-    Database other(fake.store.folder() / "vicon.db");
+    Database other(fake.store.database().where());
     other.session() << "ALTER TABLE jobs RENAME TO lost";
     std::atomic<bool> stop = false;
     int troubles = 0;

@@ -64,7 +64,7 @@ TEST_F(Correcting, CorrectionsGoToThePipelineAndTheNewResultIsTakenOver)
     EXPECT_TRUE(eventually([&] { return judged() == "rejected, anna"; })) << judged().toStdString();
     press(window(), "confirmBridge");
     EXPECT_TRUE(eventually([&] { return judged() == "confirmed, anna"; }));
-    for (const char* before : {"rejected, anna", "no"}) {
+    for (const char* before : {"rejected, anna", "not reviewed"}) {
         key(Qt::Key_Z, Qt::ControlModifier);
         EXPECT_TRUE(eventually([&] { return judged() == before; })) << judged().toStdString();
     }

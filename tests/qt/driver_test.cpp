@@ -33,7 +33,7 @@ TEST_F(WithoutOpenGl, TheWindowSaysSoAndTheCaseCanBeReadAndMarked)
     click("endoscopic", middle("endoscopic") + QPoint(90, 60), Qt::ShiftModifier);
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); })) << warning();
     EXPECT_EQ(stored().size(), 1U);
-    EXPECT_EQ(the<QLabel>("seenText")->text(), "0.0 % seen") << "what is cast does not count";
+    EXPECT_EQ(the<QLabel>("seenText")->text(), "0.0 % reviewed") << "what is cast does not count";
     closeCase();
 }
 
@@ -60,16 +60,16 @@ TEST_F(WithoutOpenGl, OnlyWhatWasChosenIsPeeledAndSaidToBe)
         return count;
     };
     // The same densities from the same depth: what differs is that the picture says it is peeled.
-    request.peel = "soft-tissue";
+    request.peel.preset = "soft-tissue";
     const Picture chosen = picture();
     EXPECT_GT(differs(chosen, 0, 200), 0);
     EXPECT_EQ(differs(chosen, 200, 400), 0);
     // In a circle: what lies around it is the wall still.
-    request.peel = "fat";
-    request.peeling.offset_mm = 4;
-    request.peel_middle_only = true;
-    request.peel_circle_at = Pixel{300, 200};
-    request.peel_circle_px = 40;
+    request.peel.preset = "fat";
+    request.peel.options.offset_mm = 4;
+    request.peel.middle_only = true;
+    request.peel.circle_at = Pixel{300, 200};
+    request.peel.circle_px = 40;
     const Picture circled = picture();
     EXPECT_GT(differs(circled, 270, 330), 1000);
     EXPECT_EQ(differs(circled, 345, 400), 0);

@@ -34,8 +34,7 @@ TEST_F(Reading, FliesToTheCaecumAndBackAndIsWhereItWasAfterReopening)
     key(Qt::Key_End);
     ASSERT_TRUE(eventually([] { return length() - station() < 2; }));
     screenshot("caecum");
-    EXPECT_EQ(the<QPushButton>("about")->text(), "Heading: rectum")
-        << "it looks into the colon, ready for the way back";
+    EXPECT_EQ(the<QPushButton>("about")->text(), "Antegrade") << "it looks into the colon, ready for the way back";
     EXPECT_FALSE(the<QPushButton>("lookBack")->isChecked());
     key(Qt::Key_Space);
     ASSERT_TRUE(eventually([] { return length() - station() > 60; }));
@@ -48,10 +47,10 @@ TEST_F(Reading, FliesToTheCaecumAndBackAndIsWhereItWasAfterReopening)
     closeCase();
     openCase();
     EXPECT_NEAR(station(), 150, 2);
-    EXPECT_EQ(the<QPushButton>("about")->text(), "Heading: rectum");
+    EXPECT_EQ(the<QPushButton>("about")->text(), "Antegrade");
 }
 
-TEST_F(Reading, GuidedFlightIsSteeredByKeysAndComesBackWhenLetGo)
+TEST_F(Reading, GuidedFlightIsSteeredByKeysAndComesBackWhenReleased)
 {
     openCase();
     key(Qt::Key_G);
@@ -60,9 +59,9 @@ TEST_F(Reading, GuidedFlightIsSteeredByKeysAndComesBackWhenLetGo)
     ASSERT_TRUE(eventually([] { return station() > 40; }));
     QTest::keyRelease(window(), Qt::Key_W);
     screenshot("guided");
-    const double let_go = station();
+    const double released = station();
     settle();
-    EXPECT_LT(std::abs(station() - let_go), 40) << "nothing pulls it any more";
+    EXPECT_LT(std::abs(station() - released), 40) << "nothing pulls it any more";
 }
 
 TEST_F(Reading, AGuidedFlightThatCannotReachAPlaceSaysSo)

@@ -32,14 +32,6 @@ protected:
     {
         return eventually([&] { return the<QComboBox>("scan")->currentText().startsWith(position); });
     }
-    static void openOther()
-    {
-        auto* scan = the<QComboBox>("scan");
-        the<QLabel>("where")->clear();
-        scan->setFocus();
-        QTest::keyClick(scan, Qt::Key_Down);
-        waitForScan();
-    }
     /// The same finding in the other scan, which is read then; both are paired.
     void pairWithOther()
     {
@@ -211,12 +203,13 @@ TEST_F(Reading, NoSizeReachesFromOneScanToAnother)
     const QPoint first = middle("endoscopic") + QPoint(90, 60), second = first + QPoint(30, 30);
     key(Qt::Key_M);
     click("endoscopic", first);
-    the<QLabel>("where")->clear();
     key(Qt::Key_X);
+    const auto said = [] { return window()->statusBar()->currentMessage(); };
+    ASSERT_TRUE(eventually([&] { return said().startsWith("The same place"); })) << "the other scan is there";
     waitForScan();
     click("endoscopic", first);
-    EXPECT_TRUE(window()->statusBar()->currentMessage().contains("the other end"))
-        << "the end in the scan before does not count: " << window()->statusBar()->currentMessage().toStdString();
+    EXPECT_TRUE(said().contains("the other end"))
+        << "the end in the scan before does not count: " << said().toStdString();
     click("endoscopic", second);
     EXPECT_TRUE(eventually([] { return window()->statusBar()->currentMessage().contains("straight"); }));
 }

@@ -180,7 +180,7 @@ TEST_F(Measuring, AnEndThatIsDraggedMeasuresAnewAndIsUndone)
 {
     mark();
     zoom("coronal", 4);
-    // In the slice through the marker, beside it.
+    // The slice has the marker that is chosen in its middle.
     clickRow(markers(), 0);
     settle();
     const QPoint first = middle("coronal") + QPoint(-20, 0), second = first + QPoint(40, 0);
@@ -224,6 +224,7 @@ protected:
         window()->resize(1600, 1000);
         settle();
         clickRow(markers(), 0);
+        ASSERT_TRUE(eventually([] { return pictureIsThere(); }));
         settle();
     }
     std::optional<PolypSize> outlined() const { return stored()[0].size ? stored()[0].size->polyp : std::nullopt; }
@@ -308,7 +309,7 @@ TEST_F(Measuring, TheEndOfTheFlightAWallTooNearAndLookingBackAreSaid)
     settle();
     key(Qt::Key_Space);
     EXPECT_TRUE(eventually([] { return said().contains("where the flight ends"); })) << said().toStdString();
-    EXPECT_EQ(the<QPushButton>("about")->text(), "Heading: caecum");
+    EXPECT_EQ(the<QPushButton>("about")->text(), "Retrograde");
     key(Qt::Key_F);
     QTest::keyPress(window(), Qt::Key_D);
     EXPECT_TRUE(eventually([] { return the<QLabel>("notice")->text().contains("close to the wall"); }));

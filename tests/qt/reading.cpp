@@ -1,5 +1,6 @@
 #include "reading.h"
 
+#include <QComboBox>
 #include <QFileDialog>
 #include <QLabel>
 #include <QPushButton>
@@ -139,6 +140,15 @@ void Reader::startOpening(const char* patient_id)
 void Reader::openCase(const char* patient_id)
 {
     startOpening(patient_id);
+    waitForScan();
+}
+
+void Reader::openOther()
+{
+    auto* scan = the<QComboBox>("scan");
+    the<QLabel>("where")->clear();
+    scan->setFocus();
+    QTest::keyClick(scan, Qt::Key_Down);
     waitForScan();
 }
 

@@ -32,6 +32,8 @@ protected:
     /// Presses Open for that patient, and waits for nothing.
     void startOpening(const char* patient_id = "PH-1");
     static void waitForScan();
+    /// The next scan of the list is opened, by the keyboard.
+    static void openOther();
     /// Until its window is gone.
     static void closeCase();
 
@@ -40,7 +42,8 @@ protected:
     {
         return QTest::qWaitFor(condition, patience_ms);
     }
-    /// For the screenshots: the smooth picture comes after the last movement.
+    /// As long as a reader's hand rests: the smooth picture comes a while after the last movement, and what must not
+    /// come (a picture of an older place, a second list) would come in this time. What must come is waited for.
     static void settle() { QTest::qWait(kSettle_ms); }
 
     QTableWidget* cases() const;

@@ -154,6 +154,9 @@ void addReporting(ReadingServices& services)
 {
     ReportServices& reporting = services.reporting;
     reporting.texts.technique = "Low dose, tagged.";
+    reporting.known = [](CaseStore&, const std::string&) {
+        return KnownStudy{.technique = "CT colonography, supine (120 kV).", .fluid = "supine 20 ml (2 %)"};
+    };
     reporting.text = [](CaseStore&, const std::string& case_id) { return "the report of " + case_id; };
     reporting.pdf = [](CaseStore&, const std::string&) { return readFile(VICON_A_PDF); };
     reporting.sign = [](CaseStore& store, const std::string& case_id) {
@@ -213,6 +216,9 @@ ReadingServices servicesFor(const fs::path& folder)
     addWork(services, said);
     addMarkerFiles(services);
     addReporting(services);
+    services.priors = {{},
+                       [](CaseStore&, const std::string&) { return PriorList{}; },
+                       [](CaseStore&, const PriorReport&) { return std::vector<PriorScan>{}; }};
     return services;
 }
 

@@ -1,5 +1,6 @@
 // The report's form beside the views: from markers to a signed report, by keyboard and mouse.
 #include <gmock/gmock.h>
+#include <soci/soci.h>
 
 #include <QCheckBox>
 #include <QClipboard>
@@ -18,6 +19,7 @@
 #include "reading.h"
 #include "vicon/cases/findings.h"
 #include "vicon/cases/report_versions.h"
+#include "vicon/cases/step_results.h"
 
 namespace vicon::viewer {
 namespace {
@@ -43,7 +45,13 @@ protected:
     /// To what has the keyboard.
     static void type(int which, Qt::KeyboardModifiers modifiers = {})
     {
+        strokes_ += modifiers == Qt::NoModifier ? 1 : 2;
         QTest::keyClick(QApplication::focusWidget(), Qt::Key(which), modifiers);
+    }
+    static void write(const QString& words)
+    {
+        strokes_ += int(words.size());
+        QTest::keyClicks(QApplication::focusWidget(), words);
     }
     static void tabTo(const char* name)
     {
@@ -81,11 +89,30 @@ protected:
         QMessageBox* box = nullptr;
         ASSERT_TRUE(dialog("confirmSigning", &box));
         screenshot("form-confirm");
-        box->findChild<QPushButton*>("confirmSign")->click();
+        ++strokes_;
+        QTest::keyClick(box, Qt::Key_Return);
         window()->activateWindow();
         ASSERT_TRUE(eventually([&] { return state().contains("signed") && ready(); }))
             << state().toStdString() << warning();
     }
+    /// Both scans are well distended, as the pipeline measured.
+    void measureQuality() const
+    {
+        ScanQuality good;
+        good.whole = {.median_radius_mm = 18, .volume_ml = 1900, .adequate = true};
+        good.parts.assign(1, good.whole);
+        good.parts[0].part = ColonPart::transverse;
+        const QualityFound found{.parts = {{ColonPart::transverse, 0, length()}}, .parts_unknown = {}, .quality = good};
+        const std::string result = toJson(found).dump();
+        store()->database().write([&](soci::session& sql) {
+            for (const std::string scan : {test::kSupine, test::kProne})
+                sql << "INSERT INTO steps (case_id, scan_id, step, version, digest, parameters, result, seconds,"
+                       " finished) VALUES ('c1', :scan, 'quality', 1, 'd', '{}', :result, 1, '')",
+                    soci::use(scan), soci::use(result);
+        });
+    }
+    static inline int strokes_ = 0;  ///< of a person at the keyboard
+
     /// A study without findings, said by keyboard alone.
     void sayNormal()
     {
@@ -111,6 +138,50 @@ TEST_F(Form, IsSignedByKeyboardAloneForANormalStudy)
     EXPECT_FALSE(the<QPlainTextEdit>("impression")->isEnabled());
     EXPECT_FALSE(the<QPushButton>("reportSign")->isVisible());
     screenshot("form-signed");
+}
+
+// The time is that of the keystroke-level model: 0.28 s a stroke, an average typist's 40 words a minute, and 1.35 s of
+// thought before each of the five commands (Card, Moran, Newell, Communications of the ACM 23:7, 1980).
+TEST_F(Form, OfANormalStudyTakesLessThanAMinuteAtTheKeyboardOfASlowTypist)
+{
+    constexpr double kStroke_s = 0.28, kThought_s = 1.35, kCommands = 5, kSlow = 2, kMost_s = 60;
+    measureQuality();
+    strokes_ = 2;  // Ctrl+R
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    ASSERT_NO_FATAL_FAILURE(tabTo("indication"));
+    write("Screening, no symptoms.");
+    type(Qt::Key_Tab);
+    ASSERT_TRUE(
+        eventually([&] { return !said().indication.empty() && the<QPushButton>("reportNormal")->isEnabled(); }));
+    type(Qt::Key_L, Qt::AltModifier);
+    ASSERT_TRUE(eventually([&] { return the<QPushButton>("reportSign")->isEnabled(); }));
+    ASSERT_NO_FATAL_FAILURE(sign());
+    EXPECT_EQ(reportStatus(*store(), test::kCase).state, ReportState::final);
+    EXPECT_EQ(nameOf(said().colon_category->category), "C1");
+    const double time_s = kStroke_s * strokes_ + kThought_s * kCommands;
+    RecordProperty("strokes", strokes_);
+    RecordProperty("seconds", std::to_string(time_s));
+    std::printf("%d strokes, %.1f s; a typist half as fast %.1f s\n", strokes_, time_s, kSlow * time_s);
+    EXPECT_LT(kSlow * time_s, kMost_s);
+}
+
+TEST_F(Form, FillsInWhatIsKnownAndLeavesWhatWasSaid)
+{
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    EXPECT_THAT(the<QPlainTextEdit>("technique")->placeholderText().toStdString(),
+                testing::HasSubstr("supine (120 kV"));
+    ASSERT_NO_FATAL_FAILURE(tabTo("indication"));
+    for (const QChar c : QString("pain"))
+        QTest::keyClick(QApplication::focusWidget(), c.toLatin1());
+    type(Qt::Key_Tab);
+    ASSERT_TRUE(eventually([&] { return said().indication == "pain" && the<QPushButton>("reportFill")->isEnabled(); }));
+    type(Qt::Key_I, Qt::AltModifier);
+    ASSERT_TRUE(eventually([&] { return said().reading_minutes.has_value(); })) << warning();
+    EXPECT_EQ(said().indication, "pain");
+    EXPECT_THAT(said().technique, testing::HasSubstr("supine (120 kV"));
+    EXPECT_FALSE(said().preparation) << "that is the reader's to say";
+    EXPECT_FALSE(said().colon_category);
+    screenshot("form-filled");
 }
 
 TEST_F(Form, IsOpenedAgainByAnAmendmentThatCanBeTakenBack)
@@ -225,6 +296,7 @@ TEST_F(Form, ShowsItsPagesAndGivesItsText)
     EXPECT_THAT(pages->windowTitle().toStdString(), testing::HasSubstr("2 page"));
     pages->close();
     window()->activateWindow();
+    ASSERT_TRUE(eventually(ready));
     press(window(), "reportCopy");
     EXPECT_TRUE(eventually([] { return QApplication::clipboard()->text() == "the report of c1"; }));
 }

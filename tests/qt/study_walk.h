@@ -12,7 +12,9 @@ class StudyReader : public Reader {
 protected:
     /// Opens the worklist on `store`.
     /// @param name before the names of the screenshots
-    void openStore(const std::filesystem::path& store, const std::string& name);
+    /// @param config more of a configuration; empty: whoever runs this may sign, and nothing is sent
+    void openStore(const std::filesystem::path& store, const std::string& name,
+                   const std::filesystem::path& config = {});
     void screenshot(const std::string& step) const { Reader::screenshot((name_ + "-" + step).c_str()); }
     void fastest() const;
     void jumpTo(double station_mm) const;
@@ -39,7 +41,15 @@ protected:
     void keepPictureAndMarkers();
     void writeReport();
     /// Findings of the markers, categories as proposed, the pages looked at, signed.
-    void signReport();
+    /// @param findings that are made of the markers
+    void signReport(int findings);
+    /// The form says that the archive keeps `objects` of the report, or more.
+    void awaitArchive(int objects) const;
+    /// A finding's size, by the reader.
+    void sayRead(int finding, const QString& size_mm) const;
+    void signIt() const;
+    /// The signed report is opened again, the first finding's size said anew, and signed.
+    void amendReport();
     void closeAndReopen();
 };
 

@@ -53,7 +53,7 @@ TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
     EXPECT_EQ(reason(), "supine: the series has a gap of 40 mm");
     EXPECT_FALSE(room_->findChild<QPushButton*>("open")->isEnabled());
     screenshot("worklist");
-    EXPECT_EQ(cases()->item(1 - failed, 6)->text(), "poor: prone");
+    EXPECT_EQ(cases()->item(1 - failed, 6)->text(), "not adequate: prone");
     EXPECT_GT(cases()->columnWidth(6), cases()->fontMetrics().horizontalAdvance("poor: prone"));
     EXPECT_TRUE(cases()->item(1 - failed, 6)->toolTip().contains("collapsed over 38 mm"));
     press(room_.get(), "retry");

@@ -93,7 +93,7 @@ protected:
     double inkOf(int font, unsigned glyph) const
     {
         constexpr double kFine = 144;  // pixels an em
-        const text::Coverage drawn = coverageOf(fonts_, font, glyph, kFine, 0, 0);
+        const text::GlyphMask drawn = glyphMaskOf(fonts_, font, glyph, kFine, 0, 0);
         const double scale = kSize * kDpi / 72 / kFine;
         return std::accumulate(drawn.cover.begin(), drawn.cover.end(), 0.0) / 255 * scale * scale;
     }
@@ -158,8 +158,8 @@ void Ink::expectDrawn(const std::string& word)
         for (const text::PlacedGlyph& glyph : run.glyphs) {
             const double x = (kLeft + glyph.x) * kPixels, y = (kHeight - kBase - glyph.y) * kPixels;
             const double down = std::ceil(y);
-            const text::Coverage drawn =
-                coverageOf(fonts_, run.font, glyph.glyph, kLarge * kPixels, x - std::floor(x), down - y);
+            const text::GlyphMask drawn =
+                glyphMaskOf(fonts_, run.font, glyph.glyph, kLarge * kPixels, x - std::floor(x), down - y);
             for (int n = 0; n < drawn.width * drawn.height; ++n) {
                 const int column = int(std::floor(x)) + drawn.left + n % drawn.width;
                 const int row = int(down) - drawn.top + n / drawn.width;

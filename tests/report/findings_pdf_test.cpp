@@ -51,6 +51,26 @@ TEST_F(PdfOfFindings, SaysOnPageOneWhatAReferringPhysicianNeeds)
     EXPECT_LT(first.find("C3: polyp"), first.find("Findings in the colon"));
 }
 
+TEST_F(PdfOfFindings, ImpressionTellsOfTheGravestFirstAndWhyAStudyIsNoAnswer)
+{
+    addFindings(3);
+    auto& all = content_.read.findings;
+    for (std::size_t n = 0; n < all.size(); ++n)
+        all[n].facts.size_mm = 6.0 + 2.0 * double(n);
+    all[1].finding.kind = FindingKind::mass;
+    all[1].facts.size_mm.reset();
+    const std::string said = impressionText(content_.read);
+    EXPECT_LT(said.find("Finding 3: mass"), said.find("Finding 5: polyp"));
+    EXPECT_LT(said.find("Finding 5: polyp"), said.find("Finding 1: polyp"));
+    all.clear();
+    content_.read.assessment.inadequate = content_.read.assessment.priors_awaited = true;
+    content_.read.assessment.colon_category = {ColonCategory::c0, ""};
+    content_.read.parts = {{"s1", ColonPart::sigmoid, Distension::collapsed, false}};
+    EXPECT_EQ(impressionText(content_.read),
+              "The study is inadequate: a lesion of 10 mm or more cannot be excluded.\n"
+              "Collapsed in every position scanned: sigmoid.\nEarlier studies are awaited.");
+}
+
 TEST_F(PdfOfFindings, HeadsEachFindingWithItsSizeAndLeadsToItByABookmark)
 {
     addFindings(2);
@@ -69,8 +89,17 @@ TEST_F(PdfOfFindings, HeadsEachFindingWithItsSizeAndLeadsToItByABookmark)
     const auto qpdf = support::runCommand("qpdf --json --json-key=outlines " + pdf_.string());
     const auto outlines = nlohmann::json::parse(qpdf.output).at("outlines");
     ASSERT_FALSE(outlines.empty());
-    for (const auto& entry : outlines)
+    std::vector<std::string> titles, below;
+    for (const auto& entry : outlines) {
         EXPECT_TRUE(entry.at("destpageposfrom1").is_number()) << entry.at("title");
+        titles.push_back(entry.at("title"));
+        for (const auto& kid : entry.at("kids"))
+            below.push_back(titles.back() + " / " + kid.at("title").get<std::string>());
+    }
+    EXPECT_THAT(titles,
+                testing::IsSupersetOf({"Impression", "Findings in the colon", "Findings, one by one", "Scans"}));
+    EXPECT_THAT(below, testing::ElementsAre("Findings, one by one / Finding 1 (polyp)",
+                                            "Findings, one by one / Finding 3 (polyp)"));
 }
 
 TEST_F(PdfOfFindings, SaysEveryNumberOfAFinding)
@@ -84,8 +113,8 @@ TEST_F(PdfOfFindings, SaysEveryNumberOfAFinding)
     for (const char* what :
          {"6.7 mm (largest diameter in the best plane), surface 6.6 mm, height 2.5 mm, volume 0.4 ml", "20 mm from the",
           "1580 mm from the", "40 mm from the", "best plane 6.4 mm", "surface 6.3 mm", "43 HU, mean", "42 HU",
-          "estimated: about 3 cm (1 to 4 cm)", "what f1 is like", "From inside, prone (series 3), m1",
-          "From inside, prone (series 3), m2", "Slices, prone (series 3), m2"})
+          "estimated: about 3 cm (1 to 4 cm)", "what f1 is like", "prone (series 3), m1", "prone (series 3), m2",
+          "From inside", "Below the wall, in the circle", "Slices: axial, coronal, sagittal"})
         EXPECT_THAT(text, HasSubstr(what));
 }
 
@@ -107,7 +136,7 @@ TEST_F(PdfOfFindings, ShowsOnlyThePicturesThatTheReaderChose)
     content_.read.findings[0].finding.pictures = {"m2"};
     write();
     EXPECT_THAT(samples::textOf(pdf_),
-                AllOf(HasSubstr("(series 3), m2"), Not(HasSubstr("From inside, prone (series 3), m1"))));
+                AllOf(HasSubstr("\nprone (series 3), m2"), Not(HasSubstr("\nprone (series 3), m1"))));
 }
 
 TEST_F(PdfOfFindings, HoldsTwelveOfThemAndNamesTheirPages)
@@ -143,10 +172,47 @@ TEST_F(PdfOfFindings, OfANormalStudyIsOnePage)
         EXPECT_THAT(samples::textOf(pdf_),
                     AllOf(HasSubstr("No polyp of 6 mm or more was found."), HasSubstr("C1: normal colon"),
                           HasSubstr("Continue routine screening."), HasSubstr("No findings were stated"),
-                          HasSubstr("good in every part and position"), HasSubstr("whole colon"),
+                          HasSubstr("good in every segment and position"), HasSubstr("whole colon"),
                           HasSubstr("colon of "), HasSubstr("noise ")))
             << "each scan in a line";
     }
+}
+
+TEST_F(PdfOfFindings, ShowsTheColonLaidStraightWithItsPartsAndWhereFindingsLie)
+{
+    addFindings(3);
+    samples::addLumen(content_.scans[0], 600, 640);
+    content_.scans.push_back(content_.scans[0]);
+    content_.scans[1].scan.id = "s2";
+    content_.scans[1].scan.series.patient_position = "HFS";
+    expectWellMade(write());
+    const std::vector<std::string> pages = samples::pageTexts(pdf_);
+    const auto page = std::find_if(pages.begin(), pages.end(), [](const std::string& text) {
+        return text.find("Distension and fluid along the colon") != std::string::npos;
+    });
+    ASSERT_NE(page, pages.end());
+    EXPECT_THAT(*page, AllOf(HasSubstr("under 3.0 mm of radius"), HasSubstr("cm from the rectum"), HasSubstr("30 mm")));
+    std::vector<samples::Word> words = samples::wordsByPage(pdf_).at(std::size_t(page - pages.begin()));
+    const auto unit = std::find_if(words.begin(), words.end(), [](const auto& w) { return w.text == "tagged"; });
+    std::erase_if(words, [top = unit->top](const samples::Word& w) {
+        return w.top <= top || w.top > 795;
+    });  // above it, and the footer
+    const auto leftOf = [&](const std::string& text) {
+        const auto word = std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.text == text; });
+        return word == words.end() ? -1 : (word->left + word->right) / 2;
+    };
+    double last = 0;
+    for (const char* part : {"rectum", "sigmoid", "descending", "transverse", "ascending", "caecum"}) {
+        EXPECT_GT(leftOf(part), last) << part;
+        last = leftOf(part);
+    }
+    // Finding 5 lies at 100 and 120 mm, finding 1 at 20 and 40; the other scan shows none.
+    const auto numbers = [&](const std::string& text) {
+        return std::count_if(words.begin(), words.end(), [&](const auto& w) { return w.text == text; });
+    };
+    EXPECT_EQ(numbers("5"), 2);
+    EXPECT_EQ(numbers("1"), 2);
+    EXPECT_LT(leftOf("1"), leftOf("5"));
 }
 
 TEST_F(PdfOfFindings, SaysOnEveryPageWhetherItIsSigned)

@@ -22,6 +22,27 @@ protected:
             content_.read.markers.push_back(entry.marker);
     }
     const ReadCase& read() const { return content_.read; }
+    /// The finding with one of an earlier report, as the reader confirmed; and with another that it is not.
+    void compare()
+    {
+        ComparedFinding grown;
+        grown.said = {.finding_id = "f1",
+                      .report_uid = "1.2.3.71",
+                      .report_class = "1.2.840.10008.5.1.4.1.1.88.34",
+                      .study_uid = "1.2.3.70",
+                      .prior_uid = "1.2.3.77",
+                      .prior_name = "Finding 2",
+                      .prior_what = "polyp",
+                      .prior_place = "sigmoid"};
+        grown.said.before = {.size_mm = 5.1, .from = "best plane", .date = "20240501"};
+        grown.growth = {.years = 2.25,
+                        .diameter_mm = Change{1.6, 0.4, 2.8},
+                        .percent_a_year = Change{45, 12, 80},
+                        .verdict = GrowthVerdict::grew};
+        ComparedFinding other = grown;
+        other.said.confirmed = false;
+        content_.read.comparisons = {grown, other};
+    }
 };
 
 TEST_F(Forms, AsTextSayWhatTheReportSaysInLinesOfEightyCharacters)
@@ -137,6 +158,45 @@ TEST_F(Fhir, ACaseIsAValidBundleWithEveryNumber)
     EXPECT_THAT(text, testing::AllOf(HasSubstr("größer"), HasSubstr("liver: cyst, < 10 mm & simple")));
 }
 
+TEST_F(Fhir, ACheckAgainstThePublishedSchemaFindsFaults)
+{
+    auto bundle = asFhir(read(), signedVersion(ReportState::final));
+    for (auto& entry : bundle["entry"]) {
+        auto& resource = entry["resource"];
+        if (resource["resourceType"] == "ImagingStudy")
+            resource["status"] = "gone";
+        if (resource["resourceType"] == "DiagnosticReport")
+            resource.erase("status");
+        if (resource["resourceType"] == "Patient")
+            resource["height"] = 1.8;
+    }
+    EXPECT_THAT(faults(bundle), testing::AllOf(HasSubstr("'gone' is not one of"), HasSubstr("lacks status"),
+                                               HasSubstr("'height' was unexpected")));
+}
+
+TEST_F(Fhir, AConfirmedPriorFindingAndItsGrowthAreMembersOfTheFinding)
+{
+    compare();
+    content_.read.scans.at(0).series.uid = "1.2.3.4";
+    const auto bundle = asFhir(read(), signedVersion(ReportState::final));
+    EXPECT_EQ(faults(bundle), "");
+    int told = 0;
+    for (const auto& entry : bundle["entry"]) {
+        const auto& then = entry["resource"];
+        if (then["resourceType"] != "Observation" || then["code"]["coding"][0]["code"] != "COMPARISON")
+            continue;
+        ++told;
+        EXPECT_EQ(then["identifier"][0]["value"], "urn:oid:1.2.3.77");
+        EXPECT_EQ(then["derivedFrom"][1]["identifier"]["value"], "urn:oid:1.2.3.70");
+        EXPECT_THAT(then["note"][0]["text"].get<std::string>(), HasSubstr("polyp of 5.1 mm in the sigmoid on 2024-05"));
+        for (const char* number : {"\"value\":5.1}", "\"value\":1.6}", "\"value\":2.25}"})
+            EXPECT_THAT(then["component"].dump(), HasSubstr(number));
+        EXPECT_THAT(then["component"].dump(), HasSubstr("grew"));
+        EXPECT_THAT(bundle.dump(), HasSubstr("{\"reference\":" + entry["fullUrl"].dump() + "}"));
+    }
+    EXPECT_EQ(told, 1) << "the one that was confirmed";
+}
+
 TEST_F(Fhir, ACaseOfWhichLittleIsKnownIsValid)
 {
     ReadCase bare;
@@ -176,6 +236,24 @@ TEST_F(Forms, AsHl7AreReadBackByAnotherProgram)
     const FindingFacts& facts = read().findings[0].facts;
     EXPECT_EQ(std::stod(said["373197004/1"]), *facts.size_mm);
     EXPECT_NEAR(std::stod(said["112233/1.2"]), facts.sights[1].station_mm, 1e-5);
+}
+
+TEST_F(Forms, AsHl7TellWhatAFindingWasInAnEarlierReport)
+{
+    compare();
+    replaceFile(folder_ / "m.hl7", asHl7(read(), signedVersion(ReportState::final)));
+    std::map<std::string, std::string> said;
+    const auto message = parsedHl7(folder_ / "m.hl7");
+    for (const auto& observation : message["OBX"]) {
+        const std::string code = observation[3];
+        said[code.substr(0, code.find('^')) + "/" + std::string(observation[4])] += std::string(observation[5]) + "\n";
+    }
+    EXPECT_THAT(said["COMPARISON/1.3"], HasSubstr("polyp of 5.1 mm in the sigmoid")) << "after its two sights";
+    EXPECT_EQ(said["PRIOR_SIZE/1.3"], "5.1\n");
+    EXPECT_EQ(said["DIAMETER_CHANGE/1.3"], "1.6\n");
+    EXPECT_EQ(said["VOLUME_A_YEAR_MOST/1.3"], "80\n");
+    EXPECT_THAT(said["GROWTH/1.3"], HasSubstr("grew"));
+    EXPECT_FALSE(said.contains("COMPARISON/1.4")) << "what was rejected";
 }
 
 }  // namespace

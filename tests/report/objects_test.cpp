@@ -33,6 +33,12 @@ SeriesSpec lying(const std::string& position)
     } else if (position == "HFDR") {
         spec.row = {0, 1, 0};
         spec.column = {-1, 0, 0};
+    } else if (position == "FFDL") {
+        spec.row = {0, 1, 0};
+        spec.column = {1, 0, 0};
+    } else if (position == "FFDR") {
+        spec.row = {0, -1, 0};
+        spec.column = {-1, 0, 0};
     } else if (position == "tilted") {
         spec.patient_position = "HFS";
         spec.column = {0, 0.9510565, 0.3090170};  // by 18 degrees
@@ -152,7 +158,7 @@ TEST_P(ReportObjectsOf, APointLiesOnTheVoxelThatWasMarked)
 }
 
 INSTANTIATE_TEST_SUITE_P(Positions, ReportObjectsOf,
-                         testing::Values("HFS", "HFP", "FFS", "FFP", "HFDL", "HFDR", "tilted"));
+                         testing::Values("HFS", "HFP", "FFS", "FFP", "HFDL", "HFDR", "FFDL", "FFDR", "tilted"));
 
 TEST_F(ReportObjects, HoldEveryMeasureOfAFinding)
 {

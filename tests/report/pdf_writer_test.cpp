@@ -60,9 +60,10 @@ TEST_F(PdfWriter, SaysAllOfAMarker)
     content_.markers[0].marker.fraction = 0.2575;
     const PdfResult result = write();
     const std::string text = samples::textOf(pdf_);
-    for (const char* what : {"Marker m1, red", "prone (series 3)", "L 85.2, P 12.0, H 340.5 mm", "sigmoid",
-                             "412 mm along the skeleton", "1188 mm along the skeleton", "25.8 % of the whole, 1600 mm",
-                             "estimated: about 32 cm", "note of m1", "From inside, m1", "Slices, m1"})
+    for (const char* what :
+         {"Marker m1, red", "prone (series 3)", "L 85.2, P 12.0, H 340.5 mm", "sigmoid", "412 mm along the centreline",
+          "1188 mm along the centreline", "25.8 % of the whole, 1600 mm", "estimated: about 32 cm", "note of m1",
+          "prone (series 3), m1", "From inside", "Slices: axial"})
         EXPECT_THAT(text, HasSubstr(what));
     EXPECT_LT(text.find("1188 mm"), text.find("estimated: about"));
     expectTidy(pdf_);
@@ -252,6 +253,7 @@ TEST_F(PdfWriter, TheSamePictureIsEmbeddedOnce)
     for (MarkerEntry& entry : content_.markers) {
         entry.slices_picture = folder_ / "same.png";
         entry.endoscopic_picture = folder_ / (entry.marker.id + "-copy.png");
+        entry.below_picture.clear();
         samples::writeQuarters(entry.slices_picture, 1200, 900, {{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}}});
         samples::writeQuarters(entry.endoscopic_picture, 1200, 900, {{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}}});
     }

@@ -85,9 +85,12 @@ TEST_F(PdfWriter, TheTableOfQualityShowsBothPositionsAndStaysAwayWhereNothingWas
     EXPECT_THAT(layout(), Not(HasSubstr("Distension and fluid")));
     content_.scans = {supineScan(), proneScan()};
     const std::string text = layout();
-    EXPECT_THAT(text, ContainsRegex("Supine, head first[^\n]*Prone, head first[^\n]*\n *Radius[^\n]*Adequate *Radius"));
-    EXPECT_THAT(text, ContainsRegex("rectum *20 mm *0 ml, 0 % *none *yes *not found"));
-    EXPECT_THAT(text, ContainsRegex("sigmoid *12 mm *3 ml, 2 % *14 mm, 3 % *NO *12 mm *3 ml, 2 % *none *yes"));
+    EXPECT_THAT(text, ContainsRegex("rectum +sigmoid +descending .*ascending +caecum +whole colon"));
+    EXPECT_THAT(text, ContainsRegex("Supine, head first · series 1\n *Radius +20 mm +12 mm +not found"));
+    EXPECT_THAT(text,
+                ContainsRegex("Fluid +0 ml, 0 % +3 ml, 2 % +not found.*\n *Collapsed +none +14 mm, 3 % +not found"));
+    EXPECT_THAT(text, ContainsRegex("Adequate +yes +NO +not found"));
+    EXPECT_THAT(text, ContainsRegex("Prone, head first · series 2\n *Radius +not found +12 mm"));
     expectTidy(pdf_);
 }
 

@@ -1,6 +1,7 @@
 #include "report_samples.h"
 
 #include <algorithm>
+#include <cmath>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
@@ -60,7 +61,8 @@ ReportContent plainCase(const std::filesystem::path& folder)
     entry.scan.id = "s1";
     entry.scan.series.number = 3;
     entry.scan.series.patient_position = "HFP";
-    entry.verdict = "colon";
+    entry.verdict = Verdict::found;
+    entry.organ_title = "colon";
     entry.confidence = 0.86;
     entry.skeleton_length_mm = 1600;
     entry.overview_picture = folder / "overview.png";
@@ -82,9 +84,11 @@ MarkerEntry plainMarker(const std::filesystem::path& folder, int n)
     entry.marker.fraction = entry.marker.station_mm / 1600;
     entry.scan_label = "prone (series 3)";
     entry.endoscopic_picture = folder / (entry.marker.id + "-endo.png");
+    entry.below_picture = folder / (entry.marker.id + "-below.png");
     entry.slices_picture = folder / (entry.marker.id + "-slices.png");
     const auto shade = std::uint8_t(n);
     writeQuarters(entry.endoscopic_picture, 90, 90, {{{200, shade, 0}, {150, 60, 50}, {90, 20, 20}, {40, 10, 10}}});
+    writeQuarters(entry.below_picture, 90, 90, {{{0, 200, shade}, {50, 150, 60}, {20, 90, 20}, {10, 40, 10}}});
     writeQuarters(entry.slices_picture, 120, 90, {{{shade, 90, 0}, {50, 50, 50}, {90, 90, 90}, {120, 120, 120}}});
     return entry;
 }
@@ -110,6 +114,26 @@ void addFinding(ReportContent& content, int n)
     content.read.scans = {content.scans[0].scan};
 }
 
+void addLumen(ScanEntry& entry, double collapsed_from_mm, double collapsed_to_mm)
+{
+    entry.parts.clear();
+    constexpr double kStep_mm = 5, kEnds_mm[] = {0, 130, 480, 720, 780, 1240, 1300, 1480, 1600};
+    for (int part = 0; part < 8; ++part)
+        entry.parts.push_back({ColonPart(part), kEnds_mm[part], kEnds_mm[part + 1]});
+    LumenAlong along{.step_mm = kStep_mm};
+    for (double at_mm = kStep_mm / 2; at_mm < entry.skeleton_length_mm; at_mm += kStep_mm) {
+        const bool collapsed = at_mm > collapsed_from_mm && at_mm < collapsed_to_mm;
+        along.radius_mm.push_back(collapsed ? 0 : 16 + 6 * std::sin(at_mm / 70) + 8 * at_mm / 1600);
+        along.fluid_fraction.push_back(std::max(0.0, 0.5 * std::sin(at_mm / 110)));
+    }
+    if (collapsed_to_mm > collapsed_from_mm)
+        along.collapsed.push_back({collapsed_from_mm, collapsed_to_mm});
+    if (!entry.quality)
+        entry.quality = ScanQuality{};
+    entry.quality->along = along;
+    entry.quality->thresholds = {{"quality.collapsed_radius_mm", 3.0}};
+}
+
 void makeNormal(ReportContent& content)
 {
     content.read.scans.clear();
@@ -123,6 +147,7 @@ void makeNormal(ReportContent& content)
             content.read.parts.push_back({entry.scan.id, ColonPart(part), Distension::good, false});
         }
         entry.quality = quality;
+        addLumen(entry);
         content.read.scans.push_back(entry.scan);
     }
     Assessment& said = content.read.assessment;

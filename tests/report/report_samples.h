@@ -21,6 +21,8 @@ MarkerEntry plainMarker(const std::filesystem::path& folder, int n);
 
 /// Adds finding number `n` (from 1), which marker `n` and, where there is one, marker `n + 1` show.
 void addFinding(ReportContent& content, int n);
+/// The scan gets named parts and a lumen along its centreline, with fluid and, where there is any, a collapsed stretch.
+void addLumen(ScanEntry& entry, double collapsed_from_mm = 0, double collapsed_to_mm = 0);
 /// The scans get quality, and the reader's assessment is that of a normal study.
 void makeNormal(ReportContent& content);
 

@@ -50,7 +50,8 @@ ScanEntry preparedScan()
             "repairs": ["1 slice missing at F 120.0 mm"],
             "refused": [{"object": "1.2", "why": "truncated"}, {"object": "1.3", "why": "truncated"}]})");
     entry.skeleton_length_mm = 1594.6;
-    entry.verdict = "colon";
+    entry.verdict = Verdict::found;
+    entry.organ_title = "colon";
     entry.confidence = 0.86;
     entry.reason = "three pieces of gas";
     entry.bridges = {{{.length_mm = 14.2, .confidence = 0.93, .certain = true}, {}},
@@ -69,11 +70,10 @@ TEST(Statements, AScanSaysWhatWasFoundAndWhatWasDoneToIt)
     EXPECT_EQ(said(s, "Geometry"),
               "430 slices of 512 × 400, voxels of 0.68 × 0.68 × 1.00 mm, gantry tilt of 12.0° removed");
     EXPECT_EQ(said(s, "Verdict"), "colon, confidence 86 %: three pieces of gas");
-    EXPECT_EQ(said(s, "Colon length"), "1595 mm along the skeleton");
-    EXPECT_EQ(
-        said(s, "Bridges"),
-        "2 collapsed parts:\n14 mm, certain, confidence 93 %\n31 mm, uncertain, confidence 40 %: the gap is long; "
-        "confirmed by anna, 2026-01-03");
+    EXPECT_EQ(said(s, "Colon length"), "1595 mm along the centreline");
+    EXPECT_EQ(said(s, "Collapsed"),
+              "2 collapsed segments:\n14 mm, confidence 93 %\n31 mm, confidence 40 % (low): the gap is long; "
+              "confirmed by anna, 2026-01-03");
     EXPECT_EQ(said(s, "Quality"), "adequate\nnoise 14 HU");
     EXPECT_EQ(said(s, "Repaired"), "1 slice missing at F 120.0 mm");
     EXPECT_EQ(said(s, "Refused"), "truncated (2 times)");
@@ -84,7 +84,7 @@ TEST(Statements, QualitySaysWhetherAdequateWhyNotAndTheNoise)
 {
     ScanEntry entry = preparedScan();
     entry.quality = ScanQuality{.noise_hu = 14.25, .reason = "sigmoid collapsed over 14 mm"};
-    EXPECT_EQ(said(scanStatements(entry), "Quality"), "NOT ADEQUATE: sigmoid collapsed over 14 mm\nnoise 14 HU");
+    EXPECT_EQ(said(scanStatements(entry), "Quality"), "not adequate: sigmoid collapsed over 14 mm\nnoise 14 HU");
 }
 
 TEST(Statements, LossyCompressionIsFlagged)
@@ -104,7 +104,8 @@ TEST(Statements, AScanThatIsNotPreparedSaysSo)
     EXPECT_EQ(said(scanStatements({}), "Verdict"), "not prepared");
     EXPECT_EQ(said(scanStatements({}), "Colon length"), "(nothing)");
     ScanEntry none;
-    none.verdict = "no colon";
+    none.verdict = Verdict::absent;
+    none.organ_title = "colon";
     none.confidence = 0.97;
     none.reason = "a chest";
     EXPECT_EQ(said(scanStatements(none), "Verdict"), "no colon, confidence 97 %: a chest");
@@ -142,8 +143,8 @@ TEST(Statements, AMarkerGivesTheMeasuredDistanceFirstAndTheEstimateLast)
         markerStatements(entry),
         ElementsAre(
             Statement{"Position", "L 85.2, P 12.0, H 340.5 mm (left, posterior, headward of the scan's origin)"},
-            Statement{"Part of colon", "sigmoid"}, Statement{"From rectal end", "412 mm along the skeleton"},
-            Statement{"From caecal end", "1183 mm along the skeleton"},
+            Statement{"Segment", "sigmoid"}, Statement{"From rectal end", "412 mm along the centreline"},
+            Statement{"From caecal end", "1183 mm along the centreline"},
             Statement{"Fraction", "25.8 % of the whole, 1595 mm, from the rectal end"},
             Statement{"By endoscope", "estimated: about 32 cm (0.78 × CT distance, left colon)"}));
     entry.marker.size = MarkerSize{.straight_mm = 6.24, .along_mm = 8};
@@ -158,7 +159,7 @@ TEST(Statements, AMarkerGivesTheMeasuredDistanceFirstAndTheEstimateLast)
     EXPECT_EQ(said(markerStatements(entry), "Same finding"), "(nothing)");
     EXPECT_EQ(said(markerStatements(entry), "Size"), "(nothing)");
     entry.part_name.clear();
-    EXPECT_EQ(said(markerStatements(entry), "Part of colon"), "(nothing)");
+    EXPECT_EQ(said(markerStatements(entry), "Segment"), "(nothing)");
     EXPECT_THAT(said(markerStatements(entry), "By endoscope"), HasSubstr("24 to 32 cm"));
 }
 
@@ -170,7 +171,7 @@ TEST(Statements, AMarkerGivesTheDensityOfItsBiopsy)
     EXPECT_EQ(said(markerStatements(entry), "Density"), "42 \u00b1 18 HU, of 31 voxels within 4.0 mm");
     density.fat_fraction = 0.45;
     EXPECT_EQ(said(markerStatements(entry), "Density"),
-              "42 \u00b1 18 HU, of 31 voxels within 4.0 mm; 45 % of them are as light as fat");
+              "42 \u00b1 18 HU, of 31 voxels within 4.0 mm; 45 % of them of fat attenuation");
     entry.marker.density.reset();
     EXPECT_EQ(said(markerStatements(entry), "Density"), "(nothing)");
 }

@@ -7,6 +7,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/scan_files/cells_file.h"
+#include "vicon/scan_files/description_file.h"
 #include "vicon/scan_files/projections_file.h"
 #include "vicon/scan_files/skeleton_file.h"
 #include "vicon/scan_files/stored_volume.h"
@@ -221,6 +222,44 @@ TEST(SubdivisionFile, GivesBackSegmentsAndPortals)
     EXPECT_FALSE(back.portals[0].along_skeleton);
     std::ofstream(folder / "s.json") << "{}";
     EXPECT_THROW(readSubdivision(folder / "s.json"), Error);
+}
+
+TEST(DescriptionFile, IsReadBackAndToldFromOthers)
+{
+    const support::TemporaryFolder folder;
+    EXPECT_TRUE(readDescription(folder.path()).case_id.empty()) << "none was written yet";
+    ScanDescription one{
+        .case_id = "c1",
+        .scan_id = "s1",
+        .patient = {.id = "P1", .name = "Doe^Jane"},
+        .study = {.uid = "1.2"},
+        .series = {.uid = "1.2.3", .number = 4, .patient_position = "HFP", .kvp = 120},
+        .role = ScanRole::kept,
+        .created = "2026-11-21T08:15:30Z",
+        .ingest = {{"geometry", {{"slices", 20}}}, {"repairs", {"one"}}, {"kept_because", "few slices"}}};
+    one.steps.push_back({.step = "segment",
+                         .version = 3,
+                         .digest = "d",
+                         .parameters = {{"a.b", 1}},
+                         .result = {{"verdict", "colon"}, {"confidence", 0.75}, {"gas_ml", 900.5}},
+                         .seconds = 1.0 / 3,
+                         .finished = "2026-11-21T08:16:30Z"});
+    EXPECT_FALSE(isDescribedBy(folder.path(), one));
+    writeDescription(folder.path(), one);
+    EXPECT_TRUE(isDescribedBy(folder.path(), one));
+    const ScanDescription read = readDescription(folder.path());
+    EXPECT_EQ(toJson(read), toJson(one));
+    EXPECT_EQ(read.patient.name, "Doe^Jane");
+    EXPECT_EQ(read.series.kvp, 120);
+    EXPECT_EQ(read.role, ScanRole::kept);
+    EXPECT_EQ(read.ingest, one.ingest);
+    EXPECT_EQ(read.steps.at(0).seconds, 1.0 / 3);
+    const auto json = nlohmann::json::parse(readFile(folder / "scan.json"));
+    EXPECT_EQ(json["position"], "prone");
+    EXPECT_EQ(json["verdict"], "colon") << "what readers ask for first stands at the top";
+    EXPECT_FALSE(json.contains("gas_ml"));
+    one.steps[0].result["verdict"] = "unsure";
+    EXPECT_FALSE(isDescribedBy(folder.path(), one));
 }
 
 }  // namespace

@@ -69,6 +69,24 @@ TEST(Quality, FluidIsCountedInThePartWhereItLies)
     EXPECT_NEAR(q.whole.volume_ml, q.parts[0].volume_ml + q.parts[1].volume_ml, 1);
 }
 
+TEST(Quality, AlongTheTubeIsItsRadiusItsFluidAndItsGap)
+{
+    const LumenAlong along = Tube(800, 840, 210).measure().along;
+    ASSERT_EQ(along.radius_mm.size(), along.fluid_fraction.size());
+    EXPECT_NEAR(double(along.radius_mm.size()) * along.step_mm, 1200, along.step_mm + 1);
+    const auto at = [&](const std::vector<double>& values, double station_mm) {
+        return values.at(std::size_t(station_mm / along.step_mm));
+    };
+    for (const double station_mm : {100, 400, 700, 1000}) {
+        EXPECT_NEAR(at(along.radius_mm, station_mm), 15, 0.5) << station_mm;
+        EXPECT_EQ(at(along.fluid_fraction, station_mm), station_mm < 200 ? 1 : 0) << station_mm;
+    }
+    EXPECT_EQ(at(along.radius_mm, 810), 0);
+    ASSERT_EQ(along.collapsed.size(), 1u);
+    EXPECT_NEAR(along.collapsed[0].from_mm, 790, 2);
+    EXPECT_NEAR(along.collapsed[0].to_mm, 830, 2);
+}
+
 struct Collapse {
     double length_mm;
     bool adequate;

@@ -64,12 +64,13 @@ HuVolume restored(const HuVolume& volume, std::array<std::size_t, 3> order, std:
     return out;
 }
 
-class ResampleByEach : public testing::TestWithParam<const char*> {
+class ResampleByEach : public testing::TestWithParam<Interpolation> {
 protected:
     ResampleOptions by(double spacing_mm = 0) const { return {.spacing_mm = spacing_mm, .interpolation = GetParam()}; }
 };
-INSTANTIATE_TEST_SUITE_P(Interpolation, ResampleByEach, testing::Values("linear", "bspline", "windowed_sinc"),
-                         [](const auto& about) { return std::string(about.param); });
+INSTANTIATE_TEST_SUITE_P(Interpolation, ResampleByEach,
+                         testing::Values(Interpolation::linear, Interpolation::bspline, Interpolation::windowed_sinc),
+                         [](const auto& about) { return nameIn(kInterpolationNames, about.param); });
 
 TEST_P(ResampleByEach, IsBitForBitTheSameWhateverTheStorageOrderAndMirroring)
 {
@@ -237,8 +238,8 @@ TEST(ResampleByBSpline, GivesACubicBackAwayFromTheBorder)
         const double x = i - 16, y = j - 13, z = k - 13;
         return 10000 + x * x * x - z * z * z + x * y * z - 3 * y * y;  // nowhere the density of padding
     };
-    EXPECT_LE(largestError(kBlock, {.interpolation = "bspline"}, 9, cubic), 0.6);
-    EXPECT_LE(largestError(kBlock, {.spacing_mm = 0.5, .interpolation = "bspline"}, 9, cubic), 0.6);
+    EXPECT_LE(largestError(kBlock, {.interpolation = Interpolation::bspline}, 9, cubic), 0.6);
+    EXPECT_LE(largestError(kBlock, {.spacing_mm = 0.5, .interpolation = Interpolation::bspline}, 9, cubic), 0.6);
     EXPECT_GT(largestError(kBlock, {}, 9, cubic), 2);
 }
 
@@ -247,7 +248,7 @@ TEST(ResampleByWindowedSinc, GivesAWaveOfFourVoxelsBackToAHundredth)
     const auto wave = [](double i, double j, double k) {
         return 1000 * std::cos(M_PI * k / 2 + 0.3) * std::cos(M_PI * i / 8) * std::cos(M_PI * j / 8);
     };
-    const double by_sinc = largestError(kBlock, {.interpolation = "windowed_sinc"}, 3, wave);
+    const double by_sinc = largestError(kBlock, {.interpolation = Interpolation::windowed_sinc}, 3, wave);
     const double linearly = largestError(kBlock, {}, 3, wave);
     EXPECT_LT(by_sinc, 30);
     EXPECT_GT(linearly, 200);
@@ -257,7 +258,7 @@ TEST(ResampleByBSpline, IsTheSameInSlabsAsInOnePiece)
 {
     const Grid grid{.size = {12, 10, 90}, .spacing_mm = {0.7, 0.7, 1}};
     const HuVolume acquired = randomVolume(grid, 5);
-    const HuVolume out = resample(acquired, {.interpolation = "bspline"}, quiet);
+    const HuVolume out = resample(acquired, {.interpolation = Interpolation::bspline}, quiet);
     using Image = itk::Image<std::int16_t, 3>;
     auto image = Image::New();
     image->SetRegions(Image::SizeType{12, 10, 90});

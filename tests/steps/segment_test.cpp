@@ -246,6 +246,10 @@ TEST(Segment, BridgeFollowsTheBendOfTheCollapsedBowelThroughFat)
     for (std::size_t n = 1; n < cord.size(); ++n)
         length_mm += distance(cord[n - 1], cord[n]);
     EXPECT_NEAR(bridge.length_mm, length_mm, 5);
+    double along_mm = 0;
+    for (std::size_t n = 1; n < bridge.path_mm.size(); ++n)
+        along_mm += distance(bridge.path_mm[n - 1], bridge.path_mm[n]);
+    EXPECT_DOUBLE_EQ(bridge.length_mm, along_mm);
     EXPECT_GT(bridge.confidence, 0.5) << bridge.reason;  // soft tissue all the way
     for (const Point3 p : bridge.path_mm)
         EXPECT_LT(tubeDistance(cord, 0, p), 4) << p.x << ' ' << p.y << ' ' << p.z;
@@ -352,7 +356,7 @@ TEST(Segment, BinaryMethodTakesWhatTheSeedPointLiesIn)
 {
     const TubeScan scan = smallColon();
     SegmentOptions options;
-    options.method = "binary";
+    options.method = SegmentMethod::binary;
     options.iso_hu = -480;
     options.seed = {{45, 0, 0}};
     const Segmentation result = segment(scan.draw(kGrid), scan.gravity, options);

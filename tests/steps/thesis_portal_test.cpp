@@ -27,10 +27,10 @@ public:
     }
 
     /// The valid portals half-way along the path.
-    std::vector<CutPlane> portals(const std::string& effectiveness, const SubdivideOptions& options = {}) const
+    std::vector<CutPlane> portals(PortalEffectiveness effectiveness, const SubdivideOptions& options = {}) const
     {
         SubdivideOptions chosen = options;
-        chosen.method = "thesis";
+        chosen.method = SubdivideMethod::thesis;
         chosen.effectiveness = effectiveness;
         const Skeleton skeleton{{pieceThrough({{15, 15, 0}, {15 + 60 * slope_, 15, 60}}, 5)}};
         return CutPlanes(inside_, skeleton, path_, chosen).at(kMiddle);
@@ -61,7 +61,7 @@ TEST(ThesisPortal, IsGoodWhereTheGatesRatioLiesWithinTheLimits)
         bool good;
     };
     for (const Case& c : {Case{10, 10, true}, {14, 10, true}, {16, 10, false}, {10, 14, true}, {10, 16, false}}) {
-        const auto planes = Bar(c.wide, c.deep).portals("gate_ratio");
+        const auto planes = Bar(c.wide, c.deep).portals(PortalEffectiveness::gate_ratio);
         ASSERT_EQ(planes.size(), 1U);
         EXPECT_DOUBLE_EQ(planes[0].ratio, double(c.wide) / c.deep);
         EXPECT_DOUBLE_EQ(planes[0].badness, std::abs(std::log(double(c.wide) / c.deep)));
@@ -71,15 +71,15 @@ TEST(ThesisPortal, IsGoodWhereTheGatesRatioLiesWithinTheLimits)
 
 TEST(ThesisPortal, TakesTheLimitsOfTheRatioFromItsOptions)
 {
-    EXPECT_TRUE(Bar(16, 10).portals("gate_ratio", {.gate_ratio_high = 1.7})[0].good);
-    EXPECT_TRUE(Bar(10, 16).portals("gate_ratio", {.gate_ratio_low = 0.6})[0].good);
-    EXPECT_FALSE(Bar(14, 10).portals("gate_ratio", {.gate_ratio_high = 1.3})[0].good);
-    EXPECT_FALSE(Bar(10, 14).portals("gate_ratio", {.gate_ratio_low = 0.8})[0].good);
+    EXPECT_TRUE(Bar(16, 10).portals(PortalEffectiveness::gate_ratio, {.gate_ratio_high = 1.7})[0].good);
+    EXPECT_TRUE(Bar(10, 16).portals(PortalEffectiveness::gate_ratio, {.gate_ratio_low = 0.6})[0].good);
+    EXPECT_FALSE(Bar(14, 10).portals(PortalEffectiveness::gate_ratio, {.gate_ratio_high = 1.3})[0].good);
+    EXPECT_FALSE(Bar(10, 14).portals(PortalEffectiveness::gate_ratio, {.gate_ratio_low = 0.8})[0].good);
 }
 
 TEST(ThesisPortal, IsGoodAcrossTheTangentsLargeComponents)
 {
-    const auto planes = Bar(11, 11, 0.5).portals("tangent");
+    const auto planes = Bar(11, 11, 0.5).portals(PortalEffectiveness::tangent);
     ASSERT_EQ(planes.size(), 2U);
     EXPECT_TRUE(across(planes, kZ).good);  // 6 slices for 3 columns: 27 degrees from the tangent
     EXPECT_NEAR(across(planes, kZ).badness, 1 - 2 / std::sqrt(5.0), 1e-9);
@@ -89,7 +89,7 @@ TEST(ThesisPortal, IsGoodAcrossTheTangentsLargeComponents)
 
 TEST(ThesisPortal, IsGoodWhereItIsTheSmallest)
 {
-    const auto planes = Bar(11, 11, 0.5).portals("portal_size");
+    const auto planes = Bar(11, 11, 0.5).portals(PortalEffectiveness::portal_size);
     ASSERT_EQ(planes.size(), 2U);
     EXPECT_EQ(across(planes, kZ).voxels.size(), 121U);
     EXPECT_NEAR(across(planes, kX).voxels.size(), 242, 11);  // the bar runs twice as far along z as along x
@@ -118,7 +118,7 @@ std::vector<CutPlane> portalsOfHairpin(bool septum)
     for (int k = 54; k >= 5; --k)
         add(30, k);
     const Skeleton skeleton{{pieceThrough({{10, 5, 5}, {10, 5, 55}, {30, 5, 55}, {30, 5, 5}}, 5)}};
-    return CutPlanes(inside, skeleton, path, {.method = "thesis"}).at(20);
+    return CutPlanes(inside, skeleton, path, {.method = SubdivideMethod::thesis}).at(20);
 }
 
 TEST(ThesisPortal, IsValidWhereItCutsThePathOnce)

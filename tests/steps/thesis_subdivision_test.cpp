@@ -12,18 +12,25 @@ namespace {
 
 SubdivideOptions thesis(int segments)
 {
-    return {.method = "thesis", .segments = segments};
+    return {.method = SubdivideMethod::thesis, .segments = segments};
 }
 
 TEST(ThesisSubdivision, MeetsTheMandatoryCriteriaWithEveryOption)
 {
     struct Case {
-        const char *size, *effectiveness, *approach, *planes;
+        SegmentSize size;
+        PortalEffectiveness effectiveness;
+        SubdivideApproach approach;
+        PlaneDirections planes;
     };
+    using enum PortalEffectiveness;
+    using enum SubdivideApproach;
+    using enum PlaneDirections;
     for (const Case& c :
-         {Case{"surface", "gate_ratio", "local", "axis"}, Case{"inside", "tangent", "local", "axis"},
-          Case{"triangles", "portal_size", "local", "axis"}, Case{"surface", "gate_ratio", "global", "axis"},
-          Case{"inside", "gate_ratio", "local", "oblique"}, Case{"triangles", "gate_ratio", "global", "oblique"}})
+         {Case{SegmentSize::surface, gate_ratio, local, axis}, Case{SegmentSize::inside, tangent, local, axis},
+          Case{SegmentSize::triangles, portal_size, local, axis}, Case{SegmentSize::surface, gate_ratio, global, axis},
+          Case{SegmentSize::inside, gate_ratio, local, oblique},
+          Case{SegmentSize::triangles, gate_ratio, global, oblique}})
         for (const Lumen& lumen : {bentTube(), bridgedTubes()}) {
             SubdivideOptions options = thesis(6);
             options.size = c.size;
@@ -33,7 +40,7 @@ TEST(ThesisSubdivision, MeetsTheMandatoryCriteriaWithEveryOption)
             const Subdivided divided = divide(lumen, options);
             expectPartition(lumen, divided);
             expectGatesEnclose(divided);
-            EXPECT_NEAR(double(divided.description.segments.size()), 6, 3) << c.size << c.approach << c.planes;
+            EXPECT_NEAR(double(divided.description.segments.size()), 6, 3) << nameIn(kSegmentSizeNames, c.size);
         }
 }
 
@@ -44,7 +51,7 @@ TEST(ThesisSubdivision, PutsSquareGatesAcrossAStraightTubeAtEqualSizes)
     const Lumen lumen{
         maskOf(grid, [](Point3 p) { return std::hypot(p.x - 14, p.y - 14) < 10 && p.z > 4.5 && p.z < 144.5; }),
         skeleton};
-    for (const char* approach : {"local", "global"}) {
+    for (const SubdivideApproach approach : {SubdivideApproach::local, SubdivideApproach::global}) {
         SubdivideOptions options = thesis(5);
         options.approach = approach;
         const Subdivided divided = divide(lumen, options);
@@ -57,7 +64,8 @@ TEST(ThesisSubdivision, PutsSquareGatesAcrossAStraightTubeAtEqualSizes)
         }
         const double average = double(std::count(lumen.inside.voxels.begin(), lumen.inside.voxels.end(), kGas)) / 5;
         for (std::size_t n = 0; n + 1 < divided.description.segments.size(); ++n)
-            EXPECT_NEAR(double(divided.description.segments[n].inside_voxels), average, 0.35 * average) << approach;
+            EXPECT_NEAR(double(divided.description.segments[n].inside_voxels), average, 0.35 * average)
+                << nameIn(kSubdivideApproachNames, approach);
     }
 }
 
@@ -68,7 +76,7 @@ TEST(ThesisSubdivision, ObliquePlanesLieAcrossAnObliqueTube)
     const Lumen lumen{tubeAlong(grid, skeleton, 8), skeleton};
     const Vector3 along = normalized(Vector3{76, 54, 34});
     SubdivideOptions options = thesis(4);
-    options.planes = "oblique";
+    options.planes = PlaneDirections::oblique;
     const Subdivided divided = divide(lumen, options);
     ASSERT_GE(divided.description.portals.size(), 2U);
     for (const auto& portal : divided.description.portals)
@@ -102,11 +110,11 @@ Lumen funnel()
             {{pieceThrough({{25, 25, 6}, {25, 25, 180}}, 8)}}};
 }
 
-Subdivided dividedBy(const Lumen& lumen, const char* size)
+Subdivided dividedBy(const Lumen& lumen, SegmentSize size)
 {
     SubdivideOptions options = thesis(6);
     options.size = size;
-    options.approach = "global";
+    options.approach = SubdivideApproach::global;
     return divide(lumen, options);
 }
 
@@ -116,14 +124,14 @@ TEST(ThesisSubdivision, BalancesTrianglesBetterWhenItCountsThem)
     HuVolume hu(lumen.inside.grid);
     std::transform(lumen.inside.voxels.begin(), lumen.inside.voxels.end(), hu.voxels.begin(),
                    [](std::uint8_t v) { return std::int16_t(v ? -1000 : 40); });
-    const auto spread = [&](const char* size) {
+    const auto spread = [&](SegmentSize size) {
         Subdivided divided = dividedBy(lumen, size);
         NoProgress quiet;
         countTriangles(extractCells(hu, lumen.inside, divided.segments, {}, quiet), divided.description);
         const auto& s = divided.description.statistics;
         return s["triangles_standard_deviation"].get<double>() / s["triangles_average"].get<double>();
     };
-    EXPECT_LT(spread("triangles"), 0.7 * spread("inside"));
+    EXPECT_LT(spread(SegmentSize::triangles), 0.7 * spread(SegmentSize::inside));
 }
 
 TEST(ThesisSubdivision, BalancesWhatMeasuresASegmentsSize)
@@ -141,7 +149,7 @@ TEST(ThesisSubdivision, BalancesWhatMeasuresASegmentsSize)
                 return true;
         return false;
     };
-    const auto spread = [&](const char* size, bool of_surface) {
+    const auto spread = [&](SegmentSize size, bool of_surface) {
         const Subdivided divided = dividedBy(lumen, size);
         std::vector<double> count(divided.description.segments.size(), 0);
         for (std::size_t n = 0; n < grid.voxelCount(); ++n)
@@ -149,16 +157,16 @@ TEST(ThesisSubdivision, BalancesWhatMeasuresASegmentsSize)
                 ++count[std::size_t(divided.segments.voxels[n] - 1)];
         return *std::max_element(count.begin(), count.end()) / *std::min_element(count.begin(), count.end());
     };
-    EXPECT_LT(spread("surface", true), 1.3);
-    EXPECT_GT(spread("inside", true), 1.5);
-    EXPECT_LT(spread("inside", false), 1.3);
-    EXPECT_GT(spread("surface", false), 1.5);
+    EXPECT_LT(spread(SegmentSize::surface, true), 1.3);
+    EXPECT_GT(spread(SegmentSize::inside, true), 1.5);
+    EXPECT_LT(spread(SegmentSize::inside, false), 1.3);
+    EXPECT_GT(spread(SegmentSize::surface, false), 1.5);
 }
 
 TEST(ThesisSubdivision, DoesNotDependOnTheNumberOfThreads)
 {
     SubdivideOptions options = thesis(6);
-    options.approach = "global";
+    options.approach = SubdivideApproach::global;
     const Lumen lumen = bentTube();
     const Subdivided both = divide(lumen, options);
     tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);

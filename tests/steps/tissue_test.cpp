@@ -25,17 +25,20 @@ constexpr Vector3 kDown{0, 1, 0};  // supine; levels lie at y = 0.1
 struct Scene {
     using IsTissue = std::function<bool(Point3)>;
 
-    explicit Scene(const IsTissue& isTissue, double level_mm = 0.1, double noise_hu = 0, int size = 48)
+    explicit Scene(const IsTissue& isTissue, double level_mm = 0.1, double noise_hu = 0, int size = 48,
+                   Vector3 down = kDown)
         : grid{.size = {size, size, size}, .spacing_mm = {kVoxel_mm, kVoxel_mm, kVoxel_mm}},
           hu(grid),
           inside(grid),
-          truth(grid)
+          truth(grid),
+          down(down)
     {
         const double half = (size - 1) * kVoxel_mm / 2;
         grid.origin_mm = {-half, -half, -half};
         hu.grid = inside.grid = truth.grid = grid;
         const std::vector<float> tissue = blurred([&](Point3 p) { return isTissue(p) ? 1.0 : 0.0; });
-        const std::vector<float> fluid = blurred([&](Point3 p) { return !isTissue(p) && p.y > level_mm ? 1.0 : 0.0; });
+        const std::vector<float> fluid =
+            blurred([&](Point3 p) { return !isTissue(p) && dot(p - Point3{}, down) > level_mm ? 1.0 : 0.0; });
         std::mt19937 random(7);
         std::normal_distribution<double> noise(0, std::max(noise_hu, 1e-9));
         for (std::size_t n = 0; n < grid.voxelCount(); ++n) {
@@ -43,12 +46,12 @@ struct Scene {
             truth.voxels[n] = float(s);
             hu.voxels[n] = std::int16_t(
                 std::lround(s * kTissueHu + f * kFluidHu + (1 - s - f) * kGasHu + (noise_hu > 0 ? noise(random) : 0)));
-            const double y = grid.pointAt(grid.indexOf(n)).y;
-            inside.voxels[n] = s >= 0.5 ? kOutside : y > level_mm ? kFluid : kGas;
+            const double depth_mm = dot(grid.pointAt(grid.indexOf(n)) - Point3{}, down);
+            inside.voxels[n] = s >= 0.5 ? kOutside : depth_mm > level_mm ? kFluid : kGas;
         }
     }
 
-    TissueResult find(double noise_hu = 20) const { return findTissue(hu, inside, kDown, {}, noise_hu, quiet); }
+    TissueResult find(double noise_hu = 20) const { return findTissue(hu, inside, down, {}, noise_hu, quiet); }
 
     /// Calls use(place, found fraction, true fraction) for the voxels at least `margin_mm` within the scan.
     template <class Use>
@@ -66,6 +69,7 @@ struct Scene {
     HuVolume hu;
     InsideVolume inside;
     Volume<float> truth;
+    Vector3 down;
 
 private:
     /// The Gaussian mean of a function, sampled at half of the voxel's edge.
@@ -197,9 +201,12 @@ INSTANTIATE_TEST_SUITE_P(Thin, Sheets,
                                          SheetCase{"through the level, noise", 2, 0.1, 30}),
                          [](const auto& info) { return std::to_string(info.index); });
 
-TEST(Tissue, HasNoSurfaceBetweenGasAndFluid)
+class Down : public testing::TestWithParam<Vector3> {};
+
+TEST_P(Down, ThereIsNoSurfaceBetweenGasAndFluid)
 {
-    const Scene scene([](Point3 p) { return std::hypot(p.x, p.y) > 11 || std::abs(p.z) > 13; }, 0.1, 25);
+    const Scene scene([](Point3 p) { return std::hypot(p.x, p.y) > 11 || std::abs(p.z) > 13; }, 0.1, 25, 48,
+                      normalized(GetParam()));
     const TissueResult result = scene.find(25);
     const LumenSurface surface(result.tissue, result.lumen, quiet);
     SegmentVolume segments(scene.grid);
@@ -222,6 +229,11 @@ TEST(Tissue, HasNoSurfaceBetweenGasAndFluid)
     for (const auto& [edge, count] : edges)
         ASSERT_TRUE(count == 1 && edges.contains({edge.second, edge.first})) << "the surface is not closed";
 }
+
+/// Supine, prone, decubitus, upright, and on a tilted table.
+INSTANTIATE_TEST_SUITE_P(Lying, Down,
+                         testing::Values(kDown, Vector3{0, -1, 0}, Vector3{1, 0, 0}, Vector3{0, 0, 1},
+                                         Vector3{0, 0.94, 0.34}));
 
 /// How far from a place along a direction the fraction falls to one half, mm.
 double toWall_mm(const TissueVolume& tissue, Point3 from, Vector3 direction)
@@ -292,6 +304,85 @@ TEST(Tissue, CleansedDensitiesAreGasWhereFluidWasAndUntouchedElsewhere)
             ASSERT_LT(result.cleansed.voxels[n], -900);
         } else if (p.y < -5) {
             ASSERT_EQ(result.cleansed.voxels[n], scene.hu.voxels[n]);
+        }
+    }
+}
+
+/// Tagged bowel beside the colon, behind a wall of 1 mm; the labels hold it as far as this.
+Scene withOtherBowel(double labelled_to_mm)
+{
+    Scene scene([](Point3 p) {
+        const bool colon = p.x > -14 && p.x<2, other = p.x> 3 && p.x < 14 && p.y > 2;
+        return !(colon || other) || std::abs(p.y) > 13 || std::abs(p.z) > 13;
+    });
+    for (std::size_t n = 0; n < scene.grid.voxelCount(); ++n) {
+        const Point3 p = scene.grid.pointAt(scene.grid.indexOf(n));
+        if (p.x > labelled_to_mm)
+            scene.inside.voxels[n] = kOutside;
+        // Where the wall is thinnest the labels go through it.
+        if (p.x > 1 && p.x < 4 && p.y > 6 && p.y < 9 && std::abs(p.z) < 2)
+            scene.inside.voxels[n] = kFluid;
+    }
+    return scene;
+}
+
+std::size_t labelledBeyond(const InsideVolume& inside, double x_mm)
+{
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < inside.grid.voxelCount(); ++n)
+        count += inside.voxels[n] != kOutside && inside.grid.pointAt(inside.grid.indexOf(n)).x > x_mm;
+    return count;
+}
+
+TEST(Tissue, BowelThatTheLabelsWereCutOffFromIsNoLumen)
+{
+    const Scene scene = withOtherBowel(8);
+    const TissueResult found = scene.find();
+    ASSERT_GT(labelledBeyond(scene.inside, 3), 1000U);
+    EXPECT_EQ(labelledBeyond(found.lumen, 3), 0U);
+    std::size_t lost = 0;
+    for (std::size_t n = 0; n < scene.grid.voxelCount(); ++n)
+        lost += scene.truth.voxels[n] < 0.2 && scene.grid.pointAt(scene.grid.indexOf(n)).x < 1 &&
+                scene.inside.voxels[n] != kOutside && found.lumen.voxels[n] == kOutside;
+    EXPECT_EQ(lost, 0U) << "of the colon";
+}
+
+TEST(Tissue, WhatHoldsGasIsNotTakenForOtherBowel)
+{
+    Scene scene = withOtherBowel(8);
+    for (std::size_t n = 0; n < scene.grid.voxelCount(); ++n) {
+        const Point3 p = scene.grid.pointAt(scene.grid.indexOf(n));
+        if (p.x > 4 && p.x < 8 && p.y > 3 && p.y < 6 && std::abs(p.z) < 12) {
+            scene.inside.voxels[n] = kGas;
+            scene.hu.voxels[n] = std::int16_t(kGasHu);
+        }
+    }
+    const TissueResult found = scene.find();
+    EXPECT_GT(double(labelledBeyond(found.lumen, 4)), 0.5 * double(labelledBeyond(scene.inside, 4)));
+}
+
+TEST(Tissue, ARecessWithAWallOfItsOwnStaysLumen)
+{
+    const Scene scene = withOtherBowel(20);
+    const TissueResult found = scene.find();
+    EXPECT_GT(double(labelledBeyond(found.lumen, 3)), 0.95 * double(labelledBeyond(scene.inside, 3)));
+}
+
+TEST(Tissue, AFoldInSedimentStaysWhole)
+{
+    // Contrast medium settled to twice the density of what stands over it, with a fold of 2 mm in it.
+    Scene scene([](Point3 p) { return std::abs(p.y) > 13 || std::abs(p.z) > 13 || std::abs(p.x) < 1; }, -20);
+    for (std::size_t n = 0; n < scene.grid.voxelCount(); ++n) {
+        const double over_mm = scene.grid.pointAt(scene.grid.indexOf(n)).y - 9;
+        if (over_mm > 0)
+            scene.hu.voxels[n] = std::int16_t(
+                std::lround(scene.hu.voxels[n] + (1 - scene.truth.voxels[n]) * kFluidHu * std::min(1.0, over_mm / 2)));
+    }
+    const TissueResult found = scene.find();
+    for (std::size_t n = 0; n < scene.grid.voxelCount(); ++n) {
+        const Point3 p = scene.grid.pointAt(scene.grid.indexOf(n));
+        if (std::abs(p.x) < 0.4 && p.y > -10 && p.y < 12 && std::abs(p.z) < 10) {
+            EXPECT_GE(found.tissue.voxels[n], 128) << p.y << " " << p.z;
         }
     }
 }

@@ -27,15 +27,20 @@ TemporaryFolder::~TemporaryFolder()
     fs::remove_all(path_, ignored);
 }
 
+bool inFull()
+{
+    return std::getenv("VICON_IN_FULL") != nullptr;
+}
+
 bool waitUntil(const std::function<bool()>& holds)
 {
     constexpr std::chrono::minutes kLongest{1};
-    constexpr std::chrono::milliseconds kBetween{1};
+    constexpr std::chrono::milliseconds kFirst{1}, kMost{50};
     const auto end = std::chrono::steady_clock::now() + kLongest;
-    while (!holds()) {
+    for (auto between = kFirst; !holds(); between = std::min(2 * between, kMost)) {
         if (std::chrono::steady_clock::now() > end)
             return false;
-        std::this_thread::sleep_for(kBetween);
+        std::this_thread::sleep_for(between);
     }
     return true;
 }

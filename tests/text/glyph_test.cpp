@@ -49,7 +49,7 @@ TEST_F(Glyphs, HaveOutlinesOfTheAreaThatTheyCover)
     for (const char32_t c : {U'I', U'O', U'8', U'न', U'ก', U'ع', U'山', U'に'}) {
         const int font = fonts.find(c).value();
         const unsigned glyph = glyphOf(fonts, font, c);
-        const Coverage coverage = coverageOf(fonts, font, glyph, kSize, 0, 0);
+        const GlyphMask coverage = glyphMaskOf(fonts, font, glyph, kSize, 0, 0);
         const double ink = std::accumulate(coverage.cover.begin(), coverage.cover.end(), 0.0) / 255 / kSize / kSize;
         ASSERT_GT(ink, 0.02);
         EXPECT_NEAR(areaOf(outlineOf(fonts, font, glyph)), ink, 0.02 * ink) << std::hex << unsigned(c);
@@ -61,7 +61,7 @@ TEST_F(Glyphs, MoveByPartsOfAPixel)
     const int font = fonts.find(U'I').value();
     const unsigned glyph = glyphOf(fonts, font, U'I');
     const auto middle = [&](double right_px) {
-        const Coverage c = coverageOf(fonts, font, glyph, 20, right_px, 0);
+        const GlyphMask c = glyphMaskOf(fonts, font, glyph, 20, right_px, 0);
         double sum = 0, weight = 0;
         for (std::size_t n = 0; n < c.cover.size(); ++n) {
             sum += c.cover[n] * (c.left + double(n % std::size_t(c.width)));
@@ -77,7 +77,7 @@ TEST_F(Glyphs, OfSpacesDrawNothing)
     const int font = fonts.find(U' ').value();
     const unsigned glyph = glyphOf(fonts, font, U' ');
     EXPECT_TRUE(outlineOf(fonts, font, glyph).empty());
-    EXPECT_TRUE(coverageOf(fonts, font, glyph, 20, 0, 0).cover.empty());
+    EXPECT_TRUE(glyphMaskOf(fonts, font, glyph, 20, 0, 0).cover.empty());
     EXPECT_GT(advance_em(fonts, font, glyph), 0.2);
 }
 

@@ -51,7 +51,7 @@ Caption longCaption()
 /// As many lines as a caption can have.
 std::vector<OverlayText> manyLines()
 {
-    auto lines = captionLines(longCaption(), 1234, 1999, wordsFor("colon"));
+    auto lines = captionLines(longCaption(), 1234, 1999, wordsFor(Organ()));
     for (const char* words :
          {"window colon: 1500 / -200 HU", "m12  a sessile polyp behind a fold, which was seen on",
           "the way back alone, and does not move when the", "patient is turned; to be looked at again…"})
@@ -101,7 +101,7 @@ TEST_F(Captions, OfTheViewFromInsideTouchNeitherLettersNorEachOther)
     SnapshotRequest request;
     request.caption = longCaption();
     request.look_at_mm = colon.polyp_mm;
-    request.peel = "biopsy";
+    request.peel.preset = "biopsy";
     SnapshotResult place = placeOf(of, request);
     place.sees_target = false;
     for (const auto& [width, height] : kSizes) {

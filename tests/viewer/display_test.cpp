@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "vicon/support/support.h"
+
 namespace vicon::viewer {
 namespace {
 
@@ -93,9 +95,7 @@ bool listens(const std::string& display)
 
 bool isGoneSoon(const std::string& display)
 {
-    for (int n = 0; n < 100 && listens(display); ++n)
-        ::usleep(100000);
-    return !listens(display);
+    return support::waitUntil([&] { return !listens(display); });
 }
 
 const std::vector<std::string> kNoDisplay{"PATH=/usr/bin:/bin"};

@@ -106,6 +106,8 @@ TEST_F(Flights, ReportPosesFramesAndCoverage)
     EXPECT_LT(one_way.average_triangles, 0.6 * double(one_way.triangles));
     EXPECT_GT(one_way.coverage, 0.6);
     EXPECT_LT(one_way.coverage, 1.0);
+    EXPECT_GT(one_way.reviewed, 0.3) << "steeply enough";
+    EXPECT_LT(one_way.reviewed, one_way.coverage);
 
     const auto json = nlohmann::json::parse(readFile(folder / "flight" / "flight.json"));
     EXPECT_EQ(json.at("frames").size(), one_way.frames.size());

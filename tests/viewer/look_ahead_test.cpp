@@ -49,8 +49,9 @@ TEST_P(LookAheadBothWays, TurnsWithoutJerks)
     for (double station = 5; station < course.path.length_mm() - 5; station += 0.1) {
         const Vector3 way = ahead.direction(station, course.path.at(station).position_mm, GetParam());
         EXPECT_NEAR(length(way), 1, 1e-9);
-        if (length(before) > 0)
+        if (length(before) > 0) {
             EXPECT_GT(dot(way, before), std::cos(radians(1))) << station;
+        }
         before = way;
     }
 }

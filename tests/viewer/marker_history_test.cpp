@@ -143,7 +143,7 @@ TEST_F(Pairs, ArePairedPartedAndDeletedAsOneStepEach)
     EXPECT_EQ(pairs(), apart);
 }
 
-TEST_F(Pairs, LetGoOfTheFormerPartner)
+TEST_F(Pairs, ReleaseTheFormerPartner)
 {
     history.pair(store, a, b);
     history.pair(store, now(a), c);

@@ -12,16 +12,13 @@
 #include "vicon/core/file.h"
 #include "vicon/support/support.h"
 
-#ifndef VICON_KILLS
-#define VICON_KILLS 3  // a sample; the label `long` runs all
-#endif
-
 using nlohmann::json;
 
 namespace vicon::viewer {
 namespace {
 
 constexpr double kLongest_s = 0.4;  // that a reader works before it is killed
+const int kKills = support::inFull() ? 50 : 3;
 constexpr int kPatience_ms = 60'000;
 
 /// A marker_worker in a process of its own.
@@ -225,12 +222,12 @@ protected:
 
 TEST_F(MarkerKill, AtAnyMomentLosesNoMarkerThatWasShownAsSaved)
 {
-    killAgainAndAgain({{"anna", {}}}, VICON_KILLS);
+    killAgainAndAgain({{"anna", {}}}, kKills);
 }
 
 TEST_F(MarkerKill, OfTwoReadersAtOnceLosesNoMarkerOfEither)
 {
-    killAgainAndAgain({{"anna", {}}, {"bert", {}}}, VICON_KILLS);
+    killAgainAndAgain({{"anna", {}}, {"bert", {}}}, kKills);
 }
 
 }  // namespace

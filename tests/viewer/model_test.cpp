@@ -74,7 +74,7 @@ TEST(Camera, RaysGoThroughThePixelsTheyWereMadeFor)
     EXPECT_LE(project(lookAt({}, {1, 0, 0}, {0, 0, 1}), {90, 10, 10}, {-3, 0, 0}).depth_mm, 0);
 }
 
-TEST(Camera, UprightIsAUnitVectorAcrossEvenWhereTheWishIsAlong)
+TEST(Camera, UprightIsAUnitVectorAcrossEvenWhereTheWantedUpIsAlong)
 {
     for (const Vector3 forward : {Vector3{0, 0, 1}, Vector3{1, 0, 0}, normalized({1, 2, -3})})
         for (const Vector3 wanted : {forward, -forward, Vector3{0, -1, 0}, Vector3{}}) {
@@ -192,10 +192,10 @@ TEST(TransferFunction, PresetsRiseInDensityAndInterpolate)
 
 TEST(Annotation, StationsAreToldFromBothEnds)
 {
-    EXPECT_EQ(stationTexts(250, 1000, wordsFor("colon"))[0], "250 mm from the rectum (25 %)");
-    EXPECT_EQ(stationTexts(250, 1000, wordsFor("colon"))[1], "750 mm from the caecum");
-    EXPECT_EQ(stationTexts(250, 1000, wordsFor("aorta"))[0], "250 mm from the root (25 %)");
-    EXPECT_EQ(stationTexts(250, 1000, wordsFor("aorta"))[1], "750 mm from the tip");
+    EXPECT_EQ(stationTexts(250, 1000, wordsFor(Organ()))[0], "250 mm from the rectum (25 %)");
+    EXPECT_EQ(stationTexts(250, 1000, wordsFor(Organ()))[1], "750 mm from the caecum");
+    EXPECT_EQ(stationTexts(250, 1000, wordsFor(Organ("aorta")))[0], "250 mm from the root (25 %)");
+    EXPECT_EQ(stationTexts(250, 1000, wordsFor(Organ("aorta")))[1], "750 mm from the tip");
 }
 
 TEST(Annotation, LongTextIsCutBetweenWordsAndMarkedWhereItEnds)

@@ -269,6 +269,22 @@ TEST(Peeling, APictureOrAStepOutOfRangeIsRefused)
     EXPECT_THROW(peel(cube.volume, lumen, {}, {90, 0, 8}, evenOpacity(0.5)), Error);
 }
 
+TEST(Peeling, IsGivenUpWhenNobodyWantsIt)
+{
+    class Unwanted : public NoProgress {
+        bool cancelled() const override { return true; }
+    } unwanted;
+    const HollowCube cube(40);
+    const Lumen lumen(cube.inside, cube.wall);
+    try {
+        peel(DensityBricks(cube.volume), lumen, {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {90, 64, 64}, evenOpacity(0.5), {},
+             {}, &unwanted);
+        FAIL() << "it went on";
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ErrorCode::cancelled);
+    }
+}
+
 TEST(Peeling, IsLaidOverByItsOpacity)
 {
     std::vector<std::uint8_t> rgb{100, 100, 100, 100, 100, 100};

@@ -37,7 +37,7 @@ TEST_F(PreparedScans, ThatAreReadForAFlightHaveTheFieldsOfTheLumenInMemory)
 {
     const PreparedScan prepared = scan();
     prepared.readForFlight();
-    prepared.readOn();
+    prepared.readOn(NoProgress());
     const InsideView inside = prepared.inside();
     const FieldView wall = prepared.wallDistance(), exit = prepared.exitDistance();
     sumOverLumen(FieldView(inside.grid, std::vector<float>(inside.voxels.size())), inside);  // the code and the labels
@@ -83,7 +83,7 @@ TEST_F(PreparedScans, ReadBeforeTheFirstPictureNeitherTheDensitiesNorTheDistance
     EXPECT_LT(share("volume.mha"), 0.3);
     EXPECT_LT(share("exit_distance.mha"), 0.3);
     EXPECT_GT(share("wall_distance.mha"), 0.5) << "a camera asks for it";
-    prepared.readOn();
+    prepared.readOn(NoProgress());
     EXPECT_GT(share("exit_distance.mha"), 0.5);
 }
 

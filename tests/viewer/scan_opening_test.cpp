@@ -86,7 +86,7 @@ TEST(ScanOpening, WhatIsAskedForLaterReplacesWhatWasUnderWay)
     EXPECT_EQ(std::get<CorrespondingPlace>(arrival.place).station_mm, 200);
 }
 
-TEST(ScanOpening, WhatWasGivenUpLeavesNoWish)
+TEST(ScanOpening, WhatWasGivenUpLeavesNoRequest)
 {
     ScanOpening opening;
     ScanRequest request = requestFor(kProne);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <random>
 
@@ -31,6 +32,14 @@ std::optional<std::size_t> firstTriangle(const CellSurface& surface, Point3 eye,
         }
     }
     return first;
+}
+
+std::size_t patchOf(const std::vector<Patch>& patches, std::size_t triangle)
+{
+    const auto patch = std::find_if(patches.begin(), patches.end(), [&](const Patch& p) {
+        return triangle >= p.first_triangle && triangle < p.first_triangle + p.triangles;
+    });
+    return std::size_t(patch - patches.begin());
 }
 
 TEST(Patches, HoldEveryTriangleOnceAndNeverTwoCells)
@@ -77,10 +86,7 @@ TEST(SightLines, TheFirstTriangleOnALineOfSightIsNeverLeftOut)
                 const Vector3 way = rayThrough(pose, lens, {200 * part(random), 160 * part(random)});
                 if (const auto t = firstTriangle(colon.cells, eye, way)) {
                     ++hits;
-                    const auto patch = std::find_if(patches.begin(), patches.end(), [&](const Patch& p) {
-                        return *t >= p.first_triangle && *t < p.first_triangle + p.triangles;
-                    });
-                    EXPECT_TRUE(seen[std::size_t(patch - patches.begin())]) << storage.name;
+                    EXPECT_TRUE(seen[patchOf(patches, *t)]) << storage.name;
                 }
             }
         }
@@ -139,10 +145,12 @@ TEST(SightLines, FarAwayLittleIsMetBehindAnEdge)
         const double shadow = 20 + (20 - x) * (297.4 - 250) / (250 - 6);  // where the edge's shadow begins there
         for (std::size_t n = 0; n < patches.size(); ++n) {
             const double beyond = points[9 * n] - shadow;
-            if (beyond < 0)
+            if (beyond < 0) {
                 EXPECT_TRUE(seen[n]) << x << " mm, " << beyond << " mm behind the edge";
-            if (beyond > 5)
+            }
+            if (beyond > 5) {
                 EXPECT_FALSE(seen[n]) << x << " mm, " << beyond << " mm behind the edge";
+            }
         }
     }
 }

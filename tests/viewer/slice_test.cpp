@@ -44,6 +44,30 @@ TEST(Slices, ShowTheDensityOfEachPixelsPointHoweverTheScanIsStored)
     }
 }
 
+TEST(Slices, ShowEachVoxelAsItIsPixelForPixel)
+{
+    Grid grid;
+    grid.size = {40, 36, 20};
+    grid.spacing_mm = {0.7, 0.7, 1.25};
+    grid.origin_mm = {-11, 4, 3};
+    HuVolume volume(grid);
+    for (std::size_t n = 0; n < volume.voxels.size(); ++n)
+        volume.voxels[n] = std::int16_t(n * 7919 % 2000);  // no two neighbours are alike
+    const Point3 point = grid.pointAt(ContinuousIndex3{17.3, 20.2, 9.4});
+    for (const int width : {16, 17}) {
+        const PlaneView whole = sliceThrough(grid, SlicePlane::axial, point, width, 12);
+        const PlaneView view = pixelForPixel(grid, whole, point);
+        EXPECT_EQ(view.mm_per_pixel, 0.7);
+        const auto densities = sliceDensities(volume, view);
+        const Index3 middle = grid.indexAt(point);
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x) {
+                const Index3 voxel{middle.i + x - width / 2, middle.j + y - 6, middle.k};
+                EXPECT_NEAR(densities[std::size_t(y * width + x)], volume.voxels[grid.offset(voxel)], 1e-3);
+            }
+    }
+}
+
 TEST(Slices, PassThroughTheirPointAndShowTheWholeScan)
 {
     const Point3 point{7, -4, 11};

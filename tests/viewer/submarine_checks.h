@@ -124,7 +124,7 @@ inline void expectReachesEnd(Submarine& boat, double station_mm, double length_m
 }
 
 /// Steered away from the path for a second at many places, then let go; back on it, it is pulled to its end.
-inline void letGoAlong(const Course& course, int places)
+inline void releasedAlong(const Course& course, int places)
 {
     std::mt19937 random(11);
     double farthest = 0;

@@ -19,14 +19,28 @@ TEST_F(Submarines, FlyTheSamePathAtAnyFrameRate)
     test::flyAtTwoRates(course, 0, 9);
 }
 
-TEST_F(Submarines, LetGoAreBackOnThePathWithinTwoSeconds)
+TEST_F(Submarines, ReleasedAreBackOnThePathWithinTwoSeconds)
 {
-    test::letGoAlong(course, 30);
+    test::releasedAlong(course, 30);
 }
 
 TEST_F(Submarines, PulledReachEitherEnd)
 {
     test::pullToBothEnds(course);
+}
+
+TEST_F(Submarines, AdriftReachEitherEndAndStayOffTheWall)
+{
+    for (const Heading heading : {Heading::caecum, Heading::rectum}) {
+        Submarine boat = submarine();
+        boat.placeAt(heading == Heading::caecum ? 0 : path.length_mm(), heading);
+        boat.steer({.drift = 1});
+        for (int n = 0; n < 240 * 60 && !boat.state().at_end; ++n) {
+            boat.advance(Submarine::kTick_s);
+            ASSERT_GE(boat.state().clearance_mm, test::leastClearance_mm(course, boat.state())) << n;
+        }
+        EXPECT_TRUE(boat.state().at_end) << boat.state().station_mm;
+    }
 }
 
 TEST_F(Submarines, AreCarriedOverACollapsedPartAndSaySo)
@@ -124,7 +138,7 @@ TEST(SubmarinesInAHall, AreCarriedThroughANeckNoNearerToTheWallThanThePath)
     }
 }
 
-TEST(SubmarinesInAHall, LetGoBesideANeckMakeForWhereThePathIsWide)
+TEST(SubmarinesInAHall, ReleasedBesideANeckMakeForWhereThePathIsWide)
 {
     InAHall in(neck);
     in.boat.placeAt(60, Heading::caecum);
@@ -135,7 +149,7 @@ TEST(SubmarinesInAHall, LetGoBesideANeckMakeForWhereThePathIsWide)
     EXPECT_GE(in.boat.state().clearance_mm, 2);
 }
 
-TEST(SubmarinesInAHall, LetGoInAPouchFindTheirWayOut)
+TEST(SubmarinesInAHall, ReleasedInAPouchFindTheirWayOut)
 {
     // Plates on either side of the path, and the space behind them closed towards the caecum.
     InAHall in([](double x, double, double z) {
@@ -178,6 +192,57 @@ TEST(SubmarinesInAHall, ArePulledAlsoWhereTheDistanceFromTheExitGrows)
         const double expected = std::sqrt(0.5) / (2 + std::sqrt(0.5));
         EXPECT_NEAR(velocity.x / velocity.z, tilt * expected, 0.02);
     }
+}
+
+/// Makes the distance from the exit grow in that direction.
+void tilt(Hall& hall, Vector3 slope)
+{
+    for (std::size_t n = 0; n < hall.exit.voxels.size(); ++n)
+        if (hall.inside.voxels[n])
+            hall.exit.voxels[n] = float(200 + dot(hall.exit.grid.pointAt(hall.exit.grid.indexOf(n)) - Point3{}, slope));
+}
+
+TEST(SubmarinesInAHall, AdriftGoWhereTheDistanceFromTheExitGrowsAndNotAtAllWhereItIsFlat)
+{
+    for (const Vector3 slope : {Vector3{0.6, 0, 0.8}, Vector3{-0.6, 0, 0.8}, Vector3{0, 0.6, 0.8}}) {
+        InAHall in([](double, double, double) { return false; });
+        tilt(in.hall, slope);
+        in.boat.placeAt(60, Heading::caecum);
+        in.steer({.drift = 1}, 0.2);
+        const Vector3 went = in.boat.state().pose.eye_mm - in.path.at(60).position_mm;
+        EXPECT_GT(length(went), 1);
+        EXPECT_LT(length(normalized(went) - slope), 0.02);
+    }
+    InAHall flat([](double, double, double) { return false; });
+    tilt(flat.hall, {});
+    flat.boat.placeAt(60, Heading::caecum);
+    flat.steer({.drift = 1}, 0.9);
+    EXPECT_LT(distance(flat.boat.state().pose.eye_mm, flat.path.at(60).position_mm), 1e-6);
+    flat.steer({.drift = 1}, 20);
+    EXPECT_TRUE(flat.boat.state().at_end) << "where nothing leads on, the path does";
+}
+
+TEST(SubmarinesInAHall, AdriftAreHeldOffTheWallWhereBothPotentialsAreEqual)
+{
+    const SubmarineOptions options;
+    const double reach = options.wall_share * 17;
+    const Vector3 slope = normalized(Vector3{1, 0, 0.4});
+    const double pulled = slope.x * options.cruise_mm_s * options.friction_per_s;
+    const auto push = [&](double wall) {
+        return 2 * options.wall_strength_mm2_s2 * (reach / wall - 1) * reach / (wall * wall);
+    };
+    double near = options.camera_radius_mm, far = reach;
+    for (int n = 0; n < 60; ++n)
+        (push((near + far) / 2) > pulled ? near : far) = (near + far) / 2;
+    ASSERT_GT(near, options.camera_radius_mm + 1);
+    InAHall in([](double, double, double) { return false; });
+    tilt(in.hall, slope);
+    in.boat.placeAt(30, Heading::caecum);
+    in.steer({.drift = 1}, 4);
+    EXPECT_NEAR(in.boat.state().clearance_mm, near, 0.4);
+    EXPECT_GT(in.boat.state().off_path_mm, 15) << "nothing draws it back to the path";
+    in.steer({}, 2);
+    EXPECT_LT(in.boat.state().off_path_mm, 0.5) << "but when it is let go";
 }
 
 TEST(SubmarinesInAHall, ArePushedOffTheWallAgainstTheHand)

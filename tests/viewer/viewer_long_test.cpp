@@ -57,7 +57,7 @@ TEST(LongPrepared, AThousandCulledPicturesOfEachScanAreIdenticalToPicturesOfEver
 }
 
 // One test for all, as preparing the scans takes longer than the flights.
-TEST(LongPrepared, TheGuidedCameraKeepsOffTheWallFliesAlikeAtAnyFrameRateAndComesBackWhenLetGo)
+TEST(LongPrepared, TheGuidedCameraKeepsOffTheWallFliesAlikeAtAnyFrameRateAndComesBackWhenReleased)
 {
     VICON_NEEDS_DATA("ctc-prone");
     forEachPreparedScan([](const PreparedScan& scan) {
@@ -66,7 +66,7 @@ TEST(LongPrepared, TheGuidedCameraKeepsOffTheWallFliesAlikeAtAnyFrameRateAndCome
         test::steerAtRandom(course, 1000000, 1000);
         for (unsigned n = 0; n < 20; ++n)
             test::flyAtTwoRates(course, scan.frames().length_mm() * n / 20, 9 + n);
-        test::letGoAlong(course, 1000);
+        test::releasedAlong(course, 1000);
         test::pullToBothEnds(course);
     });
 }

@@ -86,7 +86,7 @@ void setSize(FT_Face face, double size_px)
     FT_Set_Char_Size(face, 0, FT_F26Dot6(std::lround(size_px * kFixed)), 72, 72);
 }
 
-Coverage coverageOf(const FontSet& fonts, int font, unsigned glyph, double size_px, double right_px, double up_px)
+GlyphMask glyphMaskOf(const FontSet& fonts, int font, unsigned glyph, double size_px, double right_px, double up_px)
 {
     FT_Face face = fonts.face(font);
     setSize(face, size_px);
@@ -96,7 +96,7 @@ Coverage coverageOf(const FontSet& fonts, int font, unsigned glyph, double size_
     if (FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL) != 0)
         return {};
     const FT_Bitmap& bitmap = face->glyph->bitmap;
-    Coverage out{face->glyph->bitmap_left, face->glyph->bitmap_top, int(bitmap.width), int(bitmap.rows), {}};
+    GlyphMask out{face->glyph->bitmap_left, face->glyph->bitmap_top, int(bitmap.width), int(bitmap.rows), {}};
     for (unsigned row = 0; row < bitmap.rows; ++row) {
         const std::uint8_t* const begin = bitmap.buffer + std::ptrdiff_t(row) * bitmap.pitch;
         out.cover.insert(out.cover.end(), begin, begin + bitmap.width);

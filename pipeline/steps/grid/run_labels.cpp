@@ -155,4 +155,17 @@ RunLabels labelLumen(const InsideVolume& labels, Neighbours neighbours)
     return labelRuns(labels.grid.size, scan, neighbours);
 }
 
+std::vector<std::size_t> voxelsOf(const RunLabels& labels, std::uint32_t component, const Grid& grid)
+{
+    const RunComponent& box = labels.components[component];
+    std::vector<std::size_t> voxels;
+    for (int k = box.lower.k; k <= box.upper.k; ++k)
+        for (int j = box.lower.j; j <= box.upper.j; ++j)
+            for (std::size_t r = labels.row_begin[labels.row(j, k)]; r < labels.row_begin[labels.row(j, k) + 1]; ++r)
+                if (const VoxelRun& run = labels.runs[r]; run.label == component)
+                    for (int i = run.begin; i < run.end; ++i)
+                        voxels.push_back(grid.offset({i, j, k}));
+    return voxels;
+}
+
 }  // namespace vicon::steps

@@ -52,4 +52,7 @@ RunLabels labelRuns(const std::array<int, 3>& size, const RowScanner& scan, Neig
 /// Components of gas and fluid; a run's sum is the number of its voxels of fluid.
 RunLabels labelLumen(const InsideVolume& labels, Neighbours neighbours);
 
+/// The voxels of a component, in order.
+std::vector<std::size_t> voxelsOf(const RunLabels& labels, std::uint32_t component, const Grid& grid);
+
 }  // namespace vicon::steps

@@ -159,7 +159,7 @@ LumenPiece endsOf(const InsideVolume& mask, const OrganOptions& options, Point3 
     const LumenGraph graph = makeWholeGraph(wallDistance(mask, progress), 2, progress);
     const auto farthestFrom = [&](std::int32_t node) { return farthestNode(centralTree(graph, node, {}, progress)); };
     std::int32_t root = graph.nearest(head_mm);
-    if (options.root == "far_from_feet") {
+    if (options.root == TreeRoot::far_from_feet) {
         std::int32_t lowest = 0;
         const LumenTree from_seed = centralTree(graph, root, {}, progress);
         for (std::int32_t n = 0; n < std::int32_t(graph.count()); ++n)

@@ -11,6 +11,7 @@
 namespace vicon::steps {
 namespace {
 
+// Of the flood, not of a case: its steps are blocks of two voxels.
 constexpr int kAverage_mm = 10;  // half of the triangle over which a cross-section is averaged: the flood goes in steps
 
 /// Radius of the disc as large as the cross-section at each millimetre; 0 on bridges.
@@ -62,6 +63,47 @@ StretchQuality measureStretch(std::optional<ColonPart> part, double from_mm, dou
     return q;
 }
 
+constexpr int kStep_mm = 5;  ///< of what is kept along the skeleton: finer than the average over a cross-section
+
+double rounded(double value, double parts_of_one)
+{
+    return std::round(value * parts_of_one) / parts_of_one;
+}
+
+std::vector<StationRange> collapsedAlong(const std::vector<double>& radii, double length_mm,
+                                         const QualityOptions& options)
+{
+    std::vector<StationRange> out;
+    bool open = true;
+    for (std::size_t n = 0; n < radii.size(); ++n) {
+        const bool collapsed = radii[n] < options.collapsed_radius_mm;
+        if (collapsed && open)
+            out.push_back({double(n), 0});
+        if (collapsed)
+            out.back().to_mm = std::min(double(n + 1), length_mm);
+        open = !collapsed;
+    }
+    return out;
+}
+
+LumenAlong lumenAlong(const std::vector<double>& radii, const LumenProfile& profile, double length_mm,
+                      const QualityOptions& options)
+{
+    LumenAlong along{.step_mm = kStep_mm, .collapsed = collapsedAlong(radii, length_mm, options)};
+    for (std::size_t from = 0; from < radii.size(); from += kStep_mm) {
+        const std::size_t to = std::min(from + kStep_mm, radii.size());
+        double radius = 0, volume = 0, fluid = 0;
+        for (std::size_t n = from; n < to; ++n) {
+            radius += radii[n];
+            volume += profile.volume_mm3[n];
+            fluid += profile.fluid_mm3[n];
+        }
+        along.radius_mm.push_back(rounded(radius / double(to - from), 10));
+        along.fluid_fraction.push_back(volume > 0 ? rounded(fluid / volume, 100) : 0);
+    }
+    return along;
+}
+
 void judge(ScanQuality& quality, double length_mm, const QualityOptions& options)
 {
     const auto note = [&](QualityReason reason, std::optional<ColonPart> part, double value) {
@@ -99,6 +141,7 @@ ScanQuality measureQuality(const InsideVolume& inside, const Skeleton& skeleton,
     quality.whole = measureStretch(std::nullopt, 0, skeleton.length_mm(), radii, profile, options);
     for (const ColonPartRange& range : parts)
         quality.parts.push_back(measureStretch(range.part, range.from_mm, range.to_mm, radii, profile, options));
+    quality.along = lumenAlong(radii, profile, skeleton.length_mm(), options);
     quality.thresholds = vicon::toJson(options);
     judge(quality, skeleton.length_mm(), options);
     progress.report(1, "quality");

@@ -2,17 +2,17 @@
 
 #include "grid/itk_view.h"
 #include "resample/sampling.h"
+#include "vicon/steps/resample.h"
 
 namespace vicon::steps {
-
-/// The smooth ones; linear interpolation is LinearResampleFilter.
-enum class Interpolation { bspline, windowed_sinc };
 
 /// Acquired slices, along the oriented axes, and which they are.
 struct AcquiredSlab {
     ItkHu::Pointer slices;
     SliceRange range;
 };
+
+// Of the smooth ones; the linear one is LinearResampleFilter.
 
 /// How many acquired voxels away a density still has a weight worth counting.
 int reachOf(Interpolation interpolation);

@@ -52,12 +52,12 @@ HuVolume resample(HuVolume acquired, const ResampleOptions& options, Progress& p
         const SliceRange range{slab * thickness, std::min(slices, (slab + 1) * thickness)};
         resampleLinearly(scan, sampling, range, &out.at({0, 0, range.begin}));
     });
-    if (options.interpolation != "linear" && sampling.movesAny())
+    if (options.interpolation != Interpolation::linear && sampling.movesAny())
         for (SliceRange range; range.begin < slices; range.begin = range.end) {
             range.end = std::min(slices, range.begin + kSmoothSlab_slices);
             progress.report(double(range.begin) / slices, "resampling");
             progress.check();
-            smoothOver(scan, sampling, range, options.interpolation == "bspline", &out.at({0, 0, range.begin}));
+            smoothOver(scan, sampling, range, options.interpolation, &out.at({0, 0, range.begin}));
         }
     progress.check();
     progress.report(1, "resampling");

@@ -83,10 +83,9 @@ void resampleLinearly(const OrientedScan& scan, const Sampling& sampling, SliceR
     });
 }
 
-void smoothOver(const OrientedScan& scan, const Sampling& sampling, SliceRange of_new, bool by_bspline,
+void smoothOver(const OrientedScan& scan, const Sampling& sampling, SliceRange of_new, Interpolation interpolation,
                 std::int16_t* out)
 {
-    const Interpolation interpolation = by_bspline ? Interpolation::bspline : Interpolation::windowed_sinc;
     guarded([&] {
         const AcquiredSlab acquired = slabOf(scan, sampling.acquiredAround(of_new, kMargin_slices));
         const ItkMask::Pointer near_padding = nearPadding(acquired, reachOf(interpolation));

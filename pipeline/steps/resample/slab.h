@@ -4,6 +4,7 @@
 
 #include "resample/oriented_scan.h"
 #include "resample/sampling.h"
+#include "vicon/steps/resample.h"
 
 namespace vicon::steps {
 
@@ -12,7 +13,7 @@ namespace vicon::steps {
 void resampleLinearly(const OrientedScan& scan, const Sampling& sampling, SliceRange of_new, std::int16_t* out);
 
 /// Puts the smooth interpolation in place of the linear one, except near padding. Uses all of ITK's threads.
-void smoothOver(const OrientedScan& scan, const Sampling& sampling, SliceRange of_new, bool by_bspline,
+void smoothOver(const OrientedScan& scan, const Sampling& sampling, SliceRange of_new, Interpolation interpolation,
                 std::int16_t* out);
 
 }  // namespace vicon::steps

@@ -9,8 +9,9 @@ namespace vicon::steps {
 
 Segmentation segmentColon(const HuVolume& volume, Vector3 gravity, const SegmentOptions& options, Progress& progress)
 {
-    Segmentation result = options.method == "binary" ? segmentBinary(volume, options, progress)
-                                                     : segmentAutomatically(volume, gravity, options, progress);
+    Segmentation result = options.method == SegmentMethod::binary
+                              ? segmentBinary(volume, options, progress)
+                              : segmentAutomatically(volume, gravity, options, progress);
     const double voxel_ml = result.inside.grid.voxelVolume_mm3() / 1000;
     const auto count = [&](std::uint8_t label) {
         return double(std::count(result.inside.voxels.begin(), result.inside.voxels.end(), label)) * voxel_ml;

@@ -9,10 +9,10 @@
 namespace vicon::steps {
 namespace {
 
-// A whole colon with gas holds 0.5 to 4 l and is 1.1 to 2.7 m long; the limits leave room for short phantoms and
-// colons that are half collapsed. No case recorded; of 40 crops of phantoms 101 to 105 that cut the
-// colon, none was called a colon. Half and double leave the three cases (CONTRIBUTING.md) as they are.
-constexpr double kLongest_mm = 3000;
+// A whole colon with gas holds 0.5 to 4 l and is 1.1 to 2.7 m long; these and the options segment.shortest_mm to
+// .longest_mm leave room for short phantoms and colons that are half collapsed. No case recorded; of 40 crops of
+// phantoms 101 to 105 that cut the colon, none was called a colon. Half and double leave the three cases
+// (CONTRIBUTING.md) as they are.
 constexpr double kNarrowest_mm = 6;       // largest radius
 constexpr double kStumpConfidence = 0.5;  // that there is no colon where gas leaves the scan
 constexpr double kLowestStart = 0.4;  // of the body's height in the scan: a rectum lies at the lower end of an abdomen
@@ -72,7 +72,7 @@ void judgeSegmentation(Segmentation& result, const SegmentOptions& options, cons
         doubt(result, 0.4, "the lowest piece of gas does not lie where a rectum does");
     if (length < options.usual_mm)
         doubt(result, 0.6, "only " + round(length) + " mm of colon were found");
-    if (length > kLongest_mm)
+    if (length > options.longest_mm)
         doubt(result, 0.6, "the colon found is " + round(length) + " mm long");
     if (end.x > (body.lower_mm.x + body.upper_mm.x) / 2)
         doubt(result, 0.6, "the far end does not lie on the patient's right, where the caecum is");

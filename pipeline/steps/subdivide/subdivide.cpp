@@ -54,7 +54,7 @@ Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const
     const int specified = options.segments > 0 ? options.segments : std::max(1, int(std::lround(total_mm / length_mm)));
 
     const std::vector<Path> paths = pathsOf(inside, skeleton, voxels);
-    const Labelling labelling = options.method == "thesis"
+    const Labelling labelling = options.method == SubdivideMethod::thesis
                                     ? thesisPieces(inside, skeleton, paths, options, specified, progress)
                                     : floodPieces(inside, skeleton, paths, length_mm, std::move(flood));
     progress.check();
@@ -69,7 +69,7 @@ Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const
     progress.report(0.8, "subdividing");
 
     Subdivided result;
-    result.description.method = options.method;
+    result.description.method = nameIn(kSubdivideMethodNames, options.method);
     result.description.parameters = toJson(options);
     result.description.portals = findPortals(numbered);
     result.description.segments = std::move(numbered.infos);

@@ -40,7 +40,8 @@ struct FluidLevels {
 };
 
 /// Finds where gas stands on fluid, and fits the levels.
-FluidLevels findLevels(const Mixture& mixture, const FluidDensity& fluid, const DownAxis& down);
+/// @param usual_blur_mm TissueOptions::usual_blur_mm
+FluidLevels findLevels(const Mixture& mixture, const FluidDensity& fluid, const DownAxis& down, double usual_blur_mm);
 
 /// Sets the fraction of tissue in the blurred layers of the levels.
 /// @return the number of voxels set

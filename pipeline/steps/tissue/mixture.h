@@ -14,6 +14,9 @@ namespace vicon::steps {
 /// All of a voxel is tissue.
 inline constexpr float kWhole = 255;
 
+/// The first stored value of more than half.
+inline constexpr std::uint8_t kHalfTissue = 128;
+
 inline std::uint8_t stored(double fraction)
 {
     return std::uint8_t(std::clamp(fraction, 0.0, 1.0) * kWhole + 0.5);

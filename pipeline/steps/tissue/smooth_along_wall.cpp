@@ -14,6 +14,9 @@
 namespace vicon::steps {
 namespace {
 
+// Held by tissue_test: polyps of 5 to 10 mm keep their width and height at a noise of 10 to 80 HU. Which cases they
+// were chosen on is not recorded.
+
 /// The wall's blurred edge, of kWhole: 0.08 to 0.92.
 constexpr std::uint8_t kFrom = 20, kTo = 235;
 /// What each pass takes of the mean over 3 x 3 x 3 voxels: of a ripple of four voxels, 2.7 mm, two take off three

@@ -1,5 +1,8 @@
 #include "vicon/report/coded_findings.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "vicon/core/uid.h"
 
 namespace vicon::report {
@@ -30,6 +33,15 @@ public:
     {
         if (holds)
             out.words.push_back({name, value});
+    }
+    /// With the bounds of eight in ten.
+    void change(const char* value, const std::string& of, const std::optional<Change>& change, const Code& unit)
+    {
+        if (!change)
+            return;
+        number(ours(value, of), change->about, unit);
+        number(ours(std::string(value) + "_LEAST", of + ", least"), change->least, unit);
+        number(ours(std::string(value) + "_MOST", of + ", most"), change->most, unit);
     }
     void text(const Code& name, const std::string& text)
     {
@@ -81,11 +93,46 @@ CodedFacts factsOfSight(const FindingSight& sight)
     f.number(ours("FRACTION", "Fraction of the colon's length from the anus"), sight.fraction, ucum("1", "no units"));
     f.number(ours("SIZE_2D", "Largest diameter in the best plane"), sight.size_2d_mm, millimetre());
     f.number(ours("SIZE_3D", "Largest diameter on the surface"), sight.size_3d_mm, millimetre());
+    f.number(ours("PART_FRACTION", "Fraction of the part's length from its anal end"), sight.part_fraction,
+             ucum("1", "no units"));
+    f.number(ours("OUTLINE_LEAST", "Diameter of the outline, least"), sight.size_least_mm, millimetre());
+    f.number(ours("OUTLINE_MOST", "Diameter of the outline, most"), sight.size_most_mm, millimetre());
+    f.number(ours("OUTLINE_HEIGHT", "Height of the outline"), sight.height_mm, millimetre());
+    f.number(ours("OUTLINE_VOLUME", "Volume of the outline"), sight.volume_ml, ucum("ml", "milliliter"));
     f.number(sct("112031007", "Mean density"), sight.mean_hu, ucum("[hnsf'U]", "Hounsfield unit"));
     if (sight.clock_hour)
         f.text(ours("CLOCK_FACE", "Clock-face position, seen from the anal side"),
                std::to_string(*sight.clock_hour) + " o'clock");
     return f.out;
+}
+
+CodedFacts factsOfComparison(const ComparedFinding& compared)
+{
+    const auto& [said, now, growth] = compared;
+    const Code percent = ucum("%", "percent");
+    Facts f;
+    f.number(ours("PRIOR_SIZE", "Largest dimension then"), said.before.size_mm, millimetre());
+    f.change("DIAMETER_CHANGE", "Change of the largest dimension", growth.diameter_mm, millimetre());
+    f.change("VOLUME_CHANGE", "Change of the volume", growth.volume_percent, percent);
+    f.change("VOLUME_A_YEAR", "Change of the volume a year", growth.percent_a_year, percent);
+    f.number(ours("PRIOR_INTERVAL", "Years between the examinations"), growth.years, ucum("a", "year"));
+    f.text(ours("PRIOR_NAME", "Tracking Identifier there"), said.prior_name);
+    f.text(ours("PRIOR_DATE", "Date of the earlier examination"), said.before.date);
+    f.text(ours("GROWTH", "Growth"), growthWords(growth));
+    return f.out;
+}
+
+Code comparisonConcept()
+{
+    return ours("COMPARISON", "Comparison with an earlier report");
+}
+
+std::vector<ComparedFinding> confirmedComparisons(const ReadCase& read, const Finding& finding)
+{
+    std::vector<ComparedFinding> out;
+    std::copy_if(read.comparisons.begin(), read.comparisons.end(), std::back_inserter(out),
+                 [&](const ComparedFinding& one) { return one.said.confirmed && one.said.finding_id == finding.id; });
+    return out;
 }
 
 CodedFacts factsOfStudy(const Assessment& said)

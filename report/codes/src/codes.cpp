@@ -35,6 +35,26 @@ Code findingSiteConcept()
     return sct("363698007", "Finding Site");
 }
 
+Code seriesConcept()
+{
+    return dcm("112002", "Series Instance UID");
+}
+
+Code patientPositionConcept()
+{
+    return ours("PATIENT_POSITION", "Patient Position");
+}
+
+Code sliceThicknessConcept()
+{
+    return dcm("112225", "Slice Thickness");
+}
+
+Code kernelConcept()
+{
+    return ours("KERNEL", "Convolution Kernel");
+}
+
 Code dcm(const char* value, const char* meaning)
 {
     return {value, "DCM", meaning};

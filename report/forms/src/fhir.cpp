@@ -1,4 +1,5 @@
 #include "fhir_resources.h"
+#include "vicon/report/comparison_statements.h"
 #include "vicon/report/finding_statements.h"
 #include "vicon/report/forms.h"
 
@@ -15,7 +16,7 @@ std::string statusOf(const std::optional<ReportVersion>& version, const char* of
     return version->state == ReportState::amended ? "amended" : version->isSigned() ? "final" : "preliminary";
 }
 
-std::string escaped(const std::string& text)
+std::string asXhtml(const std::string& text)
 {
     std::string out;
     for (const char c : text)
@@ -78,6 +79,9 @@ private:
             whole["bodySite"] = fhir::codeable(codeOf(*lead->part));
         for (const FindingSight& sight : one.facts.sights)
             whole["hasMember"].push_back(fhir::reference(addSight(finding, sight)));
+        int number = 0;
+        for (const ComparedFinding& compared : confirmedComparisons(read_, finding))
+            whole["hasMember"].push_back(fhir::reference(addComparison(finding, compared, ++number)));
         addResult(finding.id, whole);
     }
     std::string addSight(const Finding& finding, const FindingSight& sight)
@@ -87,6 +91,16 @@ private:
         if (sight.part)
             seen["bodySite"] = fhir::codeable(codeOf(*sight.part));
         return add(finding.id + " " + sight.marker_id, seen);
+    }
+    std::string addComparison(const Finding& finding, const ComparedFinding& compared, int number)
+    {
+        const Comparison& said = compared.said;
+        json then = observed(comparisonConcept(), factsOfComparison(compared));
+        if (!said.prior_uid.empty())
+            then["identifier"] = {{{"system", "urn:ietf:rfc:3986"}, {"value", "urn:oid:" + said.prior_uid}}};
+        then["note"] = {{{"text", priorWords(said)}}};
+        then["derivedFrom"].push_back(fhir::otherStudy(said.study_uid, "earlier examination"));
+        return add(finding.id + " prior " + std::to_string(number), then);
     }
     void addStudyFacts()
     {
@@ -131,7 +145,7 @@ private:
         fhir::putWhereGiven(report, "conclusion", impressionText(read_));
         report["text"] = {{"status", "generated"},
                           {"div", "<div xmlns=\"http://www.w3.org/1999/xhtml\"><pre>" +
-                                      escaped(asText(read_, version_)) + "</pre></div>"}};
+                                      asXhtml(asText(read_, version_)) + "</pre></div>"}};
         if (const auto& category = read_.assessment.colon_category)
             report["conclusionCode"].push_back(fhir::codeable(codeOf(category->category)));
         if (!results_.empty())

@@ -30,7 +30,7 @@ std::vector<std::string> partsOf(const std::string& dicom_name)
 json humanName(const std::string& dicom_name)
 {
     json name;
-    putWhereGiven(name, "text", personName(dicom_name));
+    putWhereGiven(name, "text", printedName(dicom_name));
     const auto parts = partsOf(dicom_name);
     putWhereGiven(name, "family", parts[0]);
     for (const std::size_t given : {1, 2})
@@ -54,6 +54,11 @@ json quantity(double value, const Code& unit)
 std::string genderFrom(const std::string& dicom_sex)
 {
     return dicom_sex == "M" ? "male" : dicom_sex == "F" ? "female" : dicom_sex == "O" ? "other" : "unknown";
+}
+
+json studyIdentifier(const std::string& study_uid)
+{
+    return {{"system", "urn:dicom:uid"}, {"value", "urn:oid:" + study_uid}};
 }
 
 json seriesOf(const ScanRecord& scan)
@@ -91,6 +96,11 @@ json reference(const std::string& url)
     return {{"reference", url}};
 }
 
+json otherStudy(const std::string& study_uid, const std::string& what)
+{
+    return {{"type", "ImagingStudy"}, {"identifier", studyIdentifier(study_uid)}, {"display", what}};
+}
+
 std::string dateFrom(const std::string& dicom_date)
 {
     const std::string date = printedDate(dicom_date);
@@ -113,7 +123,7 @@ json imagingStudy(const ReadCase& read)
     const Study& study = read.record.study;
     json out{{"resourceType", "ImagingStudy"},
              {"status", "available"},
-             {"identifier", {{{"system", "urn:dicom:uid"}, {"value", "urn:oid:" + study.uid}}}},
+             {"identifier", json::array({studyIdentifier(study.uid)})},
              {"subject", reference(urlOf(read, "patient"))},
              {"procedureCode", json::array({codeable(procedureReported())})}};
     if (!study.accession_number.empty())
@@ -122,7 +132,7 @@ json imagingStudy(const ReadCase& read)
              {"value", study.accession_number}});
     putWhereGiven(out, "started", dateFrom(study.date));
     putWhereGiven(out, "description", study.description);
-    if (const std::string referrer = personName(study.referring_physician); !referrer.empty())
+    if (const std::string referrer = printedName(study.referring_physician); !referrer.empty())
         out["referrer"] = {{"display", referrer}};
     for (const ScanRecord& scan : read.scans)
         out["series"].push_back(seriesOf(scan));

@@ -18,6 +18,8 @@ json codeable(const Code& code);
 /// The URL of a case's resource, the same in every version of the report: "urn:oid:2.25...".
 std::string urlOf(const ReadCase& read, const std::string& resource);
 json reference(const std::string& url);
+/// A reference to a study that is not in the bundle.
+json otherStudy(const std::string& study_uid, const std::string& what);
 
 /// A DICOM date ("19610412") as FHIR writes it; empty for what is no date.
 std::string dateFrom(const std::string& dicom_date);

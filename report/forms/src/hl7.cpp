@@ -7,6 +7,7 @@
 #include "split.h"
 #include "vicon/core/uid.h"
 #include "vicon/report/coded_findings.h"
+#include "vicon/report/comparison_statements.h"
 #include "vicon/report/finding_statements.h"
 #include "vicon/report/forms.h"
 
@@ -199,6 +200,12 @@ private:
             if (sight.part)
                 observe("CWE", findingSiteConcept(), of_sight, codeField(codeOf(*sight.part)));
             addFacts(factsOfSight(sight), of_sight);
+        }
+        std::size_t below = one.facts.sights.size();
+        for (const ComparedFinding& compared : confirmedComparisons(read_, one.finding)) {
+            const std::string of_prior = about + "." + std::to_string(++below);
+            observe("ST", comparisonConcept(), of_prior, escaped(priorWords(compared.said)));
+            addFacts(factsOfComparison(compared), of_prior);
         }
     }
 };

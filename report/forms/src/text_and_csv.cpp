@@ -4,6 +4,7 @@
 #include <charconv>
 #include <sstream>
 
+#include "vicon/report/comparison_statements.h"
 #include "vicon/report/finding_statements.h"
 #include "vicon/report/statements.h"
 
@@ -187,6 +188,10 @@ std::string asText(const ReadCase& read, const std::optional<ReportVersion>& ver
             addEntry(
                 out, "Marker " + marker.id,
                 nameOf(marker.color) + ", belongs to no finding" + (marker.note.empty() ? "" : ": " + marker.note));
+    if (const auto compared = comparisonStatements(read); !compared.empty()) {
+        out += "\nCOMPARED WITH EARLIER REPORTS\n";
+        addEntries(out, compared);
+    }
     out += "\nOUTSIDE THE COLON\n";
     addEntries(out, extracolonicStatements(read));
     out += "\nSTUDY\n";

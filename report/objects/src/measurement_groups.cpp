@@ -7,8 +7,6 @@
 namespace vicon::report {
 namespace {
 
-constexpr auto kContains = DSRTypes::RT_contains;
-
 void addSight(SrTree& tree, const ReadCase& read, const FindingSight& sight, const MarkerImages& images)
 {
     const auto scan =
@@ -21,6 +19,17 @@ void addSight(SrTree& tree, const ReadCase& read, const FindingSight& sight, con
         tree.image(&source, image->second);
     }
     tree.facts(factsOfSight(sight));
+}
+
+/// What it was in an earlier report, as the reader confirmed.
+void addComparison(SrTree& tree, const ComparedFinding& compared)
+{
+    const Comparison& said = compared.said;
+    tree.container(kContains, comparisonConcept(), nullptr, [&] {
+        tree.object(ours("PRIOR_REPORT", "Earlier report"), said.report_class, said.report_uid);
+        tree.uid(kContains, ours("PRIOR_TRACKING", "Tracking Unique Identifier there"), said.prior_uid);
+        tree.facts(factsOfComparison(compared));
+    });
 }
 
 void addGroup(SrTree& tree, const ReadCase& read, const FindingWithFacts& one, const FindingSight* sight,
@@ -36,8 +45,11 @@ void addGroup(SrTree& tree, const ReadCase& read, const FindingWithFacts& one, c
             tree.code(DSRTypes::RT_hasConceptMod, findingSiteConcept(), codeOf(*part));
         if (sight)
             addSight(tree, read, *sight, images);
-        if (!sight || sight == one.facts.lead())
-            tree.facts(factsOfWhole(one));
+        if (sight && sight != one.facts.lead())
+            return;
+        tree.facts(factsOfWhole(one));
+        for (const ComparedFinding& compared : confirmedComparisons(read, finding))
+            addComparison(tree, compared);
     });
 }
 

@@ -6,11 +6,10 @@
 namespace vicon::report {
 namespace {
 
-constexpr auto kContains = DSRTypes::RT_contains;
 constexpr auto kObserved = DSRTypes::RT_hasObsContext;
 constexpr auto kMeaning = DSRTypes::RT_hasConceptMod;
 
-void require(const OFCondition& done)
+void mustBeWritten(const OFCondition& done)
 {
     if (done.bad())
         throw Error(ErrorCode::internal, std::string("the structured report cannot be written (") + done.text() + ")");
@@ -24,15 +23,37 @@ void addContext(SrTree& tree, const ReportVersion& version)
     tree.code(kMeaning, dcm("121058", "Procedure reported"), procedureReported());
 }
 
-void addLibrary(SrTree& tree, const MarkerImages& images)
+/// What all images of a scan have in common (TID 1602, 1604): who compares sizes years later must know it.
+void describeScan(SrTree& tree, const ScanRecord& scan)
 {
+    constexpr auto kOfImages = DSRTypes::RT_hasAcqContext;
+    tree.code(kOfImages, dcm("121139", "Modality"), dcm("CT", "Computed Tomography"));
+    tree.uid(kOfImages, seriesConcept(), scan.series.uid);
+    if (!scan.series.patient_position.empty())
+        tree.text(kOfImages, patientPositionConcept(), scan.series.patient_position);
+    if (scan.series.slice_thickness_mm > 0)
+        tree.number(sliceThicknessConcept(), scan.series.slice_thickness_mm, ucum("mm", "millimeter"), kOfImages);
+    if (!scan.series.kernel.empty())
+        tree.text(kOfImages, kernelConcept(), scan.series.kernel);
+}
+
+/// The images that show findings, a group for each scan.
+void addLibrary(SrTree& tree, const ReadCase& read, const MarkerImages& images)
+{
+    std::map<std::string, std::vector<const SourceImage*>> by_series;
+    std::set<std::string> listed;
+    for (const auto& [marker, image] : images)
+        if (listed.insert(image.sop_uid).second)
+            by_series[image.series_uid].push_back(&image);
     tree.container(kContains, dcm("111028", "Image Library"), "1600", [&] {
-        tree.container(kContains, dcm("126200", "Image Library Group"), nullptr, [&] {
-            std::set<std::string> listed;
-            for (const auto& [marker, image] : images)
-                if (listed.insert(image.sop_uid).second)
-                    tree.image(nullptr, image);
-        });
+        for (const auto& series : by_series)
+            tree.container(kContains, dcm("126200", "Image Library Group"), nullptr, [&] {
+                for (const ScanRecord& scan : read.scans)
+                    if (scan.series.uid == series.first)
+                        describeScan(tree, scan);
+                for (const SourceImage* image : series.second)
+                    tree.image(nullptr, *image);
+            });
     });
 }
 
@@ -52,7 +73,7 @@ void addParts(SrTree& tree, const ReadCase& read)
             tree.code(kMeaning, findingSiteConcept(), codeOf(state.part));
             for (const ScanRecord& scan : read.scans)
                 if (scan.id == state.scan_id)
-                    tree.uid(kObserved, dcm("112002", "Series Instance UID"), scan.series.uid);
+                    tree.uid(kObserved, seriesConcept(), scan.series.uid);
             tree.code(kContains, ours("DISTENSION", "Distension"), codeOf(state.distension));
         });
 }
@@ -76,7 +97,7 @@ void fillTree(DSRDocumentTree& document, const ObjectContent& content, const Mar
     tree.container(DSRTypes::RT_isRoot, dcm("126000", "Imaging Measurement Report"), "1500", [&] {
         addContext(tree, content.version);
         if (!images.empty())
-            addLibrary(tree, images);
+            addLibrary(tree, read, images);
         tree.container(kContains, dcm("126010", "Imaging Measurements"), nullptr, [&] {
             addFindings(tree, read, images);
             addCentrelines(tree, centrelines);
@@ -95,19 +116,29 @@ void fillTree(DSRDocumentTree& document, const ObjectContent& content, const Mar
 void addEvidence(DSRDocument& document, const ObjectContent& content, const MarkerImages& images)
 {
     for (const auto& [marker, image] : images)
-        require(document.getCurrentRequestedProcedureEvidence().addItem(
+        mustBeWritten(document.getCurrentRequestedProcedureEvidence().addItem(
             content.read.record.study.uid.c_str(), image.series_uid.c_str(), image.sop_class.c_str(),
             image.sop_uid.c_str()));
 }
 
+/// The earlier reports that findings were compared with lie in other studies.
+void addPriors(DSRDocument& document, const ReadCase& read)
+{
+    for (const ComparedFinding& compared : read.comparisons)
+        if (const Comparison& said = compared.said; said.confirmed)
+            mustBeWritten(
+                document.getPertinentOtherEvidence().addItem(said.study_uid.c_str(), said.report_series_uid.c_str(),
+                                                             said.report_class.c_str(), said.report_uid.c_str()));
+}
+
 void verify(DSRDocument& document, const ObjectContent& content)
 {
-    require(document.completeDocument("signed"));
+    mustBeWritten(document.completeDocument("signed"));
     const DicomTime at = timeOf(content.version);
     const std::string& institution = content.read.record.study.institution;
-    require(document.verifyDocument(content.version.person.c_str(),
-                                    institution.empty() ? "not stated" : institution.c_str(),
-                                    (at.date + at.time).c_str()));
+    mustBeWritten(document.verifyDocument(content.version.person.c_str(),
+                                          institution.empty() ? "not stated" : institution.c_str(),
+                                          (at.date + at.time).c_str()));
 }
 
 void putPredecessor(DcmDataset& d, const ObjectContent& content)
@@ -129,16 +160,18 @@ ReportObject writeMeasurementReport(const ObjectContent& content, const MarkerIm
                                     const std::vector<Centreline>& centrelines, const std::filesystem::path& folder)
 {
     DSRDocument document;
-    require(document.createNewDocument(DSRTypes::DT_Comprehensive3DSR));
-    require(document.setSpecificCharacterSetType(DSRTypes::CS_UTF8));
+    mustBeWritten(document.createNewDocument(DSRTypes::DT_Comprehensive3DSR));
+    mustBeWritten(document.setSpecificCharacterSetType(DSRTypes::CS_UTF8));
     fillTree(document.getTree(), content, images, centrelines);
     addEvidence(document, content, images);
+    addPriors(document, content.read);
     if (content.version.isSigned())
         verify(document, content);
-    require(document.setPreliminaryFlag(content.version.isSigned() ? DSRTypes::PF_Final : DSRTypes::PF_Preliminary));
+    mustBeWritten(
+        document.setPreliminaryFlag(content.version.isSigned() ? DSRTypes::PF_Final : DSRTypes::PF_Preliminary));
     DcmFileFormat format;
     DcmDataset& d = *format.getDataset();
-    require(document.write(d));
+    mustBeWritten(document.write(d));
     const ObjectName name{ObjectKind::measurements, "SR", "CT colonography measurements"};
     putCommon(d, content, name);
     put(d, DCM_SOPClassUID, UID_Comprehensive3DSRStorage);
@@ -151,8 +184,8 @@ ReportObject writeKeyImages(const ObjectContent& content, const MarkerImages& im
                             const std::filesystem::path& folder)
 {
     DSRDocument document;
-    require(document.createNewDocument(DSRTypes::DT_KeyObjectSelectionDocument));
-    require(document.setSpecificCharacterSetType(DSRTypes::CS_UTF8));
+    mustBeWritten(document.createNewDocument(DSRTypes::DT_KeyObjectSelectionDocument));
+    mustBeWritten(document.setSpecificCharacterSetType(DSRTypes::CS_UTF8));
     SrTree tree(document.getTree());
     tree.container(DSRTypes::RT_isRoot, dcm("113000", "Of Interest"), "2010", [&] {
         tree.text(kContains, dcm("113012", "Key Object Description"), "Slices that show the findings of the report");
@@ -164,7 +197,7 @@ ReportObject writeKeyImages(const ObjectContent& content, const MarkerImages& im
     addEvidence(document, content, images);
     DcmFileFormat format;
     DcmDataset& d = *format.getDataset();
-    require(document.write(d));
+    mustBeWritten(document.write(d));
     const ObjectName name{ObjectKind::key_images, "KO", "Slices with findings"};
     putCommon(d, content, name);
     return save(format, content, name, folder);

@@ -121,6 +121,8 @@ void putCommon(DcmDataset& d, const ObjectContent& content, const ObjectName& na
     put(d, DCM_InstanceNumber, std::to_string(name.number > 0 ? name.number : version.version));
     put(d, DCM_ContentDate, at.date);
     put(d, DCM_ContentTime, at.time);
+    if (!record.study.institution.empty())
+        put(d, DCM_InstitutionName, record.study.institution);
     put(d, DCM_Manufacturer, "VICON");
     put(d, DCM_ManufacturerModelName, "VICON");
     put(d, DCM_DeviceSerialNumber, "1");

@@ -3,8 +3,6 @@
 #include <dcmtk/config/osconfig.h>
 
 #include <dcmtk/dcmdata/dctk.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <future>
@@ -61,16 +59,8 @@ Centreline centrelineOf(const ScanRecord& scan, const fs::path& folder)
     return line;
 }
 
-/// What else is drawn meanwhile takes longer and goes first. Of Linux: niceness is a thread's own.
-void stepBack()
-{
-    constexpr int kNicer = 10;
-    ::setpriority(PRIO_PROCESS, id_t(::gettid()), kNicer);
-}
-
 ShownScans::Parts readAll(const std::vector<ToRead>& scans)
 {
-    stepBack();
     ShownScans::Parts parts;
     for (const auto& [scan, folder, instances, sights, centreline, lumen] : scans) {
         const SourceImages images(folder / "dicom", instances);

@@ -1,7 +1,11 @@
 #include <algorithm>
+#include <future>
+#include <map>
+#include <mutex>
 
 #include "object_writing.h"
 #include "vicon/core/error.h"
+#include "vicon/dicom/dicom_setup.h"
 #include "vicon/picture/png_file.h"
 
 namespace vicon::report {
@@ -47,6 +51,14 @@ void putPixels(DcmItem& d, const picture::Picture& picture)
         throw Error(ErrorCode::no_memory, "the picture does not go into an object", done.text());
 }
 
+void pack(DcmDataset& d, const std::vector<std::filesystem::path>& files)
+{
+    putPixels(d, sideBySide(files));
+    if (const OFCondition packed = d.chooseRepresentation(EXS_RLELossless, nullptr); packed.bad())
+        throw Error(ErrorCode::internal, "the picture cannot be compressed", packed.text());
+    d.removeAllButCurrentRepresentations();
+}
+
 void putSource(DcmItem& d, const SourceImage& source)
 {
     DcmItem* item = nullptr;
@@ -58,13 +70,60 @@ void putSource(DcmItem& d, const SourceImage& source)
 
 }  // namespace
 
+struct PackedSights::Packed {
+    DcmFileFormat format;  ///< pixels alone
+};
+
+namespace {
+
+std::unique_ptr<PackedSights::Packed> packedOf(const std::vector<std::filesystem::path>& files)
+{
+    auto out = std::make_unique<PackedSights::Packed>();
+    pack(*out->format.getDataset(), files);
+    return out;
+}
+
+}  // namespace
+
+struct PackedSights::Work {
+    std::mutex mutex;
+    std::map<std::string, std::future<std::unique_ptr<Packed>>> sights;
+};
+
+PackedSights::PackedSights() : work_(std::make_unique<Work>())
+{
+    setUpDicom();
+}
+
+PackedSights::~PackedSights() = default;
+
+void PackedSights::begin(const std::string& marker_id, const std::vector<std::filesystem::path>& files)
+{
+    const std::lock_guard lock(work_->mutex);
+    if (!files.empty())
+        work_->sights[marker_id] = std::async(std::launch::async, packedOf, files);
+}
+
+std::unique_ptr<PackedSights::Packed> PackedSights::take(const SightPictures& pictures)
+{
+    std::future<std::unique_ptr<Packed>> begun;
+    {
+        const std::lock_guard lock(work_->mutex);
+        const auto found = work_->sights.find(pictures.marker_id);
+        if (found != work_->sights.end())
+            begun = std::move(found->second);
+    }
+    return begun.valid() ? begun.get() : packedOf(pictures.files);
+}
+
 /// PS3.3 A.8.1, RLE: lossless, and half the bytes at next to no cost. One object for all pictures of a sight: it is
 /// read as one, and archives take longer over many objects than over large ones.
 ReportObject writePictures(const ObjectContent& content, const SightPictures& pictures, int number,
                            const SourceImage* source, const std::filesystem::path& folder)
 {
     const ObjectName name{ObjectKind::picture, "OT", "Pictures of the findings", pictures.marker_id, number};
-    DcmFileFormat format;
+    const auto packed = content.packed ? content.packed->take(pictures) : packedOf(pictures.files);
+    DcmFileFormat& format = packed->format;
     DcmDataset& d = *format.getDataset();
     put(d, DCM_SOPClassUID, UID_SecondaryCaptureImageStorage);
     putCommon(d, content, name);
@@ -78,10 +137,6 @@ ReportObject writePictures(const ObjectContent& content, const SightPictures& pi
     put(d, DCM_LossyImageCompression, "00");
     if (source)
         putSource(d, *source);
-    putPixels(d, sideBySide(pictures.files));
-    if (const OFCondition packed = d.chooseRepresentation(EXS_RLELossless, nullptr); packed.bad())
-        throw Error(ErrorCode::internal, "the picture cannot be compressed", packed.text());
-    d.removeAllButCurrentRepresentations();
     return save(format, content, name, folder, EXS_RLELossless);
 }
 

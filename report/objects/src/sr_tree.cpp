@@ -64,9 +64,9 @@ void SrTree::uid(Relation relation, const Code& concept_name, const std::string&
     close(item().setStringValue(value.c_str()), concept_name);
 }
 
-void SrTree::number(const Code& concept_name, double value, const Code& unit)
+void SrTree::number(const Code& concept_name, double value, const Code& unit, Relation relation)
 {
-    add(DSRTypes::RT_contains, DSRTypes::VT_Num, concept_name);
+    add(relation, DSRTypes::VT_Num, concept_name);
     DSRNumericMeasurementValue measured(decimalString(value).c_str(), entry(unit));
     check(measured.setFloatingPointRepresentation(value), concept_name);
     close(item().setNumericValue(measured), concept_name);
@@ -91,6 +91,12 @@ void SrTree::image(const Code* concept_name, const SourceImage& image)
     const auto name = concept_name ? std::optional(*concept_name) : std::nullopt;
     add(DSRTypes::RT_contains, DSRTypes::VT_Image, name);
     close(item().setImageReference(DSRImageReferenceValue(image.sop_class.c_str(), image.sop_uid.c_str())), name);
+}
+
+void SrTree::object(const Code& concept_name, const std::string& sop_class, const std::string& sop_uid)
+{
+    add(DSRTypes::RT_contains, DSRTypes::VT_Composite, concept_name);
+    close(item().setCompositeReference(DSRCompositeReferenceValue(sop_class.c_str(), sop_uid.c_str())), concept_name);
 }
 
 void SrTree::point(const Code& concept_name, Point3 position_mm, const std::string& frame_of_reference_uid)

@@ -9,6 +9,8 @@
 
 namespace vicon::report {
 
+inline constexpr auto kContains = DSRTypes::RT_contains;
+
 /// Builds the tree of a structured report from above to below. Every item is added below the container that is open.
 class SrTree {
 public:
@@ -33,7 +35,7 @@ public:
     void person(Relation relation, const Code& concept_name, const std::string& name);
     void uid(Relation relation, const Code& concept_name, const std::string& value);
     /// The number is also kept as a double, exactly.
-    void number(const Code& concept_name, double value, const Code& unit);
+    void number(const Code& concept_name, double value, const Code& unit, Relation relation = DSRTypes::RT_contains);
     void numbers(const std::vector<CodedFacts::Number>& numbers);
     /// Its words and texts.
     void words(const CodedFacts& facts);
@@ -44,6 +46,8 @@ public:
     }
     /// @param concept_name of a finding's image; none for one of the library
     void image(const Code* concept_name, const SourceImage& image);
+    /// Another object that is no image.
+    void object(const Code& concept_name, const std::string& sop_class, const std::string& sop_uid);
     void point(const Code& concept_name, Point3 position_mm, const std::string& frame_of_reference_uid);
     /// An open line of at least two points.
     void line(const Code& concept_name, const std::vector<Point3>& points_mm,

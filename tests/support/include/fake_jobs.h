@@ -4,6 +4,7 @@
 #include <string>
 
 #include "vicon/cases/case_store.h"
+#include "vicon/support/store_place.h"
 #include "vicon/support/support.h"
 
 namespace vicon::pipeline {
@@ -11,7 +12,7 @@ namespace vicon::pipeline {
 /// A store with one case "c" and scans "s0", "s1", ... that hold no image.
 struct FakeStore {
     support::TemporaryFolder folder;
-    CaseStore store{folder.path()};
+    CaseStore store{support::storePlace(folder.path())};
 
     void addJobs(int count)
     {

@@ -43,12 +43,6 @@ std::string lengthText(double mm)
     return mm >= 10 ? plain(mm / 10) + " cm" : plain(mm) + " mm";
 }
 
-std::string trimmed(const std::string& s)
-{
-    const auto first = s.find_first_not_of(' ');
-    return first == std::string::npos ? "" : s.substr(first, s.find_last_not_of(' ') - first + 1);
-}
-
 std::vector<std::string> split(const std::string& s, char at)
 {
     std::vector<std::string> parts{""};
@@ -158,6 +152,14 @@ void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>
         overlay.texts.push_back(line);
         y += kLineHeight * text_px;
     }
+}
+
+Area captionArea(double width_px, double height_px, double text_px)
+{
+    constexpr double kNarrow = 20, kLetter = 1.6, kBeside = 0.47;  // of the text's height, and of the width
+    if (width_px < kNarrow * text_px)
+        return {0, kLetter * text_px, width_px, height_px - kLetter * text_px};
+    return {0, 0, width_px * kBeside, height_px};
 }
 
 double heightOfText(std::size_t lines, double height_px)

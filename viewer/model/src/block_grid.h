@@ -62,7 +62,7 @@ private:
     static std::size_t between(int low, int high, int block)
     {
         const int from = std::max(low - 4 * block, 0), to = std::min(high - 4 * block, 3);
-        return std::size_t(4 * from + to);
+        return 4 * std::size_t(from) + std::size_t(to);
     }
     // For each axis the bits of all elements from one place along it to another.
     static constexpr std::array<std::array<std::uint64_t, 16>, 3> kBits = [] {

@@ -48,7 +48,7 @@ public:
     /// @param padding whether some may be near
     bool sample(Place p, bool padding, float& density_hu) const
     {
-        const VoxelCell cell = voxelCellAt(p);
+        const VoxelCube cell = voxelCubeAt(p);
         const std::int16_t *v = cell.first, *w = v + slice_;
         if (padding && (holdsPadding(pairs(v, v + row_)) || holdsPadding(pairs(w, w + row_))))
             return false;
@@ -70,7 +70,7 @@ public:
     {
         if (!(p.x >= 1 && p.y >= 1 && p.z >= 1 && p.x < last_[0] - 1 && p.y < last_[1] - 1 && p.z < last_[2] - 1))
             return {};
-        const VoxelCell cell = voxelCellAt(p);
+        const VoxelCube cell = voxelCubeAt(p);
         const std::int16_t* v = cell.first;
         if (padding && paddingAround(v))
             return {};
@@ -90,11 +90,11 @@ public:
     }
 
 private:
-    struct VoxelCell {
+    struct VoxelCube {
         const std::int16_t* first;  // its lowest corner
         float x, y, z;              // the place within it
     };
-    VoxelCell voxelCellAt(Place p) const
+    VoxelCube voxelCubeAt(Place p) const
     {
         const int i = int(p.x), j = int(p.y), k = int(p.z);  // none is negative
         return {voxels_ + i + row_ * j + slice_ * k, p.x - float(i), p.y - float(j), p.z - float(k)};

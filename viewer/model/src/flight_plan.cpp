@@ -32,7 +32,7 @@ std::vector<ViewPose> planFlight(const PathFrames& path, const Lumen& lumen, dou
             poses.push_back(view);
     }
     if (poses.empty())
-        throw Error(ErrorCode::unusable_scan, "no part of the skeleton can be flown through", {},
+        throw Error(ErrorCode::unusable_scan, "no part of the centreline can be flown through", {},
                     "run 'vicon work' to prepare the scan anew");
     return poses;
 }

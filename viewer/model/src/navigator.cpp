@@ -95,7 +95,7 @@ void Navigator::advance(double seconds)
             break;
         case NavigationMode::guided: {
             Steering steering = steering_;
-            steering.pull = std::clamp(steering.pull + direction_, -1.0, 1.0);
+            steering.drift = direction_;
             submarine_.steer(steering);
             submarine_.advance(seconds);
             break;

@@ -2,9 +2,9 @@
 
 namespace vicon::viewer {
 
-OrganWords wordsFor(const std::string& organ)
+OrganWords wordsFor(const Organ& organ)
 {
-    if (organ == "colon")
+    if (organ.isColon())
         return {organ, "rectum", "caecum"};
     return {organ, "root", "tip"};
 }

@@ -30,7 +30,7 @@ Vector3 carriedUp(const PathFrame& a, const PathFrame& b)
 PathFrames::PathFrames(const Skeleton& skeleton, double step_mm, double window_mm) : length_mm_(skeleton.length_mm())
 {
     if (skeleton.empty() || length_mm_ <= 0)
-        throw Error(ErrorCode::bad_input, "the skeleton has no length", {}, "run 'vicon work' to make it anew");
+        throw Error(ErrorCode::bad_input, "the centreline has no length", {}, "run 'vicon work' to make it anew");
     const int steps = std::max(1, int(std::ceil(length_mm_ / step_mm)));
     step_mm_ = length_mm_ / steps;
     for (int n = 0; n <= steps; ++n) {

@@ -173,7 +173,7 @@ std::optional<double> distanceToWall_mm(const Lumen& lumen, Point3 from, Vector3
 
 PeeledPicture peel(const DensityBricks& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
                    const TransferFunction& colours, const PeelingOptions& options,
-                   const std::optional<PictureCircle>& only)
+                   const std::optional<PictureCircle>& only, const Progress* wanted)
 {
     check(lens, options);
     PeeledPicture picture{lens.width, lens.height, {}};
@@ -189,6 +189,8 @@ PeeledPicture peel(const DensityBricks& volume, const Lumen& lumen, const Pose& 
         out[3] = byteOf(1 - light.left);
     };
     tbb::parallel_for(0, (lens.height + kTile - 1) / kTile, [&](int tile_row) {
+        if (wanted)
+            wanted->check();
         for (int left = 0; left < lens.width; left += kTile)
             caster.castTile(left, tile_row * kTile, take);
     });

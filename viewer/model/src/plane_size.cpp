@@ -11,7 +11,7 @@ constexpr int kPlanesToASide = 8;     // 7.5 degrees between them
 constexpr double kMostLean_deg = 60;  // from upright: a plane that grazes the wall cuts it, not the finding
 constexpr double kAroundEnd_mm = 2;   // where the wall's normal is looked for; the next loop may lie 1.6 mm off
 constexpr double kSureNormal = 0.2;   // of the sum of two unit vectors
-constexpr double kStep_mm = 0.2;      // less than a third of a voxel of clinical CT
+constexpr double kRayStep_mm = 0.2;   // less than a third of a voxel of clinical CT
 constexpr double kMostSteps = 100;    // along the line
 constexpr double kHeights = 3, kSpare_mm = 8;  // a polyp on a stalk is higher than wide
 constexpr double kMostAir = 0.2;               // of a diameter: the ends lie within a voxel or two of the border
@@ -87,7 +87,7 @@ class CrossSection {
 public:
     CrossSection(const InsideView& inside, Point3 origin, Vector3 along, Vector3 up, double length_mm)
         : length_mm_(length_mm),
-          step_(std::max(kStep_mm, length_mm / kMostSteps)),
+          step_(std::max(kRayStep_mm, length_mm / kMostSteps)),
           line_(int(length_mm / step_) + 1),
           width_(3 * line_),
           height_(int((kHeights * length_mm + kSpare_mm) / step_) + 1)
@@ -121,7 +121,7 @@ public:
         return air <= kMostAir * (steps + 1);
     }
 
-    /// The two points that lie farthest asunder, with tissue between them.
+    /// The two points that lie farthest apart, with tissue between them.
     std::pair<Flat, Flat> diameter() const
     {
         std::pair<Flat, Flat> farthest{{0, 0}, {length_mm_, 0}};

@@ -32,9 +32,41 @@ void ScanCoverage::see(const std::vector<std::uint32_t>& triangles)
     coverage_.see(triangles);
 }
 
+void ScanCoverage::show(std::vector<std::uint32_t> triangles, double now_s, double least_s)
+{
+    std::sort(triangles.begin(), triangles.end());
+    {
+        const std::lock_guard lock(mutex_);
+        std::vector<double> since_s(triangles.size(), now_s);
+        std::size_t before = 0;
+        for (std::size_t n = 0; n < triangles.size(); ++n) {
+            while (before < on_screen_.size() && on_screen_[before] < triangles[n])
+                ++before;
+            if (before < on_screen_.size() && on_screen_[before] == triangles[n])
+                since_s[n] = since_s_[before];
+        }
+        on_screen_ = std::move(triangles);
+        since_s_ = std::move(since_s);
+    }
+    stillShown(now_s, least_s);
+}
+
+void ScanCoverage::stillShown(double now_s, double least_s)
+{
+    constexpr double kRounding_s = 1e-9;
+    const std::lock_guard lock(mutex_);
+    std::vector<std::uint32_t> long_enough;
+    for (std::size_t n = 0; n < on_screen_.size(); ++n)
+        if (now_s - since_s_[n] >= least_s - kRounding_s)
+            long_enough.push_back(on_screen_[n]);
+    coverage_.see(long_enough);
+}
+
 void ScanCoverage::forget()
 {
     const std::lock_guard lock(mutex_);
+    on_screen_.clear();
+    since_s_.clear();
     coverage_.forget();
     std::fill(earlier_.begin(), earlier_.end(), std::uint8_t(0));
 }
@@ -62,6 +94,12 @@ Coverage ScanCoverage::coverage() const
 {
     const std::lock_guard lock(mutex_);
     return coverage_;
+}
+
+std::vector<std::uint8_t> ScanCoverage::seenTriangles() const
+{
+    const std::lock_guard lock(mutex_);
+    return coverage_.seenTriangles();
 }
 
 std::vector<std::uint8_t> ScanCoverage::earlier() const

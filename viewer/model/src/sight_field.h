@@ -36,7 +36,7 @@ public:
         for (std::size_t d = 0; d < 3; ++d)
             if (unsigned(cube[d]) >= unsigned(size_[d]))
                 return {Kind::solid, std::max(0.0F, beyond(p))};
-        const int steps = steps_[cube_blocks_.elementOf(cube)];
+        const auto steps = int(steps_[cube_blocks_.elementOf(cube)]);
         if (steps == 0)
             return {Kind::wall, 0};
         const Float4 part = p - toFloat4(low), side = leastOf(part, 1 - part);

@@ -1,6 +1,8 @@
 #include "vicon/viewer/model/slice_image.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace vicon::viewer {
 namespace {
@@ -99,6 +101,21 @@ PlaneView sliceThrough(const Grid& grid, SlicePlane plane, Point3 point, int wid
     view.centre_mm = middle + normal * dot(point - middle, normal);
     view.mm_per_pixel = std::max(along(axes.right, bounds) / width, along(axes.down, bounds) / height);
     return view;
+}
+
+PlaneView pixelForPixel(const Grid& grid, const PlaneView& view, Point3 point)
+{
+    PlaneView exact = view;
+    exact.mm_per_pixel = std::numeric_limits<double>::max();
+    constexpr double kAcross = 0.7;  // of an axis that is more across the plane than in it
+    for (std::size_t a = 0; a < 3; ++a)
+        if (std::abs(dot(grid.axis[a], view.forward())) < kAcross)
+            exact.mm_per_pixel = std::min(exact.mm_per_pixel, grid.spacing_mm[a]);
+    // Pixels' middles lie at halves, also where the picture's middle is an edge between two of them.
+    const int column = view.width / 2, row = view.height / 2;
+    const double x = column + 0.5 - view.width / 2.0, y = row + 0.5 - view.height / 2.0;
+    exact.centre_mm = grid.pointAt(grid.indexAt(point)) - (view.right * x + view.down * y) * exact.mm_per_pixel;
+    return exact;
 }
 
 }  // namespace vicon::viewer

@@ -7,7 +7,7 @@
 namespace vicon::viewer {
 namespace {
 
-constexpr int kRows = 16;  // copied at a time: their planes fit into the nearest cache
+constexpr int kSlabRows = 16;  // copied at a time: their planes fit into the nearest cache
 
 Grid gridOf(const Grid& from, int first, int planes)
 {
@@ -23,7 +23,7 @@ Grid gridOf(const Grid& from, int first, int planes)
 void copyRows(const HuView& from, HuVolume& to, int first, int k, int begin, int end)
 {
     const int planes = to.grid.size[2], rows = end - begin;
-    std::array<std::array<std::int16_t, kRows>, SliceSlab::kPlanes> turned;
+    std::array<std::array<std::int16_t, kSlabRows>, SliceSlab::kPlanes> turned;
     for (int j = 0; j < rows; ++j) {
         const std::int16_t* row = &from.at({first, begin + j, k});
         for (int i = 0; i < planes; ++i)
@@ -44,8 +44,8 @@ SliceSlab::SliceSlab(const HuView& volume, double plane)
     at_end_ = first_ + planes == size[0];
     volume_ = HuVolume(gridOf(volume.grid, first_, planes));
     for (int k = 0; k < size[2]; ++k)
-        for (int j = 0; j < size[1]; j += kRows)
-            copyRows(volume, volume_, first_, k, j, std::min(j + kRows, size[1]));
+        for (int j = 0; j < size[1]; j += kSlabRows)
+            copyRows(volume, volume_, first_, k, j, std::min(j + kSlabRows, size[1]));
 }
 
 std::optional<double> SliceSlab::planeOf(const Grid& grid, const PlaneView& view)

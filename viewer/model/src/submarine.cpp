@@ -1,6 +1,7 @@
 #include "vicon/viewer/model/submarine.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "free_space.h"
 #include "rotation.h"
@@ -12,9 +13,9 @@ namespace {
 constexpr double kDt = Submarine::kTick_s;
 constexpr double kFootReach_mm = 8;  // how far a foot moves in a tick at most, with room for folded paths
 constexpr double kStationStep_mm = 0.5;
-constexpr double kSpare_mm = 0.3;       // a station counts as wide when it leaves this beside the camera
-constexpr double kBlend_per_s = 20;     // how fast a camera that is carried comes onto the path
-constexpr double kSteerRate_per_s = 8;  // how fast turning follows the hand
+constexpr double kCameraSpare_mm = 0.3;  // a station counts as wide when it leaves this beside the camera
+constexpr double kBlend_per_s = 20;      // how fast a camera that is carried comes onto the path
+constexpr double kSteerRate_per_s = 8;   // how fast turning follows the hand
 
 }  // namespace
 
@@ -47,7 +48,7 @@ bool Submarine::wideAt(double station_mm) const
     const PathFrame frame = path_->at(station_mm);
     const FreeSpace free = space();
     return !frame.on_bridge && free.holds(frame.position_mm) &&
-           lumen_.clearance_mm(frame.position_mm) >= free.least_mm() + kSpare_mm;
+           lumen_.clearance_mm(frame.position_mm) >= free.least_mm() + kCameraSpare_mm;
 }
 
 void Submarine::placeAt(double station_mm, Heading heading)
@@ -66,7 +67,7 @@ void Submarine::placeAt(double station_mm, Heading heading)
                 owed_s_ = 0;
                 return;
             }
-    throw Error(ErrorCode::unusable_scan, "no part of the skeleton is wide enough for the camera", {},
+    throw Error(ErrorCode::unusable_scan, "no part of the centreline is wide enough for the camera", {},
                 "choose a smaller camera radius");
 }
 
@@ -103,7 +104,7 @@ SubmarineState Submarine::state() const
 void Submarine::tick()
 {
     if (now_.carried || startCarry()) {
-        carry(steering_.pull < 0 ? -sign() : sign());
+        carry(wantedPull() < 0 ? -sign() : sign());
         turn();
         return;
     }
@@ -115,9 +116,9 @@ void Submarine::tick()
 bool Submarine::startCarry()
 {
     constexpr double kAhead_mm = 1, kNearPath_mm = 3;
-    if (steering_.pull == 0)
+    if (wantedPull() == 0)
         return false;
-    const double direction = steering_.pull > 0 ? sign() : -sign();
+    const double direction = wantedPull() > 0 ? sign() : -sign();
     const double ahead = now_.station_mm + direction * kAhead_mm;
     if (ahead < first_mm_ || ahead > last_mm_ || wideAt(ahead) ||
         distance(now_.position_mm, path_->at(now_.station_mm).position_mm) > kNearPath_mm)
@@ -156,29 +157,69 @@ Vector3 Submarine::wayOn() const
     return ahead_.direction(now_.station_mm, now_.position_mm, now_.heading);
 }
 
-Vector3 Submarine::pull() const
+Vector3 Submarine::exitSlope(int voxels) const
 {
-    if (steering_.pull == 0)
-        return {};
-    const double towards_caecum = steering_.pull * sign();
-    const double station = now_.station_mm + (towards_caecum > 0 ? 1 : -1);
-    if (station < 0 || station > path_->length_mm())
-        return {};
-    Vector3 direction;  // along which the distance from the exit grows, of inside voxels only
+    Vector3 direction;
     const Grid& g = exit_.grid;
     const Index3 v = g.indexAt(now_.position_mm);
     const float here = exit_.valueOr(v, -1);
     for (int a = 0; a < 3 && here >= 0; ++a) {
-        const Index3 step{a == 0, a == 1, a == 2};
+        const Index3 step{voxels * (a == 0), voxels * (a == 1), voxels * (a == 2)};
         const float up = exit_.valueOr({v.i + step.i, v.j + step.j, v.k + step.k}, -1);
         const float down = exit_.valueOr({v.i - step.i, v.j - step.j, v.k - step.k}, -1);
         const double slope = ((up >= 0 ? up : here) - (down >= 0 ? down : here)) / ((up >= 0) + (down >= 0) + 1e-9);
-        direction += g.axis[std::size_t(a)] * (slope / g.spacing_mm[std::size_t(a)]);
+        direction += g.axis[std::size_t(a)] * (slope / (voxels * g.spacing_mm[std::size_t(a)]));
     }
+    return direction;
+}
+
+Vector3 Submarine::pull() const
+{
+    if (wantedPull() == 0)
+        return {};
+    const double towards_caecum = wantedPull() * sign();
+    const double station = now_.station_mm + (towards_caecum > 0 ? 1 : -1);
+    if (station < 0 || station > path_->length_mm())
+        return {};
+    const Vector3 direction = exitSlope(1);
     // The path's own direction keeps the pull from the field's steps between voxels, which would shake the picture.
     const Vector3 along = path_->at(now_.station_mm).forward;
     const Vector3 mixed = along * 2 + normalized(direction) * (dot(direction, along) > 0 ? 1 : 0);
     return normalized(mixed) * (towards_caecum * options_.cruise_mm_s * options_.friction_per_s);
+}
+
+/// As strong as the field is steep, which is one millimetre to a millimetre of way.
+Vector3 Submarine::drift() const
+{
+    constexpr double kArm_mm = 2.5;  // over less, the field's steps between voxels shake the picture
+    const auto& spacing = exit_.grid.spacing_mm;
+    const double voxel_mm = *std::min_element(spacing.begin(), spacing.end());
+    Vector3 slope = exitSlope(std::max(1, int(std::lround(kArm_mm / voxel_mm))));
+    if (const double steep = length(slope); steep > 1)
+        slope = slope / steep;
+    return slope * (steering_.drift * sign() * options_.cruise_mm_s * options_.friction_per_s);
+}
+
+/// Not where the potentials hold it fast: before a fold the distance from the exit may grow into a pouch. Then the path
+/// leads on until it has got farther.
+bool Submarine::isAdrift()
+{
+    constexpr long kHeld_ticks = 240,
+                   kLed_ticks = 360;  // a second without getting on; then half a second along the path
+    constexpr double kGotOn_mm = 1;
+    if (steering_.pull != 0 || steering_.drift == 0) {
+        held_ticks_ = 0;
+        farthest_mm_ = now_.station_mm;
+        return false;
+    }
+    if ((now_.station_mm - farthest_mm_) * sign() * steering_.drift > kGotOn_mm) {
+        farthest_mm_ = now_.station_mm;
+        if (held_ticks_ < kHeld_ticks)
+            held_ticks_ = 0;
+    }
+    if (++held_ticks_ > kHeld_ticks + kLed_ticks)
+        held_ticks_ = 0;
+    return held_ticks_ < kHeld_ticks;
 }
 
 Vector3 Submarine::pushOffWall() const
@@ -194,17 +235,18 @@ Vector3 Submarine::pushOffWall() const
 void Submarine::move()
 {
     const Vector3 right = cross(now_.forward, now_.up);
-    Vector3 force = pull();
+    const bool adrift = isAdrift();
+    Vector3 force = adrift ? drift() : pull();
     if (steering_.thrusts())
         force +=
             (now_.forward * steering_.thrust_forward + right * steering_.thrust_right + now_.up * steering_.thrust_up) *
             (options_.thrust_mm_s * options_.friction_per_s);
     const double speed_left = std::exp(-options_.friction_per_s * kDt);
     now_.velocity_mm_s = now_.velocity_mm_s * speed_left + force * ((1 - speed_left) / options_.friction_per_s);
-    if (steering_.thrusts()) {
+    if (steering_.thrusts() || adrift) {
         now_.velocity_mm_s += pushOffWall() * kDt;
         way_home_.clear();
-        let_go_ticks_ = 0;
+        adrift_ticks_ = 0;
     } else {
         home();
     }

@@ -5,9 +5,8 @@
 namespace vicon::viewer {
 namespace {
 
-constexpr double kDt = Submarine::kTick_s;
-constexpr double kReach_mm = 40;  // how far along the path and around itself the camera looks
-constexpr long kLookTicks = 6;    // how often it looks: forty times a second
+constexpr double kHomeReach_mm = 40;  // how far along the path and around itself the camera looks
+constexpr long kLookTicks = 6;        // how often it looks: forty times a second
 constexpr double kArrived_mm = 0.3;
 
 }  // namespace
@@ -27,7 +26,7 @@ void Submarine::lookForWayHome()
         return;
     }
     std::vector<double> stations;
-    for (double d = 1; d <= kReach_mm; d += 1)
+    for (double d = 1; d <= kHomeReach_mm; d += 1)
         for (const double s : {now_.station_mm + d * sign(), now_.station_mm - d * sign()}) {
             if (s < first_mm_ || s > last_mm_ || !wideAt(s))
                 continue;
@@ -42,7 +41,7 @@ void Submarine::lookForWayHome()
         std::vector<Point3> goals;
         for (const double s : stations)
             goals.push_back(pathAt(s));
-        const FreeSpace::Way way = free.wayTo(goals, here, kReach_mm);
+        const FreeSpace::Way way = free.wayTo(goals, here, kHomeReach_mm);
         way_home_ = way.found() ? way.places : std::vector<Point3>{pathAt(now_.station_mm)};
         home_station_mm_ = way.found() ? stations[way.goal] : now_.station_mm;
     }
@@ -54,7 +53,7 @@ void Submarine::lookForWayHome()
 // the next place of the way home.
 void Submarine::home()
 {
-    if (let_go_ticks_++ % kLookTicks == 0)
+    if (adrift_ticks_++ % kLookTicks == 0)
         lookForWayHome();
     const PathFrame foot = path_->at(now_.station_mm);
     const Point3 target = way_home_.empty() ? foot.position_mm : way_home_.back();
@@ -64,9 +63,9 @@ void Submarine::home()
         off = off - foot.forward * dot(off, foot.forward);
     const Vector3 along = slides ? foot.forward * dot(now_.velocity_mm_s, foot.forward) : Vector3{};
     const Vector3 across = now_.velocity_mm_s - along;
-    const double w = options_.homing_per_s, fade = std::exp(-w * kDt);
+    const double w = options_.homing_per_s, fade = std::exp(-w * kTick_s);
     const Vector3 mixed = across + off * w;
-    now_.velocity_mm_s = along + (across - mixed * (w * kDt)) * fade;
+    now_.velocity_mm_s = along + (across - mixed * (w * kTick_s)) * fade;
 }
 
 }  // namespace vicon::viewer

@@ -78,7 +78,7 @@ double stationOf(const UnseenPatch& patch, const Skeleton& skeleton)
 
 std::vector<UnseenPatch> unseenPatches(const std::vector<float>& points_mm, const std::vector<std::uint32_t>& triangles,
                                        const Coverage& coverage, const Skeleton& skeleton, const PathFrames& path,
-                                       const Lumen& lumen, const UnseenOptions& options)
+                                       const Lumen& lumen, const UnseenOptions& options, const Progress* wanted)
 {
     if (coverage.triangleCount() != triangles.size() / 3)
         throw Error(ErrorCode::bad_input, "the coverage belongs to a surface of another number of triangles",
@@ -104,6 +104,8 @@ std::vector<UnseenPatch> unseenPatches(const std::vector<float>& points_mm, cons
     std::stable_sort(patches.begin(), patches.end(),
                      [](const auto& a, const auto& b) { return a.area_mm2 > b.area_mm2; });
     for (UnseenPatch& patch : patches) {
+        if (wanted)
+            wanted->check();
         patch.view = poseForPoint(skeleton, path, lumen, patch.centre_mm, options.pose);
         patch.station_mm = stationOf(patch, skeleton);
     }

@@ -8,7 +8,7 @@
 namespace vicon::viewer {
 namespace {
 
-constexpr double kStep_mm = 1;
+constexpr double kLookStep_mm = 1;
 constexpr double kAnchorReach_mm = 15;    // a marker lies at most this far from the lumen: large polyps' middles
 constexpr double kSightSlack_mm = 1.5;    // about a voxel: the wall's own blur before a point on it
 constexpr double kFromBehindCost = 0.35;  // of the wanted distance: looking back towards the rectum is second choice
@@ -65,12 +65,12 @@ Place nearestPlace(const Scene& scene, double station_mm)
     const std::pair<double, double> tries[] = {{scene.options.camera_radius_mm, kNear_mm},
                                                {scene.lumen.halfDiagonal_mm(), length}};
     for (const auto& [room, reach] : tries)
-        for (double d = 0; d <= reach; d += kStep_mm)
+        for (double d = 0; d <= reach; d += kLookStep_mm)
             for (const double station : {at - d, at + d})
                 if (station >= 0 && station <= length)
                     if (const auto eye = eyeAt(scene, station, roomAt(scene, station, room)))
                         return {station, *eye};
-    throw Error(ErrorCode::unusable_scan, "no part of the skeleton lies in the lumen", {},
+    throw Error(ErrorCode::unusable_scan, "no part of the centreline lies in the lumen", {},
                 "run 'vicon work' to prepare the scan anew");
 }
 
@@ -112,7 +112,7 @@ void consider(std::vector<Candidate>& candidates, const Scene& scene, const Targ
 std::vector<Candidate> onPath(const Scene& scene, const Target& target)
 {
     std::vector<Candidate> candidates;
-    for (double s = 0; s <= scene.path.length_mm(); s += kStep_mm)
+    for (double s = 0; s <= scene.path.length_mm(); s += kLookStep_mm)
         if (const PathFrame frame = scene.path.at(s); !frame.on_bridge)
             consider(candidates, scene, target, {s, frame.position_mm});
     return candidates;
@@ -121,7 +121,7 @@ std::vector<Candidate> onPath(const Scene& scene, const Target& target)
 std::vector<Candidate> besidePath(const Scene& scene, const Target& target)
 {
     std::vector<Candidate> candidates;
-    for (double s = 0; s <= scene.path.length_mm(); s += 2 * kStep_mm) {
+    for (double s = 0; s <= scene.path.length_mm(); s += 2 * kLookStep_mm) {
         const PathFrame frame = scene.path.at(s);
         if (frame.on_bridge || distance(frame.position_mm, target.point_mm) > 2 * scene.options.most_distance_mm)
             continue;

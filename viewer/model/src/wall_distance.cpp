@@ -7,43 +7,20 @@
 #include <queue>
 #include <unordered_map>
 
+#include "nearest_on_triangle.h"
+
 namespace vicon::viewer {
 namespace {
 
 constexpr int kOnEdge = 6;  // places between the ends of an edge
 constexpr double kLeastReach_mm = 15, kMostReach_mm = 400;
 
-Point3 nearestOnTriangle(Point3 p, Point3 a, Point3 b, Point3 c)
-{
-    // The barycentric regions of Ericson, Real-Time Collision Detection (2005), 5.1.5.
-    const Vector3 ab = b - a, ac = c - a;
-    const double d1 = dot(ab, p - a), d2 = dot(ac, p - a);
-    if (d1 <= 0 && d2 <= 0)
-        return a;
-    const double d3 = dot(ab, p - b), d4 = dot(ac, p - b);
-    if (d3 >= 0 && d4 <= d3)
-        return b;
-    const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0)
-        return a + ab * (d1 / (d1 - d3));
-    const double d5 = dot(ab, p - c), d6 = dot(ac, p - c);
-    if (d6 >= 0 && d5 <= d6)
-        return c;
-    const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0)
-        return a + ac * (d2 / (d2 - d6));
-    const double va = d3 * d6 - d5 * d4;
-    if (va <= 0 && d4 >= d3 && d5 >= d6)
-        return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    const double sum = va + vb + vc;
-    return a + ab * (vb / sum) + ac * (vc / sum);
-}
-
 /// The triangles within a ball, with places on their edges as the nodes of a graph: two nodes are joined where they lie
 /// on the same triangle.
-class Patch {
+class NearSurface {
 public:
-    Patch(const std::vector<float>& points_mm, const std::vector<std::uint32_t>& triangles, Point3 centre, double reach)
+    NearSurface(const std::vector<float>& points_mm, const std::vector<std::uint32_t>& triangles, Point3 centre,
+                double reach)
         : points_(points_mm)
     {
         for (std::size_t n = 0; n + 2 < triangles.size(); n += 3)
@@ -168,7 +145,7 @@ std::optional<WallDistance> distanceOverWall(const std::vector<float>& points_mm
     const Point3 middle = interpolate(from, to, 0.5);
     double reach_mm = std::max(kLeastReach_mm, distance(from, to));
     while (reach_mm <= kMostReach_mm) {
-        Patch patch(points_mm, triangles, middle, reach_mm);
+        NearSurface patch(points_mm, triangles, middle, reach_mm);
         double along_mm = std::numeric_limits<double>::max();
         if (!patch.empty()) {
             const std::size_t first = patch.attach(from), last = patch.attach(to);

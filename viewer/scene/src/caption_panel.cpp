@@ -49,11 +49,11 @@ CaptionPanel withTextOf(double text_px, std::vector<OverlayText> lines, int widt
 
 }  // namespace
 
-CaptionPanel captionPanel(const std::vector<OverlayText>& lines, int width, int height)
+CaptionPanel captionPanel(const std::vector<OverlayText>& lines, int width, int height, double pixel_ratio)
 {
     CaptionPanel panel;
     for (const double size : kTextSizes) {
-        panel = withTextOf(size * textHeightFor(width, height), lines, width, height);
+        panel = withTextOf(size * textHeightFor(width, height, pixel_ratio), lines, width, height);
         if (panel.close_up.height >= kWantedSide * height)
             break;
     }

@@ -14,6 +14,6 @@ struct CaptionPanel {
 
 /// Lays out lines of text from the top. They are written smaller before the close-up becomes small, and what is below
 /// the panel is left out, with a sign that there was more.
-CaptionPanel captionPanel(const std::vector<OverlayText>& lines, int width, int height);
+CaptionPanel captionPanel(const std::vector<OverlayText>& lines, int width, int height, double pixel_ratio = 1);
 
 }  // namespace vicon::viewer

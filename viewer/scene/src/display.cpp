@@ -93,8 +93,8 @@ std::optional<std::string> variable(const char* name)
 
 /// Mesa's software OpenGL starts a thread a core, and they fill each picture together, from a common start to a common
 /// end. When the system puts two of them on one core, the other core idles for the whole picture. Two a core are shared
-/// out more evenly; docs/evaluation/flight-and-window.md has the times. Whoever sets the variable is heeded. Other
-/// drivers ignore it.
+/// out more evenly; docs/evaluation/flight-and-window.md has the times. A variable that is set already is left as it
+/// is. Other drivers ignore it.
 void startMoreRasterizers()
 {
     ::setenv("LP_NUM_THREADS", std::to_string(2 * std::max(std::thread::hardware_concurrency(), 1U)).c_str(), 0);

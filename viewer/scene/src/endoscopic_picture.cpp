@@ -4,6 +4,7 @@
 #include "pictures.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/orientation.h"
+#include "vicon/viewer/scene/cube_picture.h"
 
 namespace vicon::viewer {
 namespace {
@@ -13,9 +14,65 @@ constexpr double kRing_mm = 8;           // a ring that leaves a polyp of 10 mm 
 constexpr double kMarkerReach_mm = 150;  // further off a marker is too small to mean anything
 constexpr double kSightSlack_mm = 2.5;
 
-// The marker that is looked at is drawn wherever it lies in the picture; others only when in plain view.
-void addMarkers(Overlay& overlay, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
-                const Lens& lens, double text_px)
+/// The circle that is peeled, for a radiologist's eye on one finding.
+PictureCircle circleOf(const SnapshotRequest& request)
+{
+    const Pixel middle{request.width / 2.0, request.height / 2.0};
+    const double usual_px = 0.3 * std::min(request.width, request.height);
+    return {request.peel.circle_at.value_or(middle), request.peel.circle_px > 0 ? request.peel.circle_px : usual_px};
+}
+
+std::string peelingText(const SnapshotRequest& request)
+{
+    char offset[32];
+    const double offset_mm = request.peel.options.offset_mm;
+    std::snprintf(offset, sizeof offset, "%.1f", std::abs(offset_mm));
+    return "translucent: " + transferFunction(request.peel.preset).title + ", " + offset + " mm " +
+           (offset_mm < 0 ? "before" : "deep") + (request.peel.over_surface ? ", over" : "");
+}
+
+/// Each pixel as a square of pixels.
+PeeledPicture enlarged(const PeeledPicture& from, int times, int width, int height)
+{
+    PeeledPicture to{width, height, std::vector<std::uint8_t>(std::size_t(width) * std::size_t(height) * 4)};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            std::copy_n(from.rgba.begin() + (std::ptrdiff_t(y / times) * from.width + x / times) * 4, 4,
+                        to.rgba.begin() + (std::ptrdiff_t(y) * width + x) * 4);
+    return to;
+}
+
+void layPeelingOver(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
+                    const Progress* wanted)
+{
+    const Lens lens{request.view_angle_deg, request.width, request.height};
+    std::optional<PictureCircle> only;
+    if (request.peel.middle_only)
+        only = circleOf(request);
+    for (int y = 0; y < picture.height; ++y)  // what is peeled off is not seen through the rest
+        for (int x = 0; x < picture.width; ++x)
+            if (!request.peel.over_surface && (!only || only->holds({x + 0.5, y + 0.5})))
+                picture.set(x, y, {0, 0, 0});
+    const int coarse = std::max(1, request.peel.coarse);
+    const Lens few{lens.view_angle_deg, (lens.width + coarse - 1) / coarse, (lens.height + coarse - 1) / coarse};
+    if (only)
+        only = PictureCircle{{only->centre.x / coarse, only->centre.y / coarse}, only->radius_px / coarse};
+    const PeeledPicture peeled = peel(scan.bricks(), scan.lumen(), pose, few, transferFunction(request.peel.preset),
+                                      request.peel.options, only, wanted);
+    constexpr double kOverSurface = 0.6;
+    blendOver(picture.rgb, coarse == 1 ? peeled : enlarged(peeled, coarse, lens.width, lens.height),
+              request.peel.over_surface ? kOverSurface : 1);
+}
+
+std::string directionText(const Pose& pose)
+{
+    return "looking towards " + sideName(pose.forward) + " (" + lettersFor(pose.forward) + ")";
+}
+
+}  // namespace
+
+void addMarkersInView(Overlay& overlay, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
+                      const Lens& lens, double text_px)
 {
     const Lumen lumen = scan.lumen();
     for (const Marker& marker : request.markers) {
@@ -34,67 +91,17 @@ void addMarkers(Overlay& overlay, const PreparedScan& scan, const SnapshotReques
     }
 }
 
-/// The circle that is peeled, for a radiologist's eye on one finding.
-PictureCircle circleOf(const SnapshotRequest& request)
-{
-    const Pixel middle{request.width / 2.0, request.height / 2.0};
-    const double usual_px = 0.3 * std::min(request.width, request.height);
-    return {request.peel_circle_at.value_or(middle), request.peel_circle_px > 0 ? request.peel_circle_px : usual_px};
-}
-
-std::string peelingText(const SnapshotRequest& request)
-{
-    char offset[32];
-    std::snprintf(offset, sizeof offset, "%.1f", request.peeling.offset_mm);
-    return "peeled: " + transferFunction(request.peel).title + ", " + offset + " mm below the surface";
-}
-
-/// Each pixel as a square of pixels.
-PeeledPicture enlarged(const PeeledPicture& from, int times, int width, int height)
-{
-    PeeledPicture to{width, height, std::vector<std::uint8_t>(std::size_t(width) * std::size_t(height) * 4)};
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            std::copy_n(from.rgba.begin() + (std::ptrdiff_t(y / times) * from.width + x / times) * 4, 4,
-                        to.rgba.begin() + (std::ptrdiff_t(y) * width + x) * 4);
-    return to;
-}
-
-void layPeelingOver(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose)
-{
-    const Lens lens{request.view_angle_deg, request.width, request.height};
-    std::optional<PictureCircle> only;
-    if (request.peel_middle_only)
-        only = circleOf(request);
-    for (int y = 0; y < picture.height; ++y)  // what is peeled off is not seen through the rest
-        for (int x = 0; x < picture.width; ++x)
-            if (!only || only->holds({x + 0.5, y + 0.5}))
-                picture.set(x, y, {0, 0, 0});
-    const int coarse = std::max(1, request.peel_coarse);
-    const Lens few{lens.view_angle_deg, (lens.width + coarse - 1) / coarse, (lens.height + coarse - 1) / coarse};
-    if (only)
-        only = PictureCircle{{only->centre.x / coarse, only->centre.y / coarse}, only->radius_px / coarse};
-    const PeeledPicture peeled =
-        peel(scan.bricks(), scan.lumen(), pose, few, transferFunction(request.peel), request.peeling, only);
-    blendOver(picture.rgb, coarse == 1 ? peeled : enlarged(peeled, coarse, lens.width, lens.height));
-}
-
-std::string directionText(const Pose& pose)
-{
-    return "looking towards " + sideName(pose.forward) + " (" + lettersFor(pose.forward) + ")";
-}
-
-}  // namespace
-
 Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
 {
     Overlay overlay;
     const Lens lens{request.view_angle_deg, request.width, request.height};
     const Area area{0, 0, double(request.width), double(request.height)};
-    const double text_px = textHeightFor(request.width, request.height, request.pixel_ratio);
-    addMarkers(overlay, scan, request, place.pose, lens, text_px);
+    const double text_px =
+        request.text_px > 0 ? request.text_px : textHeightFor(request.width, request.height, request.pixel_ratio);
+    addMarkersInView(overlay, scan, request, place.pose, lens, text_px);
     addLetters(overlay, area, place.pose.right(), -place.pose.up, text_px);
-    addTriad(overlay, {4.2 * text_px, area.height - 4.2 * text_px}, 2.4 * text_px, place.pose, 0.9 * text_px);
+    if (request.captioned)  // a picture of a list is too small for it
+        addTriad(overlay, {4.2 * text_px, area.height - 4.2 * text_px}, 2.4 * text_px, place.pose, 0.9 * text_px);
     auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), scan.words());
     OverlayText note;
     note.text = directionText(place.pose);
@@ -102,12 +109,14 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
         note.text += ", " + std::to_string(std::lround(distance(place.pose.eye_mm, *request.look_at_mm))) + " mm away";
     note.color = kTextColor;
     lines.push_back(note);
+    if (note.text = partNameAt(scan.parts(), place.station_mm); !note.text.empty())
+        lines.insert(lines.begin() + std::ptrdiff_t(patientLines(request.caption).size()), note);
     if (!request.captioned)
         lines.clear();
-    if (!request.peel.empty()) {
+    if (!request.peel.preset.empty()) {
         note.text = peelingText(request);
         lines.push_back(note);
-        if (request.peel_middle_only)
+        if (request.peel.middle_only)
             overlay.discs.push_back({circleOf(request).centre, circleOf(request).radius_px, kTextColor, 1.5});
     }
     if (!place.sees_target) {
@@ -116,8 +125,8 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
         lines.push_back(note);
     }
     const double above_letter_px = area.height / 2 - text_px;  // the one in the middle of the left edge
-    addLines(overlay, {0, 0, area.width * 0.47, area.height}, lines,
-             std::min(text_px, heightOfText(lines.size(), above_letter_px)));
+    const Area caption = captionArea(area.width, area.height, text_px);
+    addLines(overlay, caption, lines, std::min(text_px, heightOfText(lines.size(), above_letter_px - caption.y)));
     return overlay;
 }
 
@@ -126,8 +135,11 @@ EndoscopicPictures::EndoscopicPictures(PreparedScan scan)
 {
 }
 
-Picture EndoscopicPictures::draw(const SnapshotRequest& request, const SnapshotResult& place)
+const Picture& EndoscopicPictures::wall(const SnapshotRequest& request, const SnapshotResult& place)
 {
+    const Lens lens{request.view_angle_deg, request.width, request.height};
+    if (last_ && last_->pose == place.pose && last_->lens == lens && last_->occluded == request.ambient_occlusion)
+        return last_->picture;
     scene_.lookFrom(place.pose, request.view_angle_deg);
     scene_.setLampReach(lampReachAt_mm(scan_.frames(), place.station_mm));
     if (request.ambient_occlusion && !occluded_)
@@ -135,25 +147,42 @@ Picture EndoscopicPictures::draw(const SnapshotRequest& request, const SnapshotR
     if (!request.ambient_occlusion && occluded_)
         scene_.shadeEvenly();
     occluded_ = request.ambient_occlusion;
-    Picture picture = offscreen_.render(request.width, request.height, kSmooth);
+    last_ = {place.pose, lens, occluded_, offscreen_.render(request.width, request.height, kSmooth)};
+    return last_->picture;
+}
+
+Picture EndoscopicPictures::draw(const SnapshotRequest& request, const SnapshotResult& place)
+{
+    Picture picture = wall(request, place);
     finishEndoscopic(picture, scan_, request, place);
     return picture;
 }
 
-void castWall(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose)
+Picture EndoscopicPictures::drawCube(const SnapshotRequest& request, const SnapshotResult& place)
+{
+    Picture picture(request.width, request.height);
+    const CubeLayout layout(request.width, request.height);
+    for (const CubeFace face : kCubeFaces)
+        placeFace(picture, layout, face, wall(faceRequest(request, layout), faceOf(face, place)));
+    paint(picture, cubeOverlay(scan_, request, place));
+    return picture;
+}
+
+void castWall(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
+              const Progress* wanted)
 {
     SnapshotRequest cast = request;
-    cast.peel = "soft-tissue";
-    cast.peeling.offset_mm = 0;
-    cast.peel_middle_only = false;
-    layPeelingOver(picture, scan, cast, pose);
+    cast.peel.preset = "soft-tissue";
+    cast.peel.options.offset_mm = 0;
+    cast.peel.middle_only = cast.peel.over_surface = false;
+    layPeelingOver(picture, scan, cast, pose, wanted);
 }
 
 void finishEndoscopic(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request,
-                      const SnapshotResult& place)
+                      const SnapshotResult& place, const Progress* wanted)
 {
-    if (!request.peel.empty())
-        layPeelingOver(picture, scan, request, place.pose);
+    if (!request.peel.preset.empty())
+        layPeelingOver(picture, scan, request, place.pose, wanted);
     paint(picture, endoscopicOverlay(scan, request, place));
 }
 

@@ -9,6 +9,7 @@
 #include "vicon/core/file.h"
 #include "vicon/viewer/model/coverage.h"
 #include "vicon/viewer/model/flight_plan.h"
+#include "vicon/viewer/model/review_rule.h"
 #include "vicon/viewer/scene/cell_visibility.h"
 #include "vicon/viewer/scene/id_scene.h"
 #include "vicon/viewer/scene/sight_ahead.h"
@@ -49,14 +50,15 @@ struct FlightRenderer {
     std::optional<Offscreen> ids_offscreen;
     std::optional<CellVisibility> visibility;
     std::optional<SightAhead> ahead;
-    Coverage coverage;
+    Coverage coverage, reviewed;
 
     FlightRenderer(const PreparedScan& s, const FlightRequest& r)
         : scan(s),
           request(r),
           scene(s.cells()),
           offscreen(scene.renderer()),
-          coverage(triangleAreas_mm2(s.cells().points_mm, s.cells().triangles))
+          coverage(triangleAreas_mm2(s.cells().points_mm, s.cells().triangles)),
+          reviewed(coverage)
     {
         if (request.ambient_occlusion)
             scene.shadeByOpenness(s.cells(), s.openness());
@@ -111,6 +113,7 @@ FlightFrame FlightRenderer::shoot(const ViewPose& view, const VisibleParts& show
             frame.seconds = ids_offscreen->seconds();
         frame.triangles_seen = seen.size();
         coverage.see(seen);
+        reviewed.see(wellShown(scan.cells().points_mm, scan.cells().triangles, seen, view.pose, lens()));
     }
     return frame;
 }
@@ -185,6 +188,7 @@ void addCoverage(FlightReport& report, const FlightRenderer& renderer)
 {
     const PreparedScan& scan = renderer.scan;
     report.coverage = renderer.coverage.fraction();
+    report.reviewed = renderer.reviewed.fraction();
     report.seen_mm2 = renderer.coverage.seenArea_mm2();
     report.whole_mm2 = renderer.coverage.wholeArea_mm2();
     report.parts = scan.parts();
@@ -232,6 +236,7 @@ nlohmann::json toJson(const FlightReport& report)
             {"cells", report.cells},
             {"triangles", report.triangles},
             {"coverage", report.coverage},
+            {"reviewed", report.reviewed},
             {"seen_mm2", report.seen_mm2},
             {"whole_mm2", report.whole_mm2},
             {"unseen", toJson(report.unseen, report.parts)},

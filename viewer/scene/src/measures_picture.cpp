@@ -106,12 +106,12 @@ void addAxis(Overlay& overlay, const Axes& axes, double text_px)
 
 }  // namespace
 
-Picture histogramPicture(const DensitySample& sample, int width, int height)
+Picture histogramPicture(const DensitySample& sample, int width, int height, double pixel_ratio)
 {
     Picture picture(width, height, kGround);
     if (sample.voxels == 0 || sample.counts.empty())
         return picture;
-    const double text_px = textHeightFor(width, height) * 1.15;
+    const double text_px = textHeightFor(width, height, pixel_ratio) * 1.15;
     const Axes axes = axesFor(sample, width, height, text_px);
     Overlay overlay;
     addBars(overlay, sample, axes);
@@ -126,14 +126,15 @@ Picture histogramPicture(const DensitySample& sample, int width, int height)
     line.text = std::to_string(sample.voxels) + " voxels within " + text("%.1f mm, ", sample.radius_mm) +
                 text("%.1f mm off the lumen", sample.margin_mm);
     lines.push_back(line);
-    line.text = text("%.0f %% as light as fat", 100 * sample.fat_fraction);
+    line.text = text("%.0f %% of fat attenuation", 100 * sample.fat_fraction);
     lines.push_back(line);
     addLines(overlay, {0, 0, double(width), double(height)}, lines, text_px);
     paint(picture, overlay);
     return picture;
 }
 
-Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Caption& caption, int width, int height)
+Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Caption& caption, int width, int height,
+                     double pixel_ratio)
 {
     const PlaneView view = viewOf(size, width, height, std::max(kLeastField_mm, kFieldOfDiameter * size.diameter_mm));
     const WindowLevel window = windowPreset(kWindow);
@@ -143,7 +144,7 @@ Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Capt
         std::fill_n(picture.rgb.begin() + std::ptrdiff_t(3 * n), 3, window.greyOf(densities[n]));
     Overlay overlay;
     const Area area{0, 0, double(width), double(height)};
-    const double text_px = textHeightFor(width, height) * 1.15;
+    const double text_px = textHeightFor(width, height, pixel_ratio) * 1.15;
     const Pixel from = view.toPixel(size.from_mm), to = view.toPixel(size.to_mm);
     overlay.lines.push_back({{from, to}, kMeanColor, 2, 4});
     for (const Pixel& end : {from, to})
@@ -161,13 +162,14 @@ Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Capt
     return picture;
 }
 
-std::optional<Picture> measuresPicture(const PreparedScan& scan, const Marker& marker, const Caption& caption, int side)
+std::optional<Picture> measuresPicture(const PreparedScan& scan, const Marker& marker, const Caption& caption, int side,
+                                       double pixel_ratio)
 {
     std::vector<Picture> parts;
     if (marker.size && marker.size->plane)
-        parts.push_back(planePicture(scan, *marker.size->plane, caption, side, side));
+        parts.push_back(planePicture(scan, *marker.size->plane, caption, side, side, pixel_ratio));
     if (marker.density && marker.density->voxels > 0)
-        parts.push_back(histogramPicture(*marker.density, side, side));
+        parts.push_back(histogramPicture(*marker.density, side, side, pixel_ratio));
     if (parts.empty())
         return std::nullopt;
     Picture all(side * int(parts.size()), side);

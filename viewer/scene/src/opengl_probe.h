@@ -1,6 +1,6 @@
 #pragma once
 
-struct _XDisplay;
+struct _XDisplay;  // NOLINT(bugprone-reserved-identifier): X11's own name
 
 namespace vicon::viewer {
 

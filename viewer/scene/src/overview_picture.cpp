@@ -15,6 +15,8 @@ namespace {
 double captionHeight(const SnapshotRequest& request)
 {
     constexpr double kLeast_px = 11;
+    if (request.text_px > 0)
+        return request.text_px;
     return std::max(0.8 * textHeightFor(request.width, request.height, request.pixel_ratio),
                     kLeast_px * request.pixel_ratio);
 }
@@ -22,6 +24,8 @@ double captionHeight(const SnapshotRequest& request)
 double wordsHeight(const SnapshotRequest& request)
 {
     constexpr double kLeast_px = 12;
+    if (request.text_px > 0)
+        return request.text_px;
     return std::max(textHeightFor(request.width, request.height, request.pixel_ratio), kLeast_px * request.pixel_ratio);
 }
 
@@ -30,6 +34,8 @@ constexpr double kMostCaptionShare = 0.47;  // of the width
 /// What the caption takes of a corner, wherever the eye is.
 TextSize captionSize(const PreparedScan& scan, const SnapshotRequest& request)
 {
+    if (!request.captioned)
+        return {};
     const double text_px = textHeightFor(request.width, request.height, request.pixel_ratio),
                  line_px = captionHeight(request);
     const double length_mm = scan.frames().length_mm();
@@ -108,17 +114,6 @@ Picture drawn(const Projection& from, const PlaneView& view)
         }
     });
     return picture;
-}
-
-void addTips(Overlay& overlay, const Skeleton& skeleton, const OrganWords& words, const PlaneView& view, double text_px)
-{
-    const Pixel first = view.toPixel(skeleton.at(0).position_mm);
-    const Pixel last = view.toPixel(skeleton.at(skeleton.length_mm()).position_mm);
-    for (const auto& [at, name] : {std::pair{first, words.first_end}, std::pair{last, words.last_end}}) {
-        overlay.discs.push_back({at, 0.25 * text_px, kPathColor, 0});
-        overlay.texts.push_back(
-            {{at.x, at.y + 0.4 * text_px}, name, 0.9 * text_px, kPathColor, Across::centre, Along::top, 1e9});
-    }
 }
 
 /// Where in a picture names are written already.
@@ -201,6 +196,25 @@ void addMarkers(Overlay& overlay, const std::vector<Marker>& markers, const Plan
         overlay.discs.push_back({view.toPixel(marker.position_mm), 0.38 * text_px, colorOf(marker.color), 0});
 }
 
+/// Below the markers; their names where there is room.
+void addPriors(Overlay& overlay, const SnapshotRequest& request, const OverviewGround& ground, double text_px)
+{
+    std::vector<Area> taken = ground.names;
+    for (const Marker& marker : request.markers) {
+        const Pixel at = ground.view.toPixel(marker.position_mm);
+        taken.push_back({at.x - text_px / 2, at.y - text_px / 2, text_px, text_px});
+    }
+    for (const PriorPlace& place : request.priors)
+        addPriorBand(overlay, ground.view, place, text_px);
+    Names names(std::move(taken), overlay, ground.view);
+    for (const PriorPlace& place : request.priors) {
+        const OverlayText name{{}, place.label, 0.9 * text_px, place.color};
+        for (const double away : {0.7, 1.8, 2.9, 4.0})  // in heights of the text
+            if (names.write(overlay, name, ground.view.toPixel(place.position_mm), away * text_px, away * text_px))
+                break;
+    }
+}
+
 /// Beside their discs; where other names stand there, above, below or on the other side.
 void addMarkerNames(Overlay& overlay, const std::vector<Marker>& markers, const OverviewGround& ground, double text_px)
 {
@@ -223,6 +237,17 @@ void addMarkerNames(Overlay& overlay, const std::vector<Marker>& markers, const 
 }
 
 }  // namespace
+
+void addTips(Overlay& overlay, const Skeleton& skeleton, const OrganWords& words, const PlaneView& view, double text_px)
+{
+    const Pixel first = view.toPixel(skeleton.at(0).position_mm);
+    const Pixel last = view.toPixel(skeleton.at(skeleton.length_mm()).position_mm);
+    for (const auto& [at, name] : {std::pair{first, words.first_end}, std::pair{last, words.last_end}}) {
+        overlay.discs.push_back({at, 0.25 * text_px, kPathColor, 0});
+        overlay.texts.push_back(
+            {{at.x, at.y + 0.4 * text_px}, name, 0.9 * text_px, kPathColor, Across::centre, Along::top, 1e9});
+    }
+}
 
 OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request)
 {
@@ -252,11 +277,14 @@ Overlay overviewOverlay(const OverviewGround& ground, const PreparedScan& scan, 
     const auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), scan.words());
     Overlay overlay;
     const Area area{0, 0, double(request.width), double(request.height)};
+    addPriors(overlay, request, ground, text_px);
     addMarkers(overlay, request.markers, view, text_px);
-    addHere(overlay, view, place.pose, 0.8 * text_px);
+    if (request.captioned)
+        addHere(overlay, view, place.pose, 0.8 * text_px);
     addLetters(overlay, area, view.right, view.down, text_px);
     addScaleBar(overlay, area, view.mm_per_pixel, text_px);
-    addLines(overlay, {0, 0, ground.caption.width_px, ground.caption.height_px}, lines, captionHeight(request));
+    if (request.captioned)
+        addLines(overlay, {0, 0, ground.caption.width_px, ground.caption.height_px}, lines, captionHeight(request));
     addMarkerNames(overlay, request.markers, ground, text_px);
     return overlay;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/offscreen.h"
@@ -21,24 +22,47 @@ std::vector<OverlayText> captionLines(const Caption& caption, double station_mm,
 /// What is written over an endoscopic picture; used by snapshots and flights alike.
 Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
 
+/// Rings around the markers that are in plain view from `pose`; the one that is looked at wherever it lies.
+void addMarkersInView(Overlay& overlay, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
+                      const Lens& lens, double text_px);
+
 /// The wall where the densities of tissue begin, for want of OpenGL; as fine as the request says that it is peeled.
-void castWall(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose);
+/// Throws Error{cancelled} where it is no longer wanted.
+void castWall(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
+              const Progress* wanted = nullptr);
 /// Endoscopic pictures of one scan; its surface is handed to the driver once.
 class EndoscopicPictures {
 public:
     explicit EndoscopicPictures(PreparedScan scan);
     Picture draw(const SnapshotRequest& request, const SnapshotResult& place);
+    /// The six faces around the eye.
+    Picture drawCube(const SnapshotRequest& request, const SnapshotResult& place);
 
 private:
+    const Picture& wall(const SnapshotRequest& request, const SnapshotResult& place);
+
+    /// The wall as it was drawn last: what is laid over it changes more often.
+    struct Drawn {
+        Pose pose;
+        Lens lens;
+        bool occluded = false;
+        Picture picture;
+    };
+
     PreparedScan scan_;
     SurfaceScene scene_;
     Offscreen offscreen_;
     bool occluded_ = false;  ///< the scene shades with ambient occlusion
+    std::optional<Drawn> last_;
 };
-/// Lays what the request asks to peel, and everything that is written, over a picture of the surface.
+/// Lays what the request asks to peel, and everything that is written, over a picture of the surface. Throws
+/// Error{cancelled} where it is no longer wanted.
 void finishEndoscopic(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request,
-                      const SnapshotResult& place);
+                      const SnapshotResult& place, const Progress* wanted = nullptr);
 Picture slicesPicture(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
+/// The two ends of a way, by name.
+void addTips(Overlay& overlay, const Skeleton& skeleton, const OrganWords& words, const PlaneView& view,
+             double text_px);
 /// The overview's part that does not change while the eye moves.
 struct OverviewGround {
     Picture picture;

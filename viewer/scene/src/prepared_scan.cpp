@@ -2,10 +2,12 @@
 
 #include <tbb/parallel_invoke.h>
 
+#include <algorithm>
 #include <mutex>
 #include <optional>
 
 #include "lumen_pages.h"
+#include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/scan_files/cells_file.h"
@@ -72,7 +74,9 @@ struct PreparedScan::Files {
     Lazy<Projection> coronal;
     Lazy<PathFrames> frames;
     Lazy<ColonPartRanges> parts;
+    Lazy<LumenAlong> along;
     Lazy<OrganWords> words;
+    Lazy<StepResults> results;
     Lazy<std::unique_ptr<const DensityBricks>> bricks;
     Lazy<std::vector<float>> openness;
 
@@ -95,17 +99,10 @@ struct PreparedScan::Files {
         return exit_distance.get([&] { return scan_files::StoredVolume<float>(at("exit_distance.mha")); });
     }
 
-    /// What is made of scan.json.
-    template <class Make>
-    auto described(Make make) const
+    /// What the steps found, by scan.json.
+    const StepResults& stepResults()
     {
-        const nlohmann::json description = scan_files::readDescription(folder);
-        try {
-            return make(description);
-        } catch (const nlohmann::json::exception&) {
-            throw Error(ErrorCode::bad_input, "is not the description of a scan", (folder / "scan.json").string(),
-                        "run 'vicon work'");
-        }
+        return results.get([&] { return resultsOf(scan_files::readDescription(folder).steps); });
     }
 };
 
@@ -140,11 +137,16 @@ void PreparedScan::readForFlight() const
     bringInLumen(files_->storedWallDistance(), inside());
 }
 
-void PreparedScan::readOn() const
+void PreparedScan::readOn(const Progress& wanted) const
 {
+    constexpr std::size_t kAtOnce = std::size_t(1) << 22;  // voxels: some milliseconds of a slow disk
     bringInLumen(files_->storedExitDistance(), inside());
     const auto& stored = files_->storedVolume();
-    stored.readAhead(0, stored.view().voxels.size());
+    const std::size_t all = stored.view().voxels.size();
+    for (std::size_t n = 0; n < all; n += kAtOnce) {
+        wanted.check();
+        stored.readAhead(n, std::min(n + kAtOnce, all));
+    }
 }
 
 const HuView* PreparedScan::cleansed() const
@@ -223,18 +225,20 @@ const PathFrames& PreparedScan::frames() const
 
 const ColonPartRanges& PreparedScan::parts() const
 {
-    return files_->parts.get([&] {
-        return files_->described([](const nlohmann::json& scan) {
-            return colonPartsFromJson(scan.value("parts", nlohmann::json::array()));
-        });
+    return files_->parts.get([&] { return files_->stepResults().parts(); });
+}
+
+const LumenAlong& PreparedScan::along() const
+{
+    return files_->along.get([&] {
+        const StepResults& results = files_->stepResults();
+        return results.quality && results.quality->quality ? results.quality->quality->along : LumenAlong();
     });
 }
 
 const OrganWords& PreparedScan::words() const
 {
-    return files_->words.get([&] {
-        return files_->described([](const nlohmann::json& scan) { return wordsFor(scan.value("organ", "colon")); });
-    });
+    return files_->words.get([&] { return wordsFor(files_->stepResults().organ()); });
 }
 
 const DensityBricks& PreparedScan::bricks() const

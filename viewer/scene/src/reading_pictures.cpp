@@ -2,12 +2,14 @@
 
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "pictures.h"
 #include "vicon/core/error.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/peeling_pace.h"
 #include "vicon/viewer/scene/cell_visibility.h"
+#include "vicon/viewer/scene/cube_picture.h"
 #include "vicon/viewer/scene/picture_coverage.h"
 
 namespace vicon::viewer {
@@ -23,6 +25,7 @@ struct ReadingPictures::Parts {
         VisibleParts parts;
         Pose pose;
         Lens lens;
+        double pixel_ratio = 1;
         bool told = false;  ///< picture_coverage has looked at it
     };
     std::optional<Shown> shown;
@@ -49,21 +52,39 @@ struct ReadingPictures::Parts {
             how(request);
             return;
         }
-        request.peeling = request.peeling.whileMoving();
-        request.peel_coarse = pace.coarseFor(request.width, request.height);
+        request.peel.options = request.peel.options.whileMoving();
+        request.peel.coarse = pace.coarseFor(request.width, request.height);
         const auto begin = std::chrono::steady_clock::now();
         how(request);
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-        pace.tell(request.width, request.height, request.peel_coarse, took.count());
+        pace.tell(request.width, request.height, request.peel.coarse, took.count());
     }
 
     /// What is peeled, and written on.
-    Picture wall(const SnapshotRequest& request, const Pose& pose, bool still)
+    Picture wall(const SnapshotRequest& request, const Pose& pose, bool still, const Progress* wanted)
     {
         if (offscreen)
             return offscreen->render(request.width, request.height, still ? 2 : 1);
         Picture picture(request.width, request.height);
-        cast(request, still, [&](const SnapshotRequest& as) { castWall(picture, scan, as, pose); });
+        cast(request, still, [&](const SnapshotRequest& as) { castWall(picture, scan, as, pose, wanted); });
+        return picture;
+    }
+
+    /// The wall, tinted, with what is translucent and what is written.
+    Picture wallAndBelow(const SnapshotRequest& request, const SnapshotResult& place, bool still,
+                         const EndoscopicLook& look)
+    {
+        // Then nothing of the wall is left.
+        const bool only_peeled =
+            !request.peel.preset.empty() && !request.peel.middle_only && !request.peel.over_surface;
+        Picture picture =
+            only_peeled ? Picture(request.width, request.height) : wall(request, place.pose, still, look.wanted);
+        if (look.earlier && !only_peeled && offscreen)
+            pictureCoverage().tint(picture, look.earlier->earlier());
+        if (look.missed && !only_peeled && offscreen)
+            pictureCoverage().tint(picture, *look.missed, PictureCoverage::Tint::missed);
+        cast(request, still || request.peel.preset.empty(),
+             [&](const SnapshotRequest& as) { finishEndoscopic(picture, scan, as, place, look.wanted); });
         return picture;
     }
 
@@ -81,6 +102,18 @@ struct ReadingPictures::Parts {
             scene.setLampReach(reach_mm);
         cells_colored = color_cells;
         lamp_reach_mm = reach_mm;
+    }
+
+    /// What the next picture shows.
+    Lens look(const SnapshotRequest& request, const SnapshotResult& place, const EndoscopicLook& how)
+    {
+        const Lens lens{request.view_angle_deg, request.width, request.height};
+        shown = Shown{visibility->visibleFrom(place.pose, lens), place.pose, lens, request.pixel_ratio};
+        setLook(how.structure, how.lamp_factor * lampReachAt_mm(scan.frames(), place.station_mm),
+                request.ambient_occlusion);
+        scene.showSeen(shown->parts);
+        scene.lookFrom(place.pose, request.view_angle_deg);
+        return lens;
     }
 
     explicit Parts(const PreparedScan& of)
@@ -148,22 +181,43 @@ Picture ReadingPictures::endoscopic(const SnapshotRequest& request, const Snapsh
                                     const EndoscopicLook& look)
 {
     Parts& p = *parts_;
-    const Lens lens{request.view_angle_deg, request.width, request.height};
-    p.shown = Parts::Shown{p.visibility->visibleFrom(place.pose, lens), place.pose, lens};
-    p.setLook(look.structure, look.lamp_factor * lampReachAt_mm(p.scan.frames(), place.station_mm),
-              request.ambient_occlusion);
-    p.scene.showSeen(p.shown->parts);
-    p.scene.lookFrom(place.pose, request.view_angle_deg);
-    const bool only_peeled = !request.peel.empty() && !request.peel_middle_only;  // then nothing of the wall is left
-    Picture picture = only_peeled ? Picture(request.width, request.height) : p.wall(request, place.pose, still);
-    if (look.earlier && !only_peeled && p.offscreen)
-        p.pictureCoverage().tint(picture, look.earlier->earlier());
-    p.cast(request, still || request.peel.empty(),
-           [&](const SnapshotRequest& as) { finishEndoscopic(picture, p.scan, as, place); });
+    auto on_screen = std::move(p.shown);
+    const Lens lens = p.look(request, place, look);
+    Picture picture;
+    try {
+        picture = p.wallAndBelow(request, place, still, look);
+    } catch (const Error&) {
+        p.shown.reset();  // nobody sees it
+        throw;
+    }
     if (look.structure)
         paint(picture, structureOverlay(*p.visibility, p.scene, place.pose, lens));
-    if (!request.peel.empty() || !p.offscreen)
+    if ((!request.peel.preset.empty() && !request.peel.over_surface) || !p.offscreen)
         p.shown.reset();
+    if (!look.on_screen) {
+        p.shown = std::move(on_screen);
+        if (p.shown)
+            p.shown->told = false;
+    }
+    return picture;
+}
+
+Picture ReadingPictures::cubeFace(const SnapshotRequest& of_cube, const SnapshotResult& place, CubeFace face,
+                                  bool still, const EndoscopicLook& look, ScanCoverage* seen)
+{
+    Parts& p = *parts_;
+    auto before = std::move(p.shown);  // the endoscopic picture, which may still be asked for
+    const SnapshotRequest request = faceRequest(of_cube, {of_cube.width, of_cube.height});
+    const SnapshotResult turned = faceOf(face, place);
+    p.look(request, turned, look);
+    Picture picture = p.wall(request, turned.pose, still, look.wanted);
+    if (look.earlier && p.offscreen)
+        p.pictureCoverage().tint(picture, look.earlier->earlier());
+    if (seen && p.offscreen)
+        seen->see(p.pictureCoverage().triangles());
+    p.shown = std::move(before);
+    if (p.shown)
+        p.shown->told = false;
     return picture;
 }
 
@@ -179,10 +233,15 @@ void ReadingPictures::chooseBy(std::shared_ptr<const CellVisibility> visibility)
     p.offscreen->draw(kSmall, kSmall);
 }
 
-void ReadingPictures::countSeen(ScanCoverage& seen)
+void ReadingPictures::countSeen(ScanCoverage& seen, double now_s, const ReviewRule& rule)
 {
-    if (parts_->shown)
-        seen.see(parts_->pictureCoverage().triangles());
+    Parts& p = *parts_;
+    if (!p.shown)
+        return;
+    const CellSurface& cells = p.scan.cells();
+    seen.show(wellShown(cells.points_mm, cells.triangles, p.pictureCoverage().triangles(), p.shown->pose, p.shown->lens,
+                        p.shown->pixel_ratio, rule),
+              now_s, rule.least_s);
 }
 
 ReadingPictures::Overview ReadingPictures::overview(const SnapshotRequest& request, const SnapshotResult& place)

@@ -13,8 +13,10 @@ Picture SlicePictures::draw(const std::shared_ptr<const PreparedScan>& scan, con
     scan_ = scan;
     earlier_plane_ = plane_;
     plane_ = SliceSlab::planeOf(scan->volume().grid, request.view);
-    const bool held = plane_ && slab_ && slab_->holds(*plane_);
-    return slicePicture(held ? HuView(slab_->volume()) : scan->volume(), request, scan->cleansed());
+    const bool thin = request.thick.of == ThickSlice::Of::one_plane;
+    const bool held = thin && plane_ && slab_ && slab_->holds(*plane_);
+    const InsideView inside = request.tracks ? scan->inside() : InsideView();
+    return slicePicture(held ? HuView(slab_->volume()) : scan->volume(), request, scan->cleansed(), &inside);
 }
 
 void SlicePictures::readAhead()

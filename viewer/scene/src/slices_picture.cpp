@@ -4,6 +4,7 @@
 #include "pictures.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/slice_image.h"
+#include "vicon/viewer/model/tracked_lumen.h"
 #include "vicon/viewer/model/window_level.h"
 #include "vicon/viewer/scene/reading_pictures.h"
 
@@ -17,13 +18,28 @@ constexpr std::size_t kMostNoteLines = 3;
 constexpr double kCloseUp_mm = 50;  // what the close-up shows: a polyp of 6 mm fills an eighth of it
 
 /// @param cleansed shown where it has densities; nothing: nowhere
-Picture greyPicture(const HuView& volume, const HuView* cleansed, const PlaneView& view, const WindowLevel& window)
+Picture greyPicture(const HuView& volume, const HuView* cleansed, const PlaneView& view, const WindowLevel& window,
+                    const ThickSlice& thick = {})
 {
     Picture picture(view.width, view.height);
-    const auto densities = cleansed ? sliceDensities(volume, *cleansed, view) : sliceDensities(volume, view);
+    const auto densities = thickSliceDensities(volume, cleansed, view, thick);
     for (std::size_t n = 0; n < densities.size(); ++n)
         std::fill_n(picture.rgb.begin() + std::ptrdiff_t(3 * n), 3, window.greyOf(densities[n]));
     return picture;
+}
+
+constexpr Rgb kLumenRimColor{40, 205, 190};  // of no marker, and neither grey nor the eye's
+constexpr double kEyeNear_mm = 10;  // farther from the slice, the lumen around the eye may be another one there
+
+/// The rim of the lumen around the eye, which the reader follows.
+void drawRim(Picture& picture, const InsideView& inside, const SliceRequest& request)
+{
+    if (std::abs(request.view.depth_mm(request.pose.eye_mm)) > kEyeNear_mm)
+        return;
+    const auto rim = lumenRim(inside, request.view, request.pose.eye_mm);
+    for (std::size_t n = 0; n < rim.size(); ++n)
+        if (rim[n])
+            picture.set(int(n % std::size_t(picture.width)), int(n / std::size_t(picture.width)), kLumenRimColor);
 }
 
 /// Which densities are shown, where there are two kinds.
@@ -49,7 +65,7 @@ struct Panel {
 
 WindowLevel windowOf(const PreparedScan& scan, const SnapshotRequest& request)
 {
-    return request.window.empty() ? windowPresets(scan.words().organ).front() : windowPreset(request.window);
+    return request.window.empty() ? windowPresets(scan.words().organ.name()).front() : windowPreset(request.window);
 }
 
 Picture slice(const PreparedScan& scan, const SnapshotRequest& request, const Panel& panel)
@@ -60,13 +76,15 @@ Picture slice(const PreparedScan& scan, const SnapshotRequest& request, const Pa
     Picture picture = greyPicture(volume, request.cleansed ? scan.cleansed() : nullptr, view, windowOf(scan, request));
     Overlay overlay;
     const Area area{0, 0, double(width), double(height)};
-    const double text_px = textHeightFor(width, height) * 1.15;
+    const double text_px = textHeightFor(width, height, request.pixel_ratio) * 1.15;
     const double ring = std::max(kRing_mm / view.mm_per_pixel, 0.9 * text_px);
     if (cross)
         addCrosshair(overlay, area, view.toPixel(point), ring * 1.5);
     for (const Marker& marker : request.markers)
         if (std::abs(view.depth_mm(marker.position_mm) - view.depth_mm(point)) <= kMarkerNear_mm)
             addMarkerRing(overlay, view.toPixel(marker.position_mm), ring, marker, text_px);
+    for (const PriorPlace& place : request.priors)
+        addPriorDiamond(overlay, view, place, view.depth_mm(point), kMarkerNear_mm, ring, text_px);
     addLetters(overlay, area, view.right, view.down, text_px);
     addScaleBar(overlay, area, view.mm_per_pixel, text_px);
     OverlayText title;
@@ -79,13 +97,17 @@ Picture slice(const PreparedScan& scan, const SnapshotRequest& request, const Pa
 
 std::vector<OverlayText> linesOf(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
 {
-    auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), scan.words());
+    std::vector<OverlayText> lines;
+    if (request.captioned)
+        lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), scan.words());
     const WindowLevel window = windowOf(scan, request);
     OverlayText line;
     line.color = kTextColor;
     line.text = "window " + window.name + ": " + std::to_string(std::lround(window.width_hu)) + " / " +
                 std::to_string(std::lround(window.level_hu)) + " HU" + wordFor(scan.cleansed(), request.cleansed);
     lines.push_back(line);
+    if (!request.captioned)
+        return lines;
     for (const Marker& marker : request.markers)
         if (request.look_at_mm && marker.position_mm == *request.look_at_mm) {
             line.color = labelColorOf(marker.color);
@@ -102,7 +124,7 @@ Picture captionAndCloseUp(const PreparedScan& scan, const SnapshotRequest& reque
                           Point3 point, int width, int height)
 {
     Picture picture(width, height, {10, 12, 16});
-    const CaptionPanel panel = captionPanel(linesOf(scan, request, place), width, height);
+    const CaptionPanel panel = captionPanel(linesOf(scan, request, place), width, height, request.pixel_ratio);
     if (const int side = int(panel.close_up.width); side > 0)
         copyInto(picture, slice(scan, request, {SlicePlane::axial, point, side, side, kCloseUp_mm, false}),
                  int(panel.close_up.x), int(panel.close_up.y));
@@ -112,35 +134,46 @@ Picture captionAndCloseUp(const PreparedScan& scan, const SnapshotRequest& reque
 
 }  // namespace
 
-Picture slicePicture(const HuView& volume, const SliceRequest& request, const HuView* cleansed)
+Picture slicePicture(const HuView& volume, const SliceRequest& request, const HuView* cleansed,
+                     const InsideView* inside)
 {
     const PlaneView& view = request.view;
-    Picture picture = greyPicture(volume, request.cleansed ? cleansed : nullptr, view, request.window);
+    Picture picture = greyPicture(volume, request.cleansed ? cleansed : nullptr, view, request.window, request.thick);
+    if (request.tracks && inside)
+        drawRim(picture, *inside, request);
     Overlay overlay;
     const Area area{0, 0, double(view.width), double(view.height)};
-    const double text_px = textHeightFor(view.width, view.height, request.pixel_ratio) * 1.15;
+    const double text_px =
+        request.text_px > 0 ? request.text_px : textHeightFor(view.width, view.height, request.pixel_ratio) * 1.15;
     const double ring = std::max(kRing_mm / view.mm_per_pixel, 0.9 * text_px);
     addCrosshair(overlay, area, view.toPixel(request.point_mm), ring * 1.5);
     addHere(overlay, view, request.pose, 0.8 * text_px);
     for (const Marker& marker : request.markers)
         if (std::abs(view.depth_mm(marker.position_mm)) <= kMarkerNear_mm)
             addMarkerRing(overlay, view.toPixel(marker.position_mm), ring, marker, text_px);
+    for (const PriorPlace& place : request.priors)
+        addPriorDiamond(overlay, view, place, 0, kMarkerNear_mm, ring, text_px);
     addLetters(overlay, area, view.right, view.down, text_px);
     addScaleBar(overlay, area, view.mm_per_pixel, text_px);
     OverlayText line;
     line.color = kTextColor;
     line.text = titleOf(request.plane, view.centre_mm);
-    addLines(overlay, {0, 0, area.width * 0.46, area.height}, {line}, text_px);  // beside the letter in the middle
+    const Area caption = captionArea(area.width, area.height, text_px);
+    addLines(overlay, caption, {line}, text_px);
     std::vector<OverlayText> lines = patientLines(request.caption);
     line.text = request.window.name + " " + std::to_string(std::lround(request.window.width_hu)) + " / " +
                 std::to_string(std::lround(request.window.level_hu)) + " HU" + wordFor(cleansed, request.cleansed);
     lines.push_back(line);
+    if (line.text = nameOf(request.thick); !line.text.empty())
+        lines.push_back(line);
+    if (line.text = "pixel for pixel"; request.exact)
+        lines.push_back(line);
     if (request.caption.lossy) {
         line.text = "LOSSY COMPRESSION";
         line.color = kWarningColor;
         lines.push_back(line);
     }
-    addLines(overlay, {0, 1.35 * text_px, area.width * 0.9, area.height}, lines, text_px);  // below it
+    addLines(overlay, {0, caption.y + 1.35 * text_px, area.width, area.height}, lines, text_px);  // below it
     paint(picture, overlay);
     return picture;
 }

@@ -7,6 +7,7 @@
 #include "vicon/core/error.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/window_level.h"
+#include "vicon/viewer/scene/band_picture.h"
 
 namespace vicon::viewer {
 namespace {
@@ -23,13 +24,29 @@ SnapshotRequest completed(SnapshotRequest request)
         if (side < SnapshotRequest::kLeastSide || side > SnapshotRequest::kMostSide)
             throw Error(ErrorCode::wrong_use, "a picture's sides must be 200 to 4096 pixels", std::to_string(side));
     if (request.view_angle_deg < kNarrowest_deg || request.view_angle_deg > kWidest_deg)
-        throw Error(ErrorCode::wrong_use, "the angle of view must be 20 to 150 degrees",
+        throw Error(ErrorCode::wrong_use, "the field of view must be 20 to 150 degrees",
                     std::to_string(request.view_angle_deg));
     if (!request.window.empty())
         windowPreset(request.window);
-    if (!request.peel.empty())
-        transferFunction(request.peel);
+    if (!request.peel.preset.empty())
+        transferFunction(request.peel.preset);
     return request;
+}
+
+Picture bandSnapshot(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place)
+{
+    NoProgress quiet;
+    BandRequest band;
+    band.width = request.width;
+    band.height = request.height;
+    band.pixel_ratio = request.pixel_ratio;
+    band.from_caecum = request.from_caecum;
+    if (!request.whole_band)
+        band.middle_mm = place.station_mm;
+    band.markers = request.markers;
+    band.caption = request.caption;
+    band.captioned = request.captioned;
+    return bandPicture(scan, bandOf(scan, quiet), band, quiet).picture;
 }
 
 OverlayText lineOf(const std::string& text, Rgb color)
@@ -58,7 +75,11 @@ SnapshotRequest::View snapshotViewFrom(const std::string& name)
         return SnapshotRequest::View::slices;
     if (name == "overview")
         return SnapshotRequest::View::overview;
-    throw Error(ErrorCode::wrong_use, "a view must be endo, slices or overview", "'" + name + "'");
+    if (name == "cube")
+        return SnapshotRequest::View::cube;
+    if (name == "band")
+        return SnapshotRequest::View::band;
+    throw Error(ErrorCode::wrong_use, "a view must be endo, slices, overview, cube or band", "'" + name + "'");
 }
 
 SnapshotResult placeOf(const PreparedScan& scan, const SnapshotRequest& request)
@@ -79,15 +100,14 @@ SnapshotResult placeOf(const PreparedScan& scan, const SnapshotRequest& request)
 std::vector<OverlayText> patientLines(const Caption& caption)
 {
     std::vector<OverlayText> lines;
-    if (!caption.named)
-        return lines;
     const auto joined = [](const std::string& a, const std::string& b) {
         return a.empty() || b.empty() ? a + b : a + "   " + b;
     };
     const std::string born = caption.birth_date.empty() ? "" : "born " + printedDate(caption.birth_date);
     const std::string id = caption.patient_id.empty() ? "" : "ID " + caption.patient_id;
-    for (const std::string& text : {patientName(caption.patient_name), joined(id, born),
-                                    joined(caption.position, printedDate(caption.study_date))})
+    const std::string name = caption.named ? printedPatientName(caption.patient_name) : "";
+    for (const std::string& text :
+         {name, caption.named ? joined(id, born) : "", joined(caption.position, printedDate(caption.study_date))})
         if (!text.empty())
             lines.push_back(lineOf(text, kTextColor));
     return lines;
@@ -123,10 +143,13 @@ SnapshotResult Snapshots::render(const SnapshotRequest& request, const std::file
         write(slicesPicture(scan_, whole, place));
     } else if (whole.view == SnapshotRequest::View::overview) {
         write(overviewPicture(scan_, whole, place));
+    } else if (whole.view == SnapshotRequest::View::band) {
+        write(bandSnapshot(scan_, whole, place));
     } else {
         if (!endoscopic_)
             endoscopic_ = std::make_unique<EndoscopicPictures>(scan_);
-        write(endoscopic_->draw(whole, place));
+        const bool cube = whole.view == SnapshotRequest::View::cube;
+        write(cube ? endoscopic_->drawCube(whole, place) : endoscopic_->draw(whole, place));
     }
     return place;
 }

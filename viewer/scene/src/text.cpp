@@ -94,7 +94,7 @@ Pixel beginOf(const OverlayText& text, const text::TextLine& line)
 void draw(Mask& mask, int font, const text::PlacedGlyph& glyph, const PlacedText& text)
 {
     const double x = text.begin.x + glyph.x, whole = std::floor(x);
-    const text::Coverage drawn = coverageOf(library().fonts, font, glyph.glyph, text.line.size, x - whole, glyph.y);
+    const text::GlyphMask drawn = glyphMaskOf(library().fonts, font, glyph.glyph, text.line.size, x - whole, glyph.y);
     for (int row = 0; row < drawn.height; ++row)
         for (int column = 0; column < drawn.width; ++column)
             mask.add(int(whole) + drawn.left + column, int(text.begin.y) - drawn.top + row,

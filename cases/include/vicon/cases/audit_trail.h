@@ -19,6 +19,19 @@ struct AuditLine {
 };
 nlohmann::json toJson(const AuditLine& line);
 
+/// A line of any case, by its place in the trail.
+struct NumberedAuditLine {
+    long long number = 0;  ///< grows
+    std::string case_id;
+    AuditLine line;
+};
+/// Those that follow a number, in order.
+std::vector<NumberedAuditLine> auditAfter(CaseStore& store, long long number, int most);
+
+/// The number of the last line that was told to others; 0: none was.
+long long lastToldAudit(CaseStore& store);
+void noteToldAudit(CaseStore& store, long long number);
+
 /// Of one case, in the order in which it was written.
 std::vector<AuditLine> auditTrail(CaseStore& store, const std::string& case_id);
 

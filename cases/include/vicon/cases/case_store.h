@@ -9,8 +9,35 @@
 #include "vicon/cases/database.h"
 #include "vicon/cases/marker.h"
 #include "vicon/cases/records.h"
+#include "vicon/scan_files/description_file.h"
 
 namespace vicon {
+
+/// Where a store lies: its folder (data), and its database (state).
+struct StorePlace {
+    std::filesystem::path folder;
+    std::string database;  ///< the address of a PostgreSQL database; empty: vicon.db in the folder
+
+    StorePlace() = default;
+    StorePlace(std::filesystem::path the_folder, std::string the_database = {})
+        : folder(std::move(the_folder)), database(std::move(the_database))
+    {
+    }
+    /// Whether a store was made in the folder.
+    bool holdsStore() const;
+};
+
+struct StoreOptions {
+    std::string database;
+
+    template <class Visitor>
+    void visit(Visitor&& v)
+    {
+        v("store.database", database, "",
+          "Where the state lies that several machines share: a PostgreSQL address, postgresql://USER@HOST/NAME; empty: "
+          "vicon.db in the store.");
+    }
+};
 
 /// What shall become of one marker: `before` as the reader saw it (nothing: it is new), `after` as it shall be
 /// (nothing: it is deleted).
@@ -21,10 +48,13 @@ struct MarkerEdit {
 /// A store: its folder (data) and its database (state). Every method that changes something is one transaction.
 class CaseStore {
 public:
-    /// Opens a store, and makes it when `folder` does not exist or is empty. Throws Error{store} or Error{database}.
-    explicit CaseStore(const std::filesystem::path& folder);
+    /// Opens a store, and makes it when its folder does not exist or is empty. Throws Error{store} or Error{database}.
+    explicit CaseStore(const StorePlace& place);
+    explicit CaseStore(const std::filesystem::path& folder) : CaseStore(StorePlace(folder)) {}
 
-    const std::filesystem::path& folder() const { return folder_; }
+    /// To be opened by another thread or process as well.
+    const StorePlace& place() const { return place_; }
+    const std::filesystem::path& folder() const { return place_.folder; }
     std::filesystem::path caseFolder(const std::string& case_id) const;
     std::filesystem::path scanFolder(const std::string& case_id, const std::string& scan_id) const;
     Database& database() { return database_; }
@@ -41,6 +71,8 @@ public:
     CaseRecord requireCase(const std::string& case_id);
     /// The scans of a case, in order of series number, then id.
     std::vector<ScanRecord> scans(const std::string& case_id);
+    /// Those of several cases at once, in the same order.
+    std::vector<ScanRecord> scans(const std::vector<CaseRecord>& cases);
     /// The named scan; with an empty name the only scan of role "scan". Throws Error{not_found} or Error{wrong_use}.
     ScanRecord requireScan(const std::string& case_id, const std::string& scan_id);
 
@@ -62,8 +94,8 @@ public:
 
     std::vector<StepRecord> steps(const std::string& case_id, const std::string& scan_id);
 
-    /// scan.json: patient, study, series, what ingest did, step results. The database owns all of it; this is the copy.
-    nlohmann::json describeScan(const std::string& case_id, const std::string& scan_id);
+    /// What scan.json says of a scan. The database owns all of it; the file is a copy.
+    scan_files::ScanDescription describeScan(const std::string& case_id, const std::string& scan_id);
     void writeScanFile(const std::string& case_id, const std::string& scan_id);
 
     std::vector<Marker> markers(const std::string& case_id);
@@ -87,11 +119,12 @@ public:
                const std::string& detail);
 
 private:
+    void makeSearchWords();
     void renewMarkerFiles();
     void renewMarkerFiles(const std::string& case_id);
     void writeMarkerFiles(const std::string& case_id);
 
-    std::filesystem::path folder_;
+    StorePlace place_;
     Database database_;
     std::string marker_file_trouble_;
 };

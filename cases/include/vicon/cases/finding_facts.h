@@ -52,6 +52,9 @@ struct FindingSight {
     std::optional<double> size_2d_mm;  ///< the largest diameter in the best plane
     std::optional<double> size_3d_mm;  ///< between two points of the wall
     std::optional<double> mean_hu;
+    std::optional<double> part_fraction;  ///< how far along its part it lies, from the part's anal end; 0 to 1
+    std::optional<double> size_least_mm, size_most_mm;  ///< of an outlined one: eight in ten diameters lie between
+    std::optional<double> height_mm, volume_ml;         ///< of an outlined one
 };
 
 /// Which size counts.
@@ -81,8 +84,10 @@ FindingFacts factsFromJson(const nlohmann::json& json);
 
 /// @param markers of the case
 /// @param skeletons of its scans by id; a scan without one gives no clock-face position
+/// @param parts of its scans by id; a scan without any gives no place within a part
 FindingFacts factsOf(const Finding& finding, const std::vector<Marker>& markers,
-                     const std::map<std::string, Skeleton>& skeletons);
+                     const std::map<std::string, Skeleton>& skeletons,
+                     const std::map<std::string, ColonPartRanges>& parts = {});
 
 /// The centrelines of a case's scans that have one.
 std::map<std::string, Skeleton> skeletonsOf(CaseStore& store, const std::string& case_id);

@@ -34,6 +34,7 @@ struct Job {
     std::string reason;   ///< why it failed last
     double not_before = 0;
     double lease_until = 0;
+    double memory_mb = 0;  ///< reserved on its worker's machine, MB of 10^6 bytes
 };
 
 struct QueueOptions {
@@ -72,7 +73,8 @@ public:
     const QueueOptions& options() const { return options_; }
     double now();
 
-    /// Takes the job that has waited longest and is due; first drops those whose worker is gone.
+    /// Takes the job that is due: of the case that a reader opened last, else the one that has waited longest. First
+    /// drops those whose worker is gone.
     std::optional<Job> claim(const std::string& owner);
     /// Extends the lease and shows where the job is. Throws Error{lease_lost} when another worker has the job.
     void renew(const Job& job, const std::string& step, double progress);
@@ -94,6 +96,18 @@ public:
 
     std::optional<Job> find(const std::string& case_id, const std::string& scan_id);
     std::vector<Job> jobs();
+    std::vector<Job> jobs(JobState state);
+    std::vector<Job> jobs(const std::vector<CaseRecord>& cases);
+    int count(JobState state);
+    /// Jobs that run, or on which a worker has been since then ("2026-11-21T08:15:30Z").
+    std::vector<Job> workedOnSince(const std::string& utc);
+    /// How long the job that waits longest for its retry has been due; 0 where none is.
+    double oldestWait_s();
+    /// A reader opened the case: what of it waits comes before what waits of others.
+    void putFirst(const std::string& case_id);
+    /// Sets memory aside for a job until it ends. False, and nothing is set aside, when all jobs on its worker's
+    /// machine would then have more than `most_mb` together; a job that is alone there always gets it.
+    bool reserveMemory(const Job& job, double mb, double most_mb);
     /// When the next queued job is due or the next lease lapses; nothing when no job waits or runs.
     std::optional<double> nextDue();
 

@@ -23,10 +23,11 @@ enum class DeliveryState {
     sending,      ///< a sender has it
     sent,         ///< the peer took it and has not yet committed to keep it
     committed,    ///< the peer keeps it
-    unconfirmed,  ///< the peer took it and offers no storage commitment: nobody can ask whether it keeps it
+    unconfirmed,  ///< the peer took it, and whether it keeps it as it was cannot be asked
     refused,      ///< trying again cannot help; the reason says why
 };
 std::string nameOf(DeliveryState state);
+DeliveryState deliveryStateFrom(const std::string& name);
 
 /// A DICOM object that lies in a case's folder.
 struct OutboxObject {
@@ -109,7 +110,8 @@ public:
     void refuse(const OutboxItem& item, const std::string& reason);
     /// Gives the item back to be tried again after a while, longer each time, as often as it takes.
     void postpone(const OutboxItem& item, const std::string& reason);
-    void markUnconfirmed(const OutboxItem& item);
+    void markUnconfirmed(const OutboxItem& item,
+                         const std::string& reason = "the peer took it and offers no storage commitment");
 
     /// Notes under which transaction the peer will be asked to commit to these; to be called before it is asked.
     /// Returns those that are still this sender's.

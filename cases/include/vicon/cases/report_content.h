@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vicon/cases/case_store.h"
+#include "vicon/cases/comparisons.h"
 #include "vicon/cases/finding_facts.h"
 #include "vicon/cases/findings.h"
 
@@ -32,6 +33,7 @@ struct ReadCase {
     std::vector<FindingWithFacts> findings;
     std::vector<std::string> loose_markers;  ///< ids of those that belong to no finding
     Assessment assessment;
+    std::vector<ComparedFinding> comparisons;  ///< of its findings with those of earlier reports, rejected ones too
     std::vector<PartState> parts;  ///< from the rectum, scan by scan; a part that was not measured is not listed
     Proposal<ColonCategory> colon_proposal;
     Proposal<ExtracolonicCategory> extracolonic_proposal;

@@ -21,7 +21,7 @@ struct SigningOptions {
     template <class Visitor>
     void visit(Visitor&& v)
     {
-        v("report.signers", signers, "", "Local accounts that may sign reports; none: nobody may.");
+        v("roles.sign", signers, "", "Local accounts, or @GROUP, that may sign reports; none: nobody may.");
         v("report.send_to", send_to, "", "Peers that every signed report goes to, by their names in [peers].");
         v("report.objects", objects, "",
           "DICOM objects that a signed report is made into: pdf, sr (measurements), key (slices with findings), lumen "

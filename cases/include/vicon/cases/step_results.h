@@ -45,6 +45,14 @@ struct SegmentFound {
 nlohmann::json toJson(const SegmentFound& found);
 SegmentFound segmentFoundFromJson(const nlohmann::json& json);
 
+struct TissueFound {
+    std::string not_sought;         ///< why the wall was not placed; the rest is then empty
+    std::optional<double> blur_mm;  ///< standard deviation of the scan's blur, as its fluid levels show it
+    nlohmann::json measures = nlohmann::json::object();
+};
+nlohmann::json toJson(const TissueFound& found);
+TissueFound tissueFoundFromJson(const nlohmann::json& json);
+
 struct SkeletonFound {
     double length_mm = 0;  ///< of the path; of a tree, to its farthest tip
     nlohmann::json measures = nlohmann::json::object();
@@ -80,6 +88,7 @@ PotentialFound potentialFoundFromJson(const nlohmann::json& json);
 struct StepResults {
     std::optional<ResampleFound> resample;
     std::optional<SegmentFound> segment;
+    std::optional<TissueFound> tissue;
     std::optional<SkeletonFound> skeleton;
     std::optional<QualityFound> quality;
     std::optional<SubdivideFound> subdivide;

@@ -54,6 +54,22 @@ struct WorklistCase {
     std::vector<WorklistScan> scans;
 };
 
+/// Which part of the worklist is wanted.
+struct WorklistPageWanted {
+    int most = 100;
+    /// What the reader typed: each the beginning of a part of the patient's name, of ID, accession number, study date
+    /// or case id. Those found come in the order of the word that is longest here. Empty: all cases, the newest first.
+    std::string words;
+    std::string after;  ///< the last case of the page before; empty: the first page
+};
+struct WorklistPage {
+    std::vector<WorklistCase> cases;
+    bool more = false;  ///< than these
+};
+/// As quick among a million cases as among ten.
+WorklistPage makeWorklistPage(CaseStore& store, const QueueOptions& options, const WorklistPageWanted& wanted);
+
+/// All of it, the oldest first.
 std::vector<WorklistCase> makeWorklist(CaseStore& store, const QueueOptions& options);
 WorklistCase makeWorklistCase(CaseStore& store, const QueueOptions& options, const CaseRecord& record);
 

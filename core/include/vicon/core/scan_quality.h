@@ -43,16 +43,30 @@ struct QualityNote {
 /// "sigmoid collapsed over 38 mm", "more noise than usual: 45 HU".
 std::string textOf(const QualityNote& note);
 
+/// A stretch of the centreline.
+struct StationRange {
+    double from_mm = 0, to_mm = 0;
+};
+
+/// How wide and how wet the lumen is along the centreline: one value for each step of it, from the rectal end.
+struct LumenAlong {
+    double step_mm = 0;
+    std::vector<double> radius_mm;        ///< of the disc as large as the cross-section; 0 on bridges
+    std::vector<double> fluid_fraction;   ///< of the lumen, 0 to 1
+    std::vector<StationRange> collapsed;  ///< bridged, or narrower than quality.collapsed_radius_mm
+};
+
 struct ScanQuality {
     StretchQuality whole;               ///< adequate when every part is, and the length is plausible
     std::vector<StretchQuality> parts;  ///< from the rectum; empty where the parts are not known
+    LumenAlong along;                   ///< empty in scans of earlier versions
     double noise_hu = 0;                ///< standard deviation in soft tissue; 0: no homogeneous place
     std::vector<QualityNote> notes;     ///< why not adequate, and what else a reader should know
     nlohmann::json thresholds = nlohmann::json::object();  ///< the options that it was judged by
     std::string reason;                                    ///< the notes in words; may be empty
 };
 
-/// As scan.json has it under "quality"; see docs/quality.md.
+/// As scan.json has it under "quality".
 nlohmann::json toJson(const ScanQuality& quality);
 /// What an earlier VICON did not write stays empty. Throws nlohmann::json::exception or Error{bad_input} for other
 /// content.

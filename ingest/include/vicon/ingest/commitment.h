@@ -4,7 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "vicon/ingest/sender.h"
+#include "vicon/ingest/peer.h"
+
+namespace vicon {
+class CaseStore;
+}
 
 namespace vicon::ingest {
 
@@ -35,5 +39,19 @@ enum class CommitmentRequest { taken, not_offered };
 CommitmentRequest requestCommitment(const Peer& peer, const std::string& transaction_uid,
                                     const std::vector<ObjectName>& objects, const std::string& our_ae_title,
                                     double wait_s, std::optional<CommitmentReport>& answer);
+
+/// What a peer asks this store to keep.
+struct CommitmentDemand {
+    std::string transaction_uid;
+    std::vector<ObjectName> objects;
+};
+
+/// What this store says to it. It commits to what lies here whole: in a case, as it was imported; in quarantine; or
+/// received and waiting for the import. Throws Error{database}.
+CommitmentReport commitTo(CaseStore& store, const CommitmentDemand& demand);
+
+/// Tells a peer over an association of its own (N-EVENT-REPORT) what was committed to. Throws Error{peer} when it
+/// cannot be reached or does not take the report.
+void reportCommitment(const Peer& peer, const CommitmentReport& report, const std::string& our_ae_title);
 
 }  // namespace vicon::ingest

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -67,18 +68,21 @@ struct ImportLine {
     std::string scan_id;
 };
 std::string nameOf(ImportLine::Kind kind);
+/// As docs/dev/schemas/import.schema.json has it.
+nlohmann::json toJson(const ImportLine& line);
 
 struct ImportReport {
     std::vector<ImportLine> lines;
     int scans_stored = 0;     ///< scans that are new or grew; each was queued
     int scans_unchanged = 0;  ///< scans and kept series that were there already
     int images_kept = 0;      ///< series that were stored without being queued
+    int reports = 0;          ///< measurement reports that were stored, or were there already
     int set_aside = 0;        ///< objects
     int refused = 0;          ///< objects, quarantined ones among them
     /// Files that were read and of which the store now holds no copy. Files out of zip files are not among them.
     std::vector<std::filesystem::path> not_stored;
-    /// Whether at least one scan or image was stored or was there already: exit code 0.
-    bool anythingStored() const { return scans_stored + scans_unchanged + images_kept > 0; }
+    /// Whether at least one scan, image or report was stored or was there already: exit code 0.
+    bool anythingStored() const { return scans_stored + scans_unchanged + images_kept + reports > 0; }
 };
 
 /// Takes files, folders (recursively), DICOMDIRs and zip files into cases. What cannot be used costs a line, never the

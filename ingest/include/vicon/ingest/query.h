@@ -34,6 +34,16 @@ struct FoundStudy {
 std::vector<FoundStudy> findStudies(const Peer& peer, const StudyQuery& query, const std::string& our_ae_title,
                                     Progress& progress);
 
+/// A series as the peer describes it; UTF-8, empty where the peer says nothing.
+struct FoundSeries {
+    std::string uid, modality, description, body_part;
+    int images = -1;  ///< -1: the peer does not say
+};
+
+/// The series of a study, in order of their UIDs. Throws as findStudies().
+std::vector<FoundSeries> describeSeries(const Peer& peer, const std::string& study_uid, const std::string& our_ae_title,
+                                        Progress& progress);
+
 /// The series of a study that have this modality: their Series Instance UIDs, sorted. Throws as findStudies().
 std::vector<std::string> findSeries(const Peer& peer, const std::string& study_uid, const std::string& modality,
                                     const std::string& our_ae_title, Progress& progress);
@@ -49,9 +59,10 @@ struct RetrieveResult {
     std::vector<std::string> reasons;  ///< why a series was refused; the others were fetched
 };
 
-/// Fetches series over the association that asks for them (C-GET, study root); no port has to be open here. CT images
-/// and secondary captures in every encoding, kept as they come. The files lie in `folder`, which is made private.
-/// Objects of `have` (SOP Instance UIDs), and those that an earlier try left whole in the folder, are not fetched.
+/// Fetches series over the association that asks for them (C-GET, study root); no port has to be open here. CT images,
+/// secondary captures and structured reports in every encoding, kept as they come. The files lie in `folder`, which is
+/// made private. Objects of `have` (SOP Instance UIDs), and those that an earlier try left whole in the folder, are not
+/// fetched.
 /// @throws Error{peer} when no association can be made, or it breaks: what came lies in the folder, and the same call
 ///         goes on; Error{store}, Error{cancelled}
 RetrieveResult getSeries(const Peer& peer, const std::string& study_uid, const std::vector<std::string>& series_uids,

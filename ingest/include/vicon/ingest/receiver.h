@@ -19,15 +19,21 @@ struct ReceiverOptions {
     std::string ae_title = "VICON";
     bool any_called_title = true;
     std::string allow;
+    std::string tls = "off";
     /// Between two associations of one study a scanner pauses for a second or two.
     double quiet_s = 5;
     /// A sender that keeps its association open between images pauses for less than a second.
     double idle_s = 10;
+    std::string count_at;
+    double incomplete_s = 900;
     int max_associations = 64;
     int max_per_host = 32;
     int max_half_open = 256;
     double request_s = 10;
     double timeout_s = 60;
+    double mb_per_s = 0;
+    int max_waiting = 100000;
+    int report_days = 7;
 
     template <class Visitor>
     void visit(Visitor&& v)
@@ -39,11 +45,18 @@ struct ReceiverOptions {
         v("receive.any_called_title", any_called_title, "",
           "Accept associations that call another title than receive.ae_title.");
         v("receive.allow", allow, "",
-          "Who may call: TITLE, TITLE@HOST, @HOST, or peers for all of [peers], separated by commas; empty: anybody.");
+          "Who may call: TITLE, TITLE@HOST, @HOST, peers for all of [peers], or anybody; separated by commas. Empty: "
+          "anybody where receive.address is this machine alone, else peers.");
+        v("receive.tls", tls, "", "Whether callers speak TLS, with the files of [tls].",
+          {-1e300, 1e300, {"off", "offered", "required"}});
         v("receive.quiet_s", quiet_s, "s",
           "A study is handed over when its associations are over and no more of it came for so long.", {0, 3600});
         v("receive.idle_s", idle_s, "s", "A study is handed over when its open association was silent for so long.",
           {0.1, 3600});
+        v("receive.count_at", count_at, "",
+          "Peer that is asked which objects a series has before its study is handed over; empty: nobody.");
+        v("receive.incomplete_s", incomplete_s, "s",
+          "A study whose objects receive.count_at has, and that have not come, waits for them so long.", {0, 86400});
         v("receive.max_associations", max_associations, "", "Associations served at the same time.", {1, 1000});
         v("receive.max_per_host", max_per_host, "", "Associations of one host served at the same time.", {1, 1000});
         v("receive.max_half_open", max_half_open, "",
@@ -52,10 +65,17 @@ struct ReceiverOptions {
         v("receive.request_s", request_s, "s", "An association request that is not complete after this time is ended.",
           {1, 3600});
         v("receive.timeout_s", timeout_s, "s", "A peer that sends next to nothing for so long is dropped.", {1, 3600});
+        v("receive.mb_per_s", mb_per_s, "MB/s", "Taken of all peers together; 0: as many as come.", {0, 100000});
+        v("receive.max_waiting", max_waiting, "",
+          "Objects of one peer that may wait for the import; further ones are refused as out of resources.",
+          {1, 10000000});
+        v("receive.report_days", report_days, "days",
+          "A commitment that its peer does not take the report of is tried again for so long.", {1, 365});
     }
 };
 
-/// A storage SCP: C-ECHO, C-STORE of every storage class and transfer syntax as it comes, and reports on commitments.
+/// A storage SCP: C-ECHO, C-STORE of every storage class and transfer syntax as it comes, storage commitment to what it
+/// keeps, and other archives' reports on theirs.
 /// An image lies durably in the incoming folder before its C-STORE is answered with success, and stays in the store,
 /// with a case or in quarantine. No peer keeps others waiting: requests are read beside the accepting thread, every
 /// phase has a limit.
@@ -75,15 +95,31 @@ public:
     /// Told what an archive says of objects that it was asked to keep. When it throws, the archive is told that its
     /// report was not taken. May be empty: then no report is taken.
     using OnCommitment = std::function<void(const CommitmentReport&)>;
+    /// Says what the store commits to, on the threads of associations and on another; when it throws, it is asked again
+    /// later. May be empty: then no commitments are given.
+    using OnDemand = std::function<CommitmentReport(const CommitmentDemand&)>;
+    /// Says how many objects of a quiet study are known to be missing, on the thread that hands it over. Then it waits,
+    /// and is asked again. When it throws, the study is handed over. May be empty.
+    using OnQuiet = std::function<int(const Files&)>;
     struct Handlers {
         OnReceived on_received;
         OnTrouble on_trouble = {};
         OnNote on_note = {};
         OnCommitment on_commitment = {};
+        OnDemand on_demand = {};
+        OnQuiet on_quiet = {};
     };
 
-    /// Starts to listen on the port. Throws Error{peer} when the port cannot be had, Error{wrong_use} for a bad title
-    /// or rule.
+    struct Network {
+        std::vector<Peer> peers = {};  ///< what they may do here, and where their commitments are reported
+        TlsOptions tls = {};           ///< unless receive.tls is off
+    };
+
+    /// Starts to listen on the port. Throws Error{peer} when the port cannot be had, Error{wrong_use} for a bad title,
+    /// rule or TLS file.
+    Receiver(const ReceiverOptions& options, const std::filesystem::path& incoming_folder, Handlers handlers,
+             const Network& network);
+    /// Without peers.
     Receiver(const ReceiverOptions& options, const std::filesystem::path& incoming_folder, Handlers handlers);
     ~Receiver();
     Receiver(const Receiver&) = delete;

@@ -6,16 +6,9 @@
 #include <vector>
 
 #include "vicon/core/progress.h"
+#include "vicon/ingest/peer.h"
 
 namespace vicon::ingest {
-
-/// A DICOM application on the network.
-struct Peer {
-    std::string name;  ///< as the configuration calls it
-    std::string host;
-    std::string ae_title;
-    int port = 104;
-};
 
 /// What a peer made of one object.
 struct StoreOutcome {

@@ -23,6 +23,7 @@ struct PhantomOptions {
     bool supine = true;
     bool prone = true;
     std::string decubitus = "none";  ///< "none", "left", "right": one scan more, lying on that side
+    bool stretch = false;  ///< the wall is drawn out by 0.7 to 1.4 from one position to another, turned and distended
     bool feet_first = false;
     double oblique_deg = 0;     ///< the slices are turned by this about the patient's left-right axis
     bool fluid = true;          ///< tagged pools, 300 to 900 HU
@@ -52,6 +53,9 @@ struct PhantomOptions {
         v("phantom.prone", prone, "", "Make a prone scan.");
         v("phantom.decubitus", decubitus, "", "Make a scan lying on this side.",
           {.choices = {"none", "left", "right"}});
+        v("phantom.stretch", stretch, "",
+          "The wall is drawn out by 0.7 to 1.4 from one position to another, turned by up to 80 degrees and "
+          "distended.");
         v("phantom.feet_first", feet_first, "", "The patient enters the scanner feet first.");
         v("phantom.oblique_deg", oblique_deg, "degrees", "Turn the slices about the left-right axis.", {-30, 30});
         v("phantom.fluid", fluid, "", "Pools of tagged fluid.");
@@ -105,6 +109,8 @@ struct TerminalIleum {
 struct PhantomTruth {
     std::vector<SkeletonPoint>
         curve;                       ///< axis of the lumen, every 1 mm from the rectum to the caecum, also through gaps
+    std::vector<double> wall_mm;     ///< of each point of the curve: which place of the patient's wall lies there; the
+                                     ///< same in all positions
     std::vector<Polyp> polyps;       ///< in order of station
     std::vector<CollapsedGap> gaps;  ///< in order of station
     std::vector<FluidPool> pools;    ///< in order of station

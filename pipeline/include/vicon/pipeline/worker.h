@@ -21,6 +21,9 @@ public:
     virtual void commitStep(const StepRecord& step, const std::function<void()>& publish = {}) = 0;
     /// Runs something while nobody else can take the job. Throws Error{lease_lost} when it is not this worker's.
     virtual void underFence(const std::function<void()>& action) = 0;
+    /// Sets memory aside until the job ends; where the machine's other jobs take it, the job goes back into the queue
+    /// and waits.
+    virtual void reserveMemory(double mb, double most_mb) = 0;
 };
 
 /// The work itself. Throws Error{cancelled} when told to stop, anything else to fail.
@@ -37,12 +40,15 @@ struct WorkerEvents {
 struct WorkOptions {
     bool until_idle = false;
     double longest_wait_s = 30;
+    double machine_memory_mb = 0;
 
     template <class Visitor>
     void visit(Visitor&& v)
     {
         v("work.longest_wait_s", longest_wait_s, "s",
           "How long 'work --until-idle' waits in total for jobs that are held back after a failure.", {0, 86400});
+        v("work.machine_memory_mb", machine_memory_mb, "MB",
+          "What all workers of a machine together may take; 0: four fifths of what it has.", {0, 1e8});
     }
 };
 

@@ -10,9 +10,11 @@
 namespace vicon::steps {
 namespace {
 
+// Held by chain_family_test and segment_test; which cases they were chosen on is not recorded.
+
 // The widest point spread that is reckoned with; two sigma of it from the level gas and fluid have their own densities.
-constexpr double kSigma_mm = 0.8;
-constexpr double kHalfLayer_mm = 2 * kSigma_mm;
+constexpr double kWidestBlur_mm = 0.8;
+constexpr double kHalfLayer_mm = 2 * kWidestBlur_mm;
 // How far the wall beside a level may reach into the layer's columns; the shape is sought as far.
 constexpr int kBeside_voxels = 3;
 // Where a level's own blur is this far from tissue, a voxel nearer to tissue than to it is wall: half of it is two
@@ -128,7 +130,7 @@ private:
     /// of gas and fluid there is wall, a thin fold that stands in the layer or runs along it.
     Tells density(Index3 v, double below_voxels, double fluid_hu) const
     {
-        const double sigmas = below_voxels * labels_.grid.spacing_mm[std::size_t(down_.axis)] / kSigma_mm;
+        const double sigmas = below_voxels * labels_.grid.spacing_mm[std::size_t(down_.axis)] / kWidestBlur_mm;
         const double level_hu = std::lerp(kAir_hu, fluid_hu, (1 + std::erf(sigmas / std::sqrt(2))) / 2);
         const double contrast = level_hu - tissue_hu_;
         if (std::abs(contrast) <= kTelling_hu)

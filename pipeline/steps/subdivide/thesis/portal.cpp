@@ -153,10 +153,10 @@ void CutPlanes::rate(std::vector<CutPlane>& planes) const
     for (CutPlane& plane : planes) {
         plane.ratio = gateRatio(plane);
         const double along = std::abs(dot(plane.normal, tangent(plane.at, kLocalReach)));
-        if (options_.effectiveness == "gate_ratio") {
+        if (options_.effectiveness == PortalEffectiveness::gate_ratio) {
             plane.badness = std::abs(std::log(plane.ratio));
             plane.good = plane.ratio >= options_.gate_ratio_low && plane.ratio <= options_.gate_ratio_high;
-        } else if (options_.effectiveness == "tangent") {
+        } else if (options_.effectiveness == PortalEffectiveness::tangent) {
             // The plane across the tangent's largest component; no angle to an axis' direction exceeds 54.7 degrees.
             plane.badness = 1 - along;
             plane.good = along > 1 / std::sqrt(3.0);
@@ -172,7 +172,7 @@ void CutPlanes::rate(std::vector<CutPlane>& planes) const
 std::vector<CutPlane> CutPlanes::at(std::size_t n) const
 {
     std::vector<Vector3> normals{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
-    if (options_.planes == "oblique") {
+    if (options_.planes == PlaneDirections::oblique) {
         const Vector3 t = skeleton_.tangentAt(path_.voxels[n].station_mm, kRegion_mm);
         const auto& axis = inside_.grid.axis;
         normals = {normalized({dot(t, axis[0]), dot(t, axis[1]), dot(t, axis[2])})};

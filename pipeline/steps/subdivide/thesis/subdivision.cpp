@@ -32,16 +32,16 @@ std::array<int, 256> trianglesOfCases()
 /// What a voxel adds to the size of its segment, by the criterion.
 class VoxelSize {
 public:
-    VoxelSize(const InsideVolume& inside, const std::string& criterion)
+    VoxelSize(const InsideVolume& inside, SegmentSize criterion)
         : inside_(inside), criterion_(criterion), triangles_(trianglesOfCases())
     {
     }
 
     double of(Index3 v) const
     {
-        if (criterion_ == "inside")
+        if (criterion_ == SegmentSize::inside)
             return 1;
-        if (criterion_ == "surface")
+        if (criterion_ == SegmentSize::surface)
             return besideOther(inside_, v) ? 1 : 0;
         int sum = 0;
         for (int n = 0; n < 8; ++n)
@@ -72,13 +72,13 @@ private:
     }
 
     const InsideVolume& inside_;
-    std::string criterion_;
+    SegmentSize criterion_;
     std::array<int, 256> triangles_;
 };
 
 /// The sizes along every path: each voxel of the lumen counts at the path voxel whose front reaches it first.
-std::vector<PathSizes> sizesAlong(const InsideVolume& inside, const std::vector<Path>& paths,
-                                  const std::string& criterion, int segments)
+std::vector<PathSizes> sizesAlong(const InsideVolume& inside, const std::vector<Path>& paths, SegmentSize criterion,
+                                  int segments)
 {
     LumenFront front(inside);
     std::vector<std::size_t> first;
@@ -206,8 +206,8 @@ Labelling thesisPieces(const InsideVolume& inside, const Skeleton& skeleton, con
     for (std::size_t p = 0; p < paths.size(); ++p) {
         const CutPlanes cuts(inside, skeleton, paths[p], options);
         const PlanesAt planes = [&cuts](std::size_t n) { return cuts.at(n); };
-        portals.push_back(options.approach == "global" ? choosePortals(planes, sizes[p], progress)
-                                                       : walkLocally(planes, sizes[p], progress));
+        portals.push_back(options.approach == SubdivideApproach::global ? choosePortals(planes, sizes[p], progress)
+                                                                        : walkLocally(planes, sizes[p], progress));
         progress.report(0.5 * double(p + 1) / double(paths.size()), "subdividing");
     }
     Labelling labelling = cutAt(inside, skeleton, paths, portals);

@@ -11,6 +11,7 @@
 #include "vicon/cases/report_content.h"
 #include "vicon/cases/report_versions.h"
 #include "vicon/core/scan_quality.h"
+#include "vicon/core/verdict.h"
 
 namespace vicon::report {
 
@@ -18,10 +19,12 @@ namespace vicon::report {
 struct ScanEntry {
     ScanRecord scan;
     double skeleton_length_mm = 0;           ///< rectal end to caecal end, bridges included; 0: not prepared
-    std::string verdict;                     ///< of the segmentation: "colon", ...; empty: not prepared
+    std::optional<Verdict> verdict;          ///< of the segmentation; absent: not prepared
+    std::string organ_title;                 ///< what it was of: "colon"
     std::string reason;                      ///< why this verdict and confidence; may be empty
     double confidence = 0;                   ///< 0 to 1
     std::vector<ReviewedBridge> bridges;     ///< from the rectum
+    ColonPartRanges parts;                   ///< empty: not known
     std::optional<ScanQuality> quality;      ///< absent: not measured
     std::filesystem::path overview_picture;  ///< PNG; empty: none was made
 };
@@ -32,6 +35,8 @@ struct MarkerEntry {
     std::string scan_label;  ///< as a reader calls the scan: "supine (series 3)"
     std::string part_name;   ///< of the colon: "sigmoid", ...; empty: not known
     std::filesystem::path endoscopic_picture;
+    std::string seen_from;                ///< of the endoscopic picture: "towards head, 28 mm away"
+    std::filesystem::path below_picture;  ///< below the wall; empty: none was made
     std::filesystem::path slices_picture;
     std::filesystem::path measures_picture;  ///< best plane and histogram; empty: nothing was measured so
 };

@@ -37,7 +37,13 @@ std::string recommendationText(const ReadCase& read);
 /// "C2a: intermediate polyp or indeterminate finding" under "Colon", and so for outside; with the proposal and the
 /// reason where another one was chosen, or none was.
 std::vector<Statement> categoryStatements(const ReadCase& read);
-/// Indication, preparation, distension, comparison, dose and what else the reader stated.
+/// Why the study was made and what it was compared with, where that was said.
+std::vector<Statement> occasionStatements(const ReadCase& read);
+/// Preparation, tagging, distension and adequacy: how far the study can be relied on.
+std::vector<Statement> reliabilityStatements(const ReadCase& read);
+/// Technique, dose, coverage and reading time, where they were said.
+std::vector<Statement> techniqueStatements(const ReadCase& read);
+/// All of the three.
 std::vector<Statement> assessmentStatements(const ReadCase& read);
 std::vector<Statement> extracolonicStatements(const ReadCase& read);
 

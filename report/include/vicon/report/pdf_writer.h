@@ -6,6 +6,7 @@
 
 #include "vicon/report/content.h"
 #include "vicon/report/options.h"
+#include "vicon/report/print_pictures.h"
 
 namespace vicon::report {
 
@@ -19,6 +20,8 @@ struct PdfResult {
 /// the same bytes. A character that no font has is printed as its code point in brackets, a picture that cannot be
 /// read as a line that says so, and both are in the warnings.
 /// Throws Error{store} when the file cannot be written and Error{not_found} when the basic font is not installed.
-PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pdf, const ReportOptions& options);
+/// @param begun pictures that are being made ready already; they make it quicker and change nothing
+PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pdf, const ReportOptions& options,
+                   const PrintPictures* begun = nullptr);
 
 }  // namespace vicon::report

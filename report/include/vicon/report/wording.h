@@ -30,7 +30,7 @@ std::string millimetres(double length_mm, int decimals = 0);
 /// "25.8 %" of 0.258.
 std::string percent(double fraction, int decimals = 1);
 
-/// What an endoscope might show at a place of the colon, as an estimate: the distance along the skeleton from the
+/// What an endoscope might show at a place of the colon, as an estimate: the distance along the centreline from the
 /// rectal end times the published factor of its part (caecum 0.57, right colon 0.59, left colon 0.78). Between the two
 /// flexures, and where the part is not known, both factors give a range. For example "about 32 cm (0.78 × CT distance,
 /// left colon)".

@@ -9,13 +9,13 @@
 namespace vicon::text {
 
 /// How much of each pixel a glyph covers, 0 to 255, row by row from the top.
-struct Coverage {
+struct GlyphMask {
     int left = 0, top = 0;  ///< of the first pixel: columns from the glyph's origin, rows above the base line
     int width = 0, height = 0;
     std::vector<std::uint8_t> cover;
 };
 /// `right_px` and `up_px`: by how much the glyph is moved, less than a pixel. Empty: there is nothing to draw.
-Coverage coverageOf(const FontSet& fonts, int font, unsigned glyph, double size_px, double right_px, double up_px);
+GlyphMask glyphMaskOf(const FontSet& fonts, int font, unsigned glyph, double size_px, double right_px, double up_px);
 
 /// A part of a glyph's outline, for a font size of 1; y upwards from the base line. A contour begins with `move` and is
 /// closed; what its contours wind around is filled.

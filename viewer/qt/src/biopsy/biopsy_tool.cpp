@@ -99,7 +99,7 @@ void BiopsyTool::show(const DensitySample& biopsy)
                        .arg(biopsy.radius_mm, 0, 'f', 1);
     constexpr double kWorthSaying = 0.2;
     if (biopsy.fat_fraction >= kWorthSaying)
-        text += tr(", %1 % as light as fat").arg(100 * biopsy.fat_fraction, 0, 'f', 0);
+        text += tr(", %1 % of fat attenuation").arg(100 * biopsy.fat_fraction, 0, 'f', 0);
     const auto marker = reading_.markerNear({circle_->centre_mm, biopsy.centre_mm});
     if (!marker) {
         reading_.say(text + tr("; no marker beside it to keep it with"));
@@ -123,14 +123,14 @@ void BiopsyTool::complete(EndoscopicRequest& request) const
                       at.at.x < lens.width + radius_px && at.at.y < lens.height + radius_px;
     if (!seen) {
         if (!panel_.on())
-            picture.peel.clear();
+            picture.peel.preset.clear();
         return;
     }
-    if (picture.peel.empty())
-        picture.peel = kColours;
-    picture.peel_middle_only = true;
-    picture.peel_circle_at = at.at;
-    picture.peel_circle_px = radius_px;
+    if (picture.peel.preset.empty())
+        picture.peel.preset = kColours;
+    picture.peel.middle_only = true;
+    picture.peel.circle_at = at.at;
+    picture.peel.circle_px = radius_px;
 }
 
 }  // namespace vicon::viewer

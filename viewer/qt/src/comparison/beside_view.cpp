@@ -11,10 +11,27 @@ BesideView::BesideView(QWidget* parent) : QSplitter(Qt::Vertical, parent)
         tr("The same place in the other scan. Click: read on from there. Shift and click: marker."));
     slice_ = new SliceView(SlicePlane::axial, tr("Axial slice of the other scan"));
     slice_->setObjectName("besideAxial");
+    overview_ = new PictureView(tr("Projection of the other scan"));
+    overview_->setObjectName("besideOverview");
+    place_ = new QLabel;
+    place_->setObjectName("besidePlace");
+    place_->setWordWrap(true);
+    place_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Maximum);
+    addWidget(place_);
     addWidget(endoscopic_);
     addWidget(slice_);
-    setStretchFactor(0, 2);
-    setStretchFactor(1, 1);
+    addWidget(overview_);
+    setStretchFactor(0, 0);
+    setStretchFactor(1, 3);
+    setStretchFactor(2, 2);
+    setStretchFactor(3, 2);
+}
+
+void BesideView::sayPlace(const QString& words, const QString& more)
+{
+    place_->setToolTip(more);
+    place_->setText(words);
+    place_->setVisible(!words.isEmpty());
 }
 
 }  // namespace vicon::viewer

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QLabel>
 #include <QSplitter>
 
 #include "slices/slice_view.h"
@@ -14,10 +15,15 @@ public:
     explicit BesideView(QWidget* parent = nullptr);
     PictureView* endoscopic() const { return endoscopic_; }
     SliceView* slice() const { return slice_; }
+    PictureView* overview() const { return overview_; }
+    /// How surely it is the same place; empty: nothing is said.
+    void sayPlace(const QString& words, const QString& more);
 
 private:
     PictureView* endoscopic_;
     SliceView* slice_;
+    PictureView* overview_;
+    QLabel* place_;
 };
 
 }  // namespace vicon::viewer

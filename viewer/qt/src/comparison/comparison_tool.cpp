@@ -1,6 +1,8 @@
 #include "comparison/comparison_tool.h"
 
 #include <QAction>
+#include <cmath>
+#include <utility>
 
 #include "comparison/beside_view.h"
 #include "reading/kept_place.h"
@@ -19,13 +21,23 @@ void ComparisonTool::addTo(ReadingLayout& layout)
 {
     reading_.views().addBeside(view_);
     on_ = layout.addSwitch(ReadingMenu::view, tr("Both scans side by side"), QKeySequence("C"));
-    connect(on_, &QAction::triggered, this, &ComparisonTool::compare);
+    connect(on_, &QAction::triggered, this, &ComparisonTool::switched);
     connect(&reading_.views(), &ReadingViews::arranged, this, &ComparisonTool::arrange);
+    connect(&reading_.views(), &ReadingViews::laidOut, this, &ComparisonTool::followLayout);
     connect(&reading_.session(), &CaseSession::besideOpened, this, [this] {
         partner_.reset();
+        map_.reset();
         reading_.say({});
-        draw(true);
+        arrange();
     });
+    connect(&reading_.session(), &CaseSession::besideClosed, this, &ComparisonTool::arrange);
+    connect(&reading_.drawing(), &DrawingThread::overviewDrawn, this,
+            [this](const Picture& picture, const PlaneView& view, const std::shared_ptr<OpenScan>& of) {
+                if (of != reading_.session().sharedBeside())
+                    return;
+                shown_overview_ = view;
+                view_->overview()->showPicture(picture);
+            });
     connect(&reading_.drawing(), &DrawingThread::besideDrawn, this,
             [this](const Picture& picture, const ShownPicture& shown) {
                 shown_ = shown;
@@ -40,13 +52,17 @@ void ComparisonTool::connectView()
     SliceView* slice = view_->slice();
     connect(endoscopic, &PictureView::resized, this, [this] { draw(true); });
     connect(endoscopic, &PictureView::clicked, this, &ComparisonTool::clicked);
+    connect(view_->overview(), &PictureView::resized, this, [this] { draw(true); });
+    connect(view_->overview(), &PictureView::clicked, this, &ComparisonTool::clickedOverview);
     connect(endoscopic, &PictureView::turned, &reading_, [this](int steps) { emit reading_.stepWanted(steps); });
     connect(slice, &SliceView::failed, &reading_, &Reading::warn);
     connect(slice, &SliceView::pointClicked, this, [this](Point3 point, Qt::KeyboardModifiers modifiers) {
-        if (const OpenScan* scan = reading_.session().beside())
+        if (const OpenScan* scan = markableScan())
             reading_.click({*scan, shown_.place, point, modifiers, false});
     });
-    connect(&reading_, &Reading::windowChanged, slice, &SliceView::setWindow);
+    connect(&reading_, &Reading::sliceLookChanged, slice, &SliceView::setLook);
+    connect(slice, &SliceView::trackWanted, &reading_, &Reading::trackWanted);
+    connect(slice, &SliceView::windowDragged, &reading_, &Reading::windowDragged);
     connect(&reading_, &Reading::awaitingClick, this, [endoscopic, slice](bool on) {
         endoscopic->setPicking(on);
         slice->setPicking(on);
@@ -55,25 +71,89 @@ void ComparisonTool::connectView()
 
 void ComparisonTool::restore()
 {
-    on_->setChecked(keptSetting(keptKey(reading_.session().record(), kOn)).toBool());
+    on_->setChecked(keptSetting(readerKey(kOn)).toBool());
 }
 
 QVariantMap ComparisonTool::kept() const
 {
-    return {{keptKey(reading_.session().record(), kOn), on_->isChecked()}};
+    return {{readerKey(kOn), on_->isChecked() && !by_layout_}};
 }
 
-void ComparisonTool::scanOpened(const Arrival&)
+void ComparisonTool::scanLeft()
+{
+    left_ = reading_.sharedScan();
+}
+
+void ComparisonTool::scanOpened(const Arrival& arrival)
 {
     partner_.reset();
+    map_.reset();
+    came_to_.reset();
+    const auto left = std::exchange(left_, {});
+    if (const auto* from = std::get_if<CorrespondingPlace>(&arrival.place); from && left) {
+        const StationInterval place = mapBetween(*left, *reading_.scan()).at(from->station_mm);
+        came_to_mm_ = place.station_mm;
+        came_to_ = samePlace(tr("same place as %1").arg(left->caption.position.c_str()).toStdString(),
+                             reading_.scan()->files.skeleton(), place);
+        reading_.say(tr("The same place: within %1 to %2 mm from the %3 with a probability of 80 %")
+                         .arg(place.least_mm, 0, 'f', 0)
+                         .arg(place.most_mm, 0, 'f', 0)
+                         .arg(reading_.organWords().first_end.c_str()));
+    }
     if (on_->isChecked())
         compare(true);
 }
 
+void ComparisonTool::annotate(SnapshotRequest& request, const OpenScan& scan) const
+{
+    constexpr double kThere_mm = 1;
+    if (came_to_ && &scan == reading_.scan() &&
+        std::abs(reading_.navigator()->state().station_mm - came_to_mm_) < kThere_mm)
+        request.priors.push_back(*came_to_);
+}
+
+/// A layout of both scans has the other one, and takes it along when it goes.
+void ComparisonTool::followLayout()
+{
+    const bool wanted = reading_.views().layoutNow() == ViewLayout::both_scans;
+    if (wanted && !on_->isChecked()) {
+        by_layout_ = true;
+        compare(true);
+    } else if (!wanted && std::exchange(by_layout_, false)) {
+        compare(false);
+    }
+}
+
 void ComparisonTool::arrange()
 {
-    view_->setVisible(on_->isChecked() && reading_.views().roomBeside());
+    const bool wanted = on_->isChecked() || reading_.session().besideIsPrior();
+    view_->setVisible(wanted && reading_.views().roomBeside());
     draw(true);
+}
+
+const ScanRecord* ComparisonTool::otherAfter(const OpenScan* beside) const
+{
+    bool passed = !beside;
+    for (const ScanRecord& other : reading_.session().scans()) {
+        if (passed && other.id != reading_.scan()->record.id)
+            return &other;
+        passed = passed || other.id == beside->record.id;
+    }
+    return nullptr;
+}
+
+void ComparisonTool::switched(bool on)
+{
+    CaseSession& session = reading_.session();
+    const ScanRecord* next =
+        !on && reading_.scan() && session.beside() && !session.besideIsPrior() ? otherAfter(session.beside()) : nullptr;
+    if (!next) {
+        compare(on);
+        return;
+    }
+    on_->setChecked(true);
+    reading_.say(tr("Reading the other scan ..."));
+    session.openBeside(next->id);
 }
 
 void ComparisonTool::compare(bool on)
@@ -85,17 +165,23 @@ void ComparisonTool::compare(bool on)
         session.closeBeside();
         return;
     }
+    if (session.besideIsPrior())
+        session.closeBeside();
     if (!reading_.scan() || session.beside())
         return;  // it follows when the leading scan is there
-    for (const ScanRecord& other : session.scans())
-        if (other.id != reading_.scan()->record.id) {
-            reading_.say(tr("Reading the other scan ..."));
-            session.openBeside(other.id);
-            return;
-        }
+    if (const ScanRecord* other = otherAfter(nullptr)) {
+        reading_.say(tr("Reading the other scan ..."));
+        session.openBeside(other->id);
+        return;
+    }
     on_->setChecked(false);
     view_->hide();
     reading_.warn(tr("This case has no other scan that can be read."));
+}
+
+StationInterval ComparisonTool::corresponding() const
+{
+    return map_->at(reading_.navigator()->state().station_mm);
 }
 
 NavigationState ComparisonTool::place() const
@@ -104,7 +190,7 @@ NavigationState ComparisonTool::place() const
     if (partner_)
         return {partner_->view.pose, partner_->view.station_mm, partner_->view.clearance_mm, false, false};
     const Navigator& leading = *reading_.navigator();
-    const double station = correspondingStation_mm(*reading_.scan(), leading.state().station_mm, scan);
+    const double station = corresponding().station_mm;
     const bool to_caecum = (leading.heading() == Heading::caecum) != leading.looksBack();
     const ViewPose view =
         poseAtStation(scan.files.frames(), scan.lumen, station, to_caecum ? Heading::caecum : Heading::rectum);
@@ -113,19 +199,53 @@ NavigationState ComparisonTool::place() const
 
 void ComparisonTool::draw(bool still)
 {
-    if (!reading_.scan() || !reading_.session().beside() || !view_->isVisible())
-        return;
-    const NavigationState at = place();
+    if (reading_.scan() && reading_.session().beside() && view_->isVisible())
+        drawBeside(still);
+}
+
+void ComparisonTool::drawBeside(bool still)
+{
     const auto scan = reading_.session().sharedBeside();
-    const EndoscopicRequest request = reading_.requestFor(*scan, at, view_->endoscopic()->pictureSize(), still);
+    if (!map_)
+        map_ = mapBetween(*reading_.scan(), *scan);
+    const StationInterval same = corresponding();
+    const NavigationState at = place();
+    EndoscopicRequest request = reading_.requestFor(*scan, at, view_->endoscopic()->pictureSize(), still);
     reading_.drawing().drawBeside(scan, request);
-    view_->slice()->look(scan, partner_ ? partner_->at_mm : at.pose.eye_mm, at.pose, request.snapshot.markers);
+    const std::string label = tr("same place, 80 %").toStdString();
+    SnapshotRequest overview = request.snapshot;
+    overview.priors.push_back(samePlace(label, scan->files.skeleton(), same));
+    view_->slice()->look(scan, partner_ ? partner_->at_mm : at.pose.eye_mm, at.pose, overview.markers, overview.priors);
+    const QSize size = view_->overview()->pictureSize();
+    overview.width = size.width();
+    overview.height = size.height();
+    if (view_->overview()->height() > 0)
+        reading_.drawing().drawBesideOverview(scan, overview, request.place);
+    sayPlace(same);
+}
+
+void ComparisonTool::sayPlace(const StationInterval& place)
+{
+    view_->sayPlace(tr("Same place: %1 mm, %2 to %3 (80 %)")
+                        .arg(place.station_mm, 0, 'f', 0)
+                        .arg(place.least_mm, 0, 'f', 0)
+                        .arg(place.most_mm, 0, 'f', 0),
+                    tr("From the %1; it lies in between with a probability of 80 %. Found by %2.")
+                        .arg(reading_.organWords().first_end.c_str(), nameOf(map_->source).c_str()));
+}
+
+const OpenScan* ComparisonTool::markableScan()
+{
+    if (!reading_.session().besideIsPrior())
+        return reading_.session().beside();
+    reading_.say(tr("The earlier examination is looked at, not marked."));
+    return nullptr;
 }
 
 void ComparisonTool::clicked(Pixel at, Qt::KeyboardModifiers modifiers)
 {
     const auto scan = reading_.session().sharedBeside();
-    if (!scan || !shown_.isOf(scan))
+    if (!scan || !shown_.isOf(scan) || !markableScan())
         return;
     if (const auto point = wallAt(*scan, shown_.place.pose, shown_.lens, at);
         point && reading_.click({*scan, shown_.place, *point, modifiers, true}))
@@ -133,6 +253,23 @@ void ComparisonTool::clicked(Pixel at, Qt::KeyboardModifiers modifiers)
     ScanRequest request;
     request.scan_id = scan->record.id;
     reading_.changeScan(request);
+}
+
+void ComparisonTool::clickedOverview(Pixel at)
+{
+    const auto scan = reading_.session().sharedBeside();
+    if (!scan || !map_ || !shown_overview_)
+        return;
+    const PathFrames& path = scan->files.frames();
+    double station = 0, least = 1e300;
+    for (double s = 0; s <= path.length_mm(); s += 1) {
+        const Pixel p = shown_overview_->toPixel(path.at(s).position_mm);
+        if (const double d = std::hypot(p.x - at.x, p.y - at.y); d < least) {
+            least = d;
+            station = s;
+        }
+    }
+    emit reading_.jumpWanted(map_->reversed().at(station).station_mm);
 }
 
 void ComparisonTool::markerShown(const Marker& marker)

@@ -27,11 +27,12 @@ QPushButton* ColonPanel::button(const QString& title, const char* name, const QS
 
 ColonPanel::ColonPanel(QWidget* parent) : QWidget(parent)
 {
+    setObjectName("colonPanel");
     table_ = new QTableWidget(0, kBridgeColumns, this);
     table_->setObjectName("bridges");
-    table_->setAccessibleName(tr("Bridges over collapsed parts"));
+    table_->setAccessibleName(tr("Bridges over collapsed segments"));
     table_->setToolTip(tr("Where the pipeline joined two pieces of lumen. Click or Return: fly there."));
-    table_->setHorizontalHeaderLabels({tr("mm"), tr("Bridge"), tr("Sure"), tr("Judged")});
+    table_->setHorizontalHeaderLabels({tr("mm"), tr("Bridge"), tr("Confidence"), tr("Judged")});
     setUpList(table_, kLeastBridges);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     confirm_ = button(tr("Confirm"), "confirmBridge", tr("The two pieces belong together"));
@@ -86,7 +87,7 @@ void ColonPanel::show(const std::vector<ReviewedBridge>& bridges, const Skeleton
         const auto& [bridge, review] = bridges[std::size_t(row)];
         const QString judged = review ? tr("%1, %2").arg(QString::fromStdString(nameOf(review->verdict)),
                                                          QString::fromStdString(review->by))
-                                      : tr("no");
+                                      : tr("not reviewed");
         const QStringList cells{QString::number(skeleton.nearest(bridge.from_mm).station_mm, 'f', 0),
                                 tr("%1 mm").arg(bridge.length_mm, 0, 'f', 0),
                                 tr("%1 %").arg(100 * bridge.confidence, 0, 'f', 0), judged};

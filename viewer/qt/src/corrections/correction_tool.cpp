@@ -63,10 +63,10 @@ void CorrectionTool::connectPanel()
 
 void CorrectionTool::useWords(const OrganWords& words)
 {
-    layout_->enableList(panel_, words.isColon(),
-                        words.isColon() ? tr("Bridges over collapsed parts, and corrections of the lumen")
-                                        : tr("Bridges and corrections are a colon's; this scan shows the %1")
-                                              .arg(QString::fromStdString(words.organ)));
+    layout_->enableList(panel_, words.organ.isColon(),
+                        words.organ.isColon() ? tr("Bridges over collapsed segments, and corrections of the lumen")
+                                              : tr("Bridges and corrections are a colon's; this scan shows the %1")
+                                                    .arg(QString::fromStdString(words.organ.name())));
 }
 
 void CorrectionTool::scanOpened(const Arrival& arrival)
@@ -75,7 +75,7 @@ void CorrectionTool::scanOpened(const Arrival& arrival)
     corrector_.findBridges(scan);
     if (arrival.place_markers)
         reading_.session().placeAnew(
-            tr("The corrected scan is shown; its markers have their distances on the new path."));
+            tr("The corrected scan is shown; its markers have their distances on the new centreline."));
     if (!corrector_.busy() && corrected_ && corrected_->scan_id == scan.id)
         sayWhatIsNotAdded();
 }
@@ -109,9 +109,10 @@ void CorrectionTool::otherScanRedone(const std::string& scan_id)
     for (const ScanRecord& scan : session.scans())
         if (scan.id == scan_id)
             name = QString::fromStdString(positionName(scan.series.patient_position));
-    session.placeAnew(tr("The other scan (%1) is corrected, and its markers have their distances on the new path; X "
-                         "shows it.")
-                          .arg(name));
+    session.placeAnew(
+        tr("The other scan (%1) is corrected, and its markers have their distances on the new centreline; X "
+           "shows it.")
+            .arg(name));
     if (session.beside() && session.beside()->record.id == scan_id) {
         session.closeBeside();  // it is the old one
         session.openBeside(scan_id);

@@ -93,7 +93,7 @@ void Corrector::review(const ScanRecord& scan, const ReviewedBridge& bridge, boo
     change(
         confirmed
             ? tr("Bridge confirmed; the report says so.")
-            : tr("Bridge rejected; the report says so. To keep the parts asunder, drop the piece that is not colon."),
+            : tr("Bridge rejected; the report says so. To keep the two sides apart, drop the piece that is not colon."),
         [scan, bridge, confirmed](CorrectionHistory& history, CaseStore& store) {
             return history.review(store, scan, bridge, confirmed);
         });

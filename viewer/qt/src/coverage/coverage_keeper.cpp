@@ -7,6 +7,8 @@
 namespace vicon::viewer {
 namespace {
 
+constexpr const char* kSearch = "unseen";
+
 /// Two readers of one case each have their own eyes.
 std::filesystem::path fileFor(const std::filesystem::path& scan_folder)
 {
@@ -29,14 +31,20 @@ void CoverageKeeper::restore(ScanCoverage& seen, const std::filesystem::path& sc
 
 void CoverageKeeper::findUnseen(std::shared_ptr<OpenScan> scan, double least_mm2)
 {
-    worker_.post("unseen", [this, scan = std::move(scan), least_mm2](Written&) -> Worker::Work {
-        UnseenOptions options;
-        options.least_area_mm2 = least_mm2;
-        const auto& cells = scan->files.cells();
-        auto patches = unseenPatches(cells.points_mm, cells.triangles, scan->coverage.coverage(),
-                                     scan->files.skeleton(), scan->files.frames(), scan->lumen, options);
-        return [this, scan, patches = std::move(patches)] { emit found(patches, scan); };
-    });
+    const int search = ++latest_search_;
+    worker_.giveUp(kSearch);
+    worker_.post(
+        kSearch, [this, search, scan = std::move(scan), least_mm2](Written&, const Progress& wanted) -> Worker::Work {
+            UnseenOptions options;
+            options.least_area_mm2 = least_mm2;
+            const auto& cells = scan->files.cells();
+            auto patches = unseenPatches(cells.points_mm, cells.triangles, scan->coverage.coverage(),
+                                         scan->files.skeleton(), scan->files.frames(), scan->lumen, options, &wanted);
+            return [this, search, scan, patches = std::move(patches)] {
+                if (search == latest_search_)
+                    emit found(patches, scan);
+            };
+        });
 }
 
 void CoverageKeeper::save(std::shared_ptr<OpenScan> scan)

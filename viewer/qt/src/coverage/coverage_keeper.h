@@ -19,7 +19,8 @@ public:
     /// @param scan_folder in the case's folder
     static void restore(ScanCoverage& seen, const std::filesystem::path& scan_folder);
 
-    /// found() follows.
+    /// found() follows, unless they are looked for anew before: a list that the reader goes through is not replaced by
+    /// one that was asked for earlier.
     void findUnseen(std::shared_ptr<OpenScan> scan, double least_mm2);
     /// Writes what was seen, unless it is written already.
     void save(std::shared_ptr<OpenScan> scan);
@@ -29,6 +30,7 @@ signals:
     void failed(const QString& message);
 
 private:
+    int latest_search_ = 0;                                        // by the owner's thread
     using Written = std::map<std::filesystem::path, std::string>;  ///< by file, what is in it
     WorkerWith<Written> worker_{this};
 };

@@ -1,20 +1,20 @@
 #pragma once
 
 #include <QWidget>
-#include <vector>
 
 #include "vicon/core/colon_parts.h"
-#include "vicon/viewer/model/unseen.h"
+#include "vicon/viewer/model/missed_regions.h"
 
 class QCheckBox;
 class QDoubleSpinBox;
 class QLabel;
+class QPixmap;
 class QPushButton;
 class QTableWidget;
 
 namespace vicon::viewer {
 
-/// How much of the wall was seen, and what was not.
+/// How much of the wall was reviewed, and the regions that were missed, with their pictures.
 class CoveragePanel : public QWidget {
     Q_OBJECT
 public:
@@ -23,24 +23,33 @@ public:
     /// What the column of distances means.
     void setStationTip(const QString& tip);
     void setSeen(double fraction);
-    /// In order of station, from the rectum.
-    void show(std::vector<UnseenPatch> patches, const ColonPartRanges& parts);
+    /// Anew, without pictures.
+    void show(const MissedRegions& missed, const ColonPartRanges& parts);
+    /// The same regions; which are done, and which is looked at.
+    void mark(const MissedRegions& missed);
+    void setPicture(int region, const QPixmap& picture);
+    /// For those of a region, in device pixels.
+    static QSize pictureSize();
     bool paints() const;
     void setPaints(bool on);
     double least_mm2() const;
+    void setLeast(double least_mm2);
 
 signals:
     void paintWanted(bool on);
     void listWanted();
+    void nextWanted();
     void forgetWanted();
-    void flyWanted(const vicon::viewer::UnseenPatch& patch);
+    void flyWanted(int region);
 
 private:
-    std::vector<UnseenPatch> patches_;
+    void layOut();
+    void connectAll();
+
     QLabel* text_;
     QCheckBox* paint_;
     QDoubleSpinBox* least_;
-    QPushButton *list_, *forget_;
+    QPushButton *next_, *list_, *forget_;
     QTableWidget* table_;
 };
 

@@ -1,17 +1,21 @@
 #pragma once
 
 #include <QTimer>
+#include <set>
 
 #include "coverage/coverage_keeper.h"
 #include "reading/reading_tool.h"
+#include "vicon/viewer/model/missed_regions.h"
 
 class QLabel;
 
 namespace vicon::viewer {
 
 class CoveragePanel;
+class ReadingLayout;
 
-/// How much of the wall this reader has seen, what not, and where; kept from session to session.
+/// How much of the wall this reader has reviewed, and what was missed, to be gone through; kept from session to
+/// session.
 class CoverageTool : public ReadingTool {
     Q_OBJECT
 public:
@@ -21,21 +25,42 @@ public:
     void restore() override;
     QVariantMap kept() const override;
     void useWords(const OrganWords& words) override;
-    void scanLeft() override { keep(); }
+    void scanLeft() override;
     void scanOpened(const Arrival&) override;
+    void pointLeft() override;
+    void markerShown(const Marker&) override { leaveRegion(); }
+    void escape() override;
     void style(EndoscopicRequest& request) const override;
-    void stop() override { keep_timer_.stop(); }
+    void complete(EndoscopicRequest& request) const override;
+    void stop() override;
+
+    /// For the log of the reading: how many regions were listed and looked at.
+    QString visitsInWords() const;
 
 private:
+    void addActions(ReadingLayout& layout);
     void connectPanel();
-    void listUnseen();
+    void connectDrawing();
+    void listMissed();
+    void showList(const std::vector<UnseenPatch>& patches);
+    /// The list's next picture; one after the other, between those that the reader waits for.
+    void drawPicture(int region);
+    void next();
+    void flyTo(std::size_t region);
+    void leaveRegion();
     void showSeen();
     void keep();
 
+    ReadingLayout* layout_ = nullptr;
     CoveragePanel* panel_;
     QLabel* seen_text_;
+    MissedRegions missed_;
+    int list_ = 0;  // of how many, since the program began
+    std::set<int> visits_;
+    bool next_when_listed_ = false;
+    std::shared_ptr<const std::vector<std::uint8_t>> highlighted_;
     CoverageKeeper keeper_{this};
-    QTimer keep_timer_;
+    QTimer keep_timer_, still_timer_;
 };
 
 }  // namespace vicon::viewer

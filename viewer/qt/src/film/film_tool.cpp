@@ -42,8 +42,10 @@ void FilmTool::start(const QString& file)
     const QSize size(view.width() / 2 * 2, view.height() / 2 * 2);  // Theora's colours have half the pixels
     const NavigationState from = reading_.navigator()->state();
     const double step_mm = reading_.navigator()->speed_mm_s() / FilmMaker::kPictures_per_s;
-    maker_->start(reading_.sharedScan(), reading_.requestFor(*reading_.scan(), from, size, false), from.station_mm,
-                  reading_.navigator()->heading(), step_mm, file.toStdString());
+    EndoscopicRequest request = reading_.requestFor(*reading_.scan(), from, size, false);
+    request.snapshot.caption = reading_.scan()->saved_caption;
+    maker_->start(reading_.sharedScan(), request, from.station_mm, reading_.navigator()->heading(), step_mm,
+                  file.toStdString());
 }
 
 }  // namespace vicon::viewer

@@ -21,7 +21,7 @@ void FlightTool::addActions(ReadingLayout& layout)
     add(tr("Guided"), "G", [this] { setMode(NavigationMode::guided); });
     add(tr("Free"), "F", [this] { setMode(NavigationMode::free); });
     add(tr("Fly or stop"), "Space", [this] { fly(navigator() && navigator()->direction() ? 0 : 1); });
-    add(tr("Turn about"), "R", [this] { turnAbout(); });
+    add(tr("Reverse the flight"), "R", [this] { turnAbout(); });
     add(tr("Look back"), "B", [this] {
         lookBack(navigator() && !(navigator()->looksBack() && navigator()->mode() == NavigationMode::planned));
     });

@@ -40,17 +40,17 @@ Navigator* FlightTool::navigator() const
 
 void FlightTool::restore()
 {
-    setAngle(keptSetting(keptKey(reading_.session().record(), "angle_deg"), view_angle_deg_).toDouble());
+    setAngle(keptSetting(readerKey("angle_deg"), view_angle_deg_).toDouble());
 }
 
 QVariantMap FlightTool::kept() const
 {
     const CaseRecord& record = reading_.session().record();
-    QVariantMap values{{keptKey(record, "angle_deg"), view_angle_deg_}};
+    QVariantMap values{{readerKey("angle_deg"), view_angle_deg_}};
     if (!navigator())
         return values;
     values[keptKey(record, "to_rectum")] = navigator()->heading() == Heading::rectum;
-    values[keptKey(record, "speed_mm_s")] = navigator()->speed_mm_s();
+    values[readerKey("speed_mm_s")] = navigator()->speed_mm_s();
     values[keptKey(record, "mode")] = int(navigator()->mode());
     values[keptKey(record, QString::fromStdString(reading_.scan()->record.id))] = navigator()->state().station_mm;
     return values;
@@ -83,7 +83,7 @@ void FlightTool::takePlace(const Arrival& arrival, const OpenScan& left)
     navigator()->setHeading(left.navigator.heading());
     navigator()->setSpeed(left.navigator.speed_mm_s());
     if (const auto* other = std::get_if<CorrespondingPlace>(&arrival.place))
-        navigator()->jumpTo(correspondingStation_mm(left, other->station_mm, scan));
+        navigator()->jumpTo(mapBetween(left, scan).at(other->station_mm).station_mm);
     else if (const auto* same = std::get_if<SamePlace>(&arrival.place))
         navigator()->jumpTo(
             scan.files.skeleton().nearest(same->point_mm.value_or(left.navigator.state().pose.eye_mm)).station_mm);
@@ -95,7 +95,7 @@ void FlightTool::takeKeptPlace()
         return keptSetting(keptKey(reading_.session().record(), name), otherwise);
     };
     navigator()->setHeading(kept("to_rectum").toBool() ? Heading::rectum : Heading::caecum);
-    navigator()->setSpeed(kept("speed_mm_s", navigator()->speed_mm_s()).toDouble());
+    navigator()->setSpeed(keptSetting(readerKey("speed_mm_s"), navigator()->speed_mm_s()).toDouble());
     navigator()->jumpTo(kept(QString::fromStdString(reading_.scan()->record.id), 0).toDouble());
     const int mode = kept("mode").toInt();
     if (mode >= int(NavigationMode::planned) && mode <= int(NavigationMode::free))
@@ -113,7 +113,7 @@ QString FlightTool::noticeHere() const
     const NavigationState state = navigator()->state();
     constexpr double kAtWall_mm = 3;  // nearer, the picture shows one even patch of wall
     if (state.carried)
-        return tr("collapsed or narrow part: carried along the path");
+        return tr("collapsed segment: carried along the centreline");
     if (navigator()->mode() == NavigationMode::free && state.clearance_mm < kAtWall_mm)
         return tr("free, close to the wall: S backs off, P goes back to the centreline");
     return {};
@@ -148,7 +148,11 @@ void FlightTool::tick()
 // On a machine that draws slowly the flight is slower; wall that flies past unshown would be wall unread.
 bool FlightTool::waitsForPicture() const
 {
-    constexpr double kMostAhead_mm = 20;  // of the eye before the picture; 0.2 s of the fastest flight
+    constexpr double kMostAhead_mm = 20;        // of the eye before the picture; 0.2 s of the fastest flight
+    constexpr double kMostAheadOfSlice_mm = 4;  // a polyp of 6 mm is in one of the pictures
+    if (const SliceView* slice = reading_.views().firstSlice();
+        slice && slice->isBehind(reading_.sharedScan(), navigator()->state(), kMostAheadOfSlice_mm))
+        return true;
     const ShownPicture& shown = reading_.shown();
     return shown.isOf(reading_.sharedScan()) && reading_.views().endoscopic()->isVisible() &&
            distance(shown.place.pose.eye_mm, navigator()->state().pose.eye_mm) > kMostAhead_mm;
@@ -172,7 +176,7 @@ void FlightTool::fly(int direction)
     if (direction > 0 && navigator()->mode() == NavigationMode::planned && navigator()->state().at_end) {
         const OrganWords& words = reading_.organWords();
         const std::string& end = navigator()->heading() == Heading::caecum ? words.last_end : words.first_end;
-        reading_.say(tr("This is the %1, where the flight ends; R turns about.").arg(QString::fromStdString(end)));
+        reading_.say(tr("This is the %1, where the flight ends; R reverses it.").arg(QString::fromStdString(end)));
         return;
     }
     navigator()->fly(direction);
@@ -199,7 +203,7 @@ void FlightTool::goToEnd(Heading end)
 
 void FlightTool::jumpTo(double station_mm)
 {
-    reading_.views().endoscopic()->setFocus();
+    reading_.views().first()->setFocus();
     if (!navigator())
         return;
     navigator()->jumpTo(station_mm);

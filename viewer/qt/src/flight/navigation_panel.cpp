@@ -27,7 +27,16 @@ QString placeText(double station_mm, double length_mm, const OrganWords& words)
 int roomForPlace_px(const QFontMetrics& letters)
 {
     constexpr double kFourDigits_mm = 4000;
-    return letters.horizontalAdvance(placeText(kFourDigits_mm, 2 * kFourDigits_mm, wordsFor("colon")) + "0");
+    return letters.horizontalAdvance(placeText(kFourDigits_mm, 2 * kFourDigits_mm, wordsFor(Organ())) + "0");
+}
+
+/// As endoscopists say it of a colon.
+QString wayOfFlight(Heading heading, const OrganWords& words)
+{
+    const bool to_last = heading == Heading::caecum;
+    if (words.organ.isColon())
+        return to_last ? QObject::tr("Retrograde") : QObject::tr("Antegrade");
+    return QObject::tr("Heading: %1").arg(QString::fromStdString(to_last ? words.last_end : words.first_end));
 }
 
 template <class Widget>
@@ -43,6 +52,7 @@ Widget* named(Widget* widget, const char* name, const QString& title, const QStr
 
 NavigationPanel::NavigationPanel(QWidget* parent) : QWidget(parent)
 {
+    setObjectName("navigation");
     buildButtons();
     buildSliders();
     buildPlace();
@@ -56,12 +66,13 @@ void NavigationPanel::buildButtons()
         return named(new QPushButton(face, this), name, title, tip);
     };
     mode_ = named(new QComboBox(this), "mode", tr("Kind of flight"),
-                  tr("Planned: along the path (P). Guided: steered, back on the path when let go (G). Free (F)."));
+                  tr("Planned: along the centreline (P). Guided: steered, back on it when let go (G). Free (F)."));
     mode_->addItems({tr("planned"), tr("guided"), tr("free")});
     back_ = button(tr("Back"), "back", tr("Fly back"), tr("Fly backwards"));
     stop_ = button(tr("Stop"), "stop", tr("Stop"), tr("Stop (Space)"));
     forward_ = button(tr("Fly"), "forward", tr("Fly on"), tr("Fly the way that is chosen (Space)"));
-    about_ = button(tr("Turn about"), "about", tr("Way of flight"), tr("Which way the flight goes; turn about (R)"));
+    about_ = button(tr("Reverse"), "about", tr("Way of flight"),
+                    tr("Which way the flight goes: retrograde to the caecum, antegrade to the rectum; reverse it (R)"));
     look_back_ = button(tr("Look back"), "lookBack", tr("Look back"), tr("Look back while flying on, planned (B)"));
     look_back_->setCheckable(true);
     step_back_ = button(tr("-1 cm"), "stepBack", tr("A centimetre back"), tr("A centimetre back (,)"));
@@ -73,8 +84,8 @@ void NavigationPanel::buildSliders()
     speed_ = named(new QSlider(Qt::Horizontal, this), "speed", tr("Speed"), tr("Speed of flight (+, -)"));
     speed_->setRange(int(Navigator::kLeastSpeed_mm_s), int(Navigator::kMostSpeed_mm_s));
     speed_text_ = new QLabel(this);
-    angle_ = named(new QSlider(Qt::Horizontal, this), "angle", tr("Angle of view"),
-                   tr("Angle of view: narrow is true to shape, wide sees more of the wall"));
+    angle_ = named(new QSlider(Qt::Horizontal, this), "angle", tr("Field of view"),
+                   tr("Field of view: narrow is true to shape, wide sees more of the wall"));
     angle_->setRange(60, 120);
     angle_text_ = new QLabel(this);
 }
@@ -162,8 +173,8 @@ void NavigationPanel::show(const Navigator& navigator, double length_mm, const O
     const bool planned = navigator.mode() == NavigationMode::planned;
     mode_->setCurrentIndex(int(navigator.mode()));
     look_back_->setChecked(planned && navigator.looksBack());
-    const QString first = QString::fromStdString(words.first_end), last = QString::fromStdString(words.last_end);
-    about_->setText(tr("Heading: %1").arg(navigator.heading() == Heading::caecum ? last : first));
+    const QString first = QString::fromStdString(words.first_end);
+    about_->setText(wayOfFlight(navigator.heading(), words));
     for (QWidget* widget : std::initializer_list<QWidget*>{station_, go_})
         widget->setToolTip(tr("Jump to this distance from the %1").arg(first));
     {

@@ -49,7 +49,7 @@ QString informationOf(const Marker& marker, const QString& scan, const OrganWord
     const Point3 p = marker.position_mm;
     return "<table>" + row(QObject::tr("Marker"), words(marker.id + ", " + nameOf(marker.color))) +
            row(QObject::tr("Scan"), scan) +
-           row(QObject::tr("Part"), marker.part ? words(nameOf(*marker.part)) : QString()) +
+           row(QObject::tr("Segment"), marker.part ? words(nameOf(*marker.part)) : QString()) +
            row(QObject::tr("From the %1").arg(words(organ.first_end)), lengthText(marker.station_mm)) +
            row(QObject::tr("From the %1").arg(words(organ.last_end)), lengthText(marker.from_caecum_mm)) +
            row(QObject::tr("LPS"),

@@ -61,7 +61,8 @@ void MarkerTable::buildTable()
     table_ = new QTableWidget(0, kColumns, this);
     table_->setObjectName("markers");
     table_->setAccessibleName(tr("Markers"));
-    table_->setHorizontalHeaderLabels({tr("ID"), tr("Scan"), tr("mm"), tr("Part"), tr("Pair"), tr("Size"), tr("Note")});
+    table_->setHorizontalHeaderLabels(
+        {tr("ID"), tr("Scan"), tr("mm"), tr("Segment"), tr("Pair"), tr("Size"), tr("Note")});
     setUpList(table_, kLeastRows);
     table_->horizontalHeaderItem(kSize)->setToolTip(
         tr("Largest diameter in mm: the longer one of the straight line between the clicked ends and the diameter in "

@@ -10,6 +10,20 @@
 #include "window/reading_layout.h"
 
 namespace vicon::viewer {
+namespace {
+
+constexpr double kFarOff_mm = 30;
+
+/// How far a point is from the nearest wall, in the lumen or outside; kFarOff_mm or more: farther.
+double offWall_mm(const Lumen& lumen, Point3 p)
+{
+    if (lumen.inside(p))
+        return lumen.clearance_mm(p);
+    const Lumen::Nearest nearest = lumen.nearestInside(p, kFarOff_mm);
+    return nearest.found ? nearest.distance_mm : kFarOff_mm;
+}
+
+}  // namespace
 
 MarkerTool::MarkerTool(Reading& reading) : ReadingTool(reading), table_(new MarkerTable) {}
 
@@ -136,6 +150,22 @@ void MarkerTool::add(MarkerColor color, const ClickedPoint& point)
     marker.view = viewOf(point.from);
     reading_.session().addMarker(marker);
     reading_.endTool();
+    warnOffWall(marker, point.scan.lumen);
+}
+
+/// A lesion is of the wall: a red marker in the middle of gas or of tissue means another place than was clicked.
+void MarkerTool::warnOffWall(const Marker& marker, const Lumen& lumen)
+{
+    constexpr double kMost_mm = 8;  // the middle of a polyp of 16 mm
+    const double off_mm = marker.color == MarkerColor::red ? offWall_mm(lumen, marker.position_mm) : 0;
+    const bool off = off_mm > kMost_mm;
+    if (off)
+        reading_.warn(tr("This red marker lies %1 mm from the wall: 'Move' and a click on the wall moves it, Ctrl+Z "
+                         "takes it back.")
+                          .arg((off_mm < kFarOff_mm ? "" : ">") + QString::number(off_mm, 'f', 0)));
+    else if (warned_off_wall_)
+        reading_.warn({});
+    warned_off_wall_ = off;
 }
 
 void MarkerTool::move(const std::string& id, Point3 to)
@@ -148,6 +178,7 @@ void MarkerTool::move(const std::string& id, Point3 to)
     after.position_mm = to;
     after.view.reset();
     reading_.session().changeMarker(*before, after, true);
+    warnOffWall(after, reading_.scan()->lumen);
 }
 
 void MarkerTool::refuseMove(const std::string& id)

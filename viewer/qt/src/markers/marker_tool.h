@@ -33,6 +33,7 @@ private:
     void pair(const Marker& marker);
     void choose(const Marker& marker);
     void add(MarkerColor color, const ClickedPoint& point);
+    void warnOffWall(const Marker& marker, const Lumen& lumen);
     void move(const std::string& id, Point3 to);
     void removeChosen();
     void refuseMove(const std::string& id);
@@ -41,6 +42,7 @@ private:
     void showInformation();
 
     MarkerTable* table_;
+    bool warned_off_wall_ = false;
 };
 
 }  // namespace vicon::viewer

@@ -20,7 +20,7 @@ OpeningTool::OpeningTool(Reading& reading) : ReadingTool(reading)
     choice_->setObjectName("scan");
     choice_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     choice_->setAccessibleName(tr("Scan"));
-    choice_->setToolTip(tr("Supine or prone; the other one opens at the same part of the way (X)"));
+    choice_->setToolTip(tr("Supine or prone; the other one opens at the same place of the colon (X)"));
     progress_ = new QWidget;
     progress_->setObjectName("opening");
     bar_ = new QProgressBar(progress_);

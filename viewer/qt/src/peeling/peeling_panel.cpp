@@ -13,36 +13,42 @@
 namespace vicon::viewer {
 namespace {
 constexpr double kTick_mm = 0.1;
-constexpr double kMostOffset_mm = 20;
+constexpr double kLeastOffset_mm = -10, kMostOffset_mm = 20;
 }  // namespace
 
 PeelingPanel::PeelingPanel(QWidget* parent) : QWidget(parent)
 {
+    setObjectName("peeling");
     preset_ = new QComboBox(this);
     preset_->setObjectName("peel");
-    preset_->setAccessibleName(tr("Look below the wall"));
-    preset_->setToolTip(tr("Colours of the look below the wall"));
-    preset_->addItem(tr("no peeling"), QString());
+    preset_->setAccessibleName(tr("Translucency"));
+    preset_->setToolTip(tr("The wall becomes translucent: with which colours the densities behind it are shown"));
+    preset_->addItem(tr("off"), QString());
     for (const TransferFunction& function : transferFunctions())
         preset_->addItem(QString::fromStdString(function.title), QString::fromStdString(function.name));
     circle_ = new QCheckBox(tr("only in a circle"), this);
     circle_->setObjectName("peelCircle");
-    circle_->setToolTip(tr("Peel in a circle that follows the mouse; the surface stays around it"));
+    circle_->setToolTip(tr("Translucent in a circle that follows the mouse; the surface stays around it"));
+    over_ = new QCheckBox(tr("over the surface"), this);
+    over_->setObjectName("peelOver");
+    over_->setToolTip(tr("The surface shines through; else it is gone where it is translucent"));
     offset_ = new QSlider(Qt::Horizontal, this);
     offset_->setObjectName("peelOffset");
-    offset_->setAccessibleName(tr("Depth of the look below the wall"));
-    offset_->setToolTip(tr("How far below the surface the look begins"));
-    offset_->setRange(0, int(kMostOffset_mm / kTick_mm));
+    offset_->setAccessibleName(tr("Depth of the translucency"));
+    offset_->setToolTip(tr("How far below the surface it begins, or before it"));
+    offset_->setRange(int(kLeastOffset_mm / kTick_mm), int(kMostOffset_mm / kTick_mm));
+    offset_->setValue(0);
     offset_text_ = new QLabel(this);
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(2, 2, 2, 2);
-    auto* title = new QLabel(tr("Below the wall"), this);
+    auto* title = new QLabel(tr("Translucency"), this);
     title->setBuddy(preset_);
     grid->addWidget(title, 0, 0);
     grid->addWidget(preset_, 0, 1);
     grid->addWidget(circle_, 0, 2);
-    grid->addWidget(offset_, 1, 0, 1, 2);
-    grid->addWidget(offset_text_, 1, 2);
+    grid->addWidget(offset_text_, 1, 0);
+    grid->addWidget(offset_, 1, 1);
+    grid->addWidget(over_, 1, 2);
     grid->setColumnStretch(1, 1);
     histogram_ = new QLabel(this);
     histogram_->setObjectName("histogram");
@@ -52,12 +58,16 @@ PeelingPanel::PeelingPanel(QWidget* parent) : QWidget(parent)
     const auto tell = [this] {
         offset_->setEnabled(on());
         circle_->setEnabled(on());
-        offset_text_->setText(tr("%1 mm deep").arg(offset_->value() * kTick_mm, 0, 'f', 1));
+        over_->setEnabled(on());
+        const bool before = offset_->value() < 0;
+        offset_text_->setText(
+            (before ? tr("%1 mm before") : tr("%1 mm deep")).arg(std::abs(offset_->value()) * kTick_mm, 0, 'f', 1));
         emit changed();
     };
     connect(preset_, qOverload<int>(&QComboBox::currentIndexChanged), this, tell);
     connect(offset_, &QSlider::valueChanged, this, tell);
     connect(circle_, &QCheckBox::toggled, this, tell);
+    connect(over_, &QCheckBox::toggled, this, tell);
     tell();
 }
 
@@ -76,16 +86,22 @@ double PeelingPanel::offset_mm() const
     return offset_->value() * kTick_mm;
 }
 
-void PeelingPanel::choose(const QString& preset, double offset_mm, bool circle_only)
+void PeelingPanel::choose(const QString& preset, double offset_mm, bool circle_only, bool over_surface)
 {
     preset_->setCurrentIndex(std::max(0, preset_->findData(preset)));
     offset_->setValue(int(std::lround(offset_mm / kTick_mm)));
     circle_->setChecked(circle_only);
+    over_->setChecked(over_surface);
 }
 
 bool PeelingPanel::circleOnly() const
 {
     return circle_->isChecked();
+}
+
+bool PeelingPanel::overSurface() const
+{
+    return over_->isChecked();
 }
 
 void PeelingPanel::showHistogram(const DensitySample& biopsy)
@@ -107,9 +123,10 @@ void PeelingPanel::showHistogram(const DensitySample& biopsy)
 
 void PeelingPanel::fill(SnapshotRequest& request) const
 {
-    request.peel = preset_->currentData().toString().toStdString();
-    request.peeling.offset_mm = offset_->value() * kTick_mm;
-    request.peel_middle_only = circle_->isChecked();
+    request.peel.preset = preset_->currentData().toString().toStdString();
+    request.peel.options.offset_mm = offset_->value() * kTick_mm;
+    request.peel.middle_only = circle_->isChecked();
+    request.peel.over_surface = over_->isChecked();
 }
 
 void PeelingPanel::showHistogramOn(QWidget* view)

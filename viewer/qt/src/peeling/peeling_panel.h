@@ -12,17 +12,19 @@ class QLabel;
 
 namespace vicon::viewer {
 
-/// What lies below the wall: with which colours, from how deep on, everywhere or in a circle.
+/// Translucency, the look below the wall: with which colours, from how deep on, everywhere or in a circle, in
+/// place of the surface or over it.
 class PeelingPanel : public QWidget {
     Q_OBJECT
 public:
     explicit PeelingPanel(QWidget* parent = nullptr);
     bool on() const;
     bool circleOnly() const;
+    bool overSurface() const;
     QString preset() const;  ///< empty: none
     double offset_mm() const;
     /// What is not known any more is none.
-    void choose(const QString& preset, double offset_mm, bool circle_only);
+    void choose(const QString& preset, double offset_mm, bool circle_only, bool over_surface);
     /// Puts the choice into a request for an endoscopic picture.
     void fill(SnapshotRequest& request) const;
     /// In a corner of this view: the controls stay where they are.
@@ -37,7 +39,7 @@ private:
     QComboBox* preset_;
     QSlider* offset_;
     QLabel* offset_text_;
-    QCheckBox* circle_;
+    QCheckBox *circle_, *over_;
     QLabel* histogram_;
 };
 

@@ -35,22 +35,23 @@ void PeelingTool::drawSoon()
 void PeelingTool::restore()
 {
     const CaseRecord& record = reading_.session().record();
-    panel_->choose(keptSetting(keptKey(record, "peel")).toString(), keptSetting(keptKey(record, "peel_mm")).toDouble(),
-                   keptSetting(keptKey(record, "peel_circle")).toBool());
+    panel_->choose(keptSetting(keptKey(record, "peel")).toString(), keptSetting(readerKey("peel_mm")).toDouble(),
+                   keptSetting(readerKey("peel_circle")).toBool(), keptSetting(readerKey("peel_over")).toBool());
 }
 
 QVariantMap PeelingTool::kept() const
 {
     const CaseRecord& record = reading_.session().record();
     return {{keptKey(record, "peel"), panel_->preset()},
-            {keptKey(record, "peel_mm"), panel_->offset_mm()},
-            {keptKey(record, "peel_circle"), panel_->circleOnly()}};
+            {readerKey("peel_mm"), panel_->offset_mm()},
+            {readerKey("peel_circle"), panel_->circleOnly()},
+            {readerKey("peel_over"), panel_->overSurface()}};
 }
 
 void PeelingTool::complete(EndoscopicRequest& request) const
 {
     panel_->fill(request.snapshot);
-    request.snapshot.peel_circle_at = mouse_at_;
+    request.snapshot.peel.circle_at = mouse_at_;
 }
 
 void PeelingTool::showTip()

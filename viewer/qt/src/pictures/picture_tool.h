@@ -1,5 +1,7 @@
 #pragma once
 
+#include <QImage>
+
 #include "reading/reading_tool.h"
 
 namespace vicon::viewer {
@@ -14,6 +16,7 @@ public:
 private:
     void save();
     void copy();
+    QImage named() const;
 };
 
 }  // namespace vicon::viewer

@@ -71,7 +71,7 @@ void Reading::clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers)
     const bool measuring = interaction_.inUse<Measure>();
     rememberPlace();
     if (!click({*scan(), place(), point, modifiers, false})) {
-        lookAt(point);
+        goTo(point);
     } else if (!measuring) {
         looked_at_mm_ = point;
         showPlace();

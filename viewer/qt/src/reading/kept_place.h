@@ -12,4 +12,10 @@ inline QString keptKey(const CaseRecord& record, const QString& name)
     return "place/" + QString::fromStdString(record.id) + "/" + name;
 }
 
+/// The key of what is the reader's own, whatever the case.
+inline QString readerKey(const QString& name)
+{
+    return "reader/" + name;
+}
+
 }  // namespace vicon::viewer

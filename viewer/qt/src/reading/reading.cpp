@@ -50,7 +50,7 @@ void Reading::connectSession()
     connect(&drawing_, &DrawingThread::wallShaded, this, [this] { moved(true); });
     connect(&drawing_, &DrawingThread::overviewDrawn, this,
             [this](const Picture& picture, const PlaneView& view, const std::shared_ptr<OpenScan>& of) {
-                if (of != sharedScan())
+                if (of != sharedScan() || overview_turned_)
                     return;
                 shown_overview_ = view;
                 views_.overview()->showPicture(picture);
@@ -68,6 +68,8 @@ void Reading::connectViews()
         connect(slice, &SliceView::pointClicked, this, &Reading::clickedSlice);
         connect(slice, &PictureView::enlargeWanted, this, &Reading::takeBackClick);
         connect(slice, &SliceView::failed, this, &Reading::warned);
+        connect(slice, &SliceView::trackWanted, this, &Reading::trackWanted);
+        connect(slice, &SliceView::windowDragged, this, &Reading::windowDragged);
     }
     connect(&views_, &ReadingViews::sizesLeft, this,
             [this](const QVariantMap& sizes) { keepSettings(settings_worker_, sizes); });
@@ -113,7 +115,7 @@ void Reading::flewOn()
     moved(false);
 }
 
-void Reading::lookFrom(const ViewPose& view, Point3 looked_at_mm)
+void Reading::goTo(const ViewPose& view, Point3 looked_at_mm)
 {
     if (!navigator())
         return;
@@ -123,16 +125,34 @@ void Reading::lookFrom(const ViewPose& view, Point3 looked_at_mm)
     moved(true);
 }
 
-void Reading::lookAt(Point3 point)
+void Reading::goTo(Point3 point)
 {
     if (!navigator())
         return;
     if (scan()->lumen.nearestInside(point, kFromLumen_mm).found) {
-        lookFrom(poseForPoint(scan()->files.skeleton(), scan()->files.frames(), scan()->lumen, point), point);
+        goTo(poseForPoint(scan()->files.skeleton(), scan()->files.frames(), scan()->lumen, point), point);
         return;
     }
     looked_at_mm_ = point;
     moved(true);
+}
+
+void Reading::lookFrom(const ViewPose& view, Point3 looked_at_mm)
+{
+    goTo(view, looked_at_mm);
+    centreSlices();
+}
+
+void Reading::lookAt(Point3 point)
+{
+    goTo(point);
+    centreSlices();
+}
+
+void Reading::centreSlices()
+{
+    for (SliceView* slice : views_.slices())
+        slice->centreOnPoint();
 }
 
 void Reading::showMarker(const Marker& marker)
@@ -177,8 +197,11 @@ SnapshotRequest Reading::snapshotOf(const OpenScan& scan, const QSize& size) con
     request.width = size.width();
     request.height = size.height();
     request.pixel_ratio = views_.devicePixelRatioF();
+    request.text_px = views_.endoscopic()->textHeight_px();
     request.caption = scan.caption;
     request.markers = session_.markersOf(scan.record.id);
+    for (const ReadingTool* tool : tools_)
+        tool->annotate(request, scan);
     return request;
 }
 
@@ -203,23 +226,36 @@ void Reading::drawEndoscopic(bool still)
     request.count_seen = view.isVisible();
     for (const ReadingTool* tool : tools_)
         tool->complete(request);
-    asked_peel_ = request.snapshot.peel;
+    asked_peel_ = request.snapshot.peel.preset;
+    asked_eye_mm_ = request.place.pose.eye_mm;
     sayWhatIsDrawn();
     drawing_.drawEndoscopic(sharedScan(), request);
 }
 
-// The look below the wall takes its time; until it is there the picture and its list would disagree.
+// Translucency takes its time, and so does a far jump; until the picture is there it says so.
 void Reading::sayWhatIsDrawn()
 {
+    const bool elsewhere =
+        shown_.isOf(sharedScan()) && distance(shown_.place.pose.eye_mm, asked_eye_mm_) > PictureView::kElsewhere_mm;
     const bool agrees = shown_.peel == asked_peel_;
-    views_.endoscopic()->setNote(agrees                ? QString()
+    views_.endoscopic()->setNote(elsewhere             ? PictureView::notThisPlaceYet()
+                                 : agrees              ? QString()
                                  : asked_peel_.empty() ? tr("the wall is being drawn ...")
-                                                       : tr("below the wall: being drawn ..."));
+                                                       : tr("translucency: being drawn ..."));
+}
+
+void Reading::setOverviewTurned(bool on)
+{
+    if (on == overview_turned_)
+        return;
+    overview_turned_ = on;
+    shown_overview_.reset();
+    drawOverview();
 }
 
 void Reading::drawOverview()
 {
-    if (scan())
+    if (scan() && !overview_turned_)
         drawing_.drawOverview(sharedScan(), snapshotOf(*scan(), views_.overview()->pictureSize()), place());
 }
 
@@ -228,9 +264,11 @@ void Reading::showPlace()
     const NavigationState state = navigator()->state();
     for (ReadingTool* tool : tools_)
         tool->placeShown();
-    const auto markers = session_.markersOf(scan()->record.id);
+    const SnapshotRequest shown = snapshotOf(*scan(), {});
+    const auto follows = looked_at_mm_ ? SliceView::Move::as_needed : SliceView::Move::with_the_point;
+    const Point3 point = looked_at_mm_.value_or(placeInSlices(*scan(), state));
     for (SliceView* slice : views_.slices())
-        slice->look(sharedScan(), looked_at_mm_.value_or(state.pose.eye_mm), state.pose, markers);
+        slice->look(sharedScan(), point, state.pose, shown.markers, shown.priors, follows);
 }
 
 void Reading::markersChanged()
@@ -255,6 +293,7 @@ void Reading::changeScan(const ScanRequest& request)
 
 void Reading::arrive(const Arrival& arrival)
 {
+    drawing_.scanChanged();
     views_.endoscopic()->setAccessibleDescription({});  // its picture is still to come
     clearPictures();
     before_click_.reset();
@@ -287,7 +326,7 @@ void Reading::stay()
 
 void Reading::useWords(const OrganWords& words)
 {
-    views_.overview()->setAccessibleName(tr("Projection of the %1").arg(QString::fromStdString(words.organ)));
+    views_.overview()->setAccessibleName(tr("Projection of the %1").arg(QString::fromStdString(words.organ.name())));
     for (ReadingTool* tool : tools_)
         tool->useWords(words);
 }

@@ -49,9 +49,9 @@ public:
     void moved(bool still);
     /// The eye moves on by itself; the point that was looked at is left.
     void flewOn();
-    /// The eye goes there. @param looked_at_mm the slices show this point
+    /// The eye goes there. @param looked_at_mm the slices show this point, zoomed ones in their middle
     void lookFrom(const ViewPose& view, Point3 looked_at_mm);
-    /// The slices show the point; where it is near the lumen the eye goes there.
+    /// The slices show the point, zoomed ones in their middle; where it is near the lumen the eye goes there.
     void lookAt(Point3 point);
     void showMarker(const Marker& marker);
     /// Another pass begins: what was seen before it can be told from what is seen in it.
@@ -62,6 +62,8 @@ public:
     // The pictures.
     EndoscopicRequest requestFor(const OpenScan& scan, const NavigationState& at, const QSize& size, bool still) const;
     void drawEndoscopic(bool still);
+    /// The projection is drawn by a tool; else from the front.
+    void setOverviewTurned(bool on);
     /// As soon as nothing has moved for a while everything is drawn smoothly.
     void drawSmoothlySoon() { still_.start(); }
 
@@ -74,6 +76,8 @@ public:
     void toolChanged();
     /// Before a click moves the eye: where it is a double click, the eye goes back there.
     void rememberPlace();
+    /// After a double click in a view.
+    void takeBackClick();
     /// False where the click only shows the point.
     bool click(const ClickedPoint& point);
     void giveUp();
@@ -106,10 +110,14 @@ signals:
     /// In any view, or no longer.
     void awaitingClick(bool on);
     void endoscopicShown();
-    /// Of the slices.
-    void windowChanged(const vicon::viewer::WindowLevel& window);
+    /// Of all slices.
+    void sliceLookChanged(const vicon::viewer::SliceLook& look);
     /// By notches of the mouse wheel.
     void stepWanted(int steps);
+    /// In slices across this direction, along the lumen.
+    void trackWanted(vicon::Vector3 across, int slices);
+    /// By device pixels, with the mouse in a slice.
+    void windowDragged(QPointF by);
     /// Along the way that is flown.
     void jumpWanted(double station_mm);
     void historyChanged();
@@ -121,7 +129,10 @@ private:
     void showEndoscopic(const Picture& picture, const ShownPicture& shown);
     void clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers);
     void clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers);
-    void takeBackClick();
+    /// As lookFrom() and lookAt(); zoomed slices stay as they are while the point is well inside them.
+    void goTo(const ViewPose& view, Point3 looked_at_mm);
+    void goTo(Point3 point);
+    void centreSlices();
     /// Those of the scan that was read.
     void clearPictures();
     void drawOverview();
@@ -136,7 +147,9 @@ private:
     Worker settings_worker_{this};
     ShownPicture shown_;
     std::string asked_peel_;  // of the picture asked for last
+    Point3 asked_eye_mm_;     // likewise
     std::optional<PlaneView> shown_overview_;
+    bool overview_turned_ = false;
     std::optional<Point3> looked_at_mm_;  // what was clicked; else the eye's place
     /// What the reader saw before the click in a view.
     struct PlaceBefore {

@@ -62,6 +62,8 @@ public:
     /// The reader gave up whatever was begun.
     virtual void escape() {}
 
+    /// What pictures of a scan show beside its markers: projection, slices, from inside.
+    virtual void annotate(SnapshotRequest&, const OpenScan&) const {}
     /// How every view from inside looks: of the scan that is read, the one beside it, and films.
     virtual void style(EndoscopicRequest&) const {}
     /// What is more in the one of the scan that is read.
@@ -85,7 +87,7 @@ protected:
     static QString stationTip(const OrganWords& words)
     {
         return tr("Distance from the %1 along the %2")
-            .arg(QString::fromStdString(words.first_end), QString::fromStdString(words.organ));
+            .arg(QString::fromStdString(words.first_end), QString::fromStdString(words.organ.name()));
     }
 
     Reading& reading_;

@@ -4,15 +4,16 @@
 #include <array>
 
 #include "slices/slice_view.h"
+#include "vicon/viewer/model/hanging.h"
 #include "widgets/picture_view.h"
 
 namespace vicon::viewer {
 
 class SecondWindow;
 
-/// The pictures of the reading window, side by side: the view from inside, the three slices, the projection of the
-/// organ. One of them can be enlarged; the slices and the projection may lie in a window of their own, for a second
-/// screen.
+/// The pictures of the reading window, in columns: the view from inside, the three slices, the projection of the
+/// organ. How they are laid out can be chosen. One of them can be enlarged; the second column and the projection may
+/// lie in a window of their own, for a second screen.
 class ReadingViews : public QSplitter {
     Q_OBJECT
 public:
@@ -21,11 +22,19 @@ public:
     PictureView* endoscopic() const { return endoscopic_; }
     PictureView* overview() const { return overview_; }
     const std::array<SliceView*, 3>& slices() const { return slices_; }
+    /// The view that is read in: it is large, and has the keyboard.
+    PictureView* first() const;
+    /// The slice that is read in; nothing where the view from inside is.
+    SliceView* firstSlice() const;
+    /// @param plane of the large slice
+    void layOut(ViewLayout layout, SlicePlane plane);
+    ViewLayout layoutNow() const { return layout_; }
+    SlicePlane plane() const { return plane_; }
     /// From left to right and from top to bottom, as the eye goes; with what was added.
     std::vector<QWidget*> inOrder() const;
 
     /// Beside the view from inside, as another view like it.
-    void addBeside(QWidget* view);
+    void addBeside(QSplitter* view);
     /// What was added beside has room: no other view is enlarged in the same window.
     bool roomBeside() const;
     /// On the right, below the projection.
@@ -37,7 +46,7 @@ public:
     void enlargeFocused();
     void setTwoWindows(bool on);
     bool twoWindows() const { return second_ != nullptr; }
-    /// The keyboard goes to the view from inside, in each of the windows.
+    /// The keyboard goes to the view that is read in, in each of the windows.
     void takeKeyboard();
     /// A click is awaited in any of them.
     void setPicking(bool on);
@@ -50,6 +59,8 @@ public:
 signals:
     /// Views were shown or hidden.
     void arranged();
+    /// They lie elsewhere.
+    void laidOut();
     void secondWindowClosed();
     /// To be kept for the next time; the second window goes.
     void sizesLeft(const QVariantMap& sizes);
@@ -58,7 +69,14 @@ signals:
     void keyboardLeft();  ///< keys are let go elsewhere
 
 private:
-    static constexpr const char* kColumnsKey = "window/columns";  // of the widths that are kept
+    bool inSecondWindow(const QWidget* view) const;
+    std::vector<QWidget*> firstColumn() const;
+    std::vector<QWidget*> secondColumn() const;
+    void fillColumns();
+    void showViews();
+    /// Of this layout, as they were left or as is usual.
+    void takeSizes();
+    QString sizesKey(const char* of) const;
 
     // second_screen.cpp
     void openSecondWindow();
@@ -68,13 +86,16 @@ private:
 
     PictureView *endoscopic_, *overview_;
     std::array<SliceView*, 3> slices_;
-    QSplitter* slice_column_;
+    QSplitter *first_column_, *second_column_;
     QWidget* side_;
-    QWidget* beside_ = nullptr;
+    QSplitter* beside_ = nullptr;
     QWidget* controls_ = nullptr;
     QWidget* enlarged_ = nullptr;
     SecondWindow* second_ = nullptr;  // the slices and the projection are in it
     QByteArray columns_in_one_;       // their widths, while two windows are used
+    ViewLayout layout_ = ViewLayout::three_d_first;
+    SlicePlane plane_ = SlicePlane::axial;
+    QVariantMap left_sizes_;  // of other layouts
 };
 
 }  // namespace vicon::viewer

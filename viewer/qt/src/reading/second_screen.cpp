@@ -26,18 +26,19 @@ void ReadingViews::setTwoWindows(bool on)
         openSecondWindow();
     else
         closeSecondWindow();
+    showViews();
 }
 
 void ReadingViews::openSecondWindow()
 {
     // Before the window is laid out, its columns are as they were saved.
-    columns_in_one_ = isVisible() ? saveState() : keptSetting(kColumnsKey).toByteArray();
+    columns_in_one_ = isVisible() ? saveState() : keptSetting(sizesKey("columns")).toByteArray();
     second_ = new SecondWindow(window());
     second_->setObjectName("second");
     second_->setWindowTitle(window()->windowTitle());
     second_->addWidget(overview_);
-    slice_column_->setOrientation(Qt::Horizontal);
-    second_->addWidget(slice_column_);
+    second_column_->setOrientation(Qt::Horizontal);
+    second_->addWidget(second_column_);
     for (const QMenu* of : qobject_cast<QMainWindow*>(window())->menuBar()->findChildren<QMenu*>())
         second_->addActions(of->actions());
     connect(second_, &SecondWindow::closed, this, &ReadingViews::secondWindowClosed);
@@ -51,8 +52,8 @@ void ReadingViews::openSecondWindow()
 void ReadingViews::closeSecondWindow()
 {
     emit sizesLeft(secondWindowSizes());
-    slice_column_->setOrientation(Qt::Vertical);
-    insertWidget(indexOf(side_), slice_column_);
+    second_column_->setOrientation(Qt::Vertical);
+    insertWidget(indexOf(side_), second_column_);
     restoreState(columns_in_one_);
     qobject_cast<QVBoxLayout*>(side_->layout())->insertWidget(0, overview_);
     second_->hide();

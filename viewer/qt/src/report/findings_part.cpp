@@ -82,7 +82,7 @@ void FindingsPart::build()
     table_->setObjectName("findings");
     table_->setAccessibleName(tr("Findings"));
     table_->setToolTip(tr("Click or Return: fly there"));
-    table_->setHorizontalHeaderLabels({tr("No."), tr("What"), tr("Part"), tr("mm"), tr("Seen in")});
+    table_->setHorizontalHeaderLabels({tr("No."), tr("What"), tr("Segment"), tr("mm"), tr("Seen in")});
     setUpList(table_, kLeastFindings);
     for (int column = 0; column < kSeenIn; ++column)
         table_->horizontalHeader()->setSectionResizeMode(column, QHeaderView::ResizeToContents);

@@ -25,9 +25,13 @@ ReportBooks::ReportBooks(const ReadingServices& services, std::string case_id, Q
     connect(books_.worker(), &Worker::failed, this, &ReportBooks::warned);
 }
 
-ReportPage ReportBooks::pageOf(CaseStore& store) const
+ReportPage ReportBooks::pageOf(Books& books) const
 {
-    ReportPage page{readCase(store, case_id_), reportStatus(store, case_id_), {}, {}};
+    CaseStore& store = books.store();
+    if (!books.known && services_.known)
+        books.known = services_.known(store, case_id_);
+    ReportPage page{
+        readCase(store, case_id_), books.known.value_or(KnownStudy{}), reportStatus(store, case_id_), {}, {}};
     page.delivery = deliveryInBrief(countDeliveries(store, case_id_));
     page.missing = missingForSignature(page.read);
     return page;
@@ -48,7 +52,7 @@ void ReportBooks::change(const QString& done, Change change)
             trouble = e.what();
         }
         try {  // shown as it is now, whatever happened
-            page = pageOf(books.store());
+            page = pageOf(books);
             books.seen = page->read;
         } catch (const std::exception& e) {
             trouble = trouble.empty() ? e.what() : trouble;
@@ -156,6 +160,14 @@ void ReportBooks::cancelAmendment()
 {
     change(tr("The amendment is taken back"),
            [this](CaseStore& store, const ReadCase&) { services_.cancel_amendment(store, case_id_); });
+}
+
+void ReportBooks::lookAtDelivery()
+{
+    books_.post("delivery", [this](Books& books) -> Worker::Work {
+        const std::string brief = deliveryInBrief(countDeliveries(books.store(), case_id_));
+        return [this, brief = QString::fromStdString(brief)] { emit deliveryLookedAt(brief); };
+    });
 }
 
 void ReportBooks::makeText()

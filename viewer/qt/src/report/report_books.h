@@ -14,6 +14,7 @@ namespace vicon::viewer {
 /// What the form shows, as the database has it.
 struct ReportPage {
     ReadCase read;
+    KnownStudy known;  ///< without its reader
     ReportStatus status;
     std::vector<std::string> missing;  ///< for a signature
     std::string delivery;              ///< "2 committed"; empty: nothing was to be sent
@@ -38,6 +39,8 @@ public:
     void sign();
     void amend(const QString& reason);
     void cancelAmendment();
+    /// deliveryLookedAt() follows.
+    void lookAtDelivery();
     /// textMade() follows.
     void makeText();
     /// pdfMade() follows, or warned().
@@ -48,21 +51,24 @@ signals:
     void shown(const vicon::viewer::ReportPage& page);
     void said(const QString& what);
     void warned(const QString& what);
+    /// @param brief as in ReportPage
+    void deliveryLookedAt(const QString& brief);
     void textMade(const QString& text);
     void pdfMade(const QByteArray& pdf);
     void busyChanged(bool busy);
 
 private:
     struct Books {
-        explicit Books(std::filesystem::path folder) : store(std::move(folder)) {}
+        explicit Books(StorePlace place) : store(std::move(place)) {}
         OwnStore store;
-        std::optional<ReadCase> seen;  ///< what was shown last
+        std::optional<ReadCase> seen;     ///< what was shown last
+        std::optional<KnownStudy> known;  ///< it stays: the images do not change
     };
     using Change = std::function<void(CaseStore&, const ReadCase& seen)>;
     /// @param done is said when it is done; may be empty
     void change(const QString& done, Change change);
     void end();
-    ReportPage pageOf(CaseStore& store) const;
+    ReportPage pageOf(Books& books) const;
 
     const ReportServices services_;
     const std::string case_id_;

@@ -127,9 +127,11 @@ void ReportForm::buildButtons(QVBoxLayout* below)
         grid->addWidget(button, row, column);
         return button;
     };
-    normal_ = add(0, 0, "reportNormal", tr("Norma&l study"), {});
-    accept_ = add(0, 1, "reportAccept", tr("&Accept categories"), tr("Choose both categories as proposed"));
-    cancel_ = add(0, 2, "reportCancel", tr("Take back"), tr("Without the amendment: all as it was signed"));
+    fill_ = add(0, 0, "reportFill", tr("F&ill in"),
+                tr("Indication, technique, dose, coverage and reading time, where nothing was said yet"));
+    normal_ = add(0, 1, "reportNormal", tr("Norma&l study"), {});
+    accept_ = add(0, 2, "reportAccept", tr("&Accept categories"), tr("Choose both categories as proposed"));
+    cancel_ = add(2, 2, "reportCancel", tr("Take back"), tr("Without the amendment: all as it was signed"));
     preview_ = add(1, 0, "reportPreview", tr("&Preview"), tr("The pages as they are printed"));
     text_ = add(1, 1, "reportCopy", tr("Copy as &text"), tr("For another system, by pasting"));
     // Never both at once.
@@ -159,6 +161,7 @@ void ReportForm::connectParts()
                         a.extracolonic_category = {extracolonicCategoryFrom(*name), why, proposed};
                 });
             });
+    connect(fill_, &QPushButton::clicked, this, &ReportForm::fillKnown);
     connect(normal_, &QPushButton::clicked, this, &ReportForm::fillNormal);
     connect(accept_, &QPushButton::clicked, this,
             [this] { emit said([this, read = page_.read](Assessment& a) { acceptCategories(a, read); }); });
@@ -175,10 +178,24 @@ void ReportForm::acceptCategories(Assessment& said, const ReadCase& read) const
     accept(said.extracolonic_category, read.extracolonic_proposal);
 }
 
+KnownStudy ReportForm::known() const
+{
+    KnownStudy known = page_.known;
+    if (seen_)
+        seen_(known);
+    return known;
+}
+
+void ReportForm::fillKnown()
+{
+    emit said([known = known()](Assessment& a) { fillIn(a, known); });
+}
+
 void ReportForm::fillNormal()
 {
-    emit said([this, read = page_.read](Assessment& a) {
-        fillAsNormal(a, texts_);
+    emit said([this, read = page_.read, known = known()](Assessment& a) {
+        fillAsNormal(a, texts_);  // the site's words go before those of the images
+        fillIn(a, known);
         acceptCategories(a, read);
     });
 }
@@ -188,7 +205,7 @@ void ReportForm::show(const ReportPage& page)
     page_ = page;
     findings_->show(page.read);
     extracolonic_->show(page.read);
-    study_->show(page.read);
+    study_->show(page.read, page.known);
     distension_->show(page.read);
     orderTabs();
     colon_->show(stateOf(page.read.colon_proposal, page.read.assessment.colon_category));
@@ -219,7 +236,7 @@ void ReportForm::showState(const ReportPage& page)
     findings_->setReadOnly(!open);
     for (QWidget* part : std::initializer_list<QWidget*>{extracolonic_, colon_, outside_, study_, distension_})
         part->setEnabled(open);
-    for (QPushButton* button : {normal_, accept_, sign_})
+    for (QPushButton* button : {fill_, normal_, accept_, sign_})
         button->setVisible(open);
     amend_->setVisible(!open);
     cancel_->setVisible(page.status.amending);
@@ -228,6 +245,7 @@ void ReportForm::showState(const ReportPage& page)
     normal_->setToolTip(normal ? tr("Fill in what the site says of a study without findings, and choose both "
                                     "categories as proposed")
                                : QString::fromStdString(page.read.colon_proposal.reason));
+    fill_->setEnabled(!busy_);
     accept_->setEnabled(!busy_ && (page.read.colon_proposal.category || page.read.extracolonic_proposal.category));
     sign_->setEnabled(!busy_ && missing.empty());
 }
@@ -239,6 +257,14 @@ void ReportForm::setBusy(bool busy)
         button->setEnabled(!busy);
     if (!page_.read.record.id.empty())
         showState(page_);
+}
+
+void ReportForm::setDelivery(const QString& brief)
+{
+    if (page_.read.record.id.empty() || brief.toStdString() == page_.delivery)
+        return;
+    page_.delivery = brief.toStdString();
+    showState(page_);
 }
 
 void ReportForm::commit()
@@ -255,7 +281,7 @@ QString ReportForm::summary() const
     };
     return tr("%1\n%n finding(s), colon %2, outside the colon %3.\n\nAfter this it can only be amended.", nullptr,
               int(page_.read.findings.size()))
-        .arg(QString::fromStdString(patientName(page_.read.record.patient.name)), name(said.colon_category),
+        .arg(QString::fromStdString(printedPatientName(page_.read.record.patient.name)), name(said.colon_category),
              name(said.extracolonic_category));
 }
 

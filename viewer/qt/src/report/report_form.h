@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
 
 #include "report/report_books.h"
 #include "vicon/cases/report_texts.h"
@@ -26,11 +27,15 @@ public:
 
     void show(const ReportPage& page);
     void setBusy(bool busy);
+    /// How far the signed report is on its way to the PACS, as ReportPage has it.
+    void setDelivery(const QString& brief);
     FindingsPart* findings() { return findings_; }
     /// Words that are still being typed are saved.
     void commit();
     /// What would be signed, in words.
     QString summary() const;
+    /// What this reader's work adds to what is known: how long it took, what of the wall was seen.
+    void setSeen(std::function<void(KnownStudy&)> seen) { seen_ = std::move(seen); }
     /// The keyboard goes to the first control.
     void takeKeyboard();
 
@@ -53,12 +58,15 @@ private:
     void buildButtons(QVBoxLayout* below);
     void connectParts();
     void acceptCategories(Assessment& said, const ReadCase& read) const;
+    KnownStudy known() const;
+    void fillKnown();
     void fillNormal();
     void orderTabs();
     void showState(const ReportPage& page);
 
     const ReportTexts texts_;
     ReportPage page_;
+    std::function<void(KnownStudy&)> seen_;
     bool busy_ = false;
     QLabel *state_, *missing_;
     FindingsPart* findings_;
@@ -66,7 +74,7 @@ private:
     CategoryPart *colon_, *outside_;
     StudyPart* study_;
     DistensionPart* distension_;
-    QPushButton *normal_, *accept_, *preview_, *text_, *sign_, *amend_, *cancel_;
+    QPushButton *fill_, *normal_, *accept_, *preview_, *text_, *sign_, *amend_, *cancel_;
 };
 
 }  // namespace vicon::viewer

@@ -6,6 +6,7 @@
 #include <QInputDialog>
 #include <QMessageBox>
 #include <QPushButton>
+#include <cmath>
 
 #include "reading/reading.h"
 #include "report/findings_part.h"
@@ -19,6 +20,29 @@ namespace vicon::viewer {
 ReportTool::ReportTool(Reading& reading, const ReadingServices& services, const std::string& case_id)
     : ReadingTool(reading), books_(services, case_id, this), form_(new ReportForm(services.reporting.texts))
 {
+    reading_time_.start();
+    constexpr int kLookAtDelivery_ms = 1000;
+    delivery_.setInterval(kLookAtDelivery_ms);
+    connect(&delivery_, &QTimer::timeout, this, [this] {
+        if (dock_->isVisible())
+            books_.lookAtDelivery();
+    });
+    form_->setSeen([this](KnownStudy& known) { addSeen(known); });
+}
+
+void ReportTool::addSeen(KnownStudy& known) const
+{
+    constexpr double kMillisecondsPerMinute = 60'000;
+    const auto tenths = [](double value) { return std::round(value * 10) / 10; };
+    known.reading_minutes = std::max(0.1, tenths(double(reading_time_.elapsed()) / kMillisecondsPerMinute));
+    double seen_mm2 = 0, whole_mm2 = 0;
+    for (const auto& scan : {reading_.session().sharedScan(), reading_.session().sharedBeside()})
+        if (scan && scan->coverage.fraction() > 0) {
+            seen_mm2 += scan->coverage.seenArea_mm2();
+            whole_mm2 += scan->coverage.seenArea_mm2() / scan->coverage.fraction();
+        }
+    if (whole_mm2 > 0)
+        known.coverage_percent = std::max(0.1, tenths(100 * seen_mm2 / whole_mm2));
 }
 
 void ReportTool::addTo(ReadingLayout& layout)
@@ -34,11 +58,13 @@ void ReportTool::addTo(ReadingLayout& layout)
             [this](const QString& file) { reading_.say(tr("Report written: %1").arg(file)); });
     connectBooks();
     connectForm();
+    delivery_.start();
 }
 
 void ReportTool::connectBooks()
 {
     connect(&books_, &ReportBooks::shown, form_, &ReportForm::show);
+    connect(&books_, &ReportBooks::deliveryLookedAt, form_, &ReportForm::setDelivery);
     connect(&books_, &ReportBooks::busyChanged, form_, &ReportForm::setBusy);
     connect(&books_, &ReportBooks::said, &reading_, &Reading::say);
     connect(&books_, &ReportBooks::warned, &reading_, &Reading::warn);
@@ -86,7 +112,7 @@ void ReportTool::connectForm()
 
 void ReportTool::useWords(const OrganWords& words)
 {
-    has_report_ = words.organ == wordsFor("colon").organ;
+    has_report_ = words.organ.isColon();
     if (!has_report_)
         dock_->hide();
 }
@@ -109,6 +135,7 @@ void ReportTool::markerShown(const Marker& marker)
 
 void ReportTool::stop()
 {
+    delivery_.stop();
     form_->commit();
 }
 
@@ -131,7 +158,7 @@ void ReportTool::toggle()
 void ReportTool::leave()
 {
     form_->commit();
-    reading_.views().endoscopic()->setFocus();
+    reading_.views().first()->setFocus();
 }
 
 void ReportTool::drawFinding(const QString& finding, const QStringList& markers)
@@ -151,7 +178,7 @@ void ReportTool::drawFinding(const QString& finding, const QStringList& markers)
             EndoscopicRequest request = reading_.requestFor(*scan, at, QSize(kSide_px, kSide_px), true);
             request.snapshot.captioned = false;  // it is small, and the form is this patient's
             request.snapshot.markers = {*marker};
-            request.snapshot.peel.clear();
+            request.snapshot.peel.preset.clear();
             reading_.drawing().drawFinding(scan, request, finding);
             return;
         }

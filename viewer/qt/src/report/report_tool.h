@@ -1,5 +1,8 @@
 #pragma once
 
+#include <QElapsedTimer>
+#include <QTimer>
+
 #include "reading/reading_tool.h"
 #include "report/report_books.h"
 
@@ -29,6 +32,8 @@ private:
     void leave();
     /// Of the first of these markers whose scan is open.
     void drawFinding(const QString& finding, const QStringList& markers);
+    /// Adds what this reader's work says.
+    void addSeen(KnownStudy& known) const;
     void confirmSigning();
     void askWhyAmend();
     void preview(const QByteArray& pdf);
@@ -37,7 +42,9 @@ private:
     ReportForm* form_;
     QDockWidget* dock_ = nullptr;
     bool has_report_ = true;
-    std::string shown_marker_;  ///< the one that was gone to last
+    QElapsedTimer reading_time_;  ///< since the case was opened
+    QTimer delivery_;             ///< while the form is there: what the PACS has
+    std::string shown_marker_;    ///< the one that was gone to last
 };
 
 }  // namespace vicon::viewer

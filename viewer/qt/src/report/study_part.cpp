@@ -79,9 +79,17 @@ void StudyPart::addFigures()
     add("minutes", tr("Reading time"), 1000, tr(" min"), &Assessment::reading_minutes);
 }
 
-void StudyPart::show(const ReadCase& read)
+void StudyPart::show(const ReadCase& read, const KnownStudy& known)
 {
     const Assessment& said = read.assessment;
+    for (const auto& [text, field] : texts_)
+        for (const auto& [known_field, words] :
+             {std::pair(&Assessment::indication, known.indication), std::pair(&Assessment::technique, known.technique)})
+            if (field == known_field)
+                text->setPlaceholderText(QString::fromStdString(words));
+    const QString fluid = QString::fromStdString(known.fluid);
+    for (const auto& [choice, field] : grades_)
+        choice->setItemText(0, fluid.isEmpty() ? tr("not said") : tr("not said; tagged fluid %1").arg(fluid));
     for (const auto& [text, field] : texts_)
         text->show(said.*field);
     for (const auto& [choice, field] : grades_)

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "vicon/cases/known_study.h"
 #include "vicon/cases/report_content.h"
 #include "vicon/cases/report_texts.h"
 
@@ -22,7 +23,7 @@ class StudyPart : public QWidget {
 public:
     explicit StudyPart(QWidget* parent);
 
-    void show(const ReadCase& read);
+    void show(const ReadCase& read, const KnownStudy& known);
     bool unsaved() const;
 
 signals:

@@ -3,12 +3,22 @@
 #include "vicon/viewer/scene/measures_picture.h"
 
 namespace vicon::viewer {
+namespace {
+constexpr const char *kMeasure = "measure", *kOutline = "outline", *kBiopsy = "biopsy", *kMeasures = "measures";
+}
+
+void CaseSession::giveUpMeasuring()
+{
+    for (const char* name : {kMeasure, kOutline, kBiopsy, kMeasures})
+        loader_.giveUp(name);
+}
 
 void CaseSession::measure(Point3 from, Point3 to, Point3 eye)
 {
-    loader_.post("measure", [this, scan = scan_, from, to, eye]() -> Worker::Work {
+    loader_.postTask(kMeasure, [this, scan = scan_, from, to, eye](const Progress& wanted) -> Worker::Work {
         const auto& cells = scan->files.cells();
         const auto size = distanceOverWall(cells.points_mm, cells.triangles, from, to);
+        wanted.check();
         const auto plane = sizeOnBestPlane(scan->files.inside(), from, to, eye);
         return [this, scan, size, plane] {
             if (scan != scan_)
@@ -23,7 +33,7 @@ void CaseSession::measure(Point3 from, Point3 to, Point3 eye)
 
 void CaseSession::outlinePolyp(Point3 at)
 {
-    loader_.post("outline", [this, scan = scan_, at]() -> Worker::Work {
+    loader_.post(kOutline, [this, scan = scan_, at]() -> Worker::Work {
         const PolypOutline outline = vicon::outlinePolyp(scan->files.cells(), at, blurOfScan_mm(scan->files.folder()));
         return [this, scan, outline] {
             if (scan == scan_)
@@ -34,7 +44,7 @@ void CaseSession::outlinePolyp(Point3 at)
 
 void CaseSession::takeBiopsy(Point3 centre, double radius_mm, const CircledWall& wall)
 {
-    loader_.post("biopsy", [this, scan = scan_, centre, radius_mm, wall]() -> Worker::Work {
+    loader_.post(kBiopsy, [this, scan = scan_, centre, radius_mm, wall]() -> Worker::Work {
         const DensitySample biopsy = sampleDensity(scan->files.volume(), scan->files.inside(), centre, radius_mm, wall);
         return [this, scan, biopsy] {
             if (scan == scan_)
@@ -48,7 +58,7 @@ void CaseSession::drawMeasures(const Marker& marker, int side_px)
     const auto& scan = beside_ && beside_->record.id == marker.scan_id ? beside_ : scan_;
     if (!scan || scan->record.id != marker.scan_id)
         return;
-    loader_.post("measures", [this, scan, marker, side_px]() -> Worker::Work {
+    loader_.post(kMeasures, [this, scan, marker, side_px]() -> Worker::Work {
         const auto picture = measuresPicture(scan->files, marker, scan->caption, side_px);
         if (!picture)
             return {};

@@ -8,21 +8,10 @@
 namespace vicon::viewer {
 namespace {
 
-/// Giving back a scan's memory takes long enough to be felt, whoever lets it go last.
+/// Freeing a scan's memory takes long enough to be felt, on whatever thread the last owner is.
 void freeInBackground(OpenScan* scan)
 {
     QThreadPool::globalInstance()->start([scan] { delete scan; });
-}
-
-/// While the first pictures are drawn, not before them. What cannot be read is said where it is looked at.
-void readOn(const PreparedScan& files)
-{
-    QThreadPool::globalInstance()->start([files] {
-        try {
-            files.readOn();
-        } catch (const std::exception&) {
-        }
-    });
 }
 
 /// The branch, unless the scan was done again meanwhile and has no such one.
@@ -46,6 +35,7 @@ void CaseSession::open(const std::string& scan_id, bool fresh, int branch)
     }
     if (stop_opening_)
         *stop_opening_ = true;  // of an earlier request
+    giveUpMeasuring();
     stop_opening_ = std::make_shared<std::atomic<bool>>(false);
     const auto take = [this](std::shared_ptr<OpenScan> made) {
         if (made->record.id != wanted_scan_)
@@ -55,7 +45,8 @@ void CaseSession::open(const std::string& scan_id, bool fresh, int branch)
         scan_ = std::move(made);
         emit opened();
     };
-    load("open", scan_id, branch, take, stop_opening_);
+    if (const auto files = filesOf(scan_id))
+        load("open", *files, branch, take, stop_opening_);
 }
 
 void CaseSession::cancelOpening()
@@ -67,12 +58,20 @@ void CaseSession::cancelOpening()
 
 void CaseSession::openBeside(const std::string& scan_id)
 {
-    wanted_beside_ = scan_id;
+    if (const auto files = filesOf(scan_id))
+        openPriorBeside(files->record, files->scan, files->folder);
+}
+
+void CaseSession::openPriorBeside(const CaseRecord& record, const ScanRecord& scan, const std::filesystem::path& folder)
+{
+    wanted_beside_ = scan.id;
     constexpr int kFarthest = -1;
-    load("open beside", scan_id, kFarthest, [this](std::shared_ptr<OpenScan> made) {
+    load("open beside", {record, scan, folder}, kFarthest, [this](std::shared_ptr<OpenScan> made) {
         if (made->record.id != wanted_beside_)
             return;
         beside_ = std::move(made);
+        if (besideIsPrior())
+            beside_->caption.position += ", EARLIER EXAMINATION";
         emit besideOpened();
     });
 }
@@ -81,15 +80,32 @@ void CaseSession::closeBeside()
 {
     wanted_beside_.clear();
     beside_.reset();
+    emit besideClosed();
 }
 
-void CaseSession::load(const std::string& work, const std::string& scan_id, int branch, Opened then,
+std::optional<CaseSession::ScanFiles> CaseSession::filesOf(const std::string& scan_id) const
+{
+    for (const WorklistScan& scan : row_.scans)
+        if (scan.record.id == scan_id)
+            return ScanFiles{row_.record, scan.record, scan.folder};
+    return std::nullopt;
+}
+
+/// While the first pictures are drawn, not before them. What cannot be read is said where it is looked at.
+void CaseSession::readOn(const PreparedScan& files)
+{
+    reads_on_.postTask("read on", [files](const Progress& wanted) -> Worker::Work {
+        try {
+            files.readOn(wanted);
+        } catch (const std::exception&) {
+        }
+        return {};
+    });
+}
+
+void CaseSession::load(const std::string& work, const ScanFiles& files, int branch, Opened then,
                        const std::shared_ptr<const std::atomic<bool>>& stop)
 {
-    const auto row = std::find_if(row_.scans.begin(), row_.scans.end(),
-                                  [&](const WorklistScan& scan) { return scan.record.id == scan_id; });
-    if (row == row_.scans.end())
-        return;
     constexpr int kStages = 3;
     const auto at = [this, stop](int stage) {
         if (stop && !*stop)
@@ -97,36 +113,35 @@ void CaseSession::load(const std::string& work, const std::string& scan_id, int 
                 this, [this, stage] { emit opening(stage, kStages); }, Qt::QueuedConnection);
         return !stop || !*stop;
     };
-    loader_.post(
-        work,
-        [this, folder = row->folder, scan = row->record, branch, then = std::move(then), at, stop]() -> Worker::Work {
-            try {
-                if (!at(0))
-                    return {};
-                const auto before = madeAt(folder);
-                const int way = branchIn(folder, branch);
-                auto files = PreparedScan::open(folder, way);
-                files.readForFlight();
-                if (!at(1))
-                    return {};
-                const std::shared_ptr<OpenScan> made(new OpenScan(files, scan, row_.record), freeInBackground);
-                made->made = before;
-                made->branch = way;
-                if (!at(2))
-                    return {};
-                CoverageKeeper::restore(made->coverage, folder);
-                readOn(files);
-                return [made, then, stop] {
-                    if (!stop || !*stop)
-                        then(made);
-                };
-            } catch (...) {
-                if (at(0))
-                    QMetaObject::invokeMethod(
-                        this, [this] { emit openingFailed(); }, Qt::QueuedConnection);
-                throw;
-            }
-        });
+    loader_.post(work, [this, of = files, branch, then = std::move(then), at, stop]() -> Worker::Work {
+        const std::filesystem::path& folder = of.folder;
+        try {
+            if (!at(0))
+                return {};
+            const auto before = madeAt(folder);
+            const int way = branchIn(folder, branch);
+            auto files = PreparedScan::open(folder, way);
+            files.readForFlight();
+            if (!at(1))
+                return {};
+            const std::shared_ptr<OpenScan> made(new OpenScan(files, of.scan, of.record), freeInBackground);
+            made->made = before;
+            made->branch = way;
+            if (!at(2))
+                return {};
+            CoverageKeeper::restore(made->coverage, folder);
+            readOn(files);
+            return [made, then, stop] {
+                if (!stop || !*stop)
+                    then(made);
+            };
+        } catch (...) {
+            if (at(0))
+                QMetaObject::invokeMethod(
+                    this, [this] { emit openingFailed(); }, Qt::QueuedConnection);
+            throw;
+        }
+    });
 }
 
 }  // namespace vicon::viewer

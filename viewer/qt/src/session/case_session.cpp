@@ -34,6 +34,11 @@ CaseSession::CaseSession(const ReadingServices& services, const WorklistCase& ro
     renew(row);
     connect(books_.worker(), &Worker::failed, this, &CaseSession::warned);
     connect(&loader_, &Worker::failed, this, &CaseSession::warned);
+    books_.postAlways([this](Books& books) -> Worker::Work {
+        books.in_use.emplace(services_.store.folder, row_.record.id);
+        books.store().audit("case opened", row_.record.id, {}, {});
+        return [] {};
+    });
     refresh();
 }
 
@@ -49,7 +54,7 @@ std::vector<ScanRecord> CaseSession::renew(const WorklistCase& row)
     return added;
 }
 
-std::string CaseSession::wordsFor(CaseStore& store, const Error& error) const
+std::string CaseSession::messageFor(CaseStore& store, const Error& error) const
 {
     if (error.code() == ErrorCode::not_found && !store.findCase(row_.record.id))
         return caseIsGone().toStdString();
@@ -81,7 +86,7 @@ void CaseSession::edit(const QString& what, Edit work)
             work(books);
             copy_trouble = books.store().markerFileTrouble();
         } catch (const Error& e) {
-            trouble = wordsFor(books.store(), e);
+            trouble = messageFor(books.store(), e);
         } catch (const std::exception& e) {
             trouble = e.what();
         }
@@ -205,7 +210,7 @@ void CaseSession::placeAnew(const QString& what)
         books.skeleton_is_new = true;
         const std::string lost = renewPlaces(books.store());
         if (!lost.empty())
-            throw Error(ErrorCode::wrong_use, "no longer in the colon; distances and part stay as they were", lost,
+            throw Error(ErrorCode::wrong_use, "no longer in the colon; distances and segment stay as they were", lost,
                         "move or delete them");
     });
 }
@@ -256,6 +261,14 @@ void CaseSession::savePicture(const QImage& picture)
         writePng(file, out);
         books.store().audit("picture saved", row_.record.id, "", file.filename().string());
         return [this, name = QString::fromStdString(file.string())] { emit saved(tr("Picture saved: %1").arg(name)); };
+    });
+}
+
+void CaseSession::log(const std::string& event, const std::string& scan_id, const QString& words)
+{
+    books_.postAlways([this, event, scan_id, words](Books& books) -> Worker::Work {
+        books.store().audit(event, row_.record.id, scan_id, words.toStdString());
+        return {};
     });
 }
 

@@ -11,6 +11,7 @@
 #include "session/own_store.h"
 #include "vicon/cases/density_sample.h"
 #include "vicon/cases/polyp_size.h"
+#include "vicon/cases/store_locks.h"
 #include "vicon/viewer/model/marker_history.h"
 #include "vicon/viewer/model/plane_size.h"
 #include "vicon/viewer/model/wall_distance.h"
@@ -50,6 +51,10 @@ public:
     /// Reads another scan to be shown beside the one being read; besideOpened() follows.
     void openBeside(const std::string& scan_id);
     void closeBeside();
+    /// Shows a scan of an earlier examination beside the one being read; besideOpened() follows.
+    void openPriorBeside(const CaseRecord& record, const ScanRecord& scan, const std::filesystem::path& folder);
+    /// What is beside is of an earlier examination: it is looked at, not marked.
+    bool besideIsPrior() const { return beside_ && beside_->record.case_id != row_.record.id; }
     OpenScan* beside() const { return beside_.get(); }
     std::shared_ptr<OpenScan> sharedBeside() const { return beside_; }
     OpenScan* scan() const { return scan_.get(); }
@@ -78,6 +83,8 @@ public:
     /// placed any more is warned of, and stays as it is. @param what is said then
     void placeAnew(const QString& what);
     void writeReport();
+    /// Into the audit trail.
+    void log(const std::string& event, const std::string& scan_id, const QString& words);
     /// Between two points of the open scan's wall, seen from `eye`; measured() follows, or warned().
     void measure(Point3 from, Point3 to, Point3 eye);
     /// The polyp of the open scan's wall under a point; outlined() follows, or warned().
@@ -97,6 +104,7 @@ signals:
     void opening(int done, int of);
     void openingFailed();
     void besideOpened();
+    void besideClosed();
     void markersChanged();
     void busyChanged(bool busy);
     void saved(const QString& what);
@@ -111,9 +119,10 @@ signals:
 private:
     /// What is in the database, and what this reader did to it.
     struct Books {
-        Books(std::filesystem::path folder, const std::string& case_id) : store(std::move(folder)), history(case_id) {}
+        Books(StorePlace place, const std::string& case_id) : store(std::move(place)), history(case_id) {}
 
         OwnStore store;
+        std::optional<CaseInUse> in_use;
         MarkerHistory history;
         bool skeleton_is_new = false;  ///< what the history remembers has stations of an older one
     };
@@ -124,11 +133,22 @@ private:
     std::string renewPlaces(CaseStore& store) const;
     void takeBack(const QString& what, void (MarkerHistory::*step)(CaseStore&));
     std::filesystem::path newPicture(CaseStore& store, const std::string& extension) const;
-    std::string wordsFor(CaseStore& store, const Error& error) const;
+    std::string messageFor(CaseStore& store, const Error& error) const;
 
     using Opened = std::function<void(std::shared_ptr<OpenScan>)>;
+    /// A scan of a case, and where its files lie.
+    struct ScanFiles {
+        CaseRecord record;
+        ScanRecord scan;
+        std::filesystem::path folder;
+    };
+    /// Of the case that is read; nothing where it has no such scan.
+    std::optional<ScanFiles> filesOf(const std::string& scan_id) const;
+    void readOn(const PreparedScan& files);
+    /// What is measured of the scan that was read does not hold up the next one.
+    void giveUpMeasuring();
     /// Reads a scan's files on the loader's thread.
-    void load(const std::string& work, const std::string& scan_id, int branch, Opened then,
+    void load(const std::string& work, const ScanFiles& files, int branch, Opened then,
               const std::shared_ptr<const std::atomic<bool>>& stop = {});
 
     const ReadingServices services_;
@@ -142,7 +162,8 @@ private:
     std::optional<StepNumber> to_undo_, to_redo_;
     bool markers_known_ = false;
     int edits_under_way_ = 0;
-    Worker loader_{this};
+    Worker reads_on_{this};
+    Worker loader_{this};      // ends before reads_on_, to which it speaks
     WorkerWith<Books> books_;  // last: it ends first
 };
 

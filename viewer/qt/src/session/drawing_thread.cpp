@@ -1,6 +1,7 @@
 #include "session/drawing_thread.h"
 
 #include <thread>
+#include <utility>
 
 namespace vicon::viewer {
 namespace {
@@ -32,6 +33,14 @@ void DrawingThread::end()
     worker_.end();
 }
 
+void DrawingThread::scanChanged()
+{
+    for (const char* name : {kEndoscopicWork, kBesideWork, kMissedWork, kCubeWork})
+        worker_.giveUp(name);
+    const std::lock_guard lock(cube_mutex_);
+    cube_wanted_.reset();
+}
+
 ReadingPictures& DrawingThread::picturesOf(AllPictures& all, const std::shared_ptr<OpenScan>& scan)
 {
     all.remove_if([](const ScanPictures& some) { return some.of.expired(); });
@@ -47,11 +56,13 @@ ReadingPictures& DrawingThread::picturesOf(AllPictures& all, const std::shared_p
 
 void DrawingThread::findSightLines(const std::shared_ptr<OpenScan>& scan)
 {
-    sight_worker_.post(
-        "sight lines " + scan->record.id, [this, files = scan->files, of = std::weak_ptr(scan)]() -> Worker::Work {
+    sight_worker_.postTask(
+        "sight lines " + scan->record.id,
+        [this, files = scan->files, of = std::weak_ptr(scan)](const Progress& wanted) -> Worker::Work {
             if (of.expired())
                 return {};
             files.openness();
+            wanted.check();
             worker_.post("shade", [this](AllPictures&) -> Worker::Work { return [this] { emit wallShaded(); }; });
             auto visibility = std::make_shared<const CellVisibility>(files);
             worker_.post("sight lines", [visibility, of](AllPictures& all) -> Worker::Work {
@@ -76,69 +87,103 @@ void DrawingThread::drawBeside(std::shared_ptr<OpenScan> scan, const EndoscopicR
 
 void DrawingThread::draw(Which which, std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request)
 {
-    const char* name = which == Which::leading ? "endoscopic" : "beside";
-    worker_.post(name, [this, which, scan = std::move(scan), request](AllPictures& all) -> Worker::Work {
-        const SnapshotRequest& snapshot = request.snapshot;
-        const bool shaded = !snapshot.ambient_occlusion || scan->files.hasOpenness();
-        auto picture = std::make_shared<Picture>(picturesOf(all, scan).endoscopic(
-            snapshot, request.place, request.still,
-            {request.paint_seen ? &scan->coverage : nullptr, request.structure, request.lamp_factor}));
-        if (request.count_seen)
-            worker_.post(which == Which::leading ? "seen" : "seen beside",
-                         [this, scan, always = request.still](AllPictures& drawn) -> Worker::Work {
-                             countSeen(drawn, scan, always);
-                             return [this] { emit seenChanged(); };
-                         });
-        const Lens lens{snapshot.view_angle_deg, snapshot.width, snapshot.height};
-        const auto signal = which == Which::leading ? &DrawingThread::endoscopicDrawn : &DrawingThread::besideDrawn;
-        return [this, picture, signal, shown = ShownPicture{scan, request.place, lens, request.snapshot.peel, shaded}] {
-            emit(this->*signal)(*picture, shown);
-        };
-    });
+    const char* name = which == Which::leading ? kEndoscopicWork : kBesideWork;
+    if (std::exchange(still_asked_[std::size_t(which)], request.still) && !request.still)
+        worker_.giveUp(name);  // the eye moves on; while it moves, each picture that was begun is shown
+    worker_.post(
+        name, [this, which, scan = std::move(scan), request](AllPictures& all, const Progress& wanted) -> Worker::Work {
+            const SnapshotRequest& snapshot = request.snapshot;
+            const bool shaded = !snapshot.ambient_occlusion || scan->files.hasOpenness();
+            auto picture = std::make_shared<Picture>(
+                picturesOf(all, scan).endoscopic(snapshot, request.place, request.still,
+                                                 {request.paint_seen ? &scan->coverage : nullptr, request.structure,
+                                                  request.lamp_factor, request.missed.get(), true, &wanted}));
+            if (request.count_seen)
+                worker_.post(which == Which::leading ? "seen" : "seen beside",
+                             [this, scan, always = request.still](AllPictures& drawn) -> Worker::Work {
+                                 if (!countSeen(drawn, scan, always))
+                                     return {};
+                                 return [this] { emit seenChanged(); };
+                             });
+            const Lens lens{snapshot.view_angle_deg, snapshot.width, snapshot.height};
+            const auto signal = which == Which::leading ? &DrawingThread::endoscopicDrawn : &DrawingThread::besideDrawn;
+            return [this, picture, signal,
+                    shown = ShownPicture{scan, request.place, lens, request.snapshot.peel.preset, shaded}] {
+                emit(this->*signal)(*picture, shown);
+            };
+        });
 }
 
 void DrawingThread::drawFinding(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request,
                                 const QString& finding)
 {
-    worker_.post("finding", [this, scan = std::move(scan), request, finding](AllPictures& all) -> Worker::Work {
-        auto picture = std::make_shared<Picture>(picturesOf(all, scan).endoscopic(
-            request.snapshot, request.place, true, {nullptr, false, request.lamp_factor}));
-        return [this, picture, finding] { emit findingDrawn(finding, *picture); };
-    });
+    worker_.post(
+        "finding",
+        [this, scan = std::move(scan), request, finding](AllPictures& all, const Progress& wanted) -> Worker::Work {
+            auto picture = std::make_shared<Picture>(picturesOf(all, scan).endoscopic(
+                request.snapshot, request.place, true, {nullptr, false, request.lamp_factor, nullptr, false, &wanted}));
+            return [this, picture, finding] { emit findingDrawn(finding, *picture); };
+        });
 }
 
-void DrawingThread::countSeen(AllPictures& all, const std::shared_ptr<OpenScan>& scan, bool always)
+void DrawingThread::drawMissed(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, const MissedRow& row)
+{
+    worker_.post(
+        kMissedWork,
+        [this, scan = std::move(scan), request, row](AllPictures& all, const Progress& wanted) -> Worker::Work {
+            auto picture = std::make_shared<Picture>(picturesOf(all, scan).endoscopic(
+                request.snapshot, request.place, true,
+                {nullptr, false, request.lamp_factor, request.missed.get(), false, &wanted}));
+            return [this, picture, row, scan] { emit missedDrawn(row, *picture, scan); };
+        });
+}
+
+bool DrawingThread::countSeen(AllPictures& all, const std::shared_ptr<OpenScan>& scan, bool always)
 {
     for (ScanPictures& some : all) {
         const auto now = std::chrono::steady_clock::now();
         if (some.of.lock() != scan || (!always && now - some.counted < kBetweenCounts))
             continue;
-        some.pictures->countSeen(scan->coverage);
+        some.pictures->countSeen(scan->coverage, std::chrono::duration<double>(now.time_since_epoch()).count());
         some.counted = now;
+        return true;
     }
+    return false;
 }
 
 void DrawingThread::film(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, Heading heading,
                          std::shared_ptr<Film> film, bool last)
 {
-    worker_.post("film",
-                 [this, scan = std::move(scan), request, heading, film = std::move(film),
-                  last](AllPictures& all) -> Worker::Work {
-                     const ViewPose view =
-                         poseAtStation(scan->files.frames(), scan->lumen, request.place.station_mm, heading);
-                     const SnapshotResult place{view.pose, request.place.station_mm, view.clearance_mm, true};
-                     film->add(picturesOf(all, scan).endoscopic(request.snapshot, place, false,
-                                                                {nullptr, request.structure, request.lamp_factor}));
-                     if (last)
-                         film->finish();
-                     return [this, film, last] { emit filmed(film, last); };
-                 });
+    worker_.post(
+        "film",
+        [this, scan = std::move(scan), request, heading, film = std::move(film),
+         last](AllPictures& all) -> Worker::Work {
+            const ViewPose view = poseAtStation(scan->files.frames(), scan->lumen, request.place.station_mm, heading);
+            const SnapshotResult place{view.pose, request.place.station_mm, view.clearance_mm, true};
+            film->add(picturesOf(all, scan).endoscopic(
+                request.snapshot, place, false, {nullptr, request.structure, request.lamp_factor, nullptr, false}));
+            if (last)
+                film->finish();
+            return [this, film, last] { emit filmed(film, last); };
+        });
 }
 
 void DrawingThread::drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
                                  const SnapshotResult& place)
 {
-    worker_.post("overview", [this, scan = std::move(scan), request, place](AllPictures& all) -> Worker::Work {
+    drawOverview("overview", std::move(scan), request, place);
+}
+
+void DrawingThread::drawBesideOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
+                                       const SnapshotResult& place)
+{
+    drawOverview("overview beside", std::move(scan), request, place);
+}
+
+void DrawingThread::drawOverview(const std::string& work, std::shared_ptr<OpenScan> scan,
+                                 const SnapshotRequest& request, const SnapshotResult& place)
+{
+    worker_.post(work, [this, scan = std::move(scan), request, place](AllPictures& all) -> Worker::Work {
         auto drawn = std::make_shared<ReadingPictures::Overview>(picturesOf(all, scan).overview(request, place));
         return [this, drawn, scan] { emit overviewDrawn(drawn->picture, drawn->view, scan); };
     });

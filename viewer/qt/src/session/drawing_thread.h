@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <list>
 #include <memory>
+#include <mutex>
 
 #include "session/open_scan.h"
 #include "vicon/viewer/scene/film.h"
@@ -20,6 +22,13 @@ struct EndoscopicRequest {
     bool paint_seen = false;  ///< what was seen in earlier passes
     bool structure = false;   ///< cells coloured, gates drawn, what is drawn counted
     double lamp_factor = 1;   ///< of the lamp's usual reach
+    std::shared_ptr<const std::vector<std::uint8_t>> missed = {};  ///< of each triangle, 1 where it is tinted
+};
+
+/// Where the picture of a missed region belongs.
+struct MissedRow {
+    int list = 0;    ///< which of the lists that were made
+    int region = 0;  ///< its row
 };
 
 /// What a picture that is shown was made of: a click into it means that place, wherever the eye is by then.
@@ -43,13 +52,23 @@ public:
 
     /// The contexts end on the thread that they belong to; nothing is drawn after that.
     void end();
+    /// What is drawn of the scan that was read is no longer wanted: another one's pictures do not wait for it.
+    void scanChanged();
 
     void drawEndoscopic(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
     /// The same of the other scan; besideDrawn() follows.
     void drawBeside(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
     void drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place);
+    /// The same of the other scan; overviewDrawn() follows, of it.
+    void drawBesideOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
+                            const SnapshotResult& place);
+    /// All around the eye, face by face, so that the other pictures do not wait for all six; cubeDrawn() follows unless
+    /// another cube is asked for meanwhile.
+    void drawCube(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
     /// What a finding looks like, for the report's form; findingDrawn() follows.
     void drawFinding(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, const QString& finding);
+    /// What a missed region looks like, for its list; missedDrawn() follows.
+    void drawMissed(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, const MissedRow& row);
     /// A picture of a film, looking along the path from the request's station; filmed() follows.
     /// @param last the film is finished with it
     void film(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, Heading heading,
@@ -61,7 +80,10 @@ signals:
     void besideDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownPicture& shown);
     void overviewDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::PlaneView& view,
                        const std::shared_ptr<vicon::viewer::OpenScan>& of);
+    void cubeDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownPicture& shown);
     void findingDrawn(const QString& finding, const vicon::viewer::Picture& picture);
+    void missedDrawn(const vicon::viewer::MissedRow& row, const vicon::viewer::Picture& picture,
+                     const std::shared_ptr<vicon::viewer::OpenScan>& of);
     void seenChanged();
     /// The wall can be drawn with ambient occlusion from now on.
     void wallShaded();
@@ -71,6 +93,9 @@ signals:
 
 private:
     enum class Which { leading, beside };
+    // What work is called.
+    static constexpr const char *kEndoscopicWork = "endoscopic", *kBesideWork = "beside", *kMissedWork = "missed",
+                                *kCubeWork = "cube";
     struct ScanPictures {
         std::weak_ptr<OpenScan> of;
         std::unique_ptr<ReadingPictures> pictures;
@@ -78,14 +103,25 @@ private:
     };
     using AllPictures = std::list<ScanPictures>;
 
+    /// A cube, some of its faces drawn.
+    struct Cube;
+    void drawFaces();
+    void drawFace(Cube& cube, AllPictures& all);
+    Worker::Work finished(const std::shared_ptr<Cube>& cube);
     void draw(Which which, std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
+    void drawOverview(const std::string& work, std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
+                      const SnapshotResult& place);
     ReadingPictures& picturesOf(AllPictures& all, const std::shared_ptr<OpenScan>& scan);
     /// In the picture drawn last; while moving not in every one.
-    static void countSeen(AllPictures& all, const std::shared_ptr<OpenScan>& scan, bool always);
+    /// False where that was done a moment ago.
+    static bool countSeen(AllPictures& all, const std::shared_ptr<OpenScan>& scan, bool always);
     /// Finds the openness and the lines of sight of a scan whose pictures have been begun; until then gates choose what
     /// is drawn.
     void findSightLines(const std::shared_ptr<OpenScan>& scan);
 
+    std::array<bool, 2> still_asked_{};  // of Which: the picture asked for last, which may take long
+    std::mutex cube_mutex_;
+    std::shared_ptr<Cube> cube_wanted_;  // the newest
     WorkerWith<AllPictures> worker_{this};
     Worker sight_worker_{this};  // ends before worker_, to which it speaks
 };

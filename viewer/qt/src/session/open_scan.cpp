@@ -1,16 +1,16 @@
 #include "session/open_scan.h"
 
 #include "session/saved_view.h"
-#include "vicon/viewer/model/correspondence.h"
+#include "vicon/cases/printed.h"
 
 namespace vicon::viewer {
 namespace {
 
 constexpr double kReach_mm = 500;  // of a click into the endoscopic view
 
-ColonScale scaleOf(const OpenScan& scan)
+ColonProfile profileOf(const OpenScan& scan)
 {
-    return {scan.files.frames().length_mm(), scan.files.parts()};
+    return profileOf(scan.files.skeleton(), scan.files.parts(), scan.files.along());
 }
 
 /// The saved one, unless the path was made anew meanwhile and runs elsewhere there.
@@ -22,12 +22,32 @@ double stationOf(const OpenScan& scan, const SavedView& view)
     return off_mm > nearest.distance_mm + kOtherPath_mm ? nearest.station_mm : view.station_mm;
 }
 
+/// Which scan it is of, not whose.
+Caption unnamed(Caption caption)
+{
+    caption.named = false;
+    return caption;
+}
+
 }  // namespace
+
+QString OpenScan::inWords() const
+{
+    const Caption& c = saved_caption;
+    QStringList parts{QString::fromStdString(printedPatientName(c.patient_name))};
+    if (!c.patient_id.empty())
+        parts << QObject::tr("ID %1").arg(QString::fromStdString(c.patient_id));
+    if (!c.birth_date.empty())
+        parts << QObject::tr("born %1").arg(QString::fromStdString(printedDate(c.birth_date)));
+    parts << QString::fromStdString(c.position + " " + printedDate(c.study_date));
+    return parts.join(" - ");
+}
 
 OpenScan::OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case)
     : files(std::move(prepared)),
       record(scan),
-      caption(captionFor(a_case, scan)),
+      caption(unnamed(captionFor(a_case, scan))),
+      saved_caption(captionFor(a_case, scan)),
       lumen(files.lumen()),
       navigator(files.frames(), lumen, files.exitDistance()),
       coverage(triangleAreas_mm2(files.cells().points_mm, files.cells().triangles))
@@ -40,9 +60,16 @@ std::filesystem::file_time_type madeAt(const std::filesystem::path& folder)
     return std::filesystem::last_write_time(folder / "inside.mha", none);  // every correction makes it anew
 }
 
-double correspondingStation_mm(const OpenScan& from, double station_mm, const OpenScan& to)
+Point3 placeInSlices(const OpenScan& scan, const NavigationState& state)
 {
-    return correspondingStation_mm(scaleOf(from), station_mm, scaleOf(to));
+    return state.carried ? scan.files.frames().at(state.station_mm).position_mm : state.pose.eye_mm;
+}
+
+StationMap mapBetween(const OpenScan& from, const OpenScan& to)
+{
+    // One map for both directions, so that there and back is the same place.
+    return from.record.id < to.record.id ? matchStations(profileOf(from), profileOf(to))
+                                         : matchStations(profileOf(to), profileOf(from)).reversed();
 }
 
 ViewPose viewOfMarker(const OpenScan& scan, const Marker& marker)

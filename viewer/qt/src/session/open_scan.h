@@ -1,8 +1,10 @@
 #pragma once
 
+#include <QString>
 #include <filesystem>
 
 #include "vicon/cases/case_store.h"
+#include "vicon/cases/station_map.h"
 #include "vicon/viewer/model/navigator.h"
 #include "vicon/viewer/model/scan_coverage.h"
 #include "vicon/viewer/scene/canvas.h"
@@ -15,7 +17,8 @@ namespace vicon::viewer {
 struct OpenScan {
     PreparedScan files;
     ScanRecord record;
-    Caption caption;
+    Caption caption;        ///< of pictures in the window, which says itself whose they are
+    Caption saved_caption;  ///< of pictures that leave it
     Lumen lumen;
     Navigator navigator;
     ScanCoverage coverage;
@@ -23,13 +26,19 @@ struct OpenScan {
     int branch = -1;                       ///< whose end the way leads to; below 0: to the farthest tip
 
     OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case);
+    /// "Phantom, Anna - ID PH-1 - born 1960-01-02 - supine 2026-01-02".
+    QString inWords() const;
 };
 
 /// When the files of a scan were made; what is open may be older.
 std::filesystem::file_time_type madeAt(const std::filesystem::path& folder);
 
-/// The station in another scan of the case that corresponds to one in this.
-double correspondingStation_mm(const OpenScan& from, double station_mm, const OpenScan& to);
+/// The place that slices show while the eye is led: the eye's or, where it is carried over a collapsed segment, the
+/// centreline's, for there is wall to be read there, too.
+Point3 placeInSlices(const OpenScan& scan, const NavigationState& state);
+
+/// The stations of one scan in another of the same patient; milliseconds to make.
+StationMap mapBetween(const OpenScan& from, const OpenScan& to);
 
 /// The view that was saved with a marker of this scan; where there is none or the eye would be in the wall: one that
 /// shows its place.

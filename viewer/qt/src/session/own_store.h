@@ -11,16 +11,16 @@ namespace vicon::viewer {
 /// A thread's own connection to the store, opened when it is first asked for.
 class OwnStore {
 public:
-    explicit OwnStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    explicit OwnStore(StorePlace place) : place_(std::move(place)) {}
     CaseStore& operator()()
     {
         if (!opened_)
-            opened_ = std::make_unique<CaseStore>(folder_);
+            opened_ = std::make_unique<CaseStore>(place_);
         return *opened_;
     }
 
 private:
-    std::filesystem::path folder_;
+    StorePlace place_;
     std::unique_ptr<CaseStore> opened_;
 };
 

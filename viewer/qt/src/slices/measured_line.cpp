@@ -1,5 +1,6 @@
 #include "slices/measured_line.h"
 
+#include <QObject>
 #include <algorithm>
 #include <cmath>
 

@@ -3,71 +3,166 @@
 #include <QAction>
 #include <QComboBox>
 #include <QSignalBlocker>
+#include <algorithm>
+#include <cmath>
 
-#include "reading/kept_place.h"
 #include "reading/reading.h"
-#include "vicon/viewer/model/window_level.h"
-#include "widgets/kept_settings.h"
+#include "vicon/viewer/model/tracked_lumen.h"
 #include "window/reading_layout.h"
 
 namespace vicon::viewer {
 namespace {
-constexpr const char* kWindow = "window_level";
-}
+
+constexpr const char* kByHand = "by hand";
+constexpr double kLeastWidth_hu = 10, kMostWidth_hu = 6000, kMostLevel_hu = 3000;
+constexpr double kDragged_hu = 2;  // a pixel: across a screen from lung to bone
+constexpr std::array<double, 4> kThicknesses_mm{3, 5, 10, 20};
+
+}  // namespace
 
 SliceTool::SliceTool(Reading& reading) : ReadingTool(reading)
 {
     window_ = new QComboBox;
     window_->setObjectName("window");
     window_->setAccessibleName(tr("Window of the slices"));
-    window_->setToolTip(tr("Window and level of the slices"));
+    window_->setToolTip(tr("Window and level of the slices: keys 4 to 9, or drag in a slice"));
+    wanted_.window.name.clear();
 }
 
 void SliceTool::addTo(ReadingLayout& layout)
 {
     layout.addChoice(window_);
-    layout.addAction(ReadingMenu::view, tr("Whole slices"), QKeySequence("0"), [this] {
+    layout.addAction(ReadingMenu::slices, tr("Whole slices"), QKeySequence("0"), [this] {
         for (SliceView* slice : reading_.views().slices())
             slice->resetView();
     });
+    layout.addAction(ReadingMenu::slices, tr("As acquired, pixel for pixel"), QKeySequence("Ctrl+0"), [this] {
+        for (SliceView* slice : reading_.views().slices())
+            slice->setPixelForPixel();
+    });
     // Off whenever a case is opened: what is read first is what was acquired.
     const QAction* cleansed =
-        layout.addSwitch(ReadingMenu::view, tr("Slices without tagging (cleansed)"), QKeySequence("K"));
+        layout.addSwitch(ReadingMenu::slices, tr("Without tagging (cleansed)"), QKeySequence("K"));
     connect(cleansed, &QAction::toggled, this, [this](bool on) {
         for (SliceView* slice : reading_.views().slices())
             slice->setCleansed(on);
     });
-    connect(window_, &QComboBox::currentTextChanged, &reading_, [this](const QString& name) {
-        const WindowLevel window = windowPreset(name.toStdString());
-        for (SliceView* slice : reading_.views().slices())
-            slice->setWindow(window);
-        emit reading_.windowChanged(window);
+    addKeys(layout);
+    connect(window_, &QComboBox::currentTextChanged, this, [this](const QString& name) {
+        if (name != kByHand)
+            choose(windowPreset(name.toStdString()));
     });
+    connect(&reading_, &Reading::windowDragged, this, &SliceTool::dragWindow);
+    connect(&reading_, &Reading::trackWanted, this, &SliceTool::track);
 }
 
-void SliceTool::restore()
+void SliceTool::addKeys(ReadingLayout& layout)
 {
-    kept_window_ = keptSetting(keptKey(reading_.session().record(), kWindow)).toString();
+    for (int key = kFirstKey; key <= kLastKey; ++key)
+        keys_[std::size_t(key - kFirstKey)] =
+            layout.addAction(ReadingMenu::slices, {}, {}, [this, key] { window_->setCurrentIndex(key - kFirstKey); });
+    tracks_ = layout.addSwitch(ReadingMenu::slices, tr("Follow the lumen (cine: Space)"), QKeySequence("Q"));
+    tracks_->setObjectName("tracks");
+    connect(tracks_, &QAction::toggled, this, [this](bool on) {
+        wanted_.tracks = on;
+        show();
+    });
+    layout.addAction(ReadingMenu::slices, tr("Slab: none, mean, minimum"), QKeySequence("Y"), [this] { nextOf(); });
+    layout.addAction(ReadingMenu::slices, tr("Slab: thickness"), QKeySequence("Shift+Y"), [this] { nextThickness(); });
 }
 
-QVariantMap SliceTool::kept() const
-{
-    return {{keptKey(reading_.session().record(), kWindow),
-             kept_window_.isEmpty() ? window_->currentText() : kept_window_}};
-}
-
-/// The window that was chosen stays where the organ has it too.
 void SliceTool::useWords(const OrganWords& words)
 {
-    const QString wanted = kept_window_.isEmpty() ? window_->currentText() : kept_window_;
+    const auto presets = windowPresets(words.organ.name());
     {
         const QSignalBlocker quiet(window_);
         window_->clear();
-        for (const WindowLevel& window : windowPresets(words.organ))
+        for (const WindowLevel& window : presets)
             window_->addItem(QString::fromStdString(window.name));
-        window_->setCurrentIndex(std::max(0, window_->findText(wanted)));
     }
-    emit window_->currentTextChanged(window_->currentText());
+    for (std::size_t n = 0; n < keys_.size(); ++n) {
+        const bool there = n < presets.size();
+        keys_[n]->setVisible(there);
+        keys_[n]->setText(there ? tr("Window: %1").arg(window_->itemText(int(n))) : QString());
+        keys_[n]->setShortcut(there ? QKeySequence(QString::number(kFirstKey + int(n))) : QKeySequence());
+    }
+    setLook(wanted_);
+}
+
+void SliceTool::setLook(const SliceLook& look)
+{
+    wanted_ = look;
+    const int at = window_->findText(QString::fromStdString(look.window.name));
+    if (look.window.name == kByHand)
+        shown_ = look.window;
+    else if (window_->count() > 0)
+        shown_ = windowPreset(window_->itemText(std::max(0, at)).toStdString());
+    show();
+}
+
+void SliceTool::show()
+{
+    {
+        const QSignalBlocker quiet(window_), quiet_switch(tracks_);
+        const QString name = QString::fromStdString(shown_.name);
+        if (const int by_hand = window_->findText(kByHand); by_hand >= 0 && name != kByHand)
+            window_->removeItem(by_hand);
+        else if (by_hand < 0 && name == kByHand)
+            window_->addItem(name);
+        window_->setCurrentIndex(std::max(0, window_->findText(name)));
+        tracks_->setChecked(wanted_.tracks);
+    }
+    const SliceLook look{shown_, wanted_.thick, wanted_.tracks};
+    for (SliceView* slice : reading_.views().slices())
+        slice->setLook(look);
+    emit reading_.sliceLookChanged(look);
+}
+
+void SliceTool::choose(const WindowLevel& window)
+{
+    wanted_.window = shown_ = window;
+    show();
+}
+
+void SliceTool::dragWindow(QPointF by)
+{
+    WindowLevel window = shown_;
+    window.name = kByHand;
+    window.width_hu = std::clamp(window.width_hu + kDragged_hu * by.x(), kLeastWidth_hu, kMostWidth_hu);
+    window.level_hu = std::clamp(window.level_hu - kDragged_hu * by.y(), -kMostLevel_hu, kMostLevel_hu);
+    choose(window);
+}
+
+void SliceTool::nextOf()
+{
+    constexpr int kWays = 3;
+    wanted_.thick.of = ThickSlice::Of((int(wanted_.thick.of) + 1) % kWays);
+    show();
+}
+
+void SliceTool::nextThickness()
+{
+    const auto* next = std::upper_bound(kThicknesses_mm.begin(), kThicknesses_mm.end(), wanted_.thick.thickness_mm);
+    wanted_.thick.thickness_mm = next == kThicknesses_mm.end() ? kThicknesses_mm.front() : *next;
+    if (wanted_.thick.of == ThickSlice::Of::one_plane)
+        reading_.say(tr("Slab of %1 mm; Y chooses mean or minimum.").arg(wanted_.thick.thickness_mm));
+    show();
+}
+
+/// Along the centreline from where the eye is; where the lumen is collapsed, too.
+void SliceTool::track(Vector3 across, int slices)
+{
+    Navigator* navigator = reading_.navigator();
+    if (!navigator)
+        return;
+    navigator->setMode(NavigationMode::planned);
+    const auto& spacing = reading_.scan()->files.volume().grid.spacing_mm;
+    const double slice_mm = *std::min_element(spacing.begin(), spacing.end());
+    const int sign = navigator->heading() == Heading::caecum ? 1 : -1;
+    const double here = navigator->state().station_mm;
+    const double there = stationSlicesOn(reading_.scan()->files.frames(), here, across, slice_mm, slices * sign);
+    navigator->step((there - here) * sign);
+    reading_.flewOn();
 }
 
 }  // namespace vicon::viewer

@@ -11,14 +11,16 @@ SliceView::SliceView(SlicePlane plane, const QString& name, QWidget* parent) : P
 {
     request_.plane = plane;
     setToolTip(
-        tr("Click: look there. Wheel: scroll. Control and wheel: zoom. Right button: pan. Double click: "
-           "enlarge. Shift and click: marker."));
+        tr("Click: look there. Wheel: scroll, or along the lumen (Q). Control and wheel: zoom. Drag: window. Right "
+           "button: pan. Double click: enlarge. Shift and click: marker."));
     connect(this, &PictureView::resized, this, &SliceView::draw);
     connect(this, &PictureView::turned, this, &SliceView::scroll);
     connect(worker_.worker(), &Worker::failed, this, &SliceView::failed);
     connect(this, &PictureView::dragged, this, [this](QPointF by, Qt::MouseButton button) {
-        if (button == Qt::LeftButton)
+        if (button == Qt::LeftButton) {
+            emit windowDragged(by);
             return;
+        }
         const PlaneView& view = request_.view;
         pan_mm_ -= (view.right * by.x() + view.down * by.y()) * view.mm_per_pixel;
         draw();
@@ -29,22 +31,52 @@ SliceView::SliceView(SlicePlane plane, const QString& name, QWidget* parent) : P
             [this](Pixel at, Qt::KeyboardModifiers modifiers) { emit pointClicked(shown_.pointAt(at), modifiers); });
 }
 
-void SliceView::look(std::shared_ptr<OpenScan> scan, Point3 point, const Pose& pose, std::vector<Marker> markers)
+void SliceView::look(std::shared_ptr<OpenScan> scan, Point3 point, const Pose& pose, std::vector<Marker> markers,
+                     std::vector<PriorPlace> priors, Move how)
 {
-    if (!(point == request_.point_mm))  // back to the slice of the point; what was panned across it stays
-        pan_mm_ -= request_.view.forward() * dot(pan_mm_, request_.view.forward());
+    if (scan != scan_)
+        pan_mm_ = {};
+    else if (!(point == request_.point_mm))
+        pan_mm_ = panFor(point, how);
     scan_ = std::move(scan);
     request_.point_mm = point;
     request_.pose = pose;
     request_.markers = std::move(markers);
+    request_.priors = std::move(priors);
     request_.caption = scan_->caption;
     draw();
 }
 
-void SliceView::setWindow(const WindowLevel& window)
+/// Back to the slice of the point; across it the picture moves as little as it may.
+Vector3 SliceView::panFor(Point3 point, Move how) const
 {
-    request_.window = window;
+    const PlaneView& view = request_.view;
+    const auto inPlane = [&](Vector3 v) { return v - view.forward() * dot(v, view.forward()); };
+    if (zoom_ <= 1 && !request_.exact)
+        return inPlane(pan_mm_);
+    const auto isInside = [&](Point3 p, double margin) {
+        const Pixel at = view.toPixel(p);
+        const double x = margin * view.width, y = margin * view.height;
+        return at.x >= x && at.x <= view.width - x && at.y >= y && at.y <= view.height - y;
+    };
+    constexpr double kMargin = 0.1;  // of the picture: nearer to its edge, what lies around the point is not seen
+    if (how == Move::as_needed)
+        return isInside(point, kMargin) ? inPlane(view.centre_mm - point) : Vector3{};
+    return isInside(request_.point_mm, 0) ? inPlane(pan_mm_) : Vector3{};
+}
+
+void SliceView::setLook(const SliceLook& look)
+{
+    request_.window = look.window;
+    request_.thick = look.thick;
+    request_.tracks = look.tracks;
     draw();
+}
+
+bool SliceView::isBehind(const std::shared_ptr<OpenScan>& scan, const NavigationState& now, double most_mm) const
+{
+    return isVisible() && scan == scan_ && !image().isNull() &&
+           distance(shown_point_mm_, placeInSlices(*scan, now)) > most_mm;
 }
 
 void SliceView::setCleansed(bool cleansed)
@@ -59,10 +91,26 @@ QPoint SliceView::home() const
     return rect().contains(at) ? at : rect().center();
 }
 
+void SliceView::centreOnPoint()
+{
+    if (zoom_ <= 1)
+        return;
+    pan_mm_ = {};
+    draw();
+}
+
 void SliceView::resetView()
 {
     pan_mm_ = {};
     zoom_ = 1;
+    request_.exact = false;
+    draw();
+}
+
+void SliceView::setPixelForPixel()
+{
+    resetView();
+    request_.exact = true;
     draw();
 }
 
@@ -71,12 +119,29 @@ void SliceView::scroll(int steps, Qt::KeyboardModifiers modifiers)
     if (!scan_)
         return;
     if (modifiers & Qt::ControlModifier) {
-        constexpr double kNotch = 1.2, kMost = 20;
-        zoom_ = std::clamp(zoom_ * std::pow(kNotch, steps), 1.0, kMost);
-    } else {
-        const auto& spacing = scan_->files.volume().grid.spacing_mm;
-        pan_mm_ += request_.view.forward() * (steps * *std::min_element(spacing.begin(), spacing.end()));
+        zoom(steps);
+        return;
     }
+    if (request_.tracks && !(modifiers & Qt::ShiftModifier)) {
+        emit trackWanted(request_.view.forward(), steps);
+        return;
+    }
+    const auto& spacing = scan_->files.volume().grid.spacing_mm;
+    pan_mm_ += request_.view.forward() * (steps * *std::min_element(spacing.begin(), spacing.end()));
+    draw();
+}
+
+/// The cross stays where it is in the picture.
+void SliceView::zoom(int notches)
+{
+    constexpr double kNotch = 1.2, kMost = 20;
+    request_.exact = false;
+    const double before = zoom_;
+    zoom_ = std::clamp(zoom_ * std::pow(kNotch, notches), 1.0, kMost);
+    const PlaneView& view = request_.view;
+    const Vector3 off = view.centre_mm - request_.point_mm;
+    const Vector3 across = view.forward() * dot(off, view.forward());
+    pan_mm_ = zoom_ > 1 ? across + (off - across) * (before / zoom_) : across;
     draw();
 }
 
@@ -92,8 +157,13 @@ void SliceView::draw()
         view.centre_mm += to_point;
     }
     view.centre_mm += pan_mm_;
+    if (request_.exact)
+        view = pixelForPixel(scan_->files.volume().grid, view, request_.point_mm + pan_mm_);
     request_.view = view;
     request_.pixel_ratio = devicePixelRatioF();
+    request_.text_px = textHeight_px();
+    if (!image().isNull() && distance(shown_point_mm_, request_.point_mm) > kElsewhere_mm)
+        setNote(notThisPlaceYet());
     worker_.post("slice", [this, scan = scan_, request = request_](SlicePictures& pictures) -> Worker::Work {
         const std::shared_ptr<const PreparedScan> files(scan, &scan->files);
         auto picture = std::make_shared<Picture>(pictures.draw(files, request));
@@ -101,16 +171,18 @@ void SliceView::draw()
             ahead.readAhead();
             return {};
         });
-        return [this, picture, scan, view = request.view] {
+        return [this, picture, scan, request] {
             if (scan == scan_)
-                show(*picture, view);
+                show(*picture, request);
         };
     });
 }
 
-void SliceView::show(const Picture& picture, const PlaneView& view)
+void SliceView::show(const Picture& picture, const SliceRequest& of)
 {
-    shown_ = view;
+    shown_ = of.view;
+    shown_point_mm_ = of.point_mm;
+    setNote({});
     showPicture(picture);
     drawLine();
 }

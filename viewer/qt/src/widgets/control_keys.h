@@ -15,6 +15,8 @@ public:
     /// Of all controls that the window has by now, but for those of a form: its keys are its own. @param picture has
     /// the keyboard unless it is given to another
     ControlKeys(QWidget* window, QWidget* picture);
+    /// Another picture has it from now on.
+    void setPicture(QWidget* picture) { picture_ = picture; }
 
 protected:
     bool eventFilter(QObject* control, QEvent* event) override;

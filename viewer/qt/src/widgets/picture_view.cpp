@@ -1,6 +1,7 @@
 #include "widgets/picture_view.h"
 
 #include <QApplication>
+#include <QFontInfo>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWheelEvent>
@@ -9,11 +10,14 @@
 #include "vicon/viewer/scene/snapshot.h"
 
 namespace vicon::viewer {
+namespace {
+constexpr int kLeastSide_px = 120;  // four views above one another are no higher than a screen of 768
+}
 
 PictureView::PictureView(const QString& name, QWidget* parent) : QWidget(parent)
 {
     setAccessibleName(name);
-    setMinimumSize(SnapshotRequest::kLeastSide, SnapshotRequest::kLeastSide);
+    setMinimumSize(kLeastSide_px, kLeastSide_px);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     setFocusPolicy(Qt::TabFocus);
     setAttribute(Qt::WA_OpaquePaintEvent);
@@ -70,12 +74,17 @@ QSize PictureView::pictureSize() const
 {
     const QSize wanted = size() * devicePixelRatioF();
     return wanted.boundedTo({SnapshotRequest::kMostSide, SnapshotRequest::kMostSide})
-        .expandedTo({SnapshotRequest::kLeastSide, SnapshotRequest::kLeastSide});
+        .expandedTo({kLeastSide_px, kLeastSide_px});
 }
 
 Pixel PictureView::toPicture(QPoint at) const
 {
     return {(at.x() + 0.5) * devicePixelRatioF(), (at.y() + 0.5) * devicePixelRatioF()};
+}
+
+double PictureView::textHeight_px() const
+{
+    return QFontInfo(font()).pixelSize() * devicePixelRatioF();
 }
 
 QPointF PictureView::toWidget(Pixel at) const
@@ -109,6 +118,7 @@ void PictureView::paintEvent(QPaintEvent*)
     // The view has another size by now, and its picture is still to come.
     const QSizeF fitting = drawn.scaled(size(), Qt::KeepAspectRatio);
     painter.drawImage(QRectF({(width() - fitting.width()) / 2, (height() - fitting.height()) / 2}, fitting), image_);
+    drawNote(painter);
 }
 
 void PictureView::resizeEvent(QResizeEvent*)

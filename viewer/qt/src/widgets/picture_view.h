@@ -31,11 +31,17 @@ public:
     void showPicture(const Picture& picture);
     /// Said at the bottom of the picture; empty: nothing.
     void setNote(const QString& note);
+    const QString& note() const { return note_; }
+    /// A picture this far from what is looked at by now says so; a flight is never so far ahead of its picture.
+    static constexpr double kElsewhere_mm = 25;
+    static QString notThisPlaceYet() { return tr("not this place yet: being drawn ..."); }
     /// What was shown is no longer true; until the next picture these words stand there.
     void clearPicture(const QString& words);
     const QImage& image() const { return image_; }
     /// Size that a picture should have, in device pixels.
     QSize pictureSize() const;
+    /// How high what is written in a picture is, in its pixels: as high as the window's own text.
+    double textHeight_px() const;
     /// From picture pixels to the widget's place.
     QPointF toWidget(Pixel at) const;
 

@@ -39,17 +39,27 @@ void Worker::end()
     {
         const std::lock_guard lock(mutex_);
         stop_ = true;
-        tasks_.remove_if([](const Task& task) { return !task.name.empty(); });
+        tasks_.remove_if([](const Waiting& task) { return !task.name.empty(); });
+        if (!running_.empty())
+            wanted_->giveUp();
     }
     wake_.notify_all();
 }
 
-void Worker::post(const std::string& name, std::function<Work()> work)
+void Worker::giveUp(const std::string& name)
+{
+    const std::lock_guard lock(mutex_);
+    tasks_.remove_if([&](const Waiting& task) { return task.name == name; });
+    if (running_ == name)
+        wanted_->giveUp();
+}
+
+void Worker::postTask(const std::string& name, Task work)
 {
     {
         const std::lock_guard lock(mutex_);
         const auto waiting = std::find_if(tasks_.begin(), tasks_.end(),
-                                          [&](const Task& task) { return !name.empty() && task.name == name; });
+                                          [&](const Waiting& task) { return !name.empty() && task.name == name; });
         if (waiting != tasks_.end())
             waiting->work = std::move(work);
         else
@@ -58,32 +68,42 @@ void Worker::post(const std::string& name, std::function<Work()> work)
     wake_.notify_all();
 }
 
+std::optional<Worker::Waiting> Worker::next()
+{
+    std::unique_lock lock(mutex_);
+    running_.clear();
+    wake_.wait(lock, [&] { return stop_ || !tasks_.empty(); });
+    if (tasks_.empty())
+        return std::nullopt;
+    Waiting task = std::move(tasks_.front());
+    tasks_.pop_front();
+    running_ = task.name;
+    wanted_ = std::make_shared<Wanted>();
+    return task;
+}
+
+void Worker::perform(const Waiting& task)
+{
+    const std::shared_ptr<Wanted> wanted = wanted_;  // only this thread replaces it
+    try {
+        if (Work after = task.work(*wanted))
+            QMetaObject::invokeMethod(this, std::move(after), Qt::QueuedConnection);
+    } catch (const Error& e) {
+        if (e.code() != ErrorCode::cancelled || !wanted->cancelled())
+            emit failed(messageOf(e));
+    } catch (const std::bad_alloc&) {
+        emit failed(tr("Not enough memory; close other programs and try again."));
+    } catch (const std::exception& e) {
+        emit failed(QString::fromUtf8(e.what()));
+    }
+}
+
 void Worker::run()
 {
     yieldToWindow();
-    for (;;) {
-        Task task;
-        {
-            std::unique_lock lock(mutex_);
-            wake_.wait(lock, [&] { return stop_ || !tasks_.empty(); });
-            if (tasks_.empty()) {
-                ended_ = true;
-                return;
-            }
-            task = std::move(tasks_.front());
-            tasks_.pop_front();
-        }
-        try {
-            if (Work after = task.work())
-                QMetaObject::invokeMethod(this, std::move(after), Qt::QueuedConnection);
-        } catch (const Error& e) {
-            emit failed(messageOf(e));
-        } catch (const std::bad_alloc&) {
-            emit failed(tr("Not enough memory; close other programs and try again."));
-        } catch (const std::exception& e) {
-            emit failed(QString::fromUtf8(e.what()));
-        }
-    }
+    while (const auto task = next())
+        perform(*task);
+    ended_ = true;
 }
 
 }  // namespace vicon::viewer

@@ -5,9 +5,13 @@
 #include <condition_variable>
 #include <functional>
 #include <list>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
+
+#include "widgets/wanted.h"
 
 namespace vicon::viewer {
 
@@ -19,14 +23,23 @@ public:
     explicit Worker(QObject* owner);
     ~Worker() override;  ///< end(), and waits
 
-    /// What waits is dropped, but for work without a name; after that and the work that runs the thread ends. Does not
-    /// wait for it. Later work is not done.
+    /// What waits is dropped, but for work without a name, and what runs under a name is told that nobody wants it;
+    /// after that and the work that runs the thread ends. Does not wait for it. Later work is not done.
     void end();
+    /// Work of this name that waits is dropped, and what runs is told that nobody wants it.
+    void giveUp(const std::string& name);
     bool ended() const { return ended_; }
 
     using Work = std::function<void()>;
-    /// `work` runs on the thread; what it returns runs on the window's, unless the worker is gone.
-    void post(const std::string& name, std::function<Work()> work);
+    using Task = std::function<Work(Progress&)>;
+    /// `work` runs on the thread; what it returns runs on the window's, unless the worker is gone. It learns from the
+    /// Progress whether it is still wanted: what it throws when it is not is no failure.
+    void postTask(const std::string& name, Task work);
+    /// The same of work that is done before anybody could want it no more.
+    void post(const std::string& name, std::function<Work()> work)
+    {
+        postTask(name, [work = std::move(work)](Progress&) { return work(); });
+    }
     /// Work that nothing replaces and that is done even when the window closes: what must be saved.
     void postAlways(std::function<Work()> work) { post({}, std::move(work)); }
 
@@ -34,15 +47,19 @@ signals:
     void failed(const QString& message);
 
 private:
-    struct Task {
+    struct Waiting {
         std::string name;
-        std::function<Work()> work;
+        Task work;
     };
     void run();
+    std::optional<Waiting> next();
+    void perform(const Waiting& task);
 
     std::mutex mutex_;
     std::condition_variable wake_;
-    std::list<Task> tasks_;
+    std::list<Waiting> tasks_;
+    std::string running_;                                          // the name of the work that runs
+    std::shared_ptr<Wanted> wanted_ = std::make_shared<Wanted>();  // that work
     bool stop_ = false;
     std::atomic<bool> ended_ = false;
     std::thread thread_;

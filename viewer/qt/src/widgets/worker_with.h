@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 #include "widgets/worker.h"
@@ -21,11 +22,16 @@ public:
     {
     }
 
-    /// As Worker::post(); `work` is called with the state.
+    /// As Worker::postTask(); `work` is called with the state and, where it takes it, with the Progress.
     template <class WithState>
     void post(const std::string& name, WithState work)
     {
-        worker_.post(name, [this, work = std::move(work)]() mutable { return Work(work(state_)); });
+        worker_.postTask(name, [this, work = std::move(work)](Progress& progress) mutable {
+            if constexpr (std::is_invocable_v<WithState&, State&, Progress&>)
+                return Work(work(state_, progress));
+            else
+                return Work(work(state_));
+        });
     }
     /// As Worker::postAlways().
     template <class WithState>
@@ -34,6 +40,7 @@ public:
         post({}, std::move(work));
     }
     void end() { worker_.end(); }
+    void giveUp(const std::string& name) { worker_.giveUp(name); }
     bool ended() const { return worker_.ended(); }
     /// For its signals.
     const Worker* worker() const { return &worker_; }

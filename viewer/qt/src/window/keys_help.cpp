@@ -1,64 +1,125 @@
 #include "window/keys_help.h"
 
 #include <QAction>
+#include <QDialog>
+#include <QDialogButtonBox>
+#include <QLabel>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
-#include <QMessageBox>
-#include <QPair>
-#include <QVector>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <vector>
 
 namespace vicon::viewer {
 namespace {
 
-using Keys = QVector<QPair<QString, QString>>;
+constexpr int kKeyColumns = 4;  // of a screen 1366 pixels wide
+
+struct Key {
+    QString key, what;
+};
+
+struct Group {
+    QString title;
+    std::vector<Key> keys;
+
+    /// With its title, and the line above it that keeps it from the group before.
+    int lines() const { return int(keys.size()) + 2; }
+};
 
 QString tr(const char* text)
 {
     return QObject::tr(text);
 }
 
-Keys keysOf(const QMainWindow& window)
+/// A group for each menu, and what no menu has.
+std::vector<Group> groupsOf(const QMainWindow& window)
 {
-    Keys keys;
-    for (const QMenu* menu : window.menuBar()->findChildren<QMenu*>())
+    std::vector<Group> groups;
+    for (const QMenu* menu : window.menuBar()->findChildren<QMenu*>()) {
+        groups.push_back({menu->title().remove('&'), {}});
         for (const QAction* action : menu->actions())
             if (!action->shortcut().isEmpty())
-                keys.append({action->shortcut().toString(), action->text()});
-    keys.append({tr("W A S D"), tr("Guided and free: on, left, back, right")});
-    keys.append({tr("arrows"), tr("Guided and free: turn the view")});
-    keys.append({tr("arrows, Return"), tr("Where a click is awaited: move the cross (Shift: finely), click")});
-    keys.append({tr("Shift+Return"), tr("Red marker in the middle or at the mouse")});
-    keys.append(
-        {tr("Tab, Shift+Tab"), tr("To the next view or control, to the one before; Space or Return presses it")});
-    keys.append({tr("PgUp, PgDown"), tr("In a slice reached by Tab: scroll (Ctrl: zoom; Ctrl and arrows: pan)")});
-    return keys;
+                groups.back().keys.push_back({action->shortcut().toString(), action->text().remove('&')});
+    }
+    groups.push_back({tr("In a view"),
+                      {{tr("W A S D"), tr("Guided and free: on, left, back, right")},
+                       {tr("arrows"), tr("Guided and free: turn the view")},
+                       {tr("arrows, Return"), tr("A click is awaited: move the cross, click")},
+                       {tr("Shift+Return"), tr("Red marker in the middle or at the mouse")},
+                       {tr("Tab, Shift+Tab"), tr("Next, previous view or control")},
+                       {tr("PgUp, PgDown"), tr("Slices (Ctrl: zoom; Ctrl+arrows: pan)")}}});
+    return groups;
 }
 
-/// In two columns, for a screen of large letters is soon too low for one.
-QString tableOf(const Keys& keys)
+/// Groups in their order, none divided, in columns of which none has more than `most` lines.
+std::vector<std::vector<Group>> columnsOf(const std::vector<Group>& groups, int most)
 {
-    const int rows = (keys.size() + 1) / 2;
+    std::vector<std::vector<Group>> columns;
+    int lines = 0;
+    for (const Group& group : groups) {
+        if (columns.empty() || lines + group.lines() > most) {
+            columns.emplace_back();
+            lines = 0;
+        }
+        columns.back().push_back(group);
+        lines += group.lines();
+    }
+    return columns;
+}
+
+/// As low as so many columns make it.
+std::vector<std::vector<Group>> columnsOf(const std::vector<Group>& groups)
+{
+    int most = 0;
+    for (const Group& group : groups)
+        most = std::max(most, group.lines());
+    while (columnsOf(groups, most).size() > kKeyColumns)
+        ++most;
+    return columnsOf(groups, most);
+}
+
+QString tableOf(const std::vector<Group>& column)
+{
     const auto unbroken = [](const QString& words) { return words.toHtmlEscaped().replace(' ', "&nbsp;"); };
     QString text = "<table cellspacing='0'>";  // more lines fit on a low screen
-    for (int row = 0; row < rows; ++row) {
-        text += "<tr>";
-        for (int n = row; n < keys.size(); n += rows)
-            text += QString("<td><b>%1</b>&nbsp;&nbsp;</td><td>%2&nbsp;&nbsp;&nbsp;</td>")
-                        .arg(unbroken(keys[n].first), unbroken(keys[n].second));
-        text += "</tr>";
+    for (const Group& group : column) {
+        if (&group != &column.front())
+            text += "<tr><td>&nbsp;</td></tr>";
+        text += QString("<tr><td colspan='2'><u>%1</u></td></tr>").arg(unbroken(group.title));
+        for (const Key& key : group.keys)
+            text += QString("<tr><td><b>%1</b></td><td>&nbsp;&nbsp;%2</td></tr>")
+                        .arg(unbroken(key.key), unbroken(key.what));
     }
     return text + "</table>";
 }
 
+QString pageOf(const std::vector<Group>& groups)
+{
+    QString text = "<table cellspacing='0'><tr>";
+    for (const std::vector<Group>& column : columnsOf(groups))
+        text += "<td>" + tableOf(column) + "</td><td>&nbsp;&nbsp;&nbsp;&nbsp;</td>";
+    return text + "</tr></table>";
+}
+
 }  // namespace
 
+// A message box would be no wider than a thousand pixels.
 void showKeys(QMainWindow& window)
 {
-    auto* box = new QMessageBox(QMessageBox::NoIcon, tr("Keys"), tableOf(keysOf(window)), QMessageBox::Close, &window);
-    box->setObjectName("keys");
-    box->setAttribute(Qt::WA_DeleteOnClose);
-    box->open();
+    auto* dialog = new QDialog(&window);
+    dialog->setObjectName("keys");
+    dialog->setWindowTitle(tr("Keys"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    auto* text = new QLabel(pageOf(groupsOf(window)), dialog);
+    text->setObjectName("keysText");
+    auto* close = new QDialogButtonBox(QDialogButtonBox::Close, dialog);
+    QObject::connect(close, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
+    auto* layout = new QVBoxLayout(dialog);
+    layout->addWidget(text);
+    layout->addWidget(close);
+    dialog->open();
 }
 
 }  // namespace vicon::viewer

@@ -35,7 +35,7 @@ QWidget* framed(QWidget* inside)
 ReadingLayout::ReadingLayout(QMainWindow& window, ReadingViews& views)
     : QObject(&window), window_(window), views_(views)
 {
-    for (const QString& title : {tr("&Case"), tr("&Edit"), tr("&Flight"), tr("&View"), tr("&Help")})
+    for (const QString& title : {tr("&Case"), tr("&Edit"), tr("&Flight"), tr("&View"), tr("&Slices"), tr("&Help")})
         menus_.push_back(window.menuBar()->addMenu(title));
     auto* all = new QWidget(&window);
     auto* layout = new QVBoxLayout(all);
@@ -52,12 +52,16 @@ QWidget* ReadingLayout::buildTop()
     auto* top = new QWidget;
     top_ = new QHBoxLayout(top);
     top_->setContentsMargins(4, 2, 4, 2);
+    banner_ = new QLabel(top);
+    banner_->setObjectName("banner");
+    banner_->setStyleSheet("font-weight: bold;");
     notice_ = new QLabel(top);
     notice_->setObjectName("notice");
     warning_ = new QLabel(top);
     warning_->setObjectName("warning");
     warning_->setWordWrap(true);
     warning_->setStyleSheet("color: #ff9a4a; font-weight: bold;");
+    top_->addWidget(banner_);
     top_->addWidget(notice_);
     top_->addWidget(warning_, 1);
     return top;
@@ -106,13 +110,15 @@ void ReadingLayout::addStatus(QWidget* status)
     status_.push_back(status);
 }
 
-QDockWidget* ReadingLayout::addForm(QWidget* form, const QString& title)
+QDockWidget* ReadingLayout::addForm(QWidget* form, const QString& title, Qt::DockWidgetArea area)
 {
     auto* dock = new QDockWidget(title, &window_);
     dock->setObjectName(form->objectName() + "Dock");
     dock->setWidget(form);
-    dock->setAllowedAreas(Qt::LeftDockWidgetArea | Qt::RightDockWidgetArea);
-    window_.addDockWidget(Qt::RightDockWidgetArea, dock);
+    const bool beside = area == Qt::LeftDockWidgetArea || area == Qt::RightDockWidgetArea;
+    dock->setAllowedAreas(beside ? Qt::LeftDockWidgetArea | Qt::RightDockWidgetArea
+                                 : Qt::TopDockWidgetArea | Qt::BottomDockWidgetArea);
+    window_.addDockWidget(area, dock);
     dock->hide();
     return dock;
 }
@@ -141,8 +147,12 @@ QAction* ReadingLayout::addSwitch(ReadingMenu menu, const QString& title, const 
 
 void ReadingLayout::finish()
 {
-    new ControlKeys(&window_, views_.endoscopic());
+    auto* keys = new ControlKeys(&window_, views_.first());
     orderTabs();
+    connect(&views_, &ReadingViews::laidOut, this, [this, keys] {
+        keys->setPicture(views_.first());
+        orderTabs();
+    });
 }
 
 // From left to right and from top to bottom, as the eye goes.
@@ -163,7 +173,8 @@ void ReadingLayout::orderTabs()
     add(below_);
     add(status_);
     for (std::size_t n = 1; n < order.size(); ++n)
-        QWidget::setTabOrder(order[n - 1], order[n]);
+        if (order[n - 1]->window() == order[n]->window())
+            QWidget::setTabOrder(order[n - 1], order[n]);
 }
 
 void ReadingLayout::say(const QString& message)

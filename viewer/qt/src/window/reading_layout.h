@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QKeySequence>
+#include <QLabel>
 #include <QMainWindow>
 #include <functional>
 #include <vector>
@@ -10,7 +11,6 @@
 class QAction;
 class QDockWidget;
 class QHBoxLayout;
-class QLabel;
 class QMenu;
 class QTabWidget;
 class QVBoxLayout;
@@ -19,7 +19,7 @@ namespace vicon::viewer {
 
 class ControlsArea;
 
-enum class ReadingMenu { a_case, edit, flight, view, help };
+enum class ReadingMenu { a_case, edit, flight, view, slices, help };
 
 /// Where things lie in the reading window: a line of choices above the views, the views, beside them the controls, a
 /// tab for each list, the menus, the status line. Tools put their own things there.
@@ -33,13 +33,15 @@ public:
 
     /// Above the views.
     void addChoice(QWidget* choice);
+    /// Beside the choices: whose the pictures are.
+    void showBanner(const QString& words) { banner_->setText(words); }
     /// Among the controls.
     void addPanel(QWidget* panel, PanelPlace place);
     /// It has one table, which Return and the arrow keys act on.
     void addList(QWidget* list, const QString& title);
     void addStatus(QWidget* status);
-    /// Beside views and controls, hidden until it is shown; it can be taken out into a window of its own.
-    QDockWidget* addForm(QWidget* form, const QString& title);
+    /// Beside or below views and controls, hidden until it is shown; it can be taken out into a window of its own.
+    QDockWidget* addForm(QWidget* form, const QString& title, Qt::DockWidgetArea area = Qt::RightDockWidgetArea);
     QAction* addAction(ReadingMenu menu, const QString& title, const QKeySequence& key, std::function<void()> what);
     /// @param key may be empty
     QAction* addSwitch(ReadingMenu menu, const QString& title, const QKeySequence& key);
@@ -73,7 +75,7 @@ private:
     QVBoxLayout* controls_;
     ControlsArea* area_;
     QTabWidget* lists_;
-    QLabel *notice_, *warning_;
+    QLabel *banner_, *notice_, *warning_;
     std::vector<QMenu*> menus_;
     std::vector<QWidget*> choices_, above_, below_, status_;
 };

@@ -37,11 +37,16 @@ std::unique_ptr<Display> displayForPictures()
 
 }  // namespace
 
-int runReadingRoom(const ReadingServices& services, const std::string& case_id, const std::atomic<bool>& stop)
+void requireScreen()
 {
     if (!Display::hasScreen())
         throw Error(ErrorCode::no_display, "there is no screen to show a window on", "DISPLAY",
                     "start it from a desktop session, or set DISPLAY to one; 'vicon snapshot' needs none");
+}
+
+int runReadingRoom(const ReadingServices& services, const std::string& case_id, const std::atomic<bool>& stop)
+{
+    requireScreen();
     // Pictures come from VTK's own context; Qt opens none that a broken driver could fail at.
     qputenv("QT_XCB_GL_INTEGRATION", "none");
     int argc = 1;

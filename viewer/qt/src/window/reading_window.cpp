@@ -25,7 +25,7 @@ constexpr const char* kList = "list";
 ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistCase& row)
 {
     setObjectName("reading");
-    setWindowTitle(tr("%1 - VICON").arg(QString::fromStdString(patientName(row.record.patient.name))));
+    setWindowTitle(tr("%1 - VICON").arg(QString::fromStdString(printedPatientName(row.record.patient.name))));
     views_ = new ReadingViews(this);
     layout_ = new ReadingLayout(*this, *views_);
     reading_ = std::make_unique<Reading>(services, row, *views_, nullptr);
@@ -43,7 +43,7 @@ ReadingWindow::ReadingWindow(const ReadingServices& services, const WorklistCase
     connectAll();
     layout_->finish();
     restore();
-    reading_->useWords(wordsFor("colon"));  // until a scan is open
+    reading_->useWords(wordsFor(Organ()));  // until a scan is open
     opening_->openFirst();
 }
 
@@ -62,15 +62,13 @@ void ReadingWindow::addEditActions()
 
 void ReadingWindow::addWindowActions()
 {
-    layout_->addAction(ReadingMenu::edit, tr("Go to the list: arrows choose, Return flies there"), QKeySequence("L"),
-                       [this] { layout_->goToList(); });
-    layout_->addAction(ReadingMenu::edit, tr("Back to the view: no marker, line, circle, warning"), QKeySequence("Esc"),
+    layout_->addAction(ReadingMenu::edit, tr("Go to the list"), QKeySequence("L"), [this] { layout_->goToList(); });
+    layout_->addAction(ReadingMenu::edit, tr("Back to the view; ends tool and warning"), QKeySequence("Esc"),
                        [this] { reading_->giveUp(); });
     layout_->addAction(ReadingMenu::a_case, tr("Close"), QKeySequence("Ctrl+W"), [this] { close(); });
     layout_->addAction(ReadingMenu::view, tr("This view alone, and back"), QKeySequence("E"),
                        [this] { views_->enlargeFocused(); });
-    two_windows_ =
-        layout_->addSwitch(ReadingMenu::view, tr("Slices and projection in a second window"), QKeySequence("F2"));
+    two_windows_ = layout_->addSwitch(ReadingMenu::view, tr("Second window"), QKeySequence("F2"));
     layout_->addAction(ReadingMenu::help, tr("Keys"), QKeySequence("?"), [this] { showKeys(*this); });
 }
 
@@ -92,7 +90,7 @@ void ReadingWindow::restore()
     restoreGeometry(keptSetting(kGeometry).toByteArray());
     reading_->restore();
     two_windows_->setChecked(keptSetting(kTwoWindows).toBool());
-    layout_->showList(keptSetting(keptKey(reading_->session().record(), kList)).toInt());
+    layout_->showList(keptSetting(readerKey(kList)).toInt());
 }
 
 void ReadingWindow::keyPressEvent(QKeyEvent* event)
@@ -117,7 +115,7 @@ void ReadingWindow::closeEvent(QCloseEvent* event)
     poll_.stop();
     reading_->keep({{kGeometry, saveGeometry()},
                     {kTwoWindows, two_windows_->isChecked()},
-                    {keptKey(reading_->session().record(), kList), layout_->shownList()}});
+                    {readerKey(kList), layout_->shownList()}});
     views_->hideSecondWindow();
     reading_->stop();
     endThreads();

@@ -8,7 +8,7 @@ namespace vicon::viewer {
 
 QString hintOfEmptyStore(const ReadingServices& services)
 {
-    const QString store = QString::fromStdString(services.store.string());
+    const QString store = QString::fromStdString(services.store.folder.string());
     return QObject::tr(
                "There is no case yet in %1.\n\nTo bring studies in:\n\nvicon import FOLDER --store %1\nvicon work "
                "--until-idle --store %1\n\nor send them from the PACS to %2, while this runs:\n\nvicon receive --store "

@@ -2,7 +2,6 @@
 
 #include <QComboBox>
 #include <QHBoxLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -11,150 +10,15 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "vicon/cases/printed.h"
+#include "guide/guide.h"
 #include "window/reading_window.h"
+#include "worklist/worklist_columns.h"
 #include "worklist/worklist_hint.h"
 
 namespace vicon::viewer {
 namespace {
 
 constexpr int kRefresh_ms = 2000;
-QString text(const std::string& utf8)
-{
-    return QString::fromStdString(utf8);
-}
-
-/// Whether any of its scans can be read, others may still be in work.
-bool readable(const WorklistCase& row)
-{
-    return std::any_of(row.scans.begin(), row.scans.end(), [](const WorklistScan& s) { return s.ready(); });
-}
-
-bool spoiled(const WorklistCase& row)
-{
-    return std::any_of(row.scans.begin(), row.scans.end(), [](const WorklistScan& s) { return s.spoiled(); });
-}
-
-QString scansOf(const WorklistCase& row)
-{
-    QStringList names;
-    for (const WorklistScan& scan : row.scans)
-        if (scan.state != WorkState::kept && scan.state != WorkState::refused)
-            names << text(positionName(scan.record.series.patient_position) +
-                          (scan.organ.isColon() ? "" : " (" + scan.organ.name() + ")"));
-    return names.join(", ");
-}
-
-/// Enough to choose the next case by; the tooltip says it of each scan.
-QString qualityOf(const WorklistCase& row)
-{
-    QStringList poor;
-    bool known = false;
-    for (const WorklistScan& scan : row.scans) {
-        if (scan.spoiled())
-            continue;  // what is known of it is of another lumen
-        known = known || !scan.quality.empty();
-        if (!scan.quality.empty() && !scan.adequate)
-            poor << text(positionName(scan.record.series.patient_position));
-    }
-    if (!known)
-        return {};
-    return poor.empty() ? WorklistWindow::tr("adequate") : WorklistWindow::tr("poor: %1").arg(poor.join(", "));
-}
-
-/// A line a scan: how well it is distended, or what is wrong with it.
-QString wordsOf(const WorklistCase& row, bool with_reasons)
-{
-    QStringList lines;
-    for (const WorklistScan& scan : row.scans) {
-        const std::string& words = with_reasons && !scan.reason.empty() ? scan.reason : scan.quality;
-        if (!words.empty())
-            lines << text(positionName(scan.record.series.patient_position) + ": " + words) +
-                         (with_reasons && scan.spoiled()
-                              ? WorklistWindow::tr(" (corrected; Retry forgets its corrections)")
-                              : QString());
-    }
-    return lines.join("\n");
-}
-
-QString progressOf(const WorklistCase& row)
-{
-    for (const WorklistScan& scan : row.scans)
-        if (scan.state == WorkState::running)
-            return QString("%1 %, %2").arg(100 * row.progress, 0, 'f', 0).arg(text(scan.step));
-    return QString("%1 %").arg(100 * row.progress, 0, 'f', 0);
-}
-
-/// What the list shows of a case. A new column is a line here.
-struct WorklistColumn {
-    const char* title;
-    QString (*cell)(const WorklistCase&);
-    QString (*tip)(const WorklistCase&) = nullptr;  ///< where the cell cannot say all
-};
-
-QString patientOf(const WorklistCase& row)
-{
-    return text(patientName(row.record.patient.name));
-}
-
-const WorklistColumn kWorklistColumns[] = {
-    {QT_TRANSLATE_NOOP("WorklistWindow", "Patient"), patientOf, patientOf},  // a long name is cut off in its cell
-    {QT_TRANSLATE_NOOP("WorklistWindow", "ID"), [](const WorklistCase& row) { return text(row.record.patient.id); }},
-    {QT_TRANSLATE_NOOP("WorklistWindow", "Study date"),
-     [](const WorklistCase& row) { return text(printedDate(row.record.study.date)); }},
-    {QT_TRANSLATE_NOOP("WorklistWindow", "Scans"), scansOf},
-    {QT_TRANSLATE_NOOP("WorklistWindow", "State"), [](const WorklistCase& row) { return text(nameOf(row.state)); }},
-    {QT_TRANSLATE_NOOP("WorklistWindow", "Progress"), progressOf},
-    {QT_TRANSLATE_NOOP("WorklistWindow", "Quality"), qualityOf,
-     [](const WorklistCase& row) { return wordsOf(row, false); }},
-    {QT_TRANSLATE_NOOP("WorklistWindow", "Markers"),
-     [](const WorklistCase& row) { return QString::number(row.markers); }},
-    {QT_TRANSLATE_NOOP("WorklistWindow", "Reports"),
-     [](const WorklistCase& row) { return QString::number(row.reports); }},
-};
-constexpr int kPatient = 0;
-
-/// Fills a line; returns whether it says something else than before.
-bool fill(QTableWidget& table, int line, const WorklistCase& row)
-{
-    bool changed = false;
-    for (int column = 0; column < int(std::size(kWorklistColumns)); ++column) {
-        if (!table.item(line, column))
-            table.setItem(line, column, new QTableWidgetItem);
-        QTableWidgetItem& item = *table.item(line, column);
-        const QString cell = kWorklistColumns[column].cell(row);
-        changed = changed || item.text() != cell;
-        item.setText(cell);
-        if (kWorklistColumns[column].tip)
-            item.setToolTip(kWorklistColumns[column].tip(row));
-    }
-    return changed;
-}
-
-bool says(const WorklistCase& row, const QString& words)
-{
-    return patientOf(row).contains(words, Qt::CaseInsensitive) ||
-           text(row.record.patient.id).contains(words, Qt::CaseInsensitive);
-}
-
-QTableWidget* makeTable(QWidget* parent)
-{
-    auto* table = new QTableWidget(0, int(std::size(kWorklistColumns)), parent);
-    table->setObjectName("cases");
-    table->setAccessibleName(WorklistWindow::tr("Cases"));
-    QStringList titles;
-    for (const WorklistColumn& column : kWorklistColumns)
-        titles << WorklistWindow::tr(column.title);
-    table->setHorizontalHeaderLabels(titles);
-    table->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table->setSelectionMode(QAbstractItemView::SingleSelection);
-    table->setTabKeyNavigation(false);  // Tab leads out of it; the arrow keys move in it
-    table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    table->setAlternatingRowColors(true);
-    table->verticalHeader()->hide();
-    table->horizontalHeader()->setSectionResizeMode(kPatient, QHeaderView::Stretch);
-    return table;
-}
 
 QLabel* makeLabel(const char* name, QWidget* parent)
 {
@@ -194,8 +58,8 @@ void WorklistWindow::buildControls()
     state_->setAccessibleName(tr("State of the cases shown"));
     state_->addItem(tr("all"), "");
     for (const WorkState state : {WorkState::done, WorkState::running, WorkState::queued, WorkState::failed})
-        state_->addItem(text(nameOf(state)), text(nameOf(state)));
-    table_ = makeTable(this);
+        state_->addItem(QString::fromStdString(nameOf(state)), QString::fromStdString(nameOf(state)));
+    table_ = makeCaseTable(this);
     hint_ = makeLabel("hint", table_->viewport());
     hint_->setText(tr("Reading the worklist ..."));
     hint_->setAlignment(Qt::AlignCenter);
@@ -258,6 +122,8 @@ void WorklistWindow::addKeys()
         search_->setFocus(Qt::ShortcutFocusReason);
         search_->selectAll();
     });
+    connect(new QShortcut(QKeySequence("F1"), this), &QShortcut::activated, this,
+            [this] { showGuide(*this, "The worklist"); });
     connect(new QShortcut(QKeySequence("Ctrl+Q"), this), &QShortcut::activated, this, &QWidget::close);
 }
 
@@ -299,13 +165,13 @@ void WorklistWindow::show(const std::vector<WorklistCase>& rows)
     table_->setRowCount(int(rows.size()));
     for (int n = 0; n < int(rows.size()); ++n) {
         const WorklistCase& row = rows[std::size_t(n)];
-        changed = fill(*table_, n, row) || changed;
+        changed = fillLine(*table_, n, row) || changed;
         if (row.record.id == chosen_id || (chosen_id.empty() && n == 0))
             table_->selectRow(n);
     }
     // Once for all: a header that keeps to its contents measures every line again for each cell that is filled.
-    for (int column = kPatient + 1; changed && column < table_->columnCount(); ++column)
-        table_->resizeColumnToContents(column);
+    if (changed)
+        fitColumns(*table_);
     filter();
     updateButtons();
     for (const WorklistCase& row : rows_)
@@ -324,7 +190,8 @@ void WorklistWindow::filter()
     const QString words = search_->text().trimmed(), state = state_->currentData().toString();
     for (int n = 0; n < table_->rowCount(); ++n) {
         const WorklistCase& row = rows_[std::size_t(n)];
-        table_->setRowHidden(n, !says(row, words) || (!state.isEmpty() && text(nameOf(row.state)) != state));
+        table_->setRowHidden(
+            n, !says(row, words) || (!state.isEmpty() && QString::fromStdString(nameOf(row.state)) != state));
     }
     if (!selected())  // what was chosen is hidden: the first that was found is opened by Return
         for (int n = 0; n < table_->rowCount(); ++n)
@@ -379,6 +246,11 @@ void WorklistWindow::open(const WorklistCase& row)
     made_.erase(std::remove(made_.begin(), made_.end(), nullptr), made_.end());
     made_.emplace_back(window);
     connect(window, &ReadingWindow::closed, this, [this, id] { windows_.erase(id); });
+    if (services_.opened)
+        books_.postAlways([this, id](Books& books) -> Worker::Work {
+            services_.opened(books.store(), id);
+            return {};
+        });
     window->resize(1500, 900);
     // Making and laying out take some 15 ms each: as two events, so that none blocks for long.
     QTimer::singleShot(0, window, &QWidget::show);
@@ -400,7 +272,7 @@ void WorklistWindow::report()
     message_->setText(tr("Writing the report ..."));
     books_.postAlways([this, id = selected()->record.id](Books& books) -> Worker::Work {
         const auto file = services_.report(books.store(), id);
-        return [this, name = text(file.string())] {
+        return [this, name = QString::fromStdString(file.string())] {
             message_->setText(tr("Report written: %1").arg(name));
             refresh();
         };

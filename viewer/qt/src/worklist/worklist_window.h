@@ -32,7 +32,7 @@ public:
 private:
     /// What the list is read from, and which state of it was read last.
     struct Books {
-        explicit Books(std::filesystem::path folder) : store(std::move(folder)) {}
+        explicit Books(StorePlace place) : store(std::move(place)) {}
 
         OwnStore store;
         std::optional<std::string> version;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vicon/core/cell_surface.h"
+#include "vicon/core/option_names.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/subdivision.h"
@@ -28,15 +29,25 @@ CellSurface extractCells(const HuVolume& hu, const InsideVolume& inside, const S
                          const WallDensities& densities, Progress& progress);
 
 /// What the wall's place is taken from.
+enum class WallSource { densities, tissue };
+inline constexpr EnumNames<WallSource, 2> kWallSourceNames{{
+    {WallSource::densities, "densities"},
+    {WallSource::tissue, "tissue"},
+}};
+constexpr const auto& optionNames(WallSource /*value*/)
+{
+    return kWallSourceNames;
+}
+
 struct WallOptions {
-    std::string wall = "tissue";
+    WallSource wall = WallSource::tissue;
 
     template <class Visitor>
     void visit(Visitor&& v)
     {
         v("subdivide.wall", wall, "",
           "densities: the wall lies between the labels, where they say; tissue: where half of a voxel is tissue.",
-          OptionLimits{.choices = {"densities", "tissue"}});
+          choicesOf(wall));
     }
 };
 

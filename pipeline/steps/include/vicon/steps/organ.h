@@ -1,7 +1,9 @@
 #pragma once
 
 #include "vicon/core/geometry_json.h"
+#include "vicon/core/option_names.h"
 #include "vicon/core/options.h"
+#include "vicon/core/organ.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/skeleton_tree.h"
@@ -11,6 +13,17 @@
 #include "vicon/steps/wall_densities.h"
 
 namespace vicon::steps {
+
+/// Where the distances of an organ that branches begin.
+enum class TreeRoot { head, far_from_feet };
+inline constexpr EnumNames<TreeRoot, 2> kTreeRootNames{{
+    {TreeRoot::head, "head"},
+    {TreeRoot::far_from_feet, "far_from_feet"},
+}};
+constexpr const auto& optionNames(TreeRoot /*value*/)
+{
+    return kTreeRootNames;
+}
 
 /// What a hollow organ looks like that is no colon: a tube or a tree of tubes around a tube that runs from head to
 /// feet. The presets of config/organs set them; docs/dev/organs.md tells how to add one.
@@ -30,7 +43,7 @@ struct OrganOptions {
     double seed_to_radius_mm = 14;
     double seed_length_mm = 20;
     double seed_off_midline = 0.2;
-    std::string root = "head";
+    TreeRoot root = TreeRoot::head;
     double branch_mm = 5;
 
     template <class Visitor>
@@ -61,11 +74,11 @@ struct OrganOptions {
           "How far from the body's middle the tube may lie, as a share of the body's width.", OptionLimits{0, 1});
         v("organ.root", root, "",
           "Where distances begin: at the head end of the tube, or at what lies farthest, inside, from the feet.",
-          OptionLimits{.choices = {"head", "far_from_feet"}});
+          choicesOf(root));
         v("organ.branch_mm", branch_mm, "mm",
           "Branches that reach less far beyond their parent's wall are no branches.", OptionLimits{0, 100});
     }
-    bool isColon() const { return name == "colon"; }
+    bool isColon() const { return Organ(name).isColon(); }
 };
 
 /// Finds the lumen of an organ that is no colon, labelled kGas. The plan has one piece: from the root, as its rectal

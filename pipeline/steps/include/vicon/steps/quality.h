@@ -25,8 +25,8 @@ struct QualityOptions {
           "A longer collapsed stretch could hide a lesion of 10 mm: the part is not adequate (C-RADS C0).", {1, 100});
         v("quality.usual_noise_hu", usual_noise_hu, "HU", "More noise than this is pointed out.", {5, 200});
         v("quality.shortest_mm", shortest_mm, "mm",
-          "A shorter skeleton is not plausible for a whole colon; lower it after a resection.", {0, 3000});
-        v("quality.longest_mm", longest_mm, "mm", "A longer skeleton is not plausible.", {1000, 5000});
+          "A shorter centreline is not plausible for a whole colon; lower it after a resection.", {0, 3000});
+        v("quality.longest_mm", longest_mm, "mm", "A longer centreline is not plausible.", {1000, 5000});
     }
 };
 

@@ -2,15 +2,28 @@
 
 #include <string>
 
+#include "vicon/core/option_names.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/volume.h"
 
 namespace vicon::steps {
 
+/// What lies between acquired voxels.
+enum class Interpolation { linear, bspline, windowed_sinc };
+inline constexpr EnumNames<Interpolation, 3> kInterpolationNames{{
+    {Interpolation::linear, "linear"},
+    {Interpolation::bspline, "bspline"},
+    {Interpolation::windowed_sinc, "windowed_sinc"},
+}};
+constexpr const auto& optionNames(Interpolation /*value*/)
+{
+    return kInterpolationNames;
+}
+
 struct ResampleOptions {
     double spacing_mm = 0;
-    std::string interpolation = "linear";
+    Interpolation interpolation = Interpolation::linear;
 
     template <class Visitor>
     void visit(Visitor&& v)
@@ -20,7 +33,7 @@ struct ResampleOptions {
         v("resample.interpolation", interpolation, "",
           "linear; bspline (cubic) and windowed_sinc (Lanczos) keep edges sharper, overshoot beside them and take "
           "minutes.",
-          {.choices = {"linear", "bspline", "windowed_sinc"}});
+          choicesOf(interpolation));
     }
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vicon/core/geometry_json.h"
+#include "vicon/core/option_names.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/verdict.h"
@@ -14,8 +15,19 @@
 
 namespace vicon::steps {
 
+/// How the lumen is sought.
+enum class SegmentMethod { automatic, binary };
+inline constexpr EnumNames<SegmentMethod, 2> kSegmentMethodNames{{
+    {SegmentMethod::automatic, "auto"},
+    {SegmentMethod::binary, "binary"},
+}};
+constexpr const auto& optionNames(SegmentMethod /*value*/)
+{
+    return kSegmentMethodNames;
+}
+
 struct SegmentOptions {
-    std::string method = "auto";
+    SegmentMethod method = SegmentMethod::automatic;
     double gas_below_hu = -800;
     WallDensities densities;
     double fluid_above_hu = 200;
@@ -25,6 +37,7 @@ struct SegmentOptions {
     double longest_sure_bridge_mm = 60;
     double shortest_mm = 250;
     double usual_mm = 900;
+    double longest_mm = 3000;
     double least_ml = 20;
     std::vector<Point3> add;
     std::vector<Point3> cut;
@@ -37,7 +50,7 @@ struct SegmentOptions {
     {
         v("segment.method", method, "",
           "auto: gas and tagged fluid of the whole colon; binary: what lies below iso_hu around the seed point.",
-          {.choices = {"auto", "binary"}});
+          choicesOf(method));
         v("segment.gas_below_hu", gas_below_hu, "HU", "Voxels below this density are the core of gas.", {-1000, -500});
         densities.visit(v);
         v("segment.fluid_above_hu", fluid_above_hu, "HU", "Tagged fluid has at least this density.", {100, 1000});
@@ -53,6 +66,7 @@ struct SegmentOptions {
           "A longer bridge over a collapsed part is reported as uncertain.", {0, 500});
         v("segment.shortest_mm", shortest_mm, "mm", "A shorter run of gas and fluid is no colon.", {0, 1000});
         v("segment.usual_mm", usual_mm, "mm", "A shorter colon is doubted; lower it after a resection.", {0, 2000});
+        v("segment.longest_mm", longest_mm, "mm", "A longer colon is doubted.", {1000, 6000});
         v("segment.least_ml", least_ml, "ml", "Less gas and fluid is no colon.", {0, 500});
         v("segment.add", add, "mm", "Points (LPS) whose gas or fluid belongs to the colon.");
         v("segment.cut", cut, "mm", "Points (LPS) where the lumen is cut; the smaller part is dropped.");

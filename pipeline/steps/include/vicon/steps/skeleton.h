@@ -23,13 +23,13 @@ struct SkeletonOptions {
     template <class Visitor>
     void visit(Visitor&& v)
     {
-        v("skeleton.step_mm", step_mm, "mm", "Distance between points of the smooth curve.", {0.25, 5});
+        v("skeleton.step_mm", step_mm, "mm", "Distance between points of the centreline.", {0.25, 5});
         v("skeleton.path_smoothing_mm", path_smoothing_mm, "mm",
           "Standard deviation of the Gaussian along the voxel path.", {0, 20});
         v("skeleton.smoothing_mm", smoothing_mm, "mm", "Standard deviation of the Gaussian after each recentring.",
           {0, 20});
-        v("skeleton.recentrings", recentrings, "", "How often the curve is moved to the middle of its cross-sections.",
-          {0, 10});
+        v("skeleton.recentrings", recentrings, "",
+          "How often the centreline is moved to the middle of its cross-sections.", {0, 10});
         v("skeleton.rays", rays, "", "Rays per cross-section.", {8, 512});
         v("skeleton.uncovered_mm", uncovered_mm, "mm",
           "Lumen farther than this from the path, measured inside the lumen, is not covered by it.", {10, 200});

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "vicon/core/option_names.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/skeleton.h"
@@ -13,33 +14,88 @@
 
 namespace vicon::steps {
 
+/// How the lumen is divided.
+enum class SubdivideMethod { flood, thesis };
+inline constexpr EnumNames<SubdivideMethod, 2> kSubdivideMethodNames{{
+    {SubdivideMethod::flood, "flood"},
+    {SubdivideMethod::thesis, "thesis"},
+}};
+constexpr const auto& optionNames(SubdivideMethod /*value*/)
+{
+    return kSubdivideMethodNames;
+}
+
+/// thesis: what measures a segment's size.
+enum class SegmentSize { surface, inside, triangles };
+inline constexpr EnumNames<SegmentSize, 3> kSegmentSizeNames{{
+    {SegmentSize::surface, "surface"},
+    {SegmentSize::inside, "inside"},
+    {SegmentSize::triangles, "triangles"},
+}};
+constexpr const auto& optionNames(SegmentSize /*value*/)
+{
+    return kSegmentSizeNames;
+}
+
+/// thesis: what tells a good portal.
+enum class PortalEffectiveness { tangent, portal_size, gate_ratio };
+inline constexpr EnumNames<PortalEffectiveness, 3> kPortalEffectivenessNames{{
+    {PortalEffectiveness::tangent, "tangent"},
+    {PortalEffectiveness::portal_size, "portal_size"},
+    {PortalEffectiveness::gate_ratio, "gate_ratio"},
+}};
+constexpr const auto& optionNames(PortalEffectiveness /*value*/)
+{
+    return kPortalEffectivenessNames;
+}
+
+/// thesis: how portals are chosen.
+enum class SubdivideApproach { local, global };
+inline constexpr EnumNames<SubdivideApproach, 2> kSubdivideApproachNames{{
+    {SubdivideApproach::local, "local"},
+    {SubdivideApproach::global, "global"},
+}};
+constexpr const auto& optionNames(SubdivideApproach /*value*/)
+{
+    return kSubdivideApproachNames;
+}
+
+/// thesis: which planes are tried.
+enum class PlaneDirections { axis, oblique };
+inline constexpr EnumNames<PlaneDirections, 2> kPlaneDirectionsNames{{
+    {PlaneDirections::axis, "axis"},
+    {PlaneDirections::oblique, "oblique"},
+}};
+constexpr const auto& optionNames(PlaneDirections /*value*/)
+{
+    return kPlaneDirectionsNames;
+}
+
 struct SubdivideOptions {
-    std::string method = "flood";
+    SubdivideMethod method = SubdivideMethod::flood;
     int segments = 0;
     double length_mm = 30;
-    std::string size = "surface";
-    std::string effectiveness = "gate_ratio";
-    std::string approach = "local";
-    std::string planes = "axis";
+    SegmentSize size = SegmentSize::surface;
+    PortalEffectiveness effectiveness = PortalEffectiveness::gate_ratio;
+    SubdivideApproach approach = SubdivideApproach::local;
+    PlaneDirections planes = PlaneDirections::axis;
     double gate_ratio_low = 0.7;
     double gate_ratio_high = 1.5;
 
     template <class Visitor>
     void visit(Visitor&& v)
     {
-        v("subdivide.method", method, "", "flood: pieces of the skeleton flooded together; thesis: planes across it.",
-          OptionLimits{.choices = {"flood", "thesis"}});
+        v("subdivide.method", method, "", "flood: pieces of the centreline flooded together; thesis: planes across it.",
+          choicesOf(method));
         v("subdivide.segments", segments, "", "Specified number of segments; 0 takes it from the length of a segment.",
           OptionLimits{0, 10000});
-        v("subdivide.length_mm", length_mm, "mm", "Length of skeleton in a segment.", OptionLimits{5, 500});
-        v("subdivide.size", size, "", "thesis: what measures a segment's size.",
-          OptionLimits{.choices = {"surface", "inside", "triangles"}});
-        v("subdivide.effectiveness", effectiveness, "", "thesis: what tells a good portal.",
-          OptionLimits{.choices = {"tangent", "portal_size", "gate_ratio"}});
+        v("subdivide.length_mm", length_mm, "mm", "Length of centreline in a segment.", OptionLimits{5, 500});
+        v("subdivide.size", size, "", "thesis: what measures a segment's size.", choicesOf(size));
+        v("subdivide.effectiveness", effectiveness, "", "thesis: what tells a good portal.", choicesOf(effectiveness));
         v("subdivide.approach", approach, "", "thesis: the local walk of Algorithm 3.1, or the global optimum.",
-          OptionLimits{.choices = {"local", "global"}});
+          choicesOf(approach));
         v("subdivide.planes", planes, "", "thesis: planes along the axes, or across the regional tangent.",
-          OptionLimits{.choices = {"axis", "oblique"}});
+          choicesOf(planes));
         v("subdivide.gate_ratio_low", gate_ratio_low, "", "thesis: least ratio of a good gate's sides.",
           OptionLimits{0, 1});
         v("subdivide.gate_ratio_high", gate_ratio_high, "", "thesis: largest ratio of a good gate's sides.",

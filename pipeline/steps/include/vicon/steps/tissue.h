@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "vicon/core/options.h"
 #include "vicon/core/progress.h"
+#include "vicon/core/scanner_blur.h"
 #include "vicon/core/volume.h"
 #include "vicon/steps/wall_densities.h"
 
@@ -12,11 +14,26 @@ namespace vicon::steps {
 /// How much of each voxel is tissue: 0 for none of it, 255 for all.
 using TissueVolume = Volume<std::uint8_t>;
 
+struct TissueOptions {
+    double usual_blur_mm = kUsualBlur_mm;
+    double tag_contrast_hu = 120;
+
+    template <class Visitor>
+    void visit(Visitor&& v)
+    {
+        v("tissue.usual_blur_mm", usual_blur_mm, "mm",
+          "Standard deviation of the blur where no fluid level shows it; larger for softer kernels.", {0.2, 2});
+        v("tissue.tag_contrast_hu", tag_contrast_hu, "HU",
+          "Fluid that is less than this much brighter than the wall counts as untagged.", {20, 1000});
+    }
+};
+
 struct TissueResult {
     TissueVolume tissue;   ///< 255 farther than about 5 mm from the lumen
     InsideVolume lumen;    ///< the labels, with the wall where half of a voxel is tissue
     HuVolume cleansed;     ///< the densities with tagging taken out: -1000 + 1040 x fraction beside tagging
-    nlohmann::json found;  ///< measures, for the step's record
+    double blur_mm = 0;    ///< standard deviation of the blur at fluid levels; a usual one where there are none
+    nlohmann::json found;  ///< other measures, for the step's record
 };
 
 /// Finds the fraction of tissue in each voxel of the lumen and about 5 mm around it, as a mixture of tissue with what
@@ -34,6 +51,6 @@ struct TissueResult {
 /// All volumes lie on the grid of `inside`. The result does not depend on the number of threads.
 /// Throws Error{bad_input} when the grids do not fit together, Error{no_memory}.
 TissueResult findTissue(const HuVolume& hu, const InsideVolume& inside, Vector3 gravity, const WallDensities& densities,
-                        double noise_hu, Progress& progress);
+                        double noise_hu, Progress& progress, const TissueOptions& options = {});
 
 }  // namespace vicon::steps

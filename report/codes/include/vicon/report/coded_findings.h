@@ -31,8 +31,15 @@ struct CodedFacts {
 CodedFacts factsOfWhole(const FindingWithFacts& finding);
 /// Of a finding as one marker shows it: where along the colon, its sizes there, its density.
 CodedFacts factsOfSight(const FindingSight& sight);
+/// Of a finding beside one of an earlier report: name, size and date of that one, and what became of it.
+CodedFacts factsOfComparison(const ComparedFinding& compared);
 /// What the reader chose for the whole study: categories, preparation, limits, dose and time.
 CodedFacts factsOfStudy(const Assessment& said);
+
+/// Comparison with an earlier report.
+Code comparisonConcept();
+/// The comparisons of a finding that the reader confirmed.
+std::vector<ComparedFinding> confirmedComparisons(const ReadCase& read, const Finding& finding);
 
 /// "Finding 7", by which a finding is known in every form.
 std::string trackingName(const Finding& finding);

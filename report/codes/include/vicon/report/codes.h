@@ -31,6 +31,11 @@ Code codeOf(Grade grade);
 Code procedureReported();    ///< CT of colon and rectum
 Code extracolonicConcept();  ///< C-RADS outside the colon
 Code findingSiteConcept();
+Code seriesConcept();  ///< Series Instance UID
+// Of the images of a scan.
+Code patientPositionConcept();
+Code sliceThicknessConcept();
+Code kernelConcept();
 
 Code dcm(const char* value, const char* meaning);
 Code sct(const char* value, const char* meaning);

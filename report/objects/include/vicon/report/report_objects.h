@@ -46,6 +46,28 @@ struct SightPictures {
     std::vector<std::filesystem::path> files;  ///< PNG, from left to right; at least one
 };
 
+/// Pictures on their way into objects: those of a sight are joined and compressed on a thread of its own as soon as
+/// they are there, while others are still drawn.
+class PackedSights {
+public:
+    PackedSights();
+    /// Waits for what is under way.
+    ~PackedSights();
+    PackedSights(const PackedSights&) = delete;
+    PackedSights& operator=(const PackedSights&) = delete;
+
+    /// The files are whole and stay as they are. Any thread may call it, once for each marker.
+    void begin(const std::string& marker_id, const std::vector<std::filesystem::path>& files);
+
+    struct Packed;
+    /// Waits for it; packs now what was not begun. Throws what went wrong. To be called once for each marker.
+    std::unique_ptr<Packed> take(const SightPictures& pictures);
+
+private:
+    struct Work;
+    std::unique_ptr<Work> work_;
+};
+
 /// What objects are made of.
 struct ObjectContent {
     const ReadCase& read;
@@ -54,6 +76,7 @@ struct ObjectContent {
     std::string_view pdf;
     std::vector<SightPictures> pictures = {};
     std::vector<ObjectKind> kinds = kAllObjects;  ///< that are made
+    PackedSights* packed = nullptr;               ///< the pictures, begun already; may be none
 };
 
 /// What a report's objects show of its scans: where the images lie, the centrelines, the lumen on the images. It takes

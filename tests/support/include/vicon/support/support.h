@@ -23,6 +23,9 @@ private:
     std::filesystem::path path_;
 };
 
+/// Whether a long proof runs in full (the label `long`), instead of a sample of it.
+bool inFull();
+
 /// Looks again and again until a condition holds; false when it does not within a minute.
 bool waitUntil(const std::function<bool()>& holds);
 

@@ -37,6 +37,8 @@ void addTriad(Overlay& overlay, Pixel centre, double radius_px, const Pose& pose
 
 /// Lines of text from the upper left corner of `area`, none wider than it.
 void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>& lines, double text_px);
+/// Where a caption lies beside the letter in the middle of the upper edge; in a narrow picture below it.
+Area captionArea(double width_px, double height_px, double text_px);
 /// How many lines addLines() has room for in an area of this height; at least one.
 int linesIn(double height_px, double text_px);
 /// How high the text may be for that many lines to fit into an area of this height.

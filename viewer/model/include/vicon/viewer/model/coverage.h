@@ -17,6 +17,8 @@ public:
 
     std::size_t triangleCount() const { return seen_.size(); }
     bool seen(std::size_t triangle) const { return seen_[triangle] != 0; }
+    /// 1 for each that is, 0 for others.
+    const std::vector<std::uint8_t>& seenTriangles() const { return seen_; }
     double area_mm2(std::size_t triangle) const { return areas_mm2_[triangle]; }
     std::size_t seenCount() const { return seen_count_; }
     double seenArea_mm2() const { return seen_area_; }

@@ -37,7 +37,7 @@ public:
     /// Planned, on a straight way; in bends the flight is slower, so that the view turns by 90 degrees a second at
     /// most. Clamped to the least and the most.
     void setSpeed(double mm_s);
-    /// 1 along the heading, -1 backwards, 0 stop; planned and guided.
+    /// 1 along the heading, -1 backwards, 0 stop; planned and guided, where it is adrift then.
     void fly(int direction) { direction_ = direction; }
     int direction() const { return direction_; }
     /// Guided and free; stays in force until the next call.

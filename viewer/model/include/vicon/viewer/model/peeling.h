@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "vicon/core/progress.h"
 #include "vicon/core/volume_view.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/density_bricks.h"
@@ -59,10 +60,10 @@ std::optional<double> distanceToWall_mm(const Lumen& lumen, Point3 from, Vector3
 /// Densities are trilinear; outside the scan and at padding nothing is seen. Source: peeling as in the thesis, chapter
 /// 4; empty space leaping by distance: Zuiderveld et al., VBC 1992; bricks of densities that the colours do not show
 /// are leapt over too. `only`: the other pixels stay clear. Throws Error{wrong_use} for a step or a picture size out of
-/// range.
+/// range, Error{cancelled} where `wanted`, if there is one, says so.
 PeeledPicture peel(const DensityBricks& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
                    const TransferFunction& colours, const PeelingOptions& options = {},
-                   const std::optional<PictureCircle>& only = {});
+                   const std::optional<PictureCircle>& only = {}, const Progress* wanted = nullptr);
 /// For one picture of a volume.
 inline PeeledPicture peel(const HuView& volume, const Lumen& lumen, const Pose& pose, const Lens& lens,
                           const TransferFunction& colours, const PeelingOptions& options = {},

@@ -13,7 +13,7 @@ namespace vicon::viewer {
 /// between two points of that cross-section, the clicked ones included. What hangs over beyond the points belongs to
 /// it, the wall that curves up there does not. A diameter runs through tissue, at most a fifth of it beside.
 /// Nothing where nothing stands above the line in any plane, it is nowhere bounded by lumen, the line runs through the
-/// lumen, or the points are less than 1 or more than 80 mm asunder.
+/// lumen, or the points are less than 1 or more than 80 mm apart.
 /// @param eye a place in the lumen from which the points are seen
 std::optional<PlaneSize> sizeOnBestPlane(const InsideView& inside, Point3 a, Point3 b, Point3 eye);
 

@@ -19,6 +19,12 @@ public:
     explicit ScanCoverage(std::vector<float> areas_mm2);
 
     void see(const std::vector<std::uint32_t>& triangles);
+    /// These triangles are in the picture on the screen, and no others. Those that were on it for `least_s` without a
+    /// break count as seen.
+    /// @param now_s of any clock that runs on
+    void show(std::vector<std::uint32_t> triangles, double now_s, double least_s);
+    /// What was shown last is on the screen still.
+    void stillShown(double now_s, double least_s);
     void forget();
     /// What has been seen by now counts as earlier from here on: the reader turned about, or looks elsewhere.
     void beginPass();
@@ -27,6 +33,8 @@ public:
     double seenArea_mm2() const;
     /// As it is now.
     Coverage coverage() const;
+    /// Of each triangle, 1 where it is seen by now; else 0.
+    std::vector<std::uint8_t> seenTriangles() const;
     /// Of each triangle, 1 where it was seen before the present pass; else 0.
     std::vector<std::uint8_t> earlier() const;
 
@@ -42,7 +50,9 @@ private:
     mutable std::mutex mutex_;
     Coverage coverage_;
     std::vector<std::uint8_t> earlier_;
-    std::uint64_t surface_ = 0;  // a checksum of the areas
+    std::vector<std::uint32_t> on_screen_;  // ascending
+    std::vector<double> since_s_;           // of those
+    std::uint64_t surface_ = 0;             // a checksum of the areas
 };
 
 }  // namespace vicon::viewer

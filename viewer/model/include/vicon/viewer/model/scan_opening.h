@@ -48,8 +48,8 @@ struct ScanObserved {
     bool own_work = false;   ///< it is done again for this reader
 };
 
-/// The request to open a scan, from asking to arriving. A later request replaces one that is under way. What is owed
-/// to the markers of a scan that was done again stays owed until a scan is opened, whoever gave up on what.
+/// The request to open a scan, from asking to arriving. A later request replaces one that is under way. Markers of
+/// a scan that was done again are placed anew when a scan is opened next, also after requests that were given up.
 class ScanOpening {
 public:
     /// Where the reader leaves from.

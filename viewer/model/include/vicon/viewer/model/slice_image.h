@@ -20,6 +20,10 @@ std::vector<float> sliceDensities(const HuView& volume, const HuView& cleansed, 
 /// the point.
 PlaneView sliceThrough(const Grid& grid, SlicePlane plane, Point3 point, int width, int height, double field_mm = 0);
 
+/// The same slice pixel for pixel: the voxel at `point` in the middle, and as many millimetres a pixel as the grid's
+/// finest axis in the plane has. Where the grid's axes are those of the picture, nothing is interpolated along it.
+PlaneView pixelForPixel(const Grid& grid, const PlaneView& view, Point3 point);
+
 /// The smallest box around a grid, in patient coordinates.
 struct Bounds {
     Point3 lower_mm, upper_mm;

@@ -24,12 +24,13 @@ struct SubmarineOptions {
 
 /// What the user does with mouse and keys; each from -1 to 1. All zero: let go.
 struct Steering {
-    double pull = 0;        ///< along the exit potential, 1: the way the camera heads, -1: back
+    double pull = 0;        ///< along path and exit potential, 1: the way the camera heads, -1: back
     double turn_right = 0;  ///< turns the view
     double turn_up = 0;
     double thrust_forward = 0;  ///< moves the camera in its own axes
     double thrust_right = 0;
     double thrust_up = 0;
+    double drift = 0;  ///< without `pull`: the two potentials alone lead on, 1: the way it heads, -1: back
 
     bool turns() const { return turn_right != 0 || turn_up != 0; }
     bool thrusts() const { return thrust_forward != 0 || thrust_right != 0 || thrust_up != 0; }
@@ -47,10 +48,11 @@ struct SubmarineState {
 };
 
 /// The guided camera (thesis, section 3.3; Hong et al., Virtual Voyage, 1997): pulled along the distance from the exit,
-/// pushed off the wall, steered by the user, back on its path when let go. It moves in fixed steps of 1/240 s whatever
-/// the frame rate; where it is between two steps is interpolated. Bridges and parts narrower than the camera are
-/// crossed along the path, and the state says so; there it is never nearer to the wall than the path itself, elsewhere
-/// never nearer than its radius. Its way back leads round folds and to where the path is wide enough for it.
+/// pushed off the wall, steered by the user, back on its path when let go. Adrift, the thesis' submarine, nothing but
+/// the two potentials moves it, and the path leads on only where they hold it fast. It moves in fixed steps of 1/240 s
+/// whatever the frame rate; where it is between two steps is interpolated. Bridges and parts narrower than the camera
+/// are crossed along the path, and the state says so; there it is never nearer to the wall than the path itself,
+/// elsewhere never nearer than its radius. Its way back leads round folds and to where the path is wide enough for it.
 class Submarine {
 public:
     static constexpr double kTick_s = 1.0 / 240;
@@ -84,7 +86,12 @@ private:
     void move();
     void turn();
     Vector3 wayOn() const;
+    /// Of the distance from the exit, over so many voxels to either side; of inside voxels only.
+    Vector3 exitSlope(int voxels) const;
+    double wantedPull() const { return steering_.pull != 0 ? steering_.pull : steering_.drift; }
     Vector3 pull() const;
+    Vector3 drift() const;
+    bool isAdrift();
     Vector3 pushOffWall() const;
     void home();
     void lookForWayHome();
@@ -104,8 +111,10 @@ private:
     double first_mm_ = 0, last_mm_ = 0;  // the stations between which the path can be flown
     std::vector<Point3> way_home_;       // places to make for, the next one last; empty: the foot
     double home_station_mm_ = 0;         // of the first of them
-    long let_go_ticks_ = 0;
-    double owed_s_ = 0;  // time that has passed since `now_`
+    long adrift_ticks_ = 0;
+    double farthest_mm_ = 0;  // adrift: the farthest station so far, the way it heads
+    long held_ticks_ = 0;     // since it got no farther
+    double owed_s_ = 0;       // time that has passed since `now_`
 };
 
 }  // namespace vicon::viewer

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "vicon/core/progress.h"
 #include "vicon/viewer/model/coverage.h"
 #include "vicon/viewer/model/view_pose.h"
 
@@ -27,9 +28,11 @@ struct UnseenOptions {
 /// cross the borders of cells, and single triangles too thin for any pixel do not join what lies around them.
 /// @param points_mm x, y, z of each point, LPS
 /// @param triangles three point numbers each, as many triangles as `coverage` has
-/// Throws Error{bad_input} when the coverage is one of another surface, and as poseForPoint() does.
+/// Throws Error{bad_input} when the coverage is one of another surface, Error{cancelled} where `wanted`, if there is
+/// one, says so, and as poseForPoint() does.
 std::vector<UnseenPatch> unseenPatches(const std::vector<float>& points_mm, const std::vector<std::uint32_t>& triangles,
                                        const Coverage& coverage, const Skeleton& skeleton, const PathFrames& path,
-                                       const Lumen& lumen, const UnseenOptions& options = {});
+                                       const Lumen& lumen, const UnseenOptions& options = {},
+                                       const Progress* wanted = nullptr);
 
 }  // namespace vicon::viewer

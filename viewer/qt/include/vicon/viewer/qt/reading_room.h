@@ -9,6 +9,8 @@
 
 #include "vicon/cases/bridges.h"
 #include "vicon/cases/case_store.h"
+#include "vicon/cases/known_study.h"
+#include "vicon/cases/prior_match.h"
 #include "vicon/cases/report_texts.h"
 #include "vicon/cases/report_versions.h"
 #include "vicon/cases/worklist.h"
@@ -21,6 +23,8 @@ namespace vicon::viewer {
 /// What the report's form needs from rooms it does not know, as below.
 struct ReportServices {
     ReportTexts texts;
+    /// What images and steps say of a case.
+    std::function<KnownStudy(CaseStore&, const std::string& case_id)> known;
     /// As plain text: the last version that was given out, or the draft while the report is open.
     std::function<std::string(CaseStore&, const std::string& case_id)> text;
     /// The bytes of the PDF of the same.
@@ -30,14 +34,24 @@ struct ReportServices {
     std::function<void(CaseStore&, const std::string& case_id)> cancel_amendment;
 };
 
+/// What the list of earlier reports needs, likewise.
+struct PriorServices {
+    PriorOptions options;
+    std::function<PriorList(CaseStore&, const std::string& case_id)> list;
+    /// The scans of a report's study that the store has.
+    std::function<std::vector<PriorScan>(CaseStore&, const PriorReport&)> scans;
+};
+
 /// What the reading room needs from rooms it does not know; `app` gives it. Each is called on a thread other than the
 /// window's, with that thread's connection to the store.
 struct ReadingServices {
-    std::filesystem::path store;
+    StorePlace store;
     std::string receiver;  ///< where a PACS sends studies to, in words
     std::function<std::vector<WorklistCase>(CaseStore&)> worklist;
     /// The same again where the worklist is still the same, for that connection; none: the worklist is always read.
     std::function<std::string(CaseStore&)> worklist_version;
+    /// A reader opened the case: what is still to be done of it comes first. May be empty.
+    std::function<void(CaseStore&, const std::string& case_id)> opened;
     /// Puts the failed jobs of a case back into the queue; spoiled scans as well, without their corrections.
     std::function<void(CaseStore&, const std::string& case_id)> retry;
     /// Fills in a marker's stations and its part of the colon; throws where the point is not in the colon.
@@ -56,10 +70,14 @@ struct ReadingServices {
     std::function<std::vector<MarkerEdit>(CaseStore&, const std::string& case_id, const std::filesystem::path&)>
         import_markers;
     ReportServices reporting;
+    PriorServices priors;
 };
 
 /// The worklist's window; it opens cases in windows of their own. `case_id` not empty: opens that case at once.
 std::unique_ptr<QWidget> makeReadingRoom(const ReadingServices& services, const std::string& case_id = {});
+
+/// Throws Error{no_display} where runReadingRoom() would for want of a screen.
+void requireScreen();
 
 /// Shows the reading room until its windows are closed, or `stop` is set. Returns the exit code.
 /// Throws Error{no_display} where no window can be shown.

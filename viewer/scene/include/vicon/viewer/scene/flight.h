@@ -11,11 +11,11 @@
 
 namespace vicon::viewer {
 
-/// A planned flight along the skeleton.
+/// A planned flight along the centreline.
 struct FlightRequest {
     enum class Direction { to_caecum, to_rectum, both };
     Direction direction = Direction::to_caecum;
-    double step_mm = 4;  ///< between poses, along the skeleton
+    double step_mm = 4;  ///< between poses, along the centreline
     int frames = 0;      ///< above 0: that many poses in each direction, instead of a step
     int width = 0;       ///< pixels of a frame; 0: 512
     int height = 0;      ///< 0: 512
@@ -55,6 +55,7 @@ struct FlightReport {
     bool tree = false;  ///< the organ branches: "to the caecum" is to the tip, "to the rectum" to the root
     std::size_t cells = 0, triangles = 0;  ///< of the whole surface
     double coverage = 0;  ///< part of the surface's area that was seen, 0 to 1; 0 where it is not measured
+    double reviewed = 0;  ///< part that was seen steeply and closely enough, see ReviewRule
     double seen_mm2 = 0, whole_mm2 = 0;
     std::vector<UnseenPatch> unseen;  ///< the largest first; empty where coverage is not measured
     ColonPartRanges parts;            ///< by which the patches' stations are named

@@ -12,14 +12,15 @@ namespace vicon::viewer {
 
 /// How many voxels of a density sample have which density, with the mean and its spread; air, fat, soft tissue and
 /// tagging are named where the axis shows them. Needs no display.
-Picture histogramPicture(const DensitySample& sample, int width, int height);
+Picture histogramPicture(const DensitySample& sample, int width, int height, double pixel_ratio = 1);
 
 /// The slice in which a finding is measured, with the diameter drawn in. Needs no display. Throws as PreparedScan does.
-Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Caption& caption, int width, int height);
+Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Caption& caption, int width, int height,
+                     double pixel_ratio = 1);
 
 /// What was measured of a marker: its best plane and its histogram beside each other, each square with this side; one
 /// of them where the other was not taken, nothing where neither was.
-std::optional<Picture> measuresPicture(const PreparedScan& scan, const Marker& marker, const Caption& caption,
-                                       int side);
+std::optional<Picture> measuresPicture(const PreparedScan& scan, const Marker& marker, const Caption& caption, int side,
+                                       double pixel_ratio = 1);
 
 }  // namespace vicon::viewer

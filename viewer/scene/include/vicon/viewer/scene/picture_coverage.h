@@ -23,9 +23,11 @@ public:
     void look(const VisibleParts& shown, const Pose& pose, const Lens& lens);
     /// The triangles in it: ascending, each once.
     std::vector<std::uint32_t> triangles() const;
-    /// Tints the wall that was seen earlier in `picture`, which must show the same from the same place.
-    /// @param earlier of each triangle: 1 or 0
-    void tint(Picture& picture, const std::vector<std::uint8_t>& earlier) const;
+    /// Green: the wall that was seen earlier. Orange: a region that was missed.
+    enum class Tint { seen, missed };
+    /// Tints wall in `picture`, which must show the same from the same place.
+    /// @param which of each triangle: 1 or 0
+    void tint(Picture& picture, const std::vector<std::uint8_t>& which, Tint as = Tint::seen) const;
 
 private:
     struct Parts;

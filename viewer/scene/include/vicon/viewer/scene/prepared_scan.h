@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "vicon/core/colon_parts.h"
+#include "vicon/core/progress.h"
+#include "vicon/core/scan_quality.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/skeleton_tree.h"
 #include "vicon/core/volume_view.h"
@@ -34,8 +36,8 @@ public:
     /// does not wait for the disk. Throws as the functions below do.
     void readForFlight() const;
     /// Reads what else will be looked at soon: the distances from the exit, which pull the guided camera, and the
-    /// densities. Throws as the functions below do.
-    void readOn() const;
+    /// densities. Throws as the functions below do, and Error{cancelled}.
+    void readOn(const Progress& wanted) const;
 
     // Each throws Error{not_ready} where its file is missing, Error{bad_input} where it is damaged.
     const HuView& volume() const;                 ///< volume.mha
@@ -51,6 +53,7 @@ public:
     const Projection& coronalProjection() const;  ///< of projections/
     const PathFrames& frames() const;             ///< of the skeleton
     const ColonPartRanges& parts() const;         ///< of scan.json; empty where it knows none
+    const LumenAlong& along() const;              ///< of scan.json's quality; empty where it has none
     const OrganWords& words() const;              ///< for the organ that scan.json names
     const DensityBricks& bricks() const;          ///< of the volume
     const std::vector<float>& openness() const;   ///< of the points of cells(), see opennessOf()

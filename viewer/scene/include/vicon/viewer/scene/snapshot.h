@@ -8,6 +8,7 @@
 
 #include "vicon/cases/case_store.h"
 #include "vicon/viewer/model/peeling.h"
+#include "vicon/viewer/model/prior_place.h"
 #include "vicon/viewer/model/view_pose.h"
 #include "vicon/viewer/scene/prepared_scan.h"
 
@@ -20,44 +21,54 @@ struct Caption {
     std::string birth_date;  ///< YYYYMMDD or as it shall be printed
     std::string position;    ///< "supine", "prone", ...
     std::string study_date;  ///< YYYYMMDD or as it shall be printed
-    bool named = true;       ///< false: it does not say whose it is, as what surrounds it does
+    bool named = true;       ///< false: it says which scan it is of, not whose, as what surrounds it does
     bool lossy = false;      ///< the pixels went through a lossy compression: printed as a warning
 };
 
 /// The caption of a scan's pictures.
 Caption captionFor(const CaseRecord& a_case, const ScanRecord& scan);
 
+/// A look below the wall.
+struct PeelRequest {
+    std::string preset;  ///< of config/transfer_functions.toml; empty: none
+    PeelingOptions options;
+    int coarse = 1;                  ///< one ray for a square of so many pixels a side: quicker, while the eye moves
+    bool middle_only = false;        ///< only within a circle; the surface stays around it
+    bool over_surface = false;       ///< laid half transparent over the surface; else in its place
+    std::optional<Pixel> circle_at;  ///< its centre; nothing: the middle of the picture
+    double circle_px = 0;            ///< its radius; 0: three tenths of the picture's smaller side
+};
+
 /// A picture of a scan.
 struct SnapshotRequest {
-    enum class View { endo, slices, overview };
+    enum class View { endo, slices, overview, cube, band };
     View view = View::endo;
     std::optional<Point3> look_at_mm;  ///< what to look at (a marker's position); empty: the place at `station_mm`
     double station_mm = 0;             ///< used without `look_at_mm`; beyond the ends: the end
     std::vector<Marker> markers;       ///< drawn where they are in view
+    std::vector<PriorPlace> priors;    ///< overview and slices: where findings of earlier reports should lie
     Caption caption;
-    bool captioned = true;          ///< endo: who, when and where is written into the picture
+    bool captioned = true;          ///< who, when and where is written into the picture
     int width = 0;                  ///< pixels, kLeastSide to kMostSide; 0: 1024
     int height = 0;                 ///< 0: 768, or 1024 for the overview
     double pixel_ratio = 1;         ///< of the screen that it is shown on; text is as high there as on any other
+    double text_px = 0;             ///< height of what is written; 0: as is read well in a picture of this size
     double view_angle_deg = 90;     ///< endo: over the picture's height, 20 to 150
     bool ambient_occlusion = true;  ///< endo: less light where the wall is less open, see opennessOf()
     std::string window;             ///< slices: a preset of config/windows.toml; empty: the organ's default
     bool cleansed = false;          ///< slices: without tagging, where that was taken out
+    bool from_caecum = false;       ///< band: its rows begin there
+    bool whole_band = true;         ///< band: all of it, in rows; else a single row around the place
     double slice_field_mm = 0;      ///< slices: how much to show around the point; 0: the whole scan
     ViewPoseOptions pose;           ///< endo: where to put the eye
-    std::string peel;               ///< endo: a preset of config/transfer_functions.toml to look below the wall with
-    PeelingOptions peeling;         ///< used with `peel`
+    PeelRequest peel;               ///< endo: the look below the wall
     bool lasting = true;            ///< false: read soon and thrown away, so neither compressed nor flushed
-    int peel_coarse = 1;            ///< one ray for a square of so many pixels a side: quicker, while the eye moves
-    bool peel_middle_only = false;  ///< only within a circle; the surface stays around it
-    std::optional<Pixel> peel_circle_at;  ///< its centre; nothing: the middle of the picture
-    double peel_circle_px = 0;            ///< its radius; 0: three tenths of the picture's smaller side
 
     static constexpr int kLeastSide = 200;
     static constexpr int kMostSide = 4096;
 };
 
-/// "endo", "slices" or "overview". Throws Error{wrong_use} for any other name.
+/// "endo", "slices", "overview", "cube" or "band". Throws Error{wrong_use} for any other name.
 SnapshotRequest::View snapshotViewFrom(const std::string& name);
 
 /// What a picture turned out to show.

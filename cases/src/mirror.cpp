@@ -1,0 +1,129 @@
+#include "mirror.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <set>
+
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon {
+namespace {
+
+constexpr mode_t kPrivateFile = 0600;
+
+Error failure(const std::string& what, const fs::path& where, int number)
+{
+    return {ErrorCode::store, what + " (" + std::strerror(number) + ")", where.string(),
+            number == ENOSPC || number == EDQUOT ? "free some space on this disk and run again"
+                                                 : "check that both folders are yours"};
+}
+
+bool isPassedOver(const fs::path& name)
+{
+    return name.string().starts_with(kTemporaryPrefix) || name.extension() == ".lock";
+}
+
+/// As far as size and time tell: every file of a store is written anew when it changes, none is written into.
+bool isSame(const fs::path& a, const fs::path& b)
+{
+    struct stat x {};
+    struct stat y {};
+    return ::stat(a.c_str(), &x) == 0 && ::stat(b.c_str(), &y) == 0 && x.st_size == y.st_size &&
+           x.st_mtim.tv_sec == y.st_mtim.tv_sec && x.st_mtim.tv_nsec == y.st_mtim.tv_nsec;
+}
+
+/// Nothing where the file has gone meanwhile.
+void copyFile(const fs::path& from, const fs::path& to, Copied& copied)
+{
+    const fs::path temporary = to.parent_path() / (std::string(kTemporaryPrefix) + to.filename().string());
+    std::error_code trouble;
+    const auto time = fs::last_write_time(from, trouble);
+    if (trouble == std::errc::no_such_file_or_directory)
+        return;
+    fs::copy_file(from, temporary, fs::copy_options::overwrite_existing, trouble);
+    if (trouble == std::errc::no_such_file_or_directory && !fs::exists(from))
+        return;
+    if (trouble)
+        throw failure("a file cannot be copied", to, trouble.value());
+    fs::last_write_time(temporary, time, trouble);
+    if (trouble || ::chmod(temporary.c_str(), kPrivateFile) != 0 || ::rename(temporary.c_str(), to.c_str()) != 0)
+        throw failure("a file cannot be copied", to, trouble ? trouble.value() : errno);
+    ++copied.copied;
+    copied.bytes_copied += fs::file_size(to);
+}
+
+std::set<std::string> namesIn(const fs::path& folder)
+{
+    std::set<std::string> names;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder, none))
+        if (!isPassedOver(entry.path().filename()))
+            names.insert(entry.path().filename().string());
+    return names;
+}
+
+int filesBelow(const fs::path& place)
+{
+    if (!fs::is_directory(place))
+        return 1;
+    int count = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(place))
+        count += entry.is_directory() ? 0 : 1;
+    return count;
+}
+
+void removeOthers(const fs::path& folder, const std::set<std::string>& names, Copied& copied)
+{
+    removeTemporaries(folder);
+    for (const std::string& name : namesIn(folder)) {
+        if (names.contains(name))
+            continue;
+        copied.removed += filesBelow(folder / name);
+        fs::remove_all(folder / name);
+    }
+}
+
+}  // namespace
+
+void mirror(const fs::path& from, const fs::path& to, Copied& copied, Progress& progress,
+            const std::function<void(const fs::path&)>& seen)
+try {
+    const std::set<std::string> names = namesIn(from);
+    if (names.empty() && !fs::exists(to))
+        return;
+    makePrivateFolder(to);
+    removeOthers(to, names, copied);
+    for (const std::string& name : names) {
+        progress.check();
+        if (fs::is_directory(from / name)) {
+            mirror(from / name, to / name, copied, progress, seen);
+            continue;
+        }
+        if (!isSame(from / name, to / name))
+            copyFile(from / name, to / name, copied);
+        if (seen)
+            seen(to / name);
+    }
+} catch (const fs::filesystem_error& e) {
+    throw failure("a folder cannot be copied", e.path1(), e.code().value());
+}
+
+void flushDiskOf(const fs::path& folder)
+{
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool flushed = descriptor >= 0 && ::syncfs(descriptor) == 0;
+    const int number = errno;
+    if (descriptor >= 0)
+        ::close(descriptor);
+    if (!flushed)
+        throw failure("cannot be flushed to disk", folder, number);
+}
+
+}  // namespace vicon

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "vicon/cases/station_map.h"
+
+namespace vicon {
+
+/// What of the wall is compared along a centreline, at each mm.
+struct ProfileFeatures {
+    static constexpr std::size_t kCount = 3;  ///< ripple of the clearance, ripple of the width, the width itself
+    /// In standard deviations of the scan; mean 0. Empty where the profile does not have it.
+    std::array<std::vector<float>, kCount> value;
+    std::vector<float> known;  ///< 0 where nothing is to be seen: on bridges and beside them; else 1
+};
+ProfileFeatures featuresOf(const ColonProfile& profile);
+
+}  // namespace vicon

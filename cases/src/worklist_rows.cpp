@@ -1,0 +1,103 @@
+#include "worklist_rows.h"
+
+#include <soci/soci.h>
+
+#include <algorithm>
+
+#include "case_rows.h"
+#include "search_words.h"
+#include "vicon/core/error.h"
+
+namespace vicon {
+namespace {
+
+using Rows = soci::rowset<soci::row>;
+
+/// The cases that have a word beginning so, in the order of the words.
+constexpr const char* kFound =
+    "SELECT c.* FROM cases c JOIN (SELECT word, case_id FROM case_words WHERE word >= :from AND word < :to"
+    " ORDER BY word, case_id LIMIT :most) found ON found.case_id = c.id ORDER BY found.word, found.case_id";
+
+bool hasAll(const CaseRecord& a_case, const std::vector<std::string>& beginnings)
+{
+    const std::vector<std::string> words = searchWords(a_case);
+    return std::ranges::all_of(beginnings, [&](const std::string& beginning) {
+        return std::ranges::any_of(words, [&](const std::string& word) { return word.starts_with(beginning); });
+    });
+}
+
+/// How many words of cases begin so; at most `most`.
+int matches(soci::session& sql, const std::string& beginning, int most)
+{
+    int count = 0;
+    const std::string to = endOf(beginning);
+    sql << "SELECT COUNT(*) FROM (SELECT 1 FROM case_words WHERE word >= :from AND word < :to LIMIT :most) AS found",
+        soci::use(beginning), soci::use(to), soci::use(most), soci::into(count);
+    return count;
+}
+
+/// The rarest word finds, the others tell apart.
+std::vector<CaseRecord> found(soci::session& sql, const std::vector<std::string>& words, int most)
+{
+    constexpr int kMostLookedAt = 2000;
+    const std::string from = *std::ranges::min_element(
+        words, {}, [&](const std::string& word) { return matches(sql, word, kMostLookedAt); });
+    const std::string to = endOf(from);
+    for (int looked_at = std::min(2 * most, kMostLookedAt);; looked_at = std::min(4 * looked_at, kMostLookedAt)) {
+        const Rows rows = (sql.prepare << kFound, soci::use(from), soci::use(to), soci::use(looked_at));
+        const std::vector<CaseRecord> all = collect(rows, caseFrom);
+        std::vector<CaseRecord> cases;
+        for (const CaseRecord& c : all)
+            if (int(cases.size()) < most && hasAll(c, words) &&
+                std::ranges::none_of(cases, [&](const CaseRecord& other) { return other.id == c.id; }))
+                cases.push_back(c);
+        if (int(cases.size()) == most || int(all.size()) < looked_at || looked_at == kMostLookedAt)
+            return cases;
+    }
+}
+
+}  // namespace
+
+std::vector<CaseRecord> casesOfPage(CaseStore& store, const WorklistPageWanted& wanted)
+{
+    soci::session& sql = store.database().session();
+    const int most = wanted.most + 1;
+    if (const auto words = wordsIn(wanted.words); !words.empty())
+        return found(sql, words, most);
+    if (wanted.after.empty()) {
+        const Rows rows =
+            (sql.prepare << "SELECT * FROM cases ORDER BY created DESC, id DESC LIMIT :most", soci::use(most));
+        return collect(rows, caseFrom);
+    }
+    const CaseRecord last = store.requireCase(wanted.after);
+    const Rows rows = (sql.prepare << "SELECT * FROM cases WHERE (created, id) < (:created, :id)"
+                                      " ORDER BY created DESC, id DESC LIMIT :most",
+                       soci::use(last.created), soci::use(last.id), soci::use(most));
+    return collect(rows, caseFrom);
+}
+
+WorklistRows worklistRows(CaseStore& store, const QueueOptions& options, const std::vector<CaseRecord>& cases)
+{
+    WorklistRows out;
+    if (cases.empty())
+        return out;
+    soci::session& sql = store.database().session();
+    const std::string these = inList(cases);
+    for (ScanRecord& scan : store.scans(cases))
+        out.scans[scan.case_id].push_back(std::move(scan));
+    for (Job& job : JobQueue(store.database(), options).jobs(cases))
+        out.jobs[{job.case_id, job.scan_id}] = std::move(job);
+    const Rows steps = (sql.prepare << "SELECT * FROM steps WHERE step IN ('segment', 'quality') AND case_id IN " +
+                                           these + " ORDER BY rowid");
+    for (const soci::row& row : steps)
+        out.steps[{row.get<std::string>("case_id"), row.get<std::string>("scan_id")}].push_back(stepFrom(row));
+    const soci::rowset<std::string> markers = (sql.prepare << "SELECT case_id FROM markers WHERE case_id IN " + these);
+    for (const std::string& case_id : markers)
+        ++out.markers[case_id];
+    const Rows deliveries = (sql.prepare << "SELECT case_id, state FROM outbox WHERE case_id IN " + these);
+    for (const soci::row& row : deliveries)
+        ++out.deliveries[row.get<std::string>("case_id")][deliveryStateFrom(row.get<std::string>("state"))];
+    return out;
+}
+
+}  // namespace vicon

@@ -1,0 +1,48 @@
+#include "import_reporter.h"
+
+#include <algorithm>
+
+#include "vicon/core/printable.h"
+
+namespace vicon::ingest {
+
+void Reporter::object(ImportLine::Kind kind, const std::string& shown, const std::string& series_uid,
+                      const std::string& why, const std::string& case_id)
+{
+    ++(kind == ImportLine::Kind::set_aside ? report_.set_aside : report_.refused);
+    const auto same = std::find_if(lines_.begin(), lines_.end(), [&](const Counted& counted) {
+        return !series_uid.empty() && counted.series_uid == series_uid && counted.line.kind == kind &&
+               counted.line.text == why;
+    });
+    if (same != lines_.end())
+        ++same->count;
+    else
+        lines_.push_back({{kind, shown, why, case_id, {}}, 1, series_uid});
+}
+
+void Reporter::finish()
+{
+    for (Counted& counted : lines_) {
+        if (counted.count > 1) {
+            counted.line.subject = counted.series_uid;
+            counted.line.text += " (" + std::to_string(counted.count) + " files)";
+        }
+        counted.line.subject = printable(counted.line.subject);
+        counted.line.text = printable(counted.line.text);
+        report_.lines.push_back(std::move(counted.line));
+    }
+    lines_.clear();
+}
+
+nlohmann::json noteOf(const std::string& object, const std::string& why)
+{
+    return {{"object", object}, {"why", why}};
+}
+
+void addNote(nlohmann::json& list, nlohmann::json note)
+{
+    if (std::find(list.begin(), list.end(), note) == list.end())
+        list.push_back(std::move(note));
+}
+
+}  // namespace vicon::ingest

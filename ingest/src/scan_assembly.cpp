@@ -1,0 +1,152 @@
+#include "scan_assembly.h"
+
+#include <algorithm>
+#include <set>
+
+#include "acquisition.h"
+#include "scan_reader.h"
+
+namespace vicon::ingest {
+namespace {
+
+using Members = std::vector<const ImageObject*>;
+
+AssembledScan fixedScan(const ImportContext& context, const ScanRecord& record, const Members& members)
+{
+    context.progress.check();
+    AssembledScan scan;
+    scan.fixed = true;
+    scan.stack = splitSeries(members, haveSamePixels).front();
+    scan.plan = planStack(scan.stack, context.options);
+    scan.objects = members;
+    scan.record = record;
+    return scan;
+}
+
+std::set<const ImageObject*> objectsOf(const Stack& stack)
+{
+    std::set<const ImageObject*> objects;
+    for (const auto* refs : {&stack.slices, &stack.copies})
+        for (const SliceRef& ref : *refs)
+            objects.insert(ref.object);
+    return objects;
+}
+
+/// The id of a stack that no person has spoken of.
+std::string freeScanId(const StoredStudy& stored, const std::string& series_uid, const Stack& stack)
+{
+    std::string key = series_uid + stack.key;
+    std::string id = CaseStore::scanIdFor(key);
+    while (stored.isFixed(id))
+        id = CaseStore::scanIdFor(key += "|later");
+    return id;
+}
+
+void addScansOfSeries(const ImportContext& context, const StoredStudy& stored, const std::string& series_uid,
+                      const Members& members, std::vector<AssembledScan>& scans)
+{
+    std::set<const ImageObject*> taken;
+    for (Stack& stack : splitSeries(members, haveSamePixels)) {
+        context.progress.check();
+        const std::set<const ImageObject*> of_stack = objectsOf(stack);
+        const bool shared = std::any_of(of_stack.begin(), of_stack.end(),
+                                        [&](const ImageObject* object) { return taken.contains(object); });
+        if (shared) {  // several stacks in one multi-frame object: the largest is used
+            scans.back().plan.repairs.push_back(std::to_string(stack.slices.size()) +
+                                                " frames that belong to another stack are not used");
+            continue;
+        }
+        taken.insert(of_stack.begin(), of_stack.end());
+        AssembledScan scan;
+        scan.plan = planStack(stack, context.options);
+        scan.objects.assign(of_stack.begin(), of_stack.end());
+        std::sort(scan.objects.begin(), scan.objects.end(),
+                  [](const auto* a, const auto* b) { return a->sop_uid < b->sop_uid; });
+        scan.record.case_id = stored.record.id;
+        scan.record.id = freeScanId(stored, series_uid, stack);
+        scan.stack = std::move(stack);
+        scans.push_back(std::move(scan));
+    }
+}
+
+bool isUsable(const AssembledScan& scan)
+{
+    return scan.plan.refused.empty();
+}
+
+/// Says of a series that it is refused, or kept until something speaks for more.
+/// @return whether it may be a scan
+bool roleByItself(AssembledScan& scan, std::size_t min_slices)
+{
+    if (scan.fixed)
+        return isUsable(scan) && scan.record.role == ScanRole::scan;
+    scan.record.role = isUsable(scan) ? ScanRole::kept : ScanRole::refused;
+    const std::size_t slices = scan.stack.slices.size();
+    if (!isUsable(scan))
+        return false;
+    if (slices >= min_slices)
+        return true;
+    scan.record.ingest["kept_because"] = std::to_string(slices) + (slices == 1 ? " slice" : " slices") +
+                                         ", fewer than the " + std::to_string(min_slices) + " of a scan";
+    return false;
+}
+
+void keepBeside(AssembledScan& scan, const AssembledScan& other)
+{
+    scan.record.ingest["kept_because"] = "another reconstruction of the acquisition of series " +
+                                         std::to_string(other.stack.slices.front().object->series.number) +
+                                         (other.fixed ? ", which was marked or reported before" : "");
+    scan.record.ingest["reconstruction_of"] = other.record.id;
+}
+
+/// Of the reconstructions of one acquisition one becomes the scan.
+void chooseRoles(std::vector<AssembledScan>& scans, const ImportOptions& options)
+{
+    std::vector<Reconstruction> usable;
+    std::vector<AssembledScan*> owners;
+    for (AssembledScan& scan : scans)
+        if (roleByItself(scan, std::size_t(options.min_slices))) {
+            usable.push_back({&scan.stack, &scan.plan});
+            owners.push_back(&scan);
+        }
+    const std::vector<std::size_t> chosen = chooseScans(usable);
+    std::map<std::size_t, const AssembledScan*> fixed;  // by what would be chosen if nobody had spoken
+    for (std::size_t n = 0; n < chosen.size(); ++n)
+        if (owners[n]->fixed)
+            fixed.try_emplace(chosen[n], owners[n]);
+    for (std::size_t n = 0; n < chosen.size(); ++n) {
+        if (owners[n]->fixed)
+            continue;
+        const auto marked = fixed.find(chosen[n]);
+        if (marked != fixed.end())
+            keepBeside(*owners[n], *marked->second);
+        else if (chosen[n] != n)
+            keepBeside(*owners[n], *owners[chosen[n]]);
+        else
+            owners[n]->record.role = ScanRole::scan;
+    }
+}
+
+}  // namespace
+
+std::vector<AssembledScan> assembleScans(const ImportContext& context, const StoredStudy& stored,
+                                         const std::map<std::string, ImageObject>& objects)
+{
+    std::map<std::string, Members> series, fixed;
+    for (const auto& [uid, object] : objects) {
+        const auto home = stored.scan_of.find(uid);
+        if (home != stored.scan_of.end() && stored.isFixed(home->second))
+            fixed[home->second].push_back(&object);
+        else
+            series[object.series.uid].push_back(&object);
+    }
+    std::vector<AssembledScan> scans;
+    for (const auto& [scan_id, members] : fixed)
+        scans.push_back(fixedScan(context, stored.scans.at(scan_id), members));
+    for (const auto& [series_uid, members] : series)
+        addScansOfSeries(context, stored, series_uid, members, scans);
+    chooseRoles(scans, context.options);
+    return scans;
+}
+
+}  // namespace vicon::ingest

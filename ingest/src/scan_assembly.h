@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "stack_plan.h"
+#include "stored_study.h"
+
+namespace vicon::ingest {
+
+/// A scan or kept series as it is to be stored.
+struct AssembledScan {
+    Stack stack;
+    StackPlan plan;
+    ScanRecord record;
+    std::vector<const ImageObject*> objects;
+    /// People have spoken of it: its objects, its role and its words stay as they are.
+    bool fixed = false;
+};
+
+/// Puts the objects of a study into scans: first those that people have spoken of, as they are, then what the rest
+/// makes, series by series. Says of each whether it becomes a scan, is kept or refused, and why.
+/// @param objects by SOP Instance UID; the scans point to them
+std::vector<AssembledScan> assembleScans(const ImportContext& context, const StoredStudy& stored,
+                                         const std::map<std::string, ImageObject>& objects);
+
+}  // namespace vicon::ingest

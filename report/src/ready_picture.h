@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "vicon/report/print_pictures.h"
+
+namespace vicon::report {
+
+/// A picture as the PDF takes it.
+struct PrintPictures::Ready {
+    std::string sha256;  ///< of its file
+    int width = 0, height = 0, channels = 0;
+    std::vector<std::uint8_t> stream;  ///< see packed()
+};
+
+}  // namespace vicon::report

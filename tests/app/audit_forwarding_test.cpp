@@ -1,0 +1,135 @@
+// The audit trail reaches syslog as audit messages: each line once, none lost while syslog is away.
+#include "audit_forwarding.h"
+
+#include <gmock/gmock.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+
+#include "atna_message.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+#include "vicon/support/support.h"
+
+namespace vicon::app {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// Listens as syslog does, for as long as it lives.
+class Listening {
+public:
+    explicit Listening(const fs::path& place) : place_(place), socket_(::socket(AF_UNIX, SOCK_DGRAM, 0))
+    {
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        std::strncpy(address.sun_path, place.c_str(), sizeof address.sun_path - 1);
+        EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    }
+    ~Listening()
+    {
+        ::close(socket_);
+        fs::remove(place_);
+    }
+    /// What has come.
+    std::vector<std::string> packets() const
+    {
+        std::vector<std::string> all;
+        std::string packet(1 << 16, '\0');
+        for (ssize_t size; (size = ::recv(socket_, packet.data(), packet.size(), MSG_DONTWAIT)) >= 0;)
+            all.push_back(packet.substr(0, std::size_t(size)));
+        return all;
+    }
+
+private:
+    fs::path place_;
+    int socket_;
+};
+
+class AuditForwarding : public testing::Test {
+protected:
+    support::TemporaryFolder folder_;
+    CaseStore store_{folder_ / "store"};
+    const AuditOptions options_{(folder_ / "log").string()};
+
+    void SetUp() override
+    {
+        CaseRecord a_case{.id = "c1"};
+        a_case.patient.id = "4711 <&\">";
+        a_case.study.uid = "1.2.3";
+        ScanRecord scan{.id = "s1", .case_id = "c1"};
+        makePrivateFolder(store_.scanFolder("c1", "s1"));
+        store_.addScan(a_case, scan, {}, false);
+    }
+    /// The message within a packet, held against the schema.
+    std::string checked(const std::string& packet)
+    {
+        EXPECT_THAT(packet, testing::StartsWith("<85>1 20"));
+        EXPECT_THAT(packet, HasSubstr(" VICON "));
+        EXPECT_THAT(packet, HasSubstr(" DICOM+RFC3881 - \xEF\xBB\xBF<"));
+        const std::string message = packet.substr(packet.find("\xEF\xBB\xBF") + 3);
+        std::ofstream(folder_ / "message.xml") << message;
+        const auto judged = support::runCommand("xmllint --noout --relaxng " VICON_ATNA_SCHEMA " " +
+                                                (folder_ / "message.xml").string() + " 2>&1");
+        EXPECT_EQ(judged.exit_code, 0) << judged.output << message;
+        return message;
+    }
+};
+
+TEST_F(AuditForwarding, SendsEachLineOnce)
+{
+    const Listening syslog(options_.syslog);
+    EXPECT_EQ(forwardAudit(store_, options_), 1);
+    const auto packets = syslog.packets();
+    ASSERT_EQ(packets.size(), 1u);
+    const std::string message = checked(packets[0]);
+    EXPECT_THAT(message, HasSubstr(R"(EventActionCode="C")"));
+    EXPECT_THAT(message, HasSubstr(R"(csd-code="110104")"));
+    EXPECT_THAT(message, HasSubstr(R"(ParticipantObjectID="1.2.3")"));
+    EXPECT_THAT(message, HasSubstr("4711 &lt;&amp;&quot;"));
+    EXPECT_EQ(forwardAudit(store_, options_), 0);
+    store_.audit("case deleted", "c0", "", "a case that is gone");
+    store_.audit("case opened", "c1", "", "");
+    EXPECT_EQ(forwardAudit(store_, options_), 2);
+    const auto later = syslog.packets();
+    ASSERT_EQ(later.size(), 2u);
+    EXPECT_THAT(checked(later[0]), HasSubstr(R"(csd-code="110105")"));
+    EXPECT_THAT(checked(later[1]), HasSubstr(R"(csd-code="110103")"));
+}
+
+TEST_F(AuditForwarding, LosesNothingWhileSyslogIsAway)
+{
+    for (int n = 0; n < 150; ++n)
+        store_.audit("flagged", "c1", "", std::to_string(n));
+    EXPECT_THROW(forwardAudit(store_, options_), Error);
+    const Listening syslog(options_.syslog);
+    std::size_t came = 0;
+    // A local socket holds few packets: whoever sends waits until they are read.
+    std::jthread reading([&](const std::stop_token& stop) {
+        while (!stop.stop_requested())
+            came += syslog.packets().size();
+    });
+    EXPECT_EQ(forwardAudit(store_, options_), 151);
+    reading.request_stop();
+    reading.join();
+    came += syslog.packets().size();
+    EXPECT_EQ(came, 151u);
+}
+
+TEST_F(AuditForwarding, SaysWhereNobodyListens)
+{
+    for (const char* nowhere : {"/nonexistent/log", "no port", "no.such.host.invalid:514"})
+        try {
+            forwardAudit(store_, {nowhere});
+            ADD_FAILURE() << nowhere;
+        } catch (const Error& e) {
+            EXPECT_THAT(e.what(), HasSubstr(nowhere));
+        }
+}
+
+}  // namespace
+}  // namespace vicon::app

@@ -1,0 +1,181 @@
+// What whoever runs VICON does and sees: deleting, backing up, figures and the log, by the command.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "delivering_listener.h"
+#include "study.h"
+#include "vicon/core/file.h"
+
+namespace vicon::support {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Operation : public testing::Test {
+protected:
+    TemporaryFolder folder_;
+    const fs::path store_ = folder_ / "store";
+    std::string case_id_;
+
+    void SetUp() override
+    {
+        viconOn(store_, "import " + smallStudy().string());
+        case_id_ = listedScans(store_).at(0).case_id;
+    }
+    CommandResult vicon(const std::string& arguments, const fs::path& store) const
+    {
+        return runVicon(arguments + " --store " + store.string());
+    }
+    bool isThere() { return !viconJson(store_, "cases")["cases"].empty(); }
+};
+
+TEST_F(Operation, DeletesACaseOnlyWhenToldTwice)
+{
+    EXPECT_THAT(viconOn(store_, "delete " + case_id_), HasSubstr("nothing was deleted"));
+    EXPECT_TRUE(isThere());
+    viconOn(store_, "assess " + case_id_ + " --c-rads C1 --why test");
+    EXPECT_THAT(viconOn(store_, "delete " + case_id_), HasSubstr("! it was read, and its report is not signed"));
+    const CommandResult refused = vicon("delete " + case_id_ + " --yes", store_);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.output, HasSubstr("--lose deletes it all the same"));
+    EXPECT_TRUE(isThere());
+    EXPECT_THAT(viconOn(store_, "delete " + case_id_ + " --yes --lose"), HasSubstr("deleted"));
+    EXPECT_FALSE(isThere());
+    EXPECT_FALSE(fs::exists(store_ / "cases" / case_id_));
+    EXPECT_EQ(viconJson(store_, "audit " + case_id_)["trail"].back()["event"], "case deleted");
+    viconOn(store_, "import " + smallStudy().string());
+    EXPECT_TRUE(isThere()) << "what was deleted can come again";
+}
+
+TEST_F(Operation, PurgesByRuleAndSaysFirst)
+{
+    const CommandResult no_rule = vicon("purge", store_);
+    EXPECT_EQ(no_rule.exit_code, 2);
+    EXPECT_THAT(no_rule.output, HasSubstr("purge.after_days"));
+    const std::string everything = "purge --set purge.least_free_gb=1000000 --set purge.also_unread=true";
+    EXPECT_THAT(viconOn(store_, "purge --set purge.least_free_gb=1000000"), HasSubstr("stays: nobody read it"));
+    EXPECT_THAT(viconOn(store_, everything), HasSubstr("1 cases, 0.0 GB would be deleted"));
+    EXPECT_TRUE(isThere());
+    EXPECT_TRUE(viconJson(store_, everything + " --yes")["cases"][0]["deleted"]);
+    EXPECT_FALSE(isThere());
+}
+
+TEST_F(Operation, BacksUpAndRestores)
+{
+    const fs::path backup = folder_ / "backup", again = folder_ / "again";
+    viconOn(store_, "backup " + backup.string());
+    EXPECT_EQ(viconJson(store_, "backup " + backup.string() + "/")["copied"], 0);
+    EXPECT_EQ(vicon("restore " + backup.string(), store_).exit_code, 2) << "not over a store";
+    EXPECT_EQ(schemaFaults("about_backup", {backup / "backup.json"}), "");
+    viconJson(again, "restore " + backup.string());
+    EXPECT_EQ(filesOf(again), filesOf(store_));
+    EXPECT_EQ(viconJson(again, "cases")["cases"][0]["patient"], viconJson(store_, "cases")["cases"][0]["patient"]);
+}
+
+TEST_F(Operation, GivesFiguresToPrometheusOnLoopback)
+{
+    const int port = test::freePort();
+    replaceFile(folder_ / "c.toml", deliveringConfig(test::freePort(), test::freePort()) +
+                                        "[metrics]\nport = " + std::to_string(port) + "\n");
+    const DeliveringListener listener(store_, folder_ / "c.toml");
+    std::string figures;
+    EXPECT_TRUE(waitUntil([&] {
+        const CommandResult got = runCommand(
+            "python3 -c 'import urllib.request; print(urllib.request.urlopen("
+            "\"http://127.0.0.1:" +
+            std::to_string(port) + "/metrics\").read().decode())' 2>&1");
+        figures = got.output;
+        return got.exit_code == 0;
+    })) << figures;
+    EXPECT_THAT(figures, HasSubstr("vicon_jobs{state=\"queued\"} 1"));
+    EXPECT_THAT(figures, HasSubstr("vicon_instances 134"));
+    EXPECT_THAT(figures, HasSubstr("vicon_outbox_objects{state=\"refused\"} 0"));
+    const auto dashboard = nlohmann::json::parse(readFile(VICON_DEPLOY "/prometheus/dashboard.json"));
+    for (const auto& panel : dashboard["panels"])
+        for (const auto& target : panel["targets"]) {
+            const std::string query = target["expr"];
+            const auto from = query.find("vicon_"), to = query.find_first_of("{[ )", from);
+            std::string name = query.substr(from, to - from);
+            if (name.ends_with("_sum"))  // no step was done yet
+                name = "TYPE " + name.substr(0, name.size() - 4);
+            EXPECT_THAT(figures, HasSubstr(name)) << panel["title"];
+        }
+    EXPECT_THAT(runVicon("receive --no-work --port 0 --set metrics.port=" + std::to_string(port) + " --store " +
+                         store_.string())
+                    .output,
+                HasSubstr("the port is taken"));
+}
+
+TEST_F(Operation, LogsOneLineOfJsonAnEventWithoutThePatient)
+{
+    const fs::path fresh = folder_ / "fresh" / "store";
+    const int port = test::freePort();
+    fs::create_directories(fresh.parent_path());
+    replaceFile(folder_ / "c.toml", deliveringConfig(port, test::freePort()) + "[log]\nformat = \"json\"\n");
+    {
+        const DeliveringListener listener(fresh, folder_ / "c.toml");
+        EXPECT_TRUE(waitUntil([&] {
+            return runCommand("dcmsend -q -aet ORTHANC -aec VICON +sd +r 127.0.0.1 " + std::to_string(port) + " " +
+                              (smallStudy() / "series-2-supine").string())
+                       .exit_code == 0;
+        }));
+        EXPECT_TRUE(waitUntil([&] { return !viconJson(fresh, "cases")["cases"].empty(); }));
+    }
+    const nlohmann::json patient = viconJson(store_, "cases")["cases"][0]["patient"];
+    std::ifstream log(fresh.parent_path() / "listener.log");
+    int lines = 0;
+    for (std::string line; std::getline(log, line); ++lines) {
+        const auto event = nlohmann::json::parse(line, nullptr, false);
+        ASSERT_TRUE(event.is_object()) << line;
+        EXPECT_TRUE(event.contains("at") && event.contains("level") && event.contains("message")) << line;
+        for (const char* key : {"name", "id"})
+            EXPECT_THAT(line, testing::Not(HasSubstr(patient[key].get<std::string>())));
+    }
+    EXPECT_GE(lines, 2) << "the association, and the study";
+}
+
+TEST_F(Operation, IsNotForThoseWhomTheRolesDoNotName)
+{
+    const std::string nobody =
+        " --set roles.read=nobody_else --set roles.mark=nobody_else --set "
+        "roles.operate=nobody_else --set roles.sign=nobody_else";
+    const fs::path out = folder_ / "out";
+    const std::map<std::string, std::string> acts = {
+        {"cases", "may not look at cases"},
+        {"show " + case_id_, "may not look at cases"},
+        {"report " + case_id_, "may not look at cases"},
+        {"mark " + case_id_ + " --at 0,0,0", "may not mark or assess"},
+        {"assess " + case_id_ + " --accept", "may not mark or assess"},
+        {"work --until-idle", "may not do this"},
+        {"import " + smallStudy().string(), "may not do this"},
+        {"delete " + case_id_ + " --yes", "may not do this"},
+        {"backup " + out.string(), "may not do this"},
+        {"anonymise " + case_id_ + " " + out.string(), "may not do this"},
+        {"receive --port 0", "may not do this"},
+    };
+    for (const auto& [act, words] : acts) {
+        const CommandResult refused = vicon(act + nobody, store_);
+        EXPECT_EQ(refused.exit_code, 1) << act;
+        EXPECT_THAT(refused.output, HasSubstr(words)) << act;
+    }
+    const CommandResult unsigned_ = vicon("sign " + case_id_ + " --set roles.sign=nobody_else", store_);
+    EXPECT_THAT(unsigned_.output, HasSubstr("may not sign reports"));
+    EXPECT_FALSE(fs::exists(out));
+    EXPECT_EQ(vicon("config" + nobody, store_).exit_code, 0) << "anybody may ask what the rules are";
+}
+
+TEST_F(Operation, WritesACaseWithoutNames)
+{
+    const fs::path out = folder_ / "out";
+    EXPECT_THAT(viconOn(store_, "anonymise " + case_id_ + " " + out.string()), HasSubstr("134 objects written"));
+    const fs::path other = folder_ / "other";
+    viconOn(other, "import " + out.string());
+    EXPECT_THAT(viconJson(other, "cases")["cases"][0]["patient"]["name"].get<std::string>(),
+                testing::StartsWith("anon-"));
+    EXPECT_EQ(vicon("anonymise " + case_id_ + " " + out.string(), store_).exit_code, 2) << "not into what is there";
+}
+
+}  // namespace
+}  // namespace vicon::support

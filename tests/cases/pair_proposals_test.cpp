@@ -1,0 +1,82 @@
+#include "vicon/cases/pair_proposals.h"
+
+#include <gmock/gmock.h>
+
+namespace vicon {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two scans with the second drawn out by a tenth, sure to 10 mm either way.
+ScanMatch match()
+{
+    ScanMatch made{"s1", "s2", {MapSource::wall, 1000, 1100, {}, {}}};
+    for (double s = 0; s <= 1000; s += 10) {
+        made.map.from_mm.push_back(s);
+        made.map.to.push_back({1.1 * s, 1.1 * s - 10, 1.1 * s + 10});
+    }
+    return made;
+}
+
+Marker marker(const std::string& id, const std::string& scan, double station_mm, double size_mm = 0)
+{
+    Marker made{.id = id, .scan_id = scan, .station_mm = station_mm};
+    if (size_mm > 0) {
+        made.size.emplace();
+        made.size->straight_mm = size_mm;
+    }
+    return made;
+}
+
+TEST(PairProposals, AreTheMarkersOfOnePlaceWithTheirReason)
+{
+    const auto proposals =
+        proposePairs({marker("m1", "s1", 500, 7), marker("m2", "s2", 553, 7.4), marker("m3", "s2", 900, 7)}, {match()});
+    ASSERT_EQ(proposals.size(), 1U);
+    EXPECT_EQ(proposals[0].first, "m1");
+    EXPECT_EQ(proposals[0].second, "m2");
+    EXPECT_NEAR(proposals[0].off_mm, 3, 1e-9);
+    EXPECT_TRUE(proposals[0].within);
+    EXPECT_EQ(proposals[0].rank, 1);
+    EXPECT_EQ(proposals[0].rivals, 0);
+    EXPECT_THAT(proposals[0].reason,
+                HasSubstr("3 mm from the same place, within the interval of 20 mm; 7.0 and 7.4 mm"));
+}
+
+TEST(PairProposals, AnotherThatFitsAboutAsWellIsRankedAfterItAndSaidToBe)
+{
+    const auto proposals =
+        proposePairs({marker("m1", "s1", 500), marker("m2", "s2", 552), marker("m3", "s2", 546)}, {match()});
+    ASSERT_EQ(proposals.size(), 2U);
+    EXPECT_EQ(proposals[0].second, "m2");
+    EXPECT_EQ(proposals[1].second, "m3");
+    EXPECT_EQ(proposals[1].rank, 2);
+    EXPECT_EQ(proposals[0].rivals, 1);
+    EXPECT_THAT(proposals[0].reason, HasSubstr("one other fits about as well"));
+}
+
+TEST(PairProposals, AMarkerIsFirstChoiceOnce)
+{
+    // Both of the first scan lie near m3; the one that fits better has it.
+    const auto proposals =
+        proposePairs({marker("m1", "s1", 500), marker("m2", "s1", 508), marker("m3", "s2", 550)}, {match()});
+    ASSERT_EQ(proposals.size(), 2U);
+    EXPECT_EQ(proposals[0].first, "m1");
+    EXPECT_EQ(proposals[0].rank, 1);
+    EXPECT_GT(proposals[1].rank, 1);
+}
+
+TEST(PairProposals, OtherSizesSpeakAgainst)
+{
+    EXPECT_TRUE(proposePairs({marker("m1", "s1", 500, 5), marker("m2", "s2", 550, 15)}, {match()}).empty());
+}
+
+TEST(PairProposals, PairedMarkersAndThoseOfOneScanAreLeftAlone)
+{
+    Marker paired = marker("m2", "s2", 550);
+    paired.pair = "m9";
+    EXPECT_TRUE(proposePairs({marker("m1", "s1", 500), paired, marker("m3", "s1", 500)}, {match()}).empty());
+}
+
+}  // namespace
+}  // namespace vicon

@@ -1,0 +1,90 @@
+// A store whose database lies on a server is backed up and restored like any other.
+#include <gmock/gmock.h>
+#include <soci/soci.h>
+
+#include <cstdlib>
+
+#include "vicon/cases/backup.h"
+#include "vicon/cases/kept_reports.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+#include "vicon/support/message_of.h"
+#include "vicon/support/support.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon {
+namespace {
+
+using support::messageOf;
+using testing::HasSubstr;
+
+/// An empty database of the server that this program runs beside.
+std::string newDatabase(const std::string& name)
+{
+    std::string address = std::getenv("VICON_TEST_POSTGRESQL");
+    const auto made = support::runCommand("psql '" + address + "' -q -c 'DROP DATABASE IF EXISTS " + name +
+                                          "' -c 'CREATE DATABASE " + name + "' 2>&1");
+    EXPECT_EQ(made.exit_code, 0) << made.output;
+    return address.replace(address.find("/postgres?"), std::string("/postgres").size(), "/" + name);
+}
+
+class PostgresqlBackup : public testing::Test {
+protected:
+    support::TemporaryFolder folder_;
+    NoProgress quiet_;
+    const fs::path to_ = folder_ / "backup", restored_ = folder_ / "restored";
+    const std::string from_database_ = newDatabase("backed_up"), to_database_ = newDatabase("restored");
+    CaseStore store_{StorePlace(folder_ / "store", from_database_)};
+
+    void SetUp() override
+    {
+        CaseRecord a_case;
+        a_case.id = "c1";
+        a_case.study.uid = "1.2.3";
+        a_case.patient.id = "P1";
+        ScanRecord scan;
+        scan.id = "s1";
+        scan.case_id = "c1";
+        makePrivateFolder(store_.scanFolder("c1", "s1") / "dicom");
+        replaceFile(object(store_), "an object");
+        store_.addScan(a_case, scan, {{"1.2.3.1", "c1", "s1", sha256("an object"), "1.dcm"}}, true);
+        makePrivateFolder(keptReportsFolder(store_));
+        replaceFile(keptReportsFolder(store_) / "r", "a report");
+        KeptReport report{.sop_uid = "1.9", .sha256 = sha256("a report"), .file = "r"};
+        report.patient.id = "P1";
+        keepReport(store_, report);
+    }
+    static fs::path object(const CaseStore& store) { return store.scanFolder("c1", "s1") / "dicom" / "1.dcm"; }
+};
+
+TEST_F(PostgresqlBackup, GivesTheSameStoreBack)
+{
+    EXPECT_EQ(backUp(store_, to_, quiet_).cases, 1);
+    store_.audit("after the backup", "c1", "", "");
+    EXPECT_EQ(restore(to_, {restored_, to_database_}, quiet_).cases, 1);
+    CaseStore again(StorePlace(restored_, to_database_));
+    EXPECT_EQ(again.requireCase("c1").patient.id, "P1");
+    EXPECT_EQ(readFile(object(again)), "an object");
+    EXPECT_EQ(readFile(keptReportsFolder(again) / keptReportsOf(again, "P1").at(0).file), "a report");
+    again.audit("it is worked with", "c1", "", "");
+    EXPECT_THROW(again.database().write([](soci::session& sql) { sql << "DELETE FROM audit"; }), Error)
+        << "triggers as well";
+    EXPECT_EQ(backUp(store_, to_, quiet_).copied, 0) << "the next one copies what is new";
+}
+
+TEST_F(PostgresqlBackup, GoesNowhereElse)
+{
+    backUp(store_, to_, quiet_);
+    const auto told = [&](const StorePlace& place) { return messageOf([&] { restore(to_, place, quiet_); }); };
+    EXPECT_THAT(told(restored_), HasSubstr("whose database lies on a server"));
+    EXPECT_THAT(told({restored_, from_database_}), HasSubstr("into an empty database"));
+    EXPECT_THAT(told({restored_, "postgresql:///nowhere?host=/nowhere"}), HasSubstr("cannot be reached"));
+    EXPECT_FALSE(fs::exists(restored_));
+    replaceFile(to_ / "reports" / "r", "another report");
+    EXPECT_THAT(told({restored_, to_database_}), HasSubstr("damaged"));
+    EXPECT_FALSE(fs::exists(restored_));
+}
+
+}  // namespace
+}  // namespace vicon

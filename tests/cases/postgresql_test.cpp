@@ -1,0 +1,280 @@
+// What a server does that a file does not: it breaks off, is started anew, and serves many at once.
+#include <gmock/gmock.h>
+#include <soci/soci.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <set>
+#include <thread>
+
+#include "fake_jobs.h"
+#include "postgresql_proxy.h"
+#include "vicon/cases/audit_trail.h"
+#include "vicon/cases/job_queue.h"
+#include "vicon/core/error.h"
+#include "vicon/core/file.h"
+
+namespace fs = std::filesystem;
+
+namespace vicon {
+namespace {
+
+using pipeline::FakeStore;
+using support::tellServer;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string messageOf(const std::function<void()>& action)
+{
+    try {
+        action();
+    } catch (const Error& e) {
+        return e.what();
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return {};
+}
+
+void put(soci::session& sql, const std::string& name)
+{
+    sql << "INSERT INTO counters (name, value) VALUES (:name, 1)", soci::use(name);
+}
+
+int countOf(Database& database, const std::string& name)
+{
+    int count = 0;
+    database.session() << "SELECT COUNT(*) FROM counters WHERE name = :name", soci::use(name), soci::into(count);
+    return count;
+}
+
+TEST(PostgresqlServer, StartedAnewIsUsedAgainWithoutAWord)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    tellServer("restart -m fast");
+    EXPECT_EQ(fake.store.scans("c").size(), 1u);
+    tellServer("restart -m immediate");
+    fake.store.audit("opened", "c", "s0", "");
+    EXPECT_EQ(auditTrail(fake.store, "c").back().event, "opened");
+}
+
+TEST(PostgresqlServer, ThatBreaksOffInAChangeSavesNothingAndSaysSoInOneLine)
+{
+    FakeStore fake;
+    Database& database = fake.store.database();
+    const std::string said = messageOf([&] {
+        database.write([&](soci::session& sql) {
+            put(sql, "half");
+            tellServer("restart -m immediate");
+            put(sql, "other half");
+        });
+    });
+    EXPECT_THAT(said, AllOf(HasSubstr("connection to the database broke; nothing was saved"), Not(HasSubstr("\n"))));
+    EXPECT_EQ(countOf(database, "half"), 0);
+    database.write([](soci::session& sql) { put(sql, "whole"); });
+    EXPECT_EQ(countOf(database, "whole"), 1);
+}
+
+TEST(PostgresqlServer, ThatBreaksOffInAWorkersChangeGetsItAgain)
+{
+    FakeStore fake;
+    int runs = 0;
+    fake.store.database().writeRows([&](soci::session& sql) {
+        put(sql, "step");
+        if (++runs == 1)
+            tellServer("restart -m fast");
+        put(sql, "progress");
+    });
+    EXPECT_EQ(runs, 2);
+    EXPECT_EQ(countOf(fake.store.database(), "step"), 1);
+}
+
+TEST(PostgresqlServer, ThatIsAwayIsOneClearLineWithoutUserAndAnswersLater)
+{
+    FakeStore fake;
+    tellServer("stop -m fast");
+    const std::string said = messageOf([&] { CaseStore{fake.store.place()}; });
+    EXPECT_THAT(said, AllOf(HasSubstr("cannot be reached"), HasSubstr("PostgreSQL database 'postgres'"),
+                            Not(HasSubstr("vicon@")), Not(HasSubstr("\n"))));
+    std::thread starter([] { tellServer("start"); });
+    EXPECT_NO_THROW(fake.store.audit("opened", "c", "", "")) << "it waits while the server starts";
+    starter.join();
+}
+
+/// A store whose line to the server can be cut.
+class CutLine : public testing::Test {
+protected:
+    support::TemporaryFolder folder_;
+    StorePlace direct_ = support::storePlace(folder_ / "store");
+    std::string serverFolder() const
+    {
+        const auto from = direct_.database.find("host=") + 5;
+        return direct_.database.substr(from, direct_.database.find('&', from) - from);
+    }
+    test::PostgresqlProxy proxy_{folder_.path(), serverFolder()};
+    CaseStore store_{StorePlace(direct_.folder, std::string(direct_.database)
+                                                    .replace(direct_.database.find(serverFolder()),
+                                                             serverFolder().size(), folder_.path().string()))};
+};
+
+TEST_F(CutLine, AfterACommitReachedTheServerIsASuccessDoneOnce)
+{
+    proxy_.cutAfter("COMMIT");
+    EXPECT_NO_THROW(store_.audit("signed", "c", "", ""));
+    EXPECT_EQ(proxy_.cuts(), 1);
+    EXPECT_EQ(auditTrail(store_, "c").size(), 1u);
+}
+
+TEST_F(CutLine, BeforeACommitReachedTheServerSavesNothing)
+{
+    proxy_.cutBefore("COMMIT");
+    EXPECT_THAT(messageOf([&] { store_.audit("signed", "c", "", ""); }), HasSubstr("nothing was saved"));
+    EXPECT_EQ(proxy_.cuts(), 1);
+    EXPECT_TRUE(auditTrail(store_, "c").empty());
+}
+
+TEST_F(CutLine, InAWorkersCommitIsSavedOnceWhetherItArrivedOrNot)
+{
+    int runs = 0;
+    const auto step = [&](const std::string& name) {
+        store_.database().writeRows([&](soci::session& sql) {
+            ++runs;
+            put(sql, name);
+        });
+    };
+    proxy_.cutAfter("COMMIT");
+    step("arrived");
+    EXPECT_EQ(runs, 1) << "what was committed is not done again: its second run would fail on the same name";
+    proxy_.cutBefore("COMMIT");
+    step("did not arrive");
+    EXPECT_EQ(runs, 3);
+    EXPECT_EQ(countOf(store_.database(), "arrived") + countOf(store_.database(), "did not arrive"), 2);
+}
+
+TEST(PostgresqlStore, IsNotMixedWithAnother)
+{
+    const support::TemporaryFolder folder;
+    const StorePlace place = support::storePlace(folder / "a");
+    CaseStore{place};
+    EXPECT_NO_THROW(CaseStore{place});
+    EXPECT_THAT(messageOf([&] { CaseStore(StorePlace(folder / "b", place.database)); }),
+                HasSubstr("belong to different stores"));
+    EXPECT_THAT(messageOf([&] { CaseStore(folder / "a"); }), HasSubstr("set store.database"));
+    CaseStore{StorePlace(folder / "own")};
+    EXPECT_THAT(messageOf([&] { CaseStore(support::storePlace(folder / "own")); }), HasSubstr("its own vicon.db"));
+}
+
+TEST(PostgresqlStore, TakesNoPasswordThatIsShownAndNoAddressThatIsNone)
+{
+    const support::TemporaryFolder folder;
+    const auto said = [&](const std::string& address) {
+        return messageOf([&] { CaseStore(StorePlace(folder / "store", address)); });
+    };
+    EXPECT_THAT(said("postgresql://anna:secret@host/vicon"), AllOf(HasSubstr(".pgpass"), Not(HasSubstr("secret"))));
+    EXPECT_THAT(said("postgresql://host/%zz"), HasSubstr("postgresql://USER@HOST"));
+    EXPECT_THAT(said("mysql://host/vicon"), HasSubstr("no address"));
+    EXPECT_FALSE(StorePlace(folder / "store").holdsStore());
+}
+
+TEST(PostgresqlServer, ThatDoesNotFlushIsFoundOut)
+{
+    FakeStore fake;
+    EXPECT_THAT(fake.store.database().damage(), HasSubstr("fsync is off")) << "tests run faster so";
+}
+
+TEST(PostgresqlQueue, IsClaimedFromWhileAReportIsBeingSigned)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    CaseStore reader(fake.store.place());
+    reader.database().write([&](soci::session&) {
+        EXPECT_TRUE(JobQueue(fake.store.database(), {}).claim("a")) << "it does not wait for the other's lock";
+    });
+}
+
+TEST(PostgresqlQueue, MakesNoClaimWaitForAnother)
+{
+    FakeStore fake;
+    fake.addJobs(2);
+    Database other(fake.store.database().where());
+    other.writeRows([&](soci::session& sql) {
+        sql << "UPDATE jobs SET fence = fence WHERE scan_id = 's0'";
+        EXPECT_EQ(JobQueue(fake.store.database(), {}).claim("a")->scan_id, "s1");
+    });
+}
+
+/// A worker's process, which does jobs until none is left; of each job it leaves a line in a file.
+pid_t startWorker(const StorePlace& place, const fs::path& done)
+{
+    const pid_t child = ::fork();
+    if (child != 0)
+        return child;
+    try {
+        Database database(place.database);
+        JobQueue queue(database, {.lease_s = 2});
+        while (true)
+            try {
+                const auto job = queue.claim(thisOwner());
+                if (!job && !queue.nextDue())
+                    ::_exit(0);
+                if (!job)
+                    continue;
+                queue.renew(*job, "step", 0.5);
+                const auto publish = [&] {
+                    replaceFile(done / (job->scan_id + "-" + std::to_string(job->fence)), "done");
+                };
+                queue.commitStep(*job, {.step = "step", .version = 1, .digest = "d"}, publish);
+                queue.complete(*job);
+            } catch (const Error& e) {
+                if (e.code() != ErrorCode::lease_lost)
+                    throw;
+            }
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "%s\n", e.what());
+    }
+    ::_exit(1);
+}
+
+TEST(PostgresqlQueue, LosesNoJobOfManyProcessesThatAreKilledWhileTheServerIsStartedAnew)
+{
+    FakeStore fake;
+    constexpr int kJobs = 60, kWorkers = 4;
+    fake.addJobs(kJobs);
+    const fs::path done = fake.folder / "done";
+    makePrivateFolder(done);
+    std::vector<pid_t> workers;
+    for (int n = 0; n < kWorkers; ++n)
+        workers.push_back(startWorker(fake.store.place(), done));
+    const auto finished = [&] {
+        int count = 0;
+        fake.store.database().session() << "SELECT COUNT(*) FROM jobs WHERE state = 'done'", soci::into(count);
+        return count;
+    };
+    for (int n = 1; n <= 4; ++n) {
+        ASSERT_TRUE(support::waitUntil([&] { return finished() >= n * kJobs / 6; }));
+        ::kill(workers.front(), SIGKILL);
+        ::waitpid(workers.front(), nullptr, 0);
+        workers.erase(workers.begin());
+        tellServer(n % 2 ? "restart -m immediate" : "restart -m fast");
+        workers.push_back(startWorker(fake.store.place(), done));
+    }
+    for (const pid_t worker : workers) {
+        int status = 0;
+        ::waitpid(worker, &status, 0);
+        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "a worker gave up";
+    }
+    EXPECT_EQ(finished(), kJobs);
+    std::set<std::string> scans;
+    for (const auto& entry : fs::directory_iterator(done)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with("s"))  // others are of workers killed while they wrote
+            scans.insert(name.substr(0, name.find('-')));
+    }
+    EXPECT_EQ(int(scans.size()), kJobs);
+}
+
+}  // namespace
+}  // namespace vicon

@@ -1,0 +1,37 @@
+#include "vicon/core/study.h"
+
+#include <gtest/gtest.h>
+
+#include "vicon/core/error.h"
+#include "vicon/core/scan_records.h"
+
+namespace vicon {
+namespace {
+
+TEST(PatientPosition, NamesThePositionAndTheWayFluidFalls)
+{
+    struct Case {
+        const char *code, *name;
+        Vector3 gravity;
+    };
+    // DICOM PS3.3 C.7.3.1.1.2; +x is the patient's left, +y posterior.
+    const Case cases[] = {
+        {"HFS", "supine", {0, 1, 0}}, {"FFS", "supine", {0, 1, 0}},          {"HFP", "prone", {0, -1, 0}},
+        {"FFP", "prone", {0, -1, 0}}, {"HFDL", "left decubitus", {1, 0, 0}}, {"FFDR", "right decubitus", {-1, 0, 0}},
+        {"", "unknown", {0, 1, 0}},
+    };
+    for (const Case& c : cases) {
+        EXPECT_EQ(positionName(c.code), c.name);
+        EXPECT_EQ(gravityFor(c.code), c.gravity) << c.code;
+    }
+}
+
+TEST(ScanRole, HasAName)
+{
+    for (const ScanRole role : {ScanRole::scan, ScanRole::kept, ScanRole::refused})
+        EXPECT_EQ(scanRoleFrom(nameOf(role)), role);
+    EXPECT_THROW(scanRoleFrom("scout"), Error);
+}
+
+}  // namespace
+}  // namespace vicon

@@ -1,0 +1,161 @@
+// Nothing of the person stays, and everything of the picture: judged by pydicom and dicom3tools.
+#include "vicon/ingest/anonymise.h"
+
+#include <gmock/gmock.h>
+
+#include "import_fixture.h"
+#include "pseudonyms.h"
+#include "stream_comments.h"
+#include "vicon/core/error.h"
+
+namespace vicon::ingest {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Anonymous : public test::StoreFixture {
+protected:
+    const fs::path originals_ = folder / "originals", out_ = folder / "out";
+
+    static void script(const std::string& arguments)
+    {
+        const auto ran = support::runCommand(VICON_ANONYMOUS " " + arguments);
+        EXPECT_EQ(ran.exit_code, 0) << ran.output;
+    }
+    std::string caseOf()
+    {
+        script("identify " + originals_.string());
+        const ImportReport report = import({originals_});
+        EXPECT_EQ(report.scans_stored, 1) << lines(report);
+        return store.cases().at(0).id;
+    }
+    Anonymised write(const std::string& case_id) { return anonymise(store, case_id, out_, quiet); }
+    void check() { script("check " + originals_.string() + " " + out_.string()); }
+    /// The same voxels, in another store.
+    void expectSameVoxels(const std::string& case_id)
+    {
+        CaseStore other(folder / "other");
+        const ImportReport report = importPaths(other, {out_}, options, quiet);
+        EXPECT_EQ(report.scans_stored, 1) << lines(report);
+        const CaseRecord again = other.cases().at(0);
+        EXPECT_NE(again.id, case_id);
+        const ScanRecord scan = other.requireScan(again.id, "");
+        const auto before = load(store.requireScan(case_id, ""));
+        const auto after = loadScan(other.scanFolder(again.id, scan.id) / "dicom", options, quiet);
+        EXPECT_EQ(after.voxels, before.voxels);
+        EXPECT_EQ(scan.ingest["geometry"], store.requireScan(case_id, "").ingest["geometry"]);
+        EXPECT_THAT(again.patient.name, testing::StartsWith("anon-"));
+    }
+};
+
+TEST_F(Anonymous, ACaseKeepsItsPictureAndNothingOfThePerson)
+{
+    test::writeSeries(originals_, {});
+    const std::string id = caseOf();
+    EXPECT_EQ(write(id).written, 12);
+    check();
+    expectSameVoxels(id);
+}
+
+TEST_F(Anonymous, AnEnhancedCaseToo)
+{
+    test::writeEnhanced((fs::create_directories(originals_), originals_ / "1.dcm"), {},
+                        {3, 1, 2, 0, 4, 5, 6, 11, 10, 9, 8, 7});
+    const std::string id = caseOf();
+    EXPECT_EQ(write(id).written, 1);
+    check();
+    expectSameVoxels(id);
+}
+
+TEST_F(Anonymous, TheSameCaseBecomesTheSameAgain)
+{
+    test::writeSeries(originals_, {});
+    const std::string id = caseOf();
+    write(id);
+    const auto first = support::runCommand("cd " + out_.string() + " && sha256sum */*");
+    fs::remove_all(out_);
+    write(id);
+    EXPECT_EQ(support::runCommand("cd " + out_.string() + " && sha256sum */*").output, first.output);
+    fs::remove_all(out_);
+    fs::remove(store.folder() / "anonymous.key");
+    write(id);
+    EXPECT_NE(support::runCommand("cd " + out_.string() + " && sha256sum */*").output, first.output)
+        << "nobody can make it without the key";
+}
+
+TEST_F(Anonymous, WhatMayHoldTextInItsPixelsIsLeftOut)
+{
+    test::writeSeries(originals_, {});
+    const std::string id = caseOf();
+    const ScanRecord scan = store.requireScan(id, "");
+    const auto instances = store.instances(id, scan.id);
+    const auto edit = [&](int n, const std::string& element) {
+        const fs::path file = store.scanFolder(id, scan.id) / "dicom" / instances.at(std::size_t(n)).file;
+        EXPECT_EQ(support::runCommand("dcmodify -nb -i \"" + element + "\" " + file.string()).exit_code, 0);
+    };
+    edit(0, "(0028,0301)=YES");
+    edit(1, "(0008,0008)=DERIVED\\\\SECONDARY\\\\SCREEN SAVE");
+    edit(2, "(0008,0016)=1.2.840.10008.5.1.4.1.1.7");
+    edit(3, "(6000,0100)=16");
+    const Anonymised made = write(id);
+    EXPECT_EQ(made.written, 8);
+    const std::map<std::string, int> expected = {{"text burnt into its pixels", 1},
+                                                 {"a page, not a slice", 1},
+                                                 {"no CT image", 1},
+                                                 {"an overlay in its pixels", 1}};
+    EXPECT_EQ(made.left_out, expected);
+}
+
+TEST_F(Anonymous, AFolderWithSomethingInItIsNotTouched)
+{
+    test::writeSeries(originals_, {});
+    const std::string id = caseOf();
+    fs::create_directories(out_);
+    replaceFile(out_ / "letter", "of somebody");
+    EXPECT_THROW(write(id), Error);
+    EXPECT_EQ(readFile(out_ / "letter"), "of somebody");
+}
+
+TEST(Pseudonym, DatesMoveByOneSpanForEachPatient)
+{
+    const Pseudonyms one("key", "4711"), again("key", "4711"), other("key", "4712");
+    EXPECT_EQ(one.patient(), again.patient());
+    EXPECT_NE(one.patient(), other.patient());
+    EXPECT_EQ(one.uid("1.2.3"), other.uid("1.2.3"));
+    EXPECT_EQ(one.uid("1.2.840.10008.5.1.4.1.1.2"), "1.2.840.10008.5.1.4.1.1.2");
+    const auto first = one.earlier("20240110", "235959.5"), later = one.earlier("20240111", "000000.5");
+    EXPECT_LT(first.date, "20230111");
+    EXPECT_GT(first.date, "20120101");
+    EXPECT_THAT(first.time, HasSubstr(".5"));
+    EXPECT_EQ(one.earlier("20240110235959.5+0100"), first.date + first.time);
+    EXPECT_NE(first.date + first.time, later.date + later.time);
+    EXPECT_NE(other.earlier("20240110", "235959.5").date + other.earlier("20240110", "235959.5").time,
+              first.date + first.time);
+    EXPECT_EQ(one.earlier("2024.01.10", "23:59:59.5").date, first.date);
+    EXPECT_EQ(one.earlier("20241340", "101500").date, "");
+    EXPECT_EQ(one.earlier("20240110", "").time, "");
+}
+
+TEST(StreamComments, AreBlankedAndTheRestStays)
+{
+    const auto bytes = [](const std::string& text) { return std::vector<std::uint8_t>(text.begin(), text.end()); };
+    const std::string start = "\xFF\xD8", jfif("\xFF\xE0\x00\x04JF", 6), rest = "\xFF\xDA ZZID in the scan stays";
+    auto jpeg =
+        bytes(start + jfif + std::string("\xFF\xFE\x00\x06ZZID", 8) + std::string("\xFF\xE1\x00\x06ZZID", 8) + rest);
+    blankComments(jpeg);
+    EXPECT_EQ(jpeg, bytes(start + jfif + std::string("\xFF\xFE\x00\x06\0\0\0\0", 8) +
+                          std::string("\xFF\xE1\x00\x06\0\0\0\0", 8) + rest));
+    auto jpeg2000 = bytes("\xFF\x4F" + std::string("\xFF\x64\x00\x08\x00\x01ZZID", 10) + "\xFF\x90 tile");
+    blankComments(jpeg2000);
+    EXPECT_EQ(jpeg2000, bytes("\xFF\x4F" + std::string("\xFF\x64\x00\x08\x00\x01\0\0\0\0", 10) + "\xFF\x90 tile"));
+    auto cut = bytes(start + std::string("\xFF\xFE\x7F\xFFZZ", 6));
+    blankComments(cut);
+    EXPECT_EQ(cut, bytes(start + std::string("\xFF\xFE\x7F\xFF\0\0", 6)));
+    auto raw = bytes("ZZID");
+    blankComments(raw);
+    EXPECT_EQ(raw, bytes("ZZID"));
+}
+
+}  // namespace
+}  // namespace vicon::ingest

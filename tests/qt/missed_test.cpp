@@ -1,0 +1,154 @@
+// What was missed is gone through by a key, highlighted, ticked off, and the time of reading is kept.
+#include <unistd.h>
+
+#include <QLabel>
+#include <QStatusBar>
+#include <QTabWidget>
+#include <QTableWidget>
+
+#include "reading.h"
+#include "vicon/cases/audit_trail.h"
+#include "vicon/core/file.h"
+#include "vicon/scan_files/cells_file.h"
+#include "vicon/scan_files/skeleton_file.h"
+#include "vicon/viewer/model/scan_coverage.h"
+
+namespace vicon::viewer {
+namespace {
+
+using test::Reading;
+
+/// A reader who has reviewed all of the supine scan but the wall within 12 mm of two places of it.
+class Missing : public Reading {
+protected:
+    void SetUp() override
+    {
+        Reading::SetUp();
+        const auto folder = CaseStore(store_).scanFolder(test::kCase, test::kSupine);
+        const CellSurface cells = scan_files::readCells(folder / "cells.vtp");
+        const Skeleton path = scan_files::readSkeleton(folder / "skeleton.vtp");
+        const auto corner = [&](std::size_t triangle) {
+            const float* p = &cells.points_mm[3 * std::size_t(cells.triangles[3 * triangle])];
+            return Point3{p[0], p[1], p[2]};
+        };
+        std::vector<Point3> missed;
+        for (const double station : {120.0, 240.0}) {
+            std::size_t nearest = 0;
+            for (std::size_t t = 0; t < cells.triangleCount(); ++t)
+                if (distance(corner(t), path.at(station).position_mm) <
+                    distance(corner(nearest), path.at(station).position_mm))
+                    nearest = t;
+            missed.push_back(corner(nearest));
+        }
+        std::vector<std::uint32_t> seen;
+        for (std::size_t t = 0; t < cells.triangleCount(); ++t)
+            if (distance(corner(t), missed[0]) > 12 && distance(corner(t), missed[1]) > 12)
+                seen.push_back(std::uint32_t(t));
+        ScanCoverage coverage(triangleAreas_mm2(cells.points_mm, cells.triangles));
+        coverage.see(seen);
+        const auto file = folder.parent_path() / "reading" /
+                          (folder.filename().string() + "-user" + std::to_string(getuid()) + ".seen");
+        std::filesystem::create_directories(file.parent_path());
+        replaceFile(file, coverage.packed());
+        openCase();
+        window()->resize(1600, 1000);
+        settle();
+    }
+    static QTableWidget* list() { return the<QTableWidget>("unseen"); }
+    static bool ticked(int row)
+    {
+        const QTableWidgetItem* item = list()->item(row, 0);
+        EXPECT_TRUE(item) << "the list has no row " << row;
+        return item && item->text() == QString(QChar(0x2713));
+    }
+    /// Of the endoscopic picture, as a share.
+    static double orange()
+    {
+        const QImage image = pictureOf("endoscopic");
+        int count = 0;
+        for (int y = 0; y < image.height(); y += 2)
+            for (int x = 0; x < image.width(); x += 2) {
+                const QColor c = image.pixelColor(x, y);
+                count += c.red() > 90 && c.green() * 10 < c.red() * 7 && c.blue() * 5 < c.red() * 2;
+            }
+        return double(count) * 4 / (image.width() * image.height());
+    }
+    static QString said() { return window()->statusBar()->currentMessage(); }
+};
+
+TEST_F(Missing, RegionsAreListedWithPicturesVisitedByAKeyAndTickedOffWhenReviewed)
+{
+    ASSERT_TRUE(eventually([] { return list()->rowCount() == 2; })) << list()->rowCount();
+    for (const int row : {0, 1}) {
+        EXPECT_GE(list()->item(row, 3)->text().toDouble(), 300);
+        EXPECT_TRUE(eventually([&] { return !list()->item(row, 0)->icon().isNull(); })) << "its picture";
+        EXPECT_FALSE(ticked(row));
+    }
+    EXPECT_LT(orange(), 0.001);
+    key(Qt::Key_F3);
+    EXPECT_EQ(the<QTabWidget>("lists")->currentIndex(), 1);
+    ASSERT_TRUE(eventually([] { return std::abs(station() - 120) < 45; })) << station();
+    EXPECT_TRUE(eventually([] { return orange() > 0.005; })) << "highlighted: " << orange();
+    EXPECT_TRUE(said().contains("1 of 2")) << said().toStdString();
+    screenshot("missed_region");
+    EXPECT_TRUE(eventually([] { return ticked(0); })) << "looked at for long enough";
+    EXPECT_FALSE(ticked(1));
+    key(Qt::Key_F3);
+    ASSERT_TRUE(eventually([] { return std::abs(station() - 240) < 45; })) << station();
+    // It lies across a fold: from one side less than four fifths of it are to be seen.
+    key(Qt::Key_P);
+    for (int n = 0; n < 24 && !ticked(1); ++n) {
+        key(n % 12 == 11 ? Qt::Key_R : n % 12 < 3 ? Qt::Key_Comma : Qt::Key_Period);
+        EXPECT_TRUE(eventually([] { return pictureIsThere(); }));
+        settle();
+    }
+    EXPECT_TRUE(ticked(1));
+    key(Qt::Key_Escape);
+    EXPECT_TRUE(eventually([] { return orange() < 0.001; })) << orange();
+    key(Qt::Key_F3);
+    EXPECT_TRUE(eventually([] { return said().contains("No region of 300"); })) << said().toStdString();
+    EXPECT_GT(the<QLabel>("seen")->text().section(' ', 0, 0).toDouble(), 95);
+
+    const auto read_s = [] {
+        const QStringList parts = the<QLabel>("readingTime")->text().split(':');
+        return parts.size() == 2 ? parts[0].toInt() * 60 + parts[1].toInt() : 0;
+    };
+    ASSERT_TRUE(eventually([&] {
+        QTest::mouseMove(the<QWidget>("endoscopic"), middle("endoscopic"));
+        return read_s() >= 6;
+    }));
+    closeCase();
+    CaseStore store(store_);
+    bool logged = false;
+    for (const AuditLine& line : auditTrail(store, test::kCase))
+        logged = logged || (line.event == "scan read" && line.scan_id == test::kSupine &&
+                            line.detail.find("2 of ") != std::string::npos);
+    EXPECT_TRUE(logged) << "time, coverage and regions are kept";
+}
+
+TEST_F(Missing, TheListThatIsGoneThroughStaysWhileRegionsAreReviewed)
+{
+    // The key asks for the list while the one of the opening, and the one of its panel, may still be on their way.
+    key(Qt::Key_F3);
+    ASSERT_TRUE(eventually([] { return said().contains("1 of 2"); })) << said().toStdString();
+    ASSERT_TRUE(eventually([] { return ticked(0); })) << "looked at for long enough";
+    settle();
+    EXPECT_EQ(list()->rowCount(), 2);
+    EXPECT_TRUE(ticked(0));
+    EXPECT_FALSE(ticked(1));
+}
+
+TEST_F(Missing, AThumbnailIsNoLookAtARegion)
+{
+    ASSERT_TRUE(eventually([] { return list()->rowCount() == 2 && !list()->item(1, 0)->icon().isNull(); }));
+    const double before = the<QLabel>("seen")->text().section(' ', 0, 0).toDouble();
+    key(Qt::Key_Period);
+    ASSERT_TRUE(eventually([] { return pictureIsThere(); }));
+    settle();
+    EXPECT_FALSE(ticked(0));
+    EXPECT_FALSE(ticked(1));
+    EXPECT_NEAR(the<QLabel>("seen")->text().section(' ', 0, 0).toDouble(), before, 0.2);
+}
+
+}  // namespace
+}  // namespace vicon::viewer

@@ -1,0 +1,201 @@
+// The unfolded cube, the band and the projection that turns, with mouse and keys.
+#include <QAction>
+#include <QDockWidget>
+#include <QLabel>
+#include <QWheelEvent>
+#include <cmath>
+
+#include "reading.h"
+
+namespace vicon::viewer {
+namespace {
+
+using test::Reading;
+
+void wheel(QWidget* over, QPoint at, int notches, Qt::KeyboardModifiers modifiers = {})
+{
+    QWheelEvent event(at, over->mapToGlobal(at), {}, {0, 120 * notches}, Qt::NoButton, modifiers, Qt::NoScrollPhase,
+                      false);
+    QApplication::sendEvent(over, &event);
+}
+
+void drag(QWidget* over, QPoint from, QPoint by, Qt::MouseButton button = Qt::LeftButton)
+{
+    QTest::mousePress(over, button, {}, from);
+    constexpr int kSteps = 4;
+    for (int n = 1; n <= kSteps; ++n) {
+        QMouseEvent move(QEvent::MouseMove, from + by * n / kSteps, button, button, {});
+        QApplication::sendEvent(over, &move);
+    }
+    QTest::mouseRelease(over, button, {}, from + by);
+}
+
+class Panoramas : public Reading {
+protected:
+    void SetUp() override
+    {
+        Reading::SetUp();
+        openCase();
+        window()->resize(1500, 1000);
+        settle();
+    }
+    /// Until it has changed, and then no more.
+    static bool changesFrom(const char* view, const QImage& before)
+    {
+        const bool changed = eventually([&] { return pictureOf(view) != before; });
+        settle();
+        return changed;
+    }
+    static bool isShown(const char* view)
+    {
+        return eventually([&] { return the<QWidget>(view)->isVisible() && drawn(view); });
+    }
+};
+
+TEST_F(Panoramas, TheCubeIsAKeyAwayFollowsTheEyeAndAClickLooksThere)
+{
+    EXPECT_FALSE(the<QWidget>("cube")->isVisible());
+    key(Qt::Key_U);
+    ASSERT_TRUE(isShown("cube"));
+    settle();
+    screenshot("cube");
+    const QImage first = pictureOf("cube");
+    const QImage inside = pictureOf("endoscopic");
+    key(Qt::Key_Period);
+    EXPECT_TRUE(changesFrom("cube", first)) << "a centimetre on";
+    const QImage moved = pictureOf("cube");
+    // The face that is looked back on lies on the right.
+    auto* cube = the<QWidget>("cube");
+    click("cube", QPoint(cube->width() * 7 / 8, cube->height() / 2 + 5));
+    EXPECT_TRUE(changesFrom("cube", moved));
+    EXPECT_NE(pictureOf("endoscopic"), inside);
+    screenshot("cube_clicked");
+    key(Qt::Key_U);
+    EXPECT_TRUE(eventually([] { return !the<QWidget>("cube")->isVisible(); }));
+}
+
+TEST_F(Panoramas, TheBandGoesWhereItIsClickedAndScrollsAndIsWholeOnADoubleClick)
+{
+    key(Qt::Key_B, Qt::ShiftModifier);
+    ASSERT_TRUE(isShown("band"));
+    settle();
+    screenshot("band");
+    // So high that not all of this small colon fits into a row.
+    the<QDockWidget>("bandDock")->setFloating(true);
+    the<QDockWidget>("bandDock")->resize(420, 420);
+    ASSERT_TRUE(eventually([] { return the<QWidget>("band")->height() > 350; }));
+    settle();
+    auto* band = the<QWidget>("band");
+    const QImage stretch = pictureOf("band");
+    wheel(band, band->rect().center(), 2);
+    ASSERT_TRUE(changesFrom("band", stretch)) << "the wheel goes along";
+    const double before = station();
+    wheel(band, band->rect().center(), -1, Qt::ControlModifier);
+    settle();
+    screenshot("band_whole");
+    click("band", QPoint(band->width() * 3 / 4, band->height() * 3 / 4));
+    ASSERT_TRUE(eventually([&] { return std::abs(station() - before) > 30; }));
+    ASSERT_TRUE(eventually([] { return pictureIsThere(); }));
+    screenshot("band_clicked");
+    const QImage whole = pictureOf("band");
+    wheel(band, band->rect().center(), 1, Qt::ControlModifier);
+    ASSERT_TRUE(changesFrom("band", whole));
+    const QImage there = pictureOf("band");
+    const double here = station();
+    click("band", QPoint(band->width() / 3, band->height() / 2));
+    QTest::mouseDClick(band, Qt::LeftButton, {}, QPoint(band->width() / 3, band->height() / 2));
+    EXPECT_TRUE(changesFrom("band", there)) << "a double click shows all of it";
+    EXPECT_NEAR(station(), here, 1) << "and goes nowhere";
+}
+
+TEST_F(Panoramas, TheBandRunsTheWayThatIsFlown)
+{
+    key(Qt::Key_B, Qt::ShiftModifier);
+    ASSERT_TRUE(isShown("band"));
+    settle();
+    const QImage to_caecum = pictureOf("band");
+    key(Qt::Key_R);
+    EXPECT_TRUE(changesFrom("band", to_caecum));
+}
+
+TEST_F(Panoramas, AMarkerIsSetInCubeAndBandAndNothingIsMeasuredInTheBand)
+{
+    key(Qt::Key_U);
+    ASSERT_TRUE(isShown("cube"));
+    settle();
+    auto* cube = the<QWidget>("cube");
+    click("cube", QPoint(cube->width() * 3 / 8, cube->height() / 2 + 20), Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    key(Qt::Key_B, Qt::ShiftModifier);
+    ASSERT_TRUE(isShown("band"));
+    settle();
+    auto* band = the<QWidget>("band");
+    click("band", QPoint(band->width() / 2, band->height() / 2), Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 2 && settled(); }));
+    screenshot("panorama_markers");
+    for (const Marker& marker : stored()) {
+        EXPECT_EQ(marker.scan_id, test::kSupine);
+        EXPECT_GT(marker.station_mm, 0);
+    }
+    key(Qt::Key_M);
+    click("band", QPoint(band->width() / 2 + 40, band->height() / 2));
+    EXPECT_NE(warning().find("stretched"), std::string::npos);
+}
+
+TEST_F(Panoramas, TheProjectionTurnsGrowsIsClickedAndComesBackFromTheFront)
+{
+    auto* overview = the<QWidget>("overview");
+    settle();
+    const QImage front = pictureOf("overview");
+    drag(overview, overview->rect().center(), QPoint(60, 15));
+    ASSERT_TRUE(changesFrom("overview", front));
+    screenshot("turned");
+    const QImage turned = pictureOf("overview");
+    wheel(overview, overview->rect().center(), 2);
+    ASSERT_TRUE(changesFrom("overview", turned));
+    const QImage grown = pictureOf("overview");
+    drag(overview, overview->rect().center(), QPoint(20, 10), Qt::RightButton);
+    ASSERT_TRUE(changesFrom("overview", grown));
+    screenshot("turned_grown");
+    // Some place of it is wall.
+    const double before = station();
+    bool went = false;
+    for (int y = overview->height() / 4; y < overview->height() * 3 / 4 && !went; y += 12)
+        for (int x = overview->width() / 8; x < overview->width() / 3 && !went; x += 12) {
+            click("overview", QPoint(x, y));
+            went = std::abs(station() - before) > 20;
+        }
+    EXPECT_TRUE(went);
+    EXPECT_TRUE(eventually([] { return pictureIsThere(); }));
+    key(Qt::Key_Home);
+    settle();
+    key(Qt::Key_Z);
+    EXPECT_TRUE(eventually([&] { return pictureOf("overview").size() == front.size() && drawn("overview"); }));
+    const QImage again = pictureOf("overview");
+    const double back_at = station();
+    click("overview", QPoint(overview->width() * 2 / 3, overview->height() / 2));
+    EXPECT_TRUE(eventually([&] { return std::abs(station() - back_at) > 50; })) << "clicks go there as before";
+    EXPECT_NE(again, turned);
+}
+
+TEST_F(Panoramas, AnotherScanIsShownInAllOfThem)
+{
+    key(Qt::Key_U);
+    key(Qt::Key_B, Qt::ShiftModifier);
+    ASSERT_TRUE(isShown("cube"));
+    ASSERT_TRUE(isShown("band"));
+    settle();
+    const QImage band = pictureOf("band");
+    the<QLabel>("where")->clear();
+    key(Qt::Key_X);
+    waitForScan();
+    EXPECT_TRUE(isShown("cube"));
+    EXPECT_TRUE(isShown("band"));
+    closeCase();
+    openCase();
+    EXPECT_TRUE(isShown("cube")) << "as the reader left it";
+    EXPECT_TRUE(isShown("band"));
+}
+
+}  // namespace
+}  // namespace vicon::viewer

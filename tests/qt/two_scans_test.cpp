@@ -1,0 +1,109 @@
+// Two scans as one: the same place beside, its interval in every view of the other scan, pairs that are proposed.
+#include <gmock/gmock.h>
+
+#include <QLabel>
+#include <QPushButton>
+#include <QTableWidget>
+
+#include "reading.h"
+#include "test_colon.h"
+#include "vicon/viewer/model/prior_place.h"
+
+namespace vicon::viewer {
+namespace {
+
+using test::Reading;
+
+constexpr int kPairList = 4;
+
+class TwoScans : public Reading {
+protected:
+    void SetUp() override
+    {
+        Reading::SetUp();
+        openCase();
+    }
+    /// Pixels of about the colour that marks the same place: its band is thin, its name smoothed.
+    static int green(const char* view)
+    {
+        constexpr int kAbout = 40;
+        const QImage picture = pictureOf(view);
+        int count = 0;
+        for (int y = 0; y < picture.height(); ++y)
+            for (int x = 0; x < picture.width(); ++x) {
+                const QColor color = picture.pixelColor(x, y);
+                count += std::abs(color.red() - kSamePlaceColor.red) < kAbout &&
+                         std::abs(color.green() - kSamePlaceColor.green) < kAbout &&
+                         std::abs(color.blue() - kSamePlaceColor.blue) < kAbout;
+            }
+        return count;
+    }
+    /// The polyp of this colon, marked in a scan.
+    std::string mark(const char* scan) const
+    {
+        const test::TestColon colon;
+        CaseStore store(store_);
+        Marker marker{.scan_id = scan, .position_mm = colon.polyp_mm};
+        marker.station_mm = colon.polyp_station_mm;
+        return store.saveMarker(test::kCase, marker).id;
+    }
+};
+
+TEST_F(TwoScans, TheSamePlaceIsABandInTheOtherScansViewsAndMovesWithTheEye)
+{
+    key(Qt::Key_C);
+    ASSERT_TRUE(eventually([] { return drawn("besideOverview"); }));
+    settle();
+    screenshot("same_place");
+    ASSERT_TRUE(eventually([] { return green("besideOverview") > 20; })) << "in its projection";
+    ASSERT_TRUE(eventually([] { return green("besideAxial") > 5; })) << "in its slice";
+    const QString before = the<QLabel>("besidePlace")->text();
+    EXPECT_THAT(before.toStdString(), testing::HasSubstr("(80 %)"));
+    const QImage first = pictureOf("besideOverview");
+    key(Qt::Key_Period);
+    EXPECT_TRUE(eventually([&] { return the<QLabel>("besidePlace")->text() != before; }));
+    EXPECT_TRUE(eventually([&] { return pictureOf("besideOverview") != first; }));
+}
+
+TEST_F(TwoScans, AClickInTheOthersProjectionGoesToTheSamePlace)
+{
+    key(Qt::Key_C);
+    ASSERT_TRUE(eventually([] { return drawn("besideOverview"); }));
+    const double before = station();
+    click("besideOverview", middle("besideOverview"));
+    EXPECT_TRUE(eventually([&] { return std::abs(station() - before) > 20; }));
+}
+
+TEST_F(TwoScans, MarkersOfOneFindingAreProposedAndPairedByTheReaderAlone)
+{
+    const std::string first = mark(test::kSupine), second = mark(test::kProne);
+    room_.reset();
+    openRoom(services_);
+    openCase();
+    showList(kPairList);
+    auto* table = the<QTableWidget>("pairs");
+    ASSERT_TRUE(eventually([&] { return table->rowCount() == 1; }));
+    EXPECT_EQ(table->item(0, 1)->text(), "1");
+    EXPECT_THAT(table->item(0, 2)->text().toStdString(), testing::HasSubstr("from the same place, within"));
+    for (const Marker& marker : stored())
+        EXPECT_EQ(marker.pair, "") << "nothing is paired by itself";
+    EXPECT_FALSE(the<QPushButton>("pairConfirm")->isEnabled());
+    clickRow(table, 0);
+    ASSERT_TRUE(eventually([] { return the<QPushButton>("pairConfirm")->isEnabled(); }));
+    screenshot("pairs");
+    press(window(), "pairConfirm");
+    const auto pairOf = [&](const std::string& id) {
+        for (const Marker& marker : stored())
+            if (marker.id == id)
+                return marker.pair;
+        return std::string("no such marker");
+    };
+    ASSERT_TRUE(eventually([&] { return pairOf(first) == second && pairOf(second) == first; }));
+    EXPECT_TRUE(eventually([&] { return table->rowCount() == 0; })) << "what is confirmed is proposed no longer";
+    key(Qt::Key_Z, Qt::ControlModifier);
+    EXPECT_TRUE(eventually([&] { return pairOf(first).empty() && pairOf(second).empty(); }));
+    EXPECT_TRUE(eventually([&] { return table->rowCount() == 1; }));
+}
+
+}  // namespace
+}  // namespace vicon::viewer

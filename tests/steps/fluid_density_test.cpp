@@ -1,0 +1,60 @@
+// The density of tagged fluid, place by place.
+#include "tissue/fluid_density.h"
+
+#include <gtest/gtest.h>
+
+#include "vicon/steps/tissue.h"
+
+namespace vicon::steps {
+namespace {
+
+constexpr int kFluidHu = 700, kSedimentHu = 1400;
+constexpr double kNoise_hu = 10;
+
+TEST(FluidDensity, InSedimentIsThatOfWhatLiesOnBothSides)
+{
+    // Two voxels of sediment on the floor of a pool.
+    const InsideVolume inside(Grid{.size = {24, 24, 24}}, kFluid);
+    HuVolume hu(inside.grid, kFluidHu);
+    for (std::size_t n = 0; n < hu.voxels.size(); ++n)
+        if (hu.grid.indexOf(n).j >= 22)
+            hu.voxels[n] = kSedimentHu;
+    const Mixture mixture(hu, inside, {});
+    const FluidDensity density(mixture, kNoise_hu, TissueOptions{}.tag_contrast_hu);
+    EXPECT_NEAR(density.at({12, 10, 12}), kFluidHu, 1);
+    EXPECT_NEAR(density.besides({12, 10, 12}), kFluidHu, 1);
+    // Sediment on one side alone: fluid lies there.
+    EXPECT_NEAR(density.besides({12, 20, 12}), kFluidHu, 1);
+    // In it: less what a kernel overshoots, and noise.
+    EXPECT_NEAR(density.besides({12, 22, 12}), kSedimentHu - 0.1 * kFluidHu - 4 * kNoise_hu, 1);
+}
+
+TEST(FluidDensity, OfPoolsBehindAWallAreEachItsOwn)
+{
+    InsideVolume inside(Grid{.size = {40, 20, 20}}, kFluid);
+    HuVolume hu(inside.grid, kFluidHu);
+    for (std::size_t n = 0; n < hu.voxels.size(); ++n) {
+        const int i = hu.grid.indexOf(n).i;
+        if (i >= 19 && i < 21)
+            inside.voxels[n] = kOutside;
+        if (i >= 20)
+            hu.voxels[n] = 400;
+    }
+    const Mixture mixture(hu, inside, {});
+    const FluidDensity density(mixture, kNoise_hu, TissueOptions{}.tag_contrast_hu);
+    EXPECT_NEAR(density.at({8, 10, 10}), kFluidHu, 5);
+    EXPECT_NEAR(density.at({32, 10, 10}), 400, 5);
+}
+
+TEST(FluidDensity, OfWhatIsHardlyBrighterThanTissueIsNone)
+{
+    const InsideVolume inside(Grid{.size = {24, 24, 24}}, kFluid);
+    const HuVolume hu(inside.grid, 100);
+    const Mixture mixture(hu, inside, {});
+    const FluidDensity density(mixture, kNoise_hu, TissueOptions{}.tag_contrast_hu);
+    EXPECT_EQ(density.at({12, 12, 12}), 0);
+    EXPECT_EQ(density.besides({12, 12, 12}), 0);
+}
+
+}  // namespace
+}  // namespace vicon::steps

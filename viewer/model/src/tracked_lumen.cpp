@@ -1,0 +1,101 @@
+#include "vicon/viewer/model/tracked_lumen.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace vicon::viewer {
+namespace {
+
+constexpr double kMostAlong_mm = 4;  // a polyp of 6 mm stays in the picture's middle for more than one slice
+constexpr double kWalk_mm = 0.25;    // a quarter of the frames' distance
+constexpr double kLookFor_mm = 3;    // the centreline runs outside the lumen where it bridges a collapsed segment
+
+double oneSliceOn(const PathFrames& path, double station_mm, Vector3 across, double slice_mm, double direction)
+{
+    const Point3 from = path.at(station_mm).position_mm;
+    double station = station_mm;
+    for (double walked = kWalk_mm; walked <= kMostAlong_mm; walked += kWalk_mm) {
+        station = std::clamp(station_mm + direction * walked, 0.0, path.length_mm());
+        if (std::abs(dot(path.at(station).position_mm - from, across)) >= slice_mm)
+            break;
+    }
+    return station;
+}
+
+/// The pixels of a picture and which of them lie in the lumen.
+class LumenPixels {
+public:
+    LumenPixels(const InsideView& inside, const PlaneView& view) : inside_(inside), view_(view) {}
+
+    bool inPicture(int x, int y) const { return x >= 0 && y >= 0 && x < view_.width && y < view_.height; }
+    bool has(int x, int y) const
+    {
+        if (!inPicture(x, y))
+            return false;
+        return inside_.valueOr(inside_.grid.indexAt(view_.pointAt({x + 0.5, y + 0.5})), std::uint8_t(0)) != 0;
+    }
+    std::size_t offset(int x, int y) const { return std::size_t(y) * std::size_t(view_.width) + std::size_t(x); }
+
+    /// The pixel of the lumen nearest to a place.
+    std::optional<std::pair<int, int>> nearest(Pixel at) const
+    {
+        const int reach = int(std::ceil(kLookFor_mm / view_.mm_per_pixel));
+        std::optional<std::pair<int, int>> found;
+        double least = (reach + 0.5) * (reach + 0.5);
+        for (int dy = -reach; dy <= reach; ++dy)
+            for (int dx = -reach; dx <= reach; ++dx)
+                if (const double d = dx * dx + dy * dy;
+                    d < least && has(int(std::floor(at.x)) + dx, int(std::floor(at.y)) + dy)) {
+                    least = d;
+                    found = {int(std::floor(at.x)) + dx, int(std::floor(at.y)) + dy};
+                }
+        return found;
+    }
+
+private:
+    const InsideView& inside_;
+    const PlaneView& view_;
+};
+
+constexpr std::array<std::pair<int, int>, 4> kBeside{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+}  // namespace
+
+double stationSlicesOn(const PathFrames& path, double station_mm, Vector3 across, double slice_mm, int slices)
+{
+    for (int n = 0; n < std::abs(slices); ++n)
+        station_mm = oneSliceOn(path, station_mm, across, slice_mm, slices > 0 ? 1 : -1);
+    return station_mm;
+}
+
+std::vector<std::uint8_t> lumenRim(const InsideView& inside, const PlaneView& view, Point3 in_lumen)
+{
+    std::vector<std::uint8_t> rim(std::size_t(view.width) * std::size_t(view.height), 0);
+    const LumenPixels pixels(inside, view);
+    const auto start = pixels.nearest(view.toPixel(in_lumen));
+    if (!start)
+        return rim;
+    std::vector<std::uint8_t> met(rim.size(), 0);
+    std::vector<std::pair<int, int>> to_visit{*start};
+    met[pixels.offset(start->first, start->second)] = 1;
+    while (!to_visit.empty()) {
+        const auto [x, y] = to_visit.back();
+        to_visit.pop_back();
+        for (const auto& [dx, dy] : kBeside) {
+            const int bx = x + dx, by = y + dy;
+            if (!pixels.inPicture(bx, by))
+                continue;
+            if (!pixels.has(bx, by)) {
+                rim[pixels.offset(x, y)] = 1;
+            } else if (auto& known = met[pixels.offset(bx, by)]; !known) {
+                known = 1;
+                to_visit.emplace_back(bx, by);
+            }
+        }
+    }
+    return rim;
+}
+
+}  // namespace vicon::viewer

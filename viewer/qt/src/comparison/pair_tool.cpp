@@ -1,0 +1,61 @@
+#include "comparison/pair_tool.h"
+
+#include "comparison/pair_panel.h"
+#include "reading/reading.h"
+#include "window/reading_layout.h"
+
+namespace vicon::viewer {
+
+PairTool::PairTool(Reading& reading, const ReadingServices& services, std::string case_id)
+    : ReadingTool(reading), case_id_(std::move(case_id)), panel_(new PairPanel), store_(this, services.store)
+{
+    connect(store_.worker(), &Worker::failed, &reading_, &Reading::warn);
+}
+
+void PairTool::addTo(ReadingLayout& layout)
+{
+    layout.addList(panel_, tr("Pairs"));
+    connect(&layout, &ReadingLayout::listShown, this, [this](const QWidget* list) {
+        if (list == panel_)
+            refresh();
+    });
+    connect(panel_, &PairPanel::flyWanted, this, &PairTool::fly);
+    connect(panel_, &PairPanel::confirmWanted, this, &PairTool::confirm);
+}
+
+void PairTool::scanOpened(const Arrival&)
+{
+    markersChanged();
+}
+
+void PairTool::markersChanged()
+{
+    if (panel_->isVisible())
+        refresh();
+}
+
+void PairTool::refresh()
+{
+    store_.post("pairs", [this](OwnStore& store) -> Worker::Work {
+        auto proposals = proposePairs(store().markers(case_id_), matchesOf(store(), case_id_));
+        return [this, proposals] { panel_->show(proposals); };
+    });
+}
+
+void PairTool::fly(const PairProposal& proposal)
+{
+    const std::string& next = shown_ == proposal.first ? proposal.second : proposal.first;
+    if (const auto marker = reading_.session().marker(next)) {
+        shown_ = next;
+        reading_.showMarker(*marker);
+    }
+}
+
+void PairTool::confirm(const PairProposal& proposal)
+{
+    const auto first = reading_.session().marker(proposal.first), second = reading_.session().marker(proposal.second);
+    if (first && second)
+        reading_.session().pairMarkers(*first, *second);
+}
+
+}  // namespace vicon::viewer

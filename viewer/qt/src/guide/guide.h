@@ -1,0 +1,16 @@
+#pragma once
+
+#include <QString>
+
+class QWidget;
+
+namespace vicon::viewer {
+
+/// docs/user/reading.md, of the build.
+extern const char* const kGuideText;
+
+/// Opens the guide beside `window`, or turns it to another page where it is open.
+/// @param heading a heading of the guide; where there is none of this name it opens at its beginning
+void showGuide(QWidget& window, const QString& heading);
+
+}  // namespace vicon::viewer

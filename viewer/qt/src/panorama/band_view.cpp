@@ -1,0 +1,194 @@
+#include "panorama/band_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vicon/core/error.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr double kStays_mm = 1;  // less is no movement of the eye
+
+/// A band with the files that it looks at.
+struct HeldBand {
+    PreparedScan files;
+    BandMap band;
+};
+
+}  // namespace
+
+BandView::BandView(QWidget* parent) : PictureView(tr("Band: the colon cut open"), parent)
+{
+    setObjectName("band");
+    setToolTip(
+        tr("Click: look there. Wheel: along. Control and wheel, or double click: all of it, and back. Shift and click: "
+           "marker. Hatched: areas are off by more than a factor of two; measure elsewhere."));
+    connect(this, &PictureView::resized, this, [this] { draw(true); });
+    connect(this, &PictureView::turned, this, &BandView::scroll);
+    connect(this, &PictureView::enlargeWanted, this, [this] { setWhole(!whole_); });
+    connect(this, &PictureView::clicked, this, &BandView::clickedAt);
+    connect(worker_.worker(), &Worker::failed, this, [this](const QString& message) {
+        clearPicture(message);
+        update();
+        emit failed(message);
+    });
+}
+
+BandView::~BandView()
+{
+    stop();
+}
+
+void BandView::look(std::shared_ptr<OpenScan> scan, const Look& look, bool still)
+{
+    if (scan != scan_)
+        leave({});
+    scan_ = std::move(scan);
+    look_ = look;
+    const double eye_mm = look.eye.station_mm;
+    const bool moved = !eye_before_mm_ || std::abs(*eye_before_mm_ - eye_mm) > kStays_mm;
+    if (moved && !shows(eye_mm))
+        middle_mm_.reset();
+    if (moved)
+        eye_before_mm_ = eye_mm;
+    draw(still);
+}
+
+bool BandView::shows(double station_mm) const
+{
+    if (!middle_mm_ || !shown_)
+        return false;
+    const BandPage& page = shown_->picture.page;
+    constexpr double kMargin = 0.1;  // what comes next is seen, too
+    const double margin_mm = kMargin * page.rowLength_mm();
+    return station_mm > page.rowLeast_mm(0) + margin_mm && station_mm < page.rowMost_mm(0) - margin_mm;
+}
+
+void BandView::leave(const QString& words)
+{
+    if (band_wanted_)
+        band_wanted_->giveUp();
+    if (picture_wanted_)
+        picture_wanted_->giveUp();
+    band_wanted_.reset();
+    scan_.reset();
+    shown_.reset();
+    middle_mm_.reset();
+    eye_before_mm_.reset();
+    clearPicture(words);
+}
+
+void BandView::stop()
+{
+    leave({});
+    worker_.end();
+}
+
+void BandView::setWhole(bool whole)
+{
+    whole_ = whole;
+    draw(true);
+}
+
+void BandView::showEvent(QShowEvent* event)
+{
+    PictureView::showEvent(event);
+    draw(true);
+}
+
+BandRequest BandView::requestNow(bool still) const
+{
+    const QSize size = pictureSize();
+    BandRequest request;
+    request.width = size.width();
+    request.height = size.height();
+    request.pixel_ratio = devicePixelRatioF();
+    request.text_px = textHeight_px();
+    if (!whole_)
+        request.middle_mm = middle_mm_.value_or(look_.eye.station_mm);
+    request.from_caecum = look_.from_caecum;
+    request.eye = look_.eye;
+    request.markers = look_.markers;
+    request.caption = scan_->caption;
+    request.still = still;
+    return request;
+}
+
+void BandView::draw(bool still)
+{
+    if (!scan_ || !isVisible())
+        return;
+    if (!band_wanted_) {
+        band_wanted_ = std::make_shared<Wanted>();
+        clearPicture(tr("The colon is being cut open ..."));
+        update();
+    }
+    if (picture_wanted_)
+        picture_wanted_->giveUp();
+    picture_wanted_ = std::make_shared<Wanted>();
+    worker_.post("band",
+                 [this, scan = scan_, request = requestNow(still), paint = look_.paint_seen, band_wanted = band_wanted_,
+                  wanted = picture_wanted_](Opened& opened) mutable -> Worker::Work {
+                     try {
+                         if (opened.of.lock() != scan) {
+                             opened = {};
+                             const auto held =
+                                 std::make_shared<HeldBand>(HeldBand{scan->files, bandOf(scan->files, *band_wanted)});
+                             opened.band = {held, &held->band};
+                             opened.of = scan;
+                         }
+                         if (paint)
+                             request.seen = scan->coverage.seenTriangles();
+                         auto shown = std::make_shared<Shown>(
+                             Shown{opened.band, bandPicture(scan->files, *opened.band, request, *wanted)});
+                         return [this, shown, scan] {
+                             if (scan == scan_)
+                                 show(*shown);
+                         };
+                     } catch (const Error& e) {
+                         if (e.code() == ErrorCode::cancelled)
+                             return {};
+                         throw;
+                     }
+                 });
+}
+
+void BandView::show(const Shown& shown)
+{
+    shown_ = shown;
+    const BandPage& page = shown.picture.page;
+    if (!whole_ && page.rows == 1)
+        middle_mm_ = page.rowLeast_mm(0) + page.rowLength_mm() / 2;
+    showPicture(shown.picture.picture);
+}
+
+void BandView::clickedAt(Pixel at, Qt::KeyboardModifiers modifiers)
+{
+    if (!shown_)
+        return;
+    if (const auto point = shown_->picture.pointAt(*shown_->band, at))
+        emit pointClicked(*point, modifiers);
+    else
+        emit groundClicked();
+}
+
+void BandView::scroll(int steps, Qt::KeyboardModifiers modifiers)
+{
+    if (!shown_)
+        return;
+    if (modifiers & Qt::ControlModifier) {
+        setWhole(steps < 0);
+        return;
+    }
+    if (whole_)
+        return;
+    constexpr double kNotch = 0.125;  // of what is shown
+    const BandPage& page = shown_->picture.page;
+    const double by_mm = kNotch * steps * page.rowLength_mm() * (page.from_caecum ? -1 : 1);
+    const double middle_mm = middle_mm_.value_or(look_.eye.station_mm);
+    middle_mm_ = std::clamp(middle_mm + by_mm, shown_->band->firstStation_mm(), shown_->band->lastStation_mm());
+    draw(true);
+}
+
+}  // namespace vicon::viewer

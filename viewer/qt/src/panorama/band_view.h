@@ -1,0 +1,77 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "session/open_scan.h"
+#include "vicon/viewer/scene/band_picture.h"
+#include "widgets/picture_view.h"
+#include "widgets/wanted.h"
+#include "widgets/worker_with.h"
+
+namespace vicon::viewer {
+
+/// The colon cut open along its length: a stretch of it that follows the eye, or all of it in rows. The wheel moves
+/// along, with Control or a double click it is all or a stretch.
+class BandView : public PictureView {
+    Q_OBJECT
+public:
+    explicit BandView(QWidget* parent = nullptr);
+    ~BandView() override;
+
+    /// What is drawn over the wall, and which way a row goes.
+    struct Look {
+        SnapshotResult eye;
+        bool from_caecum = false;
+        std::vector<Marker> markers;
+        bool paint_seen = false;
+    };
+    /// Draws it, when it is visible.
+    void look(std::shared_ptr<OpenScan> scan, const Look& look, bool still);
+    /// The scan is no longer read.
+    void leave(const QString& words);
+    /// Nothing is drawn any more.
+    void stop();
+    void setWhole(bool whole);
+    bool whole() const { return whole_; }
+
+signals:
+    /// A point of the wall.
+    void pointClicked(vicon::Point3 point, Qt::KeyboardModifiers modifiers);
+    /// Beside the wall.
+    void groundClicked();
+    void failed(const QString& message);
+
+protected:
+    void showEvent(QShowEvent* event) override;
+
+private:
+    /// What the thread keeps of a scan.
+    struct Opened {
+        std::weak_ptr<OpenScan> of;
+        std::shared_ptr<const BandMap> band;
+    };
+    /// A picture with the band that it shows.
+    struct Shown {
+        std::shared_ptr<const BandMap> band;
+        BandPicture picture;
+    };
+
+    void draw(bool still);
+    BandRequest requestNow(bool still) const;
+    void show(const Shown& shown);
+    void clickedAt(Pixel at, Qt::KeyboardModifiers modifiers);
+    void scroll(int steps, Qt::KeyboardModifiers modifiers);
+    bool shows(double station_mm) const;
+
+    std::shared_ptr<OpenScan> scan_;
+    Look look_;
+    bool whole_ = false;
+    std::optional<double> middle_mm_;  // of the stretch; nothing: where the eye is
+    std::optional<double> eye_before_mm_;
+    std::optional<Shown> shown_;
+    std::shared_ptr<Wanted> band_wanted_, picture_wanted_;
+    WorkerWith<Opened> worker_{this};
+};
+
+}  // namespace vicon::viewer

@@ -1,0 +1,208 @@
+#include "panorama/panorama_tool.h"
+
+#include <QAction>
+#include <QDockWidget>
+#include <QMainWindow>
+#include <cmath>
+
+#include "panorama/band_view.h"
+#include "reading/reading.h"
+#include "vicon/viewer/scene/cube_picture.h"
+#include "widgets/kept_settings.h"
+#include "window/reading_layout.h"
+
+namespace vicon::viewer {
+namespace {
+// The reader's own, whatever the case.
+constexpr const char* kCube = "panorama/cube";
+constexpr const char* kBand = "panorama/band";
+constexpr double kCubeShare = 0.38, kBandShare = 0.27;  // of the window
+}  // namespace
+
+PanoramaTool::PanoramaTool(Reading& reading)
+    : ReadingTool(reading), cube_(new PictureView(tr("Unfolded cube: all around the eye"))), band_(new BandView)
+{
+    cube_->setObjectName("cube");
+    cube_->setToolTip(
+        tr("All that lies around the eye, on the six faces of a cube. Click: look there. Wheel: on and back. Double "
+           "click: alone, and back. Shift and click: marker."));
+}
+
+void PanoramaTool::addTo(ReadingLayout& layout)
+{
+    addCube(layout);
+    addBand(layout);
+    connect(&reading_, &Reading::awaitingClick, this, [this](bool on) {
+        cube_->setPicking(on);
+        band_->setPicking(on);
+    });
+}
+
+void PanoramaTool::addCube(ReadingLayout& layout)
+{
+    cube_dock_ = layout.addForm(cube_, tr("Unfolded cube"));
+    cube_on_ = layout.addSwitch(ReadingMenu::view, tr("Unfolded cube"), QKeySequence("U"));
+    connect(cube_on_, &QAction::toggled, this,
+            [this](bool on) { showDock(cube_dock_, on, Qt::Horizontal, kCubeShare); });
+    connect(cube_dock_, &QDockWidget::visibilityChanged, this, [this](bool) {
+        cube_on_->setChecked(!cube_dock_->isHidden());
+        drawCube(true);
+    });
+    connect(cube_, &PictureView::resized, this, [this] { drawCube(true); });
+    connect(cube_, &PictureView::clicked, this, &PanoramaTool::clickedCube);
+    connect(cube_, &PictureView::enlargeWanted, this, [this] {
+        reading_.takeBackClick();
+        cube_dock_->setFloating(!cube_dock_->isFloating());
+        if (cube_dock_->isFloating())
+            cube_dock_->setGeometry(cube_dock_->parentWidget()->geometry());
+    });
+    connect(cube_, &PictureView::turned, &reading_, [this](int steps) { emit reading_.stepWanted(steps); });
+    connect(&reading_.drawing(), &DrawingThread::cubeDrawn, this,
+            [this](const Picture& picture, const ShownPicture& shown) {
+                cube_under_way_ = false;
+                if (shown.isOf(reading_.sharedScan())) {
+                    shown_cube_ = shown;
+                    cube_->showPicture(picture);
+                }
+                if (cube_is_old_)
+                    drawCube(false);
+            });
+}
+
+void PanoramaTool::addBand(ReadingLayout& layout)
+{
+    band_dock_ = layout.addForm(band_, tr("Band: the colon cut open"), Qt::BottomDockWidgetArea);
+    band_on_ = layout.addSwitch(ReadingMenu::view, tr("Band (colon cut open)"), QKeySequence("Shift+B"));
+    connect(band_on_, &QAction::toggled, this, [this](bool on) { showDock(band_dock_, on, Qt::Vertical, kBandShare); });
+    connect(band_dock_, &QDockWidget::visibilityChanged, this, [this](bool) {
+        band_on_->setChecked(!band_dock_->isHidden());
+        drawBand(true);
+    });
+    connect(band_, &BandView::pointClicked, this, &PanoramaTool::clickedBand);
+    connect(band_, &BandView::groundClicked, this, [this] {
+        if (reading_.navigator())
+            reading_.rememberPlace();  // a double click here takes nothing back
+    });
+    connect(band_, &PictureView::enlargeWanted, &reading_, &Reading::takeBackClick);
+    connect(band_, &BandView::failed, &reading_, &Reading::warn);
+}
+
+/// With a share of the window that shows something; the reader may change it.
+void PanoramaTool::showDock(QDockWidget* dock, bool on, Qt::Orientation along, double share)
+{
+    if (on == !dock->isHidden())
+        return;
+    dock->setVisible(on);
+    auto* window = qobject_cast<QMainWindow*>(dock->parentWidget());
+    const int whole = along == Qt::Horizontal ? window->width() : window->height();
+    if (on && !dock->isFloating())
+        window->resizeDocks({dock}, {int(share * whole)}, along);
+}
+
+void PanoramaTool::restore()
+{
+    cube_on_->setChecked(keptSetting(kCube).toBool());
+    band_on_->setChecked(keptSetting(kBand).toBool());
+}
+
+QVariantMap PanoramaTool::kept() const
+{
+    return {{kCube, cube_on_->isChecked()}, {kBand, band_on_->isChecked()}};
+}
+
+void PanoramaTool::scanLeft()
+{
+    band_->leave({});
+}
+
+void PanoramaTool::scanOpened(const Arrival&)
+{
+    const QString words =
+        tr("%1: this picture is still to come").arg(QString::fromStdString(reading_.scan()->caption.position));
+    shown_cube_ = {};
+    cube_under_way_ = cube_is_old_ = false;
+    cube_->clearPicture(words);
+    band_->leave(words);
+    const bool one_way = reading_.scan()->files.tree().empty();
+    band_on_->setEnabled(one_way);
+    if (!one_way)
+        band_on_->setChecked(false);
+}
+
+void PanoramaTool::stop()
+{
+    band_->stop();
+}
+
+void PanoramaTool::draw(bool still)
+{
+    drawCube(still);
+    drawBand(still);
+}
+
+// While the eye moves a cube is drawn when the one before is there: each takes as long as some pictures.
+void PanoramaTool::drawCube(bool still)
+{
+    if (!reading_.scan() || !cube_->isVisible())
+        return;
+    cube_is_old_ = !still && cube_under_way_;
+    if (cube_is_old_)
+        return;
+    EndoscopicRequest request =
+        reading_.requestFor(*reading_.scan(), reading_.navigator()->state(), cube_->pictureSize(), still);
+    request.snapshot.captioned = false;
+    request.count_seen = still;
+    cube_under_way_ = true;
+    reading_.drawing().drawCube(reading_.sharedScan(), request);
+}
+
+void PanoramaTool::drawBand(bool still)
+{
+    if (!reading_.scan() || !band_->isVisible() || !band_on_->isEnabled())
+        return;
+    const EndoscopicRequest request =
+        reading_.requestFor(*reading_.scan(), reading_.navigator()->state(), band_->pictureSize(), still);
+    band_->look(reading_.sharedScan(),
+                {request.place, reading_.navigator()->heading() == Heading::rectum, request.snapshot.markers,
+                 request.paint_seen},
+                still);
+}
+
+void PanoramaTool::clickedCube(Pixel at, Qt::KeyboardModifiers modifiers)
+{
+    const auto scan = reading_.sharedScan();
+    if (!shown_cube_.isOf(scan))
+        return;
+    reading_.rememberPlace();
+    const CubeLayout layout(shown_cube_.lens.width, shown_cube_.lens.height);
+    const auto face = layout.faceAt(at);
+    if (!face)
+        return;
+    const SnapshotResult from = faceOf(*face, shown_cube_.place);
+    const Pixel corner = layout.cornerOf(*face);
+    if (const auto point = wallAt(*scan, from.pose, layout.lens(), {at.x - corner.x, at.y - corner.y}))
+        clickedWall(from, *point, modifiers);
+}
+
+void PanoramaTool::clickedBand(Point3 point, Qt::KeyboardModifiers modifiers)
+{
+    if (!reading_.navigator())
+        return;
+    if (reading_.interaction().inUse<Measure>()) {
+        reading_.warn(tr("The band is stretched: measure in the view from inside or in a slice."));
+        return;
+    }
+    const OpenScan& scan = *reading_.scan();
+    const ViewPose view = poseForPoint(scan.files.skeleton(), scan.files.frames(), scan.lumen, point);
+    clickedWall({view.pose, view.station_mm, view.clearance_mm, view.sees_target}, point, modifiers);
+}
+
+void PanoramaTool::clickedWall(const SnapshotResult& from, Point3 point, Qt::KeyboardModifiers modifiers)
+{
+    const bool measuring = reading_.interaction().inUse<Measure>();
+    reading_.rememberPlace();
+    if (!reading_.click({*reading_.scan(), from, point, modifiers, true}) && !measuring)
+        reading_.lookAt(point);
+}
+
+}  // namespace vicon::viewer

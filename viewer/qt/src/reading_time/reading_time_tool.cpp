@@ -1,0 +1,95 @@
+#include "reading_time/reading_time_tool.h"
+
+#include <QApplication>
+#include <QEvent>
+#include <QLabel>
+#include <cmath>
+#include <utility>
+
+#include "coverage/coverage_tool.h"
+#include "reading/reading.h"
+#include "window/reading_layout.h"
+
+namespace vicon::viewer {
+namespace {
+
+constexpr int kTick_ms = 1000;
+constexpr qint64 kAway_ms = 60000;    // without a key, the mouse or a flight, nobody reads
+constexpr double kLeastLogged_s = 5;  // a scan that was only passed through
+
+QString minutes(double seconds)
+{
+    constexpr int kMinute_s = 60;
+    const int whole = int(std::lround(seconds));
+    return QString("%1:%2").arg(whole / kMinute_s).arg(whole % kMinute_s, 2, 10, QChar('0'));
+}
+
+}  // namespace
+
+ReadingTimeTool::ReadingTimeTool(Reading& reading, const CoverageTool& coverage)
+    : ReadingTool(reading), coverage_(coverage), text_(new QLabel)
+{
+    text_->setObjectName("readingTime");
+    text_->setToolTip(tr("How long this scan has been read: minutes and seconds, without pauses"));
+    timer_.setInterval(kTick_ms);
+    connect(&timer_, &QTimer::timeout, this, &ReadingTimeTool::tick);
+}
+
+void ReadingTimeTool::addTo(ReadingLayout& layout)
+{
+    layout.addStatus(text_);
+    qApp->installEventFilter(this);
+}
+
+bool ReadingTimeTool::eventFilter(QObject*, QEvent* event)
+{
+    if (event->type() == QEvent::MouseMove || event->type() == QEvent::KeyPress || event->type() == QEvent::Wheel ||
+        event->type() == QEvent::MouseButtonPress)
+        active_.start();
+    return false;
+}
+
+void ReadingTimeTool::scanOpened(const Arrival&)
+{
+    writeLeft();
+    read_s_ = slices_first_s_ = 0;
+    active_.start();
+    since_tick_.start();
+    timer_.start();
+}
+
+void ReadingTimeTool::stop()
+{
+    timer_.stop();
+    writeLeft();
+}
+
+void ReadingTimeTool::tick()
+{
+    const double passed_s = double(since_tick_.restart()) / 1000;
+    if (!QApplication::activeWindow() || active_.hasExpired(kAway_ms))
+        return;
+    read_s_ += passed_s;
+    slices_first_s_ += reading_.views().firstSlice() ? passed_s : 0;
+    text_->setText(minutes(read_s_));
+}
+
+void ReadingTimeTool::scanLeft()
+{
+    if (!reading_.scan() || !timer_.isActive())
+        return;
+    tick();
+    if (read_s_ >= kLeastLogged_s)
+        left_ = Read{reading_.scan()->record.id, tr("%1 min, %2 of it slices first; %3 % of the wall reviewed; %4")
+                                                     .arg(minutes(read_s_), minutes(slices_first_s_))
+                                                     .arg(100 * reading_.scan()->coverage.fraction(), 0, 'f', 1)
+                                                     .arg(coverage_.visitsInWords())};
+}
+
+void ReadingTimeTool::writeLeft()
+{
+    if (const auto left = std::exchange(left_, {}))
+        reading_.session().log("scan read", left->scan_id, left->words);
+}
+
+}  // namespace vicon::viewer

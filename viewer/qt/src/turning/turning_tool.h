@@ -1,0 +1,36 @@
+#pragma once
+
+#include "reading/reading_tool.h"
+#include "vicon/viewer/scene/turned_picture.h"
+#include "widgets/wanted.h"
+#include "widgets/worker_with.h"
+
+namespace vicon::viewer {
+
+/// The projection as a body that turns: a drag turns it, the wheel enlarges it, with the right button it moves; a key
+/// brings back the projection from the front.
+class TurningTool : public ReadingTool {
+    Q_OBJECT
+public:
+    explicit TurningTool(Reading& reading);
+
+    void addTo(ReadingLayout& layout) override;
+    void scanLeft() override;
+    void draw(bool still) override;
+    void stop() override;
+
+private:
+    void dragged(QPointF by, Qt::MouseButton button);
+    void enlarge(int steps);
+    void turnedBy(bool still);
+    void fromFront();
+    void clicked(Pixel at, Qt::KeyboardModifiers modifiers);
+    void giveUp();
+
+    TurnedView view_;
+    std::optional<TurnedPicture> shown_;
+    std::shared_ptr<Wanted> wanted_;
+    Worker worker_{this};
+};
+
+}  // namespace vicon::viewer
