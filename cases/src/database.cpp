@@ -113,8 +113,12 @@ const std::vector<std::vector<const char*>> kMigrations = {
         // What a modality worklist said of a case.
         "CREATE TABLE orders (case_id TEXT PRIMARY KEY, content TEXT NOT NULL)",
     },
+    {
+        // By which a server is asked for a commit whose answer did not come; in a file it stays empty.
+        "CREATE TABLE commits (name TEXT PRIMARY KEY, at REAL NOT NULL)",
+    },
 };
-static_assert(Database::kSchemaVersion == 7, "add a migration for every version");
+static_assert(Database::kSchemaVersion == 8, "add a migration for every version");
 
 /// The connection broke before the server had committed.
 struct NotCommitted {};
@@ -185,6 +189,20 @@ soci::session& Database::session()
     return *session_;
 }
 
+void Database::read(const std::function<void(soci::session&)>& work)
+{
+    for (int run = 1;; ++run) {
+        try {
+            return work(session());
+        } catch (const soci::soci_error& e) {
+            if (writing_)  // for the transaction to deal with
+                throw;
+            if (run == kMostRuns || !engine_->isLost(*session_))
+                throw engine_->refusal(e, session_.get());
+        }
+    }
+}
+
 void Database::reconnect()
 {
     const auto end = std::chrono::steady_clock::now() + kReconnect;
@@ -246,8 +264,11 @@ void Database::transact(const std::function<void(soci::session&)>& work, Beside 
             }
             return;
         } catch (const soci::soci_error& e) {
-            if (run == runs || !engine_->isLost(*session_))
+            const bool gave_way = engine_->gaveWay(e);
+            if (run == runs || !(gave_way || engine_->isLost(*session_)))
                 throw engine_->refusal(e, session_.get());
+            if (gave_way)  // and lets the other go first
+                std::this_thread::sleep_for(kBetweenTries);
         } catch (const NotCommitted&) {
             if (run == runs)
                 throw engine_->connectionBroke();
@@ -276,7 +297,6 @@ void Database::begin(Beside beside)
     }
 }
 
-/// Where the connection breaks meanwhile, it is asked over a new one whether the transaction was committed.
 void Database::commit()
 {
     const std::string name = engine_->transactionName(*session_);
@@ -286,11 +306,24 @@ void Database::commit()
         if (name.empty() || !engine_->isLost(*session_))
             throw;
         writing_ = false;
-        reconnect();
-        if (!engine_->wasCommitted(*session_, name))
+        if (!wasCommitted(name))
             throw NotCommitted();
     }
     writing_ = false;
+}
+
+/// It is asked over a new connection, which may break as well.
+bool Database::wasCommitted(const std::string& name)
+{
+    while (true) {
+        reconnect();
+        try {
+            return engine_->wasCommitted(*session_, name);
+        } catch (const soci::soci_error&) {
+            if (!engine_->isLost(*session_))
+                throw;
+        }
+    }
 }
 
 void Database::rollBack()

@@ -32,10 +32,13 @@ public:
     /// Begins a transaction that no other of its kind runs beside.
     virtual void beginAlone(soci::session& sql) = 0;
     virtual void beginBesideOthers(soci::session& sql) = 0;
-    /// What the running transaction can be asked for by later; empty where a commit's outcome is never in doubt.
+    /// Leaves in the running transaction what it can be asked for by later; empty where a commit's outcome is never in
+    /// doubt.
     virtual std::string transactionName(soci::session& sql) = 0;
     /// Whether the transaction of that name was committed. Waits until it is decided.
     virtual bool wasCommitted(soci::session& sql, const std::string& name) = 0;
+    /// Whether the transaction gave way to another, and may be run again.
+    virtual bool gaveWay(const soci::soci_error& e) = 0;
 
     /// In the reader's words where one can do something about it.
     virtual Error refusal(const soci::soci_error& e, soci::session* sql) = 0;

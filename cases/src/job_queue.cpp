@@ -112,7 +112,9 @@ double JobQueue::nowIn(soci::session& sql) const
 
 double JobQueue::now()
 {
-    return nowIn(database_.session());
+    double now = 0;
+    database_.read([&](soci::session& sql) { now = nowIn(sql); });
+    return now;
 }
 
 std::optional<Job> JobQueue::claim(const std::string& owner)
@@ -150,7 +152,9 @@ void JobQueue::capTimes(soci::session& sql)
 void JobQueue::dropLost(soci::session& sql)
 {
     const double now = nowIn(sql);
-    const soci::rowset<soci::row> rows = (sql.prepare << "SELECT * FROM jobs WHERE state = 'running'");
+    // In one order for all: two that drop the same jobs must not wait for each other.
+    const soci::rowset<soci::row> rows =
+        (sql.prepare << "SELECT * FROM jobs WHERE state = 'running' ORDER BY case_id, scan_id");
     for (Job& job : collect(rows)) {
         const auto isLost = [&](const Job& seen) { return seen.lease_until <= now || ownerIsGone(seen.owner); };
         if (!isLost(job) || !hold(sql, job) || !isLost(*find(job.case_id, job.scan_id)))
@@ -267,69 +271,78 @@ void JobQueue::retry(const std::string& case_id, const std::string& scan_id)
 
 std::optional<Job> JobQueue::find(const std::string& case_id, const std::string& scan_id)
 {
-    const soci::rowset<soci::row> rows =
-        (database_.session().prepare << "SELECT * FROM jobs WHERE case_id = :c AND scan_id = :s", soci::use(case_id),
-         soci::use(scan_id));
-    const auto found = collect(rows);
-    return found.empty() ? std::nullopt : std::optional(found.front());
+    std::optional<Job> found;
+    database_.read([&](soci::session& sql) {
+        const auto jobs = collect((sql.prepare << "SELECT * FROM jobs WHERE case_id = :c AND scan_id = :s",
+                                   soci::use(case_id), soci::use(scan_id)));
+        found = jobs.empty() ? std::nullopt : std::optional(jobs.front());
+    });
+    return found;
+}
+
+std::vector<Job> JobQueue::select(const std::string& where)
+{
+    std::vector<Job> jobs;
+    database_.read([&](soci::session& sql) { jobs = collect((sql.prepare << "SELECT * FROM jobs " + where)); });
+    return jobs;
 }
 
 std::vector<Job> JobQueue::jobs()
 {
-    const soci::rowset<soci::row> rows = (database_.session().prepare << "SELECT * FROM jobs ORDER BY rowid");
-    return collect(rows);
+    return select("ORDER BY rowid");
 }
 
 std::vector<Job> JobQueue::jobs(JobState state)
 {
-    const soci::rowset<soci::row> rows =
-        (database_.session().prepare << "SELECT * FROM jobs WHERE state = '" + nameOf(state) + "' ORDER BY rowid");
-    return collect(rows);
+    return select("WHERE state = '" + nameOf(state) + "' ORDER BY rowid");
 }
 
 std::vector<Job> JobQueue::jobs(const std::vector<CaseRecord>& cases)
 {
-    const soci::rowset<soci::row> rows =
-        (database_.session().prepare << "SELECT * FROM jobs WHERE case_id IN " + inList(cases));
-    return collect(rows);
+    return select("WHERE case_id IN " + inList(cases));
 }
 
 int JobQueue::count(JobState state)
 {
     int count = 0;
-    database_.session() << "SELECT COUNT(*) FROM jobs WHERE state = '" + nameOf(state) + "'", soci::into(count);
+    database_.read([&](soci::session& sql) {
+        sql << "SELECT COUNT(*) FROM jobs WHERE state = '" + nameOf(state) + "'", soci::into(count);
+    });
     return count;
 }
 
 std::vector<Job> JobQueue::workedOnSince(const std::string& utc)
 {
-    const soci::rowset<soci::row> rows =
-        (database_.session().prepare << "SELECT * FROM jobs WHERE state = 'running' OR changed >= :since",
-         soci::use(utc));
-    return collect(rows);
+    std::vector<Job> jobs;
+    database_.read([&](soci::session& sql) {
+        jobs = collect((sql.prepare << "SELECT * FROM jobs WHERE state = 'running' OR changed >= :since",
+                        soci::use(utc)));
+    });
+    return jobs;
+}
+
+std::optional<double> JobQueue::earliest(const std::string& column, const std::string& where)
+{
+    std::optional<double> earliest;
+    database_.read([&](soci::session& sql) {
+        double at = 0;
+        soci::indicator there = soci::i_null;
+        sql << "SELECT MIN(" + column + ") FROM jobs WHERE " + where, soci::into(at, there);
+        earliest = there == soci::i_ok ? std::optional(at) : std::nullopt;
+    });
+    return earliest;
 }
 
 double JobQueue::oldestWait_s()
 {
-    double due = 0;
-    soci::indicator there = soci::i_null;
-    database_.session() << "SELECT MIN(not_before) FROM jobs WHERE state = 'queued' AND not_before > 0",
-        soci::into(due, there);
-    return there == soci::i_ok ? std::max(0.0, now() - due) : 0;
+    const auto due = earliest("not_before", "state = 'queued' AND not_before > 0");
+    return due ? std::max(0.0, now() - *due) : 0;
 }
 
 std::optional<double> JobQueue::nextDue()
 {
-    std::optional<double> due;
-    for (const char* earliest : {"SELECT MIN(not_before) FROM jobs WHERE state = 'queued'",
-                                 "SELECT MIN(lease_until) FROM jobs WHERE state = 'running'"}) {
-        double at = 0;
-        soci::indicator there = soci::i_null;
-        database_.session() << earliest, soci::into(at, there);
-        if (there == soci::i_ok)
-            due = std::min(due.value_or(at), at);
-    }
-    return due;
+    const auto due = earliest("not_before", "state = 'queued'"), lost = earliest("lease_until", "state = 'running'");
+    return due && lost ? std::min(due, lost) : std::max(due, lost);
 }
 
 void JobQueue::putFirst(const std::string& case_id)

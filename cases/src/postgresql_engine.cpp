@@ -1,9 +1,7 @@
 #include <poll.h>
 #include <soci/postgresql/soci-postgresql.h>
 
-#include <chrono>
 #include <map>
-#include <thread>
 
 #include "database_engine.h"
 #include "postgresql_schema.h"
@@ -26,7 +24,8 @@ constexpr const char* kSettings[] = {
 };
 constexpr const char* kDiskFull = "53100";
 constexpr const char* kLockNotAvailable = "55P03";
-constexpr const char* kInvalidParameter = "22023";
+constexpr const char* kDeadlock = "40P01";
+constexpr const char* kNotSerializable = "40001";
 constexpr const char* kAddressRemedy = "give it as postgresql://USER@HOST:PORT/NAME";
 
 /// What libpq reads in an address, by keyword.
@@ -157,14 +156,13 @@ public:
         sql << "LOCK TABLE store IN EXCLUSIVE MODE";
     }
     void beginBesideOthers(soci::session& sql) override { sql << "BEGIN"; }
-    std::string transactionName(soci::session& sql) override
-    {
-        std::string name;
-        soci::indicator there = soci::i_null;
-        sql << "SELECT CAST(pg_current_xact_id_if_assigned() AS text)", soci::into(name, there);
-        return there == soci::i_ok ? name : "";
-    }
+    std::string transactionName(soci::session& sql) override;
     bool wasCommitted(soci::session& sql, const std::string& name) override;
+    bool gaveWay(const soci::soci_error& e) override
+    {
+        const std::string state = stateOf(e);
+        return state == kDeadlock || state == kNotSerializable;
+    }
 
     Error refusal(const soci::soci_error& e, soci::session* sql) override;
     Error connectionBroke() override
@@ -188,28 +186,38 @@ public:
 
 private:
     std::string connection_, name_;
+    std::string last_;  ///< the name of the transaction before
 };
 
+/// A row, and not the server's own number of the transaction: after a breakdown that number can be given again. The row
+/// of this connection's transaction before goes with it.
+std::string Postgresql::transactionName(soci::session& sql)
+{
+    int writes = 0;
+    sql << "SELECT CASE WHEN pg_current_xact_id_if_assigned() IS NULL THEN 0 ELSE 1 END", soci::into(writes);
+    if (writes == 0)
+        return {};
+    if (last_.empty())  // what connections that have ended left behind
+        sql << "DELETE FROM commits WHERE name IN (SELECT name FROM commits"
+               " WHERE at < EXTRACT(EPOCH FROM now()) - 86400 FOR UPDATE SKIP LOCKED)";
+    std::string name;
+    sql << "WITH earlier AS (DELETE FROM commits WHERE name = :last) INSERT INTO commits (name, at)"
+           " VALUES (CAST(gen_random_uuid() AS text), EXTRACT(EPOCH FROM now())) RETURNING name",
+        soci::use(last_), soci::into(name);
+    last_ = name;
+    return name;
+}
+
+/// Who writes the same name waits until the transaction that wrote it has ended.
 bool Postgresql::wasCommitted(soci::session& sql, const std::string& name)
 {
-    constexpr std::chrono::milliseconds kLook{20};
-    while (true) {
-        std::string status;
-        soci::indicator known = soci::i_null;
-        try {
-            sql << "SELECT pg_xact_status(CAST(:name AS xid8))", soci::use(name), soci::into(status, known);
-        } catch (const soci::soci_error& e) {
-            // A server that broke down before it had written anything of a transaction has not given its number yet.
-            if (stateOf(e) == kInvalidParameter)
-                return false;
-            throw;
-        }
-        if (known == soci::i_ok && status == "in progress") {
-            std::this_thread::sleep_for(kLook);
-            continue;
-        }
-        return known == soci::i_ok && status == "committed";
-    }
+    std::string written;
+    sql << "BEGIN";
+    sql << "INSERT INTO commits (name, at) VALUES (:name, 0) ON CONFLICT (name) DO NOTHING RETURNING name", soci::use(name),
+        soci::into(written);
+    const bool is_new = sql.got_data();
+    sql << "ROLLBACK";
+    return !is_new;
 }
 
 Error Postgresql::refusal(const soci::soci_error& e, soci::session* sql)

@@ -82,6 +82,7 @@ public:
     void beginBesideOthers(soci::session& sql) override { beginAlone(sql); }
     std::string transactionName(soci::session&) override { return {}; }
     bool wasCommitted(soci::session&, const std::string&) override { return false; }
+    bool gaveWay(const soci::soci_error&) override { return false; }
 
     Error refusal(const soci::soci_error& e, soci::session*) override;
     Error connectionBroke() override { return {ErrorCode::internal, "a file has no connection"}; }

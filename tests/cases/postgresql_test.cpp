@@ -4,11 +4,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <barrier>
 #include <csignal>
 #include <cstdlib>
+#include <future>
 #include <set>
 #include <thread>
 
+#include "database_engine.h"
 #include "fake_jobs.h"
 #include "postgresql_proxy.h"
 #include "vicon/cases/audit_trail.h"
@@ -154,6 +157,67 @@ TEST_F(CutLine, InAWorkersCommitIsSavedOnceWhetherItArrivedOrNot)
     EXPECT_EQ(countOf(store_.database(), "arrived") + countOf(store_.database(), "did not arrive"), 2);
 }
 
+TEST(PostgresqlServer, ThatBreaksDownDoesNotTakeALostTransactionForOneThatGotItsNumber)
+{
+    FakeStore fake;
+    const auto number = [](soci::session& sql) {
+        std::string number;
+        sql << "SELECT CAST(pg_current_xact_id() AS text)", soci::into(number);
+        return number;
+    };
+    const auto engine = makePostgresql(fake.store.place().database);
+    const auto connection = engine->connect();
+    engine->beginBesideOthers(*connection);
+    put(*connection, "lost");
+    const std::string lost_number = number(*connection), name = engine->transactionName(*connection);
+    tellServer("restart -m immediate");
+    bool given_again = false;
+    while (!given_again)
+        fake.store.database().write([&](soci::session& sql) {
+            put(sql, "kept " + number(sql));
+            given_again = std::stoll(number(sql)) >= std::stoll(lost_number);
+        });
+    connection->reconnect();
+    EXPECT_FALSE(engine->wasCommitted(*connection, name));
+}
+
+TEST(PostgresqlServer, IsWaitedForUntilItKnowsOfACommit)
+{
+    FakeStore fake;
+    const auto engine = makePostgresql(fake.store.place().database);
+    const auto connection = engine->connect(), asking = engine->connect();
+    engine->beginBesideOthers(*connection);
+    put(*connection, "late");
+    const std::string name = engine->transactionName(*connection);
+    auto answer = std::async(std::launch::async, [&] { return engine->wasCommitted(*asking, name); });
+    EXPECT_EQ(answer.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
+    *connection << "COMMIT";
+    EXPECT_TRUE(answer.get());
+}
+
+TEST(PostgresqlServer, LetsTwoThatWaitForEachOtherBothWriteInTheEnd)
+{
+    FakeStore fake;
+    fake.store.database().write([](soci::session& sql) { put(sql, "a"), put(sql, "b"); });
+    std::barrier both_hold_one(2);
+    const auto raise = [&](const std::string& first, const std::string& second) {
+        Database database(fake.store.place().database);
+        int runs = 0;
+        database.writeRows([&](soci::session& sql) {
+            sql << "UPDATE counters SET value = value + 1 WHERE name = :name", soci::use(first);
+            if (++runs == 1)
+                both_hold_one.arrive_and_wait();
+            sql << "UPDATE counters SET value = value + 1 WHERE name = :name", soci::use(second);
+        });
+    };
+    auto other = std::async(std::launch::async, [&] { raise("b", "a"); });
+    EXPECT_NO_THROW(raise("a", "b"));
+    EXPECT_NO_THROW(other.get());
+    int sum = 0;
+    fake.store.database().session() << "SELECT SUM(value) FROM counters WHERE name IN ('a', 'b')", soci::into(sum);
+    EXPECT_EQ(sum, 6);
+}
+
 TEST(PostgresqlStore, IsNotMixedWithAnother)
 {
     const support::TemporaryFolder folder;
@@ -206,6 +270,20 @@ TEST(PostgresqlQueue, MakesNoClaimWaitForAnother)
     });
 }
 
+/// As whatever starts workers does: one that finds no server is started again.
+std::unique_ptr<Database> openAgainAndAgain(const std::string& where)
+{
+    std::unique_ptr<Database> database;
+    support::waitUntil([&] {
+        try {
+            database = std::make_unique<Database>(where);
+        } catch (const Error&) {
+        }
+        return database != nullptr;
+    });
+    return database;
+}
+
 /// A worker's process, which does jobs until none is left; of each job it leaves a line in a file.
 pid_t startWorker(const StorePlace& place, const fs::path& done)
 {
@@ -213,8 +291,8 @@ pid_t startWorker(const StorePlace& place, const fs::path& done)
     if (child != 0)
         return child;
     try {
-        Database database(place.database);
-        JobQueue queue(database, {.lease_s = 2});
+        const auto database = openAgainAndAgain(place.database);
+        JobQueue queue(*database, {.lease_s = 2});
         while (true)
             try {
                 const auto job = queue.claim(thisOwner());

@@ -16,7 +16,7 @@ class DatabaseEngine;
 /// a connection to a server that broke is made anew. One object serves one thread at a time.
 class Database {
 public:
-    static constexpr int kSchemaVersion = 7;
+    static constexpr int kSchemaVersion = 8;
 
     /// Opens (and creates) the database. Throws Error{database} when it cannot, or when its schema is newer than
     /// this VICON knows.
@@ -31,6 +31,10 @@ public:
     /// For reading; within write() and writeRows() a part of their transaction.
     soci::session& session();
 
+    /// For reading by what runs for months: `work` is run again when the connection broke meanwhile. Database errors
+    /// become Error{database}.
+    void read(const std::function<void(soci::session&)>& work);
+
     /// The same again as long as nobody changed anything, over this connection or another; to be compared with what
     /// this object said before.
     std::string version();
@@ -43,7 +47,8 @@ public:
     void write(const std::function<void(soci::session&)>& work);
 
     /// Like write(), for what happens often: on a server others write beside it, and only rows that `work` has updated
-    /// are safe from them. `work` is run again when the connection broke, so it must not mind that.
+    /// are safe from them. `work` is run again when the connection broke, or when it gave way to another that wrote
+    /// the same rows, so it must not mind that.
     void writeRows(const std::function<void(soci::session&)>& work);
 
 private:
@@ -53,6 +58,7 @@ private:
     void transact(const std::function<void(soci::session&)>& work, Beside beside);
     void begin(Beside beside);
     void commit();
+    bool wasCommitted(const std::string& name);
     void rollBack();
 
     std::string where_;

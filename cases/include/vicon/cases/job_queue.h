@@ -118,6 +118,8 @@ private:
     void settle(soci::session& sql, const Job& job, JobState state, double not_before, const std::string& reason,
                 int attempts);
     void requireFence(soci::session& sql, const Job& job);
+    std::vector<Job> select(const std::string& where);
+    std::optional<double> earliest(const std::string& column, const std::string& where);
 
     Database& database_;
     QueueOptions options_;
