@@ -315,8 +315,8 @@ std::vector<Job> JobQueue::workedOnSince(const std::string& utc)
 {
     std::vector<Job> jobs;
     database_.read([&](soci::session& sql) {
-        jobs = collect((sql.prepare << "SELECT * FROM jobs WHERE state = 'running' OR changed >= :since",
-                        soci::use(utc)));
+        jobs =
+            collect((sql.prepare << "SELECT * FROM jobs WHERE state = 'running' OR changed >= :since", soci::use(utc)));
     });
     return jobs;
 }

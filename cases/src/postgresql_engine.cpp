@@ -213,8 +213,8 @@ bool Postgresql::wasCommitted(soci::session& sql, const std::string& name)
 {
     std::string written;
     sql << "BEGIN";
-    sql << "INSERT INTO commits (name, at) VALUES (:name, 0) ON CONFLICT (name) DO NOTHING RETURNING name", soci::use(name),
-        soci::into(written);
+    sql << "INSERT INTO commits (name, at) VALUES (:name, 0) ON CONFLICT (name) DO NOTHING RETURNING name",
+        soci::use(name), soci::into(written);
     const bool is_new = sql.got_data();
     sql << "ROLLBACK";
     return !is_new;
