@@ -75,11 +75,19 @@ TEST(CaptionOfSlices, LeavesRoomForACloseUpThatNoTextTouches)
                 EXPECT_TRUE(area.x >= 0 && area.right() <= w && area.bottom() <= h) << text.text;
             }
             EXPECT_LE(panel.close_up.bottom(), h);
-            EXPECT_EQ(panel.close_up.width, panel.close_up.height);
+            EXPECT_LE(panel.close_up.right(), w);
             if (width >= 500 && left_out > 0) {
                 EXPECT_GE(panel.close_up.height, 0.3 * h);
             }
         }
+}
+
+TEST(CaptionOfSlices, LeavesAllBelowAShortCaptionToTheCloseUp)
+{
+    const CaptionPanel panel = captionPanel({{{}, "window colon: 1500 / -200 HU"}}, 340, 256);
+    EXPECT_EQ(panel.close_up.width, 340);
+    EXPECT_EQ(panel.close_up.bottom(), 256);
+    EXPECT_GE(panel.close_up.height, 0.8 * 256);
 }
 
 TEST(CaptionOfSlices, SaysWhereThereWasMore)

@@ -19,11 +19,8 @@ bool touch(const Area& a, const Area& b)
 }
 
 /// The largest square in the lower right corner that touches no text.
-Area roomFor(const Overlay& overlay, int width, int height, double margin_px)
+Area roomBeside(const std::vector<Area>& texts, int width, int height, double margin_px)
 {
-    std::vector<Area> texts;
-    for (const OverlayText& text : overlay.texts)
-        texts.push_back(textArea(text));
     for (double side = std::floor(kMostSide * height); side >= std::max(kLeastSide_px, kLeastSide * height); --side) {
         const Area square{std::floor(width - margin_px - side), std::floor(height - margin_px - side), side, side};
         if (square.x >= margin_px &&
@@ -31,6 +28,26 @@ Area roomFor(const Overlay& overlay, int width, int height, double margin_px)
             return square;
     }
     return {};
+}
+
+/// All that is left below the texts.
+Area roomBelow(const std::vector<Area>& texts, int width, int height)
+{
+    double top = 0;
+    for (const Area& text : texts)
+        top = std::max(top, std::ceil(text.bottom()));
+    const Area below{0, top, double(width), height - top};
+    return below.height >= std::max(kLeastSide_px, kLeastSide * height) ? below : Area{};
+}
+
+/// Whichever shows more: the scale of a close-up goes by its shorter side.
+Area roomFor(const Overlay& overlay, int width, int height, double margin_px)
+{
+    std::vector<Area> texts;
+    for (const OverlayText& text : overlay.texts)
+        texts.push_back(textArea(text));
+    const Area below = roomBelow(texts, width, height), beside = roomBeside(texts, width, height, margin_px);
+    return std::min(below.width, below.height) >= beside.height ? below : beside;
 }
 
 CaptionPanel withTextOf(double text_px, std::vector<OverlayText> lines, int width, int height)

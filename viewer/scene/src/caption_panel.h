@@ -9,7 +9,7 @@ namespace vicon::viewer {
 /// Where the caption of the slices is written, and the room that it leaves for the close-up.
 struct CaptionPanel {
     Overlay overlay;
-    Area close_up;  ///< a square in the lower right corner that no text touches; empty where there is no room for one
+    Area close_up;  ///< all below the text, or a square beside it, whichever shows more; empty: there is no room
 };
 
 /// Lays out lines of text from the top. They are written smaller before the close-up becomes small, and what is below

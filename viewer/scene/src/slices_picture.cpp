@@ -125,9 +125,11 @@ Picture captionAndCloseUp(const PreparedScan& scan, const SnapshotRequest& reque
 {
     Picture picture(width, height, {10, 12, 16});
     const CaptionPanel panel = captionPanel(linesOf(scan, request, place), width, height, request.pixel_ratio);
-    if (const int side = int(panel.close_up.width); side > 0)
-        copyInto(picture, slice(scan, request, {SlicePlane::axial, point, side, side, kCloseUp_mm, false}),
-                 int(panel.close_up.x), int(panel.close_up.y));
+    if (const Area& room = panel.close_up; room.width > 0)
+        copyInto(picture,
+                 slice(scan, request,
+                       {SlicePlane::axial, point, int(room.width), int(room.height), kCloseUp_mm, false}),
+                 int(room.x), int(room.y));
     paint(picture, panel.overlay);
     return picture;
 }
