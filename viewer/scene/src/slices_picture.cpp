@@ -126,10 +126,10 @@ Picture captionAndCloseUp(const PreparedScan& scan, const SnapshotRequest& reque
     Picture picture(width, height, {10, 12, 16});
     const CaptionPanel panel = captionPanel(linesOf(scan, request, place), width, height, request.pixel_ratio);
     if (const Area& room = panel.close_up; room.width > 0)
-        copyInto(picture,
-                 slice(scan, request,
-                       {SlicePlane::axial, point, int(room.width), int(room.height), kCloseUp_mm, false}),
-                 int(room.x), int(room.y));
+        copyInto(
+            picture,
+            slice(scan, request, {SlicePlane::axial, point, int(room.width), int(room.height), kCloseUp_mm, false}),
+            int(room.x), int(room.y));
     paint(picture, panel.overlay);
     return picture;
 }
