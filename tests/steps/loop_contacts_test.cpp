@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "segment_shapes.h"
@@ -75,7 +76,10 @@ struct Loops {
     Shape pouch = [](Point3) { return false; };     ///< lumen besides
     double pouch_mm = 0;                            ///< how far it goes towards -y
     double voxel_mm = 1;
+    bool lying = false;  ///< the limbs lie in a slice, along x
 
+    /// Between where a point is and where it would be if the limbs did not lie.
+    Point3 turned(Point3 p) const { return lying ? Point3{p.z, p.y, p.x} : p; }
     InsideVolume draw() const
     {
         const double rim_mm = limbs.radius_mm + 3, ends_mm = limbs.pitch_mm() + rim_mm;
@@ -85,8 +89,13 @@ struct Loops {
                      voxels(limbs.long_mm + 2 * ends_mm)};
         grid.spacing_mm = {voxel_mm, voxel_mm, voxel_mm};
         grid.origin_mm = {-rim_mm, -rim_mm - pouch_mm, -ends_mm};
+        if (lying) {
+            std::swap(grid.size[0], grid.size[2]);
+            std::swap(grid.origin_mm.x, grid.origin_mm.z);
+        }
         const Polyline line = limbs.line();
-        return drawMask(grid, [&](Point3 p) {
+        return drawMask(grid, [&](Point3 at) {
+            const Point3 p = turned(at);
             const bool in_window = std::any_of(windows.begin(), windows.end(),
                                                [&](const Window& window) { return window.holds(limbs, p); });
             return in_window || pouch(p) || (tubeDistance(line, limbs.radius_mm, p) < 0 && !narrowed(p));
@@ -99,8 +108,8 @@ SkeletonResult centrelineOf(const Loops& loops)
     const Polyline line = loops.limbs.line();
     const Vector3 to_tip{0, 0, loops.limbs.radius_mm - 2};
     LumenPlan plan;
-    plan.pieces.push_back(
-        {line.front() - to_tip, loops.limbs.count % 2 == 0 ? line.back() - to_tip : line.back() + to_tip});
+    plan.pieces.push_back({loops.turned(line.front() - to_tip),
+                           loops.turned(loops.limbs.count % 2 == 0 ? line.back() - to_tip : line.back() + to_tip)});
     NoProgress quiet;
     return findSkeleton(loops.draw(), plan, {}, quiet);
 }
@@ -113,7 +122,7 @@ void expectFollowed(const Loops& loops)
     double aside_mm = 0;
     for (const SkeletonPiece& piece : found.curve.pieces)
         for (const SkeletonPoint& p : piece.points)
-            aside_mm = std::max(aside_mm, tubeDistance(line, 0, p.position_mm));
+            aside_mm = std::max(aside_mm, tubeDistance(line, 0, loops.turned(p.position_mm)));
     EXPECT_LT(aside_mm, 2);
 }
 
@@ -155,6 +164,17 @@ TEST(LoopContacts, NearABendAreNoWay)
     for (const double from_bend_mm : {40.0, 70.0, 100.0})
         for (const double wide_mm : {5.5, 8.0})
             expectFollowed(joinedBy({{.wide_mm = wide_mm, .z_mm = 400 - from_bend_mm}}));
+}
+
+TEST(LoopContacts, LeaveNoWallThatPassesForARectalTube)
+{
+    // The wall between hole and bend has lumen all around it in a slice.
+    for (const double from_bend_mm : {50.0, 70.0, 100.0})
+        for (const double wide_mm : {5.5, 8.0}) {
+            Loops loops = joinedBy({{.wide_mm = wide_mm, .z_mm = 400 - from_bend_mm}});
+            loops.lying = true;
+            expectFollowed(loops);
+        }
 }
 
 TEST(LoopContacts, BesideTheEndsAreNoWay)
