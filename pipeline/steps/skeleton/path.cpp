@@ -7,6 +7,7 @@
 
 #include "grid/cheapest_ways.h"
 #include "grid/neighbours.h"
+#include "skeleton/contact.h"
 #include "vicon/core/error.h"
 
 namespace vicon::steps {
@@ -16,143 +17,82 @@ namespace {
 // double of each leave the three cases (CONTRIBUTING.md) as they are, but for kChunk: another way of equal cost is
 // taken in ctc-prone's widest haustra, up to 13 mm aside.
 constexpr double kEndTolerance_mm = 8;  // an end may lie in a block that the coarse graph leaves out
-constexpr double kCutMargin_mm = 1.5;   // what is removed at a contact, beyond its own radius
-constexpr int kMostCuts = 8;            // of contacts: each costs a search of the path
-constexpr int kTriesPerPart = 2;        // of such searches for a part that stays uncovered
-// A contact is narrow beside the lumen around it; the prone reference scan's widest pouches lie beside 13 of 25 mm.
-constexpr double kWidestContact_mm = 8;
-constexpr double kContactShare = 0.5;
-constexpr double kEndZone_mm = 15;  // the path is narrow at its tips; that is no contact
+// Chosen on the rings of loop_contacts_test.cpp, which are 150 mm longer than the way past them, and on loops of 800 mm
+// with folds that leave less than the hole: so long a way around is no pouch, however narrow its folds.
+constexpr float kLongerThanPouch_mm = 300;
+constexpr int kMostCuts = 8;        // of contacts: each costs a search of the path
+constexpr int kTriesPerPart = 2;    // of such searches for a part that stays uncovered
 constexpr std::size_t kChunk = 40;  // nodes of the coarse path that are refined at once
-
-using NodePath = std::vector<std::int32_t>;
-
-/// A part of the lumen far from the path, and the stretch of the path beside which it lies.
-struct Uncovered {
-    std::size_t nodes = 0;
-    std::size_t from = 0;  ///< numbers of the first and the last node of the path that it hangs on
-    std::size_t to = 0;
-};
-
-struct Coverage {
-    double fraction = 0;           ///< of the reached nodes, in all that is uncovered
-    std::vector<Uncovered> parts;  ///< largest first
-};
-
-Coverage coverageOf(const LumenGraph& graph, const NodePath& path, const SkeletonOptions& options)
-{
-    const LumenFeet feet = feetOn(graph, path);
-    std::vector<std::uint8_t> far(graph.count(), 0);
-    std::size_t reached = 0, uncovered = 0;
-    for (std::size_t n = 0; n < graph.count(); ++n)
-        if (feet.foot[n] >= 0) {
-            ++reached;
-            far[n] = feet.distance_mm[n] > options.uncovered_mm ? 1 : 0;
-            uncovered += far[n];
-        }
-    Coverage coverage;
-    coverage.fraction = reached ? double(uncovered) / double(reached) : 0;
-    for (const auto& set : connectedSets(graph, far)) {
-        Uncovered part{set.size(), path.size(), 0};
-        for (const std::int32_t n : set) {
-            const auto foot = std::size_t(feet.foot[std::size_t(n)]);
-            part.from = std::min(part.from, foot);
-            part.to = std::max(part.to, foot);
-        }
-        if (double(part.nodes) > options.uncovered_fraction * double(reached))
-            coverage.parts.push_back(part);
-    }
-    std::stable_sort(coverage.parts.begin(), coverage.parts.end(),
-                     [](const Uncovered& a, const Uncovered& b) { return a.nodes > b.nodes; });
-    return coverage;
-}
-
-/// The narrowest node of a stretch of the path that lies away from the path's ends and has not been tried, if it is
-/// narrow enough for a contact; -1 otherwise.
-std::int32_t narrowest(const LumenGraph& graph, const NodePath& path, const Uncovered& beside,
-                       const std::vector<Point3>& tried)
-{
-    std::int32_t best = -1;
-    float widest = 0;
-    const Point3 first = graph.point(path.front()), last = graph.point(path.back());
-    for (std::size_t n = beside.from; n <= beside.to; ++n) {
-        const Point3 p = graph.point(path[n]);
-        if (distance(p, first) < kEndZone_mm || distance(p, last) < kEndZone_mm)
-            continue;
-        const bool known = std::any_of(tried.begin(), tried.end(), [&](Point3 q) { return distance(p, q) < 6; });
-        widest = std::max(widest, graph.node(path[n]).wall_mm);
-        if (!known && (best < 0 || graph.node(path[n]).wall_mm < graph.node(best).wall_mm))
-            best = path[n];
-    }
-    if (best >= 0 && graph.node(best).wall_mm > std::min(kWidestContact_mm, kContactShare * widest))
-        return -1;
-    return best;
-}
-
-void block(const LumenGraph& graph, std::int32_t centre, std::vector<std::uint8_t>& blocked)
-{
-    const Point3 p = graph.point(centre);
-    const double radius = graph.node(centre).wall_mm + kCutMargin_mm;
-    for (std::size_t n = 0; n < graph.count(); ++n)
-        if (distance(graph.point(std::int32_t(n)), p) <= radius)
-            blocked[n] = 1;
-}
 
 struct CoarsePath {
     NodePath nodes;
-    Coverage coverage;
+    float length_mm = 0;
+    PathCoverage coverage;
+    std::vector<std::uint8_t> barred;  ///< nodes of the graph that it must not use
     int cuts = 0;
 };
 
-/// Where the way is barred, and the places at which that was tried.
-struct Bars {
-    std::vector<std::uint8_t> blocked;
-    std::vector<Point3> tried;
+/// What the coarse path is sought in.
+struct PathSearch {
+    const LumenGraph& graph;
+    std::int32_t from, to;
+    const SkeletonOptions& options;
+    Progress& progress;
 };
 
-/// One attempt to lead the path through a part that it left aside. A cut that parts the two ends, or that covers no
-/// more of the lumen, is taken back.
-bool improve(const LumenGraph& graph, std::int32_t from, std::int32_t to, const Uncovered& part, CoarsePath& best,
-             Bars& bars, const SkeletonOptions& options, Progress& progress)
+/// Takes the path that is left when more nodes are barred; not when that parts the ends or covers no more of the lumen,
+/// nor when the way around is no wider than the hole and no longer than through a pouch.
+bool tryBar(const PathSearch& search, const std::vector<std::int32_t>& bar, bool wider_around, CoarsePath& best)
+{
+    std::vector<std::uint8_t> barred = best.barred;
+    for (const std::int32_t node : bar)
+        barred[std::size_t(node)] = 1;
+    const LumenTree tree = centralTree(search.graph, search.from, barred, search.progress, search.to);
+    if (!tree.reaches(search.to))
+        return false;
+    const float length_mm = tree.length_mm[std::size_t(search.to)];
+    if (!wider_around && length_mm - best.length_mm < kLongerThanPouch_mm)
+        return false;
+    NodePath path = tree.pathTo(search.to);
+    PathCoverage coverage = coverageOf(search.graph, path, search.options);
+    if (coverage.uncovered_fraction >= best.coverage.uncovered_fraction)
+        return false;
+    best = {std::move(path), length_mm, std::move(coverage), std::move(barred), best.cuts + 1};
+    return true;
+}
+
+/// One attempt to lead the path through a part that it left aside.
+bool improve(const PathSearch& search, const LeftOut& part, CoarsePath& best, std::vector<Point3>& tried)
 {
     for (int n = 0; n < kTriesPerPart; ++n) {
-        const std::int32_t narrow = narrowest(graph, best.nodes, part, bars.tried);
-        if (narrow < 0)
+        const Contact contact = contactBeside(search.graph, best.nodes, part, tried);
+        if (contact.bars.empty())
             return false;
-        bars.tried.push_back(graph.point(narrow));
-        std::vector<std::uint8_t> with_cut = bars.blocked;
-        block(graph, narrow, with_cut);
-        const LumenTree tree = centralTree(graph, from, with_cut, progress, to);
-        if (!tree.reaches(to))
-            continue;
-        NodePath path = tree.pathTo(to);
-        Coverage coverage = coverageOf(graph, path, options);
-        if (coverage.fraction >= best.coverage.fraction)
-            continue;
-        best = {std::move(path), std::move(coverage), best.cuts + 1};
-        bars.blocked = std::move(with_cut);
-        return true;
+        tried.push_back(contact.narrowest_mm);
+        for (const std::vector<std::int32_t>& bar : contact.bars)
+            if (tryBar(search, bar, contact.wider_around, best))
+                return true;
     }
     return false;
 }
 
 /// The central path; where it leaves a part of the lumen aside that hangs on it in two places, it went through a
 /// contact between them. A part that hangs on it in one place is a pouch and no reason to cut.
-CoarsePath coarsePath(const LumenGraph& graph, std::int32_t from, std::int32_t to, const SkeletonOptions& options,
-                      Progress& progress)
+CoarsePath coarsePath(const PathSearch& search)
 {
-    Bars bars{std::vector<std::uint8_t>(graph.count(), 0), {}};
     CoarsePath best;
-    const LumenTree whole = centralTree(graph, from, bars.blocked, progress, to);
-    if (!whole.reaches(to))
+    best.barred.resize(search.graph.count(), 0);
+    const LumenTree whole = centralTree(search.graph, search.from, best.barred, search.progress, search.to);
+    if (!whole.reaches(search.to))
         return best;
-    best.nodes = whole.pathTo(to);
-    best.coverage = coverageOf(graph, best.nodes, options);
+    best.nodes = whole.pathTo(search.to);
+    best.length_mm = whole.length_mm[std::size_t(search.to)];
+    best.coverage = coverageOf(search.graph, best.nodes, search.options);
+    std::vector<Point3> tried;
     for (bool improved = true; improved && best.cuts < kMostCuts;) {
-        improved = false;
-        for (const Uncovered& part : std::vector<Uncovered>(best.coverage.parts))
-            if (!improved)
-                improved = improve(graph, from, to, part, best, bars, options, progress);
+        const std::vector<LeftOut> parts = best.coverage.parts;
+        improved = std::any_of(parts.begin(), parts.end(),
+                               [&](const LeftOut& part) { return improve(search, part, best, tried); });
     }
     return best;
 }
@@ -232,10 +172,10 @@ LumenPath pathIn(const FieldVolume& wall_mm, const LumenGraph& graph, Point3 fro
     LumenPath path;
     if (a < 0 || distance(graph.point(a), from) > kEndTolerance_mm || distance(graph.point(b), to) > kEndTolerance_mm)
         return path;
-    const CoarsePath coarse = coarsePath(graph, a, b, options, progress);
+    const CoarsePath coarse = coarsePath({graph, a, b, options, progress});
     if (coarse.nodes.size() < 2)
         return path;
-    return {refineAll(wall_mm, graph, coarse.nodes), coarse.coverage.fraction, coarse.cuts};
+    return {refineAll(wall_mm, graph, coarse.nodes), coarse.coverage.uncovered_fraction, coarse.cuts};
 }
 
 }  // namespace

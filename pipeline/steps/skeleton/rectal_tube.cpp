@@ -15,7 +15,10 @@ namespace {
 // as they are, but for kTubeReach_mm, which moves the start of ways of equal cost.
 constexpr double kTubeReach_mm = 150;     // from the rectal end: a rectal tube lies no higher
 constexpr double kTubeSection_mm2 = 200;  // of a tube of up to 12 mm, cut obliquely
-constexpr double kMargin_mm = 24;         // about the tube: hardly a rectum is wider; what is wider is tried again
+// Of a section: the area of a tube 6 mm wide allows no more. Chosen on the loops of loop_contacts_test.cpp: between a
+// hole and a bend lumen surrounds the wall of two loops too.
+constexpr double kTubeLongest_mm = 35;
+constexpr double kMargin_mm = 24;  // about the tube: hardly a rectum is wider; what is wider is tried again
 
 /// The lumen's bounds in a slice.
 VoxelBox lumenIn(const InsideVolume& inside, int k)
@@ -35,7 +38,17 @@ VoxelBox lumenIn(const InsideVolume& inside, int k)
     return box;
 }
 
-/// Islands of no lumen in a slice, up to `most` pixels, that lumen surrounds.
+/// Whether an island of a slice is longer than any section of a tube.
+bool tooLong(const std::vector<Index3>& island, const Grid& grid)
+{
+    VoxelBox box;
+    for (const Index3 v : island)
+        box.take(v);
+    return std::hypot((box.high.i - box.low.i) * grid.spacing_mm[0], (box.high.j - box.low.j) * grid.spacing_mm[1]) >
+           kTubeLongest_mm;
+}
+
+/// Islands of no lumen in a slice, up to `most` pixels and as long as a tube's section may be, that lumen surrounds.
 std::vector<Index3> islandsIn(const InsideVolume& inside, int k, std::size_t most)
 {
     const VoxelBox box = lumenIn(inside, k);
@@ -68,7 +81,7 @@ std::vector<Index3> islandsIn(const InsideVolume& inside, int k, std::size_t mos
                 take(v.i, v.j - 1);
                 take(v.i, v.j + 1);
             }
-            if (!open && island.size() <= most)
+            if (!open && island.size() <= most && !tooLong(island, inside.grid))
                 all.insert(all.end(), island.begin(), island.end());
         }
     return all;
