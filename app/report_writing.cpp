@@ -1,9 +1,11 @@
 #include "report_writing.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "peers.h"
 #include "report_pictures.h"
+#include "report_scans.h"
 #include "vicon/cases/outbox.h"
 #include "vicon/cases/report_files.h"
 #include "vicon/core/error.h"
@@ -26,10 +28,13 @@ std::vector<fs::path> filesOf(const report::MarkerEntry& entry)
     return files;
 }
 
-report::PdfResult drawReport(CaseStore& store, const Config& config, report::ReportContent& content,
-                             const PictureFolder& pictures, const fs::path& pdf, Progress& progress,
-                             report::PackedSights* packed = nullptr)
+/// @param overviews_drawn what else the report takes is begun then: before, all cores make the first picture ready
+report::PdfResult drawReport(
+    CaseStore& store, const Config& config, report::ReportContent& content, const PictureFolder& pictures,
+    const fs::path& pdf, Progress& progress, report::PackedSights* packed = nullptr,
+    const std::function<void()>& overviews_drawn = [] {})
 {
+    ReportScans scans(store, content.read);
     report::PrintPictures printed;
     PicturesMade made{.picture = [&](const fs::path& file) { printed.begin(file); }};
     if (packed)
@@ -38,8 +43,9 @@ report::PdfResult drawReport(CaseStore& store, const Config& config, report::Rep
             if (std::find(loose.begin(), loose.end(), entry.marker.id) == loose.end())
                 packed->begin(entry.marker.id, filesOf(entry));
         };
-    content.scans = drawScans(store, content.read, pictures, progress, made);
-    content.markers = drawMarkers(store, content.read, content.scans, pictures, progress, made);
+    content.scans = drawScans(store, content.read, scans, pictures, progress, made);
+    overviews_drawn();
+    content.markers = drawMarkers(store, content.read, content.scans, scans, pictures, progress, made);
     return report::writePdf(content, pdf, config.get<report::ReportOptions>(), &printed);
 }
 
@@ -135,15 +141,16 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
     content.created = draft.version.at;
     content.software_version = VICON_VERSION;
     content.version = draft.version;
-    const viewer::Display display;  // one for all pictures, before there are other threads
-    std::optional<report::ShownScans> scans;
-    if (sign)
-        scans.emplace(store, content.read, kinds);
     const PictureFolder folder;
     report::PackedSights packed;
+    const viewer::Display display;  // one for all pictures, before there are other threads
+    std::optional<report::ShownScans> scans;
     const bool pictured = sign && std::find(kinds.begin(), kinds.end(), report::ObjectKind::picture) != kinds.end();
     const report::PdfResult drawn =
-        drawReport(store, config, content, folder, folder / "report.pdf", progress, pictured ? &packed : nullptr);
+        drawReport(store, config, content, folder, folder / "report.pdf", progress, pictured ? &packed : nullptr, [&] {
+            if (sign)
+                scans.emplace(store, content.read, kinds);
+        });
     if (drawn.unreadable_pictures > 0)
         throw Error(ErrorCode::store,
                     "a picture of the report could not be drawn (" + drawn.warnings.front() +
