@@ -29,8 +29,9 @@ constexpr int kMeasuresSide = 440;
 constexpr double kMeasuresTextRatio = 1.6;  // so that words are read where they are printed
 // Below the wall: densities of voxels of 0.7 mm and more, so that rays three pixels apart miss nothing.
 constexpr const char* kBelowTheWall = "biopsy";
-// The blurred edge from gas to tissue passes fat's density: a look that begins at the surface shows it as fat.
-constexpr double kBelowDeep_mm = 2;
+// The blurred edge from gas to tissue passes fat's density: a look that begins at the surface shows it as fat; one that
+// passes a lesion's middle shows the edge behind it so.
+constexpr double kBelowDeep_mm = 2, kBelowOfSize = 0.25;
 constexpr int kBelowCoarse = 3;
 constexpr double kBelowRadius_px = 0.36 * kEndoscopicSide;
 constexpr int kOverviewWidth = 900, kOverviewHeight = 1100;
@@ -75,9 +76,10 @@ report::ScanEntry describeScan(CaseStore& store, const ScanRecord& scan)
 /// A scan's finding pictures. OpenGL's are drawn on the thread that asks, all others meanwhile on a second one.
 class FindingPictures {
 public:
-    FindingPictures(const viewer::PreparedScan& prepared, std::unique_ptr<viewer::KnownSnapshots> sights,
-                    const ScanRecord& scan, const PictureFolder& folder, const PicturesMade& made)
-        : prepared_(prepared), sights_(std::move(sights)), scan_(scan), folder_(folder), made_(made)
+    FindingPictures(const ReadCase& read, const viewer::PreparedScan& prepared,
+                    std::unique_ptr<viewer::KnownSnapshots> sights, const ScanRecord& scan, const PictureFolder& folder,
+                    const PicturesMade& made)
+        : read_(read), prepared_(prepared), sights_(std::move(sights)), scan_(scan), folder_(folder), made_(made)
     {
     }
 
@@ -121,7 +123,7 @@ private:
                           std::to_string(std::lround(distance(seen.pose.eye_mm, marker.position_mm))) + " mm away";
         viewer::PeelRequest below;
         below.preset = kBelowTheWall;
-        below.options.offset_mm = kBelowDeep_mm;
+        below.options.offset_mm = depthBelow_mm(read_, marker.id);
         below.middle_only = true;
         below.coarse = kBelowCoarse;
         below.circle_px = kBelowRadius_px;
@@ -145,6 +147,7 @@ private:
         }
     }
 
+    const ReadCase& read_;
     const viewer::PreparedScan& prepared_;
     const std::unique_ptr<viewer::KnownSnapshots> sights_;
     const ScanRecord& scan_;
@@ -153,6 +156,15 @@ private:
 };
 
 }  // namespace
+
+double depthBelow_mm(const ReadCase& read, const std::string& marker_id)
+{
+    double depth_mm = kBelowDeep_mm;
+    for (const auto& [finding, facts] : read.findings)
+        if (std::find(finding.markers.begin(), finding.markers.end(), marker_id) != finding.markers.end())
+            depth_mm = std::min(depth_mm, kBelowOfSize * facts.size_mm.value_or(depth_mm / kBelowOfSize));
+    return depth_mm;
+}
 
 std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read, ReportScans& scans,
                                          const PictureFolder& pictures, Progress& progress, const PicturesMade& made)
@@ -205,7 +217,7 @@ std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const ReadCase& r
         if (of_scan.empty())
             continue;
         if (const viewer::PreparedScan* prepared = scans.find(scan.id))
-            FindingPictures(*prepared, scans.sights(scan.id), scan, pictures, made)
+            FindingPictures(read, *prepared, scans.sights(scan.id), scan, pictures, made)
                 .draw(of_scan, [&](const Marker& marker) {
                     progress.check();
                     progress.report(drawn++ / double(read.markers.size()), "pictures of marker " + marker.id);

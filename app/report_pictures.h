@@ -18,6 +18,9 @@ struct PicturesMade {
     std::function<void(const report::MarkerEntry&)> marker = [](const report::MarkerEntry&) {};
 };
 
+/// How deep below the wall a marker is looked at: 2 mm, and no deeper than halfway to the middle of its finding.
+double depthBelow_mm(const ReadCase& read, const std::string& marker_id);
+
 /// What the report says about each scan, with its overview drawn. A scan that has not been prepared, or holds no colon,
 /// is listed without a picture. The overview bears the numbers of the findings, and the ids of markers of none.
 /// No picture says whose it is: the page does. Needs a viewer::Display that lives on, or starts one of its own.
