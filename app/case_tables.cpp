@@ -99,7 +99,7 @@ void printFindings(bool json, CaseStore& store, const ReadCase& read)
         std::string loose;
         for (const std::string& id : read.loose_markers)
             loose += " " + id;
-        std::printf("markers that belong to no finding:%s\n", loose.c_str());
+        std::printf("markers not assigned to a finding:%s\n", loose.c_str());
     }
     printCategory("colon", read.colon_proposal, read.assessment.colon_category);
     printCategory("outside", read.extracolonic_proposal, read.assessment.extracolonic_category);

@@ -20,7 +20,7 @@ ingest::Delivery deliveryFor(const Config& config)
 
 void deliverInBackground(const StorePlace& place, const Config& config)
 {
-    constexpr auto kLook = std::chrono::milliseconds(100), kAfterTrouble = std::chrono::milliseconds(1000);
+    constexpr auto kLook = std::chrono::milliseconds(25), kAfterTrouble = std::chrono::milliseconds(1000);
     ingest::Delivery delivery = deliveryFor(config);
     delivery.trouble = [](const std::string& what) { spdlog::warn("outbox: {}", what); };
     std::string said;

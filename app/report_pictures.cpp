@@ -23,28 +23,19 @@ using vicon::viewer::SnapshotRequest;
 namespace vicon::app {
 namespace {
 
-// Printed 144 points wide and less, slices 242: a printer has 300 pixels to the inch.
-constexpr int kEndoscopicSide = 600;
+// Printed 242 points wide: a printer has 300 pixels to the inch.
 constexpr int kSlicesWidth = 1008, kSlicesHeight = 756;
 constexpr int kMeasuresSide = 440;
-constexpr double kTextRatio = 2.0, kMeasuresTextRatio = 1.6;  // so that words are read where they are printed
+constexpr double kMeasuresTextRatio = 1.6;  // so that words are read where they are printed
 // Below the wall: densities of voxels of 0.7 mm and more, so that rays three pixels apart miss nothing.
 constexpr const char* kBelowTheWall = "biopsy";
-// The blurred edge from gas to tissue passes fat's density: a look that begins at the surface shows it as fat.
-constexpr double kBelowDeep_mm = 2;
+// The blurred edge from gas to tissue passes fat's density: a look that begins at the surface shows it as fat; one that
+// passes a lesion's middle shows the edge behind it so.
+constexpr double kBelowDeep_mm = 2, kBelowOfSize = 0.25;
 constexpr int kBelowCoarse = 3;
 constexpr double kBelowRadius_px = 0.36 * kEndoscopicSide;
 constexpr int kOverviewWidth = 900, kOverviewHeight = 1100;
 constexpr double kOverviewTextRatio = 3.2;  // so that its words are read where it is printed 150 to 190 points wide
-
-std::vector<Marker> markersOf(const ReadCase& read, const ScanRecord& scan)
-{
-    std::vector<Marker> markers = read.markers;
-    std::erase_if(markers, [&](const Marker& m) { return m.scan_id != scan.id; });
-    std::stable_sort(markers.begin(), markers.end(),
-                     [](const Marker& a, const Marker& b) { return a.station_mm < b.station_mm; });
-    return markers;
-}
 
 /// The markers with the numbers of their findings in place of their ids.
 std::vector<Marker> numbered(const ReadCase& read, std::vector<Marker> markers)
@@ -58,31 +49,9 @@ std::vector<Marker> numbered(const ReadCase& read, std::vector<Marker> markers)
     return markers;
 }
 
-bool hasColon(const fs::path& folder)
-{
-    return fs::exists(folder / "cells.vtp") && fs::exists(folder / "skeleton.vtp");
-}
-
 std::string labelOf(const ScanRecord& scan)
 {
     return positionName(scan.series.patient_position) + " (series " + std::to_string(scan.series.number) + ")";
-}
-
-/// What a picture says about its scan; the page says whose it is, and the heading of the picture which scan's.
-viewer::Caption captionOf(const ScanRecord& scan)
-{
-    return {.named = false, .lossy = scan.series.lossy};
-}
-
-SnapshotRequest requestFor(SnapshotRequest::View view, const ScanRecord& scan, int width, int height)
-{
-    SnapshotRequest request;
-    request.view = view;
-    request.caption = captionOf(scan);
-    request.width = width;
-    request.height = height;
-    request.lasting = false;
-    return request;
 }
 
 report::ScanEntry describeScan(CaseStore& store, const ScanRecord& scan)
@@ -104,23 +73,17 @@ report::ScanEntry describeScan(CaseStore& store, const ScanRecord& scan)
     return entry;
 }
 
-/// The scan's files; nothing where it is not prepared (now): its markers are told without pictures.
-std::optional<viewer::PreparedScan> openPrepared(const fs::path& folder)
-{
-    if (!hasColon(folder))
-        return {};
-    return viewer::PreparedScan::open(folder);
-}
-
 /// A scan's finding pictures. OpenGL's are drawn on the thread that asks, all others meanwhile on a second one.
 class FindingPictures {
 public:
-    FindingPictures(const viewer::PreparedScan& prepared, const ScanRecord& scan, const PictureFolder& folder,
+    FindingPictures(const ReadCase& read, const viewer::PreparedScan& prepared,
+                    std::unique_ptr<viewer::KnownSnapshots> sights, const ScanRecord& scan, const PictureFolder& folder,
                     const PicturesMade& made)
-        : prepared_(prepared), endoscopic_(prepared), scan_(scan), folder_(folder), made_(made)
+        : read_(read), prepared_(prepared), sights_(std::move(sights)), scan_(scan), folder_(folder), made_(made)
     {
     }
 
+    /// @param entries of all the scan's markers, by station
     /// @param each is told of every finding before it is drawn; what it throws ends the drawing
     void draw(const std::vector<report::MarkerEntry*>& entries, const std::function<void(const Marker&)>& each)
     {
@@ -131,9 +94,6 @@ public:
                 made_.marker(*entries[n]);
         };
         auto others = std::async(std::launch::async, [&] {
-            // What the endoscopic pictures need of it, while their driver starts.
-            prepared_.openness();
-            prepared_.bricks();
             for (std::size_t n = 0; n < entries.size() && !given_up; ++n) {
                 drawOthers(*entries[n]);
                 drawn(n);
@@ -142,7 +102,7 @@ public:
         try {
             for (std::size_t n = 0; n < entries.size(); ++n) {
                 each(entries[n]->marker);
-                drawEndoscopic(*entries[n]);
+                drawEndoscopic(*entries[n], n);
                 drawn(n);
             }
         } catch (...) {
@@ -153,34 +113,22 @@ public:
     }
 
 private:
-    SnapshotRequest requestFor(SnapshotRequest::View view, const Marker& marker, int width, int height) const
-    {
-        auto request = app::requestFor(view, scan_, width, height);
-        request.captioned = false;  // the page says it
-        request.pixel_ratio = kTextRatio;
-        request.look_at_mm = marker.position_mm;
-        request.station_mm = marker.station_mm;
-        request.markers = {marker};
-        return request;
-    }
-
-    void drawEndoscopic(report::MarkerEntry& entry)
+    void drawEndoscopic(report::MarkerEntry& entry, std::size_t place)
     {
         const Marker& marker = entry.marker;
-        auto request = requestFor(SnapshotRequest::View::endo, marker, kEndoscopicSide, kEndoscopicSide);
         entry.endoscopic_picture = folder_ / (marker.id + "-endo.png");
-        const viewer::SnapshotResult seen = endoscopic_.render(request, entry.endoscopic_picture);
+        const viewer::SnapshotResult seen = sights_->render(place, {marker}, {}, entry.endoscopic_picture);
         made_.picture(entry.endoscopic_picture);
         entry.seen_from = "towards " + viewer::sideName(seen.pose.forward) + ", " +
                           std::to_string(std::lround(distance(seen.pose.eye_mm, marker.position_mm))) + " mm away";
-        request.markers.clear();  // its ring would lie over what is seen in it
-        request.peel.preset = kBelowTheWall;
-        request.peel.options.offset_mm = kBelowDeep_mm;
-        request.peel.middle_only = true;
-        request.peel.coarse = kBelowCoarse;
-        request.peel.circle_px = kBelowRadius_px;
+        viewer::PeelRequest below;
+        below.preset = kBelowTheWall;
+        below.options.offset_mm = depthBelow_mm(read_, marker.id);
+        below.middle_only = true;
+        below.coarse = kBelowCoarse;
+        below.circle_px = kBelowRadius_px;
         entry.below_picture = folder_ / (marker.id + "-below.png");
-        endoscopic_.render(request, entry.below_picture);
+        sights_->render(place, {}, below, entry.below_picture);  // without a ring, which would lie over what is seen
         made_.picture(entry.below_picture);
     }
 
@@ -188,7 +136,7 @@ private:
     {
         const Marker& marker = entry.marker;
         entry.slices_picture = folder_ / (marker.id + "-slices.png");
-        const auto request = requestFor(SnapshotRequest::View::slices, marker, kSlicesWidth, kSlicesHeight);
+        const auto request = markerPicture(SnapshotRequest::View::slices, scan_, marker, kSlicesWidth, kSlicesHeight);
         viewer::renderSnapshot(prepared_, request, entry.slices_picture);
         made_.picture(entry.slices_picture);
         if (const auto measures =
@@ -199,8 +147,9 @@ private:
         }
     }
 
+    const ReadCase& read_;
     const viewer::PreparedScan& prepared_;
-    viewer::Snapshots endoscopic_;
+    const std::unique_ptr<viewer::KnownSnapshots> sights_;
     const ScanRecord& scan_;
     const PictureFolder& folder_;
     const PicturesMade& made_;
@@ -208,8 +157,17 @@ private:
 
 }  // namespace
 
-std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read, const PictureFolder& pictures,
-                                         Progress& progress, const PicturesMade& made)
+double depthBelow_mm(const ReadCase& read, const std::string& marker_id)
+{
+    double depth_mm = kBelowDeep_mm;
+    for (const auto& [finding, facts] : read.findings)
+        if (std::find(finding.markers.begin(), finding.markers.end(), marker_id) != finding.markers.end())
+            depth_mm = std::min(depth_mm, kBelowOfSize * facts.size_mm.value_or(depth_mm / kBelowOfSize));
+    return depth_mm;
+}
+
+std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read, ReportScans& scans,
+                                         const PictureFolder& pictures, Progress& progress, const PicturesMade& made)
 {
     const CaseRecord& record = read.record;
     std::vector<report::ScanEntry> entries;
@@ -219,19 +177,17 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read,
         progress.check();
         progress.report(0, "overview of " + scan.id);
         report::ScanEntry entry = describeScan(store, scan);
-        const fs::path folder = store.scanFolder(record.id, scan.id);
         if (const Organ organ = organOf(store, scan); !organ.isColon()) {
             entry.verdict = Verdict::found;
             entry.organ_title = organ.name();
             entry.reason = "not a colon, and no part of this report";
             entry.skeleton_length_mm = 0;
-        } else if (hasColon(folder)) {
-            auto request = requestFor(SnapshotRequest::View::overview, scan, kOverviewWidth, kOverviewHeight);
+        } else if (const viewer::PreparedScan* prepared = scans.find(scan.id)) {
+            auto request = reportPicture(SnapshotRequest::View::overview, scan, kOverviewWidth, kOverviewHeight);
             request.markers = numbered(read, markersOf(read, scan));
             request.pixel_ratio = kOverviewTextRatio;
-            request.captioned = false;  // the page says whose it is
             entry.overview_picture = pictures / (scan.id + "-overview.png");
-            viewer::renderSnapshot(viewer::PreparedScan::open(folder), request, entry.overview_picture);
+            viewer::renderSnapshot(*prepared, request, entry.overview_picture);
             made.picture(entry.overview_picture);
         }
         entries.push_back(std::move(entry));
@@ -240,14 +196,15 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read,
 }
 
 std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const ReadCase& read,
-                                             const std::vector<report::ScanEntry>& scans, const PictureFolder& pictures,
-                                             Progress& progress, const PicturesMade& made)
+                                             const std::vector<report::ScanEntry>& entries_of_scans, ReportScans& scans,
+                                             const PictureFolder& pictures, Progress& progress,
+                                             const PicturesMade& made)
 {
     std::vector<report::MarkerEntry> entries;
     entries.reserve(read.markers.size());
     std::set<std::string> told;
     double drawn = 0;
-    for (const report::ScanEntry& scan_entry : scans) {
+    for (const report::ScanEntry& scan_entry : entries_of_scans) {
         const ScanRecord& scan = scan_entry.scan;
         std::vector<report::MarkerEntry*> of_scan;
         const ColonPartRanges parts = partsOf(store, scan);
@@ -259,11 +216,12 @@ std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const ReadCase& r
         }
         if (of_scan.empty())
             continue;
-        if (const auto prepared = openPrepared(store.scanFolder(scan.case_id, scan.id)))
-            FindingPictures(*prepared, scan, pictures, made).draw(of_scan, [&](const Marker& marker) {
-                progress.check();
-                progress.report(drawn++ / double(read.markers.size()), "pictures of marker " + marker.id);
-            });
+        if (const viewer::PreparedScan* prepared = scans.find(scan.id))
+            FindingPictures(read, *prepared, scans.sights(scan.id), scan, pictures, made)
+                .draw(of_scan, [&](const Marker& marker) {
+                    progress.check();
+                    progress.report(drawn++ / double(read.markers.size()), "pictures of marker " + marker.id);
+                });
     }
     // A report never leaves a marker out, wherever its scan has gone.
     for (const Marker& marker : read.markers)

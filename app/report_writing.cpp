@@ -1,9 +1,11 @@
 #include "report_writing.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "peers.h"
 #include "report_pictures.h"
+#include "report_scans.h"
 #include "vicon/cases/outbox.h"
 #include "vicon/cases/report_files.h"
 #include "vicon/core/error.h"
@@ -26,11 +28,13 @@ std::vector<fs::path> filesOf(const report::MarkerEntry& entry)
     return files;
 }
 
-report::PdfResult drawReport(CaseStore& store, const Config& config, report::ReportContent& content,
-                             const PictureFolder& pictures, const fs::path& pdf, Progress& progress,
-                             report::PackedSights* packed = nullptr)
+/// Draws the content's pictures, and makes them ready for the PDF meanwhile.
+/// @param overviews_drawn what else the report takes is begun then: before, all cores make the first picture ready
+void drawPictures(
+    CaseStore& store, report::ReportContent& content, ReportScans& scans, const PictureFolder& pictures,
+    report::PrintPictures& printed, Progress& progress, report::PackedSights* packed = nullptr,
+    const std::function<void()>& overviews_drawn = [] {})
 {
-    report::PrintPictures printed;
     PicturesMade made{.picture = [&](const fs::path& file) { printed.begin(file); }};
     if (packed)
         made.marker = [&](const report::MarkerEntry& entry) {
@@ -38,9 +42,9 @@ report::PdfResult drawReport(CaseStore& store, const Config& config, report::Rep
             if (std::find(loose.begin(), loose.end(), entry.marker.id) == loose.end())
                 packed->begin(entry.marker.id, filesOf(entry));
         };
-    content.scans = drawScans(store, content.read, pictures, progress, made);
-    content.markers = drawMarkers(store, content.read, content.scans, pictures, progress, made);
-    return report::writePdf(content, pdf, config.get<report::ReportOptions>(), &printed);
+    content.scans = drawScans(store, content.read, scans, pictures, progress, made);
+    overviews_drawn();
+    content.markers = drawMarkers(store, content.read, content.scans, scans, pictures, progress, made);
 }
 
 }  // namespace
@@ -57,8 +61,12 @@ WrittenReport writeReport(CaseStore& store, const Config& config, const std::str
     content.number = store.nextNumber("report " + record.id);
     if (out.empty())
         out = reportFile(store, record.id, content.number);
+    const PictureFolder folder;
     const viewer::Display display;  // one for all pictures
-    const report::PdfResult written = drawReport(store, config, content, PictureFolder(), out, progress);
+    ReportScans scans(store, content.read);
+    report::PrintPictures printed;
+    drawPictures(store, content, scans, folder, printed, progress);
+    const report::PdfResult written = report::writePdf(content, out, config.get<report::ReportOptions>(), &printed);
     store.audit("report written", record.id, "", "number " + std::to_string(content.number));
     return {out, content.number, written.pages, content.markers.size(), written.warnings};
 }
@@ -135,15 +143,19 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
     content.created = draft.version.at;
     content.software_version = VICON_VERSION;
     content.version = draft.version;
-    const viewer::Display display;  // one for all pictures, before there are other threads
-    std::optional<report::ShownScans> scans;
-    if (sign)
-        scans.emplace(store, content.read, kinds);
     const PictureFolder folder;
     report::PackedSights packed;
+    const viewer::Display display;  // one for all pictures, before there are other threads
+    ReportScans scans(store, content.read);
+    std::optional<report::ShownScans> shown;
+    report::PrintPictures printed;
     const bool pictured = sign && std::find(kinds.begin(), kinds.end(), report::ObjectKind::picture) != kinds.end();
-    const report::PdfResult drawn =
-        drawReport(store, config, content, folder, folder / "report.pdf", progress, pictured ? &packed : nullptr);
+    drawPictures(store, content, scans, folder, printed, progress, pictured ? &packed : nullptr, [&] {
+        if (sign)
+            shown.emplace(store, content.read, kinds);
+    });
+    std::string pdf;
+    const report::PdfResult drawn = report::drawPdf(content, pdf, config.get<report::ReportOptions>(), &printed);
     if (drawn.unreadable_pictures > 0)
         throw Error(ErrorCode::store,
                     "a picture of the report could not be drawn (" + drawn.warnings.front() +
@@ -151,12 +163,11 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
                         "nothing was signed",
                     record.id, "see whether the disk is full, then try again");
     progress.check();
-    const std::string pdf = readFile(folder / "report.pdf");
     VersionObjects objects;
     if (sign) {
         const ReportVersion version = versionWith(store, record.id, draft, pdf);
         objects = objectsOf(
-            store, config, record.id, *scans,
+            store, config, record.id, *shown,
             {content.read, version, amendedBy(store, record.id, version), pdf, picturesOf(content), kinds, &packed},
             folder / "");
     }

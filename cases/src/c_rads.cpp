@@ -163,7 +163,7 @@ Proposal<ColonCategory> ofWeighed(const Weighed& w, const JudgedStudy& study)
     if (w.medium.size() >= kManyPolyps)
         return {c3, std::to_string(w.medium.size()) + " polyps of 6 to 9 mm: " + listed(w.medium, "; ") + but};
     if (!study.loose_markers.empty())
-        return {{}, "markers that belong to no finding: " + listed(study.loose_markers)};
+        return {{}, "markers not assigned to a finding: " + listed(study.loose_markers)};
     if (!incomplete.empty())
         return {c0, incomplete + (w.medium.empty() ? "" : "; found nevertheless: " + listed(w.medium, "; "))};
     if (!w.unsized.empty())

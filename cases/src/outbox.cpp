@@ -108,12 +108,19 @@ std::vector<OutboxItem> Outbox::claim(const std::string& owner, const OutboxFilt
     return claimed;
 }
 
+std::optional<OutboxItem> Outbox::findMine(soci::session& sql, const OutboxItem& item)
+{
+    auto there = findOutboxItem(sql, item.id);
+    if (!there || there->state != DeliveryState::sending || there->fence != item.fence)
+        return std::nullopt;
+    return there;
+}
+
 OutboxItem Outbox::requireMine(soci::session& sql, const OutboxItem& item)
 {
-    const auto there = findOutboxItem(sql, item.id);
-    if (!there || there->state != DeliveryState::sending || there->fence != item.fence)
-        throw Error(ErrorCode::lease_lost, "another sender has this object now", item.object.sop_uid);
-    return *there;
+    if (const auto mine = findMine(sql, item))
+        return *mine;
+    throw Error(ErrorCode::lease_lost, "another sender has this object now", item.object.sop_uid);
 }
 
 void Outbox::renew(const std::vector<OutboxItem>& items)
@@ -126,14 +133,25 @@ void Outbox::renew(const std::vector<OutboxItem>& items)
     });
 }
 
+void Outbox::settleAsStored(soci::session& sql, OutboxItem item)
+{
+    item.stored = true;
+    item.attempts = 0;
+    item.reason.clear();
+    settle(sql, item);
+}
+
 void Outbox::markStored(const OutboxItem& item)
 {
+    database_.write([&](soci::session& sql) { settleAsStored(sql, requireMine(sql, item)); });
+}
+
+void Outbox::markStored(const std::vector<OutboxItem>& items)
+{
     database_.write([&](soci::session& sql) {
-        OutboxItem mine = requireMine(sql, item);
-        mine.stored = true;
-        mine.attempts = 0;
-        mine.reason.clear();
-        settle(sql, mine);
+        for (const OutboxItem& item : items)
+            if (const auto mine = findMine(sql, item))
+                settleAsStored(sql, *mine);
     });
 }
 
@@ -168,8 +186,8 @@ std::vector<OutboxItem> Outbox::beginCommitment(const std::vector<OutboxItem>& i
     std::vector<OutboxItem> begun;
     database_.write([&](soci::session& sql) {
         for (const OutboxItem& item : items) {
-            auto there = findOutboxItem(sql, item.id);
-            if (!there || there->state != DeliveryState::sending || there->fence != item.fence || !there->stored)
+            auto there = findMine(sql, item);
+            if (!there || !there->stored)
                 continue;
             there->transaction_uid = transaction_uid;
             settle(sql, *there);
@@ -183,8 +201,8 @@ void Outbox::awaitCommitment(const std::vector<OutboxItem>& items)
 {
     database_.write([&](soci::session& sql) {
         for (const OutboxItem& item : items) {
-            auto there = findOutboxItem(sql, item.id);
-            if (!there || there->state != DeliveryState::sending || there->fence != item.fence)
+            auto there = findMine(sql, item);
+            if (!there)
                 continue;  // its answer came already
             ++there->attempts;
             there->state = DeliveryState::sent;

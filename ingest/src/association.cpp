@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "quick_connection.h"
 #include "tls_layer.h"
 #include "vicon/core/error.h"
 
@@ -55,9 +56,9 @@ void PeerScu::useNetwork(const Peer& peer)
         throw Error(ErrorCode::wrong_use, "this takes DICOM's own protocol", nameOf(peer),
                     "add host, port and ae_title to the peer");
     OFCondition ready = initNetwork();
-    if (ready.good() && peer.tls) {
-        layer_ = tlsLayerFor(peer);
-        ready = useSecureConnection(layer_.get());
+    if (ready.good()) {
+        layer_ = peer.tls ? tlsLayerFor(peer) : std::make_unique<QuickLayer>();
+        ready = useSecureConnection(layer_.get());  // by this layer, secure or not
     }
     if (ready.bad())
         peerFailed("the network cannot be used", peer, ready);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "association.h"
+#include "quick_connection.h"
 #include "vicon/core/error.h"
 
 namespace vicon::ingest {
@@ -39,7 +40,7 @@ public:
     DcmTransportConnection* createConnection(DcmNativeSocketType socket, OFBool) override
     {
         if (!session_)
-            return DcmTransportLayer::createConnection(socket, OFFalse);
+            return new QuickConnection(socket);
         return std::exchange(session_, nullptr)->release();
     }
 

@@ -24,6 +24,9 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
+/// What a peer took is written down so often: a transaction waits for the disk. After a kill it is sent once more.
+constexpr std::chrono::milliseconds kBetweenNotes(300);
+
 /// Peers that answer over the same association do so at once.
 constexpr double kAnswerWait_s = 1;
 
@@ -113,16 +116,32 @@ private:
         }
         if (files.empty())
             return;
-        storeFiles(peer, files, delivery_.our_ae_title, progress, [&](const StoreOutcome& outcome) {
-            renew();
-            note(*sent.at(outcome.file), outcome);
-        });
+        try {
+            storeFiles(peer, files, delivery_.our_ae_title, progress, [&](const StoreOutcome& outcome) {
+                renew();
+                note(*sent.at(outcome.file), outcome);
+            });
+        } catch (...) {
+            noteTaken();  // what was sent stands
+            throw;
+        }
+        noteTaken();
+    }
+
+    void noteTaken()
+    {
+        if (!taken_.empty())
+            outbox_.markStored(taken_);
+        taken_.clear();
+        noted_ = SteadyClock::now();
     }
 
     void note(const OutboxItem& item, const StoreOutcome& outcome)
     {
         if (outcome.taken) {
-            ifMine([&] { outbox_.markStored(item); });
+            taken_.push_back(item);
+            if (SteadyClock::now() - noted_ >= kBetweenNotes)
+                noteTaken();
         } else if (outcome.for_good) {
             refuse(item, outcome.reason);
         } else {
@@ -197,8 +216,9 @@ private:
     Outbox& outbox_;
     const Delivery& delivery_;
     std::vector<OutboxItem> items_;
-    std::vector<int> settled_;  ///< whose outcome is written down
-    SteadyClock::time_point renewed_ = SteadyClock::now();
+    std::vector<int> settled_;       ///< whose outcome is written down
+    std::vector<OutboxItem> taken_;  ///< by the peer, and not written down yet
+    SteadyClock::time_point renewed_ = SteadyClock::now(), noted_ = renewed_;
 };
 
 }  // namespace

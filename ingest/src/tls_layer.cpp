@@ -9,6 +9,7 @@
 
 #include <cstdio>
 
+#include "quick_connection.h"
 #include "vicon/core/error.h"
 
 namespace vicon::ingest {
@@ -56,7 +57,7 @@ public:
             SSL_free(ssl);
             return nullptr;
         }
-        return new DcmTLSConnection(socket, ssl);  // DCMTK's to delete
+        return new Acknowledging<DcmTLSConnection>(socket, ssl);  // DCMTK's to delete
     }
 
 private:

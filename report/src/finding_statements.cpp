@@ -183,10 +183,11 @@ std::string looseMarkersSaid(const std::vector<std::string>& ids)
 {
     if (ids.empty())
         return {};
-    std::string said = ids.size() == 1 ? "One marker was made no finding: " : "Markers that were made no finding: ";
+    std::string said =
+        ids.size() == 1 ? "One marker is not assigned to a finding: " : "Markers not assigned to a finding: ";
     for (const std::string& id : ids)
         said += (id == ids.front() ? "" : ", ") + id;
-    return said + ". What they show is told under \"Markers of no finding\".";
+    return said + ". What they show is told under \"Markers not assigned to a finding\".";
 }
 
 std::vector<Statement> categoryStatements(const ReadCase& read)

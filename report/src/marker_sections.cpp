@@ -50,7 +50,7 @@ void Sections::drawMarkers()
     if (markers.empty())
         return;
     const auto explained = flow_.type.lines(distancesExplained(), look::kSmall, flow_.width());
-    drawSection(flow_, "Markers of no finding", 8 * leadingOf(look::kBody));
+    drawSection(flow_, "Markers not assigned to a finding", 8 * leadingOf(look::kBody));
     flow_.paragraph(flow_.left(), flow_.width(), explained, look::kSmall, look::kMuted);
     flow_.skip(look::kGap / 2);
     drawMarkerTable(markers);

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,25 @@ constexpr std::uint8_t kPaethRow = 4;
 constexpr int kPngPredictor = 15;
 /// zlib's level for pictures.
 constexpr int kPictureLevel = 3;
+
+/// Slices are, but for what is drawn over them.
+bool isMostlyGrey(const Picture& picture)
+{
+    if (picture.channels < 3)
+        return true;
+    std::size_t grey = 0;
+    const auto step = std::size_t(picture.channels);
+    for (std::size_t n = 0; n + 2 < picture.pixels.size(); n += step)
+        grey += picture.pixels[n] == picture.pixels[n + 1] && picture.pixels[n] == picture.pixels[n + 2] ? 1U : 0U;
+    return 2 * step * grey > picture.pixels.size();
+}
+
+/// What is drawn in colours and shades repeats nothing but runs: looking for more takes twice the time, and ten
+/// endoscopic pictures became a tenth larger by it. Grey slices become half as large again without.
+int strategyFor(const Picture& picture)
+{
+    return isMostlyGrey(picture) ? Z_DEFAULT_STRATEGY : Z_RLE;
+}
 
 std::uint8_t paeth(int left, int above, int above_left)
 {
@@ -69,11 +89,19 @@ std::string hexUtf16(char32_t c)
 std::vector<std::uint8_t> packed(const Picture& picture)
 {
     const std::vector<std::uint8_t> rows = predicted(picture);
-    uLongf size = compressBound(uLong(rows.size()));
-    std::vector<std::uint8_t> out(size);
-    if (compress2(out.data(), &size, rows.data(), uLong(rows.size()), kPictureLevel) != Z_OK)
+    constexpr int kWindowBits = 15, kMemoryLevel = 9;
+    z_stream stream{};
+    if (deflateInit2(&stream, kPictureLevel, Z_DEFLATED, kWindowBits, kMemoryLevel, strategyFor(picture)) != Z_OK)
         throw Error(ErrorCode::no_memory, "there is not enough memory for the report");
-    out.resize(size);
+    const std::unique_ptr<z_stream, int (*)(z_stream*)> ended(&stream, deflateEnd);
+    std::vector<std::uint8_t> out(deflateBound(&stream, uLong(rows.size())));
+    stream.next_in = const_cast<Bytef*>(rows.data());
+    stream.avail_in = uInt(rows.size());
+    stream.next_out = out.data();
+    stream.avail_out = uInt(out.size());
+    if (deflate(&stream, Z_FINISH) != Z_STREAM_END)
+        throw Error(ErrorCode::internal, "a picture of the report cannot be compressed");
+    out.resize(stream.total_out);
     return out;
 }
 

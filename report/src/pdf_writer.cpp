@@ -38,8 +38,8 @@ std::string missingWords(char32_t c)
 
 }  // namespace
 
-PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pdf, const ReportOptions& options,
-                   const PrintPictures* begun)
+PdfResult drawPdf(const ReportContent& content, std::string& pdf, const ReportOptions& options,
+                  const PrintPictures* begun)
 {
     text::FontSet fonts({options.font_folder}, text::FontSet::Medium::paper);
     if (!fonts.find(U'A'))
@@ -63,7 +63,16 @@ PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pd
                      .pages = document.pages()};
     for (const char32_t c : typesetter.missing())
         result.warnings.push_back(missingWords(c));
-    replaceFile(pdf, document.finish());
+    pdf = document.finish();
+    return result;
+}
+
+PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pdf, const ReportOptions& options,
+                   const PrintPictures* begun)
+{
+    std::string bytes;
+    PdfResult result = drawPdf(content, bytes, options, begun);
+    replaceFile(pdf, bytes);
     return result;
 }
 

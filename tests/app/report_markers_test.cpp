@@ -10,6 +10,7 @@
 #include "command.h"
 #include "dicom_writer.h"
 #include "report_folder.h"
+#include "report_pictures.h"
 #include "report_writing.h"
 #include "study.h"
 #include "vicon/core/file.h"
@@ -42,6 +43,22 @@ TEST_P(ReportOfAMarkedCase, NeverDeniesTheMarker)
     EXPECT_NE(text.find("Marker m1"), std::string::npos) << text;
     EXPECT_NE(text.find("polyp in the sigmoid"), std::string::npos) << text;
     EXPECT_EQ(text.find("No markers"), std::string::npos) << text;
+}
+
+TEST(LookBelowTheWall, EndsHalfwayToTheMiddleOfASmallFinding)
+{
+    ReadCase read;
+    for (const auto& [id, size_mm] : {std::pair{"m1", 5.0}, {"m2", 8.0}, {"m3", 30.0}}) {
+        FindingWithFacts& added = read.findings.emplace_back();
+        added.finding.markers = {id};
+        added.facts.size_mm = size_mm;
+    }
+    read.findings.emplace_back().finding.markers = {"m4"};
+    EXPECT_DOUBLE_EQ(app::depthBelow_mm(read, "m1"), 1.25);
+    for (const char* id : {"m2", "m3"})
+        EXPECT_DOUBLE_EQ(app::depthBelow_mm(read, id), 2) << id;
+    for (const char* id : {"m4", "m5"})
+        EXPECT_DOUBLE_EQ(app::depthBelow_mm(read, id), 2) << id << ", of no known size";
 }
 
 TEST(PictureFolder, OfAKilledCommandGoesWithTheNextOneAndThatOfARunningOneStays)

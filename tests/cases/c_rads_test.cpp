@@ -89,7 +89,7 @@ std::vector<ColonCase> casesOfC1()
          "house: nothing is denied",
          {.loose_markers = {"m3"}},
          "",
-         "markers that belong to no finding: m3"},
+         "markers not assigned to a finding: m3"},
         {"a marker of no finding beside a large polyp",
          "house: nothing is denied",
          {.findings = polyps({12}), .loose_markers = {"m3"}},

@@ -225,6 +225,21 @@ TEST_F(OutboxRows, TakesOverFromASenderThatDiedAndRefusesItAfterwards)
     EXPECT_TRUE(outbox_.beginCommitment(lost, "2.25.1").empty());
 }
 
+TEST_F(OutboxRows, OfAllThatAPeerTookWhatIsStillTheSendersIsMarked)
+{
+    queue({"1.1", "1.2", "1.3"});
+    const auto claimed = outbox_.claim("a");
+    outbox_.drop(claimed.at(1).id);
+    outbox_.markStored(claimed);
+    EXPECT_TRUE(item(claimed.at(0).id).stored);
+    EXPECT_TRUE(item(claimed.at(2).id).stored);
+    now_ += options_.lease_s + 1;
+    outbox_.claim("b");
+    outbox_.postpone(outbox_.items().at(0), "the peer lost it");
+    outbox_.markStored(claimed);
+    EXPECT_EQ(item(claimed.at(0).id).attempts, 1) << "another sender's word stands";
+}
+
 TEST_F(OutboxRows, ARenewedLeaseLives)
 {
     queue({"1.1"});

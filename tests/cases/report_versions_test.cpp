@@ -69,7 +69,7 @@ TEST_F(ReportVersions, AreSignedWhenNothingIsMissing)
     other.extracolonic_category = {ExtracolonicCategory::e1, ""};
     saveAssessment(store_, "c1", {}, other);
     EXPECT_THAT(messageOf([&] { sign(); }),
-                HasSubstr("nothing can be proposed (markers that belong to no finding: m3)"));
+                HasSubstr("nothing can be proposed (markers not assigned to a finding: m3)"));
     store_.removeMarker("c1", "m3");
     EXPECT_THAT(messageOf([&] { sign(); }), HasSubstr("C1 was chosen where C2a is proposed"));
     EXPECT_THROW(requireReasons(readCase(store_, "c1")), Error);

@@ -121,13 +121,14 @@ TEST_F(PdfOfFindings, SaysEveryNumberOfAFinding)
 TEST_F(PdfOfFindings, ListsMarkersOfNoFindingAsSuch)
 {
     addFindings(1);
-    EXPECT_THAT((write(), samples::textOf(pdf_)), Not(HasSubstr("Markers of no finding")));
+    EXPECT_THAT((write(), samples::textOf(pdf_)), Not(HasSubstr("Markers not assigned to a finding")));
     addMarkers(3);
     content_.markers.erase(content_.markers.begin() + 2, content_.markers.begin() + 4);  // m1 and m2 again
     content_.read.loose_markers = {"m3"};
     expectWellMade(write());
     const std::string text = samples::textOf(pdf_);
-    EXPECT_THAT(text, AllOf(HasSubstr("Markers of no finding"), HasSubstr("Marker m3,"), Not(HasSubstr("Marker m1,"))));
+    EXPECT_THAT(text, AllOf(HasSubstr("Markers not assigned to a finding"), HasSubstr("Marker m3,"),
+                            Not(HasSubstr("Marker m1,"))));
 }
 
 TEST_F(PdfOfFindings, ShowsOnlyThePicturesThatTheReaderChose)

@@ -83,7 +83,7 @@ TEST_F(PdfWriter, MarkersOfNoFindingAreNeverDenied)
     content_.read.loose_markers = {"m1", "m2"};
     write();
     const std::string text = samples::textOf(pdf_);
-    EXPECT_THAT(text, HasSubstr("Markers that were made no finding: m1, m2."));
+    EXPECT_THAT(text, HasSubstr("Markers not assigned to a finding: m1, m2."));
     EXPECT_THAT(text, Not(HasSubstr("No findings were stated")));
 }
 

@@ -24,6 +24,11 @@ Position stepOf(const Grid& grid, Vector3 step_mm)
             dot(step_mm, grid.axis[2]) / grid.spacing_mm[2]};
 }
 
+Position along(const Position& start, const Position& step, int steps)
+{
+    return {start[0] + step[0] * steps, start[1] + step[1] * steps, start[2] + step[2] * steps};
+}
+
 /// The columns whose places lie in a box, for a row from `start` with `step`: [first, second).
 std::pair<int, int> columnsIn(const Position& start, const Position& step, int columns, const Position& least,
                               const Position& most)
@@ -120,7 +125,7 @@ LumenOnPlanes::Run LumenOnPlanes::runAt(const Position& at, const Position& step
     const Block kind = blocks_[std::size_t(block[0]) +
                                std::size_t(block_count_[0]) *
                                    (std::size_t(block[1]) + std::size_t(block_count_[1]) * std::size_t(block[2]))];
-    return {kind, kind == Block::border ? 1 : 1 + std::max(0, int(columns))};
+    return {kind, 1 + std::max(0, int(columns))};
 }
 
 bool LumenOnPlanes::holds(const Position& at) const
@@ -150,18 +155,18 @@ std::vector<std::uint8_t> LumenOnPlanes::on(const ImagePlane& plane) const
         const Position start = positionOf(grid, plane.origin_mm + plane.along_column * (plane.row_step_mm * row));
         const auto [from, to] = columnsIn(start, column_step, plane.columns, least_, most_);
         for (int column = from; column < to;) {
-            Position at = start;
-            for (std::size_t a = 0; a < 3; ++a)
-                at[a] += column_step[a] * column;
-            const auto [block, columns] = runAt(at, column_step);
+            const auto [block, columns] = runAt(along(start, column_step, column), column_step);
             const int first = column;
             column = std::min(to, column + columns);
-            if (block == Block::outside || (block == Block::border && !holds(at)))
+            if (block == Block::outside)
                 continue;
-            if (mask.empty())
-                mask.resize(std::size_t(plane.rows) * std::size_t(plane.columns));
-            const auto pixels = mask.begin() + std::ptrdiff_t(row) * plane.columns;
-            std::fill(pixels + first, pixels + column, std::uint8_t(1));
+            for (int n = first; n < column; ++n) {
+                if (block == Block::border && !holds(along(start, column_step, n)))
+                    continue;
+                if (mask.empty())
+                    mask.resize(std::size_t(plane.rows) * std::size_t(plane.columns));
+                mask[std::size_t(row) * std::size_t(plane.columns) + std::size_t(n)] = 1;
+            }
         }
     }
     return mask;

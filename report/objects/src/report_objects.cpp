@@ -23,6 +23,15 @@ std::vector<ReportObject> writeSights(const ObjectContent& content, const Marker
     return objects;
 }
 
+std::vector<ReportObject> writeLumens(const ObjectContent& content, const ShownScans::Parts& shown,
+                                      const std::filesystem::path& folder)
+{
+    std::vector<ReportObject> objects;
+    for (const auto& [scan_id, lumen] : shown.lumens)
+        objects.push_back(writeLumen(content, scan_id, *lumen, folder));
+    return objects;
+}
+
 }  // namespace
 
 ObjectKind objectKindNamed(const std::string& name)
@@ -41,21 +50,24 @@ std::vector<ReportObject> writeReportObjects(ShownScans& scans, const ObjectCont
     const auto wanted = [&](ObjectKind kind) {
         return std::find(content.kinds.begin(), content.kinds.end(), kind) != content.kinds.end();
     };
+    using Objects = std::vector<ReportObject>;
     auto pictures = std::async(std::launch::async, [&] {
-        return wanted(ObjectKind::picture) ? writeSights(content, shown.findings, folder) : std::vector<ReportObject>{};
+        return wanted(ObjectKind::picture) ? writeSights(content, shown.findings, folder) : Objects{};
     });
-    std::vector<ReportObject> objects;
+    auto lumens = std::async(std::launch::async, [&] {
+        return wanted(ObjectKind::lumen) ? writeLumens(content, shown, folder) : Objects{};
+    });
+    Objects objects;
     if (wanted(ObjectKind::pdf))
         objects.push_back(writeEncapsulatedPdf(content, folder));
     if (wanted(ObjectKind::measurements))
         objects.push_back(writeMeasurementReport(content, shown.findings, shown.centrelines, folder));
     if (wanted(ObjectKind::key_images) && !shown.findings.empty())
         objects.push_back(writeKeyImages(content, shown.findings, folder));
-    if (wanted(ObjectKind::lumen))
-        for (const auto& [scan_id, lumen] : shown.lumens)
-            objects.push_back(writeLumen(content, scan_id, *lumen, folder));
-    const std::vector<ReportObject> drawn = pictures.get();
-    objects.insert(objects.end(), drawn.begin(), drawn.end());
+    for (auto* more : {&lumens, &pictures}) {
+        const Objects made = more->get();
+        objects.insert(objects.end(), made.begin(), made.end());
+    }
     return objects;
 }
 

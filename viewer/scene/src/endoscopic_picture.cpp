@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "pictures.h"
+#include "vicon/core/error.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/orientation.h"
 #include "vicon/viewer/scene/cube_picture.h"
@@ -135,15 +136,31 @@ EndoscopicPictures::EndoscopicPictures(PreparedScan scan)
 {
 }
 
+EndoscopicPictures::EndoscopicPictures(PreparedScan scan, std::shared_ptr<const SeenSurface> seen)
+    : scan_(std::move(scan)), seen_(std::move(seen)), scene_(seen_->cells), offscreen_(scene_.renderer())
+{
+}
+
+void EndoscopicPictures::chooseCells(const Pose& pose, const Lens& lens)
+{
+    if (!seen_)
+        return;
+    const SeenSurface::From* place = seen_->from(pose, lens);
+    if (!place)
+        throw Error(ErrorCode::internal, "a picture was asked for from a place that was not prepared");
+    scene_.showOnly(place->segments);
+}
+
 const Picture& EndoscopicPictures::wall(const SnapshotRequest& request, const SnapshotResult& place)
 {
     const Lens lens{request.view_angle_deg, request.width, request.height};
     if (last_ && last_->pose == place.pose && last_->lens == lens && last_->occluded == request.ambient_occlusion)
         return last_->picture;
+    chooseCells(place.pose, lens);
     scene_.lookFrom(place.pose, request.view_angle_deg);
     scene_.setLampReach(lampReachAt_mm(scan_.frames(), place.station_mm));
     if (request.ambient_occlusion && !occluded_)
-        scene_.shadeByOpenness(scan_.cells(), scan_.openness());
+        scene_.shadeByOpenness(seen_ ? seen_->cells : scan_.cells(), seen_ ? seen_->openness : scan_.openness());
     if (!request.ambient_occlusion && occluded_)
         scene_.shadeEvenly();
     occluded_ = request.ambient_occlusion;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "seen_surface.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/offscreen.h"
 #include "vicon/viewer/scene/snapshot.h"
@@ -34,12 +35,15 @@ void castWall(Picture& picture, const PreparedScan& scan, const SnapshotRequest&
 class EndoscopicPictures {
 public:
     explicit EndoscopicPictures(PreparedScan scan);
+    /// Only for pictures from the places that `seen` was made for.
+    EndoscopicPictures(PreparedScan scan, std::shared_ptr<const SeenSurface> seen);
     Picture draw(const SnapshotRequest& request, const SnapshotResult& place);
     /// The six faces around the eye.
     Picture drawCube(const SnapshotRequest& request, const SnapshotResult& place);
 
 private:
     const Picture& wall(const SnapshotRequest& request, const SnapshotResult& place);
+    void chooseCells(const Pose& pose, const Lens& lens);
 
     /// The wall as it was drawn last: what is laid over it changes more often.
     struct Drawn {
@@ -50,6 +54,7 @@ private:
     };
 
     PreparedScan scan_;
+    std::shared_ptr<const SeenSurface> seen_;  ///< nothing: all of the surface is drawn
     SurfaceScene scene_;
     Offscreen offscreen_;
     bool occluded_ = false;  ///< the scene shades with ambient occlusion

@@ -107,6 +107,8 @@ public:
 
     // Outcomes. Throw Error{lease_lost} when another sender has the item, or a person changed it.
     void markStored(const OutboxItem& item);
+    /// Those of them that are still this sender's; at once, as each transaction waits for the disk.
+    void markStored(const std::vector<OutboxItem>& items);
     void refuse(const OutboxItem& item, const std::string& reason);
     /// Gives the item back to be tried again after a while, longer each time, as often as it takes.
     void postpone(const OutboxItem& item, const std::string& reason);
@@ -142,7 +144,10 @@ public:
 private:
     double nowIn(soci::session& sql) const;
     void dropLost(soci::session& sql);
-    OutboxItem requireMine(soci::session& sql, const OutboxItem& item);
+    /// As it is now; nothing where another sender has it.
+    static std::optional<OutboxItem> findMine(soci::session& sql, const OutboxItem& item);
+    static OutboxItem requireMine(soci::session& sql, const OutboxItem& item);
+    void settleAsStored(soci::session& sql, OutboxItem item);
     void settle(soci::session& sql, const OutboxItem& item);
     void settleAsPostponed(soci::session& sql, OutboxItem item, const std::string& reason);
 

@@ -23,5 +23,8 @@ struct PdfResult {
 /// @param begun pictures that are being made ready already; they make it quicker and change nothing
 PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pdf, const ReportOptions& options,
                    const PrintPictures* begun = nullptr);
+/// The same into memory: `pdf` becomes what would be written.
+PdfResult drawPdf(const ReportContent& content, std::string& pdf, const ReportOptions& options,
+                  const PrintPictures* begun = nullptr);
 
 }  // namespace vicon::report

@@ -223,7 +223,7 @@ void FindingsPart::show(const ReadCase& read)
     QStringList loose;
     for (const std::string& id : read_.loose_markers)
         loose << words(id);
-    loose_->setText(tr("Markers that belong to no finding: %1").arg(loose.join(", ")));
+    loose_->setText(tr("Markers not assigned to a finding: %1").arg(loose.join(", ")));
     loose_->setVisible(!loose.empty());
     filling_ = false;
     showChosen();
