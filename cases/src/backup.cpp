@@ -2,6 +2,7 @@
 
 #include <soci/soci.h>
 
+#include <cstring>
 #include <map>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "vicon/cases/report_versions.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/file_copy.h"
 
 namespace fs = std::filesystem;
 
@@ -125,14 +127,21 @@ void requireDatabaseOf(const fs::path& backup, const std::string& address)
                     address.empty() ? "set store.database to the address of an empty one" : "take store.database away");
 }
 
+void copyDatabase(const fs::path& from, const fs::path& folder)
+{
+    if (const int number = copyBytes(from, folder / from.filename()); number != 0)
+        throw Error(ErrorCode::store, std::string("the database cannot be copied (") + std::strerror(number) + ")",
+                    folder.string(), "see that the folder is yours and its disk not full, then restore again");
+}
+
 void restoreDatabase(const fs::path& backup, const StorePlace& place)
 {
     const fs::path file = backup / backupNameOf(place.database);
     if (place.database.empty()) {
-        fs::copy_file(file, place.folder / file.filename());
+        copyDatabase(file, place.folder);
         return;
     }
-    fs::copy_file(backup / kServersDatabase, place.folder / kServersDatabase);
+    copyDatabase(backup / kServersDatabase, place.folder);
     restoreServersDatabase(place.database, file);
 }
 

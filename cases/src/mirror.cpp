@@ -10,6 +10,7 @@
 
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/file_copy.h"
 
 namespace fs = std::filesystem;
 
@@ -47,11 +48,11 @@ void copyFile(const fs::path& from, const fs::path& to, Copied& copied)
     const auto time = fs::last_write_time(from, trouble);
     if (trouble == std::errc::no_such_file_or_directory)
         return;
-    fs::copy_file(from, temporary, fs::copy_options::overwrite_existing, trouble);
-    if (trouble == std::errc::no_such_file_or_directory && !fs::exists(from))
+    const int number = copyBytes(from, temporary);
+    if (number == ENOENT && !fs::exists(from))
         return;
-    if (trouble)
-        throw failure("a file cannot be copied", to, trouble.value());
+    if (number != 0)
+        throw failure("a file cannot be copied", to, number);
     fs::last_write_time(temporary, time, trouble);
     if (trouble || ::chmod(temporary.c_str(), kPrivateFile) != 0 || ::rename(temporary.c_str(), to.c_str()) != 0)
         throw failure("a file cannot be copied", to, trouble ? trouble.value() : errno);

@@ -130,7 +130,8 @@ std::string labelOf(const PriorReport& report, const PriorFinding& finding)
     std::array<char, 32> size{};
     if (finding.size_mm)
         std::snprintf(size.data(), size.size(), " %.1f mm", *finding.size_mm);
-    const std::string when = report.when().empty() ? "earlier" : report.when().substr(0, kYear);
+    const bool dated = printedDate(report.when()) != report.when();
+    const std::string when = dated ? report.when().substr(0, kYear) : "earlier";
     return when + ": " + (finding.kind ? nameOf(*finding.kind) : finding.what) + size.data();
 }
 

@@ -74,4 +74,13 @@ std::string printable(std::string_view text)
     return out;
 }
 
+std::string shortened(const std::string& text, int most_characters)
+{
+    int characters = 0;
+    for (std::size_t n = 0; n < text.size(); ++n)
+        if (const bool begins = (std::uint8_t(text[n]) & 0xC0U) != 0x80U; begins && characters++ == most_characters)
+            return text.substr(0, n) + "...";
+    return text;
+}
+
 }  // namespace vicon

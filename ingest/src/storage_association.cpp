@@ -167,13 +167,22 @@ OFCondition StorageAssociation::receive(T_DIMSE_C_StoreRQ& request, T_ASC_Presen
             received = receiveSTORERequest(request, context, OFString(temporary.c_str()));
             if (received.bad())
                 throw NotReceived{};
-            if (fault = faultOf(temporary, request); fault.status != STATUS_Success)
-                throw Faulty{};
+            fault = faultOf(temporary, request);
+            if (fault.status == STATUS_Success)
+                return;
+            if (const std::string why = whyNoPlace(); !why.empty())  // its end may be missing for that
+                fault = {kOutOfResources, why};
+            throw Faulty{};
         });
         service_.incoming.add(folder_, file);
         ++count_;
     } catch (const NotReceived&) {
-        service_.incoming.trouble("an object of " + sender() + " was not received completely: " + received.text());
+        if (received == DIMSE_OUTOFRESOURCES) {  // all of it came, but not all could be written
+            received = EC_Normal;
+            status = kOutOfResources;
+            service_.incoming.trouble("an object of " + sender() + " was refused: it has no room on the store's disk");
+        } else
+            service_.incoming.trouble("an object of " + sender() + " was not received completely: " + received.text());
     } catch (const Faulty&) {
         status = fault.status;
         service_.incoming.trouble("an object of " + sender() + " was refused: " + fault.why);

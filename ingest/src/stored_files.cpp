@@ -12,6 +12,7 @@
 #include <mutex>
 
 #include "vicon/core/file.h"
+#include "vicon/core/file_copy.h"
 
 namespace fs = std::filesystem;
 
@@ -50,9 +51,8 @@ void flush(const fs::path& path, int flags)
 
 void copyPrivately(const fs::path& from, const fs::path& to)
 {
-    std::error_code trouble;
-    if (!fs::copy_file(from, to, fs::copy_options::overwrite_existing, trouble))
-        throw notCopied(from, to, trouble.value());
+    if (const int number = copyBytes(from, to); number != 0)
+        throw notCopied(from, to, number);
     if (::chmod(to.c_str(), 0600) != 0)
         failed("cannot be made private", to, errno);
     flush(to, O_RDONLY);

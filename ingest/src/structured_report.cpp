@@ -7,6 +7,7 @@
 #include "helper.h"
 #include "structure_scan.h"
 #include "vicon/core/error.h"
+#include "vicon/core/printable.h"
 #include "vicon/dicom/dicom_setup.h"
 
 namespace vicon::ingest {
@@ -14,12 +15,16 @@ namespace {
 
 /// A centreline has some thousands of points, a report some hundreds of items.
 constexpr std::size_t kMostItems = 20'000, kMostPoints = 200'000;
+/// Of what could not be read; a report that says something else each time is none.
+constexpr std::size_t kMostLines = 12;
+constexpr int kLongestName = 64;        ///< of a concept, characters, as DICOM has it (LO)
+constexpr double kLargestNumber = 1e9;  ///< whatever its unit, a larger one was not measured
 
 /// Once a line, whatever the number of items that it is about.
 void addOnce(std::vector<std::string>& lines, const std::string& line)
 {
-    if (std::find(lines.begin(), lines.end(), line) == lines.end())
-        lines.push_back(line);
+    if (lines.size() < kMostLines && std::find(lines.begin(), lines.end(), line) == lines.end())
+        lines.push_back(lines.size() + 1 < kMostLines ? line : "and more");
 }
 
 CodedConcept conceptFrom(const Dataset& holder, const DcmTagKey& sequence)
@@ -31,7 +36,7 @@ CodedConcept conceptFrom(const Dataset& holder, const DcmTagKey& sequence)
     for (const DcmTagKey& longer : {DCM_LongCodeValue, DCM_URNCodeValue})
         if (value.empty())
             value = code->text(longer);
-    return {value, code->text(DCM_CodingSchemeDesignator), code->text(DCM_CodeMeaning)};
+    return {value, code->text(DCM_CodingSchemeDesignator), shortened(code->text(DCM_CodeMeaning), kLongestName)};
 }
 
 /// Reads the tree, as deep as structure_scan.h lets a file nest.
@@ -83,7 +88,7 @@ private:
         else if (item.type == "SCOORD3D")
             readPoints(from, item);
         else if (item.type != "CONTAINER")
-            addOnce(not_read_, "items of type " + (item.type.empty() ? "none" : item.type));
+            addOnce(not_read_, "items of type " + (item.type.empty() ? "none" : shortened(item.type, kLongestName)));
     }
 
     void readNumber(const Dataset& from, ContentItem& item)
@@ -95,6 +100,8 @@ private:
         item.number = measured->number(DCM_FloatingPointValue);
         if (!item.number)
             item.number = measured->number(DCM_NumericValue);
+        if (item.number && std::abs(*item.number) > kLargestNumber)
+            item.number.reset();
         if (!item.number)
             addOnce(not_read_, "a number that is none: " + item.name.meaning);
     }
@@ -145,8 +152,8 @@ void readHeader(const Dataset& d, ContentDocument& document)
     study.accession_number = d.text(DCM_AccessionNumber);
     study.referring_physician = d.personName(DCM_ReferringPhysicianName);
     study.institution = d.text(DCM_InstitutionName);
-    const std::string model = d.text(DCM_ManufacturerModelName);
-    document.maker = d.text(DCM_Manufacturer);
+    const std::string model = shortened(d.text(DCM_ManufacturerModelName), kLongestName);
+    document.maker = shortened(d.text(DCM_Manufacturer), kLongestName);
     if (!model.empty() && model != document.maker)
         document.maker += (document.maker.empty() ? "" : " ") + model;
     document.date = d.text(DCM_ContentDate);
@@ -194,7 +201,8 @@ ContentDocument readStructuredReport(const std::filesystem::path& file)
     if (document.sop_uid.empty() || document.study.uid.empty())
         throw Error(ErrorCode::bad_input, "a structured report that does not say which it is, or of which study");
     document.root = TreeReader(document.not_read).read(d);
-    document.evidence = objectsOf(d, DCM_CurrentRequestedProcedureEvidenceSequence);
+    for (const auto& [uid, series] : objectsOf(d, DCM_CurrentRequestedProcedureEvidenceSequence))
+        document.evidence[uid] = series;
     for (const auto& [uid, series] : objectsOf(d, DCM_PredecessorDocumentsSequence))
         document.replaces.push_back(uid);
     return document;

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdio>
 #include <fstream>
+#include <string_view>
 
 #include "vicon/core/error.h"
 
@@ -45,6 +46,27 @@ std::string rawHeader(const Grid& grid, const std::string& type)
     const std::size_t least = first.size() + 1 + lines.size();
     const std::size_t missing = (kVoxelAlignment - least % kVoxelAlignment) % kVoxelAlignment;
     return first + std::string(missing, '.') + "\n" + lines;
+}
+
+bool saysThreeDimensions(const fs::path& file)
+{
+    constexpr std::size_t kLongestHeader = 65536;
+    constexpr std::string_view kCount = "NDims", kBetween = " \t=:", kEnds = " \t\r\n";
+    std::string head(kLongestHeader, '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(head.data(), std::streamsize(head.size()));
+    head.resize(std::size_t(in.gcount()));
+    const std::size_t end = head.find("ElementDataFile");
+    if (end == std::string::npos)
+        return false;
+    bool said = false;
+    for (std::size_t at = head.find(kCount); at < end; at = head.find(kCount, at + 1)) {
+        const std::size_t number = head.find_first_not_of(kBetween, at + kCount.size());
+        if (number >= end - 1 || head[number] != '3' || kEnds.find(head[number + 1]) == std::string_view::npos)
+            return false;
+        said = true;
+    }
+    return said;
 }
 
 VoxelBytes voxelBytesIn(const fs::path& file, std::size_t raw_bytes)

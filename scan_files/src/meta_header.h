@@ -14,6 +14,10 @@ constexpr std::size_t kVoxelAlignment = 64;
 /// @param type the format's name of the voxel type, "MET_SHORT"
 std::string rawHeader(const Grid& grid, const std::string& type);
 
+/// Whether a file has a header that says three dimensions wherever it says how many. MetaIO does not ask whether it
+/// can be: it reads two thousand million numbers of a line where it is told so.
+bool saysThreeDimensions(const std::filesystem::path& file);
+
 /// Where the voxels of such a file lie.
 struct VoxelBytes {
     std::size_t begin = 0;

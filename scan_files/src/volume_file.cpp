@@ -45,6 +45,9 @@ itk::MetaImageIO::Pointer openHeader(const fs::path& file)
 {
     if (!fs::exists(file))
         throw Error(ErrorCode::not_found, "no such file", file.string(), "run 'vicon work' to make it");
+    if (!saysThreeDimensions(file))
+        throw Error(ErrorCode::bad_input, "not a MetaImage file of three dimensions", file.string(),
+                    "run 'vicon work' to make it anew");
     auto io = newImageIO();
     try {
         io->SetFileName(file.string());

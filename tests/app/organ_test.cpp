@@ -16,10 +16,11 @@ void prepare(const TemporaryFolder& folder, const std::string& organ, const std:
     const auto made =
         runVicon("phantom " + (folder / "study").string() + " --organ " + organ + " --seed 21 --size " + size);
     ASSERT_EQ(made.exit_code, 0) << made.output;
-    EXPECT_TRUE(std::filesystem::exists(folder / "study" / ("truth-" + organ + ".json")));
+    EXPECT_EQ(schemaFaults("organ_truth", {folder / "study" / ("truth-" + organ + ".json")}), "");
     viconOn(folder / "store", "import " + (folder / "study").string());
     EXPECT_THAT(viconOn(folder / "store", "work --until-idle --organ " + organ),
                 HasSubstr("1 done, 0 failed, 0 waiting"));
+    EXPECT_EQ(schemaFaults("organ", {listedScans(folder / "store").at(0).folder / "organ.json"}), "");
 }
 
 TEST(OrganOfTheCommand, AnAirwayGoesThroughTheStepsAndIsFlownThrough)

@@ -5,6 +5,7 @@
 
 #include "study.h"
 #include "vicon/core/file.h"
+#include "vicon/support/small_disk.h"
 
 namespace fs = std::filesystem;
 
@@ -17,6 +18,7 @@ using testing::HasSubstr;
 class SignTrouble : public testing::Test {
 protected:
     TemporaryFolder folder_;
+    const SmallDisk disk_{folder_.path(), 400};
     const fs::path store_ = folder_ / "store", config_ = folder_ / "c.toml";
     ListedScan scan_;
     json before_;
@@ -81,6 +83,21 @@ TEST_F(SignTrouble, SignsNothingWhereFilesCannotGrowFontsAreMissingOrAPictureCan
     fs::rename(volume, folder_ / "volume.mha");
     expectUnsigned(sign(), "volume.mha");
     fs::rename(folder_ / "volume.mha", volume);
+    expectSigned();
+}
+
+TEST_F(SignTrouble, SignsNothingOnAFullDisk)
+{
+    VICON_NEEDS_DISK(disk_);
+    for (const int left_kb : {0, 64, 300, 1000}) {
+        SCOPED_TRACE(left_kb);
+        disk_.fill(std::uintmax_t(left_kb) * 1024);
+        const CommandResult result = sign();
+        disk_.clear();
+        EXPECT_EQ(linesWithoutProgress(result.output).size(), 1u) << result.output;
+        EXPECT_THAT(result.output, testing::AnyOf(HasSubstr("No space left on device"), HasSubstr("full")));
+        expectUnsigned(result, "");
+    }
     expectSigned();
 }
 

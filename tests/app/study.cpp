@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -94,6 +95,17 @@ std::vector<ListedScan> listedScans(const fs::path& store)
             if (s["state"] != "kept")
                 scans.push_back({c["id"], s["id"], s["position"], s["state"], s["folder"].get<std::string>()});
     return scans;
+}
+
+std::vector<std::string> linesWithoutProgress(const std::string& output)
+{
+    static const std::regex progress("[^ ]+: +[0-9]+ % .*");
+    std::vector<std::string> lines;
+    std::istringstream said(output);
+    for (std::string line; std::getline(said, line);)
+        if (!std::regex_match(line, progress))
+            lines.push_back(line);
+    return lines;
 }
 
 std::map<std::string, std::string> filesOf(const fs::path& store)

@@ -28,6 +28,9 @@ struct ListedScan {
 };
 std::vector<ListedScan> listedScans(const std::filesystem::path& store);
 
+/// What a command printed, a line each, without those that tell how far it is.
+std::vector<std::string> linesWithoutProgress(const std::string& output);
+
 /// Every file of a store: path below STORE/cases to content, recorded times removed; dicom/ included.
 std::map<std::string, std::string> filesOf(const std::filesystem::path& store);
 

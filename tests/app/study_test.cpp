@@ -303,15 +303,21 @@ TEST_F(Study, WritesJsonAsItsSchemasSay)
     EXPECT_EQ(schemaFaults("show", {show}), "");
     EXPECT_THAT(schemaFaults("cases", {show}), HasSubstr("'cases' is a required property")) << "the judge judges";
     viconOn(store(), "markers " + scan_.case_id + " --remove " + id);
-    for (const std::string command :
-         {"import " + smallStudy().string(), std::string("work --until-idle"), std::string("doctor"),
-          "finding " + scan_.case_id, "assess " + scan_.case_id + " --preparation good", "priors " + scan_.case_id,
-          "audit " + scan_.case_id, std::string("outbox"), "delete " + scan_.case_id,
-          "anonymise " + scan_.case_id + " " + (folder_->path() / "anonymous").string(),
-          "report " + scan_.case_id + " --out " + (folder_->path() / "r.pdf").string(),
-          "export " + scan_.case_id + " --as json", std::string("config"), "match " + scan_.case_id,
-          "markers " + scan_.case_id})
-        viconJson(store(), command);
+    viconJson(store(), "import " + smallStudy().string());
+    viconJson(store(), "work --until-idle");
+    viconJson(store(), "doctor");
+    viconJson(store(), "finding " + scan_.case_id);
+    viconJson(store(), "assess " + scan_.case_id + " --preparation good");
+    viconJson(store(), "priors " + scan_.case_id);
+    viconJson(store(), "audit " + scan_.case_id);
+    viconJson(store(), "outbox");
+    viconJson(store(), "delete " + scan_.case_id);
+    viconJson(store(), "anonymise " + scan_.case_id + " " + (folder_->path() / "anonymous").string());
+    viconJson(store(), "report " + scan_.case_id + " --out " + (folder_->path() / "r.pdf").string());
+    viconJson(store(), "export " + scan_.case_id + " --as json");
+    viconJson(store(), "config");
+    viconJson(store(), "match " + scan_.case_id);
+    viconJson(store(), "markers " + scan_.case_id);
     EXPECT_EQ(schemaFaults("fly", {folder_->path() / "flight/flight.json"}), "");
     EXPECT_EQ(schemaFaults("truth", {smallStudy() / "truth-supine.json"}), "");
 }

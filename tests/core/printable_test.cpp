@@ -27,4 +27,11 @@ TEST(Printable, ReplacesWhatIsNoUtf8)
     EXPECT_EQ(printable("\xe5\xb1"), "\uFFFD\uFFFD");
 }
 
+TEST(Shortened, CutsBetweenCharacters)
+{
+    EXPECT_EQ(vicon::shortened("Zoë", 3), "Zoë");
+    EXPECT_EQ(vicon::shortened("Zoë", 2), "Zo...");
+    EXPECT_EQ(vicon::shortened("山田太郎", 2), "山田...");
+}
+
 }  // namespace

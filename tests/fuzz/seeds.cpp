@@ -15,10 +15,12 @@
 #include "stream_encodings.h"
 #include "transcode.h"
 #include "vicon/cases/case_store.h"
+#include "vicon/cases/findings.h"
 #include "vicon/cases/marker.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/ingest/import.h"
+#include "vicon/report/report_objects.h"
 #include "vicon/scan_files/cells_file.h"
 #include "vicon/scan_files/skeleton_file.h"
 #include "vicon/scan_files/subdivision_file.h"
@@ -122,6 +124,38 @@ void writeJson(const fs::path& out)
          R"("else":{"a":[1]}}]})");
 }
 
+/// VICON's own structured report, of a study with two findings and all that may be said of it.
+void writeReport(const fs::path& out)
+{
+    CaseStore store(out / "store");
+    const std::string id = store.cases().at(0).id, scan_id = store.scans(id).at(0).id;
+    const auto mark = [&](Point3 at, double station_mm) {
+        Marker marker{.scan_id = scan_id, .position_mm = at, .station_mm = station_mm};
+        marker.part = ColonPart::sigmoid;
+        marker.density = DensitySample{.centre_mm = at, .voxels = 40, .mean_hu = 41};
+        marker.size = MarkerSize{.straight_mm = 7.3};
+        return store.saveMarker(id, marker).id;
+    };
+    const Finding polyp{.markers = {mark({-10, -5, -12}, 300), mark({-2, -8, -4}, 310)},
+                        .morphology = Morphology::flat,
+                        .confidence = Confidence::low,
+                        .height_mm = 2.1,
+                        .note = "a note"};
+    const Finding mass{.kind = FindingKind::mass, .markers = {mark({-11, -3, -16}, 900)}};
+    editFindings(store, id, {{std::nullopt, polyp}, {std::nullopt, mass}});
+    Assessment said{.indication = "why", .impression = "two findings", .preparation = Grade::good, .dose_mgy_cm = 300};
+    said.extracolonic = {{"kidney", "cyst", ExtracolonicCategory::e1}};
+    said.colon_category = {ColonCategory::c2a, "why", ColonCategory::c0};
+    said.distension = {{scan_id, ColonPart::sigmoid, Distension::limited}};
+    saveAssessment(store, id, assessmentOf(store, id), said);
+    const ReadCase read = readCase(store, id);
+    const ReportVersion version{.version = 1, .state = ReportState::final, .person = "reader", .digest = "d"};
+    fs::create_directories(out / "prior_report");
+    report::ShownScans scans(store, read);
+    report::writeReportObjects(scans, {.read = read, .version = version, .kinds = {report::ObjectKind::measurements}},
+                               out / "prior_report");
+}
+
 void writeTexts(const fs::path& out)
 {
     save(out / "text" / "latin", "\2M\xfcller^J\xf6rg");
@@ -185,6 +219,7 @@ try {
     writeVolumes(out);
     writeSurfaces(out);
     writeJson(out);
+    writeReport(out);
     writeTexts(out);
     for (const auto& entry : fs::directory_iterator(out / "object"))
         writeStream(out, entry.path());

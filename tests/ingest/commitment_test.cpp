@@ -182,6 +182,7 @@ TEST_F(Commitment, IsReportedWhenThePeerIsBackAlsoByALaterRun)
         EXPECT_TRUE(listener->tells("a commitment was not reported to 'HEARER'"));
     }
     EXPECT_EQ(waitingRequests(), 1u);
+    EXPECT_EQ(support::schemaFaults("commitment_demand", support::jsonFilesIn(store.folder() / "commitments")), "");
     const auto listener = receiver(peers);
     EXPECT_TRUE(listener->tells("a commitment was not reported to 'HEARER'"));
     const auto other_side = hearer(hearer_port);

@@ -166,7 +166,11 @@ TEST_F(Network, AFileThatKillsItsReaderIsFoundAndSetAside)
             receiver.run(stop);
             ::_exit(0);
         }
-        ::waitpid(child, nullptr, 0);
+        int how = 0;
+        ::waitpid(child, &how, 0);
+        if (WEXITSTATUS(how) != 0) {
+            EXPECT_EQ(support::schemaFaults("being_taken", {incoming / "being_taken.json"}), "");
+        }
     }
     EXPECT_LT(starts, 20);
     EXPECT_EQ(filesIn(store.folder() / "quarantine"), 1u);

@@ -58,6 +58,7 @@ TEST(WatchedStudies, AreDueOnceAndAgainWhenTheyHaveGrown)
         EXPECT_THROW(ingest::WatchedStudies(store.path(), "a/peer"), Error) << "one at a time";
         EXPECT_EQ(ingest::WatchedStudies(store.path(), "another").newestDate(), "");
     }
+    EXPECT_EQ(support::schemaFaults("watched", support::jsonFilesIn(store.path() / "watch")), "");
     ingest::WatchedStudies watched(store.path(), "a/peer");
     EXPECT_EQ(watched.newestDate(), "20260102");
     EXPECT_FALSE(watched.note("1.2", "20260102", 12)) << "also after a restart";

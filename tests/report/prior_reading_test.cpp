@@ -253,6 +253,24 @@ TEST_F(ForeignReports, SayWhatIsThereAndWhatCouldNotBeRead)
     EXPECT_THAT(prior.not_read, testing::Contains(HasSubstr("a number that is none")));
 }
 
+TEST_F(ForeignReports, OfWhatCannotBeSayNothingAndThatBriefly)
+{
+    const PriorReport prior = read("absurd");
+    ASSERT_EQ(prior.findings.size(), 1u);
+    const PriorFinding& finding = prior.findings[0];
+    EXPECT_EQ(finding.name, "Lesion\\nC") << "a row of a table";
+    EXPECT_FALSE(finding.size_mm || finding.height_mm || finding.volume_ml);
+    EXPECT_FALSE(finding.lead()->station_mm || finding.lead()->fraction || finding.lead()->part_fraction);
+    EXPECT_EQ(finding.others.size(), 5u) << "what a number is called still stands there";
+    EXPECT_FALSE(prior.said.dose_mgy_cm);
+    EXPECT_LE(prior.not_read.size(), 13u);
+    EXPECT_THAT(prior.not_read, testing::Contains("and more"));
+    EXPECT_EQ(labelOf(prior, finding), "earlier: ") << "that is no year";
+    const auto report = import({folder / "sr" / "absurd.dcm"});
+    ASSERT_EQ(report.lines.size(), 1u) << lines(report);
+    EXPECT_LT(report.lines[0].text.size(), 1000u);
+}
+
 TEST_F(ForeignReports, OfOtherKindsAreSetAsideAndHostileOnesRefused)
 {
     const struct {

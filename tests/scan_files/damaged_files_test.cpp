@@ -71,7 +71,10 @@ TEST_P(DamagedHeader, IsRefused)
 
 INSTANTIATE_TEST_SUITE_P(
     OfAVolume, DamagedHeader,
-    testing::Values(HeaderChange{Packing::zlib, "CompressedDataSize = ", "CompressedDataSize = x"},
+    testing::Values(HeaderChange{Packing::raw, "NDims = 3", "NDims = 2147483647"},
+                    HeaderChange{Packing::raw, "NDims = 3", "NDims =2147483647 3"},
+                    HeaderChange{Packing::zlib, "NDims = 3", "NDims = 3\nNDims = 2147483647"},
+                    HeaderChange{Packing::zlib, "CompressedDataSize = ", "CompressedDataSize = x"},
                     HeaderChange{Packing::zlib, "CompressedDataSize = ", "CompressedDataSize = 18446744073709551615"},
                     HeaderChange{Packing::zlib, "DimSize = 4 3 5", "DimSize = 40000 40000 40000"},
                     HeaderChange{Packing::raw, "DimSize = 4 3 5", "DimSize = 0 3 5"},

@@ -76,12 +76,23 @@ CommandResult runVicon(const std::string& arguments)
 
 std::string schemaFaults(const std::string& schema, const std::vector<std::filesystem::path>& files)
 {
+    if (files.empty())
+        return "no files";
     const auto schema_file = std::filesystem::path(VICON_SCHEMAS) / (schema + ".schema.json");
     std::string command = std::string(VICON_VALIDATE_JSON) + " '" + schema_file.string() + "'";
     for (const auto& file : files)
         command += " '" + file.string() + "'";
     const CommandResult result = runCommand(command);
     return result.exit_code == 0 ? "" : "exit code " + std::to_string(result.exit_code) + ": " + result.output;
+}
+
+std::vector<std::filesystem::path> jsonFilesIn(const std::filesystem::path& folder)
+{
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".json")
+            files.push_back(entry.path());
+    return files;
 }
 
 }  // namespace vicon::support

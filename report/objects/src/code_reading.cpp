@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
+#include <tuple>
 
 #include "vicon/report/codes.h"
 
@@ -134,11 +136,13 @@ private:
     }
     void readNumber(const ContentItem& item)
     {
-        const std::pair<const char*, std::optional<double>*> places[] = {{"113838", &said.dose_mgy_cm},
-                                                                         {"COVERAGE", &said.coverage_percent},
-                                                                         {"READING_TIME", &said.reading_minutes}};
-        for (const auto& [code, number] : places)
-            if (item.name.value == code)
+        constexpr double kAny = std::numeric_limits<double>::max();
+        const std::tuple<const char*, std::optional<double>*, double> places[] = {
+            {"113838", &said.dose_mgy_cm, kAny},
+            {"COVERAGE", &said.coverage_percent, 100},
+            {"READING_TIME", &said.reading_minutes, kAny}};
+        for (const auto& [code, number, most] : places)
+            if (item.name.value == code && item.number && *item.number >= 0 && *item.number <= most)
                 *number = item.number;
     }
     void readExtracolonic(const ContentItem& item)

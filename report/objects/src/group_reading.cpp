@@ -4,12 +4,13 @@
 #include <map>
 
 #include "code_reading.h"
+#include "vicon/core/printable.h"
 
 namespace vicon::report {
 
 std::optional<double> inMillimetres(const ContentItem& item)
 {
-    if (!item.number)
+    if (!item.number || *item.number < 0)
         return std::nullopt;
     if (item.code.value == "mm")
         return item.number;
@@ -23,7 +24,7 @@ namespace {
 std::optional<double> inMillilitres(const ContentItem& item)
 {
     constexpr double kMicrolitres = 1000;
-    if (!item.number)
+    if (!item.number || *item.number < 0)
         return std::nullopt;
     if (item.code.value == "ml" || item.code.value == "mL" || item.code.value == "cm3")
         return item.number;
@@ -45,6 +46,11 @@ std::optional<double> asItStands(const ContentItem& item)
     return item.number;
 }
 
+std::optional<double> asFraction(const ContentItem& item)
+{
+    return item.number && *item.number >= 0 && *item.number <= 1 ? item.number : std::nullopt;
+}
+
 /// Ours, and those of TID 1500 and CID 7469, also by the older codes of SNOMED.
 constexpr Place kPlaces[] = {
     {"373197004", inMillimetres, nullptr, &PriorFinding::size_mm},
@@ -53,8 +59,8 @@ constexpr Place kPlaces[] = {
     {"G-D705", inMillilitres, nullptr, &PriorFinding::volume_ml},
     {"112233", inMillimetres, &PriorSight::station_mm, nullptr},
     {"FROM_CAECUM", inMillimetres, &PriorSight::from_caecum_mm, nullptr},
-    {"FRACTION", asItStands, &PriorSight::fraction, nullptr},
-    {"PART_FRACTION", asItStands, &PriorSight::part_fraction, nullptr},
+    {"FRACTION", asFraction, &PriorSight::fraction, nullptr},
+    {"PART_FRACTION", asFraction, &PriorSight::part_fraction, nullptr},
     {"SIZE_2D", inMillimetres, &PriorSight::size_2d_mm, nullptr},
     {"SIZE_3D", inMillimetres, &PriorSight::size_3d_mm, nullptr},
     {"OUTLINE_LEAST", inMillimetres, &PriorSight::size_least_mm, nullptr},
@@ -118,9 +124,8 @@ private:
     void takeImage(const std::string& uid)
     {
         sight_.image_uid = uid;
-        for (const auto& [object, series] : document_.evidence)
-            if (object == uid)
-                sight_.series_uid = series;
+        if (const auto found = document_.evidence.find(uid); found != document_.evidence.end())
+            sight_.series_uid = found->second;
     }
 
     void readNumber(const ContentItem& item)
@@ -171,14 +176,21 @@ private:
             finding_.confidence = confidence;
     }
 
+    /// What a table shows in a cell.
+    static std::string lineOf(const std::string& text)
+    {
+        constexpr int kLongest = 64;
+        return shortened(printable(text), kLongest);
+    }
+
     void readText(const ContentItem& item)
     {
         if (item.name.value == "112039")
-            finding_.name = item.text;
+            finding_.name = lineOf(item.text);
         else if (item.name.value == "121106")
             finding_.note = item.text;
         else if (item.name.value == "MARKER")
-            sight_.marker = item.text;
+            sight_.marker = lineOf(item.text);
         else if (item.name.value == "CLOCK_FACE")
             sight_.clock_hour = hourFrom(item.text);
     }

@@ -5,7 +5,7 @@
 
 namespace vicon::report {
 
-/// Nothing where it is no length.
+/// Nothing where it is no length, or one below nothing.
 std::optional<double> inMillimetres(const ContentItem& item);
 
 /// What a measurement group says, added to what is known of its finding, and of the scan that shows it.

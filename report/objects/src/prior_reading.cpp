@@ -59,12 +59,17 @@ void addGroup(const ContentItem& group, const ContentDocument& document, PriorRe
     const std::string uid = childText(group, "112040");
     const auto known = std::find_if(report.findings.begin(), report.findings.end(),
                                     [&](const PriorFinding& f) { return !uid.empty() && f.uid == uid; });
-    PriorFinding finding = known == report.findings.end() ? PriorFinding{} : *known;
+    const bool is_new = known == report.findings.end();
+    PriorFinding finding = is_new ? PriorFinding{} : std::move(*known);  // it may have thousands of sights
     const bool sized = finding.size_mm.has_value();
     PriorSight sight;
     readGroup(group, document, finding, sight);
     if (saysNothing(finding, sight)) {
-        report.not_read.emplace_back("a measurement group that says nothing of a finding");
+        const std::string why = "a measurement group that says nothing of a finding";
+        if (std::find(report.not_read.begin(), report.not_read.end(), why) == report.not_read.end())
+            report.not_read.push_back(why);
+        if (!is_new)
+            *known = std::move(finding);
         return;
     }
     if (finding.size_mm && !sized)  // with it stands what belongs to the whole
@@ -74,7 +79,7 @@ void addGroup(const ContentItem& group, const ContentDocument& document, PriorRe
         !uid.empty() ? uid : uidFor("vicon prior\n" + document.sop_uid + "\n" + std::to_string(report.findings.size()));
     if (finding.name.empty())
         finding.name = "Finding " + std::to_string(report.findings.size() + 1);
-    if (known == report.findings.end())
+    if (is_new)
         report.findings.push_back(std::move(finding));
     else
         *known = std::move(finding);

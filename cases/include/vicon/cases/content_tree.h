@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,8 +48,8 @@ struct ContentDocument {
     std::string person;  ///< who verified it; else who wrote it; empty: not said
     bool verified = false;
     std::vector<std::string> replaces;  ///< SOP Instance UIDs of earlier versions
-    /// SOP Instance UID of what it refers to, and the series that it says that lies in.
-    std::vector<std::pair<std::string, std::string>> evidence;
+    /// What it refers to, by SOP Instance UID, and the series that it says that lies in.
+    std::map<std::string, std::string> evidence;
     ContentItem root;
     std::vector<std::string> not_read;  ///< what could not be read of it, a line each
 };

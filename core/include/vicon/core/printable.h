@@ -10,4 +10,7 @@ namespace vicon {
 /// that turn the direction of writing become escapes: \x1b, \n, \u202e. Everything else stays as it is.
 std::string printable(std::string_view text);
 
+/// The beginning of a UTF-8 text that came from outside, with "..." behind it where there is more.
+std::string shortened(const std::string& text, int most_characters);
+
 }  // namespace vicon

@@ -44,8 +44,10 @@ std::string viconBinary();
 CommandResult runVicon(const std::string& arguments);
 
 /// What is wrong with JSON files by docs/dev/schemas/SCHEMA.schema.json, a line each; empty where nothing is. The judge
-/// is a validator that is not ours.
+/// is a validator that is not ours. That there are none is a fault.
 std::string schemaFaults(const std::string& schema, const std::vector<std::filesystem::path>& files);
+/// The files NAME.json of a folder.
+std::vector<std::filesystem::path> jsonFilesIn(const std::filesystem::path& folder);
 
 }  // namespace vicon::support
 
