@@ -71,7 +71,7 @@ TEST_F(Correcting, CorrectionsGoToThePipelineAndTheNewResultIsTakenOver)
     key(Qt::Key_Y, Qt::ControlModifier);
     EXPECT_TRUE(eventually([&] { return judged() == "rejected, anna"; })) << judged().toStdString();
     key(Qt::Key_End);
-    settle();
+    waitUntilQuiet();
     press(window(), "correctCut");
     click("coronal", middle("coronal"));
     EXPECT_TRUE(eventually([] { return warning().starts_with("There is no lumen"); })) << "between the two limbs";
@@ -163,7 +163,6 @@ TEST_F(Correcting, AScanThatIsDoneAgainForAnotherReaderIsShownAnewWhereOneWas)
 {
     openCase();
     key(Qt::Key_End);
-    settle();
     CaseStore other(store_);
     const ScanRecord scan = other.requireScan(test::kCase, test::kSupine);
     services_.correct(other, scan, {{}, {{0, 0, 0}}, {}});
@@ -184,7 +183,7 @@ TEST_F(Correcting, WhatWasNotCorrectedIsNotForgottenAndWhatAddsNothingIsSaidSo)
     EXPECT_TRUE(eventually([] { return warning() == "this scan has no corrections"; })) << warning();
     EXPECT_FALSE(the<QProgressBar>("redo")->isVisible()) << "nothing is done again";
     key(Qt::Key_End);
-    settle();
+    waitUntilQuiet();
     press(window(), "correctAdd");
     click("coronal", middle("coronal"));  // between the two limbs
     EXPECT_TRUE(eventually([] { return warning().starts_with("There is neither gas nor tagged fluid"); })) << warning();
@@ -239,7 +238,7 @@ TEST_F(Correcting, WhatIsDoneAgainWhileTheOtherScanIsReadIsNotReportedAsTheOneTh
     correctAlongThePath("correctCut");
     the<QLabel>("where")->clear();
     key(Qt::Key_X);
-    waitForScan();
+    waitForPictures();
     go = true;
     ASSERT_TRUE(eventually([] { return !the<QProgressBar>("redo")->isVisible(); }));
     const auto said = [] { return window()->statusBar()->currentMessage().toStdString(); };
@@ -297,7 +296,7 @@ TEST_F(Correcting, WorkThatIsStoppedLeavesTheWindowAsItWas)
     correctAlongThePath("correctCut");
     press(window(), "stopRedo");
     EXPECT_TRUE(eventually([] { return the<QLabel>("redoState")->text().startsWith("stopped"); }));
-    settle();
+    waitUntilQuiet();
     EXPECT_EQ(the<QWidget>("endoscopic")->width(), width);
     closeCase();
     room_.reset();  // before what its services refer to

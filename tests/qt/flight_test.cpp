@@ -25,10 +25,10 @@ TEST_F(Reading, FliesToTheCaecumAndBackAndIsWhereItWasAfterReopening)
         key(Qt::Key_Plus);
     press(window(), "forward");
     ASSERT_TRUE(eventually([] { return station() > 60; }));
-    screenshot("flying");
+    screenshotNow("flying");
     press(window(), "stop");
     const double stopped = station();
-    settle();
+    waitUntilQuiet();
     EXPECT_NEAR(station(), stopped, 1);
     key(Qt::Key_B);
     key(Qt::Key_End);
@@ -58,9 +58,9 @@ TEST_F(Reading, GuidedFlightIsSteeredByKeysAndComesBackWhenReleased)
     QTest::keyPress(window(), Qt::Key_W);
     ASSERT_TRUE(eventually([] { return station() > 40; }));
     QTest::keyRelease(window(), Qt::Key_W);
-    screenshot("guided");
     const double released = station();
-    settle();
+    waitUntilAtRest();
+    screenshotNow("guided");
     EXPECT_LT(std::abs(station() - released), 40) << "nothing pulls it any more";
 }
 
@@ -124,7 +124,7 @@ TEST_F(Reading, AFilmIsMadeOrCancelledAndThePictureShowsHowItIsMade)
     press(window(), "jump");
     ASSERT_TRUE(eventually([] { return std::abs(station() - 60) < 2; }));
     ASSERT_TRUE(eventually([] { return pictureIsThere(); }));
-    settle();
+    waitUntilQuiet();
     const QImage first = pictureOf("endoscopic").convertToFormat(QImage::Format_Grayscale8);
     key(Qt::Key_M, Qt::ControlModifier);
     ASSERT_TRUE(eventually([&] { return bar->isVisible(); }));

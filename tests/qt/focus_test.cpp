@@ -148,7 +148,7 @@ TEST_F(Reading, TabLeadsToEveryControlInTheOrderOfTheEye)
 bool hasWholeFrame(QWidget* control)
 {
     control->setFocus(Qt::TabFocusReason);
-    QTest::qWait(1);
+    QCoreApplication::processEvents();  // the frame follows the control through its layout
     for (QFocusFrame* frame : control->window()->findChildren<QFocusFrame*>("focusRing"))
         if (frame->widget() == control && frame->isVisible())
             return frame->visibleRegion().boundingRect() == frame->rect() && frame->width() > control->width() &&
@@ -240,7 +240,7 @@ TEST_F(WithoutMouse, FliesAndJumps)
     type(Qt::Key_J);
     QTest::keyClicks(QApplication::focusWidget(), "50");
     type(Qt::Key_Escape);
-    settle();
+    waitUntilQuiet();
     EXPECT_EQ(QApplication::focusWidget(), the<QWidget>("endoscopic"));
     EXPECT_NEAR(station(), 150, 2) << "not used";
     EXPECT_NEAR(the<QDoubleSpinBox>("station")->value(), 150, 2);

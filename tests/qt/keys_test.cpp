@@ -36,7 +36,7 @@ TEST_F(Reading, KeysThatAListUnderstandsBelongToTheListThatHasTheKeyboard)
     EXPECT_EQ(peel->currentData().toString(), "fat");
     type(Qt::Key_Home);
     EXPECT_EQ(peel->currentIndex(), 0);
-    settle();
+    waitUntilQuiet();
     EXPECT_NEAR(station(), 100, 2);
     EXPECT_EQ(the<QComboBox>("mode")->currentIndex(), 0) << "F is free flight only where no list has the keyboard";
     QTest::keyClick(the<QWidget>("endoscopic"), Qt::Key_End);
@@ -168,7 +168,7 @@ TEST_F(Reading, TheWayToAnotherTipIsChosenInTheListOrInTheProjectionAndKept)
     auto* overview = the<QWidget>("overview");
     for (int y = overview->height() / 2; y < overview->height() * 9 / 10 && length() < 0.9 * whole; y += 8) {
         click("overview", QPoint(overview->width() * 4 / 10, y));
-        QTest::qWait(kSettle_ms);
+        waitUntilQuiet();
     }
     EXPECT_TRUE(eventually([&] { return length() > 0.95 * whole && station() > 0.8 * whole; })) << station();
     EXPECT_EQ(the<QComboBox>("way")->currentData().toInt(), 1);

@@ -2,6 +2,7 @@
 #include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListView>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QStatusBar>
@@ -115,11 +116,11 @@ TEST_F(WithMarker, OfAPairBothAreShownSideBySide)
     screenshot("beside");
     ASSERT_TRUE(both);
     const auto beside = [] { return pictureOf("besideEndoscopic"); };
-    settle();
+    waitUntilQuiet();
     const QImage first_shown = beside();
     press(window(), "stepOn");
     ASSERT_TRUE(eventually([&] { return beside() != first_shown; })) << "it moves with the other";
-    settle();
+    waitUntilQuiet();
     const QImage along_the_path = beside();
     clickRow(markers(), 1);
     ASSERT_TRUE(eventually([&] { return beside() != along_the_path; }));
@@ -132,7 +133,7 @@ TEST_F(WithMarker, AClickBesideReadsOnInTheOtherScanAndTheCaseOpensSo)
     key(Qt::Key_C);
     ASSERT_TRUE(eventually([] { return drawn("besideEndoscopic"); }));
     const double place = station();
-    settle();
+    waitUntilQuiet();
     click("besideEndoscopic", middle("besideEndoscopic"));
     ASSERT_TRUE(reads("supine"));
     EXPECT_NEAR(station(), place, 1) << "the two are the same colon";
@@ -166,7 +167,7 @@ TEST_F(WithMarker, IsDeletedByTheKeyOnceAndNoOtherWithIt)
     ASSERT_TRUE(eventually([&] { return stored().size() == 1 && settled(); }));
     EXPECT_FALSE(the<QPushButton>("markerRemove")->isEnabled());
     key(Qt::Key_Delete);
-    settle();
+    waitUntilQuiet();
     EXPECT_EQ(stored().size(), 1U);
 }
 
@@ -176,7 +177,7 @@ TEST_F(Reading, ASizeIsMeasuredBetweenTwoClicksAndKeptWithTheMarkerBesideIt)
     const QPoint first = middle("endoscopic") + QPoint(90, 60), second = first + QPoint(30, 30);
     click("endoscopic", first, Qt::ShiftModifier);
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
-    settle();
+    waitUntilQuiet();
     const QImage without_line = pictureOf("endoscopic");
     key(Qt::Key_M);
     click("endoscopic", first);
@@ -221,7 +222,7 @@ TEST_F(Reading, TheToolChosenLastTakesTheClick)
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
     const Point3 before = stored()[0].position_mm;
     clickRow(markers(), 0);
-    settle();
+    waitUntilQuiet();
     press(window(), "markerMove");
     key(Qt::Key_3);
     click("endoscopic", middle("endoscopic") + QPoint(-60, 60));
@@ -236,7 +237,7 @@ TEST_F(Reading, AnAreaThatIsCircledIsPeeledAloneAndItsDensityKeptWithTheMarkerUn
     const QPoint at = middle("endoscopic") + QPoint(-150, 20);
     click("endoscopic", at, Qt::ShiftModifier);
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
-    settle();
+    waitUntilQuiet();
     auto* view = the<QWidget>("endoscopic");
     const QImage plain = view->grab().toImage();
     const QPoint controls = the<QWidget>("mode")->mapTo(window(), {0, 0});
@@ -254,7 +255,6 @@ TEST_F(Reading, AnAreaThatIsCircledIsPeeledAloneAndItsDensityKeptWithTheMarkerUn
     EXPECT_TRUE(the<QLabel>("histogram")->isVisible());
     EXPECT_EQ(the<QWidget>("mode")->mapTo(window(), {0, 0}), controls) << "it pushes nothing away";
     EXPECT_FALSE(the<QWidget>("mode")->visibleRegion().isEmpty());
-    settle();
     screenshot("biopsy");
     // Far from the circle the wall is drawn as it was; in its middle something else is.
     ASSERT_TRUE(
@@ -270,7 +270,7 @@ TEST_F(Reading, AnAreaThatIsCircledIsPeeledAloneAndItsDensityKeptWithTheMarkerUn
     auto* box = the<QMessageBox>("markerInformation");
     EXPECT_TRUE(box->text().contains("HU, of "));
     EXPECT_TRUE(eventually([&] { return box->findChild<QLabel*>("measures") != nullptr; }));
-    settle();
+    waitUntilQuiet();
     box->grab().save(VICON_SCREENSHOTS "/biopsy_information.png");
     box->close();
     press(window(), "undo");
@@ -301,9 +301,13 @@ TEST_F(Reading, MarkersOfAFileAreLoadedInOneStepAndSaved)
     ASSERT_TRUE(eventually([] { return !window()->findChild<QFileDialog*>("saveMarkers"); }));
     key(Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
     auto* dialog = the<QFileDialog>("saveMarkers");
+    // Once the folder is read, on another thread, completions are there at the letter that is typed.
+    dialog->setDirectory(store_.c_str());
+    const auto* listed = dialog->findChild<QListView*>("listView");
+    ASSERT_TRUE(eventually([&] { return listed->model()->rowCount(listed->rootIndex()) > 0; }));
     QTest::keyClicks(dialog->findChild<QLineEdit*>("fileNameEdit"), QString((store_ / "lis").c_str()));
-    constexpr int kLooked_ms = 1500;  // the folder is read on another thread
-    EXPECT_FALSE(QTest::qWaitFor([] { return QApplication::activePopupWidget() != nullptr; }, kLooked_ms));
+    waitUntilQuiet();
+    EXPECT_EQ(QApplication::activePopupWidget(), nullptr);
     dialog->reject();
     window()->activateWindow();
     ASSERT_TRUE(eventually([] { return window()->isActiveWindow(); }));

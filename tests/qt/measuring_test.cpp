@@ -28,14 +28,14 @@ protected:
         Reading::SetUp();
         openCase();
         window()->resize(1600, 1000);
-        settle();
+        waitUntilQuiet();
     }
     /// One red marker where the eye looks.
     void mark()
     {
         click("endoscopic", middle("endoscopic") + QPoint(90, 60), Qt::ShiftModifier);
         ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
-        settle();
+        waitUntilQuiet();
     }
     static void zoom(const char* view, int notches)
     {
@@ -44,7 +44,7 @@ protected:
         QWheelEvent event(at, widget->mapToGlobal(at.toPoint()), {}, {0, 120 * notches}, Qt::NoButton,
                           Qt::ControlModifier, Qt::NoScrollPhase, false);
         QApplication::sendEvent(widget, &event);
-        settle();
+        waitUntilQuiet();
     }
     static bool yellow(const QColor& c)
     {
@@ -75,7 +75,6 @@ protected:
     {
         key(Qt::Key_M);
         click(view, a);
-        settle();
         click(view, b);
         EXPECT_TRUE(eventually([] { return said().contains("straight"); })) << said().toStdString();
         return firstLength(said());
@@ -88,7 +87,6 @@ protected:
             const QPoint at = from + (to - from) * n / 4;
             QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, {});
             QApplication::sendEvent(widget, &move);
-            QTest::qWait(kSettle_ms / 8);
         }
         QTest::mouseRelease(widget, Qt::LeftButton, {}, to);
     }
@@ -123,13 +121,12 @@ TEST_F(Measuring, NoViewMovesBetweenTheClicks)
 {
     zoom("axial", 5);
     zoom("coronal", 3);
-    settle();
     key(Qt::Key_M);
     const QImage coronal = pictureOf("coronal"), sagittal = pictureOf("sagittal"), inside = pictureOf("endoscopic");
     const QImage axial = pictureOf("axial");
     const QPoint first = middle("axial") + QPoint(50, 30);
     click("axial", first);
-    settle();
+    waitUntilQuiet();
     EXPECT_TRUE(yellow(pictureOf("axial").pixelColor(first + QPoint(0, 4)))) << "the first end is shown";
     const QPoint away = middle("axial") - QPoint(60, 40);
     EXPECT_EQ(pictureOf("axial").pixel(away), axial.pixel(away));
@@ -164,7 +161,7 @@ TEST_F(Measuring, ASizeIsReplacedOnlyWhenTheReaderSaysSoAndUndoBringsItBack)
     screenshot("replace_size");
     the<QMessageBox>("replaceSize")->grab().save(VICON_SCREENSHOTS "/replace_size_question.png");
     answer("keepOld");
-    settle();
+    waitUntilQuiet();
     EXPECT_EQ(straight(), kept);
     again();
     answer("replace");
@@ -182,7 +179,7 @@ TEST_F(Measuring, AnEndThatIsDraggedMeasuresAnewAndIsUndone)
     zoom("coronal", 4);
     // The slice has the marker that is chosen in its middle.
     clickRow(markers(), 0);
-    settle();
+    waitUntilQuiet();
     const QPoint first = middle("coronal") + QPoint(-20, 0), second = first + QPoint(40, 0);
     key(Qt::Key_M);
     click("coronal", first);
@@ -222,10 +219,10 @@ protected:
         CaseStore(store_).saveMarker(test::kCase, marker);
         openCase();
         window()->resize(1600, 1000);
-        settle();
+        waitUntilQuiet();
         clickRow(markers(), 0);
         ASSERT_TRUE(eventually([] { return pictureIsThere(); }));
-        settle();
+        waitUntilQuiet();
     }
     std::optional<PolypSize> outlined() const { return stored()[0].size ? stored()[0].size->polyp : std::nullopt; }
 
@@ -275,7 +272,7 @@ TEST_F(Measuring, ADoubleClickEnlargesTheViewAndLeavesTheEyeWhereItWas)
         QTest::mouseClick(widget, Qt::LeftButton, {}, at);
         QTest::mouseDClick(widget, Qt::LeftButton, {}, at);
         ASSERT_TRUE(eventually([&] { return widget->width() > width; }));
-        settle();
+        waitUntilQuiet();
         EXPECT_LT(length() - station(), 2);
         EXPECT_EQ(the<QComboBox>("mode")->currentText(), "planned");
         QTest::mouseClick(widget, Qt::LeftButton, {}, at);
@@ -293,9 +290,8 @@ TEST_F(Measuring, ADoubleClickOnTheProjectionEnlargesItAndLeavesTheEyeWhereItWas
     QTest::mouseClick(overview, Qt::LeftButton, {}, at);
     QTest::mouseDClick(overview, Qt::LeftButton, {}, at);
     ASSERT_TRUE(eventually([&] { return overview->width() > 2 * width; }));
-    EXPECT_LT(station(), 2);
-    settle();
     screenshot("projection_alone");
+    EXPECT_LT(station(), 2);
     QTest::mouseDClick(overview, Qt::LeftButton, {}, at);
     EXPECT_TRUE(eventually([&] { return overview->width() == width; })) << overview->width();
     EXPECT_TRUE(the<QWidget>("endoscopic")->isVisible());
@@ -306,7 +302,6 @@ TEST_F(Measuring, TheEndOfTheFlightAWallTooNearAndLookingBackAreSaid)
     key(Qt::Key_End);
     ASSERT_TRUE(eventually([] { return length() - station() < 2; }));
     key(Qt::Key_R);  // the way to the caecum, which is here
-    settle();
     key(Qt::Key_Space);
     EXPECT_TRUE(eventually([] { return said().contains("where the flight ends"); })) << said().toStdString();
     EXPECT_EQ(the<QPushButton>("about")->text(), "Retrograde");

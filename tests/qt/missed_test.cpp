@@ -52,7 +52,7 @@ protected:
         replaceFile(file, coverage.packed());
         openCase();
         window()->resize(1600, 1000);
-        settle();
+        waitUntilQuiet();
     }
     static QTableWidget* list() { return the<QTableWidget>("unseen"); }
     static bool ticked(int row)
@@ -100,7 +100,7 @@ TEST_F(Missing, RegionsAreListedWithPicturesVisitedByAKeyAndTickedOffWhenReviewe
     for (int n = 0; n < 24 && !ticked(1); ++n) {
         key(n % 12 == 11 ? Qt::Key_R : n % 12 < 3 ? Qt::Key_Comma : Qt::Key_Period);
         EXPECT_TRUE(eventually([] { return pictureIsThere(); }));
-        settle();
+        waitUntilQuiet();
     }
     EXPECT_TRUE(ticked(1));
     key(Qt::Key_Escape);
@@ -132,7 +132,7 @@ TEST_F(Missing, TheListThatIsGoneThroughStaysWhileRegionsAreReviewed)
     key(Qt::Key_F3);
     ASSERT_TRUE(eventually([] { return said().contains("1 of 2"); })) << said().toStdString();
     ASSERT_TRUE(eventually([] { return ticked(0); })) << "looked at for long enough";
-    settle();
+    waitUntilQuiet();
     EXPECT_EQ(list()->rowCount(), 2);
     EXPECT_TRUE(ticked(0));
     EXPECT_FALSE(ticked(1));
@@ -144,7 +144,7 @@ TEST_F(Missing, AThumbnailIsNoLookAtARegion)
     const double before = the<QLabel>("seen")->text().section(' ', 0, 0).toDouble();
     key(Qt::Key_Period);
     ASSERT_TRUE(eventually([] { return pictureIsThere(); }));
-    settle();
+    waitUntilQuiet();
     EXPECT_FALSE(ticked(0));
     EXPECT_FALSE(ticked(1));
     EXPECT_NEAR(the<QLabel>("seen")->text().section(' ', 0, 0).toDouble(), before, 0.2);

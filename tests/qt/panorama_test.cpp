@@ -37,13 +37,13 @@ protected:
         Reading::SetUp();
         openCase();
         window()->resize(1500, 1000);
-        settle();
+        waitUntilQuiet();
     }
     /// Until it has changed, and then no more.
     static bool changesFrom(const char* view, const QImage& before)
     {
         const bool changed = eventually([&] { return pictureOf(view) != before; });
-        settle();
+        waitUntilQuiet();
         return changed;
     }
     static bool isShown(const char* view)
@@ -57,7 +57,6 @@ TEST_F(Panoramas, TheCubeIsAKeyAwayFollowsTheEyeAndAClickLooksThere)
     EXPECT_FALSE(the<QWidget>("cube")->isVisible());
     key(Qt::Key_U);
     ASSERT_TRUE(isShown("cube"));
-    settle();
     screenshot("cube");
     const QImage first = pictureOf("cube");
     const QImage inside = pictureOf("endoscopic");
@@ -78,20 +77,18 @@ TEST_F(Panoramas, TheBandGoesWhereItIsClickedAndScrollsAndIsWholeOnADoubleClick)
 {
     key(Qt::Key_B, Qt::ShiftModifier);
     ASSERT_TRUE(isShown("band"));
-    settle();
     screenshot("band");
     // So high that not all of this small colon fits into a row.
     the<QDockWidget>("bandDock")->setFloating(true);
     the<QDockWidget>("bandDock")->resize(420, 420);
     ASSERT_TRUE(eventually([] { return the<QWidget>("band")->height() > 350; }));
-    settle();
+    waitUntilQuiet();
     auto* band = the<QWidget>("band");
     const QImage stretch = pictureOf("band");
     wheel(band, band->rect().center(), 2);
     ASSERT_TRUE(changesFrom("band", stretch)) << "the wheel goes along";
     const double before = station();
     wheel(band, band->rect().center(), -1, Qt::ControlModifier);
-    settle();
     screenshot("band_whole");
     click("band", QPoint(band->width() * 3 / 4, band->height() * 3 / 4));
     ASSERT_TRUE(eventually([&] { return std::abs(station() - before) > 30; }));
@@ -112,7 +109,7 @@ TEST_F(Panoramas, TheBandRunsTheWayThatIsFlown)
 {
     key(Qt::Key_B, Qt::ShiftModifier);
     ASSERT_TRUE(isShown("band"));
-    settle();
+    waitUntilQuiet();
     const QImage to_caecum = pictureOf("band");
     key(Qt::Key_R);
     EXPECT_TRUE(changesFrom("band", to_caecum));
@@ -122,13 +119,13 @@ TEST_F(Panoramas, AMarkerIsSetInCubeAndBandAndNothingIsMeasuredInTheBand)
 {
     key(Qt::Key_U);
     ASSERT_TRUE(isShown("cube"));
-    settle();
+    waitUntilQuiet();
     auto* cube = the<QWidget>("cube");
     click("cube", QPoint(cube->width() * 3 / 8, cube->height() / 2 + 20), Qt::ShiftModifier);
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
     key(Qt::Key_B, Qt::ShiftModifier);
     ASSERT_TRUE(isShown("band"));
-    settle();
+    waitUntilQuiet();
     auto* band = the<QWidget>("band");
     click("band", QPoint(band->width() / 2, band->height() / 2), Qt::ShiftModifier);
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 2 && settled(); }));
@@ -145,7 +142,6 @@ TEST_F(Panoramas, AMarkerIsSetInCubeAndBandAndNothingIsMeasuredInTheBand)
 TEST_F(Panoramas, TheProjectionTurnsGrowsIsClickedAndComesBackFromTheFront)
 {
     auto* overview = the<QWidget>("overview");
-    settle();
     const QImage front = pictureOf("overview");
     drag(overview, overview->rect().center(), QPoint(60, 15));
     ASSERT_TRUE(changesFrom("overview", front));
@@ -168,14 +164,11 @@ TEST_F(Panoramas, TheProjectionTurnsGrowsIsClickedAndComesBackFromTheFront)
     EXPECT_TRUE(went);
     EXPECT_TRUE(eventually([] { return pictureIsThere(); }));
     key(Qt::Key_Home);
-    settle();
     key(Qt::Key_Z);
-    EXPECT_TRUE(eventually([&] { return pictureOf("overview").size() == front.size() && drawn("overview"); }));
-    const QImage again = pictureOf("overview");
+    EXPECT_TRUE(eventually([&] { return pictureOf("overview") == front; }));
     const double back_at = station();
     click("overview", QPoint(overview->width() * 2 / 3, overview->height() / 2));
     EXPECT_TRUE(eventually([&] { return std::abs(station() - back_at) > 50; })) << "clicks go there as before";
-    EXPECT_NE(again, turned);
 }
 
 TEST_F(Panoramas, AnotherScanIsShownInAllOfThem)
@@ -184,8 +177,6 @@ TEST_F(Panoramas, AnotherScanIsShownInAllOfThem)
     key(Qt::Key_B, Qt::ShiftModifier);
     ASSERT_TRUE(isShown("cube"));
     ASSERT_TRUE(isShown("band"));
-    settle();
-    const QImage band = pictureOf("band");
     the<QLabel>("where")->clear();
     key(Qt::Key_X);
     waitForScan();

@@ -109,7 +109,6 @@ TEST_F(Priors, AreListedShownInTheirPlaceAndFlownTo)
     clickRow(table(), 0);
     ASSERT_TRUE(eventually([&] { return std::abs(station() - length_mm_ / 2) < 5; })) << station();
     ASSERT_TRUE(eventually([] { return violet("axial") > 5; })) << "a diamond in the slice";
-    settle();
     screenshot("priors");
 }
 
@@ -149,7 +148,6 @@ TEST_F(Priors, ShowTheEarlierImagesAtTheSamePlaceWithoutAMarker)
     key(Qt::Key_C, Qt::ShiftModifier);
     ASSERT_TRUE(eventually([] { return the<QWidget>("beside")->isVisible() && drawn("besideEndoscopic"); }))
         << warning();
-    settle();
     screenshot("prior-same-place");
     const auto before = stored();
     click("besideEndoscopic", middle("besideEndoscopic"), Qt::ShiftModifier);

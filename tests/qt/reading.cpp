@@ -1,5 +1,6 @@
 #include "reading.h"
 
+#include <QAbstractScrollArea>
 #include <QComboBox>
 #include <QFileDialog>
 #include <QLabel>
@@ -8,9 +9,28 @@
 #include <QTabBar>
 #include <QTabWidget>
 #include <QTableWidget>
+#include <QWindow>
 #include <algorithm>
+#include <utility>
+
+#include "widgets/picture_view.h"
+#include "widgets/under_way.h"
 
 namespace vicon::viewer::test {
+namespace {
+
+/// It speaks in order: when it has shown one more window, of a pixel, what it had to say before was heard.
+/// QGuiApplication::sync() would not do: another thread hears it.
+bool windowSystemHasSpoken()
+{
+    QWindow last;
+    last.setFlags(Qt::ToolTip | Qt::BypassWindowManagerHint | Qt::WindowDoesNotAcceptFocus);
+    last.setGeometry(0, 0, 1, 1);
+    last.show();
+    return QTest::qWaitFor([&last] { return last.isExposed(); });
+}
+
+}  // namespace
 
 std::unique_ptr<Display> Reader::display_;
 std::unique_ptr<support::TemporaryFolder> Reader::folder_;
@@ -50,6 +70,37 @@ void Reader::openRoom(const ReadingServices& services, const std::string& case_i
     room_ = makeReadingRoom(services, case_id);
     room_->show();
     ASSERT_TRUE(eventually([&] { return cases()->rowCount() > 0; }));
+}
+
+bool Reader::quiet()
+{
+    constexpr int kMost_ms = 100;  // an event may cause the next one without end
+    const int begun = UnderWay::begun();
+    if (UnderWay::count() > 0)
+        return false;
+    if (!windowSystemHasSpoken())
+        return false;
+    QCoreApplication::processEvents(QEventLoop::AllEvents, kMost_ms);
+    return UnderWay::count() == 0 && UnderWay::begun() == begun;
+}
+
+void Reader::waitUntilQuiet()
+{
+    EXPECT_TRUE(eventually(quiet)) << UnderWay::count() << " still under way";
+}
+
+void Reader::waitUntilAtRest()
+{
+    constexpr int kPictures = 5;  // in a flight they are millimetres apart
+    const auto* view = the<PictureView>("endoscopic");
+    qint64 last = 0;
+    double there = -1;
+    int same = 0;
+    EXPECT_TRUE(eventually([&] {
+        if (std::exchange(last, view->image().cacheKey()) != last)
+            same = std::exchange(there, pictureStation()) == there ? same + 1 : 0;
+        return same == kPictures || quiet();
+    }));
 }
 
 QTableWidget* Reader::cases() const
@@ -119,6 +170,17 @@ std::string Reader::warning()
     return the<QLabel>("warning")->text().toStdString();
 }
 
+bool Reader::pagesAreDrawn(const QWidget* preview)
+{
+    const QImage pages = preview->findChild<QAbstractScrollArea*>("reportPages")->viewport()->grab().toImage();
+    const QRgb beside = pages.pixel(0, 0), paper = qRgb(255, 255, 255);
+    for (int y = 0; y < pages.height(); ++y)
+        for (int x = 0; x < pages.width(); ++x)
+            if (pages.pixel(x, y) != beside && pages.pixel(x, y) != paper)
+                return true;
+    return false;
+}
+
 void Reader::chooseFile(const char* dialog, const QString& file)
 {
     auto* asked = the<QFileDialog>(dialog);
@@ -154,13 +216,18 @@ void Reader::openOther()
 
 void Reader::waitForScan()
 {
+    ASSERT_NO_FATAL_FAILURE(waitForPictures());
+    waitUntilQuiet();
+}
+
+void Reader::waitForPictures()
+{
     ASSERT_TRUE(eventually([] { return !the<QLabel>("where")->text().isEmpty(); })) << warning();
     ASSERT_TRUE(eventually([] { return drawn("endoscopic") && drawn("overview") && drawn("coronal"); })) << warning();
     ASSERT_TRUE(eventually([] { return pictureIsThere(); })) << warning();
     // The first picture does not wait for ambient occlusion.
     ASSERT_TRUE(eventually([] { return the<QWidget>("endoscopic")->property("shaded").toBool(); })) << warning();
     window()->activateWindow();
-    settle();
 }
 
 void Reader::closeCase()
@@ -209,7 +276,12 @@ double Reader::length()
 
 void Reader::screenshot(const char* name) const
 {
-    settle();
+    waitUntilQuiet();
+    screenshotNow(name);
+}
+
+void Reader::screenshotNow(const char* name) const
+{
     QWidget* of = window() ? static_cast<QWidget*>(window()) : room_.get();
     of->grab().save(QString(VICON_SCREENSHOTS "/%1.png").arg(name));
 }

@@ -32,6 +32,8 @@ protected:
     /// Presses Open for that patient, and waits for nothing.
     void startOpening(const char* patient_id = "PH-1");
     static void waitForScan();
+    /// The same while work goes on that has no end yet: the pictures are there, and others may follow.
+    static void waitForPictures();
     /// The next scan of the list is opened, by the keyboard.
     static void openOther();
     /// Until its window is gone.
@@ -42,9 +44,14 @@ protected:
     {
         return QTest::qWaitFor(condition, patience_ms);
     }
-    /// As long as a reader's hand rests: the smooth picture comes a while after the last movement, and what must not
-    /// come (a picture of an older place, a second list) would come in this time. What must come is waited for.
-    static void settle() { QTest::qWait(kSettle_ms); }
+    /// All that the windows of the program began is shown: no work waits for another thread, runs there or is still to
+    /// be shown, no smooth drawing waits until the eye rests, and no event waits, of the window system neither. What is
+    /// looked for every few seconds (the worklist, other readers' markers) may still come.
+    static bool quiet();
+    /// When it is quiet, what must not come (a picture of an older place, a second list) has not come.
+    static void waitUntilQuiet();
+    /// Pictures drawn one after the other are of the same millimetre: a drift that fades is nil only much later.
+    static void waitUntilAtRest();
 
     QTableWidget* cases() const;
     static QMainWindow* window();
@@ -67,6 +74,8 @@ protected:
     static bool settled();
     static QString cell(int row, int column);
     static std::string warning();
+    /// The report's pages, which are drawn on another thread: there is ink on the paper.
+    static bool pagesAreDrawn(const QWidget* preview);
     /// Answers a dialog for files.
     static void chooseFile(const char* dialog, const QString& file);
 
@@ -79,10 +88,11 @@ protected:
     static double station();
     static double length();
     void screenshot(const char* name) const;
+    /// As it looks at this moment: while the eye moves, or a peeled picture that nobody looks at is still to come.
+    void screenshotNow(const char* name) const;
     std::vector<Marker> stored(const char* case_id = kCase) const;
 
     static inline int patience_ms = 60000;  // a still peeled picture takes 20 s under the sanitizers, on a busy machine
-    static constexpr int kSettle_ms = 400;
     static std::unique_ptr<Display> display_;
     static std::unique_ptr<support::TemporaryFolder> folder_;
     static std::unique_ptr<QApplication> application_;

@@ -26,7 +26,7 @@ protected:
         Reading::SetUp();
         openCase();
         window()->resize(1600, 1000);
-        settle();
+        waitUntilQuiet();
     }
     static void wheel(const char* view, int notches, Qt::KeyboardModifiers modifiers = {})
     {
@@ -140,7 +140,7 @@ TEST_F(Reading2D, TheWheelAndKeysFollowTheLumenFromSliceToSlice)
     type(Qt::Key_Q);
     ASSERT_TRUE(eventually([] { return rimPixels("axial") == 0; }));
     wheel("axial", 2);
-    settle();
+    waitUntilQuiet();
     EXPECT_NEAR(station(), there, 0.5) << "not followed";
     type(Qt::Key_Q);
     type(Qt::Key_Space);
@@ -208,7 +208,7 @@ TEST_F(Reading2D, TheWindowIsSetByDraggingAndByNumberKeysInEverySlice)
     }
     type(Qt::Key_5);
     EXPECT_EQ(choice->currentText(), "soft-tissue");
-    settle();
+    waitUntilQuiet();
     const double before = meanGrey("axial"), coronal = meanGrey("coronal");
     drag("axial", middle("axial"), middle("axial") + QPoint(0, -60));
     EXPECT_EQ(choice->currentText(), "by hand");
@@ -225,15 +225,14 @@ TEST_F(Reading2D, TheWindowIsSetByDraggingAndByNumberKeysInEverySlice)
 
 TEST_F(Reading2D, ASlabShowsTheMeanOrTheMinimumAndSaysSo)
 {
-    settle();
     const QImage thin = pictureOf("axial");
     type(Qt::Key_Y);
     ASSERT_TRUE(eventually([&] { return pictureOf("axial") != thin; }));
-    settle();
+    waitUntilQuiet();
     const QImage mean = pictureOf("axial");
     type(Qt::Key_Y);
     ASSERT_TRUE(eventually([&] { return pictureOf("axial") != mean; }));
-    settle();
+    waitUntilQuiet();
     const QImage minimum = pictureOf("axial");
     screenshot("slab");
     type(Qt::Key_Y, Qt::ShiftModifier);
@@ -272,7 +271,7 @@ TEST_F(Reading2D, ACaseIsReadInSlicesFirstWithTheMouseAlwaysInThePicture)
     ASSERT_TRUE(eventually([] { return station() > 8; }));
     type(Qt::Key_Period);
     ASSERT_TRUE(arrived("axial"));
-    settle();
+    waitUntilQuiet();
     click("axial", cross("axial") + QPoint(6, 0), Qt::ShiftModifier);
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); })) << warning();
     type(Qt::Key_M);

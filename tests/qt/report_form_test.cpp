@@ -294,6 +294,7 @@ TEST_F(Form, ShowsItsPagesAndGivesItsText)
     QDialog* pages = nullptr;
     ASSERT_TRUE(dialog("reportPreview", &pages));
     EXPECT_THAT(pages->windowTitle().toStdString(), testing::HasSubstr("2 page"));
+    EXPECT_TRUE(eventually([&] { return pagesAreDrawn(pages); }));
     pages->close();
     window()->activateWindow();
     ASSERT_TRUE(eventually(ready));

@@ -89,13 +89,13 @@ void StudyReader::flyThereAndBack() const
             kFlight_ms);
     };
     ASSERT_TRUE(flown([&] { return station() > way / 2; }));
-    screenshot("on-the-way");
+    screenshotNow("on-the-way");
     ASSERT_TRUE(flown([&] { return way - station() < 2; }));
     key(Qt::Key_End);  // turned about, ready for the way back
     screenshot("caecum");
     press(window(), "forward");
     ASSERT_TRUE(flown([&] { return station() < way / 2; }));
-    screenshot("on-the-way-back");
+    screenshotNow("on-the-way-back");
     ASSERT_TRUE(flown([&] { return station() < 2; }));
     screenshot("rectum");
     // A flight waits for its pictures: no wall passes unshown, however busy the machine is.
@@ -176,13 +176,12 @@ void StudyWalk::measure()
 
 void StudyWalk::lookBelowTheWall()
 {
-    settle();
+    waitUntilQuiet();
     const QImage plain = pictureOf("endoscopic");
     auto* peel = the<QComboBox>("peel");
     peel->setFocus();
     QTest::keyClick(peel, Qt::Key_Down);
     ASSERT_TRUE(eventually([&] { return pictureOf("endoscopic") != plain; }));
-    QTest::qWait(3 * kSettle_ms);  // the full picture takes longer than the first
     screenshot("peeled");
     peel->setFocus();
     QTest::keyClick(peel, Qt::Key_Up);
@@ -207,7 +206,6 @@ void StudyWalk::circleAndTakeDensity()
             break;
     }
     ASSERT_TRUE(taken()) << warning();
-    QTest::qWait(3 * kSettle_ms);
     screenshot("biopsy");
     key(Qt::Key_Escape);
 }
@@ -297,8 +295,8 @@ void StudyWalk::signReport(int findings)
     screenshot("form");
     press(window(), "reportPreview");
     ASSERT_TRUE(eventually([&] { return shownDialog<QWidget>("reportPreview") != nullptr; })) << warning();
-    QTest::qWait(3 * kSettle_ms);  // its pages are drawn behind the window's back
     auto* pages = shownDialog<QWidget>("reportPreview");
+    ASSERT_TRUE(eventually([&] { return pagesAreDrawn(pages); }));
     pages->grab().save(QString(VICON_SCREENSHOTS "/%1-preview.png").arg(QString::fromStdString(name_)));
     QTest::keyClick(pages, Qt::Key_Escape);
     window()->activateWindow();

@@ -51,7 +51,7 @@ TEST_F(Reading, ACaseDeletedUnderItsReaderIsSaidSo)
     }
     EXPECT_TRUE(eventually([] { return the<QLabel>("warning")->text().startsWith("This case was deleted"); }));
     click("endoscopic", middle("endoscopic") + QPoint(60, 90), Qt::ShiftModifier);
-    settle();
+    waitUntilQuiet();
     EXPECT_EQ(markers()->rowCount(), 0) << "nothing is shown as saved that is not";
     screenshot("deleted");
 }
@@ -89,7 +89,7 @@ TEST_F(Reading, OnAFullDiskNothingIsShownAsSavedAndWhatWasSavedStays)
         EXPECT_EQ(markers()->rowCount(), 1);
         EXPECT_THAT(warning(), testing::HasSubstr("disk"));
         key(Qt::Key_S, Qt::ControlModifier);  // a picture
-        settle();
+        waitUntilQuiet();
         EXPECT_THAT(warning(), testing::Not(testing::HasSubstr("saved:")));
     }
     screenshot("full_disk");

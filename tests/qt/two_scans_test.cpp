@@ -53,7 +53,6 @@ TEST_F(TwoScans, TheSamePlaceIsABandInTheOtherScansViewsAndMovesWithTheEye)
 {
     key(Qt::Key_C);
     ASSERT_TRUE(eventually([] { return drawn("besideOverview"); }));
-    settle();
     screenshot("same_place");
     ASSERT_TRUE(eventually([] { return green("besideOverview") > 20; })) << "in its projection";
     ASSERT_TRUE(eventually([] { return green("besideAxial") > 5; })) << "in its slice";

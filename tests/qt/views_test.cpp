@@ -33,12 +33,13 @@ TEST_F(Reading, SlicesProjectionAndPeelingFollowTheMouse)
     screenshot("enlarged");
     QTest::mouseDClick(the<QWidget>("coronal"), Qt::LeftButton, {}, middle("coronal"));
     EXPECT_TRUE(the<QWidget>("endoscopic")->isVisible());
+    waitUntilQuiet();  // it has its size again
     const QImage plain = pictureOf("endoscopic");
     auto* peel = the<QComboBox>("peel");
     peel->setFocus();
     QTest::keyClick(peel, Qt::Key_Down);
     ASSERT_TRUE(eventually([&] { return pictureOf("endoscopic") != plain; }));
-    screenshot("peeled");
+    screenshotNow("peeled");
     QTest::mouseClick(the<QWidget>("peelCircle"), Qt::LeftButton, {},
                       QPoint(8, the<QWidget>("peelCircle")->height() / 2));
     const auto hover = [](QPoint at) { QTest::mouseMove(the<QWidget>("endoscopic"), at); };
@@ -60,7 +61,7 @@ TEST_F(Reading, SlicesProjectionAndPeelingFollowTheMouse)
         hover(at);
         EXPECT_TRUE(eventually([&] { return circleIsAt(at); })) << at.x() << ", " << at.y();
     }
-    screenshot("lens");
+    screenshotNow("lens");
     EXPECT_TRUE(the<QWidget>("endoscopic")->toolTip().isEmpty()) << "it would lie over what is peeled";
 }
 
@@ -71,7 +72,7 @@ TEST_F(Reading, TheListOfMarkersHasRoomInALowWindowAndNothingIsSqueezedForIt)
     for (const QSize size : {QSize(1280, 700), QSize(1280, 900), QSize(1920, 1200)}) {
         window()->resize(size);
         ASSERT_TRUE(eventually([&] { return window()->size() == size; }));
-        settle();
+        waitUntilQuiet();
         EXPECT_GE(markers()->viewport()->visibleRegion().boundingRect().height(),
                   kLeastRows * markers()->verticalHeader()->defaultSectionSize())
             << size.height();
@@ -89,12 +90,11 @@ TEST_F(Reading, AmbientOcclusionIsThereFromTheFirstAndWithoutItIsRemembered)
 {
     openCase();
     EXPECT_TRUE(the<QAction>("ambientOcclusion")->isChecked());
-    settle();  // the first picture does not wait for it
     const QImage shaded = pictureOf("endoscopic");
     screenshot("ambient_occlusion");
     the<QAction>("ambientOcclusion")->trigger();
     ASSERT_TRUE(eventually([&] { return pictureOf("endoscopic") != shaded; }));
-    settle();
+    waitUntilQuiet();
     const QImage plain = pictureOf("endoscopic");
     closeCase();
     openCase();
@@ -111,12 +111,10 @@ TEST_F(Reading, SlicesWithoutTaggingAreOneKeyAwayAndNeverTheFirst)
     std::fill(clean.voxels.begin(), clean.voxels.end(), std::int16_t(0));
     scan_files::writeVolume(scan / "cleansed.mha", clean, scan_files::Packing::raw);
     openCase();
-    settle();
     const QImage acquired = pictureOf("axial");
     for (int opened = 0; opened < 2; ++opened) {
         key(Qt::Key_K);
         ASSERT_TRUE(eventually([&] { return pictureOf("axial") != acquired; }));
-        settle();
         screenshot("cleansed");
         if (opened == 0) {
             closeCase();
@@ -134,7 +132,6 @@ TEST_F(Reading, WhatWasSeenIsCountedPaintedListedAndKept)
     const auto picture = [] { return pictureOf("endoscopic"); };
     openCase();
     ASSERT_TRUE(eventually([&] { return seen() > 0; }));
-    settle();  // what stands still counts a moment later
     for (int n = 0; n < 4; ++n)
         key(Qt::Key_Plus);
     const double before = seen();
@@ -142,12 +139,11 @@ TEST_F(Reading, WhatWasSeenIsCountedPaintedListedAndKept)
     ASSERT_TRUE(eventually([] { return station() > 250; }));
     press(window(), "stop");
     ASSERT_TRUE(eventually([&] { return seen() > before + 10; }));
-    settle();
+    waitUntilQuiet();
     // Ahead nothing was seen earlier; behind the wall was, and is painted.
     key(Qt::Key_V);
-    settle();
+    waitUntilQuiet();
     key(Qt::Key_R);
-    settle();
     const auto green = [&] {
         const QImage image = picture();
         int count = 0;
@@ -173,7 +169,6 @@ TEST_F(Reading, WhatWasSeenIsCountedPaintedListedAndKept)
     clickRow(list, last);
     EXPECT_TRUE(eventually([&] { return std::abs(station() - there) < 40; })) << station() << " for " << there;
     screenshot("unseen");
-    settle();
     const double kept = seen();
     closeCase();
     openCase();
@@ -191,7 +186,7 @@ TEST_F(Reading, SlicesAndProjectionMoveToASecondWindowThatHasTheKeysAndIsRemembe
     ASSERT_TRUE(eventually([&] { return the<QWidget>("coronal")->window() != mine; }));
     auto* second = the<QWidget>("second");
     ASSERT_TRUE(eventually([] { return drawn("coronal") && drawn("overview") && drawn("endoscopic"); }));
-    settle();
+    waitUntilQuiet();
     second->grab().save(VICON_SCREENSHOTS "/second_window.png");
     screenshot("first_of_two");
     EXPECT_EQ(the<QWidget>("endoscopic")->window(), mine);

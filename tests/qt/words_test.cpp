@@ -53,7 +53,7 @@ TEST_F(Reading, ARedMarkerAwayFromAnyWallIsWarnedOf)
 {
     openCase();
     window()->resize(1600, 1000);
-    settle();
+    waitUntilQuiet();
     key(Qt::Key_Period);
     ASSERT_TRUE(eventually([] { return pictureIsThere(); }));
     click("endoscopic", middle("endoscopic") + QPoint(60, 90), Qt::ShiftModifier);
@@ -63,7 +63,7 @@ TEST_F(Reading, ARedMarkerAwayFromAnyWallIsWarnedOf)
     the<QWidget>("axial")->setFocus(Qt::TabFocusReason);
     key(Qt::Key_Period);
     ASSERT_TRUE(eventually([] { return pictureIsThere(); }));
-    settle();
+    waitUntilQuiet();
     QTest::keyClick(the<QWidget>("axial"), Qt::Key_Return, Qt::ShiftModifier);
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 2 && settled(); })) << warning();
     EXPECT_NE(warning().find("from the wall"), std::string::npos) << warning();
@@ -115,11 +115,11 @@ TEST_F(Reading, NothingMakesTheWindowLargerThanASmallScreen)
     openCase();
     const QSize screen(1366, 738);  // of 1366 x 768 with a window's title
     window()->resize(screen);
-    settle();
+    waitUntilQuiet();
     for (const auto& [which, modifier] : std::vector<std::pair<int, Qt::KeyboardModifier>>{
              {Qt::Key_F5, Qt::NoModifier}, {Qt::Key_B, Qt::ShiftModifier}, {Qt::Key_F8, Qt::NoModifier}}) {
         key(which, modifier);
-        settle();
+        waitUntilQuiet();
         EXPECT_LE(window()->minimumSizeHint().height(), screen.height()) << which;
         EXPECT_EQ(window()->size(), screen) << which;
     }

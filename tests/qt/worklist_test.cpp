@@ -3,6 +3,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTableWidget>
+#include <QToolButton>
 #include <atomic>
 
 #include "reading.h"
@@ -135,7 +136,8 @@ TEST_F(Reading, AnEmptyWorklistSaysWhatToDoAndOneInWhichNothingIsFoundToo)
     screenshot("worklist_nothing_found");
     search->clear();
     EXPECT_FALSE(hint->isVisible());
-    settle();  // the search's own button fades out
+    const QToolButton* cross = search->findChild<QToolButton*>();  // which clears it: while it fades out it is not gone
+    EXPECT_TRUE(eventually([&] { return cross->property("opacity").toDouble() == 0; }));
 }
 
 TEST_F(Reading, AScanThatBecomesReadyWhileItsCaseIsReadIsOffered)
@@ -192,7 +194,7 @@ TEST_F(Reading, OpeningCanBeCancelledAndTheScanThatIsOpenStays)
     ASSERT_TRUE(the<QWidget>("opening")->isVisible());
     press(window(), "openingCancel");
     EXPECT_EQ(scan->currentText(), open);
-    settle();
+    waitUntilQuiet();
     EXPECT_EQ(scan->currentText(), open) << "what was read meanwhile is not shown";
     key(Qt::Key_End);
     EXPECT_TRUE(eventually([] { return length() - station() < 2; }));

@@ -27,7 +27,12 @@ double now_s()
 
 }  // namespace
 
-CoverageTool::CoverageTool(Reading& reading) : ReadingTool(reading), panel_(new CoveragePanel), seen_text_(new QLabel)
+CoverageTool::CoverageTool(Reading& reading)
+    : ReadingTool(reading),
+      panel_(new CoveragePanel),
+      seen_text_(new QLabel),
+      still_timer_(
+          int(ReviewRule().least_s * 1000), [this] { countStill(); }, Qt::PreciseTimer)
 {
     seen_text_->setObjectName("seenText");
     seen_text_->setToolTip(tr("Share of the wall reviewed so far"));
@@ -60,17 +65,8 @@ void CoverageTool::addActions(ReadingLayout& layout)
 
 void CoverageTool::connectDrawing()
 {
-    // A picture that stays counts when it has been there for long enough; the next one counts for itself.
-    still_timer_.setSingleShot(true);
-    still_timer_.setTimerType(Qt::PreciseTimer);
-    still_timer_.setInterval(int(ReviewRule().least_s * 1000));
-    connect(&reading_, &Reading::endoscopicShown, &still_timer_, &QTimer::stop);
-    connect(&still_timer_, &QTimer::timeout, this, [this] {
-        if (!reading_.scan())
-            return;
-        reading_.scan()->coverage.stillShown(now_s(), ReviewRule().least_s);
-        showSeen();
-    });
+    // The next picture counts for itself.
+    connect(&reading_, &Reading::endoscopicShown, this, [this] { still_timer_.stop(); });
     connect(&reading_.drawing(), &DrawingThread::seenChanged, this, [this] {
         still_timer_.start();
         showSeen();
@@ -243,6 +239,14 @@ void CoverageTool::pointLeft()
 void CoverageTool::leaveRegion()
 {
     highlighted_.reset();
+}
+
+void CoverageTool::countStill()
+{
+    if (!reading_.scan())
+        return;
+    reading_.scan()->coverage.stillShown(now_s(), ReviewRule().least_s);
+    showSeen();
 }
 
 void CoverageTool::showSeen()

@@ -6,6 +6,7 @@
 #include "coverage/coverage_keeper.h"
 #include "reading/reading_tool.h"
 #include "vicon/viewer/model/missed_regions.h"
+#include "widgets/rest_timer.h"
 
 class QLabel;
 
@@ -49,6 +50,7 @@ private:
     void flyTo(std::size_t region);
     void leaveRegion();
     void showSeen();
+    void countStill();
     void keep();
 
     ReadingLayout* layout_ = nullptr;
@@ -60,7 +62,8 @@ private:
     bool next_when_listed_ = false;
     std::shared_ptr<const std::vector<std::uint8_t>> highlighted_;
     CoverageKeeper keeper_{this};
-    QTimer keep_timer_, still_timer_;
+    QTimer keep_timer_;
+    RestTimer still_timer_;  // a picture that stays counts when it has been there for long enough
 };
 
 }  // namespace vicon::viewer

@@ -14,15 +14,12 @@ constexpr double kNear_mm = 10;       // what is measured belongs to a marker th
 }  // namespace
 
 Reading::Reading(const ReadingServices& services, const WorklistCase& row, ReadingViews& views, QObject* parent)
-    : QObject(parent), views_(views), session_(services, row, this), drawing_(this)
+    : QObject(parent), views_(views), session_(services, row, this), drawing_(this), still_(kStill_ms, [this] {
+          drawEndoscopic(true);
+          for (ReadingTool* tool : tools_)
+              tool->draw(true);
+      })
 {
-    still_.setSingleShot(true);
-    still_.setInterval(kStill_ms);
-    connect(&still_, &QTimer::timeout, this, [this] {
-        drawEndoscopic(true);
-        for (ReadingTool* tool : tools_)
-            tool->draw(true);
-    });
 }
 
 void Reading::setTools(std::vector<ReadingTool*> tools)

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QObject>
-#include <QTimer>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "reading/reading_views.h"
 #include "session/case_session.h"
 #include "session/drawing_thread.h"
+#include "widgets/rest_timer.h"
 
 namespace vicon::viewer {
 
@@ -158,7 +158,7 @@ private:
     };
     std::optional<PlaceBefore> before_click_;
     Interaction interaction_;
-    QTimer still_;
+    RestTimer still_;
 };
 
 }  // namespace vicon::viewer

@@ -61,7 +61,7 @@ void Worker::postTask(const std::string& name, Task work)
         const auto waiting = std::find_if(tasks_.begin(), tasks_.end(),
                                           [&](const Waiting& task) { return !name.empty() && task.name == name; });
         if (waiting != tasks_.end())
-            waiting->work = std::move(work);
+            *waiting = {name, std::move(work)};
         else
             tasks_.push_back({name, std::move(work)});
     }
@@ -87,7 +87,8 @@ void Worker::perform(const Waiting& task)
     const std::shared_ptr<Wanted> wanted = wanted_;  // only this thread replaces it
     try {
         if (Work after = task.work(*wanted))
-            QMetaObject::invokeMethod(this, std::move(after), Qt::QueuedConnection);
+            QMetaObject::invokeMethod(
+                this, [after = std::move(after), until_then = task.under_way] { after(); }, Qt::QueuedConnection);
     } catch (const Error& e) {
         if (e.code() != ErrorCode::cancelled || !wanted->cancelled())
             emit failed(messageOf(e));

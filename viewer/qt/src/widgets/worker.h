@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "widgets/under_way.h"
 #include "widgets/wanted.h"
 
 namespace vicon::viewer {
@@ -50,6 +51,7 @@ private:
     struct Waiting {
         std::string name;
         Task work;
+        UnderWay under_way = {};  ///< until what it returns has run
     };
     void run();
     std::optional<Waiting> next();
