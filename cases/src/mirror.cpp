@@ -26,9 +26,10 @@ Error failure(const std::string& what, const fs::path& where, int number)
                                                  : "check that both folders are yours"};
 }
 
+/// A journal is there for a crash: what it holds a copy of is in the store's folders too.
 bool isPassedOver(const fs::path& name)
 {
-    return name.string().starts_with(kTemporaryPrefix) || name.extension() == ".lock";
+    return name.string().starts_with(kTemporaryPrefix) || name.extension() == ".lock" || name.extension() == ".journal";
 }
 
 /// As far as size and time tell: every file of a store is written anew when it changes, none is written into.

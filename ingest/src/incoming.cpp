@@ -25,12 +25,14 @@ Incoming::Incoming(fs::path folder, Pauses pauses, const Receiver::Handlers& han
 {
     makePrivateFolder(folder_);
     lockFolder();
+    journal_ = std::make_unique<ArrivalJournal>(folder_, [this](const std::string& what) { trouble(what); });
     findLeftovers();
 }
 
 Incoming::~Incoming()
 {
     finish();
+    journal_.reset();
     ::close(lock_descriptor_);
 }
 
@@ -109,8 +111,9 @@ int Incoming::waitingOf(const std::string& caller)
     return found == waiting_.end() ? 0 : found->second;
 }
 
-void Incoming::add(const fs::path& folder, const fs::path& file)
+void Incoming::add(const fs::path& folder, const fs::path& received, const fs::path& file)
 {
+    journal_->keep(received, file);
     const std::string study = uidsOf(file).study;
     const std::lock_guard lock(mutex_);
     Batch& batch = batches_[study];

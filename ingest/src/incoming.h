@@ -5,12 +5,14 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "arrival_journal.h"
 #include "vicon/ingest/receiver.h"
 
 namespace vicon::ingest {
@@ -43,8 +45,10 @@ public:
     std::filesystem::path open(const std::string& caller = {});
     /// How many objects of this caller wait to be taken.
     int waitingOf(const std::string& caller);
-    /// A file that lies durably in the folder.
-    void add(const std::filesystem::path& folder, const std::filesystem::path& file);
+    /// Takes a file that was received under another name: when this returns, it lies durably in its folder.
+    /// Throws Error{store}.
+    void add(const std::filesystem::path& folder, const std::filesystem::path& received,
+             const std::filesystem::path& file);
     /// The association is over.
     void close(const std::filesystem::path& folder);
     void trouble(const std::string& what) const;
@@ -80,6 +84,7 @@ private:
     Pauses pauses_;
     const Receiver::Handlers& handlers_;
     int lock_descriptor_ = -1;
+    std::unique_ptr<ArrivalJournal> journal_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::map<std::string, Batch> batches_;  ///< by study

@@ -118,6 +118,7 @@ bool Incoming::handOverOne(std::unique_lock<std::mutex>& lock)
     }
     bool done = false;
     try {
+        journal_->settle();
         done = take(taken.files, taken.deaths);
     } catch (const std::exception& e) {
         trouble("received objects wait in " + folder_.filename().string() + ": " + e.what());

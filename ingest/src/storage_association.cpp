@@ -154,42 +154,35 @@ OFCondition StorageAssociation::receive(T_DIMSE_C_StoreRQ& request, T_ASC_Presen
         service_.incoming.trouble("an object of " + sender() + " was refused: " + why);
         return receiveSTORERequest(request, context, "/dev/null");
     }
-    std::string name = keptNameOf(request.AffectedSOPInstanceUID);
-    name += '-';
-    name += std::to_string(count_);
-    const fs::path file = folder_ / name.append(".dcm");
-    struct NotReceived {};
-    struct Faulty {};
+    const std::string name = keptNameOf(request.AffectedSOPInstanceUID) + "-" + std::to_string(count_) + ".dcm";
+    const fs::path temporary = folder_ / (std::string(kTemporaryPrefix) + name);
     Fault fault;
     try {
         makePrivateFolder(folder_);
-        replaceFile(file, [&](const fs::path& temporary) {
-            received = receiveSTORERequest(request, context, OFString(temporary.c_str()));
-            if (received.bad())
-                throw NotReceived{};
-            fault = faultOf(temporary, request);
-            if (fault.status == STATUS_Success)
-                return;
-            if (const std::string why = whyNoPlace(); !why.empty())  // its end may be missing for that
-                fault = {kOutOfResources, why};
-            throw Faulty{};
-        });
-        service_.incoming.add(folder_, file);
-        ++count_;
-    } catch (const NotReceived&) {
+        received = receiveSTORERequest(request, context, OFString(temporary.c_str()));
         if (received == DIMSE_OUTOFRESOURCES) {  // all of it came, but not all could be written
             received = EC_Normal;
-            status = kOutOfResources;
-            service_.incoming.trouble("an object of " + sender() + " was refused: it has no room on the store's disk");
-        } else
-            service_.incoming.trouble("an object of " + sender() + " was not received completely: " + received.text());
-    } catch (const Faulty&) {
-        status = fault.status;
-        service_.incoming.trouble("an object of " + sender() + " was refused: " + fault.why);
+            fault = {kOutOfResources, "was refused: it has no room on the store's disk"};
+        } else if (received.bad()) {
+            fault.why = std::string("was not received completely: ") + received.text();
+        } else if (fault = faultOf(temporary, request); fault.status != STATUS_Success) {
+            if (const std::string why = whyNoPlace(); !why.empty())  // its end may be missing for that
+                fault = {kOutOfResources, why};
+            fault.why = "was refused: " + fault.why;
+        } else {
+            service_.incoming.add(folder_, temporary, folder_ / name);
+        }
     } catch (const std::exception& e) {
-        status = kOutOfResources;
-        service_.incoming.trouble("an object of " + sender() + " was refused: " + e.what());
+        fault = {kOutOfResources, std::string("was refused: ") + e.what()};
     }
+    status = fault.status;
+    if (fault.why.empty()) {
+        ++count_;
+        return received;
+    }
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    service_.incoming.trouble("an object of " + sender() + " " + fault.why);
     return received;
 }
 

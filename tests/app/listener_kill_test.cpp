@@ -119,5 +119,31 @@ TEST_F(ListenerKill, WhatWasAnsweredWithSuccessIsThereOnce)
     EXPECT_EQ(acknowledged_.size(), std::size_t(kKills * kSlices));
 }
 
+/// A file that was not flushed may have its name after a power cut, and none of its bytes.
+TEST_F(ListenerKill, WhatAPowerCutTakesOfTheFilesIsThereToo)
+{
+    const test::SeriesSpec spec = specOf(0);
+    const auto files = test::writeSeries(folder_ / "in", spec);
+    {
+        RunningListener listener(store_, "--set receive.quiet_s=3600");
+        ASSERT_TRUE(listener.answers()) << listener.log();
+        ASSERT_TRUE(store(listener, spec, files));
+        listener.end(SIGKILL);
+    }
+    int cut = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(store_ / "incoming"))
+        if (entry.path().extension() == ".dcm") {
+            fs::resize_file(entry.path(), 0);
+            ++cut;
+        }
+    EXPECT_EQ(cut, kSlices);
+    {
+        const RunningListener again(store_, "--set receive.quiet_s=0");
+        EXPECT_TRUE(support::waitUntil([&] { return nothingWaits(); })) << again.log();
+    }
+    expectAllThereOnce();
+    EXPECT_EQ(acknowledged_.size(), std::size_t(kSlices));
+}
+
 }  // namespace
 }  // namespace vicon::support
