@@ -128,17 +128,17 @@ TEST_F(FullDisk, AnObjectThatTheDiskHasNoRoomForIsRefusedWithA700)
 
 TEST_F(FullDisk, WhatWasReceivedAndHasNoRoomInItsCaseWaitsForIt)
 {
-    const auto files = study("1", 18, 1024);  // 38 MB, twice
-    disk_.resize(72);
+    const auto files = study("1", 40, 1024);  // 84 MB, twice; while they come in, once, and a journal of 32 MB
+    disk_.resize(152);
     const RunningListener listener(store_, "--set receive.quiet_s=0");
     EXPECT_TRUE(ingest::storeFiles(listener.peer(), files, "SCANNER", quiet_).complete());
     EXPECT_TRUE(waitUntil([&] {
-        return listener.log().find("18 received objects could not be taken and wait in incoming: ") !=
+        return listener.log().find("40 received objects could not be taken and wait in incoming: ") !=
                std::string::npos;
     })) << listener.log();
     EXPECT_THAT(listener.log(), HasSubstr("No space left on device"));
     EXPECT_TRUE(viconJson(store_, "cases")["cases"].empty());
-    disk_.resize(2 * kDisk_mb);
+    disk_.resize(256);
     EXPECT_TRUE(waitUntil([&] { return viconJson(store_, "cases")["cases"].size() == 1; })) << listener.log();
 }
 
