@@ -24,6 +24,21 @@ TEST_F(Submarines, ReleasedAreBackOnThePathWithinTwoSeconds)
     test::releasedAlong(course, 30);
 }
 
+TEST_F(Submarines, ReleasedComeToRestAfterSomeSeconds)
+{
+    for (double station = 20; station < path.length_mm() - 20; station += 37) {
+        Submarine boat = submarine();
+        boat.placeAt(station, Heading::caecum);
+        boat.steer({.pull = 1, .turn_right = 0.5, .thrust_right = 0.5});
+        boat.advance(1);
+        boat.steer({});
+        boat.advance(6);
+        const Pose at_rest = boat.state().pose;
+        boat.advance(0.5);
+        EXPECT_EQ(boat.state().pose, at_rest) << "from " << station;
+    }
+}
+
 TEST_F(Submarines, PulledReachEitherEnd)
 {
     test::pullToBothEnds(course);
@@ -147,6 +162,17 @@ TEST(SubmarinesInAHall, ReleasedBesideANeckMakeForWhereThePathIsWide)
     in.steer({}, 2);
     EXPECT_LT(in.boat.state().off_path_mm, 0.5);
     EXPECT_GE(in.boat.state().clearance_mm, 2);
+}
+
+TEST(SubmarinesInAHall, ReleasedComeToRestSoonAndQuite)
+{
+    InAHall in([](double, double, double) { return false; });
+    in.boat.placeAt(30, Heading::caecum);
+    in.steer({.pull = 1, .turn_right = 0.5, .thrust_right = 0.5}, 1);
+    in.steer({}, 5);
+    const Pose at_rest = in.boat.state().pose;
+    in.steer({}, 0.1);
+    EXPECT_EQ(in.boat.state().pose, at_rest);
 }
 
 TEST(SubmarinesInAHall, ReleasedInAPouchFindTheirWayOut)

@@ -16,6 +16,8 @@ constexpr double kStationStep_mm = 0.5;
 constexpr double kCameraSpare_mm = 0.3;  // a station counts as wide when it leaves this beside the camera
 constexpr double kBlend_per_s = 20;      // how fast a camera that is carried comes onto the path
 constexpr double kSteerRate_per_s = 8;   // how fast turning follows the hand
+// What is slower is at rest: no picture shows it, and as long as the place changes none is drawn smooth.
+constexpr double kAtRest_mm_s = 0.01, kAtRest_rad_s = 1e-4;
 
 }  // namespace
 
@@ -250,6 +252,8 @@ void Submarine::move()
     } else {
         home();
     }
+    if (!steering_.thrusts() && !adrift && length(now_.velocity_mm_s) < kAtRest_mm_s)
+        now_.velocity_mm_s = {};
     step();
     now_.station_mm = path_->nearestStation(now_.position_mm, now_.station_mm, kFootReach_mm);
 }
@@ -288,6 +292,8 @@ void Submarine::turn()
         const Vector3 error = rotationBetween(now_.forward, now_.up, forward, up);
         const double w = options_.righting_per_s, fade = std::exp(-w * kDt);
         now_.spin_rad_s = (now_.spin_rad_s + (error * w - now_.spin_rad_s) * (w * kDt)) * fade;
+        if (length(now_.spin_rad_s) < kAtRest_rad_s)
+            now_.spin_rad_s = {};
     }
     now_.forward = normalized(rotated(now_.forward, now_.spin_rad_s * kDt));
     now_.up = uprightOn(now_.forward, rotated(now_.up, now_.spin_rad_s * kDt));
