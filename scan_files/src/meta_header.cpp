@@ -30,6 +30,23 @@ std::string line(const char* key, std::initializer_list<double> numbers)
     return text + "\n";
 }
 
+/// Whether a name stands in a header, before `end`, and each time with that value.
+bool saysEachTime(std::string_view head, std::string_view name, std::string_view value, std::size_t end)
+{
+    constexpr std::string_view kBetween = " \t=:", kEnds = " \t\r\n";
+    bool said = false;
+    for (std::size_t at = head.find(name); at < end; at = head.find(name, at + 1)) {
+        const std::size_t from = head.find_first_not_of(kBetween, at + name.size());
+        if (from == std::string_view::npos || head.substr(from, value.size()) != value)
+            return false;
+        const std::size_t behind = from + value.size();
+        if (behind >= head.size() || kEnds.find(head[behind]) == std::string_view::npos)
+            return false;
+        said = true;
+    }
+    return said;
+}
+
 }  // namespace
 
 std::string rawHeader(const Grid& grid, const std::string& type)
@@ -48,25 +65,15 @@ std::string rawHeader(const Grid& grid, const std::string& type)
     return first + std::string(missing, '.') + "\n" + lines;
 }
 
-bool saysThreeDimensions(const fs::path& file)
+bool saysThreeDimensionsInOneFile(const fs::path& file)
 {
     constexpr std::size_t kLongestHeader = 65536;
-    constexpr std::string_view kCount = "NDims", kBetween = " \t=:", kEnds = " \t\r\n";
+    constexpr std::string_view kLast = "ElementDataFile";
     std::string head(kLongestHeader, '\0');
     std::ifstream in(file, std::ios::binary);
     in.read(head.data(), std::streamsize(head.size()));
     head.resize(std::size_t(in.gcount()));
-    const std::size_t end = head.find("ElementDataFile");
-    if (end == std::string::npos)
-        return false;
-    bool said = false;
-    for (std::size_t at = head.find(kCount); at < end; at = head.find(kCount, at + 1)) {
-        const std::size_t number = head.find_first_not_of(kBetween, at + kCount.size());
-        if (number >= end - 1 || head[number] != '3' || kEnds.find(head[number + 1]) == std::string_view::npos)
-            return false;
-        said = true;
-    }
-    return said;
+    return saysEachTime(head, "NDims", "3", head.find(kLast)) && saysEachTime(head, kLast, "LOCAL", head.size());
 }
 
 VoxelBytes voxelBytesIn(const fs::path& file, std::size_t raw_bytes)

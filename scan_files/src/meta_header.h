@@ -14,9 +14,10 @@ constexpr std::size_t kVoxelAlignment = 64;
 /// @param type the format's name of the voxel type, "MET_SHORT"
 std::string rawHeader(const Grid& grid, const std::string& type);
 
-/// Whether a file has a header that says three dimensions wherever it says how many. MetaIO does not ask whether it
-/// can be: it reads two thousand million numbers of a line where it is told so.
-bool saysThreeDimensions(const std::filesystem::path& file);
+/// Whether a file has a header that says three dimensions wherever it says how many, and that the voxels follow in it.
+/// MetaIO does not ask whether it can be: it reads two thousand million numbers of a line where it is told so, and
+/// divides by nothing where the voxels are said to lie in files of numbered names.
+bool saysThreeDimensionsInOneFile(const std::filesystem::path& file);
 
 /// Where the voxels of such a file lie.
 struct VoxelBytes {

@@ -81,7 +81,9 @@ INSTANTIATE_TEST_SUITE_P(
                     HeaderChange{Packing::raw, "DimSize = 4 3 5", "DimSize = -4 3 -5"},
                     HeaderChange{Packing::raw, "DimSize = 4 3 5", "DimSize = 65536 65536 4294967296"},
                     HeaderChange{Packing::raw, "ElementSpacing = 1 1 1", "ElementSpacing = 1 nan 1"},
-                    HeaderChange{Packing::raw, "ElementDataFile = LOCAL", "ElementDataFile = /etc/passwd"}));
+                    HeaderChange{Packing::raw, "ElementDataFile = LOCAL", "ElementDataFile = /etc/passwd"},
+                    HeaderChange{Packing::raw, "ElementDataFile = LOCAL", "ElementDataFile = LOCAL%d 1 2 1"},
+                    HeaderChange{Packing::zlib, "DimSize", "ElementDataFile = voxels%d.raw\nDimSize"}));
 
 CellSurface twoTriangles()
 {
@@ -103,6 +105,18 @@ TEST_F(DamagedFile, SurfacesWhoseCornersAreNotThereAreRefused)
     EXPECT_TRUE(isRefused([&] { readCells(file); }));
     writeCells(file, twoTriangles());
     replace("NumberOfPoints=\"4\"", "NumberOfPoints=\"3\"");
+    EXPECT_TRUE(isRefused([&] { readCells(file); }));
+}
+
+TEST_F(DamagedFile, SurfacesWithTwoArraysOfOneNameAreRefused)
+{
+    writeCells(file, twoTriangles());
+    const std::string bytes = readFile(file);
+    const auto cells = bytes.find("<CellData"), begin = bytes.find("<DataArray", cells),
+               end = bytes.find("/>", begin) + 2;
+    ASSERT_LT(end, bytes.find("</CellData"));
+    const std::string array = bytes.substr(begin, end - begin);
+    replace(array, array + array);
     EXPECT_TRUE(isRefused([&] { readCells(file); }));
 }
 
