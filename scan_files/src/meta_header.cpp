@@ -1,9 +1,13 @@
 #include "meta_header.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <cstdio>
 #include <fstream>
+#include <map>
+#include <optional>
 #include <string_view>
 
 #include "vicon/core/error.h"
@@ -17,6 +21,7 @@ constexpr const char* kVoxelsFollow = "ElementDataFile = LOCAL\n";
 /// Zlib packs no better.
 constexpr std::size_t kBestPacking = 1032;
 
+constexpr std::size_t kLongestLine = 300;  // of a header, with its end
 constexpr const char* kMakeAnew = "run 'vicon work' to make it anew";
 
 std::string line(const char* key, std::initializer_list<double> numbers)
@@ -30,21 +35,25 @@ std::string line(const char* key, std::initializer_list<double> numbers)
     return text + "\n";
 }
 
-/// Whether a name stands in a header, before `end`, and each time with that value.
-bool saysEachTime(std::string_view head, std::string_view name, std::string_view value, std::size_t end)
+/// One line of a header, "Name = value".
+struct Field {
+    std::string name, value;
+};
+
+/// Nothing where a line is none, or is longer than MetaIO has room for: it copies without asking.
+std::optional<Field> fieldIn(const std::string& line)
 {
-    constexpr std::string_view kBetween = " \t=:", kEnds = " \t\r\n";
-    bool said = false;
-    for (std::size_t at = head.find(name); at < end; at = head.find(name, at + 1)) {
-        const std::size_t from = head.find_first_not_of(kBetween, at + name.size());
-        if (from == std::string_view::npos || head.substr(from, value.size()) != value)
-            return false;
-        const std::size_t behind = from + value.size();
-        if (behind >= head.size() || kEnds.find(head[behind]) == std::string_view::npos)
-            return false;
-        said = true;
-    }
-    return said;
+    constexpr std::size_t kLongestName = 40, kLongestValue = 250;
+    static_assert(kLongestLine > kLongestName + 3 + kLongestValue);
+    const std::size_t sign = line.find(" = ");
+    if (sign == std::string::npos || sign == 0 || sign > kLongestName || line.size() > sign + 3 + kLongestValue)
+        return std::nullopt;
+    const auto isNameLetter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; };
+    const auto isPrinted = [](char c) { return c >= ' ' && c <= '~'; };
+    if (!std::all_of(line.begin(), line.begin() + std::ptrdiff_t(sign), isNameLetter) ||
+        !std::all_of(line.begin(), line.end(), isPrinted))
+        return std::nullopt;
+    return Field{line.substr(0, sign), line.substr(sign + 3)};
 }
 
 }  // namespace
@@ -65,15 +74,20 @@ std::string rawHeader(const Grid& grid, const std::string& type)
     return first + std::string(missing, '.') + "\n" + lines;
 }
 
-bool saysThreeDimensionsInOneFile(const fs::path& file)
+bool isPlainHeader(const fs::path& file)
 {
-    constexpr std::size_t kLongestHeader = 65536;
-    constexpr std::string_view kLast = "ElementDataFile";
-    std::string head(kLongestHeader, '\0');
+    constexpr std::size_t kMostFields = 40;
     std::ifstream in(file, std::ios::binary);
-    in.read(head.data(), std::streamsize(head.size()));
-    head.resize(std::size_t(in.gcount()));
-    return saysEachTime(head, "NDims", "3", head.find(kLast)) && saysEachTime(head, kLast, "LOCAL", head.size());
+    std::map<std::string, std::string> said;
+    std::array<char, kLongestLine> line{};
+    while (said.size() < kMostFields && in.getline(line.data(), line.size())) {
+        const std::optional<Field> field = fieldIn(std::string(line.data(), std::size_t(in.gcount() - 1)));
+        if (!field || !said.emplace(field->name, field->value).second)
+            return false;
+        if (field->name == "ElementDataFile")
+            return field->value == "LOCAL" && said.contains("NDims") && said["NDims"] == "3";
+    }
+    return false;
 }
 
 VoxelBytes voxelBytesIn(const fs::path& file, std::size_t raw_bytes)

@@ -14,10 +14,10 @@ constexpr std::size_t kVoxelAlignment = 64;
 /// @param type the format's name of the voxel type, "MET_SHORT"
 std::string rawHeader(const Grid& grid, const std::string& type);
 
-/// Whether a file has a header that says three dimensions wherever it says how many, and that the voxels follow in it.
-/// MetaIO does not ask whether it can be: it reads two thousand million numbers of a line where it is told so, and
-/// divides by nothing where the voxels are said to lie in files of numbered names.
-bool saysThreeDimensionsInOneFile(const std::filesystem::path& file);
+/// Whether a file's header is as plain as those that ITK and VICON write: printed characters, nothing said twice, three
+/// dimensions, the voxels in the same file. MetaIO reads two thousand million numbers where it is told so, copies long
+/// values over the end of its fields, and divides by nothing where voxels are said to lie in files of numbered names.
+bool isPlainHeader(const std::filesystem::path& file);
 
 /// Where the voxels of such a file lie.
 struct VoxelBytes {

@@ -45,7 +45,7 @@ itk::MetaImageIO::Pointer openHeader(const fs::path& file)
 {
     if (!fs::exists(file))
         throw Error(ErrorCode::not_found, "no such file", file.string(), "run 'vicon work' to make it");
-    if (!saysThreeDimensionsInOneFile(file))
+    if (!isPlainHeader(file))
         throw Error(ErrorCode::bad_input, "not a MetaImage file of three dimensions with its voxels", file.string(),
                     "run 'vicon work' to make it anew");
     auto io = newImageIO();

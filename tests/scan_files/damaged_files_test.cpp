@@ -69,6 +69,9 @@ TEST_P(DamagedHeader, IsRefused)
     EXPECT_TRUE(volumeIsRefused()) << change.with;
 }
 
+const std::string kComment = "Comment = " + std::string(300, 'x') + "\nDimSize";
+const char* const kLongComment = kComment.c_str();
+
 INSTANTIATE_TEST_SUITE_P(
     OfAVolume, DamagedHeader,
     testing::Values(HeaderChange{Packing::raw, "NDims = 3", "NDims = 2147483647"},
@@ -82,6 +85,8 @@ INSTANTIATE_TEST_SUITE_P(
                     HeaderChange{Packing::raw, "DimSize = 4 3 5", "DimSize = 65536 65536 4294967296"},
                     HeaderChange{Packing::raw, "ElementSpacing = 1 1 1", "ElementSpacing = 1 nan 1"},
                     HeaderChange{Packing::raw, "ElementDataFile = LOCAL", "ElementDataFile = /etc/passwd"},
+                    HeaderChange{Packing::raw, "Comment = ", "ID = 1\nID = 2\nComment = "},
+                    HeaderChange{Packing::zlib, "DimSize", kLongComment},
                     HeaderChange{Packing::raw, "ElementDataFile = LOCAL", "ElementDataFile = LOCAL%d 1 2 1"},
                     HeaderChange{Packing::zlib, "DimSize", "ElementDataFile = voxels%d.raw\nDimSize"}));
 
