@@ -2,6 +2,7 @@
 #include "vicon/cases/finding_facts.h"
 #include "vicon/core/enum_names.h"
 #include "vicon/core/geometry_json.h"
+#include "vicon/core/json_text.h"
 
 using nlohmann::json;
 
@@ -51,7 +52,7 @@ FindingSight sightFromJson(const json& from)
     s.fraction = from.at("fraction").get<double>();
     s.part = named(from, "part", colonPartFrom);
     if (from.contains("clock_hour"))
-        s.clock_hour = from["clock_hour"].get<int>();
+        s.clock_hour = wholeNumber(from["clock_hour"]);
     s.size_2d_mm = number(from, "size_2d_mm");
     s.size_3d_mm = number(from, "size_3d_mm");
     s.mean_hu = number(from, "mean_hu");

@@ -1,6 +1,7 @@
 #include "vicon/cases/marker_measures.h"
 
 #include "vicon/core/geometry_json.h"
+#include "vicon/core/json_text.h"
 
 using nlohmann::json;
 
@@ -84,7 +85,7 @@ DensitySample densitySampleFromJson(const json& json)
     sample.mean_hu = json.at("mean_hu").get<double>();
     sample.sd_hu = json.at("sd_hu").get<double>();
     sample.fat_fraction = json.at("fat_fraction").get<double>();
-    sample.from_hu = histogram.at("from_hu").get<int>();
+    sample.from_hu = wholeNumber(histogram.at("from_hu"));
     sample.counts = histogram.at("counts").get<std::vector<std::size_t>>();
     return sample;
 }

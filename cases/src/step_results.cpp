@@ -1,9 +1,11 @@
 #include "vicon/cases/step_results.h"
 
+#include <array>
 #include <map>
 #include <string_view>
 
 #include "vicon/core/error.h"
+#include "vicon/core/json_text.h"
 
 using nlohmann::json;
 
@@ -16,6 +18,14 @@ void take(const json& from, const char* key, Value& into)
 {
     if (const auto found = from.find(key); found != from.end())
         into = found->get<Value>();
+}
+
+/// Voxels along each axis, if they are there.
+void takeSize(const json& from, const char* key, std::array<int, 3>& into)
+{
+    if (const auto found = from.find(key); found != from.end())
+        for (std::size_t axis = 0; axis < into.size(); ++axis)
+            into[axis] = wholeNumber(found->at(axis));
 }
 
 /// What is left of a result when its known keys are taken away.
@@ -40,9 +50,9 @@ json toJson(const ResampleFound& found)
 ResampleFound resampleFoundFromJson(const json& json)
 {
     ResampleFound found;
-    take(json, "acquired_size", found.acquired_size);
+    takeSize(json, "acquired_size", found.acquired_size);
     take(json, "acquired_spacing_mm", found.acquired_spacing_mm);
-    take(json, "size", found.size);
+    takeSize(json, "size", found.size);
     take(json, "spacing_mm", found.spacing_mm);
     return found;
 }

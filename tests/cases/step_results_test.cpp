@@ -67,6 +67,8 @@ TEST(StepResults, WarnOfAnOrganThatWasNotFoundOrNotSurely)
 TEST(StepResults, OfAnotherShapeAreSaidToBe)
 {
     EXPECT_THROW(resultsOf({{.step = "segment", .result = {{"confidence", "much"}}}}), Error);
+    EXPECT_THROW(resultsOf({{.step = "resample", .result = {{"size", {2e108, 4, 4}}}}}), Error) << "fits no int";
+    EXPECT_THROW(resultsOf({{.step = "resample", .result = {{"size", {4, 4}}}}}), Error);
 }
 
 TEST(ScanQuality, IsReadBackWithItsNotesAndWithoutThemFromBefore)
