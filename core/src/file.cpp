@@ -29,26 +29,10 @@ namespace {
                 full ? "free some space on this disk and run again" : "check that the folder exists and is yours");
 }
 
-class Descriptor {
-public:
-    Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC)) {}
-    ~Descriptor()
-    {
-        if (fd_ >= 0)
-            ::close(fd_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int get() const { return fd_; }
-
-private:
-    int fd_;
-};
-
-void flush(const fs::path& path, int flags)
+void flush(const fs::path& path)
 {
-    const Descriptor file(path, flags);
-    if (file.get() < 0 || ::fsync(file.get()) != 0)
+    errno = flushToDisk(path);
+    if (errno != 0)
         failed("cannot be flushed to disk", path);
 }
 
@@ -88,7 +72,7 @@ void replaceFile(const fs::path& target, const std::function<void(const fs::path
         write(temporary);
         if (::chmod(temporary.c_str(), 0600) != 0)
             failed("cannot be written", target);
-        flush(temporary, O_RDONLY);
+        flush(temporary);
         if (::rename(temporary.c_str(), target.c_str()) != 0)
             failed("cannot be replaced", target);
     } catch (...) {
@@ -96,7 +80,7 @@ void replaceFile(const fs::path& target, const std::function<void(const fs::path
         fs::remove(temporary, ignored);
         throw;
     }
-    flush(target.has_parent_path() ? target.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY);
+    flush(target.has_parent_path() ? target.parent_path() : fs::path("."));
 }
 
 void replaceFile(const fs::path& target, std::string_view content)
@@ -108,6 +92,15 @@ void replaceFile(const fs::path& target, std::string_view content)
         if (!out)
             failed("cannot be written", target);
     });
+}
+
+int flushToDisk(const fs::path& path)
+{
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const int number = descriptor >= 0 && ::fsync(descriptor) == 0 ? 0 : errno;
+    if (descriptor >= 0)
+        ::close(descriptor);
+    return number;
 }
 
 void removeTemporaries(const fs::path& folder)
@@ -125,7 +118,7 @@ void makePrivateFolder(const fs::path& folder)
     makePrivateFolder(folder.parent_path());
     if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
         failed("folder cannot be created", folder);
-    flush(folder.has_parent_path() ? folder.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY);
+    flush(folder.has_parent_path() ? folder.parent_path() : fs::path("."));
 }
 
 std::string readFile(const fs::path& file)

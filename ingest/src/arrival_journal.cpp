@@ -21,38 +21,30 @@ constexpr const char* kParts[] = {"arrivals-1.journal", "arrivals-2.journal"};
 constexpr std::size_t kFlushedAtOnce = 8;  // each waits for the disk, which flushes several in the time of one
 constexpr auto kSettleAgain = std::chrono::seconds(1);
 
-class ReadOnly {
-public:
-    explicit ReadOnly(const fs::path& path) : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-    ~ReadOnly()
-    {
-        if (number_ >= 0)
-            ::close(number_);
-    }
-    ReadOnly(const ReadOnly&) = delete;
-    ReadOnly& operator=(const ReadOnly&) = delete;
-    int number() const { return number_; }
+/// The disk begins with it, and nobody waits.
+void beginToFlush(const fs::path& file)
+{
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0)
+        return;
+    ::sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
+    ::close(descriptor);
+}
 
-private:
-    int number_;
-};
-
-/// The number of the system's error; 0 for none, and for what is not there any more.
+/// As flushToDisk(); nothing is wrong with what is not there any more.
 int flushOne(const fs::path& path)
 {
-    const ReadOnly opened(path);
-    const bool flushed = opened.number() >= 0 && ::fsync(opened.number()) == 0;
-    return flushed || errno == ENOENT ? 0 : errno;
+    const int number = flushToDisk(path);
+    return number == ENOENT ? 0 : number;
 }
 
 /// Flushes files and the folders that they lie in. Throws Error{store}.
 void flushAll(const std::vector<fs::path>& files)
 {
     std::set<fs::path> folders;
-    for (const fs::path& file : files) {  // the disk begins with all before one is waited for
+    for (const fs::path& file : files) {  // with all before one is waited for
         folders.insert(file.parent_path());
-        if (const ReadOnly opened(file); opened.number() >= 0)
-            ::sync_file_range(opened.number(), 0, 0, SYNC_FILE_RANGE_WRITE);
+        beginToFlush(file);
     }
     std::atomic<std::size_t> next = 0;
     std::atomic<int> error = 0;

@@ -1,6 +1,4 @@
 // From the incoming folder to whoever takes what was received.
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -193,9 +191,7 @@ void Incoming::quarantine(const Files& files, const std::string& why)
         else
             fs::rename(file, kept);
     }
-    const int descriptor = ::open(target.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    ::fsync(descriptor);
-    ::close(descriptor);
+    (void)flushToDisk(target);
     trouble(std::to_string(files.size()) + (files.size() == 1 ? " received object was" : " received objects were") +
             " put into quarantine/received/" + dateToday() + ": " + why);
 }

@@ -187,10 +187,10 @@ std::uint64_t JournalPart::reserve(std::uint64_t bytes)
 void JournalPart::open()
 {
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-    const int folder = ::open(file_.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    const bool flushed = descriptor_ >= 0 && ::fsync(folder) == 0;
-    ::close(folder);
-    if (!flushed)
+    if (descriptor_ < 0)
+        partFailed("cannot be made", file_);
+    errno = flushToDisk(file_.parent_path());
+    if (errno != 0)
         partFailed("cannot be made", file_);
 }
 

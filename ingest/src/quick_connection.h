@@ -20,7 +20,7 @@ public:
 
     ssize_t read(void* bytes, size_t count) override
     {
-        acknowledgeAtOnce(this->getSocket());  // for now: the system falls back
+        acknowledgeAtOnce(this->getSocket());  // each time: the system falls back by itself
         return Connection::read(bytes, count);
     }
 };

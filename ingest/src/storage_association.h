@@ -5,6 +5,7 @@
 #include <dcmtk/dcmnet/scpthrd.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "caller_rules.h"
@@ -48,6 +49,9 @@ protected:
     OFCondition handleIncomingCommand(T_DIMSE_Message* message, const DcmPresentationContextInfo& context) override;
 
 private:
+    /// Nothing where the message has none.
+    OFCondition receiveDataset(T_DIMSE_DataSetType type, T_ASC_PresentationContextID& id,
+                               std::unique_ptr<DcmDataset>& dataset);
     OFCondition takeReport(const T_DIMSE_N_EventReportRQ& request, const DcmPresentationContextInfo& context);
     Uint16 takeIn(const T_DIMSE_N_EventReportRQ& request, DcmDataset* dataset);
     OFCondition takeDemand(const T_DIMSE_N_ActionRQ& request, const DcmPresentationContextInfo& context);

@@ -22,17 +22,26 @@ bool isPushModel(const std::string& sop_class)
 
 }  // namespace
 
+OFCondition StorageAssociation::receiveDataset(T_DIMSE_DataSetType type, T_ASC_PresentationContextID& id,
+                                               std::unique_ptr<DcmDataset>& dataset)
+{
+    if (type == DIMSE_DATASET_NULL)
+        return EC_Normal;
+    DcmDataset* received = nullptr;
+    const OFCondition came = receiveDIMSEDataset(&id, &received);
+    dataset.reset(received);
+    return came;
+}
+
 /// The report is taken in before it is answered with success: an archive that did not reach us reports again. DCMTK's
 /// own answer leaves out what the request named, which Orthanc takes for an error.
 OFCondition StorageAssociation::takeReport(const T_DIMSE_N_EventReportRQ& request,
                                            const DcmPresentationContextInfo& context)
 {
-    DcmDataset* received = nullptr;
     T_ASC_PresentationContextID id = context.presentationContextID;
-    if (request.DataSetType != DIMSE_DATASET_NULL)
-        if (const OFCondition came = receiveDIMSEDataset(&id, &received); came.bad())
-            return came;
-    const std::unique_ptr<DcmDataset> dataset(received);
+    std::unique_ptr<DcmDataset> dataset;
+    if (const OFCondition came = receiveDataset(request.DataSetType, id, dataset); came.bad())
+        return came;
     T_DIMSE_Message answer{};
     answer.CommandField = DIMSE_N_EVENT_REPORT_RSP;
     T_DIMSE_N_EventReportRSP& said = answer.msg.NEventReportRSP;
@@ -62,12 +71,10 @@ Uint16 StorageAssociation::takeIn(const T_DIMSE_N_EventReportRQ& request, DcmDat
 
 OFCondition StorageAssociation::takeDemand(const T_DIMSE_N_ActionRQ& request, const DcmPresentationContextInfo& context)
 {
-    DcmDataset* received = nullptr;
     T_ASC_PresentationContextID id = context.presentationContextID;
-    if (request.DataSetType != DIMSE_DATASET_NULL)
-        if (const OFCondition came = receiveDIMSEDataset(&id, &received); came.bad())
-            return came;
-    const std::unique_ptr<DcmDataset> dataset(received);
+    std::unique_ptr<DcmDataset> dataset;
+    if (const OFCondition came = receiveDataset(request.DataSetType, id, dataset); came.bad())
+        return came;
     CommitmentDemand demand;
     std::string number;
     const Uint16 status = takeIn(request, dataset.get(), demand, number);

@@ -38,14 +38,9 @@ Error failure(const std::string& what, const fs::path& where, int number)
     throw failure(what, where, number);
 }
 
-void flush(const fs::path& path, int flags)
+void flush(const fs::path& path)
 {
-    const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
-    const bool flushed = descriptor >= 0 && ::fsync(descriptor) == 0;
-    const int number = errno;
-    if (descriptor >= 0)
-        ::close(descriptor);
-    if (!flushed)
+    if (const int number = flushToDisk(path); number != 0)
         failed("cannot be flushed to disk", path, number);
 }
 
@@ -55,7 +50,7 @@ void copyPrivately(const fs::path& from, const fs::path& to)
         throw notCopied(from, to, number);
     if (::chmod(to.c_str(), 0600) != 0)
         failed("cannot be made private", to, errno);
-    flush(to, O_RDONLY);
+    flush(to);
 }
 
 fs::path temporaryFor(const fs::path& folder, const std::string& name)
@@ -100,7 +95,7 @@ void copyDurably(const fs::path& folder, const std::vector<FileCopy>& copies, Pr
         removeTemporaries(folder);
         throw;
     }
-    flush(folder, O_RDONLY | O_DIRECTORY);
+    flush(folder);
 }
 
 }  // namespace vicon::ingest

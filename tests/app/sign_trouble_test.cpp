@@ -27,16 +27,7 @@ protected:
     {
         const std::string person = runCommand("id -un").output;
         replaceFile(config_, "[roles]\nsign = [\"" + person.substr(0, person.find('\n')) + "\"]\n");
-        viconOn(store_, "import " + smallStudy().string());
-        viconOn(store_, "work --until-idle");
-        scan_ = listedScans(store_).at(0);
-        const json truth = json::parse(readFile(smallStudy() / "truth-supine.json"));
-        std::string at;
-        for (const auto& coordinate : truth["polyps"][0]["position_mm"])
-            at.append(at.empty() ? "" : ",").append(coordinate.dump());
-        viconOn(store_, "mark " + scan_.case_id + " --at=" + at);
-        viconOn(store_, "finding " + scan_.case_id + " --add m1 --kind polyp --size 7 --note 'as seen'");
-        viconOn(store_, "assess " + scan_.case_id + " --c-rads C2a --why test --e-rads E1 --e-why test");
+        scan_ = readSmallStudy(store_, "--note 'as seen'");
         before_ = viconJson(store_, "finding " + scan_.case_id);
     }
     /// @param before what a shell runs first, ended by a semicolon

@@ -26,16 +26,7 @@ protected:
     void SetUp() override
     {
         replaceFile(config_, deliveringConfig(test::freePort(), peer_port_));
-        viconOn(store_, "import " + smallStudy().string());
-        viconOn(store_, "work --until-idle");
-        scan_ = listedScans(store_).at(0);
-        const json truth = json::parse(readFile(smallStudy() / "truth-supine.json"));
-        std::string at;
-        for (const auto& coordinate : truth["polyps"][0]["position_mm"])
-            at.append(at.empty() ? "" : ",").append(coordinate.dump());
-        viconOn(store_, "mark " + scan_.case_id + " --at=" + at);
-        viconOn(store_, "finding " + scan_.case_id + " --add m1 --kind polyp --size 7");
-        viconOn(store_, "assess " + scan_.case_id + " --c-rads C2a --why test --e-rads E1 --e-why test");
+        scan_ = readSmallStudy(store_);
         viconOn(store_, "sign " + scan_.case_id + " --set 'report.send_to=[]' --config " + config_.string());
         viconOn(store_, "export " + scan_.case_id + " --as dicom --out " + exported().string());
     }

@@ -97,6 +97,21 @@ std::vector<ListedScan> listedScans(const fs::path& store)
     return scans;
 }
 
+ListedScan readSmallStudy(const fs::path& store, const std::string& facts)
+{
+    viconOn(store, "import " + smallStudy().string());
+    viconOn(store, "work --until-idle");
+    ListedScan scan = listedScans(store).at(0);
+    const nlohmann::json truth = nlohmann::json::parse(std::ifstream(smallStudy() / "truth-supine.json"));
+    std::string at;
+    for (const auto& coordinate : truth["polyps"][0]["position_mm"])
+        at.append(at.empty() ? "" : ",").append(coordinate.dump());
+    viconOn(store, "mark " + scan.case_id + " --at=" + at);
+    viconOn(store, "finding " + scan.case_id + " --add m1 --kind polyp --size 7 " + facts);
+    viconOn(store, "assess " + scan.case_id + " --c-rads C2a --why test --e-rads E1 --e-why test");
+    return scan;
+}
+
 std::vector<std::string> linesWithoutProgress(const std::string& output)
 {
     static const std::regex progress("[^ ]+: +[0-9]+ % .*");

@@ -28,6 +28,10 @@ struct ListedScan {
 };
 std::vector<ListedScan> listedScans(const std::filesystem::path& store);
 
+/// Imports and prepares the small study, and reads it: a finding of 7 mm at its first polyp, categories; ready to sign.
+/// @param facts more of the finding, as `vicon finding` takes it
+ListedScan readSmallStudy(const std::filesystem::path& store, const std::string& facts = {});
+
 /// What a command printed, a line each, without those that tell how far it is.
 std::vector<std::string> linesWithoutProgress(const std::string& output);
 

@@ -23,12 +23,7 @@ namespace vicon::viewer {
 namespace {
 
 using test::Reading;
-
-void type(int key, Qt::KeyboardModifiers modifiers = {})
-{
-    ASSERT_NE(QApplication::focusWidget(), nullptr) << "nobody has the keyboard";
-    QTest::keyClick(QApplication::focusWidget(), Qt::Key(key), modifiers);
-}
+using test::type;
 
 bool isControl(const QWidget* widget)
 {

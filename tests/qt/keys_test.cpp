@@ -15,12 +15,7 @@ namespace vicon::viewer {
 namespace {
 
 using test::Reading;
-
-/// As the window system does it: to whoever has the keyboard.
-void type(int key, Qt::KeyboardModifiers modifiers = {})
-{
-    QTest::keyClick(QApplication::focusWidget(), Qt::Key(key), modifiers);
-}
+using test::type;
 
 TEST_F(Reading, KeysThatAListUnderstandsBelongToTheListThatHasTheKeyboard)
 {

@@ -18,6 +18,13 @@ class QTableWidget;
 
 namespace vicon::viewer::test {
 
+/// As the window system does it: to whoever has the keyboard.
+inline void type(int key, Qt::KeyboardModifiers modifiers = {})
+{
+    ASSERT_NE(QApplication::focusWidget(), nullptr) << "nobody has the keyboard";
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key(key), modifiers);
+}
+
 /// One reader at the screen: looks for controls by name, presses, waits until what must follow is there. The screen is
 /// shared by the tests of a program; pictures of each step stay in the build tree.
 class Reader : public testing::Test {

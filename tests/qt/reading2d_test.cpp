@@ -11,13 +11,7 @@ namespace vicon::viewer {
 namespace {
 
 using test::Reading;
-
-/// As the window system does it: to whoever has the keyboard.
-void type(int key, Qt::KeyboardModifiers modifiers = {})
-{
-    ASSERT_NE(QApplication::focusWidget(), nullptr) << "nobody has the keyboard";
-    QTest::keyClick(QApplication::focusWidget(), Qt::Key(key), modifiers);
-}
+using test::type;
 
 class Reading2D : public Reading {
 protected:

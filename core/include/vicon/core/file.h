@@ -17,6 +17,8 @@ void replaceFile(const std::filesystem::path& target, std::string_view content);
 
 inline constexpr std::string_view kTemporaryPrefix = ".vicon-tmp-";
 
+/// Flushes a file or a folder. Returns 0, else the system's number for what went wrong.
+int flushToDisk(const std::filesystem::path& path);
 /// Removes temporaries that a killed process left directly in `folder`. Call only while nobody else writes there.
 void removeTemporaries(const std::filesystem::path& folder);
 
