@@ -1,5 +1,6 @@
 #include "trial_record.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -13,6 +14,7 @@ namespace vicon::ingest {
 namespace {
 
 constexpr const char* kName = "being_taken.json";
+constexpr int kMostCounted = 1000;
 
 }  // namespace
 
@@ -32,16 +34,18 @@ TrialRecord::~TrialRecord()
 
 Trial readTrial(const fs::path& folder)
 {
-    Trial trial;
     if (!fs::exists(folder / kName))
+        return {};
+    try {
+        const json content = parsedJson(readFile(folder / kName));
+        Trial trial;
+        for (const json& file : content.at("files"))
+            trial.files.push_back(folder / file.get<std::string>());
+        trial.deaths = std::clamp(wholeNumber(content.at("deaths")), 0, kMostCounted) + 1;
         return trial;
-    const json content = parsedJson(readFile(folder / kName));
-    if (!content.is_object())
-        return trial;
-    for (const json& file : content.value("files", json::array()))
-        trial.files.push_back(folder / file.get<std::string>());
-    trial.deaths = content.value("deaths", 0) + 1;
-    return trial;
+    } catch (const json::exception&) {  // not as VICON writes it: it tells nothing
+        return {};
+    }
 }
 
 }  // namespace vicon::ingest

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "vicon/viewer/model/annotate.h"
+
 namespace vicon::viewer {
 namespace {
 
@@ -106,6 +108,25 @@ TEST(Text, IsMadeSmallerUntilItFitsAndThenCutOff)
     text.text = "Wolfeschlegelsteinhausenbergerdor, H. B.";  // another end, which is not shown
     text.most_width_px = 0.3 * whole;
     EXPECT_EQ(textSize(cut).width_px, textSize(text).width_px);
+}
+
+TEST(Text, OfOneBlockHasOneSize)
+{
+    const OverlayText name{.text = "Wolfeschlegelsteinhausenbergerdorff, H. B."}, date{.text = "1951"};
+    const double whole = textSize({.text = name.text, .height_px = 24}).width_px;
+    Overlay overlay;
+    addLines(overlay, {0, 0, 0.7 * whole, 300}, {name, date}, 24);
+    addLines(overlay, {0, 100, 2 * whole, 300}, {name, date}, 24);
+    const std::vector<Area> areas = textAreas(overlay);
+    ASSERT_EQ(areas.size(), 4U);
+    EXPECT_LT(areas[0].height, 0.75 * areas[2].height) << "the name does not fit";
+    EXPECT_EQ(areas[1].height, areas[0].height);
+    EXPECT_EQ(areas[3].height, areas[2].height) << "another block";
+    const double cut_off = 0.4 * whole;
+    Overlay narrow;
+    addLines(narrow, {0, 0, cut_off, 300}, {name, date}, 24);
+    EXPECT_LE(textAreas(narrow)[0].width, cut_off);
+    EXPECT_EQ(textAreas(narrow)[1].height, textAreas(narrow)[0].height);
 }
 
 TEST(Text, ThatBeginsNearAnEdgeIsMovedUntilItEndsInThePicture)

@@ -143,12 +143,16 @@ void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>
 {
     const double margin = kLineMargin * text_px;
     double y = area.y + margin;
+    int block = 1;
+    for (const OverlayText& other : overlay.texts)
+        block = std::max(block, other.block + 1);
     for (OverlayText line : lines) {
         line.at = {area.x + margin, y};
         line.height_px = text_px;
         line.across = Across::left;
         line.along = Along::top;
         line.most_width_px = area.width - 2 * margin;
+        line.block = block;
         overlay.texts.push_back(line);
         y += kLineHeight * text_px;
     }

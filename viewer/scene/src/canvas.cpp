@@ -105,9 +105,9 @@ void Picture::set(int x, int y, Rgb color)
 void paint(Picture& picture, const Overlay& overlay)
 {
     Mask mask(picture.width, picture.height), rim(picture.width, picture.height);
-    std::vector<PlacedText> texts;
-    for (const OverlayText& text : overlay.texts)
-        texts.push_back(movedInto(picture, layOut(text), text.at));
+    std::vector<PlacedText> texts = layOut(overlay.texts);
+    for (std::size_t n = 0; n < texts.size(); ++n)
+        texts[n] = movedInto(picture, texts[n], overlay.texts[n].at);
     paintGround(picture, texts, mask);  // not over lines and discs: markers stay as bright as they are
     for (const OverlayLine& line : overlay.lines)
         paintLine(picture, mask, line);
@@ -119,12 +119,20 @@ void paint(Picture& picture, const Overlay& overlay)
 
 TextSize textSize(const OverlayText& text)
 {
-    return sizeOf(layOut(text));
+    return sizeOf(layOut({text}).front());
 }
 
 Area textArea(const OverlayText& text)
 {
-    return areaOf(layOut(text));
+    return areaOf(layOut({text}).front());
+}
+
+std::vector<Area> textAreas(const Overlay& overlay)
+{
+    std::vector<Area> areas;
+    for (const PlacedText& text : layOut(overlay.texts))
+        areas.push_back(areaOf(text));
+    return areas;
 }
 
 void copyInto(Picture& target, const Picture& source, int x, int y)

@@ -43,9 +43,7 @@ Area roomBelow(const std::vector<Area>& texts, int width, int height)
 /// Whichever shows more: the scale of a close-up goes by its shorter side.
 Area roomFor(const Overlay& overlay, int width, int height, double margin_px)
 {
-    std::vector<Area> texts;
-    for (const OverlayText& text : overlay.texts)
-        texts.push_back(textArea(text));
+    const std::vector<Area> texts = textAreas(overlay);
     const Area below = roomBelow(texts, width, height), beside = roomBeside(texts, width, height, margin_px);
     return std::min(below.width, below.height) >= beside.height ? below : beside;
 }

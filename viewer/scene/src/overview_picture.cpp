@@ -122,8 +122,8 @@ public:
     Names(std::vector<Area> taken, const Overlay& overlay, const PlaneView& view)
         : picture_{0, 0, double(view.width), double(view.height)}, taken_(std::move(taken))
     {
-        for (const OverlayText& text : overlay.texts)
-            taken_.push_back(textArea(text));
+        const std::vector<Area> written = textAreas(overlay);
+        taken_.insert(taken_.end(), written.begin(), written.end());
     }
 
     /// Above, below, on the right or on the left of a place; false where there is no room.

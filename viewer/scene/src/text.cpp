@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <utility>
 
@@ -21,6 +22,7 @@ constexpr double kLetterTop = 0.72, kLetterBottom = 0.1;  // of the size
 // Of the size: lines of a caption run together without an edge; around single letters as much would be a blot.
 constexpr double kLeastGroundEdge = 0.35, kMostGroundEdge = 0.9, kGroundEdgePerWidth = 0.15;
 constexpr double kLeastSize_px = 6, kLeastShare = 0.6;  // of the wanted height: a name is read, not merely there
+constexpr double kRounding_px = 1;                        // letters are set on whole pixels
 constexpr double kAscent = 0.95, kDescent = 0.25;       // of the size: room for accents and tails in every script
 
 /// The installed fonts, shared by all threads.
@@ -52,27 +54,28 @@ std::string firstCharacters(const std::string& utf8, std::size_t count)
     return utf8.substr(0, end);
 }
 
-/// So much of the text as fits at this size, with a sign that there is more.
-text::TextLine cutOff(text::Typesetter& type, const OverlayText& text, double size_px, double whole_width_px)
+/// So much of the text as fits at this size, with a sign that there is more where that is not all.
+text::TextLine cutOff(text::Typesetter& type, const OverlayText& text, double size_px)
 {
+    text::TextLine whole = type.line(text.text, {.size = size_px});
+    if (whole.width <= text.most_width_px + kRounding_px)
+        return whole;
     const auto all = std::count_if(text.text.begin(), text.text.end(), [](char c) { return (c & 0xC0) != 0x80; });
-    for (auto count = std::size_t(double(all) * text.most_width_px / whole_width_px);; --count) {
+    for (auto count = std::size_t(double(all) * text.most_width_px / whole.width);; --count) {
         text::TextLine line = type.line(firstCharacters(text.text, count) + "…", {.size = size_px});
         if (line.width <= text.most_width_px || count == 0)
             return line;
     }
 }
 
-text::TextLine fitted(text::Typesetter& type, const OverlayText& text)
+/// At which a text fits, or is cut off.
+double fittingSize(text::Typesetter& type, const OverlayText& text)
 {
-    text::TextLine wanted = type.line(text.text, {.size = text.height_px});
-    if (wanted.width <= text.most_width_px)
-        return wanted;
-    const double smaller = text.height_px * text.most_width_px / wanted.width;
+    const double width = type.line(text.text, {.size = text.height_px}).width;
+    if (width <= text.most_width_px)
+        return text.height_px;
     const double least = std::max(kLeastSize_px, kLeastShare * text.height_px);
-    if (smaller >= least)
-        return type.line(text.text, {.size = smaller});
-    return cutOff(type, text, least, wanted.width * least / text.height_px);
+    return std::max(least, text.height_px * text.most_width_px / width);
 }
 
 Pixel beginOf(const OverlayText& text, const text::TextLine& line)
@@ -103,11 +106,22 @@ void draw(Mask& mask, int font, const text::PlacedGlyph& glyph, const PlacedText
 
 }  // namespace
 
-PlacedText layOut(const OverlayText& text)
+std::vector<PlacedText> layOut(const std::vector<OverlayText>& texts)
 {
     const std::lock_guard lock(library().mutex);
-    PlacedText placed{fitted(library().type, text), {}, text.color};
-    placed.begin = beginOf(text, placed.line);
+    std::map<int, double> block_px;
+    std::vector<double> sizes_px;
+    for (const OverlayText& text : texts) {
+        sizes_px.push_back(fittingSize(library().type, text));
+        double& smallest_px = block_px.try_emplace(text.block, sizes_px.back()).first->second;
+        smallest_px = std::min(smallest_px, sizes_px.back());
+    }
+    std::vector<PlacedText> placed;
+    for (std::size_t n = 0; n < texts.size(); ++n) {
+        const OverlayText& text = texts[n];
+        placed.push_back({cutOff(library().type, text, text.block ? block_px[text.block] : sizes_px[n]), {}, text.color});
+        placed.back().begin = beginOf(text, placed.back().line);
+    }
     return placed;
 }
 

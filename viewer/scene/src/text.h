@@ -14,7 +14,7 @@ struct PlacedText {
     Rgb color;
 };
 
-PlacedText layOut(const OverlayText& text);
+std::vector<PlacedText> layOut(const std::vector<OverlayText>& texts);
 TextSize sizeOf(const PlacedText& text);
 Area areaOf(const PlacedText& text);
 

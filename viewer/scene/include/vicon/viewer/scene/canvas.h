@@ -31,6 +31,8 @@ struct TextSize {
 TextSize textSize(const OverlayText& text);
 /// What a line of text as paint() would draw it takes of a picture that is large enough.
 Area textArea(const OverlayText& text);
+/// The same of each of an overlay's texts: those of one block have one size.
+std::vector<Area> textAreas(const Overlay& overlay);
 
 /// Puts a picture into another one; what does not fit is cut off.
 void copyInto(Picture& target, const Picture& source, int x, int y);
