@@ -47,6 +47,8 @@ TEST_F(CorrectionsOfAScan, OutsideTheScanAreRefusedAndChangeNothing)
     } catch (const Error& e) {
         EXPECT_EQ(e.code(), ErrorCode::wrong_use);
         EXPECT_EQ(e.subject(), "--drop");
+        EXPECT_NE(std::string(e.what()).find("the point 0.0,0.0,11.0 lies outside the scan"), std::string::npos)
+            << e.what();
     }
     EXPECT_EQ(kept(), (Corrections{.cut = {{9, 9, 9}}}));
 }

@@ -22,6 +22,7 @@ TEST(StepResults, HaveOneJsonFormThatIsReadBack)
     EXPECT_EQ(found.organ, Organ("airway"));
     EXPECT_EQ(found.bridges.at(0).to_mm, Point3(4, 5, 6));
     EXPECT_EQ(toJson(found), segment);
+    EXPECT_EQ(found.measures, json({{"limit_hu", -930}})) << "the rest alone";
     for (const char* tree_or_path : {R"({"length_mm": 1600.5, "pieces": [{"path_voxels": 3}]})",
                                      R"({"length_mm": 200, "branches": 9, "tips": 5, "total_length_mm": 900})"})
         EXPECT_EQ(toJson(skeletonFoundFromJson(json::parse(tree_or_path))), json::parse(tree_or_path));

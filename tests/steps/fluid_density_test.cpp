@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "vicon/steps/tissue.h"
 
 namespace vicon::steps {
@@ -44,6 +46,22 @@ TEST(FluidDensity, OfPoolsBehindAWallAreEachItsOwn)
     const FluidDensity density(mixture, kNoise_hu, TissueOptions{}.tag_contrast_hu);
     EXPECT_NEAR(density.at({8, 10, 10}), kFluidHu, 5);
     EXPECT_NEAR(density.at({32, 10, 10}), 400, 5);
+}
+
+TEST(FluidDensity, OfAPoolThatGrowsDenserIsRightEverywhereInIt)
+{
+    constexpr double kRise_hu = 6;  // a voxel
+    for (int axis = 0; axis < 3; ++axis) {
+        const InsideVolume inside(Grid{.size = {40, 40, 40}}, kFluid);
+        HuVolume hu(inside.grid);
+        const auto along = [&](Index3 v) { return axis == 0 ? v.i : axis == 1 ? v.j : v.k; };
+        for (std::size_t n = 0; n < hu.voxels.size(); ++n)
+            hu.voxels[n] = std::int16_t(std::lround(500 + kRise_hu * along(hu.grid.indexOf(n))));
+        const Mixture mixture(hu, inside, {});
+        const FluidDensity density(mixture, kNoise_hu, TissueOptions{}.tag_contrast_hu);
+        for (int n = 16; n < 25; ++n)  // far from the pool's ends, where the mean is one-sided
+            EXPECT_NEAR(density.at({n, n, n}), 500 + kRise_hu * n, 3) << axis << " " << n;
+    }
 }
 
 TEST(FluidDensity, OfWhatIsHardlyBrighterThanTissueIsNone)

@@ -69,6 +69,17 @@ TEST(ThesisSubdivision, PutsSquareGatesAcrossAStraightTubeAtEqualSizes)
     }
 }
 
+TEST(ThesisSubdivision, MakesAsManySegmentsAsTheLengthOfOneGives)
+{
+    const Lumen lumen = bentTube();
+    const double total_mm = lumen.skeleton.pieces.back().points.back().station_mm;
+    for (const int segments : {4, 8}) {
+        SubdivideOptions options = thesis(0);
+        options.length_mm = total_mm / segments;
+        EXPECT_NEAR(double(divide(lumen, options).description.segments.size()), segments, 2);
+    }
+}
+
 TEST(ThesisSubdivision, ObliquePlanesLieAcrossAnObliqueTube)
 {
     const Grid grid{.size = {100, 80, 60}};

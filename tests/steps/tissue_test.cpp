@@ -368,6 +368,27 @@ TEST(Tissue, ARecessWithAWallOfItsOwnStaysLumen)
     EXPECT_GT(double(labelledBeyond(found.lumen, 3)), 0.95 * double(labelledBeyond(scene.inside, 3)));
 }
 
+TEST(Tissue, ASpeckInTheLumenIsNoWallButALumpIs)
+{
+    for (const auto& [radius_mm, is_wall] : {std::pair{1.2, false}, std::pair{3.2, true}}) {
+        Scene scene([r = radius_mm](Point3 p) { return std::abs(p.x) > 12 || distance(p, {}) < r; }, 20);
+        for (std::size_t n = 0; n < scene.grid.voxelCount(); ++n)
+            if (std::abs(scene.grid.pointAt(scene.grid.indexOf(n)).x) < 8)
+                scene.inside.voxels[n] = kGas;
+        const InsideVolume lumen = scene.find().lumen;
+        const Index3 middle{scene.grid.size[0] / 2, scene.grid.size[1] / 2, scene.grid.size[2] / 2};
+        EXPECT_EQ(lumen.at(middle) == kOutside, is_wall) << radius_mm;
+    }
+}
+
+TEST(Tissue, NoiseOnAWallIsNoSheet)
+{
+    for (const double noise_hu : {30.0, 60.0}) {
+        const Scene scene([](Point3 p) { return std::abs(p.x) > 8; }, 20, noise_hu);
+        EXPECT_EQ(scene.find(noise_hu).found.at("sheet_voxels"), 0) << noise_hu;
+    }
+}
+
 TEST(Tissue, AFoldInSedimentStaysWhole)
 {
     // Contrast medium settled to twice the density of what stands over it, with a fold of 2 mm in it.

@@ -22,7 +22,7 @@ constexpr double kLetterTop = 0.72, kLetterBottom = 0.1;  // of the size
 // Of the size: lines of a caption run together without an edge; around single letters as much would be a blot.
 constexpr double kLeastGroundEdge = 0.35, kMostGroundEdge = 0.9, kGroundEdgePerWidth = 0.15;
 constexpr double kLeastSize_px = 6, kLeastShare = 0.6;  // of the wanted height: a name is read, not merely there
-constexpr double kRounding_px = 1;                        // letters are set on whole pixels
+constexpr double kRounding_px = 1;                      // letters are set on whole pixels
 constexpr double kAscent = 0.95, kDescent = 0.25;       // of the size: room for accents and tails in every script
 
 /// The installed fonts, shared by all threads.
@@ -119,7 +119,8 @@ std::vector<PlacedText> layOut(const std::vector<OverlayText>& texts)
     std::vector<PlacedText> placed;
     for (std::size_t n = 0; n < texts.size(); ++n) {
         const OverlayText& text = texts[n];
-        placed.push_back({cutOff(library().type, text, text.block ? block_px[text.block] : sizes_px[n]), {}, text.color});
+        placed.push_back(
+            {cutOff(library().type, text, text.block ? block_px[text.block] : sizes_px[n]), {}, text.color});
         placed.back().begin = beginOf(text, placed.back().line);
     }
     return placed;

@@ -47,7 +47,7 @@ struct OverlayText {
     Across across = Across::left;
     Along along = Along::top;
     double most_width_px = 1e9;  ///< made smaller until it fits, to three fifths; then cut off with "…"
-    int block = 0;  ///< all texts of a block (not 0) are written as small as its smallest
+    int block = 0;               ///< all texts of a block (not 0) are written as small as its smallest
 };
 
 /// What is written over a picture, in order lines, discs, texts. Painted by scene/canvas.h into pictures and by the
