@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "anonymous_object.h"
 #include "import_fixture.h"
 #include "pseudonyms.h"
 #include "stream_comments.h"
@@ -115,6 +116,23 @@ TEST_F(Anonymous, AFolderWithSomethingInItIsNotTouched)
     replaceFile(out_ / "letter", "of somebody");
     EXPECT_THROW(write(id), Error);
     EXPECT_EQ(readFile(out_ / "letter"), "of somebody");
+}
+
+TEST(AnonymousObject, ThatLacksItsUidsHasThoseOfItsPlace)
+{
+    const Pseudonyms pseudonyms("key", "patient");
+    DcmDataset dataset;
+    dataset.putAndInsertString(DCM_SOPClassUID, UID_CTImageStorage);
+    dataset.putAndInsertString(DCM_SeriesInstanceUID, "1.2");
+    makeAnonymous(dataset, pseudonyms, {"1.1", "1.2", "1.3"});
+    const auto uidOf = [&](const DcmTagKey& tag) {
+        OFString text;
+        dataset.findAndGetOFString(tag, text);
+        return std::string(text.c_str());
+    };
+    EXPECT_EQ(uidOf(DCM_StudyInstanceUID), pseudonyms.uid("1.1"));
+    EXPECT_EQ(uidOf(DCM_SeriesInstanceUID), pseudonyms.uid("1.2"));
+    EXPECT_EQ(uidOf(DCM_SOPInstanceUID), pseudonyms.uid("1.3"));
 }
 
 TEST(Pseudonym, DatesMoveByOneSpanForEachPatient)

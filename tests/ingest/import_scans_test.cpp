@@ -52,6 +52,22 @@ TEST_F(Import, ASecondSupineAcquisitionIsAScanOfItsOwn)
     EXPECT_EQ(import({folder / "a", folder / "b"}).scans_stored, 2);
 }
 
+TEST_F(Import, WhatWasTakenWithinSecondsIsOneAcquisition)
+{
+    for (const auto& [time, scans] : {std::pair{"101003", 1}, std::pair{"101103", 2}, std::pair{"111003", 2}}) {
+        SeriesSpec first;
+        first.study_uid += std::string(".") + time;
+        first.series_uid = first.study_uid + ".1";
+        first.acquisition_time = "100959";
+        SeriesSpec second = secondSeries(first, "2");
+        second.acquisition_time = time;
+        const std::filesystem::path in = folder / time;
+        writeSeries(in / "a", first);
+        writeSeries(in / "b", second);
+        EXPECT_EQ(import({in / "a", in / "b"}).scans_stored, scans) << time;
+    }
+}
+
 TEST_F(Import, FewerThanTenSlicesAreKeptAndNotQueued)
 {
     SeriesSpec spec;

@@ -62,6 +62,13 @@ TEST_F(PdfOfFindings, ImpressionTellsOfTheGravestFirstAndWhyAStudyIsNoAnswer)
     const std::string said = impressionText(content_.read);
     EXPECT_LT(said.find("Finding 3: mass"), said.find("Finding 5: polyp"));
     EXPECT_LT(said.find("Finding 5: polyp"), said.find("Finding 1: polyp"));
+    for (auto& one : all) {
+        one.finding.kind = FindingKind::polyp;
+        one.facts.size_mm = 7;
+    }
+    const std::string alike = impressionText(content_.read);
+    EXPECT_LT(alike.find("Finding 1: polyp"), alike.find("Finding 3: polyp")) << "in their order";
+    EXPECT_LT(alike.find("Finding 3: polyp"), alike.find("Finding 5: polyp"));
     all.clear();
     content_.read.assessment.inadequate = content_.read.assessment.priors_awaited = true;
     content_.read.assessment.colon_category = {ColonCategory::c0, ""};

@@ -73,6 +73,7 @@ struct Page {
     int scans;
     void (*change)(ReportContent&);
     int most_pages;
+    const char* site = "Example Hospital";
 };
 
 /// Numbers of each part that no other part has.
@@ -152,6 +153,15 @@ const Page kPages[] = {
              name += " Bartholomew" + std::to_string(n);
      },
      3},
+    {"LongTextsOfASite", 0, 1,
+     [](ReportContent& content) {
+         Assessment& said = content.read.assessment;
+         for (int n = 0; n < 12; ++n) {
+             said.technique += " Carbon dioxide by pump, in the positions that the patient could take.";
+             said.extracolonic.push_back({"kidney", "cyst without septa, seen before", ExtracolonicCategory::e4});
+         }
+     },
+     3, "Example Hospital of the United Communes along the Upper River and of the Two Valleys beyond it"},
     {"NoBirthDate", 1, 2, [](ReportContent& content) { content.read.record.patient.birth_date.clear(); }, 3},
 };
 
@@ -176,7 +186,7 @@ protected:
 TEST_P(Pages, AreSoundAndTidyAndSayEveryNumber)
 {
     for (const char* paper : {"a4", "letter"}) {
-        const PdfResult result = write({.paper = paper, .site = {"Example Hospital", "1 Main Street, Exampleton"}});
+        const PdfResult result = write({.paper = paper, .site = {GetParam().site, "1 Main Street, Exampleton"}});
         EXPECT_THAT(result.warnings, testing::IsEmpty());
         EXPECT_LE(result.pages, GetParam().most_pages) << paper;
         expectSound(pdf_);

@@ -65,8 +65,12 @@ bool besideOtherSide(const InsideVolume& labels, Index3 v)
 {
     const bool inside = labels.at(v) != kOutside;
     bool beside = false;
-    for (const Index3 n : {Index3{v.i - 1, v.j, v.k}, {v.i + 1, v.j, v.k}, {v.i, v.j - 1, v.k}, {v.i, v.j + 1, v.k},
-                           {v.i, v.j, v.k - 1}, {v.i, v.j, v.k + 1}})
+    for (const Index3 n : {Index3{v.i - 1, v.j, v.k},
+                           {v.i + 1, v.j, v.k},
+                           {v.i, v.j - 1, v.k},
+                           {v.i, v.j + 1, v.k},
+                           {v.i, v.j, v.k - 1},
+                           {v.i, v.j, v.k + 1}})
         beside = beside || (labels.grid.contains(n) && (labels.at(n) != kOutside) != inside);
     return beside;
 }
