@@ -3,13 +3,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
-#include <vtkCellArray.h>
-#include <vtkFlyingEdges3D.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkShortArray.h>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +13,7 @@
 
 #include "grid/neighbours.h"
 #include "grid/wall_values.h"
+#include "subdivide/contour.h"
 #include "tissue/lumen_of_tissue.h"
 #include "vicon/core/error.h"
 
@@ -30,68 +24,10 @@ namespace {
 /// else, a fluid level or a neighbouring loop, and the surface's normal is taken.
 constexpr double kAgree = 0.5;
 
-/// The contour in units of voxels of the labels' grid.
-struct Contour {
-    std::vector<float> points;             ///< x, y, z
-    std::vector<std::uint32_t> triangles;  ///< front side towards lower values of the field: the lumen
-    std::size_t pointCount() const { return points.size() / 3; }
-    std::size_t triangleCount() const { return triangles.size() / 3; }
-};
-
-Contour contour(Volume<std::int16_t> field)
-{
-    vtkNew<vtkShortArray> values;
-    values->SetArray(field.voxels.data(), vtkIdType(field.voxels.size()), 1);
-    vtkNew<vtkImageData> image;
-    image->SetDimensions(field.grid.size.data());
-    image->SetOrigin(-1, -1, -1);
-    image->GetPointData()->SetScalars(values);
-    vtkNew<vtkFlyingEdges3D> edges;
-    edges->SetInputData(image);
-    edges->SetValue(0, 0);
-    edges->ComputeNormalsOff();
-    edges->ComputeScalarsOff();
-    edges->Update();
-    vtkPolyData* found = edges->GetOutput();
-    Contour out;
-    out.points.resize(std::size_t(found->GetNumberOfPoints()) * 3);
-    for (vtkIdType n = 0; n < found->GetNumberOfPoints(); ++n) {
-        double p[3];
-        found->GetPoint(n, p);
-        std::copy(p, p + 3, &out.points[std::size_t(3 * n)]);
-    }
-    out.triangles.reserve(std::size_t(found->GetNumberOfPolys()) * 3);
-    vtkIdType count = 0;
-    const vtkIdType* corners = nullptr;
-    auto* polys = found->GetPolys();
-    for (polys->InitTraversal(); polys->GetNextCell(count, corners);)
-        for (vtkIdType n = 0; n < 3; ++n)
-            out.triangles.push_back(std::uint32_t(corners[n]));
-    return out;
-}
-
-/// The edge between an inside and an outside voxel that a point of the contour lies on.
-struct Edge {
-    Index3 inside, outside;
-    double to_outside = 0;  ///< 0 at the inside voxel, 1 at the outside one
-};
-
-Edge edgeAt(const float* p, const InsideVolume& inside)
-{
-    Index3 low{int(std::floor(p[0])), int(std::floor(p[1])), int(std::floor(p[2]))}, high = low;
-    const double part[3] = {double(p[0]) - low.i, double(p[1]) - low.j, double(p[2]) - low.k};
-    // Exactly one coordinate lies between voxels; the others are whole numbers, which floats hold exactly.
-    const int along = part[0] > 0 ? 0 : part[1] > 0 ? 1 : 2;
-    (along == 0 ? high.i : along == 1 ? high.j : high.k) += 1;
-    if (inside.valueOr(low, kOutside) != kOutside)
-        return {low, high, part[along]};
-    return {high, low, 1 - part[along]};
-}
-
 /// The segment of an inside voxel, or of the nearest one beside it where the wall lies farther out than the labels.
 std::uint16_t segmentAt(const SegmentVolume& segments, Index3 v)
 {
-    std::uint16_t found = segments.at(v);
+    std::uint16_t found = segments.valueOr(v, 0);
     for (int reach = 1; found == 0 && reach <= 3; ++reach) {
         int nearest2 = std::numeric_limits<int>::max();
         forEachInCube(v, reach, [&](Index3 w) {
@@ -112,16 +48,14 @@ std::vector<std::uint16_t> tagTriangles(const Contour& contour, const InsideVolu
     std::vector<std::uint16_t> tags(contour.triangleCount());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tags.size(), 4096), [&](const auto& range) {
         for (std::size_t t = range.begin(); t < range.end(); ++t) {
-            const float* corner[3];
+            const std::uint32_t* corners = &contour.triangles[3 * t];
             double middle[3] = {};
-            for (std::size_t n = 0; n < 3; ++n) {
-                corner[n] = &contour.points[3 * std::size_t(contour.triangles[3 * t + n])];
-                for (int d = 0; d < 3; ++d)
-                    middle[d] += double(corner[n][d]) / 3;
-            }
+            for (std::size_t n = 0; n < 3; ++n)
+                for (std::size_t d = 0; d < 3; ++d)
+                    middle[d] += double(contour.points[3 * std::size_t(corners[n]) + d]) / 3;
             double nearest = std::numeric_limits<double>::max();
-            for (const float* p : corner) {
-                const Index3 v = edgeAt(p, inside).inside;
+            for (std::size_t n = 0; n < 3; ++n) {
+                const Index3 v = voxelsNear(contour, corners[n], inside).voxels[0];
                 const double away = std::hypot(v.i - middle[0], v.j - middle[1], v.k - middle[2]);
                 if (away < nearest) {
                     nearest = away;
@@ -226,25 +160,32 @@ std::vector<Vector3> surfaceNormals(const CellSurface& surface)
 
 /// The direction towards the lumen that the field around a point of the contour tells, without length where it tells
 /// none.
-using NormalAt = std::function<Vector3(const Edge&)>;
+using NormalAt = std::function<Vector3(const NearVoxels&)>;
+
+/// The sum of the voxels' own directions by what each counts.
+template <class Gradient>
+Vector3 meanOver(const NearVoxels& around, Gradient gradient)
+{
+    Vector3 sum = gradient(around.voxels[0]) * around.weights[0];
+    for (std::size_t n = 1; n < around.count; ++n)
+        sum += gradient(around.voxels[n]) * around.weights[n];
+    return sum;
+}
 
 NormalAt fromDensities(const WallField& field, const InsideVolume& inside)
 {
-    return [&](const Edge& edge) {
-        if (!field.densitiesTell(edge.inside))
+    return [&](const NearVoxels& around) {
+        const Index3 v = around.voxels[0];
+        if (!field.densitiesTell(v))
             return Vector3{};
-        const double towards = inside.at(edge.inside) == kGas ? -1 : 1;
-        return (field.gradient(edge.inside) * (1 - edge.to_outside) + field.gradient(edge.outside) * edge.to_outside) *
-               towards;
+        return meanOver(around, [&](Index3 n) { return field.gradient(n); }) * (inside.at(v) == kGas ? -1 : 1);
     };
 }
 
 NormalAt fromTissue(const TissueVolume& tissue)
 {
-    return [&](const Edge& edge) {
-        return (tissueGradient(tissue, edge.inside) * (1 - edge.to_outside) +
-                tissueGradient(tissue, edge.outside) * edge.to_outside) *
-               -1;
+    return [&](const NearVoxels& around) {
+        return meanOver(around, [&](Index3 n) { return tissueGradient(tissue, n); }) * -1;
     };
 }
 
@@ -255,8 +196,8 @@ void setNormals(CellSurface& surface, const Contour& contour, const std::vector<
     surface.normals.resize(surface.points_mm.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, point_source.size(), 4096), [&](const auto& range) {
         for (std::size_t n = range.begin(); n < range.end(); ++n) {
-            const Edge edge = edgeAt(&contour.points[3 * std::size_t(point_source[n])], inside);
-            Vector3 normal = normalized(toPatient(inside.grid, towardsLumen(edge)));
+            const NearVoxels around = voxelsNear(contour, point_source[n], inside);
+            Vector3 normal = normalized(toPatient(inside.grid, towardsLumen(around)));
             const Vector3 own = normalized(geometric[n]);
             if (dot(normal, own) < kAgree)
                 normal = own;
@@ -276,10 +217,10 @@ struct LumenSurface::Parts {
     Contour contour;
     std::vector<NearWall> near_wall;
 
-    void make(Volume<std::int16_t> values)
+    void make(Volume<std::int16_t>& values)
     {
         near_wall = findNearWall(values, *lumen);
-        contour = steps::contour(std::move(values));
+        contour = contourOf(values);
     }
 };
 
@@ -291,7 +232,8 @@ LumenSurface::LumenSurface(const HuVolume& hu, const InsideVolume& inside, const
     parts->lumen = &inside;
     parts->field.emplace(hu, inside, densities);
     parts->normal_at = fromDensities(*parts->field, inside);
-    parts->make(wallValues(*parts->field, inside));
+    auto values = wallValues(*parts->field, inside);
+    parts->make(values);
     parts_ = std::move(parts);
     progress.check();
     progress.report(1, "surface");
@@ -306,7 +248,9 @@ LumenSurface::LumenSurface(const TissueVolume& tissue, const InsideVolume& lumen
     auto parts = std::make_unique<Parts>();
     parts->lumen = &lumen;
     parts->normal_at = fromTissue(tissue);
-    parts->make(tissueValues(tissue, lumen));
+    auto values = tissueValues(tissue, lumen);
+    parts->make(values);
+    divideAtRims(values, parts->contour);
     parts_ = std::move(parts);
     progress.check();
     progress.report(1, "surface");
