@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 
+#include "layout_check.h"
 #include "pdf_fixture.h"
 #include "quality_table.h"
 #include "vicon/core/file.h"
@@ -74,6 +75,7 @@ struct Page {
     void (*change)(ReportContent&);
     int most_pages;
     const char* site = "Example Hospital";
+    bool keeps_layout = false;
 };
 
 /// Numbers of each part that no other part has.
@@ -121,7 +123,7 @@ void collapse(ReportContent& content)
 const Page kPages[] = {
     {"Normal", 0, 2, [](ReportContent&) {}, 1},
     {"OneScanOnly", 0, 1, [](ReportContent&) {}, 1},
-    {"OneFinding", 1, 2, [](ReportContent&) {}, 3},
+    {"OneFinding", 1, 2, [](ReportContent&) {}, 3, "Example Hospital", true},
     {"OneFindingInOneScan", 1, 1, [](ReportContent&) {}, 3},
     {"TwelveFindings", 12, 2, [](ReportContent&) {}, 15},
     {"AMass", 1, 2,
@@ -135,7 +137,7 @@ const Page kPages[] = {
          content.read.assessment.extracolonic = {{"liver", "lesion of 31 mm in segment 7", ExtracolonicCategory::e4}};
      },
      3},
-    {"Inadequate", 0, 2, collapse, 2},
+    {"Inadequate", 0, 2, collapse, 2, "Example Hospital", true},
     {"Amended", 1, 2,
      [](ReportContent& content) {
          content.version = {.version = 2,
@@ -161,7 +163,7 @@ const Page kPages[] = {
              said.extracolonic.push_back({"kidney", "cyst without septa, seen before", ExtracolonicCategory::e4});
          }
      },
-     3, "Example Hospital of the United Communes along the Upper River and of the Two Valleys beyond it"},
+     3, "Example Hospital of the United Communes along the Upper River and of the Two Valleys beyond it", true},
     {"NoBirthDate", 1, 2, [](ReportContent& content) { content.read.record.patient.birth_date.clear(); }, 3},
 };
 
@@ -190,10 +192,13 @@ TEST_P(Pages, AreSoundAndTidyAndSayEveryNumber)
         EXPECT_THAT(result.warnings, testing::IsEmpty());
         EXPECT_LE(result.pages, GetParam().most_pages) << paper;
         expectSound(pdf_);
-        if (std::string(paper) == "a4")
+        if (std::string(paper) == "a4") {
             expectTidy(pdf_);
-        else
+            if (GetParam().keeps_layout)
+                samples::expectLayout(pdf_, GetParam().name);
+        } else {
             expectTidy(pdf_, 612, 792);
+        }
         std::string text =
             samples::textOf(pdf_) + support::runCommand("pdftotext -layout " + pdf_.string() + " -").output;
         std::replace(text.begin(), text.end(), '\n', ' ');

@@ -15,8 +15,8 @@ namespace vicon::steps {
 namespace {
 
 constexpr int kSize = 40;
-constexpr double kSigma = 1;      // of the blur, in voxels
-constexpr double kHalf = 0.85;    // of the fold's thickness: its middle holds 0.6
+constexpr double kSigma = 1;    // of the blur, in voxels
+constexpr double kHalf = 0.85;  // of the fold's thickness: its middle holds 0.6
 const Vector3 kAcross = normalized(Vector3{1, 0.37, 0.23});
 const Vector3 kAlong = normalized(cross(kAcross, Vector3{0.31, -0.2, 1}));
 const Vector3 kOut = cross(kAlong, kAcross);  // towards the rim

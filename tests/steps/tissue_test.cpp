@@ -370,7 +370,7 @@ TEST(Tissue, ARecessWithAWallOfItsOwnStaysLumen)
 
 TEST(Tissue, ASpeckInTheLumenIsNoWallButALumpIs)
 {
-    for (const auto& [radius_mm, is_wall] : {std::pair{1.2, false}, std::pair{3.2, true}}) {
+    for (const auto& [radius_mm, is_wall] : {std::pair{1.7, false}, std::pair{3.2, true}}) {
         Scene scene([r = radius_mm](Point3 p) { return std::abs(p.x) > 12 || distance(p, {}) < r; }, 20);
         for (std::size_t n = 0; n < scene.grid.voxelCount(); ++n)
             if (std::abs(scene.grid.pointAt(scene.grid.indexOf(n)).x) < 8)
@@ -379,6 +379,18 @@ TEST(Tissue, ASpeckInTheLumenIsNoWallButALumpIs)
         const Index3 middle{scene.grid.size[0] / 2, scene.grid.size[1] / 2, scene.grid.size[2] / 2};
         EXPECT_EQ(lumen.at(middle) == kOutside, is_wall) << radius_mm;
     }
+}
+
+TEST(Tissue, RidgesWithTissueBetweenThemAreNoSheets)
+{
+    // As high as a fold of 1.3 mm; what lies between them holds half of that.
+    const Scene scene(
+        [](Point3 p) {
+            const double from = std::abs(p.x) / 2.7;
+            return std::abs(p.x) > 14 || (std::abs(p.x) < 8 && std::abs(from - std::round(from)) < 0.25);
+        },
+        20);
+    EXPECT_LT(scene.find().found.at("sheet_voxels"), 100);
 }
 
 TEST(Tissue, NoiseOnAWallIsNoSheet)

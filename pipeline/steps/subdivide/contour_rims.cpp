@@ -50,8 +50,8 @@ struct CubicWeights {
     }
 };
 
-/// The field between its voxels: smooth, and through their values. E. Catmull and R. Rom, A class of local interpolating
-/// splines, in Computer Aided Geometric Design, 1974.
+/// The field between its voxels: smooth, and through their values. E. Catmull and R. Rom, A class of local
+/// interpolating splines, in Computer Aided Geometric Design, 1974.
 class SmoothField {
 public:
     explicit SmoothField(const Volume<std::int16_t>& field) : field_(field) {}
@@ -60,7 +60,7 @@ public:
     {
         std::array<std::array<std::ptrdiff_t, 4>, 3> offsets{};
         const std::array<CubicWeights, 3> weights{weightsAlong(0, p, offsets), weightsAlong(1, p, offsets),
-                                             weightsAlong(2, p, offsets)};
+                                                  weightsAlong(2, p, offsets)};
         FieldAt found;
         for (std::size_t k = 0; k < 4; ++k)
             for (std::size_t j = 0; j < 4; ++j) {
@@ -81,7 +81,8 @@ public:
     }
 
 private:
-    CubicWeights weightsAlong(std::size_t axis, const Spot& p, std::array<std::array<std::ptrdiff_t, 4>, 3>& offsets) const
+    CubicWeights weightsAlong(std::size_t axis, const Spot& p,
+                              std::array<std::array<std::ptrdiff_t, 4>, 3>& offsets) const
     {
         const float low = std::floor(p[axis]);
         const auto [nx, ny, nz] = field_.grid.size;
@@ -138,7 +139,8 @@ struct DividedEdge {
     bool operator<(const DividedEdge& other) const { return std::tie(a, b) < std::tie(other.a, other.b); }
 };
 
-std::vector<DividedEdge> edgesOff(const SmoothField& field, const Contour& contour, const std::vector<std::uint32_t>& triangles)
+std::vector<DividedEdge> edgesOff(const SmoothField& field, const Contour& contour,
+                                  const std::vector<std::uint32_t>& triangles)
 {
     constexpr std::size_t kAtOnce = 4096;
     std::vector<std::vector<DividedEdge>> parts((triangles.size() + kAtOnce - 1) / kAtOnce, std::vector<DividedEdge>{});
@@ -224,8 +226,8 @@ private:
 
     const std::vector<DividedEdge>& edges_;
     Contour& contour_;
-    std::uint32_t first_;               ///< number of the first edge's middle
-    std::vector<std::uint8_t> ends_;    ///< of each point, whether it ends a divided edge
+    std::uint32_t first_;             ///< number of the first edge's middle
+    std::vector<std::uint8_t> ends_;  ///< of each point, whether it ends a divided edge
 };
 
 }  // namespace
