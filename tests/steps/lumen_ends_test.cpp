@@ -57,14 +57,25 @@ TEST_P(EndsOfLoops, LieAtTheTips)
     expectEndsFound(joinedBy(GetParam().windows, GetParam().limbs));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Holes, EndsOfLoops,
-    testing::Values(Case{{.radius_mm = 6.5}, {{.wide_mm = 5.5}}}, Case{{.radius_mm = 8}, {{.wide_mm = 8}}},
-                    Case{{.radius_mm = 10}, {{.wide_mm = 8, .z_mm = 100}}}, Case{{.radius_mm = 15}, {{.wide_mm = 16}}},
-                    Case{{.radius_mm = 8, .count = 3}, {{8, 30, 0}, {8, 370, 1}}},
-                    Case{{.radius_mm = 8, .long_mm = 200, .count = 4}, {{8, 30, 0}}},
-                    Case{{.radius_mm = 8, .long_mm = 200, .count = 4}, {{8, 30, 2}}},
-                    Case{{.radius_mm = 8, .long_mm = 200, .count = 3}, {{8, 195, 1}}}));
+INSTANTIATE_TEST_SUITE_P(Holes, EndsOfLoops,
+                         testing::Values(Case{{.radius_mm = 6.5}, {{.wide_mm = 5.5}}},
+                                         Case{{.radius_mm = 8}, {{.wide_mm = 8}}},
+                                         Case{{.radius_mm = 10}, {{.wide_mm = 8, .z_mm = 100}}},
+                                         Case{{.radius_mm = 15}, {{.wide_mm = 16}}},
+                                         Case{{.radius_mm = 8, .count = 3}, {{8, 30, 0}, {8, 370, 1}}},
+                                         Case{{.radius_mm = 8, .long_mm = 200, .count = 4}, {{8, 30, 0}}},
+                                         Case{{.radius_mm = 8, .long_mm = 200, .count = 4}, {{8, 30, 2}}},
+                                         Case{{.radius_mm = 8, .long_mm = 200, .count = 3}, {{8, 195, 1}}}));
+
+TEST(LumenEnds, AreFoundThoughTheHoleIsLong)
+{
+    for (const double wide_mm : {8.0, 12.0}) {
+        const Loops loops = joinedBy({{.wide_mm = wide_mm, .z_mm = 60, .longer_mm = 40}}, {.radius_mm = 10});
+        const LumenPlan plan = planForMask(loops.draw());
+        ASSERT_EQ(plan.pieces.size(), 1U);
+        EXPECT_LT(endsOff_mm(loops, plan.pieces[0]), loops.limbs.radius_mm + 4) << wide_mm;
+    }
+}
 
 TEST(LumenEnds, AreFoundThoughAStrictureOrAFoldLiesBesideAPouch)
 {
@@ -88,11 +99,10 @@ HuVolume withHole(const TubeScan& scan, Point3 from, Point3 to)
 TEST(LumenEnds, ALoopThatTouchesTheRectosigmoidIsNoCaecum)
 {
     // The ascending colon lies beside the sigmoid; they are joined half-way down to the caecum.
-    const TubeScan scan{
-        .line = {{-20, 5, -70}, {-20, 5, -10}, {44, 5, -10}, {44, 5, 60}, {-44, 5, 60}, {-44, 5, -60}}, .radius_mm = 10};
+    const TubeScan scan{.line = {{-20, 5, -70}, {-20, 5, -10}, {44, 5, -10}, {44, 5, 60}, {-44, 5, 60}, {-44, 5, -60}},
+                        .radius_mm = 10};
     NoProgress quiet;
-    const Segmentation found =
-        segmentColon(withHole(scan, {-20, 5, -25}, {-44, 5, -25}), scan.gravity, {}, quiet);
+    const Segmentation found = segmentColon(withHole(scan, {-20, 5, -25}, {-44, 5, -25}), scan.gravity, {}, quiet);
     ASSERT_EQ(found.plan.pieces.size(), 1U);
     EXPECT_LT(distance(found.plan.pieces[0].rectal_end_mm, scan.line.front()), 16);
     EXPECT_LT(distance(found.plan.pieces[0].caecal_end_mm, scan.line.back()), 16);

@@ -8,11 +8,15 @@
 namespace vicon::steps {
 namespace {
 
-// Chosen on full-size phantoms 21 to 27 with loops that run into one another.
-constexpr int kMostCuts = 8;          // of contacts, as on the centreline's path
-constexpr int kTriesPerPart = 4;      // of narrow places: folds beside a hole may be narrower
-constexpr double kBeside_mm = 45;     // from a hole to the middle of a tube that leads past: loops 40 mm wide and more
-constexpr double kShortestArm_mm = 60;  // of such a tube on either side of the hole; a pouch or ileum begins there
+// Chosen on full-size phantoms 21 to 27 with loops that run into one another; those of long holes on 21 with voxels of
+// 1.5 mm.
+constexpr int kMostCuts = 8;             // of contacts, as on the centreline's path
+constexpr int kTriesPerPart = 4;         // of narrow places: folds beside a hole may be narrower
+constexpr double kBeside_mm = 45;        // from a hole to the middle of a tube that leads past: loops 40 mm wide
+constexpr double kShortestArm_mm = 60;   // of such a tube on either side of the hole; a pouch or ileum begins there
+constexpr int kMostRounds = 4;           // in which a long hole is closed
+constexpr double kAside_mm = 30;         // along the path from a hole's narrowest place: beside it, not in it
+constexpr double kThroughHole_mm = 100;  // from one side to the other: the way around a loop is longer
 
 /// What a set of bars comes to.
 struct Trial : LumenWays {
@@ -29,6 +33,24 @@ struct Trial : LumenWays {
     bool isEmpty() const { return ways.empty(); }
     bool leavesNothingOut() const { return !isEmpty() && coverage.parts.empty(); }
 };
+
+/// Number of the node of a path so far along it from one of its nodes; `by` is 1 or -1.
+std::size_t alongBy(const LumenGraph& graph, const NodePath& path, std::size_t at, std::ptrdiff_t by, double wanted_mm)
+{
+    double along_mm = 0;
+    auto n = std::ptrdiff_t(at);
+    for (; n + by >= 0 && n + by < std::ptrdiff_t(path.size()) && along_mm < wanted_mm; n += by)
+        along_mm += distance(graph.point(path[std::size_t(n)]), graph.point(path[std::size_t(n + by)]));
+    return std::size_t(n);
+}
+
+std::size_t nearestOn(const LumenGraph& graph, const NodePath& path, Point3 p)
+{
+    const auto isNearer = [&](std::int32_t a, std::int32_t b) {
+        return distance(graph.point(a), p) < distance(graph.point(b), p);
+    };
+    return std::size_t(std::min_element(path.begin(), path.end(), isNearer) - path.begin());
+}
 
 /// The node of a part that is farthest along a tree, -1 where it reaches none.
 std::int32_t farthestOf(const LeftOut& part, const LumenTree& tree)
@@ -157,19 +179,49 @@ private:
             if (contact.bars.empty())
                 return;
             tried.push_back(contact.narrowest_mm);
-            for (const std::vector<std::int32_t>& bar : contact.bars)
+            for (const std::vector<std::int32_t>& bar : contact.bars) {
                 tryBar(contact, bar, next);
+                if (const auto longer = closed(path, contact, bar); longer.size() > bar.size())
+                    tryBar(contact, longer, next);
+            }
         }
+    }
+
+    /// A bar with what it takes to close a longer hole: as long as the way from one side of the hole to the other is
+    /// short, it leads through what is left of it.
+    std::vector<std::int32_t> closed(const NodePath& path, const Contact& contact, std::vector<std::int32_t> bar) const
+    {
+        const std::size_t at = nearestOn(graph_, path, contact.narrowest_mm);
+        const std::int32_t before = path[alongBy(graph_, path, at, -1, kAside_mm)];
+        const std::int32_t after = path[alongBy(graph_, path, at, 1, kAside_mm)];
+        for (int round = 0; round < kMostRounds; ++round) {
+            const std::vector<std::uint8_t> barred = withBar(bar);
+            const LumenTree tree = centralTree(graph_, before, barred, progress_, after);
+            if (!tree.reaches(after) || double(tree.length_mm[std::size_t(after)]) > kThroughHole_mm)
+                break;
+            const NodePath way = tree.pathTo(after);
+            const Contact rest = contactBeside(graph_, way, {{}, 0, way.size() - 1}, {});
+            if (rest.bars.empty())
+                break;
+            bar.insert(bar.end(), rest.bars.front().begin(), rest.bars.front().end());
+        }
+        return bar;
+    }
+
+    std::vector<std::uint8_t> withBar(const std::vector<std::int32_t>& bar) const
+    {
+        std::vector<std::uint8_t> barred = best_.barred;
+        barred.resize(graph_.count(), 0);
+        for (const std::int32_t node : bar)
+            barred[std::size_t(node)] = 1;
+        return barred;
     }
 
     /// Takes a bar when it leaves less out than the best so far; not when the way around is no wider than the hole and
     /// no longer than through a pouch, nor when it parts what is no two loops.
     void tryBar(const Contact& contact, const std::vector<std::int32_t>& bar, Trial& next) const
     {
-        std::vector<std::uint8_t> barred = best_.barred;
-        barred.resize(graph_.count(), 0);
-        for (const std::int32_t node : bar)
-            barred[std::size_t(node)] = 1;
+        std::vector<std::uint8_t> barred = withBar(bar);
         if (barred[std::size_t(widest_)])
             return;
         Trial trial = seek(std::move(barred));
@@ -188,10 +240,7 @@ private:
     {
         int past = 0;
         for (const LumenWay& way : trial.ways) {
-            const auto isNearer = [&](std::int32_t a, std::int32_t b) {
-                return distance(graph_.point(a), hole_mm) < distance(graph_.point(b), hole_mm);
-            };
-            const std::int32_t nearest = *std::min_element(way.nodes.begin(), way.nodes.end(), isNearer);
+            const std::int32_t nearest = way.nodes[nearestOn(graph_, way.nodes, hole_mm)];
             if (distance(graph_.point(nearest), hole_mm) > kBeside_mm)
                 continue;
             const double arm_mm = double(way.tree.length_mm[std::size_t(nearest)]);
