@@ -1,9 +1,11 @@
 #include "vicon/steps/lumen_plan.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "grid/lumen_graph.h"
 #include "segment/lumen.h"
+#include "segment/pieces/lumen_ways.h"
 #include "vicon/core/error.h"
 #include "vicon/core/geometry_json.h"
 #include "vicon/core/progress.h"
@@ -17,6 +19,13 @@ LumenPiece pieceFrom(const nlohmann::json& json)
     return {json.at("rectal_end_mm").get<Point3>(), json.at("caecal_end_mm").get<Point3>(),
             json.at("volume_ml").get<double>(),     json.at("fluid_ml").get<double>(),
             json.at("length_mm").get<double>(),     json.at("max_radius_mm").get<double>()};
+}
+
+LumenWay longestOf(LumenWays found)
+{
+    return std::move(*std::max_element(found.ways.begin(), found.ways.end(), [](const LumenWay& a, const LumenWay& b) {
+        return a.length_mm() < b.length_mm();
+    }));
 }
 
 }  // namespace
@@ -68,18 +77,15 @@ LumenPlan planForMask(const InsideVolume& inside)
             std::fill_n(&wall_mm.at({run.begin, j, k}), run.end - run.begin, 0.0F);
     });
     const LumenGraph graph = makeWholeGraph(wall_mm, 4, progress);
-    const std::int32_t start = widestNode(graph);
-    const std::int32_t one = farthestNode(centralTree(graph, start, {}, progress));
-    const LumenTree tree = centralTree(graph, one, {}, progress);
-    const std::int32_t other = farthestNode(tree);
-    LumenPiece piece{graph.point(one), graph.point(other)};
+    const LumenWay way = longestOf(findWays(graph, progress));
+    LumenPiece piece{graph.point(way.nodes.front()), graph.point(way.nodes.back())};
     if (piece.caecal_end_mm.z < piece.rectal_end_mm.z)
         std::swap(piece.rectal_end_mm, piece.caecal_end_mm);
     const double voxel_ml = inside.grid.voxelVolume_mm3() / 1000;
     piece.volume_ml = double(largest->voxels) * voxel_ml;
     piece.fluid_ml = largest->sum * voxel_ml;
-    piece.length_mm = tree.length_mm[std::size_t(other)];
-    piece.max_radius_mm = graph.node(start).wall_mm;
+    piece.length_mm = way.length_mm();
+    piece.max_radius_mm = graph.node(widestNode(graph)).wall_mm;
     plan.pieces.push_back(piece);
     return plan;
 }

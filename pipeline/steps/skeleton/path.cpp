@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "grid/cheapest_ways.h"
+#include "grid/contact.h"
 #include "grid/neighbours.h"
-#include "skeleton/contact.h"
 #include "vicon/core/error.h"
 
 namespace vicon::steps {
@@ -17,12 +17,9 @@ namespace {
 // double of each leave the three cases (CONTRIBUTING.md) as they are, but for kChunk: another way of equal cost is
 // taken in ctc-prone's widest haustra, up to 13 mm aside.
 constexpr double kEndTolerance_mm = 8;  // an end may lie in a block that the coarse graph leaves out
-// Chosen on the rings of loop_contacts_test.cpp, which are 150 mm longer than the way past them, and on loops of 800 mm
-// with folds that leave less than the hole: so long a way around is no pouch, however narrow its folds.
-constexpr float kLongerThanPouch_mm = 300;
-constexpr int kMostCuts = 8;        // of contacts: each costs a search of the path
-constexpr int kTriesPerPart = 2;    // of such searches for a part that stays uncovered
-constexpr std::size_t kChunk = 40;  // nodes of the coarse path that are refined at once
+constexpr int kMostCuts = 8;            // of contacts: each costs a search of the path
+constexpr int kTriesPerPart = 2;        // of such searches for a part that stays uncovered
+constexpr std::size_t kChunk = 40;      // nodes of the coarse path that are refined at once
 
 struct CoarsePath {
     NodePath nodes;

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "grid/check_only.h"
 #include "grid/neighbours.h"
 #include "segment/fluid/rim.h"
+#include "segment/pieces/lumen_ways.h"
 #include "vicon/steps/wall_distance.h"
 
 namespace vicon::steps {
@@ -109,37 +111,74 @@ LumenGraph halfGraph(const InsideVolume& labels, const RunLabels& lumen, std::ui
     return makeWholeGraph(wallDistance(mask, progress), component.voxels > kLarge_voxels ? 2 : 1, progress);
 }
 
-Candidate describe(const InsideVolume& labels, const RunLabels& lumen, std::uint32_t label, Progress& progress)
+/// The widest radius within kTipReach_mm of either end of a way.
+void measureTips(Candidate& candidate, const LumenWay& way)
+{
+    for (const std::int32_t n : way.nodes) {
+        const double from_one = way.tree.length_mm[std::size_t(n)];
+        for (const int tip : {0, 1})
+            if ((tip == 0 ? from_one : candidate.length_mm - from_one) < kTipReach_mm)
+                candidate.tip_radius_mm[tip] =
+                    std::max(candidate.tip_radius_mm[tip], double(candidate.graph.node(n).wall_mm));
+    }
+}
+
+/// Keeps what a way reaches of a component of which several lead through.
+void keepPart(Candidate& candidate, const LumenWay& way)
+{
+    const LumenGraph& graph = candidate.graph;
+    std::size_t own = 0;
+    candidate.barred.resize(graph.count(), 0);
+    candidate.max_radius_mm = 0;
+    candidate.lower_mm = candidate.upper_mm = graph.point(way.tree.root);
+    for (std::size_t n = 0; n < graph.count(); ++n) {
+        if (!way.tree.reaches(std::int32_t(n))) {
+            candidate.barred[n] = 1;
+            continue;
+        }
+        ++own;
+        const Point3 p = graph.point(std::int32_t(n));
+        candidate.max_radius_mm = std::max(candidate.max_radius_mm, double(graph.nodes[n].wall_mm));
+        candidate.lower_mm = lowerCorner(candidate.lower_mm, p);
+        candidate.upper_mm = upperCorner(candidate.upper_mm, p);
+    }
+    const double share = double(own) / double(graph.count());
+    candidate.volume_ml *= share;
+    candidate.fluid_ml *= share;
+}
+
+/// What a component is: one candidate, or several where loops hang together by a contact alone.
+std::vector<Candidate> describe(const InsideVolume& labels, const RunLabels& lumen, std::uint32_t label,
+                                Progress& progress)
 {
     const Grid& grid = labels.grid;
     const RunComponent& component = lumen.components[label];
     const double voxel_ml = grid.voxelVolume_mm3() / 1000;
-    Candidate candidate;
-    candidate.label = label;
-    candidate.volume_ml = double(component.voxels) * voxel_ml;
-    candidate.fluid_ml = component.sum * voxel_ml;
+    Candidate whole;
+    whole.label = label;
+    whole.volume_ml = double(component.voxels) * voxel_ml;
+    whole.fluid_ml = component.sum * voxel_ml;
     const Point3 a = grid.pointAt(component.lower), b = grid.pointAt(component.upper);
-    candidate.lower_mm = lowerCorner(a, b);
-    candidate.upper_mm = upperCorner(a, b);
-    candidate.graph = halfGraph(labels, lumen, label, progress);
-    const LumenGraph& graph = candidate.graph;
-    if (graph.count() == 0)
-        return candidate;
-    const std::int32_t widest = widestNode(graph);
-    candidate.max_radius_mm = graph.node(widest).wall_mm;
-    const std::int32_t one = farthestNode(centralTree(graph, widest, {}, progress));
-    const LumenTree tree = centralTree(graph, one, {}, progress);
-    const std::int32_t other = farthestNode(tree);
-    candidate.length_mm = tree.length_mm[std::size_t(other)];
-    candidate.tip_mm[0] = graph.point(one);
-    candidate.tip_mm[1] = graph.point(other);
-    for (const std::int32_t n : tree.pathTo(other)) {
-        const double from_one = tree.length_mm[std::size_t(n)];
-        for (const int tip : {0, 1})
-            if ((tip == 0 ? from_one : candidate.length_mm - from_one) < kTipReach_mm)
-                candidate.tip_radius_mm[tip] = std::max(candidate.tip_radius_mm[tip], double(graph.node(n).wall_mm));
+    whole.lower_mm = lowerCorner(a, b);
+    whole.upper_mm = upperCorner(a, b);
+    whole.graph = halfGraph(labels, lumen, label, progress);
+    if (whole.graph.count() == 0)
+        return {whole};
+    whole.max_radius_mm = whole.graph.node(widestNode(whole.graph)).wall_mm;
+    const LumenWays found = findWays(whole.graph, progress);
+    whole.barred = found.barred;
+    std::vector<Candidate> candidates(found.ways.size(), whole);
+    for (std::size_t n = 0; n < candidates.size(); ++n) {
+        Candidate& candidate = candidates[n];
+        const LumenWay& way = found.ways[n];
+        if (candidates.size() > 1)
+            keepPart(candidate, way);
+        candidate.length_mm = way.length_mm();
+        candidate.tip_mm[0] = whole.graph.point(way.nodes.front());
+        candidate.tip_mm[1] = whole.graph.point(way.nodes.back());
+        measureTips(candidate, way);
     }
-    return candidate;
+    return candidates;
 }
 
 }  // namespace
@@ -159,13 +198,17 @@ std::vector<Candidate> findCandidates(const InsideVolume& labels, const RunLabel
         return isAsked(a) != isAsked(b) ? isAsked(a) : lumen.components[a].voxels > lumen.components[b].voxels;
     });
     large.resize(std::min(large.size(), std::size_t(most)));
-    std::vector<Candidate> candidates(large.size());
+    std::vector<std::vector<Candidate>> of_component(large.size());
     tbb::parallel_for(std::size_t(0), large.size(), [&](std::size_t n) {
         CheckOnly check(progress);
-        candidates[n] = describe(labels, lumen, large[n], check);
-        judge(candidates[n], body);
+        of_component[n] = describe(labels, lumen, large[n], check);
+        for (Candidate& candidate : of_component[n])
+            judge(candidate, body);
     });
     progress.check();
+    std::vector<Candidate> candidates;
+    for (std::vector<Candidate>& some : of_component)
+        std::move(some.begin(), some.end(), std::back_inserter(candidates));
     return candidates;
 }
 
@@ -180,6 +223,8 @@ int findRectum(std::vector<Candidate>& candidates, const Body& body, double cath
         if (c.max_radius_mm < kRectumRadius_mm || c.lower_mm.z > lowest)
             continue;
         for (std::size_t node = 0; node < c.graph.count(); ++node) {
+            if (!c.barred.empty() && c.barred[node])
+                continue;
             if (c.graph.nodes[node].wall_mm < std::max(catheter_radius_mm, kRectumRadius_mm))
                 continue;
             const Point3 p = c.graph.point(std::int32_t(node));
@@ -194,7 +239,7 @@ int findRectum(std::vector<Candidate>& candidates, const Body& body, double cath
     if (best < 0)
         return best;
     Candidate& rectum = candidates[std::size_t(best)];
-    const LumenTree tree = centralTree(rectum.graph, end, {}, progress);
+    const LumenTree tree = centralTree(rectum.graph, end, rectum.barred, progress);
     const std::int32_t far = farthestNode(tree);
     rectum.tip_mm[0] = rectum.graph.point(end);
     rectum.tip_mm[1] = rectum.graph.point(far);

@@ -11,9 +11,10 @@
 
 namespace vicon::steps {
 
-/// A connected part of gas and fluid that may be a piece of the colon.
+/// A part of gas and fluid that may be a piece of the colon: a connected one, or what is left of it without the
+/// contacts of its loops.
 struct Candidate {
-    std::uint32_t label = 0;  ///< its component
+    std::uint32_t label = 0;  ///< its component, which others may share
     double volume_ml = 0;
     double fluid_ml = 0;
     double max_radius_mm = 0;
@@ -26,6 +27,7 @@ struct Candidate {
     std::string kind = "colon";
     /// Of the component with the rim of fluid that belongs to it, at half resolution.
     LumenGraph graph;
+    std::vector<std::uint8_t> barred;  ///< nodes of the graph in contacts or of other candidates; empty: none
 };
 
 /// Measures the components that are large enough to matter, largest first, at most `most` of them; those in `always`

@@ -1,4 +1,4 @@
-#include "skeleton/contact.h"
+#include "grid/contact.h"
 
 #include <algorithm>
 #include <numeric>

@@ -25,6 +25,10 @@ struct PathCoverage {
 
 PathCoverage coverageOf(const LumenGraph& graph, const NodePath& path, const SkeletonOptions& options);
 
+// Chosen on the rings of loop_contacts_test.cpp, which are 150 mm longer than the way past them, and on loops of 800 mm
+// with folds that leave less than the hole: so long a way around is no pouch, however narrow its folds.
+inline constexpr float kLongerThanPouch_mm = 300;
+
 /// What may be a hole between two loops, through which the path goes.
 struct Contact {
     Point3 narrowest_mm;
