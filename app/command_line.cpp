@@ -80,6 +80,12 @@ CommandOption& CommandOption::valueIfBare(const std::string& value)
     return *this;
 }
 
+CommandOption& CommandOption::values(int count)
+{
+    option_->expected(count);
+    return *this;
+}
+
 CommandOption& CommandOption::oneValueEach()
 {
     option_->allow_extra_args(false);

@@ -36,6 +36,8 @@ public:
     CommandOption& excludes(const CommandOption& other);
     /// Given without a value it means `value`.
     CommandOption& valueIfBare(const std::string& value);
+    /// So many values at once.
+    CommandOption& values(int count);
     /// One value each time it is given.
     CommandOption& oneValueEach();
     /// Whether it was given; known once the command line is read.

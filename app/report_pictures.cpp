@@ -60,6 +60,8 @@ report::ScanEntry describeScan(CaseStore& store, const ScanRecord& scan)
     const StepResults results = resultsOf(store.steps(scan.case_id, scan.id));
     if (results.segment) {
         entry.verdict = results.segment->verdict;
+        if (results.segment->given)
+            entry.lumen_given = textOf(*results.segment->given);
         entry.organ_title = results.segment->organ_title;
         entry.confidence = results.segment->confidence;
         entry.reason = results.segment->reason;

@@ -96,6 +96,8 @@ void printScan(CaseStore& store, const WorklistScan& scan)
         std::printf("%s", formatTable({"  STEP", "TIME", "MEASURES"}, rows).c_str());
     if (!results.organ().isColon())
         std::printf("  organ: %s\n%s", results.organ().name().c_str(), branchTable(scan.folder).c_str());
+    if (results.segment && results.segment->given)
+        std::printf("  lumen: %s\n", textOf(*results.segment->given).c_str());
     printCorrections(scan.folder);
     if (results.quality)
         printQuality(*results.quality);

@@ -4,6 +4,7 @@
 
 #include "bridge_reviews_file.h"
 #include "vicon/cases/corrections.h"
+#include "vicon/cases/given_lumen.h"
 #include "vicon/core/error.h"
 
 namespace fs = std::filesystem;
@@ -22,6 +23,13 @@ try {
 bool isReviewed(const fs::path& scan_folder)
 try {
     return !readBridgeReviews(scan_folder).empty();
+} catch (const Error&) {
+    return true;
+}
+
+bool hasGivenLumen(const fs::path& scan_folder)
+try {
+    return readGivenLumen(scan_folder).has_value();
 } catch (const Error&) {
     return true;
 }
@@ -49,7 +57,7 @@ bool hasReport(CaseStore& store, const std::string& case_id)
 bool hasReaderInput(CaseStore& store, const ScanRecord& scan)
 {
     const fs::path folder = store.scanFolder(scan.case_id, scan.id);
-    return hasMarkers(store, scan) || isCorrected(folder) || isReviewed(folder) ||
+    return hasMarkers(store, scan) || isCorrected(folder) || isReviewed(folder) || hasGivenLumen(folder) ||
            (scan.role == ScanRole::scan && hasReport(store, scan.case_id));
 }
 

@@ -66,6 +66,8 @@ json toJson(const SegmentFound& found)
     out["plan"] = found.plan;
     if (!found.organ.isColon())
         out["organ"] = found.organ.name();
+    if (found.given)
+        out["given"] = toJson(*found.given);
     if (found.noise_hu)
         out["noise_hu"] = *found.noise_hu;
     json& bridges = out["bridges"] = json::array();
@@ -83,12 +85,15 @@ SegmentFound segmentFoundFromJson(const json& json)
     take(json, "confidence", found.confidence);
     take(json, "reason", found.reason);
     found.organ = Organ(json.value("organ", Organ().name()));
+    if (json.contains("given"))
+        found.given = lumenOriginFromJson(json["given"]);
     if (json.contains("noise_hu"))
         found.noise_hu = json["noise_hu"].get<double>();
     for (const auto& bridge : json.value("bridges", nlohmann::json::array()))
         found.bridges.push_back(bridgeFromJson(bridge));
     take(json, "plan", found.plan);
-    found.measures = without(json, {"verdict", "confidence", "reason", "organ", "noise_hu", "bridges", "plan"});
+    found.measures =
+        without(json, {"verdict", "confidence", "reason", "organ", "given", "noise_hu", "bridges", "plan"});
     return found;
 }
 

@@ -9,12 +9,14 @@
 #include "step_runner.h"
 #include "step_table.h"
 #include "vicon/cases/corrections.h"
+#include "vicon/cases/given_lumen.h"
 #include "vicon/cases/organs.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/pipeline/corrections.h"
 #include "vicon/pipeline/organs.h"
+#include "vicon/steps/organ.h"
 #include "vicon/steps/resample.h"
 
 namespace fs = std::filesystem;
@@ -61,9 +63,12 @@ std::string digestOf(const Step& step, const json& parameters, const StepRecords
     return sha256(all);
 }
 
-json parametersOf(const Step& step, const Config& config, const json& loader_parameters)
+json parametersOf(const Step& step, const Config& config, const json& loader_parameters,
+                  const std::optional<GivenLumen>& lumen)
 {
     json parameters = step.parameters(config);
+    if (lumen && step.name == "segment" && config.get<steps::OrganOptions>().isColon())
+        parameters["lumen"] = lumen->mask_sha256;
     if (step.inputs.empty())
         parameters.update(loader_parameters);
     return parameters;
@@ -119,7 +124,8 @@ public:
           context_(context),
           scan_(store.requireScan(context.job().case_id, context.job().scan_id)),
           folder_(store.scanFolder(scan_.case_id, scan_.id)),
-          inputs_{configFor(config, folder_), loader, gravityFor(scan_.series.patient_position), folder_ / "dicom"},
+          inputs_{configFor(config, folder_), loader, gravityFor(scan_.series.patient_position), folder_ / "dicom",
+                  readGivenLumen(folder_)},
           results_(folder_, claimFolder(folder_, context.job())),
           loader_parameters_(loader_parameters),
           instances_(store.instances(scan_.case_id, scan_.id)),
@@ -150,7 +156,7 @@ public:
 private:
     bool isDue(const Step& step)
     {
-        const json parameters = parametersOf(step, inputs_.config, loader_parameters_);
+        const json parameters = parametersOf(step, inputs_.config, loader_parameters_, inputs_.lumen);
         const std::string digest = digestOf(step, parameters, records_, instances_);
         StepRecord& record = records_[step.name];
         if (isCurrent(record, digest, folder_))
@@ -207,13 +213,15 @@ bool isOutdated(CaseStore& store, const Config& config, const json& loader_param
     const ScanRecord scan = store.requireScan(case_id, scan_id);
     const auto instances = store.instances(case_id, scan_id);
     StepRecords records = recordsOf(store, scan);
-    const Config corrected = configFor(config, store.scanFolder(case_id, scan_id));
+    const fs::path folder = store.scanFolder(case_id, scan_id);
+    const Config corrected = configFor(config, folder);
+    const std::optional<GivenLumen> lumen = readGivenLumen(folder);
     for (const Step& step : stepTable()) {
         const auto record = records.find(step.name);
         if (record == records.end() ||
             !isCurrent(record->second,
-                       digestOf(step, parametersOf(step, corrected, loader_parameters), records, instances),
-                       store.scanFolder(case_id, scan_id)))
+                       digestOf(step, parametersOf(step, corrected, loader_parameters, lumen), records, instances),
+                       folder))
             return true;
         if (endsHere(record->second))
             return false;

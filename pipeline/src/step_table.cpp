@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 
+#include "segment_scan.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/scan_files/cells_file.h"
 #include "vicon/scan_files/projections_file.h"
@@ -120,11 +121,11 @@ SegmentFound foundBy(const steps::OrganOptions& organ, const steps::Segmentation
 json runSegment(const StepInputs& inputs, ScanResults& results, const StepRecords&, Progress& progress)
 {
     const auto organ = inputs.config.get<steps::OrganOptions>();
-    steps::Segmentation found = organ.isColon()
-                                    ? steps::segmentColon(results.volume(), inputs.gravity,
-                                                          inputs.config.get<steps::SegmentOptions>(), progress)
-                                    : steps::segmentOrgan(results.volume(), organ, progress);
-    json result = toJson(foundBy(organ, found));
+    steps::Segmentation found = segmentScan(inputs, organ, results.volume(), progress);
+    SegmentFound told = foundBy(organ, found);
+    if (inputs.lumen && organ.isColon())
+        told.given = inputs.lumen->origin;
+    json result = toJson(told);
     if (found.verdict != Verdict::absent) {
         results.putMask(std::move(found.inside));
         results.densitiesAroundLumen();  // while the whole is there
@@ -146,10 +147,12 @@ json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords
         results.dropMask();
         return toJson(TissueFound{.not_sought = "the wall is not taken from it"});
     }
-    steps::TissueResult found = steps::findTissue(
-        results.densitiesAroundLumen(), results.mask(), inputs.gravity, inputs.config.get<steps::WallDensities>(),
-        segmentFoundFromJson(records.at("segment").result).noise_hu.value_or(0), progress,
-        inputs.config.get<steps::TissueOptions>());
+    const SegmentFound segment = segmentFoundFromJson(records.at("segment").result);
+    auto options = inputs.config.get<steps::TissueOptions>();
+    options.leave_out_other_bowel = !segment.given;
+    steps::TissueResult found =
+        steps::findTissue(results.densitiesAroundLumen(), results.mask(), inputs.gravity,
+                          inputs.config.get<steps::WallDensities>(), segment.noise_hu.value_or(0), progress, options);
     results.dropMask();
     results.write("cleansed.mha", std::move(found.cleansed));
     results.put(std::move(found.lumen));

@@ -3,10 +3,12 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scan_results.h"
+#include "vicon/cases/given_lumen.h"
 #include "vicon/cases/records.h"
 #include "vicon/core/options.h"
 #include "vicon/pipeline/scan_work.h"
@@ -19,6 +21,7 @@ struct StepInputs {
     AcquiredVolumeLoader loader;
     Vector3 gravity;
     std::filesystem::path dicom_folder;
+    std::optional<GivenLumen> lumen;  ///< instead of the one that would be found
 };
 
 using StepRecords = std::map<std::string, StepRecord>;

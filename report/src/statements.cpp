@@ -162,6 +162,7 @@ std::vector<Statement> scanStatements(const ScanEntry& entry)
         out.push_back({"Colon length", millimetres(entry.skeleton_length_mm) + " along the centreline"});
         out.push_back({"Collapsed", bridgeWords(entry.bridges)});
     }
+    addGiven(out, "Lumen given", entry.lumen_given);
     if (entry.quality)
         out.push_back({"Quality", qualityWords(*entry.quality)});
     if (ingest.is_object()) {
@@ -178,9 +179,9 @@ bool isPlain(const ScanEntry& entry)
     const auto empty = [&](const char* list) {
         return !ingest.is_object() || describeNotes(ingest.value(list, json::array())).empty();
     };
-    return entry.verdict == Verdict::found && entry.confidence >= kSure && entry.skeleton_length_mm > 0 &&
-           entry.bridges.empty() && !entry.scan.series.lossy && entry.quality && entry.quality->whole.adequate &&
-           entry.quality->reason.empty() && empty("repairs") && empty("refused");
+    return entry.verdict == Verdict::found && entry.lumen_given.empty() && entry.confidence >= kSure &&
+           entry.skeleton_length_mm > 0 && entry.bridges.empty() && !entry.scan.series.lossy && entry.quality &&
+           entry.quality->whole.adequate && entry.quality->reason.empty() && empty("repairs") && empty("refused");
 }
 
 Statement briefStatement(const ScanEntry& entry)

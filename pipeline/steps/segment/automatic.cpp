@@ -1,27 +1,26 @@
 #include "segment/automatic.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <set>
 
-#include "grid/allocate.h"
-#include "grid/voxel_box.h"
 #include "segment/body.h"
 #include "segment/constants.h"
 #include "segment/cut.h"
 #include "segment/field_of_view.h"
 #include "segment/fluid/fluid.h"
 #include "segment/fluid/rim.h"
+#include "segment/given/given_labels.h"
 #include "segment/ileum/ileum_cut.h"
 #include "segment/lumen.h"
 #include "segment/pieces/bridge_way.h"
 #include "segment/pieces/candidates.h"
+#include "segment/pieces/chosen.h"
 #include "segment/pieces/ordering.h"
 #include "segment/points.h"
 #include "segment/verdict.h"
 #include "segment/wall/settle_wall.h"
 #include "segment/wall/thin_folds.h"
+#include "vicon/steps/noise.h"
 
 namespace vicon::steps {
 namespace {
@@ -31,75 +30,8 @@ namespace {
 constexpr double kSameFluid_hu = 60;
 constexpr int kMostCandidates = 10;  // the exact ordering takes 2^n steps
 constexpr double kSameEnd_mm = 15;   // between ends of the lumen: nearer, they are one
-
-/// The parts that a person's cuts separate from the larger rest.
-std::set<int> separated(const RunLabels& lumen, const std::vector<std::vector<Index3>>& around_cuts)
-{
-    std::set<int> dropped;
-    for (const auto& around : around_cuts) {
-        std::set<int> parts;
-        for (const Index3 v : around)
-            if (const int label = lumen.labelAt(v); label >= 0)
-                parts.insert(label);
-        const auto largest = std::max_element(parts.begin(), parts.end(), [&](int a, int b) {
-            return lumen.components[std::size_t(a)].voxels < lumen.components[std::size_t(b)].voxels;
-        });
-        for (const int part : parts)
-            if (part != *largest)
-                dropped.insert(part);
-    }
-    return dropped;
-}
-
-/// The scan's part around the chosen components, with their labels.
-InsideVolume cropTo(const InsideVolume& labels, const RunLabels& lumen, const std::set<int>& chosen, int margin)
-{
-    VoxelBox box;
-    for (const int n : chosen) {
-        box.take(lumen.components[std::size_t(n)].lower);
-        box.take(lumen.components[std::size_t(n)].upper);
-    }
-    box = box.grown(margin, labels.grid);
-    const Index3 lower = box.low;
-    const Grid grid = cropped(labels.grid, box);
-    auto out = makeVolume<std::uint8_t>(grid);
-    tbb::parallel_for(0, grid.size[2], [&](int k) {
-        for (int j = 0; j < grid.size[1]; ++j)
-            for (int i = 0; i < grid.size[0]; ++i)
-                if (labels.at({lower.i + i, lower.j + j, lower.k + k}) == kRim)
-                    out.at({i, j, k}) = kRim;
-    });
-    lumen.forEachRun([&](const VoxelRun& run, int j, int k) {
-        if (!chosen.contains(int(run.label)))
-            return;
-        const std::uint8_t* from = &labels.at({run.begin, j, k});
-        std::copy_n(from, run.end - run.begin, &out.at({run.begin - lower.i, j - lower.j, k - lower.k}));
-    });
-    return out;
-}
-
-LumenPiece pieceFor(const Candidate& c, bool reversed)
-{
-    return {
-        c.tip_mm[reversed ? 1 : 0], c.tip_mm[reversed ? 0 : 1], c.volume_ml, c.fluid_ml, c.length_mm, c.max_radius_mm};
-}
-
-nlohmann::json describe(const std::vector<Candidate>& candidates, const Ordering& ordering)
-{
-    nlohmann::json out = nlohmann::json::array();
-    for (std::size_t n = 0; n < candidates.size(); ++n) {
-        const Candidate& c = candidates[n];
-        const auto at = std::find_if(ordering.pieces.begin(), ordering.pieces.end(),
-                                     [&](const OrderedPiece& p) { return p.candidate == int(n); });
-        out.push_back({{"volume_ml", c.volume_ml},
-                       {"fluid_ml", c.fluid_ml},
-                       {"length_mm", c.length_mm},
-                       {"max_radius_mm", c.max_radius_mm},
-                       {"looks_like", c.kind},
-                       {"place_in_colon", at == ordering.pieces.end() ? 0 : at - ordering.pieces.begin() + 1}});
-    }
-    return out;
-}
+// A person says that it is the colon; the figures say that it cannot be one.
+constexpr double kUnlikelyGiven = 0.3;
 
 /// The way ends in the colon where the lumen runs on as a narrow tube.
 void endBeforeIleum(const std::vector<IleumCut>& ilea, LumenPiece& last)
@@ -128,11 +60,13 @@ void describeIlea(const std::vector<IleumCut>& ilea, Segmentation& result)
                             {"removed_ml", ileum.removed_ml}});
 }
 
-/// The stages; what one finds the later ones use.
+/// The stages; what one finds the later ones use. A lumen that was given is neither cut nor trimmed: gas and fluid are
+/// those of it, and all its pieces belong to the colon.
 class Automatic {
 public:
-    Automatic(const HuVolume& volume, Vector3 gravity, const SegmentOptions& options, Progress& progress)
-        : volume_(volume), gravity_(gravity), options_(options), progress_(progress)
+    Automatic(const HuVolume& volume, const InsideVolume* given, Vector3 gravity, const SegmentOptions& options,
+              Progress& progress)
+        : volume_(volume), given_(given), gravity_(gravity), options_(options), progress_(progress)
     {
     }
 
@@ -142,25 +76,44 @@ public:
         body_ = findBody(volume_, progress_);
         if (body_.empty())
             return organAbsent("there is no body in the scan");
-        findGasAndFluid();
+        if (given_)
+            takeGiven();
+        else
+            findGasAndFluid();
         progress_.report(0.5, "pieces");
         cutWhereAsked();
         findPieces();
-        cutOffIlea();
+        if (given_)
+            findEndBeforeIleum();
+        else
+            cutOffIlea();
         leaveOutDropped();
         rectum_ = findRectum(candidates_, body_, options_.catheter_radius_mm, progress_);
         if (rectum_ < 0)
-            return organAbsent("there is no gas in the body that is wide enough for a rectum");
+            return organAbsent(given_ ? "no piece of the given lumen is as large and wide as a rectum"
+                                      : "there is no gas in the body that is wide enough for a rectum");
         progress_.report(0.8, "order of the pieces");
         orderThePieces();
         keepOrdered();
-        refineWall();
+        if (!given_)
+            refineWall();
         followCords(volume_, result_.inside, options_, result_.plan, progress_);
         judge();
         return std::move(result_);
     }
 
 private:
+    void takeGiven()
+    {
+        progress_.report(0.1, "the given lumen");
+        GivenLabels given = labelGiven(volume_, *given_, options_, progress_);
+        labels_ = std::move(given.labels);
+        result_.measures["given_dense_ml"] = given.dense_ml;
+        fluid_.noise_hu = softTissueNoise(volume_);
+        for (const Point3 p : options_.add)
+            addGasAndFluidAt(volume_, body_, p, options_, labels_);
+    }
+
     void findGasAndFluid()
     {
         progress_.report(0.1, "gas");
@@ -184,8 +137,10 @@ private:
     /// Pools and loops that touch through a thin wall fall apart while the rim of their fluid is set aside.
     void findPieces()
     {
-        rim_layers_ = rimLayers(labels_.grid, options_.leak_mm);
-        markFluidRim(labels_, rim_layers_);
+        if (!given_) {
+            rim_layers_ = rimLayers(labels_.grid, options_.leak_mm);
+            markFluidRim(labels_, rim_layers_);
+        }
         lumen_ = labelLumen(labels_, Neighbours::faces);
         findAllCandidates();
     }
@@ -206,6 +161,15 @@ private:
         findAllCandidates();
     }
 
+    /// Of a given lumen nothing is cut off; only where the curve ends is sought.
+    void findEndBeforeIleum()
+    {
+        InsideVolume as_given = labels_;
+        ilea_ = cutIlea(labels_, candidates_, rim_layers_, options_.add, body_, progress_);
+        labels_ = std::move(as_given);
+        std::erase_if(ilea_, [](const IleumCut& ileum) { return ileum.cut; });
+    }
+
     void leaveOutDropped()
     {
         std::set<int> dropped = separated(lumen_, around_cuts_);
@@ -218,7 +182,8 @@ private:
     {
         std::vector<int> required;
         for (std::size_t n = 0; n < candidates_.size(); ++n)
-            if (std::find(added_.begin(), added_.end(), int(candidates_[n].label)) != added_.end())
+            if (given_ ? candidates_.size() > 1
+                       : std::find(added_.begin(), added_.end(), int(candidates_[n].label)) != added_.end())
                 required.push_back(int(n));
         const auto fat_mm = [&](Point3 from, Point3 to) {
             return fatBetween_mm(volume_, labels_, options_.densities, from, to, progress_);
@@ -252,15 +217,33 @@ private:
     {
         const auto [faintest, brightest] = fluidRange_hu();
         result_.measures["noise_hu"] = fluid_.noise_hu;
-        result_.measures["fluid_levels"] = fluid_.levels.size();
-        result_.measures["fluid_faintest_hu"] = faintest;
-        result_.measures["fluid_brightest_hu"] = brightest;
+        if (!given_) {
+            result_.measures["fluid_levels"] = fluid_.levels.size();
+            result_.measures["fluid_faintest_hu"] = faintest;
+            result_.measures["fluid_brightest_hu"] = brightest;
+        }
         result_.measures["candidates"] = describe(candidates_, ordering_);
-        judgeSegmentation(result_, options_, body_, lumenCut_mm2(volume_, result_.inside));
+        if (given_)
+            judgeGiven();
+        else
+            judgeSegmentation(result_, options_, body_, lumenCut_mm2(volume_, result_.inside));
         describeIlea(ilea_, result_);
         for (const Point3 p : options_.add)
             if (componentsAt(lumen_, labels_.grid, {p}).empty())
                 note(result_, "there is no gas or fluid at the added point " + textOf(p));
+    }
+
+    /// What is too little for a colon stays when a person gave it.
+    void judgeGiven()
+    {
+        Segmentation judged;
+        judged.plan = result_.plan;
+        judgeSegmentation(judged, options_, body_, lumenCut_mm2(volume_, result_.inside));
+        const bool unlikely = judged.verdict == Verdict::absent;
+        result_.verdict = unlikely ? Verdict::unsure : judged.verdict;
+        result_.confidence = unlikely ? kUnlikelyGiven : judged.confidence;
+        result_.reason = "the lumen was given by a person";
+        note(result_, judged.reason);
     }
 
     /// Densities of the faintest and the brightest level of fluid; 0 without any.
@@ -275,6 +258,7 @@ private:
     }
 
     const HuVolume& volume_;
+    const InsideVolume* given_;  ///< none: the lumen is sought
     Vector3 gravity_;
     const SegmentOptions& options_;
     Progress& progress_;
@@ -298,7 +282,13 @@ private:
 Segmentation segmentAutomatically(const HuVolume& volume, Vector3 gravity, const SegmentOptions& options,
                                   Progress& progress)
 {
-    return Automatic(volume, gravity, options, progress).run();
+    return Automatic(volume, nullptr, gravity, options, progress).run();
+}
+
+Segmentation segmentGiven(const HuVolume& volume, const InsideVolume& given, Vector3 gravity,
+                          const SegmentOptions& options, Progress& progress)
+{
+    return Automatic(volume, &given, gravity, options, progress).run();
 }
 
 }  // namespace vicon::steps

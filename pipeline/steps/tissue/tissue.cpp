@@ -87,7 +87,8 @@ TissueResult findTissue(const HuVolume& hu, const InsideVolume& inside, Vector3 
     progress.check();
     progress.report(0.8, "tissue");
     const RunLabels pieces = labelLumen(inside, Neighbours::faces);
-    const std::vector<std::size_t> other_bowel = otherBowel(result.tissue, inside, pieces);
+    const std::vector<std::size_t> other_bowel =
+        options.leave_out_other_bowel ? otherBowel(result.tissue, inside, pieces) : std::vector<std::size_t>{};
     result.lumen = lumenOf(result.tissue, inside, pieces, other_bowel);
     result.cleansed = cleanse(mixture, near_fluid, result.tissue);
     result.blur_mm = blur_voxels * inside.grid.spacing_mm[std::size_t(down.axis)];

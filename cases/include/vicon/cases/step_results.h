@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "vicon/cases/given_lumen.h"
 #include "vicon/cases/records.h"
 #include "vicon/core/bridge.h"
 #include "vicon/core/colon_parts.h"
@@ -34,6 +35,7 @@ struct SegmentFound {
     double confidence = 0;    ///< 0 to 1
     std::string reason;       ///< why, for a person
     Organ organ;
+    std::optional<LumenOrigin> given;                ///< where the lumen came from, if VICON did not find it
     std::optional<double> noise_hu;                  ///< in soft tissue; of a colon
     std::vector<Bridge> bridges;                     ///< without their paths, which are in the plan
     nlohmann::json plan = nlohmann::json::object();  ///< pieces and bridges as the skeleton step reads them

@@ -23,6 +23,7 @@ struct ScanEntry {
     std::string organ_title;                 ///< what it was of: "colon"
     std::string reason;                      ///< why this verdict and confidence; may be empty
     double confidence = 0;                   ///< 0 to 1
+    std::string lumen_given;                 ///< where the lumen came from; empty: VICON found it
     std::vector<ReviewedBridge> bridges;     ///< from the rectum
     ColonPartRanges parts;                   ///< empty: not known
     std::optional<ScanQuality> quality;      ///< absent: not measured

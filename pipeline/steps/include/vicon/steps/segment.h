@@ -95,4 +95,12 @@ struct Segmentation {
 /// @param gravity unit vector along which fluid falls, see vicon::gravityFor()
 Segmentation segmentColon(const HuVolume& volume, Vector3 gravity, const SegmentOptions& options, Progress& progress);
 
+/// The same for a lumen that a person gave. Where half of a voxel of the scan lies in it, the voxel is gas or fluid by
+/// its density; what is as dense as tissue is left out (measure given_dense_ml), but for the blurred edge. Its pieces
+/// are put in order as those that are found; none is cut, trimmed or left out but those below
+/// `options.smallest_piece_ml`. Corrections act on it as on what is found.
+/// @param given 1 in the lumen, else 0; on any lattice in LPS mm, also a left-handed one
+Segmentation segmentGivenColon(const HuVolume& volume, const InsideVolume& given, Vector3 gravity,
+                               const SegmentOptions& options, Progress& progress);
+
 }  // namespace vicon::steps

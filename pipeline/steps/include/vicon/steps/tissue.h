@@ -17,6 +17,7 @@ using TissueVolume = Volume<std::uint8_t>;
 struct TissueOptions {
     double usual_blur_mm = kUsualBlur_mm;
     double tag_contrast_hu = 120;
+    bool leave_out_other_bowel = true;  ///< no option: false for a lumen of which a person says that all is colon
 
     template <class Visitor>
     void visit(Visitor&& v)
