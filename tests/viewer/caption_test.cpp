@@ -69,10 +69,9 @@ TEST(CaptionOfSlices, LeavesRoomForACloseUpThatNoTextTouches)
             const int w = width / 2 - 1, h = height / 2 - 1;
             const CaptionPanel panel = captionPanel(lines, w, h);
             EXPECT_EQ(overlapping(panel.overlay.texts), "");
-            for (const OverlayText& text : panel.overlay.texts) {
-                const Area area = textArea(text);
-                EXPECT_FALSE(touch(area, panel.close_up)) << text.text;
-                EXPECT_TRUE(area.x >= 0 && area.right() <= w && area.bottom() <= h) << text.text;
+            for (const Area& area : textAreas(panel.overlay)) {
+                EXPECT_FALSE(touch(area, panel.close_up)) << "at " << area.y;
+                EXPECT_TRUE(area.x >= 0 && area.right() <= w && area.bottom() <= h) << "at " << area.y;
             }
             EXPECT_LE(panel.close_up.bottom(), h);
             EXPECT_LE(panel.close_up.right(), w);

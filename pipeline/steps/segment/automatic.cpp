@@ -25,7 +25,7 @@
 namespace vicon::steps {
 namespace {
 
-// Held by chain_family_test; which cases they were chosen on is not recorded.
+// Held by chain_family_test. Half and double of each leave ctc-prone and phantom 215 as they are.
 // Half-way densities of pools that differ by no more than this lie a tenth of a voxel apart.
 constexpr double kSameFluid_hu = 60;
 constexpr int kMostCandidates = 10;  // the exact ordering takes 2^n steps

@@ -14,8 +14,9 @@
 namespace vicon::steps {
 namespace {
 
-// Held by tissue_test: levels against walls at 30 to 150 degrees, at a blur of 0.7 mm and a noise of 20 HU. Which cases
-// they were chosen on is not recorded.
+// Held by tissue_test: levels against walls at 30 to 150 degrees, at a blur of 0.7 mm and a noise of 20 HU. Half and
+// double of each move the wall of ctc-prone by less than 0.004 mm in the mean and that of phantom 215 by less than
+// 0.003 mm; kQuartiles, which is a fact of the Gaussian, by 0.019 and 0.011 mm.
 
 /// Above and below a level the contents are pure from here on, and are read as far as there.
 constexpr double kPure_mm = 1.8, kRead_mm = 3.2;
