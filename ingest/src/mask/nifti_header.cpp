@@ -137,7 +137,7 @@ std::array<std::int64_t, 3> sizeOf(const NiftiFields& header, const std::filesys
     const int dimensions = header.at<std::int16_t>(40);
     bool one_volume = dimensions >= 3 && dimensions <= 7;
     for (int n = 4; n <= dimensions && one_volume; ++n)
-        one_volume = header.at<std::int16_t>(std::size_t(40 + 2 * n)) <= 1;
+        one_volume = header.at<std::int16_t>(std::size_t(40) + 2 * std::size_t(n)) <= 1;
     if (!one_volume)
         throw maskRefused(file, "does not hold one volume of three dimensions", "write one mask in a file");
     return {header.at<std::int16_t>(42), header.at<std::int16_t>(44), header.at<std::int16_t>(46)};
