@@ -77,11 +77,12 @@ def good_series(folder, template):
 def main():
     vicon, data, count = sys.argv[1], pathlib.Path(sys.argv[2]), int(sys.argv[3])
     first = int(sys.argv[4]) if len(sys.argv) > 4 else int(time.time())
-    groups = sources(data)
-    template = sorted((data / "dicom" / "ct64").iterdir())
+    good = data / "dicom" / "ct64"
+    template = sorted(good.iterdir()) if good.is_dir() else []
     if len(template) < GOOD_SLICES:
         print("Skipped\nneeds ../shared/data/dicom")
         sys.exit(77)
+    groups = sources(data)
     said, slowest, done, largest_mb = collections.Counter(), 0, 0, 0
     root = pathlib.Path(tempfile.mkdtemp(prefix="vicon-mutants-"))
     while done < count:
