@@ -1,12 +1,12 @@
 #include "lumen_import.h"
 
 #include "scan_work.h"
-#include "text_table.h"
 #include "vicon/cases/given_lumen.h"
 #include "vicon/cases/store_locks.h"
 #include "vicon/core/error.h"
 #include "vicon/ingest/load_scan.h"
 #include "vicon/ingest/mask_file.h"
+#include "vicon/report/wording.h"
 #include "vicon/scan_files/volume_file.h"
 #include "vicon/steps/given_fit.h"
 #include "vicon/steps/resample.h"
@@ -27,7 +27,7 @@ constexpr double kMostOfScan = 0.5;
 
 std::string percent(double share)
 {
-    return formatNumber(100 * share, 0) + " %";
+    return report::percent(share, 0);
 }
 
 /// The densities on which the pipeline finds a lumen; made anew where it has not been at work yet.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 
+#include "retry_failed.h"
 #include "vicon/cases/organs.h"
 #include "vicon/cases/roles.h"
 #include "vicon/core/error.h"
@@ -76,9 +77,7 @@ void replaceCorrections(CaseStore& store, const QueueOptions& options, const Sca
     requireInside(folder, all);
     writeCorrections(folder, all);
     store.audit("corrections", scan.case_id, scan.id, toJson(all).dump());
-    JobQueue queue(store.database(), options);
-    if (const auto job = queue.find(scan.case_id, scan.id); job && job->state == JobState::failed)
-        queue.retry(scan.case_id, scan.id);
+    retryWhereFailed(store, options, scan);
 }
 
 void addCorrections(CaseStore& store, const QueueOptions& options, const ScanRecord& scan, const Corrections& more)

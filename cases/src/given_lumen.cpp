@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "retry_failed.h"
 #include "this_person.h"
 #include "vicon/cases/organs.h"
 #include "vicon/cases/roles.h"
@@ -36,13 +37,6 @@ void removeOtherMasks(const fs::path& scan_folder, const fs::path& kept)
     std::error_code gone;
     for (const fs::path& other : others)
         fs::remove(other, gone);
-}
-
-void retryWhereFailed(CaseStore& store, const QueueOptions& options, const ScanRecord& scan)
-{
-    JobQueue queue(store.database(), options);
-    if (const auto job = queue.find(scan.case_id, scan.id); job && job->state == JobState::failed)
-        queue.retry(scan.case_id, scan.id);
 }
 
 }  // namespace

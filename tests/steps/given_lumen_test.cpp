@@ -11,6 +11,7 @@ namespace vicon::steps {
 namespace {
 
 using test::centredGrid;
+using test::dice;
 using test::drawMask;
 using test::tubeDistance;
 using test::TubeScan;
@@ -32,20 +33,6 @@ InsideVolume maskOf(const TubeScan& scan, const Grid& grid, double wider_mm = 0)
     return mask;
 }
 
-double dice(const InsideVolume& found, const TubeScan& scan)
-{
-    double both = 0, truth = 0, own = 0;
-    for (std::size_t n = 0; n < kGrid.voxelCount(); ++n) {
-        const Point3 p = kGrid.pointAt(kGrid.indexOf(n));
-        const bool a = scan.signedDistance(p) < 0;
-        const bool b = found.valueOr(found.grid.indexAt(p), kOutside) != kOutside;
-        truth += a;
-        own += b;
-        both += a && b;
-    }
-    return 2 * both / (truth + own);
-}
-
 Segmentation segment(const TubeScan& scan, const InsideVolume& given, const SegmentOptions& options = {})
 {
     NoProgress quiet;
@@ -63,7 +50,7 @@ TEST(GivenLumen, OnTheScansLatticeIsTakenVoxelByVoxelAndToldAsGasAndFluid)
     const TubeScan scan = smallColon();
     const Segmentation found = segment(scan, maskOf(scan, kGrid));
     EXPECT_NE(found.verdict, Verdict::absent) << found.reason;
-    EXPECT_GT(dice(found.inside, scan), 0.999);
+    EXPECT_GT(dice(found.inside, kGrid, scan), 0.999);
     EXPECT_GT(found.measures["fluid_ml"].get<double>(), 10);
     EXPECT_GT(found.measures["gas_ml"].get<double>(), 10);
     for (std::size_t n = 0; n < found.inside.voxels.size(); ++n) {
@@ -89,7 +76,7 @@ TEST(GivenLumen, OnALatticeThatIsShiftedTurnedCoarserAndLeftHandedIsTheSameToHal
         grid.size = {int(200 / spacing_mm), int(200 / spacing_mm), int(160 / spacing_mm)};
         grid.origin_mm = Point3{0.4, 0.3, 99} + grid.axis[1] * -100 + grid.axis[2] * -100;
         const Segmentation found = segment(scan, maskOf(scan, grid));
-        EXPECT_GT(dice(found.inside, scan), spacing_mm > 2 ? 0.95 : 0.97) << spacing_mm;
+        EXPECT_GT(dice(found.inside, kGrid, scan), spacing_mm > 2 ? 0.95 : 0.97) << spacing_mm;
     }
 }
 
@@ -121,7 +108,7 @@ TEST(GivenLumen, OfTwoPiecesKeepsBothAndJoinsThemByABridge)
     const Segmentation found = segment(scan, maskOf(scan, kGrid));
     EXPECT_EQ(found.plan.pieces.size(), 2U) << found.reason;
     EXPECT_EQ(found.plan.bridges.size(), 1U);
-    EXPECT_GT(dice(found.inside, scan), 0.999);
+    EXPECT_GT(dice(found.inside, kGrid, scan), 0.999);
 }
 
 TEST(GivenLumen, ThatIsTooLittleForAColonIsDoubtedAndStays)
@@ -131,7 +118,7 @@ TEST(GivenLumen, ThatIsTooLittleForAColonIsDoubtedAndStays)
     const Segmentation found = segment(scan, maskOf(scan, kGrid));
     EXPECT_EQ(found.verdict, Verdict::unsure);
     EXPECT_NE(found.reason.find("too little for a colon"), std::string::npos) << found.reason;
-    EXPECT_GT(dice(found.inside, scan), 0.999);
+    EXPECT_GT(dice(found.inside, kGrid, scan), 0.999);
 }
 
 TEST(GivenLumen, OfTissueAloneIsNoColon)

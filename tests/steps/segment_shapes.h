@@ -84,4 +84,19 @@ inline InsideVolume drawMask(const Grid& grid, const std::function<bool(Point3)>
     return mask;
 }
 
+/// Of what was found and what was drawn, on the voxels of `grid`.
+inline double dice(const InsideVolume& found, const Grid& grid, const TubeScan& scan)
+{
+    double both = 0, truth = 0, own = 0;
+    for (std::size_t n = 0; n < grid.voxelCount(); ++n) {
+        const Point3 p = grid.pointAt(grid.indexOf(n));
+        const bool a = scan.signedDistance(p) < 0;
+        const bool b = found.valueOr(found.grid.indexAt(p), kOutside) != kOutside;
+        truth += a;
+        own += b;
+        both += a && b;
+    }
+    return 2 * both / (truth + own);
+}
+
 }  // namespace vicon::steps::test

@@ -22,20 +22,6 @@ TubeScan smallColon()
 
 const Grid kGrid = centredGrid({110, 80, 120}, 1.5);
 
-double dice(const InsideVolume& found, const Grid& grid, const TubeScan& scan)
-{
-    double both = 0, truth = 0, own = 0;
-    for (std::size_t n = 0; n < grid.voxelCount(); ++n) {
-        const Point3 p = grid.pointAt(grid.indexOf(n));
-        const bool a = scan.signedDistance(p) < 0;
-        const bool b = found.valueOr(found.grid.indexAt(p), kOutside) != kOutside;
-        truth += a;
-        own += b;
-        both += a && b;
-    }
-    return 2 * both / (truth + own);
-}
-
 Segmentation segment(const HuVolume& volume, Vector3 gravity, SegmentOptions options = {})
 {
     NoProgress progress;

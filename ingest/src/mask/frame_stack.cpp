@@ -13,6 +13,8 @@ constexpr double kSamePlace_mm = 0.01;
 constexpr double kOffPlace = 0.25;
 /// Of a pixel: how far it may lie aside. A leaning stack is no lattice of boxes.
 constexpr double kAside_pixels = 0.25;
+/// More than any lattice has, and still a whole number.
+constexpr double kTooManySlices = 1e9;
 
 Vector3 normalOf(const FramePlanes& planes)
 {
@@ -64,7 +66,8 @@ FrameStack stackOf(const FramePlanes& planes, double largest_mvoxel, const std::
     const std::vector<double> heights = heights_mm(planes);
     const double step_mm = stepOf(heights, planes.declared_step_mm, file);
     const auto lowest = std::size_t(std::min_element(heights.begin(), heights.end()) - heights.begin());
-    const auto last = std::int64_t(std::round(*std::max_element(heights.begin(), heights.end()) / step_mm));
+    const double highest_mm = *std::max_element(heights.begin(), heights.end());
+    const auto last = std::int64_t(std::min(std::round(highest_mm / step_mm), kTooManySlices));
     FrameStack stack;
     stack.grid = latticeOf({.size = {planes.columns, planes.rows, last + 1},
                             .first_mm = planes.frames[lowest].first_mm,
