@@ -1,0 +1,110 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "vicon/steps/tissue.h"
+
+namespace vicon::steps {
+
+inline constexpr double kGasHu = -1000, kTissueHu = 40, kFluidHu = 700, kSigma_mm = 0.7, kVoxel_mm = 0.7;
+inline constexpr Vector3 kDown{0, 1, 0};  // supine; levels lie at y = 0.1
+
+/// A blurred scan of tissue with gas above the level and fluid below it.
+struct Scene {
+    using IsTissue = std::function<bool(Point3)>;
+
+    explicit Scene(const IsTissue& isTissue, double level_mm = 0.1, double noise_hu = 0, int size = 48,
+                   Vector3 down = kDown)
+        : grid{.size = {size, size, size}, .spacing_mm = {kVoxel_mm, kVoxel_mm, kVoxel_mm}},
+          hu(grid),
+          inside(grid),
+          truth(grid),
+          down(down)
+    {
+        const double half = (size - 1) * kVoxel_mm / 2;
+        grid.origin_mm = {-half, -half, -half};
+        hu.grid = inside.grid = truth.grid = grid;
+        const std::vector<float> tissue = blurred([&](Point3 p) { return isTissue(p) ? 1.0 : 0.0; });
+        const std::vector<float> fluid =
+            blurred([&](Point3 p) { return !isTissue(p) && dot(p - Point3{}, down) > level_mm ? 1.0 : 0.0; });
+        std::mt19937 random(7);
+        std::normal_distribution<double> noise(0, std::max(noise_hu, 1e-9));
+        for (std::size_t n = 0; n < grid.voxelCount(); ++n) {
+            const double s = tissue[n], f = fluid[n];
+            truth.voxels[n] = float(s);
+            hu.voxels[n] = std::int16_t(
+                std::lround(s * kTissueHu + f * kFluidHu + (1 - s - f) * kGasHu + (noise_hu > 0 ? noise(random) : 0)));
+            const double depth_mm = dot(grid.pointAt(grid.indexOf(n)) - Point3{}, down);
+            inside.voxels[n] = s >= 0.5 ? kOutside : depth_mm > level_mm ? kFluid : kGas;
+        }
+    }
+
+    TissueResult find(double noise_hu = 20) const
+    {
+        NoProgress quiet;
+        return findTissue(hu, inside, down, {}, noise_hu, quiet);
+    }
+
+    /// Calls use(place, found fraction, true fraction) for the voxels at least `margin_mm` within the scan.
+    template <class Use>
+    void forEach(const TissueVolume& tissue, double margin_mm, Use use) const
+    {
+        const double half = -grid.origin_mm.x - margin_mm;
+        for (std::size_t n = 0; n < grid.voxelCount(); ++n) {
+            const Point3 p = grid.pointAt(grid.indexOf(n));
+            if (std::abs(p.x) < half && std::abs(p.y) < half && std::abs(p.z) < half)
+                use(p, tissue.voxels[n] / 255.0, double(truth.voxels[n]));
+        }
+    }
+
+    Grid grid;
+    HuVolume hu;
+    InsideVolume inside;
+    Volume<float> truth;
+    Vector3 down;
+
+private:
+    /// The Gaussian mean of a function, sampled at half of the voxel's edge.
+    std::vector<float> blurred(const std::function<double(Point3)>& f) const
+    {
+        const int fine = 2 * grid.size[0], reach = int(std::ceil(4 * kSigma_mm / (kVoxel_mm / 2)));
+        const auto at = [fine](int i, int j, int k) {
+            return std::size_t(i) + std::size_t(fine) * (std::size_t(j) + std::size_t(fine) * std::size_t(k));
+        };
+        std::vector<float> values(at(0, 0, fine)), kernel;
+        for (int k = 0; k < fine; ++k)
+            for (int j = 0; j < fine; ++j)
+                for (int i = 0; i < fine; ++i)
+                    values[at(i, j, k)] = float(f(grid.pointAt(ContinuousIndex3{i / 2.0, j / 2.0, k / 2.0})));
+        double sum = 0;
+        for (int n = -reach; n <= reach; ++n) {
+            kernel.push_back(float(std::exp(-0.5 * std::pow(n * kVoxel_mm / 2 / kSigma_mm, 2))));
+            sum += kernel.back();
+        }
+        for (const std::size_t stride : {at(1, 0, 0), at(0, 1, 0), at(0, 0, 1)}) {
+            const std::vector<float> from = values;
+            for (std::size_t n = 0; n < values.size(); ++n) {
+                const int place = int(n / stride % std::size_t(fine));
+                double mean = 0;
+                for (int m = -reach; m <= reach; ++m) {
+                    const int other = std::clamp(place + m, 0, fine - 1) - place;
+                    mean += double(kernel[std::size_t(m + reach)]) *
+                            double(from[std::size_t(std::ptrdiff_t(n) + other * std::ptrdiff_t(stride))]);
+                }
+                values[n] = float(mean / sum);
+            }
+        }
+        std::vector<float> out(grid.voxelCount());
+        for (std::size_t n = 0; n < out.size(); ++n) {
+            const Index3 v = grid.indexOf(n);
+            out[n] = values[at(2 * v.i, 2 * v.j, 2 * v.k)];
+        }
+        return out;
+    }
+};
+
+}  // namespace vicon::steps
