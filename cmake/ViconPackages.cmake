@@ -33,7 +33,8 @@ target_link_libraries(vicon_hpdf INTERFACE hpdf)
 
 add_library(vicon_dcmtk INTERFACE)
 target_include_directories(vicon_dcmtk SYSTEM INTERFACE ${DCMTK_INCLUDE_DIRS})
-target_link_libraries(vicon_dcmtk INTERFACE dcmnet dcmsr dcmjpeg dcmjpls dcmimage dcmimgle dcmdata dcmtls oflog ofstd)
+# Not its JPEG-LS: its CharLS has the names of that which GDCM decodes with, and in one process calls would go astray.
+target_link_libraries(vicon_dcmtk INTERFACE dcmnet dcmsr dcmjpeg dcmimage dcmimgle dcmdata dcmtls oflog ofstd)
 # DCMTK's writer of segmentations.
 add_library(vicon_dcmseg INTERFACE)
 target_link_libraries(vicon_dcmseg INTERFACE dcmseg dcmfg dcmiod vicon_dcmtk)

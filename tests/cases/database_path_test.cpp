@@ -61,9 +61,9 @@ TEST(SqliteDatabase, KeepsItsLogWhileAnotherConnectionOfThisProcessCloses)
         std::make_unique<Database>(file).reset();
         openAndCloseElsewhere(file);
         EXPECT_TRUE(fs::exists(file.string() + "-wal")) << "another program took it away";
-        kept.write([&](soci::session& sql) {
-            sql << "INSERT INTO counters VALUES (:name, 1)", soci::use(std::to_string(n), "name");
-        });
+        const std::string name = std::to_string(n);
+        kept.write(
+            [&](soci::session& sql) { sql << "INSERT INTO counters VALUES (:name, 1)", soci::use(name, "name"); });
         EXPECT_EQ(count(kept), n);
         Database fresh(file);
         EXPECT_EQ(count(fresh), n) << "what was written is there for everybody";

@@ -50,10 +50,10 @@ protected:
         const std::string skeleton = toJson(SkeletonFound{.length_mm = length}).dump(),
                           quality = toJson(QualityFound{.parts = {{ColonPart::transverse, 0, length}}}).dump();
         store.database().write([&](soci::session& sql) {
-            for (const auto& [step, result] : {std::pair{"skeleton", &skeleton}, {"quality", &quality}})
+            for (const auto& [step, result] : {std::pair{std::string("skeleton"), &skeleton}, {"quality", &quality}})
                 sql << "INSERT INTO steps (case_id, scan_id, step, version, digest, parameters, result, seconds,"
                        " finished) VALUES ('c1', 's1', :step, 1, 'd', '{}', :result, 1, '')",
-                    soci::use(std::string(step)), soci::use(*result);
+                    soci::use(step), soci::use(*result);
         });
     }
     void addEarlierImages(CaseStore& store) const

@@ -76,7 +76,10 @@ public:
     /// Adds the new values of a row.
     void smoothRow(int j, int k, float share, std::vector<Changed>& changed) const
     {
-        const std::size_t begin = tissue_.grid.offset({0, j, k}), last = std::size_t(tissue_.grid.size[0]) - 1;
+        const std::array<int, 3>& size = tissue_.grid.size;
+        // With each three of a row that behind them is read; behind the grid's last voxel there is none.
+        const bool at_end = j == size[1] - 2 && k == size[2] - 2;
+        const std::size_t begin = tissue_.grid.offset({0, j, k}), last = std::size_t(size[0] - (at_end ? 2 : 1));
         const std::uint8_t* at = &tissue_.voxels[begin];
         const std::uint8_t* of_three = of_three_.empty() ? nullptr : &of_three_[begin];
         for (std::size_t i = 1; i < last; ++i) {
