@@ -301,7 +301,7 @@ std::vector<Step> stepsOfLumen()
          tissueParameters,
          runTissue},
         {"skeleton",
-         11,
+         12,
          0.6,
          0.65,
          {"segment", "tissue"},

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "skeleton/detour.h"
+#include "skeleton/mean_line.h"
 #include "skeleton/path_balls.h"
 
 namespace vicon::steps {
@@ -58,6 +59,30 @@ TEST(BesideTube, ALineGoesRoundItWhereverThereIsRoom)
         EXPECT_LT(std::hypot(line.front().x, line.front().y), 0.5) << "away from the tube it stays";
         EXPECT_LT(std::hypot(line.back().x, line.back().y), 0.5);
     }
+}
+
+TEST(MeanLine, LiesBetweenLinesHoweverManyPointsTheyHave)
+{
+    const FieldVolume field = fieldOf([](Point3 p) { return 15 - std::hypot(p.x, p.y); });
+    const DistanceProbe wall(field);
+    const Polyline mean = meanLine({alongZ(-4, 2, 0.8), alongZ(1, 5, 1.1), alongZ(0, -1, 1)}, wall);
+    ASSERT_EQ(mean.size(), alongZ(0, -1, 1).size()) << "of the last one";
+    for (std::size_t n = 2; n + 2 < mean.size(); ++n)
+        EXPECT_LT(distance(mean[n], {-1, 2, -25.0 + double(n)}), 1e-9);
+    // Where the mean would lie in the wall, it goes as far as the lumen lets it.
+    const FieldVolume two =
+        fieldOf([](Point3 p) { return std::max(5 - std::hypot(p.x - 10, p.y), 5 - std::hypot(p.x + 10, p.y)); });
+    const DistanceProbe parted(two);
+    for (const Point3 p : meanLine({alongZ(-10, 0, 1), alongZ(10, 0, 1)}, parted))
+        EXPECT_TRUE(parted.inside(p));
+}
+
+TEST(MeanLine, HalfwayIsHalfwayWhereThatIsInTheLumen)
+{
+    const FieldVolume field = fieldOf([](Point3 p) { return 15 - std::hypot(p.x, p.y); });
+    const Polyline half = halfwayTo(alongZ(4, 0, 1), alongZ(-2, 6, 1), DistanceProbe(field));
+    EXPECT_LT(distance(half[20], {1, 3, -5}), 1e-9);
+    EXPECT_LT(distance(halfwayTo(alongZ(28, 0, 1), alongZ(14, 0, 1), DistanceProbe(field))[20], {14, 0, -5}), 1e-9);
 }
 
 TEST(PathBalls, OverATubeAreTheLargestThatTheLumenHas)

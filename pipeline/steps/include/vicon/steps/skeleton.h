@@ -15,7 +15,7 @@ struct SkeletonOptions {
     double step_mm = 1;
     double path_smoothing_mm = 4;
     double smoothing_mm = 3.5;
-    int recentrings = 10;
+    int recentrings = 14;
     int rays = 32;
     double uncovered_mm = 40;
     double uncovered_fraction = 0.005;
@@ -29,7 +29,7 @@ struct SkeletonOptions {
         v("skeleton.smoothing_mm", smoothing_mm, "mm", "Standard deviation of the Gaussian after each recentring.",
           {0, 20});
         v("skeleton.recentrings", recentrings, "",
-          "How often the centreline is moved to the middle of its cross-sections.", {0, 10});
+          "How often the centreline is moved to the middle of its cross-sections.", {0, 30});
         v("skeleton.rays", rays, "", "Rays per cross-section.", {8, 512});
         v("skeleton.uncovered_mm", uncovered_mm, "mm",
           "Lumen farther than this from the path, measured inside the lumen, is not covered by it.", {10, 200});
