@@ -13,11 +13,11 @@ namespace {
 
 constexpr std::array<TableColumn, 8> kFindingColumns = {{{"No.", 0},
                                                          {"Finding", 0.05},
-                                                         {"Size", 0.285},
-                                                         {"Place", 0.375},
-                                                         {"From rectum", 0.62},
-                                                         {"Endoscope, est.", 0.74},
-                                                         {"Scans", 0.87},
+                                                         {"Size", 0.32},
+                                                         {"Place", 0.405},
+                                                         {"From rectum", 0.635},
+                                                         {"Endoscope, est.", 0.75},
+                                                         {"Scans", 0.88},
                                                          {"Page", 0.94}}};
 
 std::string numberOf(const FindingWithFacts& f)
@@ -34,6 +34,19 @@ std::string endoscopeRange(const FindingFacts& facts)
     return centimetres(facts.endoscope->least_mm) + " - " + centimetres(facts.endoscope->most_mm) + " cm";
 }
 
+/// What the table says of it; its page is filled in later.
+std::vector<std::string> cellsOf(const FindingWithFacts& f)
+{
+    const FindingSight* lead = f.facts.lead();
+    return {numberOf(f),
+            kindWords(f.finding),
+            sizeWords(f.facts),
+            placeWords(f.facts),
+            lead ? millimetres(lead->station_mm) : "-",
+            endoscopeRange(f.facts),
+            std::to_string(f.facts.sights.size())};
+}
+
 }  // namespace
 
 double Sections::findingTableHeight() const
@@ -41,12 +54,16 @@ double Sections::findingTableHeight() const
     const auto linesOf = [&](const std::string& text, TextStyle style) {
         return text.empty() ? 0.0 : double(flow_.type.lines(text, style, flow_.width()).size()) * leadingOf(style);
     };
-    const auto count = double(content_.read.findings.size());
-    return leadingOf(look::kSection) + 8 + linesOf(looseMarkersSaid(content_.read.loose_markers), look::kBody) +
-           (count > 0
-                ? RowTable::headHeight() + count * RowTable::rowHeight() + linesOf(distancesExplained(), look::kSmall)
-                : leadingOf(look::kBody)) +
-           look::kGap;
+    const std::string of_none = looseMarkersSaid(content_.read.loose_markers);
+    double height = leadingOf(look::kSection) + 8 + look::kGap + linesOf(of_none, look::kBody);
+    if (content_.read.findings.empty())
+        return height + leadingOf(look::kBody);
+    height +=
+        (of_none.empty() ? 0 : look::kGap / 2) + RowTable::headHeight() + linesOf(distancesExplained(), look::kSmall);
+    const RowTable table(flow_, kFindingColumns);
+    for (const FindingWithFacts& f : content_.read.findings)
+        height += table.rowHeight(cellsOf(f));
+    return height;
 }
 
 void Sections::drawFindingTable()
@@ -64,15 +81,15 @@ void Sections::drawFindingTable()
         flow_.skip(look::kGap);
         return;
     }
+    if (!of_none.empty())
+        flow_.skip(look::kGap / 2);
     RowTable table(flow_, kFindingColumns);
     table.drawHead();
     for (const FindingWithFacts& f : findings) {
-        const FindingSight* lead = f.facts.lead();
-        table.beginRow();
+        const std::vector<std::string> cells = cellsOf(f);
+        table.beginRow(cells);
         rows_[f.finding.id] = {flow_.page(), table.left(kFindingColumns.size() - 1), flow_.y()};
-        table.drawRow({numberOf(f), kindWords(f.finding), sizeWords(f.facts), placeWords(f.facts),
-                       lead ? millimetres(lead->station_mm) : "-", endoscopeRange(f.facts),
-                       std::to_string(f.facts.sights.size())});
+        table.drawRow(cells);
     }
     flow_.paragraph(flow_.left(), flow_.width(), flow_.type.lines(distancesExplained(), look::kSmall, flow_.width()),
                     look::kSmall, look::kMuted);

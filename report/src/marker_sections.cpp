@@ -74,12 +74,14 @@ void Sections::drawMarkerTable(const std::vector<const MarkerEntry*>& markers)
     table.drawHead();
     for (const MarkerEntry* entry : markers) {
         const Marker& m = entry->marker;
-        table.beginRow();
+        const std::vector<std::string> cells{
+            m.id + " " + nameOf(m.color),  entry->scan_label,  entry->part_name, millimetres(m.station_mm),
+            millimetres(m.from_caecum_mm), percent(m.fraction)};
+        table.beginRow(cells);
         flow_.pdf.disc(flow_.page(), flow_.left() + kDiscRadius, flow_.y() - 0.7 * look::kBody.size, kDiscRadius - 0.8,
                        inkOf(m.color));
         rows_[m.id] = {flow_.page(), table.left(kColumns.size() - 1), flow_.y()};
-        table.drawRow({m.id + " " + nameOf(m.color), entry->scan_label, entry->part_name, millimetres(m.station_mm),
-                       millimetres(m.from_caecum_mm), percent(m.fraction)});
+        table.drawRow(cells);
     }
     flow_.skip(look::kGap);
 }

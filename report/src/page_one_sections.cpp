@@ -1,6 +1,7 @@
 // The part of Sections that is for who referred the patient: whose study it is, what was found and what to do.
 #include <algorithm>
 
+#include "parts_table.h"
 #include "sections.h"
 #include "vicon/cases/printed.h"
 #include "vicon/report/finding_statements.h"
@@ -10,7 +11,7 @@ namespace vicon::report {
 namespace {
 
 // Of the map, an overview for each scan: points.
-constexpr double kSmallestMap = 120, kSmallestQuietMap = 80, kTallestMap = 235;
+constexpr double kSmallestMap = 120, kSmallestQuietMap = 80, kTallestMap = 235, kWidestMap = 246;
 constexpr double kTallestQuietMap = 92, kMapGap = 8;                 // where nothing was found
 constexpr double kFactsBesideTwoMaps = 205;                          // width
 constexpr std::size_t kMapsBeside = 3, kMapsBesideFacts = 2;         // in a row
@@ -36,9 +37,10 @@ double Sections::drawSite(double width)
         logo_height = box.height;
     }
     for (const std::string& said : site_.name_lines) {
-        const TextStyle style = text == 0 ? look::kEntry : look::kSmall;
+        const bool is_name = text == 0;
+        const TextStyle style = is_name ? look::kEntry : look::kSmall;
         for (const TextLine& line : flow_.type.lines(said, style, width)) {
-            flow_.putRight(right, flow_.y() - text, line, text == 0 ? look::kInk : look::kMuted);
+            flow_.putRight(right, flow_.y() - text, line, is_name ? look::kInk : look::kMuted);
             text += leadingOf(style);
         }
     }
@@ -111,9 +113,8 @@ void Sections::drawImpression()
 
 FramedPicture Sections::overviewOf(const ScanEntry& entry)
 {
-    constexpr double kWidest = 246;
     constexpr const char* kLossyMark = "\nLOSSY COMPRESSION";
-    return framed(entry.overview_picture, kWidest,
+    return framed(entry.overview_picture, kWidestMap,
                   scanTitle(entry) + (entry.scan.series.lossy ? kLossyMark
                                       : isQuiet()             ? ""
                                                               : ", from the front"),
@@ -131,8 +132,44 @@ std::vector<Statement> Sections::studyFacts(bool of_colon) const
     return said;
 }
 
+double Sections::roomForMap() const
+{
+    const double rest =
+        isQuiet() ? leadingOf(look::kSection) + 8 + qualityHeight() + endHeight() : findingTableHeight();
+    return flow_.room() - look::kGap / 2 - rest;
+}
+
+bool Sections::drawOneMapBesideParts()
+{
+    if (content_.scans.size() != 1 || measuredScans().empty())
+        return false;
+    parts_told_ = true;
+    const double captions = 2 * leadingOf(look::kSmall) + 4, room = roomForMap();
+    const double tallest = std::clamp(room - captions, kSmallestMap, kTallestMap);
+    const FramedPicture map = overviewOf(content_.scans.front());
+    const double map_width = map.fitted(kWidestMap, tallest).width;
+    const double column = flow_.width() - map_width - kColumnGap;
+    const StatementTable facts(flow_.type, studyFacts(isQuiet()), column, look::kNarrowLabelWidth);
+    const PartsTable parts(flow_.type, content_.scans.front(), column);
+    const double beside = facts.height() + look::kGap + parts.height();
+    if (std::max(beside, tallest + captions) > room) {
+        parts_told_ = false;
+        return false;
+    }
+    if (isQuiet())
+        drawSection(flow_, "Findings", std::max(beside, tallest + captions));
+    const double top = flow_.y(), x = flow_.left() + flow_.width() - column;
+    const double used = std::max(beside, map.draw(flow_, flow_.left(), top, map_width, tallest));
+    facts.draw(flow_, x);
+    parts.draw(flow_, x, flow_.y() - look::kGap);
+    flow_.skip(used - facts.height() + look::kGap / 2);
+    return true;
+}
+
 bool Sections::drawMapBesideFacts()
 {
+    if (drawOneMapBesideParts())
+        return true;
     const bool quiet = isQuiet();
     if (content_.scans.empty() || content_.scans.size() > kMapsBesideFacts)
         return false;
@@ -170,7 +207,9 @@ void Sections::drawMap()
     }
     const double captions = 2 * leadingOf(look::kSmall) + 8;
     const std::size_t beside = std::min(content_.scans.size(), kMapsBeside);
-    const double column = (flow_.width() - double(beside - 1) * kColumnGap) / double(beside);
+    const bool alone = content_.scans.size() == 1 && !measuredScans().empty();  // then its parts stand beside it
+    const double columns = alone ? 2 : double(beside);
+    const double column = (flow_.width() - (columns - 1) * kColumnGap) / columns;
     for (std::size_t n = 0; n < content_.scans.size(); n += beside) {
         flow_.need(kSmallestMap + captions);
         const double room = flow_.room() - captions - look::kGap / 2;
@@ -180,8 +219,14 @@ void Sections::drawMap()
             used = std::max(used, overviewOf(content_.scans[k])
                                       .draw(flow_, flow_.left() + double(k - n) * (column + kColumnGap), flow_.y(),
                                             column, height));
+        if (alone) {
+            const PartsTable parts(flow_.type, content_.scans.front(), column);
+            parts.draw(flow_, flow_.left() + column + kColumnGap, flow_.y());
+            used = std::max(used, parts.height());
+        }
         flow_.skip(used + look::kGap / 2);
     }
+    parts_told_ = alone;
 }
 
 }  // namespace vicon::report

@@ -11,8 +11,7 @@ namespace vicon::report {
 namespace {
 
 // Of the table, with a column for each part: points.
-constexpr double kLabelWidth = 52, kLastWidth = 60, kCellGap = 3, kRowGap = 0.8;
-const TextStyle kCell{7.5, false}, kCellBold{7.5, true};
+constexpr double kLabelWidth = 52, kLastWidth = 60, kCellGap = 3;
 constexpr std::size_t kParts = std::size_t(ColonPart::caecum) + 1;
 
 // Of the colons laid straight: as much as the page has, within these. Points, from the middle to the largest radius.
@@ -38,7 +37,7 @@ std::vector<const ScanEntry*> Sections::measuredScans() const
 {
     std::vector<const ScanEntry*> measured;
     for (const ScanEntry& entry : content_.scans)
-        if (!qualityRows({&entry}).empty())
+        if (!parts_told_ && !qualityRows({&entry}).empty())
             measured.push_back(&entry);
     return measured;
 }
@@ -46,14 +45,19 @@ std::vector<const ScanEntry*> Sections::measuredScans() const
 void Sections::drawQuality()
 {
     const std::vector<const ScanEntry*> measured = measuredScans();
-    if (!drawStrips() && !measured.empty())
-        drawSection(flow_, "Distension and fluid", partHeadHeight() + scanRowsHeight(*measured.front()));
+    const bool strips = drawStrips();
     if (measured.empty())
         return;
-    flow_.need(partHeadHeight() + scanRowsHeight(*measured.front()));
+    if (!strips || partRowsHeight() > flow_.room())
+        drawSection(flow_, "Distension and fluid of each part", std::min(partRowsHeight(), flow_.wholePage() / 2));
     drawPartHead();
-    for (const ScanEntry* entry : measured)
+    for (const ScanEntry* entry : measured) {
+        if (scanRowsHeight(*entry) > flow_.room()) {
+            flow_.startPage();
+            drawPartHead();
+        }
         drawScanRows(*entry);
+    }
     flow_.skip(look::kGap / 2);
 }
 
@@ -98,12 +102,10 @@ std::vector<StripColon> Sections::strips() const
 double Sections::qualityHeight() const
 {
     const std::vector<StripColon> colons = strips();
-    double height = leadingOf(look::kSection) + 8 + partHeadHeight() + look::kGap;
+    double height = leadingOf(look::kSection) + 8 + partRowsHeight() + look::kGap;
     if (!colons.empty())
         height += leadingOf(look::kSmall) * 2 + kBelowStrips +
                   StripChart(flow_.type, colons, flow_.width(), kLeastHalf + 4).height();
-    for (const ScanEntry* entry : measuredScans())
-        height += scanRowsHeight(*entry);
     return height;
 }
 
@@ -133,10 +135,19 @@ bool Sections::drawStrips()
 /// What follows the chart on its page: where nothing was found, the whole rest.
 double Sections::tailHeight() const
 {
-    double height = partHeadHeight() + look::kGap / 2;
-    if (isQuiet())
-        height += leadingOf(look::kBold) + (scansToldInStrips() ? 0 : briefScansHeight());
-    for (const ScanEntry* entry : measuredScans())
+    return partRowsHeight() + look::kGap / 2 + (isQuiet() ? endHeight() : 0);
+}
+
+double Sections::endHeight() const
+{
+    return leadingOf(look::kBold) + (scansToldInStrips() ? 0 : briefScansHeight());
+}
+
+double Sections::partRowsHeight() const
+{
+    const std::vector<const ScanEntry*> measured = measuredScans();
+    double height = measured.empty() ? 0 : partHeadHeight();
+    for (const ScanEntry* entry : measured)
         height += scanRowsHeight(*entry);
     return height;
 }
@@ -148,22 +159,22 @@ double Sections::partColumn(std::size_t n) const
 
 double Sections::partHeadHeight()
 {
-    return 2 * leadingOf(kCell) + kBelowHead;  // the flexures take two lines
+    return 2 * leadingOf(look::kCell) + kBelowHead;  // the flexures take two lines
 }
 
 void Sections::drawPartHead()
 {
     for (std::size_t n = 0; n <= kParts; ++n) {
-        const std::string name = n < kParts ? nameOf(ColonPart(n)) : "whole colon";
+        const std::string name = partsOfTable()[n];
         const double width = (n < kParts ? partColumn(n + 1) : flow_.left() + flow_.width()) - partColumn(n) - kCellGap;
-        const auto lines = flow_.type.lines(name, kCell, width);
-        double y = flow_.y() - double(2 - std::min<std::size_t>(2, lines.size())) * leadingOf(kCell);
+        const auto lines = flow_.type.lines(name, look::kCell, width);
+        double y = flow_.y() - double(2 - std::min<std::size_t>(2, lines.size())) * leadingOf(look::kCell);
         for (const TextLine& line : lines) {
             flow_.put(partColumn(n), y, line, look::kMuted);
-            y -= leadingOf(kCell);
+            y -= leadingOf(look::kCell);
         }
     }
-    flow_.skip(2 * leadingOf(kCell) + 2);  // then the rule
+    flow_.skip(2 * leadingOf(look::kCell) + 2);  // then the rule
     flow_.pdf.line(flow_.page(), flow_.left(), flow_.y(), flow_.left() + flow_.width(), flow_.y(), look::kThinLine,
                    look::kRule);
     flow_.skip(kBelowHead - 2);
@@ -172,32 +183,24 @@ void Sections::drawPartHead()
 double Sections::scanRowsHeight(const ScanEntry& entry) const
 {
     constexpr double kWithTitle = 3;  // title, radius, fluid
-    return (kWithTitle + (isOpen(entry) ? 0 : 2)) * (leadingOf(kCell) + kRowGap) + 2;
-}
-
-bool Sections::isOpen(const ScanEntry& entry)
-{
-    return entry.quality && entry.quality->whole.adequate && entry.quality->whole.collapsed_mm <= 0;
+    return (kWithTitle + (isOpen(entry) ? 0 : 2)) * (leadingOf(look::kCell) + look::kCellRowGap) + 2;
 }
 
 void Sections::drawScanRows(const ScanEntry& entry)
 {
-    const double row_height = leadingOf(kCell) + kRowGap;
-    flow_.need(scanRowsHeight(entry));
-    flow_.put(flow_.left(), flow_.y(), flow_.type.line(scanTitle(entry), kCellBold), look::kAccent);
+    const double row_height = leadingOf(look::kCell) + look::kCellRowGap;
+    flow_.put(flow_.left(), flow_.y(), flow_.type.line(scanTitle(entry), look::kCellBold), look::kAccent);
     flow_.skip(row_height);
     const std::vector<QualityRow> rows = qualityRows({&entry});
     const auto drawRow = [&](const char* label, auto&& cellOf) {
-        flow_.put(flow_.left(), flow_.y(), flow_.type.line(label, kCell), look::kMuted);
+        flow_.put(flow_.left(), flow_.y(), flow_.type.line(label, look::kCell), look::kMuted);
         for (std::size_t n = 0; n <= kParts; ++n) {
-            const std::string part = n < kParts ? nameOf(ColonPart(n)) : rows.back().part;
+            const std::string part = partsOfTable()[n];
             const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.part == part; });
             const bool found = row != rows.end() && row->scans[0];
             const std::string text = found ? cellOf(*row->scans[0]) : "not found";
-            flow_.put(partColumn(n), flow_.y(), flow_.type.line(text, n < kParts ? kCell : kCellBold),
-                      !found         ? look::kMuted
-                      : text == "NO" ? look::kNoticeInk
-                                     : look::kInk);
+            flow_.put(partColumn(n), flow_.y(), flow_.type.line(text, n < kParts ? look::kCell : look::kCellBold),
+                      found ? inkOfQuality(text) : look::kMuted);
         }
         flow_.skip(row_height);
     };
@@ -205,7 +208,7 @@ void Sections::drawScanRows(const ScanEntry& entry)
     drawRow("Fluid", [](const QualityTexts& texts) { return texts.fluid; });
     if (!isOpen(entry)) {
         drawRow("Collapsed", [](const QualityTexts& texts) { return texts.collapsed; });
-        drawRow("Adequate", [](const QualityTexts& texts) { return std::string(texts.adequate ? "yes" : "NO"); });
+        drawRow("Adequate", adequateWord);
     }
     flow_.skip(2);
 }

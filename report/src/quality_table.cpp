@@ -9,6 +9,8 @@
 namespace vicon::report {
 namespace {
 
+constexpr const char *kWhole = "whole colon", *kNotAdequate = "NO";
+
 std::string whole(double value, const char* unit)
 {
     std::array<char, 48> text{};
@@ -39,7 +41,7 @@ QualityRow& rowOf(std::vector<QualityRow>& rows, const std::string& part, std::s
 std::vector<QualityRow> qualityRows(const std::vector<const ScanEntry*>& scans)
 {
     std::vector<QualityRow> rows;
-    QualityRow total{"whole colon", std::vector<std::optional<QualityTexts>>(scans.size())};
+    QualityRow total{kWhole, std::vector<std::optional<QualityTexts>>(scans.size())};
     for (std::size_t n = 0; n < scans.size(); ++n) {
         const auto& quality = scans[n]->quality;
         if (!quality || quality->parts.empty())
@@ -51,6 +53,30 @@ std::vector<QualityRow> qualityRows(const std::vector<const ScanEntry*>& scans)
     if (!rows.empty())
         rows.push_back(std::move(total));
     return rows;
+}
+
+std::vector<std::string> partsOfTable()
+{
+    std::vector<std::string> names;
+    for (int part = 0; part <= int(ColonPart::caecum); ++part)
+        names.push_back(nameOf(ColonPart(part)));
+    names.emplace_back(kWhole);
+    return names;
+}
+
+std::string adequateWord(const QualityTexts& texts)
+{
+    return texts.adequate ? "yes" : kNotAdequate;
+}
+
+Color inkOfQuality(const std::string& text)
+{
+    return text == kNotAdequate ? look::kNoticeInk : look::kInk;
+}
+
+bool isOpen(const ScanEntry& entry)
+{
+    return entry.quality && entry.quality->whole.adequate && entry.quality->whole.collapsed_mm <= 0;
 }
 
 }  // namespace vicon::report

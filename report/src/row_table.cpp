@@ -1,9 +1,12 @@
 #include "row_table.h"
 
+#include <algorithm>
+
 namespace vicon::report {
 namespace {
 
 constexpr double kRowGap_pt = 2.5, kCellGap_pt = 4, kBelowRule_pt = 3;
+constexpr std::size_t kMostLines = 2;  // of a cell
 
 }  // namespace
 
@@ -23,9 +26,21 @@ double RowTable::headHeight()
     return leadingOf(look::kSmall) + 2 + kBelowRule_pt;
 }
 
-double RowTable::rowHeight()
+std::vector<TextLine> RowTable::linesOf(std::size_t column, const std::string& cell) const
 {
-    return leadingOf(look::kBody) + kRowGap_pt;
+    const double width = right(column) - left(column) - kCellGap_pt;
+    std::vector<TextLine> lines = flow_.type.lines(cell, look::kBody, width);
+    if (lines.size() > kMostLines)  // cut, as whole as it can be
+        lines = {cutTo(flow_.type, cell, look::kBody, width)};
+    return lines;
+}
+
+double RowTable::rowHeight(const std::vector<std::string>& cells) const
+{
+    std::size_t lines = 1;
+    for (std::size_t n = 0; n < cells.size(); ++n)
+        lines = std::max(lines, linesOf(n, cells[n]).size());
+    return double(lines) * leadingOf(look::kBody) + kRowGap_pt;
 }
 
 void RowTable::drawHead()
@@ -38,9 +53,9 @@ void RowTable::drawHead()
     flow_.skip(kBelowRule_pt);
 }
 
-void RowTable::beginRow()
+void RowTable::beginRow(const std::vector<std::string>& cells)
 {
-    if (rowHeight() <= flow_.room())
+    if (rowHeight(cells) <= flow_.room())
         return;
     flow_.newPage();
     drawHead();
@@ -48,10 +63,14 @@ void RowTable::beginRow()
 
 void RowTable::drawRow(const std::vector<std::string>& cells)
 {
-    for (std::size_t n = 0; n < cells.size(); ++n)
-        flow_.put(left(n), flow_.y(), cutTo(flow_.type, cells[n], look::kBody, right(n) - left(n) - kCellGap_pt),
-                  look::kInk);
-    flow_.skip(rowHeight());
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+        double y = flow_.y();
+        for (const TextLine& line : linesOf(n, cells[n])) {
+            flow_.put(left(n), y, line, look::kInk);
+            y -= leadingOf(look::kBody);
+        }
+    }
+    flow_.skip(rowHeight(cells));
 }
 
 }  // namespace vicon::report

@@ -161,7 +161,9 @@ FramedPicture Sections::framed(const std::filesystem::path& file, double print_w
     out.caption.clear();
     if (out.picture.unreadable) {
         out.absent = "The " + kind + " picture cannot be read.";
-        warnings_.push_back(of + ": the " + kind + " picture cannot be read");
+        const std::string warning = of + ": the " + kind + " picture cannot be read";
+        if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end())
+            warnings_.push_back(warning);
     } else {
         out.absent = "No " + kind + " picture was made.";
     }

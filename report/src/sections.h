@@ -59,6 +59,10 @@ private:
     /// What is said of the study beside the map, where that leaves the room; false, and nothing drawn, where it does
     /// not.
     bool drawMapBesideFacts();
+    /// The map of one scan leaves the room for what was measured of the colon's parts as well.
+    bool drawOneMapBesideParts();
+    /// What the page has for the map, when all that follows has its place.
+    double roomForMap() const;
     /// @param of_colon with what is said of the colon
     std::vector<Statement> studyFacts(bool of_colon) const;
     std::vector<Statement> examinationStatements() const;
@@ -86,13 +90,15 @@ private:
     std::vector<const ScanEntry*> stripScans() const;
     std::vector<StripColon> strips() const;
     StripColon stripOf(const ScanEntry& entry) const;
+    /// Whose parts are told below each other in a table; none where they were told beside the map.
     std::vector<const ScanEntry*> measuredScans() const;
+    double partRowsHeight() const;
     double tailHeight() const;
+    /// Of what stands last.
+    double endHeight() const;
     double partColumn(std::size_t n) const;
     static double partHeadHeight();
     void drawPartHead();
-    /// Whether no part of it is collapsed anywhere.
-    static bool isOpen(const ScanEntry& entry);
     double scanRowsHeight(const ScanEntry& entry) const;
     void drawScanRows(const ScanEntry& entry);
     /// Of the scans in a line each; 0 where there is more to be said of one.
@@ -132,6 +138,7 @@ private:
     PageFlow& flow_;
     PictureShelf shelf_;
     std::map<std::string, TableRow> rows_;  ///< by the id of marker or finding
+    bool parts_told_ = false;               ///< what was measured of the colon's parts, beside the map
     std::vector<std::string> warnings_;
 };
 

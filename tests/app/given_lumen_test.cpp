@@ -161,6 +161,26 @@ TEST_F(GivenLumenOfTheCommand, IsCorrectedAsAFoundOneIs)
     EXPECT_DOUBLE_EQ(millilitres(), half_ml);
 }
 
+TEST_F(GivenLumenOfTheCommand, IsNotCalledViconsInTheSegmentationOfAReport)
+{
+    const fs::path store = folder_->path() / "named", config = folder_->path() / "c.toml";
+    readSmallStudy(store);
+    viconOn(store, importOf(masks() / "nifti-sform.-20-1.nii"));
+    viconOn(store, "work --until-idle");
+    replaceFile(config, "[roles]\nsign = [\"" + runCommand("id -un | tr -d '\\n'").output + "\"]\n");
+    viconOn(store, "sign " + scan_.case_id + " --config " + config.string());
+    const fs::path report = store / "cases" / scan_.case_id / "report", plain = folder_->path() / "lumen.dcm";
+    runCommand("dcmconv +te " + (report / ("version-1-lumen-" + scan_.scan_id + ".dcm")).string() + " " +
+               plain.string());
+    const std::string dump = runCommand("dcmdump +L " + plain.string()).output;
+    EXPECT_THAT(dump, HasSubstr("[Lumen of the colon, made by another program]"));
+    EXPECT_THAT(dump, HasSubstr("[Another program's, not known to VICON]"));
+    EXPECT_THAT(dump, HasSubstr("[Made by another program: NIfTI, label 1, SHA-256 " +
+                                sha256OfFile(masks() / "nifti-sform.-20-1.nii").substr(0, 12)));
+    EXPECT_THAT(dump, testing::Not(HasSubstr("segmented by VICON")));
+    EXPECT_THAT(runCommand("dciodvfy " + plain.string()).output, testing::Not(HasSubstr("Error")));
+}
+
 TEST_F(GivenLumenOfTheCommand, OfASignedReportComesBackAsItWasAndMarkersAndReportStay)
 {
     const fs::path store = folder_->path() / "signed", out = folder_->path() / "exported";

@@ -186,6 +186,40 @@ TEST_F(PdfOfFindings, OfANormalStudyIsOnePage)
     }
 }
 
+TEST_F(PdfOfFindings, OfOneScanTellsItsPartsBesideTheMapAndNowhereElse)
+{
+    for (const bool found : {false, true}) {
+        if (found)
+            addFindings(1);
+        content_.read.parts.clear();
+        samples::makeNormal(content_);
+        expectWellMade(write());
+        const auto pages = samples::wordsByPage(pdf_);
+        std::vector<samples::Word> titles;
+        for (const auto& words : pages)
+            for (const samples::Word& word : words)
+                if (word.text == "Radius")
+                    titles.push_back(word);
+        ASSERT_EQ(titles.size(), 1u) << found;
+        const auto caption = std::find_if(pages[0].begin(), pages[0].end(),
+                                          [](const samples::Word& word) { return word.text == "Prone,"; });
+        ASSERT_NE(caption, pages[0].end());
+        EXPECT_GT(titles[0].left, 45 + 90 * 1.5) << "right of the map, which is 90 pixels wide";
+        EXPECT_LT(titles[0].top, caption->top) << "beside it";
+    }
+}
+
+TEST_F(PdfOfFindings, CutsNoWordOfWhatAFindingIsInTheTable)
+{
+    addFindings(1);
+    Finding& finding = content_.read.findings[0].finding;
+    finding.kind = FindingKind::inverted_diverticulum;
+    finding.morphology = Morphology::pedunculated;
+    finding.attenuation = Attenuation::soft_tissue;
+    expectWellMade(write());
+    EXPECT_THAT(samples::pageTexts(pdf_).at(0), Not(HasSubstr("\u2026")));
+}
+
 TEST_F(PdfOfFindings, ShowsTheColonLaidStraightWithItsPartsAndWhereFindingsLie)
 {
     addFindings(3);

@@ -122,9 +122,9 @@ void collapse(ReportContent& content)
 
 const Page kPages[] = {
     {"Normal", 0, 2, [](ReportContent&) {}, 1},
-    {"OneScanOnly", 0, 1, [](ReportContent&) {}, 1},
+    {"OneScanOnly", 0, 1, [](ReportContent&) {}, 1, "Example Hospital", true},
     {"OneFinding", 1, 2, [](ReportContent&) {}, 3, "Example Hospital", true},
-    {"OneFindingInOneScan", 1, 1, [](ReportContent&) {}, 3},
+    {"OneFindingInOneScan", 1, 1, [](ReportContent&) {}, 3, "Example Hospital", true},
     {"TwelveFindings", 12, 2, [](ReportContent&) {}, 15},
     {"AMass", 1, 2,
      [](ReportContent& content) {

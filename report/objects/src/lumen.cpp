@@ -57,26 +57,43 @@ bool areAlike(const std::vector<ImagePlane>& planes)
            });
 }
 
-std::unique_ptr<DcmSegmentation> emptySegmentation(const ImagePlane& plane)
+/// Who made the lumen, as the elements of a segmentation say it.
+struct Maker {
+    std::string content;    ///< at most 64 characters, as is `algorithm`
+    std::string algorithm;  ///< its name
+    std::string segment;    ///< in full; empty: nothing more is to be said
+    std::string derivation;
+};
+
+Maker makerOf(const std::optional<LumenOrigin>& given)
+{
+    if (!given)
+        return {"Lumen of the colon: gas and tagged fluid", "VICON", "", "segmented by VICON"};
+    return {"Lumen of the colon, made by another program", "Another program's, not known to VICON",
+            "Made by another program: " + textOf(*given), "segmented by another program, put on these planes by VICON"};
+}
+
+std::unique_ptr<DcmSegmentation> emptySegmentation(const ImagePlane& plane, const Maker& maker)
 {
     const IODGeneralEquipmentModule::EquipmentInfo equipment("VICON", "VICON", "1",
                                                              "1");  // writeLumen() says the version
     ContentIdentificationMacro identification;
     require(identification.setInstanceNumber("1"));
     require(identification.setContentLabel("COLON_LUMEN"));
-    require(identification.setContentDescription("Lumen of the colon: gas and tagged fluid"));
+    require(identification.setContentDescription(maker.content.c_str()));
     DcmSegmentation* made = nullptr;
     require(DcmSegmentation::createBinarySegmentation(made, Uint16(plane.rows), Uint16(plane.columns), equipment,
                                                       identification));
     return std::unique_ptr<DcmSegmentation>(made);
 }
 
-void addSegment(DcmSegmentation& segmentation)
+/// How another program came by its lumen is not known: it is not said to be drawn by hand, nor by none.
+void addSegment(DcmSegmentation& segmentation, const Maker& maker)
 {
     DcmSegment* segment = nullptr;
-    require(DcmSegment::create(segment, "Lumen of the colon",
-                               CodeSequenceMacro("123037004", "SCT", "Anatomical Structure"),
-                               CodeSequenceMacro("71854001", "SCT", "Colon"), DcmSegTypes::SAT_SEMIAUTOMATIC, "VICON"));
+    require(DcmSegment::create(
+        segment, "Lumen of the colon", CodeSequenceMacro("123037004", "SCT", "Anatomical Structure"),
+        CodeSequenceMacro("71854001", "SCT", "Colon"), DcmSegTypes::SAT_SEMIAUTOMATIC, maker.algorithm.c_str()));
     Uint16 number = 0;
     require(segmentation.addSegment(segment, number));
 }
@@ -102,7 +119,8 @@ void addGeometry(DcmSegmentation& segmentation, const std::vector<ImagePlane>& p
                                          "Position"));
 }
 
-void addFrame(DcmSegmentation& segmentation, const ImagePlane& plane, Uint32 number, std::vector<std::uint8_t>& mask)
+void addFrame(DcmSegmentation& segmentation, const ImagePlane& plane, Uint32 number, std::vector<std::uint8_t>& mask,
+              const Maker& maker)
 {
     FGFrameContent content;
     require(content.setFrameAcquisitionNumber(Uint16(number)));
@@ -114,7 +132,7 @@ void addFrame(DcmSegmentation& segmentation, const ImagePlane& plane, Uint32 num
     require(source.front().setReferencedSOPClassUID(plane.image.sop_class.c_str()));
     require(source.front().setReferencedSOPInstanceUID(plane.image.sop_uid.c_str()));
     const std::unique_ptr<FGDerivationImage> derivation(
-        DcmSegmentation::createDerivationImageFG(source, "segmented by VICON"));
+        DcmSegmentation::createDerivationImageFG(source, maker.derivation.c_str()));
     OFVector<FGBase*> groups;
     groups.push_back(&content);
     groups.push_back(position.get());
@@ -123,12 +141,13 @@ void addFrame(DcmSegmentation& segmentation, const ImagePlane& plane, Uint32 num
 }
 
 /// Returns how many planes show any of the lumen.
-Uint32 addFrames(DcmSegmentation& segmentation, const std::vector<ImagePlane>& planes, const LumenOnPlanes& lumen)
+Uint32 addFrames(DcmSegmentation& segmentation, const std::vector<ImagePlane>& planes, const LumenOnPlanes& lumen,
+                 const Maker& maker)
 {
     Uint32 frames = 0;
     for (const ImagePlane& plane : planes)
         if (std::vector<std::uint8_t> mask = lumen.on(plane); !mask.empty())
-            addFrame(segmentation, plane, ++frames, mask);
+            addFrame(segmentation, plane, ++frames, mask, maker);
     return frames;
 }
 
@@ -147,20 +166,32 @@ void putReferences(DcmDataset& d, const std::vector<ImagePlane>& planes)
     }
 }
 
+/// UTF-8, which the object is said to be later; DCMTK's segment takes ASCII alone.
+void putMaker(DcmDataset& d, const Maker& maker)
+{
+    if (maker.segment.empty())
+        return;
+    DcmItem* segment = nullptr;
+    require(d.findOrCreateSequenceItem(DCM_SegmentSequence, segment, 0));
+    put(*segment, DCM_SegmentDescription, maker.segment);
+}
+
 }  // namespace
 
 /// PS3.3 A.51.
 std::unique_ptr<DcmFileFormat> drawLumen(const ScanRecord& scan, const std::vector<ImagePlane>& images,
-                                         const std::filesystem::path& scan_folder)
+                                         const std::filesystem::path& scan_folder,
+                                         const std::optional<LumenOrigin>& given)
 {
     const std::vector<ImagePlane> planes = sorted(images);
     if (planes.empty() || !areAlike(planes))
         return nullptr;
     const scan_files::StoredVolume<std::uint8_t> inside(scan_folder / "inside.mha");
-    const auto segmentation = emptySegmentation(planes.front());
-    addSegment(*segmentation);
+    const Maker maker = makerOf(given);
+    const auto segmentation = emptySegmentation(planes.front(), maker);
+    addSegment(*segmentation, maker);
     addGeometry(*segmentation, planes);
-    if (addFrames(*segmentation, planes, LumenOnPlanes(inside.view())) == 0)
+    if (addFrames(*segmentation, planes, LumenOnPlanes(inside.view()), maker) == 0)
         return nullptr;
     require(segmentation->getFrameOfReference().setFrameOfReferenceUID(scan.series.frame_of_reference_uid.c_str()));
     require(segmentation->getStudy().setStudyInstanceUID(scan.series.uid.c_str()));  // writeLumen() says the true one
@@ -169,6 +200,7 @@ std::unique_ptr<DcmFileFormat> drawLumen(const ScanRecord& scan, const std::vect
     auto format = std::make_unique<DcmFileFormat>();
     require(segmentation->writeDataset(*format->getDataset()));
     putReferences(*format->getDataset(), planes);
+    putMaker(*format->getDataset(), maker);
     return format;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <future>
 
+#include "vicon/cases/step_results.h"
 #include "vicon/dicom/dicom_setup.h"
 #include "vicon/scan_files/skeleton_file.h"
 
@@ -22,6 +23,7 @@ struct ToRead {
     std::vector<InstanceRecord> instances;
     std::vector<FindingSight> sights;
     bool centreline = false, lumen = false;
+    std::optional<LumenOrigin> given;  ///< where the lumen came from; absent: VICON found it
 };
 
 bool has(const std::vector<ObjectKind>& kinds, ObjectKind kind)
@@ -33,7 +35,11 @@ std::vector<ToRead> toRead(CaseStore& store, const ReadCase& read, const std::ve
 {
     std::vector<ToRead> all;
     for (const ScanRecord& scan : read.scans) {
-        ToRead one{.scan = scan, .folder = store.scanFolder(scan.case_id, scan.id), .instances = {}, .sights = {}};
+        ToRead one{.scan = scan,
+                   .folder = store.scanFolder(scan.case_id, scan.id),
+                   .instances = {},
+                   .sights = {},
+                   .given = {}};
         for (const auto& [finding, facts] : read.findings)
             std::copy_if(facts.sights.begin(), facts.sights.end(), std::back_inserter(one.sights),
                          [&](const FindingSight& sight) { return sight.scan_id == scan.id; });
@@ -43,6 +49,8 @@ std::vector<ToRead> toRead(CaseStore& store, const ReadCase& read, const std::ve
         one.lumen = prepared && has(kinds, ObjectKind::lumen);
         if (one.lumen || !one.sights.empty())
             one.instances = store.instances(scan.case_id, scan.id);
+        if (const StepResults results = resultsOf(store.steps(scan.case_id, scan.id)); results.segment)
+            one.given = results.segment->given;
         all.push_back(std::move(one));
     }
     return all;
@@ -62,7 +70,7 @@ Centreline centrelineOf(const ScanRecord& scan, const fs::path& folder)
 ShownScans::Parts readAll(const std::vector<ToRead>& scans)
 {
     ShownScans::Parts parts;
-    for (const auto& [scan, folder, instances, sights, centreline, lumen] : scans) {
+    for (const auto& [scan, folder, instances, sights, centreline, lumen, given] : scans) {
         const SourceImages images(folder / "dicom", instances);
         for (const FindingSight& sight : sights)
             if (const auto image = images.nearest(sight.position_mm))
@@ -71,7 +79,7 @@ ShownScans::Parts readAll(const std::vector<ToRead>& scans)
             if (Centreline line = centrelineOf(scan, folder); line.points_mm.size() > 1)
                 parts.centrelines.push_back(std::move(line));
         if (lumen)
-            if (auto drawn = drawLumen(scan, images.planes(), folder))
+            if (auto drawn = drawLumen(scan, images.planes(), folder, given))
                 parts.lumens.emplace(scan.id, std::move(drawn));
     }
     return parts;

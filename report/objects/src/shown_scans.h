@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "measurement_groups.h"
+#include "vicon/cases/given_lumen.h"
 #include "vicon/report/report_objects.h"
 
 class DcmFileFormat;
@@ -17,7 +18,9 @@ struct ShownScans::Parts {
 };
 
 /// The lumen of a scan on the planes of its images, as Segmentation; nothing where no image shows any of it.
+/// @param given where it came from; absent: VICON found it
 std::unique_ptr<DcmFileFormat> drawLumen(const ScanRecord& scan, const std::vector<ImagePlane>& images,
-                                         const std::filesystem::path& scan_folder);
+                                         const std::filesystem::path& scan_folder,
+                                         const std::optional<LumenOrigin>& given);
 
 }  // namespace vicon::report
