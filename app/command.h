@@ -37,6 +37,8 @@ public:
     CaseStore& existingStore();
 
 private:
+    std::filesystem::path userConfig() const;
+
     std::unique_ptr<Config> config_;
     std::unique_ptr<CaseStore> store_;
     bool store_of_its_own_ = false;

@@ -2,8 +2,22 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
+
+namespace fs = std::filesystem;
 
 namespace vicon::app {
+namespace {
+
+/// Only what is surely not there is a slip of the pen; what may not be looked at is the command's to tell.
+std::string whyNoPath(const std::string& path)
+{
+    std::error_code failure;
+    const bool missing = fs::status(path, failure).type() == fs::file_type::not_found;
+    return missing ? "no such file or folder: " + path : "";
+}
+
+}  // namespace
 
 ValueCheck range(int least, int most)
 {
@@ -50,7 +64,7 @@ CommandOption& CommandOption::check(const ValueCheck& check)
             option_->check(CLI::IsMember(check.words));
             break;
         case ValueCheck::Kind::existing_path:
-            option_->check(CLI::ExistingPath);
+            option_->check(CLI::Validator(whyNoPath, ""));
             break;
     }
     return *this;

@@ -19,17 +19,31 @@ void requireRolesOf(const fs::path& system, const Config& config)
                         spec.key + " (" + source + ")", "take it out there");
 }
 
+/// Whether there is one. One that may not be looked at is not taken for none: what it sets would be left out in
+/// silence.
+bool isThere(const fs::path& file, const std::string& remedy)
+{
+    std::error_code failure;
+    const bool there = fs::exists(file, failure);
+    if (failure)
+        throw Error(ErrorCode::wrong_use, "the configuration cannot be looked at (" + failure.message() + ")",
+                    file.string(), remedy);
+    return there;
+}
+
 }  // namespace
 
 Config readConfig(const ConfigSources& sources)
 {
     Config config = declaredConfig();
-    for (const fs::path& file : {sources.system, sources.user})
-        if (fs::exists(file))
-            config.readFile(file);
+    const bool has_system = isThere(sources.system, "let this user read it");
+    if (has_system)
+        config.readFile(sources.system);
+    if (isThere(sources.user, "let this user read it, or name another with --config"))
+        config.readFile(sources.user);
     for (const std::string& assignment : sources.assignments)
         config.set(assignment);
-    if (fs::exists(sources.system))
+    if (has_system)
         requireRolesOf(sources.system, config);
     return config;
 }

@@ -15,12 +15,13 @@ namespace {
 std::atomic<bool> stop_requested = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "it is set in a signal handler");
 
+/// A folder of the user's own; empty where nothing says where his home is.
 fs::path homeFolder(const char* variable, const char* below_home)
 {
     if (const char* folder = std::getenv(variable); folder && *folder)
         return folder;
     const char* home = std::getenv("HOME");
-    return fs::path(home && *home ? home : ".") / below_home;
+    return home && *home ? fs::path(home) / below_home : fs::path();
 }
 
 /// Does not wait for another program that is at it, or that imports.
@@ -63,21 +64,33 @@ fs::path Context::storeFolder() const
         return store_folder;
     if (const char* folder = std::getenv("VICON_STORE"); folder && *folder)
         return folder;
-    return homeFolder("XDG_DATA_HOME", ".local/share") / "vicon";
+    const fs::path data = homeFolder("XDG_DATA_HOME", ".local/share");
+    if (data.empty())
+        throw Error(ErrorCode::wrong_use, "nothing says where the store is: HOME is not set", {},
+                    "name its folder with --store");
+    return data / "vicon";
 }
 
 const Config& Context::config()
 {
     if (config_)
         return *config_;
-    const fs::path usual = homeFolder("XDG_CONFIG_HOME", ".config") / "vicon" / "config.toml";
-    if (!config_file.empty() && !fs::exists(config_file))
-        throw Error(ErrorCode::wrong_use, "no such configuration file", config_file);
-    config_ = std::make_unique<Config>(
-        readConfig({kSystemConfig, config_file.empty() ? usual : fs::path(config_file), assignments}));
+    config_ = std::make_unique<Config>(readConfig({kSystemConfig, userConfig(), assignments}));
     writeLogAs(config_->get<LogOptions>());
     setRoles(config_->get<RoleOptions>());
     return *config_;
+}
+
+/// Empty where there can be none.
+fs::path Context::userConfig() const
+{
+    if (config_file.empty()) {
+        const fs::path folder = homeFolder("XDG_CONFIG_HOME", ".config");
+        return folder.empty() ? folder : folder / "vicon" / "config.toml";
+    }
+    if (std::error_code failure; fs::status(config_file, failure).type() == fs::file_type::not_found)
+        throw Error(ErrorCode::wrong_use, "no such configuration file", config_file);
+    return config_file;
 }
 
 StorePlace Context::storePlace()

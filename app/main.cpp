@@ -4,15 +4,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <optional>
 #include <string_view>
 
 #include "command.h"
 #include "log_lines.h"
+#include "standard_streams.h"
 #include "vicon/cases/roles.h"
 #include "vicon/core/error.h"
 #include "vicon/core/printable.h"
+#include "wrong_words.h"
 
 namespace vicon::app {
 namespace {
@@ -51,16 +54,25 @@ std::optional<Role> roleFor(std::string_view subcommand)
     return has(kReading) ? Role::read : has(kMarking) ? Role::mark : Role::operate;
 }
 
+/// A variable that is not set must not mean the usual place.
+std::string whyNoName(const std::string& given)
+{
+    return given.empty() ? "is empty; name a place, or leave the option out" : "";
+}
+
 void addCommonOptions(CLI::App& command, Context& context)
 {
+    const CLI::Validator named(whyNoName, "");
     command
         .add_option("--store", context.store_folder,
                     "Folder of the store (default: $VICON_STORE, else ~/.local/share/vicon)")
-        ->type_name("DIR");
+        ->type_name("DIR")
+        ->check(named);
     command
         .add_option("--config", context.config_file,
                     "Configuration file (default: ~/.config/vicon/config.toml, if there)")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(named);
     command.add_option("--set", context.assignments, "Set one option of the configuration; 'vicon config' lists them")
         ->type_name("KEY=VALUE");
     command.add_flag("--json", context.json, "Print JSON instead of text");
@@ -98,11 +110,26 @@ int run(int argc, char** argv)
     try {
         command.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0)
-            return command.exit(e);
-        return fail(std::string(e.what()) + "; see 'vicon --help'", kWrongUse);
+        const std::string wrong = wrongWordsOf(command, e);
+        return wrong.empty() ? command.exit(e) : fail(wrong, kWrongUse);
     }
     return chosen(context);
+}
+
+/// Whatever goes wrong is one line.
+int runOrTell(int argc, char** argv)
+try {
+    return run(argc, argv);
+} catch (const Error& e) {
+    return fail(e.what(), e.code() == ErrorCode::wrong_use ? kWrongUse : kFailed);
+} catch (const std::bad_alloc&) {
+    return fail("not enough memory; close other programs and try again", kFailed);
+} catch (const std::filesystem::filesystem_error& e) {
+    return fail(e.path1().string() + ": cannot be used (" + e.code().message() +
+                    "); check that the path is right and that this user may use it",
+                kFailed);
+} catch (const std::exception& e) {
+    return fail(e.what(), kFailed);
 }
 
 }  // namespace
@@ -111,16 +138,11 @@ int run(int argc, char** argv)
 int main(int argc, char** argv)
 {
     using namespace vicon;
+    app::openStandardStreams();
     spdlog::set_default_logger(spdlog::stderr_logger_mt("vicon"));
     app::writeLogAs({});
     app::catchStopSignals();
-    try {
-        return app::run(argc, argv);
-    } catch (const Error& e) {
-        return app::fail(e.what(), e.code() == ErrorCode::wrong_use ? app::kWrongUse : app::kFailed);
-    } catch (const std::bad_alloc&) {
-        return app::fail("not enough memory; close other programs and try again", app::kFailed);
-    } catch (const std::exception& e) {
-        return app::fail(e.what(), app::kFailed);
-    }
+    const int exit_code = app::runOrTell(argc, argv);
+    const std::string lost = app::whyNotPrinted();
+    return lost.empty() ? exit_code : app::fail(lost, exit_code == 0 ? app::kFailed : exit_code);
 }

@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 
 #include "vicon/core/error.h"
 
@@ -51,7 +53,8 @@ PictureFolder::PictureFolder()
     removeLeftBehind();
     std::string name = (fs::temp_directory_path() / kName).string() + "XXXXXX";
     if (!::mkdtemp(name.data()))
-        throw Error(ErrorCode::store, "a temporary folder cannot be made", name);
+        throw Error(ErrorCode::store, "a temporary folder cannot be made (" + std::string(std::strerror(errno)) + ")",
+                    name, "set TMPDIR to a folder that this user may write");
     path_ = name;
     // Under another name until it is locked: whoever finds the lock finds it taken.
     const fs::path unlocked = path_ / "new";

@@ -3,6 +3,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 
 #include "database_engine.h"
@@ -12,13 +14,17 @@ namespace {
 
 constexpr int kBusyTimeoutSeconds = 60;
 
+std::filesystem::path folderOf(const std::filesystem::path& file)
+{
+    return file.has_parent_path() ? file.parent_path() : ".";
+}
+
 /// The folder of a database, by a name without any sign that a connection string reads in its own way. SQLite finds the
 /// place behind it, and keeps that.
 class Folder {
 public:
     explicit Folder(const std::filesystem::path& file)
-        : descriptor_(
-              ::open(file.has_parent_path() ? file.parent_path().c_str() : ".", O_PATH | O_DIRECTORY | O_CLOEXEC))
+        : descriptor_(::open(folderOf(file).c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC))
     {
     }
     ~Folder()
@@ -88,7 +94,10 @@ public:
     Error connectionBroke() override { return {ErrorCode::internal, "a file has no connection"}; }
     Error cannotBeOpened(const soci::soci_error& e) override
     {
-        return {ErrorCode::database, std::string("database cannot be opened (") + e.what() + ")", file_,
+        // SQLite has one word for all that the system may say.
+        const bool may_write = ::access(folderOf(file_).c_str(), W_OK | X_OK) == 0;
+        const std::string why = may_write ? e.what() : std::strerror(errno);
+        return {ErrorCode::database, "database cannot be opened (" + why + ")", file_,
                 "check that the folder is yours, on a local disk, and not full"};
     }
 

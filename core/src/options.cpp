@@ -2,29 +2,16 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fstream>
 #include <sstream>
 
 #include "vicon/core/error.h"
+#include "vicon/core/nearest_name.h"
 
 namespace vicon {
 namespace {
-
-std::size_t editDistance(const std::string& a, const std::string& b)
-{
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j)
-        row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i);
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-        }
-    }
-    return row.back();
-}
 
 /// A list of texts has no unit; one of points has.
 bool isListOfTexts(const OptionSpec& spec)
@@ -133,6 +120,23 @@ bool sameKind(const nlohmann::json& value, const OptionSpec& spec)
     return value.is_string();
 }
 
+/// What is no text is no configuration: an empty one would be read from a folder, and no end from a device.
+std::string configurationIn(const std::filesystem::path& file)
+{
+    constexpr std::size_t kLongest = 1 << 20;
+    std::ifstream in(file, std::ios::binary);
+    std::string text;
+    std::array<char, 4096> block{};
+    while (text.size() <= kLongest && (in.read(block.data(), block.size()) || in.gcount() > 0))
+        text.append(block.data(), std::size_t(in.gcount()));
+    if (!in.is_open() || in.bad())
+        throw Error(ErrorCode::wrong_use, "the configuration cannot be read", file.string(),
+                    "name a file that this user may read");
+    if (text.size() > kLongest)
+        throw Error(ErrorCode::wrong_use, "is longer than any configuration", file.string(), "name another file");
+    return text;
+}
+
 }  // namespace
 
 void Config::declare(const std::vector<OptionSpec>& specs)
@@ -153,18 +157,16 @@ const Config::Value& Config::at(const std::string& key) const
 
 const OptionSpec& Config::specFor(const std::string& key, const std::string& source) const
 {
-    const OptionSpec* nearest = nullptr;
-    std::size_t least = 5;
+    std::vector<std::string> keys;
     for (const OptionSpec& spec : specs_) {
         if (spec.key == key)
             return spec;
-        if (const auto d = editDistance(spec.key, key); d < least) {
-            least = d;
-            nearest = &spec;
-        }
+        keys.push_back(spec.key);
     }
+    constexpr std::size_t kMostLetters = 4;
+    const std::string nearest = nearestName(key, keys, kMostLetters);
     throw Error(ErrorCode::wrong_use, "unknown option '" + key + "'", source,
-                nearest ? "did you mean '" + nearest->key + "'?" : "'vicon config' lists all options");
+                nearest.empty() ? "'vicon config' lists all options" : "did you mean '" + nearest + "'?");
 }
 
 void Config::assign(const std::string& key, nlohmann::json value, const std::string& source)
@@ -195,7 +197,7 @@ void Config::readFile(const std::filesystem::path& file)
 {
     toml::table root;
     try {
-        root = toml::parse_file(file.string());
+        root = toml::parse(configurationIn(file), file.string());
     } catch (const toml::parse_error& e) {
         std::ostringstream where;
         where << file.string() << ":" << e.source().begin.line;

@@ -33,7 +33,13 @@ void refuse(std::vector<ImportLine>& lines, const std::string& subject, const st
     lines.push_back({ImportLine::Kind::refused, printable(subject), printable(why), {}, {}});
 }
 
-/// The file that a DICOMDIR means; file systems of discs change the case of names. Empty when there is none.
+void refuseUnseen(std::vector<ImportLine>& lines, const fs::path& path, const std::error_code& failure)
+{
+    refuse(lines, path.string(), "it cannot be looked at (" + failure.message() + ")");
+}
+
+/// The file that a DICOMDIR means; file systems of discs change the case of names. Empty when there is none, or there
+/// can be none of that name.
 fs::path referencedFile(const fs::path& folder, const std::vector<std::string>& components)
 {
     for (const std::string& component : components)
@@ -44,7 +50,7 @@ fs::path referencedFile(const fs::path& folder, const std::vector<std::string>& 
         fs::path file = folder;
         for (const std::string& component : components)
             file /= inCase(component, change);
-        if (fs::is_regular_file(file))
+        if (std::error_code failure; fs::is_regular_file(file, failure))
             return file;
     }
     return {};
@@ -93,6 +99,8 @@ void listFolder(const fs::path& folder, std::vector<InputFile>& files, std::vect
                 listFolder(entry, files, lines);
         } else if (fs::is_regular_file(status) && !isDicomdirName(entry)) {
             files.push_back({entry, printable(entry.string()), false});
+        } else if (status.type() == fs::file_type::none) {
+            refuseUnseen(lines, entry, failure);
         }
     }
 }
@@ -134,10 +142,12 @@ std::vector<InputFile> listFiles(const std::vector<fs::path>& paths, std::vector
     for (const fs::path& path : paths) {
         std::error_code failure;
         const fs::file_status status = fs::status(path, failure);
-        if (!fs::exists(status))
+        if (status.type() == fs::file_type::not_found)
             throw Error(ErrorCode::not_found, "no such file or folder", path.string(),
                         "check the spelling of the path");
-        if (fs::is_directory(status))
+        if (!fs::exists(status))
+            refuseUnseen(lines, path, failure);
+        else if (fs::is_directory(status))
             listFolder(path, files, lines);
         else if (!fs::is_regular_file(status))
             refuse(lines, path.string(), "neither a file nor a folder");

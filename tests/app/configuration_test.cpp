@@ -50,5 +50,14 @@ TEST_F(Configuration, NobodyGivesRolesToHimselfWhereTheMachineGivesThem)
     EXPECT_THAT(refusal(), testing::HasSubstr("roles.mark"));
 }
 
+/// As in a home that this user may not enter, but so for every user.
+TEST_F(Configuration, ThatCannotBeLookedAtIsNotTakenForNone)
+{
+    sources_.user = folder_ / std::string(300, 'x');
+    EXPECT_THAT(refusal(), testing::HasSubstr("cannot be looked at (File name too long); let this user read it"));
+    sources_.user = sources_.system = folder_ / "not-there.toml";
+    EXPECT_EQ(refusal(), "");
+}
+
 }  // namespace
 }  // namespace vicon::app

@@ -9,6 +9,23 @@ namespace {
 
 using testing::HasSubstr;
 
+struct WrongUseCase {
+    std::string arguments;
+    int exit_code;
+    const char* words;
+};
+
+void expectOneLineEach(const std::vector<WrongUseCase>& cases)
+{
+    for (const WrongUseCase& c : cases) {
+        const CommandResult result = runVicon(c.arguments);
+        EXPECT_EQ(result.exit_code, c.exit_code) << c.arguments << "\n" << result.output;
+        EXPECT_THAT(result.output, HasSubstr(c.words)) << c.arguments;
+        EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << c.arguments << "\n"
+                                                                                   << result.output;
+    }
+}
+
 TEST(WrongUse, EndsWithTheRightCodeAndOneLineThatSaysWhatToDo)
 {
     const TemporaryFolder folder;
@@ -21,14 +38,9 @@ TEST(WrongUse, EndsWithTheRightCodeAndOneLineThatSaysWhatToDo)
     const std::string peers = " --config " + (folder / "peers.toml").string();
     const std::string store = " --store " + (folder / "store").string();
     ASSERT_EQ(runVicon("import " + (folder / "empty.txt").string() + store).exit_code, 1);
-    struct Case {
-        std::string arguments;
-        int exit_code;
-        const char* words;
-    };
-    const std::vector<Case> cases = {
+    expectOneLineEach({
         {"", 2, "subcommand"},
-        {"frobnicate", 2, "--help"},
+        {"frobnicate", 2, "there is no subcommand 'frobnicate'; 'vicon --help'"},
         {"import /nonexistent" + store, 2, "/nonexistent"},
         {"cases --store " + (folder / "none").string(), 1, "there is no store here"},
         {"show nosuchcase" + store, 1, "no such case"},
@@ -56,14 +68,32 @@ TEST(WrongUse, EndsWithTheRightCodeAndOneLineThatSaysWhatToDo)
         {"phantom /proc/nowhere --size 64x64x32", 1, "/proc/nowhere"},
         {"fly nosuchcase --to moon" + store, 1, "no such case"},
         {"read nosuchcase --demo" + store, 2, "leave out CASE"},
-    };
-    for (const Case& c : cases) {
-        const CommandResult result = runVicon(c.arguments);
-        EXPECT_EQ(result.exit_code, c.exit_code) << c.arguments << "\n" << result.output;
-        EXPECT_THAT(result.output, HasSubstr(c.words)) << c.arguments;
-        EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << c.arguments << "\n"
-                                                                                   << result.output;
-    }
+    });
+}
+
+TEST(WrongUse, OfPlacesAndNamesIsSaidBeforeAnythingIsTaken)
+{
+    const TemporaryFolder folder;
+    const std::string store = " --store " + (folder / "store").string();
+    constexpr std::size_t kLongerThanAnyPath = 5000;
+    expectOneLineEach({
+        {"frobnicate --help", 2, "there is no subcommand 'frobnicate'"},
+        {"shwo nosuchcase --help", 2, "did you mean 'show'?"},
+        {"--store /nonexistent import-all", 2, "there is no subcommand 'import-all'"},
+        {"cases --store " + std::string(kLongerThanAnyPath, 'x'), 1, "cannot be used"},
+        {"cases --store ''", 2, "is empty"},
+        {"cases --config ''" + store, 2, "is empty"},
+        {"cases --config " + folder.path().string() + store, 2, "the configuration cannot be read"},
+        {"cases --config /dev/zero" + store, 2, "longer than any configuration"},
+    });
+}
+
+TEST(WrongUse, WithoutAHomeNoStoreIsMadeInWhateverFolder)
+{
+    const CommandResult result =
+        runCommand("env -u HOME -u XDG_DATA_HOME -u XDG_CONFIG_HOME -u VICON_STORE " + viconBinary() + " cases");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.output, HasSubstr("HOME is not set; name its folder with --store"));
 }
 
 TEST(Help, AnswersForEverySubcommand)

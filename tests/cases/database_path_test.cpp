@@ -5,6 +5,7 @@
 
 #include "vicon/cases/case_store.h"
 #include "vicon/cases/database.h"
+#include "vicon/core/error.h"
 #include "vicon/support/support.h"
 
 namespace fs = std::filesystem;
@@ -39,6 +40,18 @@ INSTANTIATE_TEST_SUITE_P(Names, SqlitePath,
                          testing::Values("plain", "with space", "two  spaces ", "quote\"d", "apostrophe's",
                                          "Übung-患者", "semi;colon", "equals=sign", "dbname=x timeout=1",
                                          "latin-\xe9"));
+
+TEST(SqliteDatabase, ThatCannotBeOpenedSaysWhatTheSystemSays)
+{
+    const support::TemporaryFolder folder;
+    try {
+        const Database database(folder / "none" / "vicon.db");
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("cannot be opened (No such file or directory); check"), std::string::npos)
+            << e.what();
+    }
+}
 
 /// Another program that opens the database and closes it, as every command does.
 void openAndCloseElsewhere(const fs::path& file)

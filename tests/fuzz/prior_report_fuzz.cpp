@@ -1,10 +1,10 @@
 // Whatever a structured report from elsewhere holds, it is read or refused in one line; what was read of it can be
 // kept, listed, and compared with a colon of today.
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "memory_file.h"
+#include "one_line.h"
 #include "vicon/cases/prior_match.h"
 #include "vicon/core/error.h"
 #include "vicon/ingest/structured_report.h"
@@ -15,15 +15,6 @@ using namespace vicon;
 namespace {
 
 constexpr double kColon_mm = 1500;
-
-/// Some words, for a person, that end no line.
-void requireLine(const std::string& line)
-{
-    constexpr std::size_t kLongest = 1000;
-    fuzz::require(!line.empty() && line.size() <= kLongest);
-    fuzz::require(std::none_of(line.begin(), line.end(), [](char c) { return std::uint8_t(c) < 0x20 || c == 0x7f; }));
-    (void)nlohmann::json(line).dump();  // throws where it is no UTF-8
-}
 
 /// Numbers are as priors.schema.json has them: none is infinite, no length and no volume below nothing.
 void requireNumbers(const std::string& name, const nlohmann::json& json)
@@ -44,13 +35,13 @@ void requireSound(const PriorReport& report)
     const nlohmann::json json{toJson(report), report.patient};
     (void)json.dump();
     requireNumbers("", json);
-    requireLine(inBrief(report));
+    fuzz::requireLine(inBrief(report));
     for (const std::string& line : report.not_read)
-        requireLine(line);
+        fuzz::requireLine(line);
     const ScanColon colon{"s", "supine", kColon_mm, {{ColonPart::rectum, 0, 150}, {ColonPart::sigmoid, 150, 500}}};
     for (const PriorFinding& finding : report.findings) {
         fuzz::require(!finding.uid.empty() && finding.lead());
-        requireLine(labelOf(report, finding));
+        fuzz::requireLine(labelOf(report, finding));
         fuzz::require(finding.name.find('\n') == std::string::npos);
         if (const auto place = expectedIn(report, finding, colon, {}))
             fuzz::require(place->station_mm >= 0 && place->station_mm <= kColon_mm);
@@ -70,7 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         requireSound(report::priorFrom(document));
     } catch (const Error& e) {
         fuzz::require(e.code() == ErrorCode::bad_input);
-        requireLine(e.what());
+        fuzz::requireLine(e.what());
     }
     return 0;
 }

@@ -65,6 +65,20 @@ void writeVolumes(const fs::path& out)
     scan_files::writeVolume(out / "volume" / "field", FieldVolume(grid, 1.5F), scan_files::Packing::raw);
 }
 
+/// What the masks of other programs are made from: not alike from any two sides, with room around.
+void writeLumen(const fs::path& out)
+{
+    Grid grid;
+    grid.size = {7, 6, 8};
+    grid.spacing_mm = {1.5, 1.25, 2};
+    InsideVolume lumen(grid);
+    for (int k = 1; k < 7; ++k)
+        lumen.at({2, 1, k}) = lumen.at({3, 1, k}) = 1;
+    for (int j = 1; j < 4; ++j)
+        lumen.at({2, j, 6}) = 1;
+    scan_files::writeVolume(out / "lumen.mha", lumen, scan_files::Packing::zlib);
+}
+
 Skeleton line()
 {
     Skeleton skeleton;
@@ -217,6 +231,7 @@ try {
     const fs::path out = arguments[1];
     writeObjects(out);
     writeVolumes(out);
+    writeLumen(out);
     writeSurfaces(out);
     writeJson(out);
     writeReport(out);

@@ -123,8 +123,8 @@ TEST_F(Archive, ADicomdirNamesItsFiles)
     }());
     DcmFileFormat format;
     DcmDataset& dataset = *format.getDataset();
-    for (const std::string& name :
-         {std::string("images\\0.DCM"), std::string("IMAGES\\gone.dcm"), std::string("..\\..\\secret")}) {
+    for (const std::string& name : {std::string("images\\0.DCM"), std::string("IMAGES\\gone.dcm"),
+                                    std::string("..\\..\\secret"), std::string(300, 'L')}) {
         DcmItem* record = nullptr;
         dataset.findOrCreateSequenceItem(DCM_DirectoryRecordSequence, record, -2);
         record->putAndInsertString(DCM_ReferencedFileID, name.c_str());
@@ -139,8 +139,9 @@ TEST_F(Archive, ADicomdirNamesItsFiles)
     ASSERT_TRUE(format.saveFile((folder / "disc/DICOMDIR").c_str(), EXS_LittleEndianExplicit).good());
     const auto report = import({folder / "disc/DICOMDIR"});
     EXPECT_EQ(report.scans_stored, 1) << lines(report);
-    EXPECT_EQ(report.refused, 3) << lines(report);
+    EXPECT_EQ(report.refused, 4) << lines(report);
     EXPECT_TRUE(says(report, Kind::refused, "names a file that is not there: IMAGES/gone.dcm"));
+    EXPECT_TRUE(says(report, Kind::refused, "names a file that is not there: LLL"));
     // The folder that holds it brings everything, and says nothing of the directory file.
     const auto whole = import({folder / "disc"});
     EXPECT_EQ(whole.refused, 0) << lines(whole);

@@ -120,6 +120,20 @@ TEST_F(Hostile, AFolderWithoutFilesIsSaid)
     EXPECT_FALSE(report.anythingStored());
 }
 
+/// As what this user may not enter, but so for every user: a link to itself, a name that no file can have.
+TEST_F(Hostile, WhatCannotBeLookedAtIsSaid)
+{
+    const fs::path in = folder / "in";
+    writeSeries(in, {});
+    fs::create_symlink("loop", in / "loop");
+    const auto report = import({in, folder / std::string(300, 'x')});
+    EXPECT_EQ(report.scans_stored, 1) << lines(report);
+    EXPECT_EQ(report.refused, 2) << lines(report);
+    EXPECT_TRUE(says(report, Kind::refused, "cannot be looked at (Too many levels of symbolic links)"))
+        << lines(report);
+    EXPECT_TRUE(says(report, Kind::refused, "cannot be looked at (File name too long)")) << lines(report);
+}
+
 TEST_F(Hostile, ADicomdirAloneIsSaid)
 {
     VICON_NEEDS_DATA("hostile");

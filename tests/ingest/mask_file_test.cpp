@@ -154,6 +154,8 @@ TEST(MaskFiles, AreReadOneLabelOfSeveralAndListThemAll)
     EXPECT_EQ(count(readIt(file, 1).mask) + count(readIt(file, 7).mask), count(hook()));
 }
 
+constexpr std::size_t kLongestLine = 1000;
+
 struct Refused {
     const char* name;
     const char* words;
@@ -181,6 +183,7 @@ constexpr Refused kRefused[] = {
     {"image.nrrd", "an image, no mask"},
     {"empty.nii", "is empty"},
     {"unknown-space.nrrd", "its space is 'scanner-xyz'"},
+    {"long-space.nrrd", "its space is '\uFFFD\\x1b"},
     {"no-origin.nrrd", "no 'space origin' of 3 numbers"},
     {"detached.nrrd", "do not follow its header"},
     {"skipping.nrrd", "do not follow its header"},
@@ -198,6 +201,7 @@ constexpr Refused kRefused[] = {
     {"list.mhd", "not in a file beside it"},
     {"pattern.mhd", "not in a file beside it"},
     {"missing.mhd", "not in a file beside it"},
+    {"name-too-long.mhd", "not in a file beside it"},
     {"channels.mha", "one volume of three dimensions"},
     {"long-line.mha", "its header has no end"},
     {"text.txt", "no mask that can be read"},
@@ -217,6 +221,7 @@ TEST(MaskFiles, ThatAreDamagedOrMadeToHarmAreRefusedWithOneLineEach)
         EXPECT_THAT(said, HasSubstr(refused.words)) << refused.name;
         EXPECT_THAT(said, HasSubstr("bad_input")) << refused.name;
         EXPECT_THAT(said, testing::Not(HasSubstr("\n"))) << refused.name;
+        EXPECT_LT(said.size(), kLongestLine) << refused.name;
     }
     EXPECT_THAT(refusalOf(folder / "is-not-there.nii"), HasSubstr("not_found"));
 }

@@ -50,7 +50,7 @@ HeaderText readHeaderText(const std::filesystem::path& file, std::string_view si
         const std::string name = at == std::string::npos ? "" : lowerCase(trimmed(line.substr(0, at)));
         const std::string value = trimmed(at == std::string::npos ? line : line.substr(at + sign.size()));
         if (!name.empty() && !header.fields.emplace(name, value).second)
-            throw maskRefused(file, "its header says something twice: " + name, "write the mask again");
+            throw maskRefused(file, "its header says something twice: " + shown(name), "write the mask again");
         if (isLast(name.empty() ? value : name))
             return header;
     }

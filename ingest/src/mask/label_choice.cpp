@@ -14,7 +14,7 @@ std::string listOf(const std::map<std::int64_t, std::string>& labels)
     for (const auto& [label, name] : labels) {
         if (listed++ == kMostListed)
             return list + " and " + std::to_string(labels.size() - kMostListed) + " more";
-        list += (list.empty() ? "" : ", ") + std::to_string(label) + (name.empty() ? "" : " '" + name + "'");
+        list += (list.empty() ? "" : ", ") + std::to_string(label) + (name.empty() ? "" : " '" + shown(name) + "'");
     }
     return list;
 }

@@ -99,8 +99,9 @@ std::string nameOf(MaskForm form)
 
 MaskFile readMask(const fs::path& file, std::optional<int> label, double largest_mvoxel, Progress& progress)
 try {
-    if (!fs::is_regular_file(file))
-        throw Error(ErrorCode::not_found, "no such file", file.string(), "check the name");
+    if (std::error_code failure; !fs::is_regular_file(file, failure))
+        throw Error(ErrorCode::not_found, failure ? "cannot be opened (" + failure.message() + ")" : "is no file",
+                    file.string(), "check the name");
     const std::optional<MaskForm> form = formOf(beginningOf(file));
     if (!form)
         throw maskRefused(file, "is no mask that can be read", "give a DICOM SEG, NIfTI, NRRD or MetaImage file");

@@ -76,7 +76,8 @@ std::filesystem::path voxelFile(const std::string& name, const std::filesystem::
     const bool plain = !name.empty() && name != "LIST" && name.find_first_of("/\\% ") == std::string::npos &&
                        name != "." && name != "..";
     std::filesystem::path file = header.parent_path() / name;
-    if (!plain || !std::filesystem::is_regular_file(file))
+    std::error_code failure;
+    if (!plain || !std::filesystem::is_regular_file(file, failure))
         throw maskRefused(header, "its voxels are not in a file beside it that it names plainly",
                           "write header and voxels into one .mha file");
     return file;

@@ -99,7 +99,7 @@ Placement placementOf(const NrrdFields& header, const std::filesystem::path& fil
     const std::string space = lowerCase(header.value("space"));
     const auto signs = signsOf(space);
     if (!signs)
-        throw maskRefused(file, "says no place in the patient: its space is '" + space + "'",
+        throw maskRefused(file, "says no place in the patient: its space is '" + shown(space) + "'",
                           "write it with space left-posterior-superior");
     const auto vectorOf = [&](const std::vector<double>& numbers, std::size_t n) {
         return Vector3{numbers[n] * signs->x, numbers[n + 1] * signs->y, numbers[n + 2] * signs->z};
@@ -134,7 +134,7 @@ ImageHeader readNrrdHeader(const std::filesystem::path& file, double largest_mvo
         throw maskRefused(file, "has voxels that are no single numbers", "write it with whole numbers of 8 bits");
     const std::string encoding = lowerCase(header.value("encoding"));
     if (encoding != "raw" && encoding != "gzip" && encoding != "gz")
-        throw maskRefused(file, "is encoded as '" + encoding + "'", "write it raw or gzip");
+        throw maskRefused(file, "is encoded as '" + shown(encoding) + "'", "write it raw or gzip");
     const std::string endian = lowerCase(header.value("endian", bytesOf(*type) == 1 ? "little" : ""));
     if (endian != "little" && endian != "big")
         throw maskRefused(file, "does not say in which order the bytes of a voxel are", "write the mask again");

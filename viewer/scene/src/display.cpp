@@ -61,7 +61,8 @@ fs::path privateFolder()
 {
     std::string name = (fs::temp_directory_path() / "vicon-display-XXXXXX").string();
     if (!::mkdtemp(name.data()))
-        throw Error(ErrorCode::no_display, "no temporary folder can be made", name, "check the temporary folder");
+        throw Error(ErrorCode::no_display, "no temporary folder can be made", name,
+                    "set TMPDIR to a folder that this user may write");
     return name;
 }
 
