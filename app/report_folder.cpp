@@ -5,12 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 
 #include "vicon/core/error.h"
+#include "vicon/core/temporary_folder.h"
 
 namespace fs = std::filesystem;
 
@@ -41,7 +40,7 @@ bool isLeftBehind(const fs::path& folder)
 void removeLeftBehind()
 {
     std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(), ignored))
+    for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(ignored), ignored))
         if (entry.path().filename().string().starts_with(kName) && isLeftBehind(entry.path()))
             fs::remove_all(entry.path(), ignored);
 }
@@ -51,16 +50,12 @@ void removeLeftBehind()
 PictureFolder::PictureFolder()
 {
     removeLeftBehind();
-    std::string name = (fs::temp_directory_path() / kName).string() + "XXXXXX";
-    if (!::mkdtemp(name.data()))
-        throw Error(ErrorCode::store, "a temporary folder cannot be made (" + std::string(std::strerror(errno)) + ")",
-                    name, "set TMPDIR to a folder that this user may write");
-    path_ = name;
+    path_ = makeTemporaryFolder(kName, ErrorCode::store);
     // Under another name until it is locked: whoever finds the lock finds it taken.
     const fs::path unlocked = path_ / "new";
     lock_ = ::open(unlocked.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, S_IRUSR | S_IWUSR);
     if (lock_ < 0 || ::flock(lock_, LOCK_EX | LOCK_NB) != 0 || ::rename(unlocked.c_str(), (path_ / kLock).c_str()) != 0)
-        throw Error(ErrorCode::store, "a temporary folder cannot be used", name);
+        throw Error(ErrorCode::store, "a temporary folder cannot be used", path_.string());
 }
 
 PictureFolder::~PictureFolder()

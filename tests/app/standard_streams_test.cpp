@@ -31,8 +31,8 @@ TEST(StandardStreams, WhatIsPrintedAndLostIsOneLineAndFails)
 TEST(StandardStreams, AReaderThatHasSeenEnoughIsNoFault)
 {
     // The shell writes until nobody reads any more.
-    const CommandResult result = runCommand("{ ( trap '' PIPE; while printf x 2>/dev/null; do :; done; " + viconBinary() +
-                                            " config; echo \"code $?\" >&2 ) | true; }");
+    const CommandResult result = runCommand("{ ( trap '' PIPE; while printf x 2>/dev/null; do :; done; " +
+                                            viconBinary() + " config; echo \"code $?\" >&2 ) | true; }");
     EXPECT_EQ(result.output, "code 0\n");
 }
 
@@ -42,8 +42,8 @@ TEST(StandardStreams, ThatAreClosedLeaveTheStoreWhole)
     const TemporaryFolder folder;
     const auto files = test::writeSeries(folder / "in", {});
     const fs::path store = folder / "store";
-    const CommandResult result = withOutputTo("<&- >&- 2>&-", "import " + (folder / "in").string() + " --store " +
-                                                                  store.string());
+    const CommandResult result =
+        withOutputTo("<&- >&- 2>&-", "import " + (folder / "in").string() + " --store " + store.string());
     EXPECT_EQ(result.exit_code, 1);
     std::size_t whole = 0;
     for (const auto& entry : fs::recursive_directory_iterator(store / "cases"))

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 
 #include "vicon/core/error.h"
+#include "vicon/core/temporary_folder.h"
 #include "vicon/support/support.h"
 
 namespace fs = std::filesystem;
@@ -64,6 +66,23 @@ TEST(ReplaceFile, SaysWhichFolderIsMissing)
         EXPECT_EQ(e.code(), ErrorCode::store);
         EXPECT_THAT(e.what(), testing::HasSubstr("/nonexistent-vicon/a.txt"));
     }
+}
+
+TEST(TemporaryFolder, ThatCannotBeMadeSaysWhatToSet)
+{
+    const support::TemporaryFolder folder;
+    const char* before = std::getenv("TMPDIR");
+    const std::string kept = before ? before : "";
+    ::setenv("TMPDIR", (folder / "none").c_str(), 1);
+    try {
+        makeTemporaryFolder("vicon-", ErrorCode::store);
+        ADD_FAILURE();
+    } catch (const Error& e) {
+        EXPECT_THAT(e.what(), testing::StartsWith("TMPDIR: no temporary folder can be made ("));
+    }
+    ::setenv("TMPDIR", folder.path().c_str(), 1);
+    EXPECT_EQ(makeTemporaryFolder("vicon-", ErrorCode::store).parent_path(), folder.path());
+    before ? ::setenv("TMPDIR", kept.c_str(), 1) : ::unsetenv("TMPDIR");
 }
 
 TEST(RemoveTemporaries, TakesOnlyWhatAKilledWriterLeft)

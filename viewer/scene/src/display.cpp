@@ -23,6 +23,7 @@
 #include "opengl_probe.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/temporary_folder.h"
 
 namespace fs = std::filesystem;
 
@@ -55,15 +56,6 @@ std::string findProgram(const std::string& name)
         at = end + 1;
     }
     throw Error(ErrorCode::no_display, "no display answers, and there is no " + name, name, kRemedy);
-}
-
-fs::path privateFolder()
-{
-    std::string name = (fs::temp_directory_path() / "vicon-display-XXXXXX").string();
-    if (!::mkdtemp(name.data()))
-        throw Error(ErrorCode::no_display, "no temporary folder can be made", name,
-                    "set TMPDIR to a folder that this user may write");
-    return name;
 }
 
 // An X authority file with one cookie for any display of any host: wild family (0xffff), no address, no number.
@@ -192,7 +184,7 @@ std::string Display::Server::awaitName(int read_end)
 void Display::Server::start()
 {
     const std::string program = findProgram("Xvfb");
-    folder_ = privateFolder();
+    folder_ = makeTemporaryFolder("vicon-display-", ErrorCode::no_display);
     replaceFile(folder_ / "authority", cookieFile());
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0)
