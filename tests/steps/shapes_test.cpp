@@ -201,8 +201,8 @@ TEST_P(Shapes, AreFollowedFromEndsFoundInTheMaskAlone)
 INSTANTIATE_TEST_SUITE_P(Colons, Shapes,
                          testing::Values(Shape{"EdinGCA_3D_00060", kLeastOverlap, 30, 45},
                                          Shape{"EdinGCA_3D_00090", kLeastOverlap, 30, 45},
-                                         Shape{"HuBMAPVHM_3D_00070", 0.977, 75, 35},
-                                         Shape{"ctc_460", kLeastOverlap, 30, 30}),
+                                         Shape{"HuBMAPVHM_3D_00070", 0.978, 75, 35},
+                                         Shape{"ctc_460", kLeastOverlap, 30, 25}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
