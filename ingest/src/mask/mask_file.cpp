@@ -99,7 +99,11 @@ std::string nameOf(MaskForm form)
 
 MaskFile readMask(const fs::path& file, std::optional<int> label, double largest_mvoxel, Progress& progress)
 try {
-    if (std::error_code failure; !fs::is_regular_file(file, failure))
+    std::error_code failure;
+    const fs::file_type type = fs::status(file, failure).type();
+    if (type == fs::file_type::not_found)
+        throw Error(ErrorCode::not_found, "no such file", file.string(), "check the name");
+    if (type != fs::file_type::regular)
         throw Error(ErrorCode::not_found, failure ? "cannot be opened (" + failure.message() + ")" : "is no file",
                     file.string(), "check the name");
     const std::optional<MaskForm> form = formOf(beginningOf(file));
