@@ -22,8 +22,8 @@ constexpr int kOwnBase = 8;              // of the recentrings, the last so many
 // In a wide lumen with folds the middles of sections jump with the line that they are taken across, and recentring does
 // not settle: on ctc-prone each round moved the line by 0.8 mm in the mean, and four changes of the tissue step's
 // constants, of 0 to 3 of 3,744 ml, moved stations by 11 to 20 mm. Halfway, and the mean of the last rounds, leave 2 mm
-// in the mean, 6 at most, where one voxel of 300 is taken from the wall. With a mean of two it is 17 at most, of four 4,
-// but the wriggles that it lacks then shorten the curve by 0.1 %: phantom 274's farthest polyp lies 2.03 mm off.
+// in the mean, 6 at most, where one voxel of 300 is taken from the wall. With a mean of two it is 17 at most, of four
+// 4, but the wriggles that it lacks then shorten the curve by 0.1 %: phantom 274's farthest polyp lies 2.03 mm off.
 constexpr int kWholeWay = 2;  // the first so many recentrings go all the way
 constexpr int kAveraged = 3;  // of the recentrings, the last so many
 
