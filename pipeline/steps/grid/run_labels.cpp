@@ -1,10 +1,12 @@
 #include "grid/run_labels.h"
-#include "vicon/core/disjoint_sets.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <numeric>
+
+#include "grid/byte_rows.h"
+#include "vicon/core/disjoint_sets.h"
 
 namespace vicon::steps {
 namespace {
@@ -142,7 +144,7 @@ RunLabels labelLumen(const InsideVolume& labels, Neighbours neighbours)
     const int nx = labels.grid.size[0];
     const auto scan = [&](int j, int k, std::vector<VoxelRun>& runs) {
         const std::uint8_t* row = &labels.voxels[labels.grid.offset({0, j, k})];
-        for (int i = 0; i < nx; ++i) {
+        for (int i = firstOther(row, 0, nx, kOutside); i < nx; i = firstOther(row, i + 1, nx, kOutside)) {
             if (row[i] != kGas && row[i] != kFluid)
                 continue;
             const int begin = i;

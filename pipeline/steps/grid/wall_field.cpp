@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/byte_rows.h"
 #include "grid/lattice.h"
 #include "grid/neighbours.h"
 
@@ -22,7 +23,7 @@ RowsNearLumen::RowsNearLumen(const InsideVolume& inside)
     for (int k = 0; k < nz; ++k)
         for (int j = 0; j < ny; ++j) {
             const std::uint8_t* row = &inside.voxels[inside.grid.offset({0, j, k})];
-            if (std::none_of(row, row + nx, [](std::uint8_t v) { return v != kOutside; }))
+            if (firstOther(row, 0, nx, kOutside) == nx)
                 continue;
             for (int dk = -1; dk <= 1; ++dk)
                 for (int dj = -1; dj <= 1; ++dj)

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "grid/allocate.h"
+#include "grid/byte_rows.h"
 #include "tissue/near_mask.h"
 
 namespace vicon::steps {
@@ -99,10 +100,10 @@ TissueVolume fractionAtEdges(const Mixture& mixture, const FluidDensity& fluid, 
     tbb::parallel_for(0, nz, [&, nx = nx, ny = ny](int k) {
         for (int j = 0; j < ny; ++j) {
             const std::size_t begin = inside.grid.offset({0, j, k});
-            for (int i = 0; i < nx; ++i) {
+            const std::uint8_t* row = &around[begin];
+            for (int i = firstOther(row, 0, nx, 0); i < nx; i = firstOther(row, i + 1, nx, 0)) {
                 const std::size_t n = begin + std::size_t(i);
-                if (around[n])
-                    tissue.voxels[n] = stored(edges.fraction({i, j, k}, mixture.hu({i, j, k}), near_fluid[n] != 0));
+                tissue.voxels[n] = stored(edges.fraction({i, j, k}, mixture.hu({i, j, k}), near_fluid[n] != 0));
             }
         }
     });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "grid/neighbours.h"
 
@@ -43,11 +44,12 @@ struct Sums {
 Sums sumsOf(const Mixture& mixture, Index3 first)
 {
     Sums sums;
-    for (int k = first.k; k < first.k + kBlock_voxels; ++k)
-        for (int j = first.j; j < first.j + kBlock_voxels; ++j)
-            for (int i = first.i; i < first.i + kBlock_voxels; ++i) {
+    const Grid& grid = mixture.inside.grid;
+    for (int k = first.k; k < std::min(grid.size[2], first.k + kBlock_voxels); ++k)
+        for (int j = first.j; j < std::min(grid.size[1], first.j + kBlock_voxels); ++j)
+            for (int i = first.i; i < std::min(grid.size[0], first.i + kBlock_voxels); ++i) {
                 const Index3 v{i, j, k};
-                if (mixture.inside.valueOr(v, kOutside) != kFluid)
+                if (mixture.inside.at(v) != kFluid)
                     continue;
                 const double hu = mixture.hu(v);
                 sums.fluid = true;
@@ -58,6 +60,17 @@ Sums sumsOf(const Mixture& mixture, Index3 first)
                 }
             }
     return sums;
+}
+
+/// Whether a row of blocks holds any fluid.
+bool holdsFluid(const InsideVolume& inside, int block_j, int block_k)
+{
+    const auto [nx, ny, nz] = inside.grid.size;
+    for (int k = block_k * kBlock_voxels; k < std::min(nz, (block_k + 1) * kBlock_voxels); ++k)
+        for (int j = block_j * kBlock_voxels; j < std::min(ny, (block_j + 1) * kBlock_voxels); ++j)
+            if (std::memchr(&inside.at({0, j, k}), kFluid, std::size_t(nx)))
+                return true;
+    return false;
 }
 
 /// The sums over a value and its two neighbours along one axis of a box.
@@ -92,7 +105,9 @@ FluidDensity::FluidDensity(const Mixture& mixture, double noise_hu, double tag_c
     weight_ = sum_;
     brightest_ = sum_;
     tbb::parallel_for(0, size_[2], [&](int k) {
-        for (int j = 0; j < size_[1]; ++j)
+        for (int j = 0; j < size_[1]; ++j) {
+            if (!holdsFluid(mixture.inside, j, k))
+                continue;
             for (int i = 0; i < size_[0]; ++i) {
                 const Sums sums = sumsOf(mixture, {i * kBlock_voxels, j * kBlock_voxels, k * kBlock_voxels});
                 const std::size_t n = index(i, j, k);
@@ -100,7 +115,12 @@ FluidDensity::FluidDensity(const Mixture& mixture, double noise_hu, double tag_c
                 weight_[n] = float(sums.count);
                 brightest_[n] = sums.fluid && sums.brightest > least_hu_ ? float(sums.brightest) : 0.0F;
             }
+        }
     });
+    const auto isSome = [](float value) { return value > 0; };
+    if (std::none_of(weight_.begin(), weight_.end(), isSome) &&
+        std::none_of(brightest_.begin(), brightest_.end(), isSome))
+        return;
     smooth();
     // A pool that is nowhere deep: the brightest of it is the least diluted.
     for (std::size_t n = 0; n < sum_.size(); ++n)
@@ -123,10 +143,27 @@ void FluidDensity::smooth()
 {
     for (int pass = 0; pass < kSmoothing; ++pass) {
         const std::vector<float> sum = sum_, weight = weight_;
+        const auto isKnown = [&](int j, int k) {
+            const auto row = weight.begin() + std::ptrdiff_t(index(0, j, k));
+            return std::any_of(row, row + size_[0], [](float value) { return value > 0; });
+        };
+        std::vector<std::uint8_t> known(std::size_t(size_[1]) * std::size_t(size_[2]));
         tbb::parallel_for(0, size_[2], [&](int k) {
             for (int j = 0; j < size_[1]; ++j)
-                for (int i = 0; i < size_[0]; ++i)
-                    smoothBlock({i, j, k}, sum, weight);
+                known[std::size_t(j + size_[1] * k)] = isKnown(j, k) ? 1 : 0;
+        });
+        const auto isKnownBeside = [&](int j, int k) {
+            for (int b = std::max(0, k - 1); b <= std::min(size_[2] - 1, k + 1); ++b)
+                for (int a = std::max(0, j - 1); a <= std::min(size_[1] - 1, j + 1); ++a)
+                    if (known[std::size_t(a + size_[1] * b)])
+                        return true;
+            return false;
+        };
+        tbb::parallel_for(0, size_[2], [&](int k) {
+            for (int j = 0; j < size_[1]; ++j)
+                if (isKnownBeside(j, k))
+                    for (int i = 0; i < size_[0]; ++i)
+                        smoothBlock({i, j, k}, sum, weight);
         });
     }
 }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "grid/byte_rows.h"
 #include "vicon/core/disjoint_sets.h"
 
 namespace vicon::steps {
@@ -133,12 +134,14 @@ private:
         const auto [nx, ny, nz] = inside.grid.size;
         std::vector<std::vector<Contact>> slices(std::size_t(nz), std::vector<Contact>{});
         tbb::parallel_for(0, nz, [&, nx = nx, ny = ny](int k) {
-            for (int j = 0; j < ny; ++j)
-                for (int i = 0; i < nx; ++i) {
+            for (int j = 0; j < ny; ++j) {
+                const std::uint8_t* row = &inside.at({0, j, k});
+                for (int i = firstOther(row, 0, nx, kOutside); i < nx; i = firstOther(row, i + 1, nx, kOutside)) {
                     const Index3 v{i, j, k};
-                    if (inside.at(v) == kGas && inside.valueOr(down_.moved(v, 1), kOutside) == kFluid)
+                    if (row[i] == kGas && inside.valueOr(down_.moved(v, 1), kOutside) == kFluid)
                         slices[std::size_t(k)].push_back(contactAt(v));
                 }
+            }
         });
         for (const auto& slice : slices)
             contacts_.insert(contacts_.end(), slice.begin(), slice.end());

@@ -3,10 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "grid/allocate.h"
+#include "grid/byte_rows.h"
 #include "grid/mask.h"
 #include "grid/neighbours.h"
 #include "grid/run_labels.h"
@@ -27,13 +30,17 @@ constexpr int kMostLayers = 2;
 /// voxels.
 constexpr std::size_t kSpeck_voxels = 100;
 
+/// The voxels that are wanted, in order. None is where `bytes` has `never`.
 template <class Wanted>
-std::vector<std::size_t> voxelsWhere(const Grid& grid, Wanted wanted)
+std::vector<std::size_t> voxelsWhere(const Grid& grid, const std::vector<std::uint8_t>& bytes, std::uint8_t never,
+                                     Wanted wanted)
 {
     const auto slice = std::size_t(grid.size[0]) * std::size_t(grid.size[1]);
     std::vector<std::vector<std::size_t>> slices(std::size_t(grid.size[2]), std::vector<std::size_t>{});
     tbb::parallel_for(std::size_t(0), slices.size(), [&](std::size_t k) {
-        for (std::size_t n = k * slice; n < (k + 1) * slice; ++n)
+        const std::size_t end = (k + 1) * slice;
+        const auto next = [&](std::size_t n) { return firstOther(bytes.data(), n, end, never); };
+        for (std::size_t n = next(k * slice); n < end; n = next(n + 1))
             if (wanted(n))
                 slices[k].push_back(n);
     });
@@ -126,7 +133,8 @@ public:
     void run()
     {
         std::vector<std::size_t> front =
-            voxelsWhere(inside_.grid, [&](std::size_t n) { return mayBecomeLumen(n) && labelBeside(n) != kOutside; });
+            voxelsWhere(inside_.grid, tissue_.voxels, std::uint8_t(kWhole),
+                        [&](std::size_t n) { return mayBecomeLumen(n) && labelBeside(n) != kOutside; });
         for (int layer = 0; layer < kMostLayers; ++layer) {
             std::erase_if(front, [&](std::size_t n) { return joinsPieces(n); });
             std::vector<std::uint8_t> labels(front.size());
@@ -201,8 +209,9 @@ InsideVolume lumenOf(const TissueVolume& tissue, const InsideVolume& inside, con
                      const std::vector<std::size_t>& left_out)
 {
     InsideVolume lumen = inside;
-    const auto isWall = [&](std::size_t n) { return inside.voxels[n] != kOutside && tissue.voxels[n] >= kHalfTissue; };
-    const SparseVoxels walls(inside.grid, withoutSpecks(voxelsWhere(inside.grid, isWall), inside));
+    const auto isWall = [&](std::size_t n) { return tissue.voxels[n] >= kHalfTissue; };
+    const SparseVoxels walls(inside.grid,
+                             withoutSpecks(voxelsWhere(inside.grid, inside.voxels, kOutside, isWall), inside));
     for (std::size_t n = 0; n < walls.size(); ++n)
         lumen.voxels[walls[n]] = kOutside;
     for (const std::size_t n : left_out)
@@ -217,6 +226,12 @@ Volume<std::int16_t> tissueValues(const TissueVolume& tissue, const InsideVolume
     const auto [nx, ny, nz] = tissue.grid.size;
     auto values = makeVolume<std::int16_t>(Grid{.size = {nx + 2, ny + 2, nz + 2}}, std::int16_t(kWallScale));
     const RowsNearLumen rows(lumen);
+    std::array<std::int16_t, 256> of_lumen{}, of_wall{};  // by the fraction
+    for (std::size_t n = 0; n < of_lumen.size(); ++n) {
+        const float value = (2 * float(n) / kWhole - 1) * kWallScale, least = WallField::kLeast * kWallScale;
+        of_lumen[n] = std::int16_t(std::lround(std::clamp(value, -kWallScale, -least)));
+        of_wall[n] = std::int16_t(std::lround(std::clamp(value, least, kWallScale)));
+    }
     tbb::parallel_for(0, nz, [&, nx = nx, ny = ny](int k) {
         for (int j = 0; j < ny; ++j) {
             if (!rows.near(j, k))
@@ -225,10 +240,7 @@ Volume<std::int16_t> tissueValues(const TissueVolume& tissue, const InsideVolume
             std::int16_t* row = &values.at({1, j + 1, k + 1});
             for (int i = 0; i < nx; ++i) {
                 const std::size_t n = begin + std::size_t(i);
-                const float value = (2 * float(tissue.voxels[n]) / kWhole - 1) * kWallScale;
-                const float least = WallField::kLeast * kWallScale;
-                row[i] = std::int16_t(std::lround(lumen.voxels[n] != kOutside ? std::clamp(value, -kWallScale, -least)
-                                                                              : std::clamp(value, least, kWallScale)));
+                row[i] = (lumen.voxels[n] != kOutside ? of_lumen : of_wall)[tissue.voxels[n]];
             }
         }
     });

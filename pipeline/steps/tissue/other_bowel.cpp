@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "grid/byte_rows.h"
 #include "grid/neighbours.h"
 #include "tissue/lumen_of_tissue.h"
 #include "tissue/mixture.h"
@@ -31,7 +32,8 @@ RunLabels partsApart(const TissueVolume& tissue, const InsideVolume& inside)
             const std::size_t n = begin + std::size_t(i);
             return inside.voxels[n] != kOutside && float(tissue.voxels[n]) < kApart * kWhole;
         };
-        for (int i = 0; i < nx; ++i) {
+        const std::uint8_t* row = &inside.voxels[begin];
+        for (int i = firstOther(row, 0, nx, kOutside); i < nx; i = firstOther(row, i + 1, nx, kOutside)) {
             if (!in(i))
                 continue;
             VoxelRun run{.begin = i};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "grid/byte_rows.h"
 #include "grid/neighbours.h"
 #include "grid/sparse_voxels.h"
 #include "tissue/mixture.h"
@@ -95,8 +96,13 @@ public:
         tbb::parallel_for(reach_, std::max(reach_, nz - reach_), [&, nx = nx, ny = ny](int k) {
             for (int j = reach_; j < ny - reach_; ++j) {
                 const std::size_t begin = tissue_.grid.offset({0, j, k});
+                const std::uint8_t* row = &tissue_.voxels[begin];
                 for (int i = reach_; i < nx - reach_; ++i) {
-                    const float s = tissue_.voxels[begin + std::size_t(i)];
+                    if (row[i] == std::uint8_t(kWhole) || row[i] == 0) {
+                        i = firstOther(row, i, nx - reach_, row[i]) - 1;
+                        continue;
+                    }
+                    const float s = row[i];
                     if (s >= least_ && s <= kThick * kWhole && isRidge(begin + std::size_t(i)))
                         slices[std::size_t(k)].push_back(begin + std::size_t(i));
                 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "grid/allocate.h"
+#include "grid/byte_rows.h"
 #include "grid/run_labels.h"
 #include "tissue/edge_model.h"
 #include "tissue/levels.h"
@@ -45,11 +46,16 @@ HuVolume cleanse(const Mixture& mixture, const std::vector<std::uint8_t>& tagged
     tbb::parallel_for(0, nz, [&, nx = nx, ny = ny](int k) {
         for (int j = 0; j < ny; ++j) {
             const std::size_t begin = tissue.grid.offset({0, j, k});
-            for (int i = 0; i < nx; ++i) {
+            if (const std::int16_t* acquired = mixture.row(j, k))
+                std::copy_n(acquired, nx, &cleansed.voxels[begin]);
+            else
+                for (int i = 0; i < nx; ++i)
+                    cleansed.voxels[begin + std::size_t(i)] = mixture.acquired({i, j, k});
+            const std::uint8_t* row = &tagged[begin];
+            for (int i = firstOther(row, 0, nx, 0); i < nx; i = firstOther(row, i + 1, nx, 0)) {
                 const std::size_t n = begin + std::size_t(i);
-                const std::int16_t hu = mixture.acquired({i, j, k});
-                cleansed.voxels[n] = hu;
-                if (!tagged[n] || hu == kPaddingHu)
+                const std::int16_t hu = cleansed.voxels[n];
+                if (hu == kPaddingHu)
                     continue;
                 const double clean_hu =
                     kCleanGas_hu + (kCleanTissue_hu - kCleanGas_hu) * double(tissue.voxels[n]) / double(kWhole);

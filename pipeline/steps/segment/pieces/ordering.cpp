@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <utility>
 
 #include "segment/pieces/tissue_ways.h"
 
@@ -24,21 +24,34 @@ constexpr double kNoWay = 1e8;
 constexpr double kFat = 4;
 
 struct Ways {
-    std::vector<std::vector<TissueWay>> from_tip;  // [2 * candidate + tip][2 * candidate + tip]
+    std::vector<std::vector<TissueWay>> from_tip;  // [2 * candidate + tip][2 * candidate + tip], where one is asked for
     std::vector<std::vector<bool>> judged;         // the same: whether the cost holds what the fat on the way costs
 };
 
-Ways allWays(const std::vector<Candidate>& candidates, const Body& body, const InsideVolume& labels,
+/// Ways from piece to piece; none leads into the rectum or out of its far end.
+Ways allWays(const std::vector<Candidate>& candidates, std::size_t rectum, const Body& body, const InsideVolume& labels,
              const WallDensities& densities, Progress& progress)
 {
     const Volume<float> costs = tissueCosts(body, labels, densities);
     std::vector<Point3> tips;
     for (const Candidate& c : candidates)
         tips.insert(tips.end(), {c.tip_mm[0], c.tip_mm[1]});
-    Ways ways{std::vector<std::vector<TissueWay>>(tips.size()),
-              std::vector<std::vector<bool>>(tips.size(), std::vector<bool>(tips.size(), false))};
-    tbb::parallel_for(std::size_t(0), tips.size(),
-                      [&](std::size_t n) { ways.from_tip[n] = waysFrom(costs, tips[n], tips, progress); });
+    const std::size_t count = tips.size();
+    Ways ways{std::vector(count, std::vector<TissueWay>(count)), std::vector(count, std::vector<bool>(count, false))};
+    tbb::parallel_for(std::size_t(0), count, [&](std::size_t from) {
+        std::vector<std::size_t> others;
+        std::vector<Point3> to;
+        for (std::size_t n = 0; n < count && from != 2 * rectum; ++n)
+            if (n / 2 != from / 2 && n / 2 != rectum) {
+                others.push_back(n);
+                to.push_back(tips[n]);
+            }
+        if (others.empty())
+            return;
+        std::vector<TissueWay> found = waysFrom(costs, tips[from], to, progress);
+        for (std::size_t n = 0; n < others.size(); ++n)
+            ways.from_tip[from][others[n]] = std::move(found[n]);
+    });
     return ways;
 }
 
@@ -168,7 +181,7 @@ Ordering orderPieces(const std::vector<Candidate>& candidates, int rectum, const
         ordering.pieces.push_back({rectum, false});
         return ordering;
     }
-    Ways ways = allWays(candidates, body, labels, options.densities, progress);
+    Ways ways = allWays(candidates, std::size_t(rectum), body, labels, options.densities, progress);
     // To look closely at a way takes long and only adds to its cost: when all bridges of the cheapest order have been
     // looked at, no other order can be cheaper.
     TipOrder order = cheapestOrder(candidates, rectum, required, body, ways);
