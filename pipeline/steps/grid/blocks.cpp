@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -29,21 +28,35 @@ Mask box(const Mask& in, bool erode)
 {
     Mask from = in, to = in;
     const auto& size = in.grid.size;
-    const std::array<std::size_t, 3> stride{1, std::size_t(size[0]), std::size_t(size[0]) * std::size_t(size[1])};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto along = [&](auto rowAt) {
         tbb::parallel_for(0, size[2], [&](int k) {
             for (int j = 0; j < size[1]; ++j)
-                for (int i = 0; i < size[0]; ++i) {
-                    const std::size_t n = in.grid.offset({i, j, k});
-                    const int at = axis == 0 ? i : axis == 1 ? j : k;
-                    const std::uint8_t before = from.voxels[at > 0 ? n - stride[axis] : n];
-                    const std::uint8_t after = from.voxels[at + 1 < size[axis] ? n + stride[axis] : n];
-                    const std::uint8_t own = from.voxels[n];
-                    to.voxels[n] = erode ? std::min({before, own, after}) : std::max({before, own, after});
-                }
+                rowAt(j, k);
         });
         std::swap(from, to);
-    }
+    };
+    const auto threeOf = [&](const std::uint8_t* before, const std::uint8_t* own, const std::uint8_t* after,
+                             std::uint8_t* out, int count) {
+        for (int i = 0; erode && i < count; ++i)
+            out[i] = std::min(std::min(before[i], own[i]), after[i]);
+        for (int i = 0; !erode && i < count; ++i)
+            out[i] = std::max(std::max(before[i], own[i]), after[i]);
+    };
+    along([&](int j, int k) {
+        const std::uint8_t* own = &from.at({0, j, k});
+        const int nx = size[0], last = nx - 1;
+        threeOf(own, own, own + std::min(1, last), &to.at({0, j, k}), 1);
+        threeOf(own, own + 1, own + 2, &to.at({0, j, k}) + 1, nx - 2);
+        threeOf(own + std::max(0, last - 1), own + last, own + last, &to.at({last, j, k}), 1);
+    });
+    along([&](int j, int k) {
+        threeOf(&from.at({0, std::max(0, j - 1), k}), &from.at({0, j, k}),
+                &from.at({0, std::min(size[1] - 1, j + 1), k}), &to.at({0, j, k}), size[0]);
+    });
+    along([&](int j, int k) {
+        threeOf(&from.at({0, j, std::max(0, k - 1)}), &from.at({0, j, k}),
+                &from.at({0, j, std::min(size[2] - 1, k + 1)}), &to.at({0, j, k}), size[0]);
+    });
     return from;
 }
 

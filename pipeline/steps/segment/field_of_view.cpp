@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "grid/byte_rows.h"
 #include "grid/lattice.h"
 #include "segment/constants.h"
 
@@ -32,9 +33,7 @@ double lumenCut_mm2(const HuVolume& volume, const InsideVolume& inside)
         double& area = slices[std::size_t(k)];
         for (int j = 0; j < ny; ++j) {
             const std::uint8_t* row = &inside.voxels[inside.grid.offset({0, j, k})];
-            for (int i = 0; i < nx; ++i) {
-                if (row[i] == kOutside)
-                    continue;
+            for (int i = firstOther(row, 0, nx, kOutside); i < nx; i = firstOther(row, i + 1, nx, kOutside)) {
                 const Index3 v{i + offset.i, j + offset.j, k + offset.k};
                 area += face_mm2[0] * (ends({v.i - 1, v.j, v.k}) + ends({v.i + 1, v.j, v.k})) +
                         face_mm2[1] * (ends({v.i, v.j - 1, v.k}) + ends({v.i, v.j + 1, v.k})) +

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "grid/allocate.h"
+#include "grid/byte_rows.h"
 #include "grid/neighbours.h"
 #include "segment/constants.h"
 
@@ -80,7 +81,8 @@ void growToWall(const HuVolume& volume, double wall_hu, InsideVolume& labels)
     std::vector<std::vector<std::size_t>> slices(std::size_t(slice_count), std::vector<std::size_t>{});
     tbb::parallel_for(0, slice_count, [&](int k) {
         const std::size_t begin = labels.grid.offset({0, 0, k}), end = labels.grid.offset({0, 0, k + 1});
-        for (std::size_t n = begin; n < end; ++n)
+        const auto next = [&](std::size_t n) { return firstOther(labels.voxels.data(), n, end, kOutside); };
+        for (std::size_t n = next(begin); n < end; n = next(n + 1))
             if (labels.voxels[n] == kGas)
                 neighboursOf(n, slices[std::size_t(k)]);
     });

@@ -1,6 +1,7 @@
 #include "skeleton/path.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -73,9 +74,8 @@ bool improve(const PathSearch& search, const LeftOut& part, CoarsePath& best, st
     return false;
 }
 
-/// The central path; where it leaves a part of the lumen aside that hangs on it in two places, it went through a
-/// contact between them. A part that hangs on it in one place is a pouch and no reason to cut.
-CoarsePath coarsePath(const PathSearch& search)
+/// The central path; without nodes when the graph does not join the ends.
+CoarsePath centralPath(const PathSearch& search)
 {
     CoarsePath best;
     best.barred.resize(search.graph.count(), 0);
@@ -84,6 +84,13 @@ CoarsePath coarsePath(const PathSearch& search)
         return best;
     best.nodes = whole.pathTo(search.to);
     best.length_mm = whole.length_mm[std::size_t(search.to)];
+    return best;
+}
+
+/// Where the path leaves a part of the lumen aside that hangs on it in two places, it went through a contact between
+/// them: another is taken. A part that hangs on it in one place is a pouch and no reason to cut.
+void leadThroughWhole(const PathSearch& search, CoarsePath& best)
+{
     best.coverage = coverageOf(search.graph, best.nodes, search.options);
     std::vector<Point3> tried;
     for (bool improved = true; improved && best.cuts < kMostCuts;) {
@@ -91,7 +98,6 @@ CoarsePath coarsePath(const PathSearch& search)
         improved = std::any_of(parts.begin(), parts.end(),
                                [&](const LeftOut& part) { return improve(search, part, best, tried); });
     }
-    return best;
 }
 
 /// Voxels in and around the blocks of a stretch of the path, as sorted offsets, in which it is refined.
@@ -169,10 +175,19 @@ LumenPath pathIn(const FieldVolume& wall_mm, const LumenGraph& graph, Point3 fro
     LumenPath path;
     if (a < 0 || distance(graph.point(a), from) > kEndTolerance_mm || distance(graph.point(b), to) > kEndTolerance_mm)
         return path;
-    const CoarsePath coarse = coarsePath({graph, a, b, options, progress});
+    const PathSearch search{graph, a, b, options, progress};
+    CoarsePath coarse = centralPath(search);
     if (coarse.nodes.size() < 2)
         return path;
-    return {refineAll(wall_mm, graph, coarse.nodes), coarse.coverage.uncovered_fraction, coarse.cuts};
+    // Mostly the first path is the last: it is refined while another core looks at what it leaves aside.
+    const NodePath first = coarse.nodes;
+    tbb::parallel_invoke([&] { leadThroughWhole(search, coarse); },
+                         [&] { path.voxels = refineAll(wall_mm, graph, first); });
+    if (coarse.nodes != first)
+        path.voxels = refineAll(wall_mm, graph, coarse.nodes);
+    path.uncovered_fraction = coarse.coverage.uncovered_fraction;
+    path.cuts = coarse.cuts;
+    return path;
 }
 
 }  // namespace

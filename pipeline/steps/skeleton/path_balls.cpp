@@ -1,5 +1,6 @@
 #include "skeleton/path_balls.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <array>
@@ -53,8 +54,28 @@ PathBalls::PathBalls(const Polyline& path, const DistanceProbe& wall)
 
 Polyline PathBalls::hold(Polyline line) const
 {
-    tbb::parallel_for(std::size_t(0), line.size(), [&](std::size_t n) { line[n] = held(line[n]); });
+    // Lines run along the path, so the ball that holds one point mostly lies near the one that held that before.
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, line.size(), 64), [&](const auto& stretch) {
+        std::size_t before = stretch.begin() * balls_.size() / line.size();
+        for (std::size_t n = stretch.begin(); n < stretch.end(); ++n)
+            if (const std::size_t holding = holderOf(line[n], before); holding < balls_.size())
+                before = holding;
+            else
+                line[n] = held(line[n]);
+    });
     return line;
+}
+
+std::size_t PathBalls::holderOf(Point3 p, std::size_t about) const
+{
+    const auto holds = [&](std::size_t n) { return distance(balls_[n].centre, p) <= balls_[n].radius_mm; };
+    for (std::size_t off = 0; off < balls_.size(); ++off) {
+        if (about + off < balls_.size() && holds(about + off))
+            return about + off;
+        if (off <= about && holds(about - off))
+            return about - off;
+    }
+    return balls_.size();
 }
 
 Point3 PathBalls::held(Point3 p) const
@@ -62,10 +83,7 @@ Point3 PathBalls::held(Point3 p) const
     double least_mm = std::numeric_limits<double>::infinity();
     const Ball* nearest = nullptr;
     for (const Ball& ball : balls_) {
-        const double outside_mm = distance(ball.centre, p) - ball.radius_mm;
-        if (outside_mm <= 0)
-            return p;
-        if (outside_mm < least_mm) {
+        if (const double outside_mm = distance(ball.centre, p) - ball.radius_mm; outside_mm < least_mm) {
             least_mm = outside_mm;
             nearest = &ball;
         }

@@ -19,6 +19,9 @@ private:
         Point3 centre;
         double radius_mm = 0;
     };
+    /// The number of a ball that holds a point, sought outwards from a number; the count of all where none does.
+    std::size_t holderOf(Point3 p, std::size_t about) const;
+    /// The point, moved to the nearest ball.
     Point3 held(Point3 p) const;
 
     std::vector<Ball> balls_;

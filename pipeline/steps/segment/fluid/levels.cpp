@@ -1,5 +1,4 @@
 #include "segment/fluid/levels.h"
-#include "vicon/core/disjoint_sets.h"
 
 #include <tbb/parallel_for.h>
 
@@ -7,6 +6,9 @@
 #include <cmath>
 #include <optional>
 #include <unordered_map>
+
+#include "grid/byte_rows.h"
+#include "vicon/core/disjoint_sets.h"
 
 namespace vicon::steps {
 namespace {
@@ -98,17 +100,16 @@ std::vector<Contact> findContacts(const HuVolume& volume, Down down, const Fluid
     const auto [nx, ny, nz] = labels.grid.size;
     std::vector<std::vector<Contact>> slices(std::size_t(nz), std::vector<Contact>{});
     tbb::parallel_for(0, nz, [&, nx = nx, ny = ny](int k) {
-        for (int j = 0; j < ny; ++j)
-            for (int i = 0; i < nx; ++i) {
-                const Index3 v{i, j, k};
-                if (labels.at(v) != kGas)
-                    continue;
-                const Index3 next = moved(v, down, 1);
-                if (!labels.grid.contains(next) || labels.at(next) == kGas)
+        for (int j = 0; j < ny; ++j) {
+            const std::uint8_t* row = &labels.at({0, j, k});
+            for (int i = firstOther(row, 0, nx, kOutside); i < nx; i = firstOther(row, i + 1, nx, kOutside)) {
+                const Index3 v{i, j, k}, next = moved(v, down, 1);
+                if (row[i] != kGas || !labels.grid.contains(next) || labels.at(next) == kGas)
                     continue;
                 if (const auto contact = contactBelow(volume, down, densities, v))
                     slices[std::size_t(k)].push_back(*contact);
             }
+        }
     });
     std::vector<Contact> contacts;
     for (const auto& slice : slices)

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "grid/byte_rows.h"
+
 namespace vicon::steps {
 namespace {
 
@@ -44,12 +46,15 @@ bool overAll(int layer)
     return layer % 2 == 1;
 }
 
+/// @param label not kOutside
 std::vector<std::size_t> voxelsOf(const InsideVolume& labels, std::uint8_t label)
 {
     const auto slice = std::size_t(labels.grid.size[0]) * std::size_t(labels.grid.size[1]);
     std::vector<std::vector<std::size_t>> slices(std::size_t(labels.grid.size[2]), std::vector<std::size_t>{});
     tbb::parallel_for(std::size_t(0), slices.size(), [&](std::size_t k) {
-        for (std::size_t n = k * slice; n < (k + 1) * slice; ++n)
+        const std::size_t end = (k + 1) * slice;
+        const auto next = [&](std::size_t n) { return firstOther(labels.voxels.data(), n, end, kOutside); };
+        for (std::size_t n = next(k * slice); n < end; n = next(n + 1))
             if (labels.voxels[n] == label)
                 slices[k].push_back(n);
     });
