@@ -3,6 +3,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -67,26 +70,24 @@ HuVolume meanOfBlocks(const HuVolume& volume, int factor)
     HuVolume coarse(coarseGrid(volume.grid, factor));
     const int nx = volume.grid.size[0], ny = volume.grid.size[1], nz = volume.grid.size[2];
     tbb::parallel_for(0, coarse.grid.size[2], [&](int ck) {
-        const auto cx = std::size_t(coarse.grid.size[0]);
-        std::vector<std::int64_t> sum(cx * std::size_t(coarse.grid.size[1]), 0);
+        // Row upon row is what vectors add; a row's blocks are added up last.
+        std::vector<std::int32_t> sums(static_cast<std::size_t>(nx));
         const int k_end = std::min(nz, (ck + 1) * factor);
-        for (int k = ck * factor; k < k_end; ++k)
-            for (int j = 0; j < ny; ++j) {
-                const std::int16_t* row = &volume.voxels[volume.grid.offset({0, j, k})];
-                std::int64_t* out = &sum[cx * std::size_t(j / factor)];
-                for (int ci = 0; ci < int(cx); ++ci) {
-                    std::int32_t s = 0;
-                    for (int i = ci * factor, end = std::min(nx, i + factor); i < end; ++i)
-                        s += row[i];
-                    out[ci] += s;
+        for (int cj = 0; cj < coarse.grid.size[1]; ++cj) {
+            const int j_end = std::min(ny, (cj + 1) * factor);
+            std::fill(sums.begin(), sums.end(), 0);
+            for (int k = ck * factor; k < k_end; ++k)
+                for (int j = cj * factor; j < j_end; ++j) {
+                    const std::int16_t* row = &volume.voxels[volume.grid.offset({0, j, k})];
+                    std::transform(sums.begin(), sums.end(), row, sums.begin(), std::plus<std::int32_t>());
                 }
+            const int rows = (j_end - cj * factor) * (k_end - ck * factor);
+            std::int16_t* out = &coarse.at({0, cj, ck});
+            for (int i = 0; i < nx; i += factor) {
+                const int end = std::min(nx, i + factor);
+                *out++ = std::int16_t(std::accumulate(&sums[std::size_t(i)], sums.data() + end, 0) / ((end - i) * rows));
             }
-        for (int cj = 0; cj < coarse.grid.size[1]; ++cj)
-            for (int ci = 0; ci < int(cx); ++ci) {
-                const int count = (std::min(nx, (ci + 1) * factor) - ci * factor) *
-                                  (std::min(ny, (cj + 1) * factor) - cj * factor) * (k_end - ck * factor);
-                coarse.at({ci, cj, ck}) = std::int16_t(sum[std::size_t(ci) + cx * std::size_t(cj)] / count);
-            }
+        }
     });
     return coarse;
 }
