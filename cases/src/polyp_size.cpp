@@ -238,13 +238,15 @@ PolypOutline judged(const Outline& outline, Point3 middle, double blur_mm)
 
 }  // namespace
 
-PolypOutline outlinePolyp(const CellSurface& surface, Point3 at, double blur_mm)
+PolypOutline outlinePolyp(const CellSurface& surface, Point3 at, double blur_mm, const Progress* wanted)
 {
     const SurfacePatch patch(surface, at, kReach_mm, kCatch_mm);
     Point3 top = patch.nearest_mm();
     Outline outline = outlineAround(patch, top, patch.normalNear(top, kAroundClick_mm));
     Point3 middle;
     for (int round = 0;; ++round) {
+        if (wanted)
+            wanted->check();
         const std::vector<Point3> rim = rimPoints(outline);
         if (rim.size() < std::size_t(kSections) / 4)
             return {std::nullopt, "it has no edge"};

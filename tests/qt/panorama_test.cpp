@@ -153,6 +153,12 @@ TEST_F(Panoramas, TheProjectionTurnsGrowsIsClickedAndComesBackFromTheFront)
     drag(overview, overview->rect().center(), QPoint(20, 10), Qt::RightButton);
     ASSERT_TRUE(changesFrom("overview", grown));
     screenshot("turned_grown");
+    const QImage moved = pictureOf("overview");
+    overview->setFocus(Qt::TabFocusReason);
+    for (int n = 0; n < 4; ++n)
+        test::type(Qt::Key_Left, Qt::ControlModifier | Qt::ShiftModifier);
+    ASSERT_TRUE(changesFrom("overview", moved)) << "keys turn it too";
+    screenshot("turned_by_keys");
     // Some place of it is wall.
     const double before = station();
     bool went = false;

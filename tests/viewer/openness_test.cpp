@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "test_surface.h"
+#include "vicon/core/error.h"
 
 namespace vicon::viewer {
 namespace {
@@ -91,6 +92,16 @@ TEST(Openness, IsSmallInACleft)
     const auto [least, most] = wall.rangeWhere([](Point3 p) { return std::abs(p.y) < 8; });
     EXPECT_GE(least, 0);
     EXPECT_LT(most, 0.5);
+}
+
+TEST(Openness, WhatIsNoLongerWantedStops)
+{
+    struct Stopped : NoProgress {
+        bool cancelled() const override { return true; }
+    } stopped;
+    const Wall wall([](Point3 p) { return tube(p, 15); });
+    EXPECT_THROW(opennessOf(wall.surface.points_mm, wall.surface.normals, Lumen(wall.inside, wall.distance), &stopped),
+                 Error);
 }
 
 }  // namespace

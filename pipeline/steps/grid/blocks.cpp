@@ -85,7 +85,8 @@ HuVolume meanOfBlocks(const HuVolume& volume, int factor)
             std::int16_t* out = &coarse.at({0, cj, ck});
             for (int i = 0; i < nx; i += factor) {
                 const int end = std::min(nx, i + factor);
-                *out++ = std::int16_t(std::accumulate(&sums[std::size_t(i)], sums.data() + end, 0) / ((end - i) * rows));
+                *out++ =
+                    std::int16_t(std::accumulate(&sums[std::size_t(i)], sums.data() + end, 0) / ((end - i) * rows));
             }
         }
     });

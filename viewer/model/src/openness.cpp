@@ -30,10 +30,12 @@ double opennessAt(Point3 point, Vector3 normal, const Lumen& lumen)
 }  // namespace
 
 std::vector<float> opennessOf(const std::vector<float>& points_mm, const std::vector<float>& normals,
-                              const Lumen& lumen)
+                              const Lumen& lumen, const Progress* wanted)
 {
     std::vector<float> openness(std::min(points_mm.size(), normals.size()) / 3);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, openness.size(), 4096), [&](const auto& some) {
+        if (wanted)
+            wanted->check();
         for (std::size_t n = some.begin(); n < some.end(); ++n) {
             const float *p = &points_mm[3 * n], *v = &normals[3 * n];
             openness[n] = float(opennessAt({p[0], p[1], p[2]}, {v[0], v[1], v[2]}, lumen));

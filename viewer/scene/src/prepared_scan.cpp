@@ -251,9 +251,9 @@ bool PreparedScan::hasOpenness() const
     return files_->openness.known();
 }
 
-const std::vector<float>& PreparedScan::openness() const
+const std::vector<float>& PreparedScan::openness(const Progress* wanted) const
 {
-    return files_->openness.get([&] { return opennessOf(cells().points_mm, cells().normals, lumen()); });
+    return files_->openness.get([&] { return opennessOf(cells().points_mm, cells().normals, lumen(), wanted); });
 }
 
 Lumen PreparedScan::lumen() const

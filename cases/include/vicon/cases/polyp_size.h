@@ -6,6 +6,7 @@
 
 #include "vicon/cases/marker_measures.h"
 #include "vicon/core/cell_surface.h"
+#include "vicon/core/progress.h"
 
 namespace vicon {
 
@@ -21,7 +22,8 @@ struct PolypOutline {
 /// @param surface the wall, with normals into the lumen
 /// @param at on the polyp, within 2 mm of the wall; else Error{bad_input}
 /// @param blur_mm standard deviation of the scan's blur
-PolypOutline outlinePolyp(const CellSurface& surface, Point3 at, double blur_mm);
+/// Throws Error{cancelled} where `wanted`, if there is one, says so.
+PolypOutline outlinePolyp(const CellSurface& surface, Point3 at, double blur_mm, const Progress* wanted = nullptr);
 
 /// The blur that the tissue step measured at the scan's fluid levels, in scan.json; a usual one where there are none.
 double blurOfScan_mm(const std::filesystem::path& scan_folder);

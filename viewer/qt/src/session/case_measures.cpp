@@ -33,8 +33,9 @@ void CaseSession::measure(Point3 from, Point3 to, Point3 eye)
 
 void CaseSession::outlinePolyp(Point3 at)
 {
-    loader_.post(kOutline, [this, scan = scan_, at]() -> Worker::Work {
-        const PolypOutline outline = vicon::outlinePolyp(scan->files.cells(), at, blurOfScan_mm(scan->files.folder()));
+    loader_.postTask(kOutline, [this, scan = scan_, at](const Progress& wanted) -> Worker::Work {
+        const PolypOutline outline =
+            vicon::outlinePolyp(scan->files.cells(), at, blurOfScan_mm(scan->files.folder()), &wanted);
         return [this, scan, outline] {
             if (scan == scan_)
                 emit outlined(outline);

@@ -61,8 +61,7 @@ void DrawingThread::findSightLines(const std::shared_ptr<OpenScan>& scan)
         [this, files = scan->files, of = std::weak_ptr(scan)](const Progress& wanted) -> Worker::Work {
             if (of.expired())
                 return {};
-            files.openness();
-            wanted.check();
+            files.openness(&wanted);
             worker_.post("shade", [this](AllPictures&) -> Worker::Work { return [this] { emit wallShaded(); }; });
             auto visibility = std::make_shared<const CellVisibility>(files);
             worker_.post("sight lines", [visibility, of](AllPictures& all) -> Worker::Work {

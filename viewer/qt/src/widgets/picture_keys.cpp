@@ -76,12 +76,14 @@ void PictureView::clickAtCross(Qt::KeyboardModifiers modifiers)
 
 bool PictureView::actedOn(const QKeyEvent& key)
 {
-    const bool control = key.modifiers() & Qt::ControlModifier;
+    const bool control = key.modifiers() & Qt::ControlModifier, shift = key.modifiers() & Qt::ShiftModifier;
     const auto arrow = arrowOf(key);
-    if (arrow && control && reached_ && !steered_)
+    if (arrow && control && shift && reached_ && !steered_)
+        emit dragged(QPointF(*arrow * kPan_px) * devicePixelRatioF(), Qt::LeftButton);
+    else if (arrow && control && reached_ && !steered_)
         emit dragged(QPointF(*arrow * -kPan_px) * devicePixelRatioF(), Qt::RightButton);
     else if (arrow && !control && takesArrows())
-        moveCross(*arrow * (key.modifiers() & Qt::ShiftModifier ? kFineStep_px : kStep_px));
+        moveCross(*arrow * (shift ? kFineStep_px : kStep_px));
     else if ((key.key() == Qt::Key_Return || key.key() == Qt::Key_Enter) && !image_.isNull())
         clickAtCross(key.modifiers());
     else if (key.key() == Qt::Key_PageUp || key.key() == Qt::Key_PageDown)

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "vicon/core/progress.h"
 #include "vicon/viewer/model/lumen.h"
 
 namespace vicon::viewer {
@@ -12,7 +13,8 @@ namespace vicon::viewer {
 /// (A. Evans, Fast approximations for global illumination on dynamic scenes, SIGGRAPH courses 2006).
 /// @param points_mm x, y, z of each point, LPS
 /// @param normals unit vectors into the lumen, as many as points
+/// Throws Error{cancelled} where `wanted`, if there is one, says so.
 std::vector<float> opennessOf(const std::vector<float>& points_mm, const std::vector<float>& normals,
-                              const Lumen& lumen);
+                              const Lumen& lumen, const Progress* wanted = nullptr);
 
 }  // namespace vicon::viewer

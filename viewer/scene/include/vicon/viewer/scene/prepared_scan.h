@@ -56,9 +56,10 @@ public:
     const LumenAlong& along() const;              ///< of scan.json's quality; empty where it has none
     const OrganWords& words() const;              ///< for the organ that scan.json names
     const DensityBricks& bricks() const;          ///< of the volume
-    const std::vector<float>& openness() const;   ///< of the points of cells(), see opennessOf()
     bool hasOpenness() const;                     ///< openness() answers at once
-    Lumen lumen() const;                          ///< of inside and wallDistance; valid while this object lives
+    /// Of the points of cells(), see opennessOf().
+    const std::vector<float>& openness(const Progress* wanted = nullptr) const;
+    Lumen lumen() const;  ///< of inside and wallDistance; valid while this object lives
 
 private:
     struct Files;
