@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "vicon/core/nearest_on_segment.h"
+
 namespace vicon {
 namespace {
 
@@ -56,10 +58,7 @@ SkeletonFoot Skeleton::nearest(Point3 p, double from_mm, double to_mm) const
             const SkeletonPoint &a = piece.points[n], &b = piece.points[n + 1];
             if (b.station_mm < from_mm || a.station_mm > to_mm)
                 continue;
-            const Vector3 ab = b.position_mm - a.position_mm;
-            const double ab2 = dot(ab, ab);
-            const double t = ab2 > 0 ? std::clamp(dot(p - a.position_mm, ab) / ab2, 0.0, 1.0) : 0;
-            const SkeletonPoint foot = interpolate(a, b, t);
+            const SkeletonPoint foot = interpolate(a, b, nearestOnSegment(a.position_mm, b.position_mm, p));
             const double d = distance(foot.position_mm, p);
             if (d < best.distance_mm)
                 best = {foot.station_mm, d, foot.position_mm, piece.bridge};

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "vicon/core/nearest_on_segment.h"
+
 namespace vicon::steps {
 namespace {
 
@@ -17,10 +19,7 @@ Point3 nearestOn(const Polyline& line, std::size_t about, Point3 p)
     double least_mm = std::numeric_limits<double>::infinity();
     const std::size_t from = about > kAside_points ? about - kAside_points : 0;
     for (std::size_t n = from; n + 1 < std::min(line.size(), about + kAside_points); ++n) {
-        const Vector3 along = line[n + 1] - line[n];
-        const double length2 = dot(along, along);
-        const double t = length2 > 0 ? std::clamp(dot(p - line[n], along) / length2, 0.0, 1.0) : 0;
-        const Point3 on_line = interpolate(line[n], line[n + 1], t);
+        const Point3 on_line = interpolate(line[n], line[n + 1], nearestOnSegment(line[n], line[n + 1], p));
         if (const double away_mm = distance(on_line, p); away_mm < least_mm) {
             least_mm = away_mm;
             nearest = on_line;

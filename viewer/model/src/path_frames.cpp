@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "vicon/core/error.h"
+#include "vicon/core/nearest_on_segment.h"
 
 namespace vicon::viewer {
 namespace {
@@ -67,9 +68,7 @@ double PathFrames::nearestStation(Point3 p, double around_mm, double reach_mm) c
     for (std::size_t n = std::min(indexOf(around_mm - reach_mm), last);
          n <= std::min(indexOf(around_mm + reach_mm), last); ++n) {
         const Point3 a = frames_[n].position_mm, b = frames_[n + 1].position_mm;
-        const Vector3 ab = b - a;
-        const double ab2 = dot(ab, ab);
-        const double t = ab2 > 0 ? std::clamp(dot(p - a, ab) / ab2, 0.0, 1.0) : 0;
+        const double t = nearestOnSegment(a, b, p);
         if (const double d = distance(p, interpolate(a, b, t)); d < best_distance) {
             best_distance = d;
             best = (double(n) + t) * step_mm_;
