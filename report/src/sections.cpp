@@ -27,10 +27,8 @@ void Sections::draw()
         drawStudy();
         study_told = true;
     }
-    // Page one has it too where that leaves the room: then nothing follows findings but what is technical.
-    bool quality_told = !isQuiet() && flow_.page() == 0 && study_told && qualityHeight() <= flow_.room();
-    if (quality_told)
-        drawQuality();
+    if (!isQuiet() && flow_.page() == 0)
+        drawQualityOnPageOne();
     // Page one is for who referred the patient; what follows is for who looks closer.
     if (!content_.markers.empty() && flow_.page() == 0)
         flow_.startPage();
@@ -41,8 +39,7 @@ void Sections::draw()
     drawMarkers();
     if (!study_told)
         drawStudy();
-    if (!quality_told)
-        drawQuality();
+    drawQuality();
     if (!scansToldInStrips())
         drawScans();
     drawSignature();
