@@ -49,7 +49,9 @@ double Sections::drawSite(double width)
 
 void Sections::drawTitle()
 {
-    const TextLine title = flow_.type.line("CT colonography report", look::kTitle);
+    const bool amended = content_.version && content_.version->replaces != 0;
+    const TextLine title =
+        flow_.type.line(amended ? "CT colonography report, amended" : "CT colonography report", look::kTitle);
     const std::string made = content_.version
                                  ? stateWords(content_.version)
                                  : "Draft " + std::to_string(content_.number) + ", made on " +

@@ -81,6 +81,8 @@ private:
     double studyHeight() const;
     void drawScans();
     void drawSignature();
+    std::vector<TextLine> signatureLines() const;
+    double signatureHeight() const;
     /// The markers of no finding.
     std::vector<const MarkerEntry*> looseMarkers() const;
     /// What was not told of it yet: strips and parts.

@@ -205,6 +205,8 @@ protected:
     }
 };
 
+constexpr std::size_t kLeastWords = 45;  // of the last page, with what stands on every page
+
 TEST_P(Pages, AreSoundAndTidyAndSayEveryNumber)
 {
     for (const char* paper : {"a4", "letter"}) {
@@ -218,6 +220,11 @@ TEST_P(Pages, AreSoundAndTidyAndSayEveryNumber)
                 samples::expectLayout(pdf_, GetParam().name);
         } else {
             expectTidy(pdf_, 612, 792);
+        }
+        EXPECT_THAT(samples::pageTexts(pdf_).back(), HasSubstr(content_.version ? "Signed by" : "Draft, not signed"));
+        EXPECT_GT(samples::wordsByPage(pdf_).back().size(), kLeastWords) << "no page for the signature alone";
+        if (content_.version && content_.version->replaces != 0) {
+            EXPECT_THAT(samples::pageTexts(pdf_).at(0), HasSubstr("CT colonography report, amended"));
         }
         if (GetParam().findings > 0) {
             EXPECT_GT(filledShare(pdf_, std::string(paper) == "a4" ? 842 : 792), 0.75) << paper;
