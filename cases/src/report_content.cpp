@@ -10,10 +10,9 @@
 namespace vicon {
 namespace {
 
-std::vector<PartState> measuredParts(CaseStore& store, const ScanRecord& scan)
+std::vector<PartState> measuredParts(const ScanRecord& scan, const StepResults& results)
 {
     std::vector<PartState> out;
-    const StepResults results = resultsOf(store.steps(scan.case_id, scan.id));
     if (!results.quality || !results.quality->quality)
         return out;
     for (const StretchQuality& part : results.quality->quality->parts)
@@ -121,7 +120,10 @@ ReadCase readCaseWith(CaseStore& store, const std::string& case_id, const Assess
         if (scan.role != ScanRole::scan && !marked)
             continue;
         read.scans.push_back(scan);
-        for (const PartState& part : measuredParts(store, scan))
+        const StepResults results = resultsOf(store.steps(scan.case_id, scan.id));
+        if (results.segment && results.segment->given)
+            read.given_lumens.emplace(scan.id, *results.segment->given);
+        for (const PartState& part : measuredParts(scan, results))
             read.parts.push_back(part);
     }
     takeReaders(read.parts, read.assessment.distension);

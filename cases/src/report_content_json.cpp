@@ -73,8 +73,12 @@ json reportContent(const ReadCase& read)
                 {"c_rads",
                  {{"colon", categoryJson(read.colon_proposal, read.assessment.colon_category)},
                   {"extracolonic", categoryJson(read.extracolonic_proposal, read.assessment.extracolonic_category)}}}};
-    for (const ScanRecord& scan : read.scans)
-        out["scans"].push_back(scanJson(scan));
+    for (const ScanRecord& scan : read.scans) {
+        json entry = scanJson(scan);
+        if (const auto given = read.given_lumens.find(scan.id); given != read.given_lumens.end())
+            entry["given_lumen"] = toJson(given->second);
+        out["scans"].push_back(entry);
+    }
     for (const auto& [finding, facts] : read.findings) {
         json entry = toJson(finding);
         entry["facts"] = toJson(facts);
@@ -107,6 +111,8 @@ ReadCase readCaseFromContent(const json& from)
         for (const json& scan : from.at("scans")) {
             read.scans.push_back(scanFromContent(scan));
             read.scans.back().case_id = read.record.id;
+            if (scan.contains("given_lumen"))
+                read.given_lumens.emplace(read.scans.back().id, lumenOriginFromJson(scan["given_lumen"]));
         }
         for (const json& finding : from.at("findings"))
             read.findings.push_back({findingFromJson(finding), factsFromJson(finding.at("facts"))});

@@ -40,7 +40,7 @@ std::vector<std::string> cellsOf(const FindingWithFacts& f)
     const FindingSight* lead = f.facts.lead();
     return {numberOf(f),
             kindWords(f.finding),
-            sizeWords(f.facts),
+            f.facts.size_mm ? sizeWords(f.facts) : "-",
             placeWords(f.facts),
             lead ? millimetres(lead->station_mm) : "-",
             endoscopeRange(f.facts),

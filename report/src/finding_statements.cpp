@@ -157,6 +157,11 @@ std::string endoscopeWords(const FindingFacts& facts)
            " to " + centimetres(facts.endoscope->most_mm) + " cm)";
 }
 
+std::string otherProgramsLumen(const LumenOrigin& origin)
+{
+    return "made by another program: " + textOf(origin);
+}
+
 std::vector<Statement> findingStatements(const ReadCase& read, const FindingWithFacts& f)
 {
     std::vector<Statement> out{{"Size", allSizes(f)}};
@@ -234,10 +239,18 @@ std::vector<Statement> techniqueStatements(const ReadCase& read)
     return out;
 }
 
+std::vector<Statement> lumenStatements(const ReadCase& read)
+{
+    std::vector<Statement> out;
+    for (const auto& [scan_id, origin] : read.given_lumens)
+        out.push_back({"Lumen", scanLabel(read, scan_id) + ": " + otherProgramsLumen(origin)});
+    return out;
+}
+
 std::vector<Statement> assessmentStatements(const ReadCase& read)
 {
     std::vector<Statement> out = occasionStatements(read);
-    for (const auto& some : {reliabilityStatements(read), techniqueStatements(read)})
+    for (const auto& some : {reliabilityStatements(read), techniqueStatements(read), lumenStatements(read)})
         out.insert(out.end(), some.begin(), some.end());
     return out;
 }

@@ -49,7 +49,9 @@ double Sections::drawSite(double width)
 
 void Sections::drawTitle()
 {
-    const TextLine title = flow_.type.line("CT colonography report", look::kTitle);
+    const bool amended = content_.version && content_.version->replaces != 0;
+    const TextLine title =
+        flow_.type.line(amended ? "CT colonography report, amended" : "CT colonography report", look::kTitle);
     const std::string made = content_.version
                                  ? stateWords(content_.version)
                                  : "Draft " + std::to_string(content_.number) + ", made on " +
@@ -153,8 +155,8 @@ bool Sections::drawOneMapBesideParts()
     const PartsTable parts(flow_.type, content_.scans.front(), column);
     const double beside = facts.height() + look::kGap + parts.height();
     if (std::max(beside, tallest + captions) > room) {
-        parts_told_ = false;
-        return false;
+        parts_told_ = drawOneMapInThreeColumns(room);
+        return parts_told_;
     }
     if (isQuiet())
         drawSection(flow_, "Findings", std::max(beside, tallest + captions));
@@ -162,6 +164,27 @@ bool Sections::drawOneMapBesideParts()
     const double used = std::max(beside, map.draw(flow_, flow_.left(), top, map_width, tallest));
     facts.draw(flow_, x);
     parts.draw(flow_, x, flow_.y() - look::kGap);
+    flow_.skip(used - facts.height() + look::kGap / 2);
+    return true;
+}
+
+bool Sections::drawOneMapInThreeColumns(double room)
+{
+    const ScanEntry& scan = content_.scans.front();
+    const FramedPicture map = overviewOf(scan);
+    const double captions = 3 * leadingOf(look::kSmall) + 4, tallest = std::clamp(room - captions, 0.0, kSmallestMap);
+    const double map_width = map.fitted(kWidestMap, tallest).width, parts_width = PartsTable::leastWidth(scan);
+    const double column = flow_.width() - map_width - parts_width - 2 * kColumnGap;
+    const StatementTable facts(flow_.type, studyFacts(isQuiet()), column, look::kNarrowLabelWidth);
+    const PartsTable parts(flow_.type, scan, parts_width);
+    const double most = std::max({facts.height(), parts.height(), tallest + captions});
+    if (isQuiet() || tallest < kSmallestMap || most > room)
+        return false;
+    const double top = flow_.y(), x = flow_.left() + map_width + kColumnGap;
+    const double used =
+        std::max({map.draw(flow_, flow_.left(), top, map_width, tallest), parts.height(), facts.height()});
+    parts.draw(flow_, x + column + kColumnGap, top);
+    facts.draw(flow_, x);
     flow_.skip(used - facts.height() + look::kGap / 2);
     return true;
 }

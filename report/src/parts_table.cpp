@@ -7,8 +7,9 @@
 namespace vicon::report {
 namespace {
 
-constexpr double kBelowTitles = 3;    // points
-constexpr double kNamesShare = 0.28;  // of the width
+constexpr double kBelowTitles = 3;                         // points
+constexpr double kLeastNames = 62, kNamesShare = 0.28;     // in points, and of the width
+constexpr double kLeastOpen = 158, kLeastCollapsed = 232;  // points
 constexpr std::size_t kColumnsOfAnOpenOne = 3;
 
 }  // namespace
@@ -38,6 +39,11 @@ PartsTable::PartsTable(Typesetter& type, const ScanEntry& scan, double width) : 
     }
 }
 
+double PartsTable::leastWidth(const ScanEntry& scan)
+{
+    return isOpen(scan) ? kLeastOpen : kLeastCollapsed;
+}
+
 double PartsTable::height() const
 {
     return double(rows_.size()) * (leadingOf(look::kCell) + look::kCellRowGap) + kBelowTitles;
@@ -45,7 +51,7 @@ double PartsTable::height() const
 
 double PartsTable::leftOf(std::size_t column) const
 {
-    const double names = kNamesShare * width_, others = double(columns_ - 1);
+    const double names = std::max(kLeastNames, kNamesShare * width_), others = double(columns_ - 1);
     return column == 0 ? 0 : names + double(column - 1) * (width_ - names) / others;
 }
 

@@ -12,6 +12,8 @@ namespace vicon::report {
 class PartsTable {
 public:
     PartsTable(Typesetter& type, const ScanEntry& scan, double width);
+    /// In which its words have the room that they need.
+    static double leastWidth(const ScanEntry& scan);
     double height() const;
     /// Draws it with its top at `y`. It does not leave the page.
     void draw(PageFlow& flow, double x, double y) const;

@@ -44,11 +44,27 @@ std::vector<const ScanEntry*> Sections::measuredScans() const
 
 void Sections::drawQuality()
 {
+    const bool strips = drawStrips(tailHeight());
+    drawParts(!strips || partRowsHeight() > flow_.room());
+}
+
+void Sections::drawQualityOnPageOne()
+{
+    const double heading = leadingOf(look::kSection) + 8;
+    if (qualityHeight() <= flow_.room())
+        drawQuality();
+    else if (!strips().empty() && heading + stripsHeight() <= flow_.room())
+        drawStrips(0);
+    else if (heading + partRowsHeight() <= flow_.room())
+        drawParts(true);
+}
+
+void Sections::drawParts(bool headed)
+{
     const std::vector<const ScanEntry*> measured = measuredScans();
-    const bool strips = drawStrips();
     if (measured.empty())
         return;
-    if (!strips || partRowsHeight() > flow_.room())
+    if (headed)
         drawSection(flow_, "Distension and fluid of each part", std::min(partRowsHeight(), flow_.wholePage() / 2));
     drawPartHead();
     for (const ScanEntry* entry : measured) {
@@ -59,6 +75,7 @@ void Sections::drawQuality()
         drawScanRows(*entry);
     }
     flow_.skip(look::kGap / 2);
+    parts_told_ = true;
 }
 
 StripColon Sections::stripOf(const ScanEntry& entry) const
@@ -94,6 +111,8 @@ std::vector<const ScanEntry*> Sections::stripScans() const
 std::vector<StripColon> Sections::strips() const
 {
     std::vector<StripColon> colons;
+    if (strips_told_)
+        return colons;
     for (const ScanEntry* entry : stripScans())
         colons.push_back(stripOf(*entry));
     return colons;
@@ -101,15 +120,18 @@ std::vector<StripColon> Sections::strips() const
 
 double Sections::qualityHeight() const
 {
-    const std::vector<StripColon> colons = strips();
-    double height = leadingOf(look::kSection) + 8 + partRowsHeight() + look::kGap;
-    if (!colons.empty())
-        height += leadingOf(look::kSmall) * 2 + kBelowStrips +
-                  StripChart(flow_.type, colons, flow_.width(), kLeastHalf + 4).height();
-    return height;
+    return leadingOf(look::kSection) + 8 + partRowsHeight() + look::kGap + stripsHeight();
 }
 
-bool Sections::drawStrips()
+double Sections::stripsHeight() const
+{
+    const std::vector<StripColon> colons = strips();
+    return colons.empty() ? 0
+                          : leadingOf(look::kSmall) * 2 + kBelowStrips +
+                                StripChart(flow_.type, colons, flow_.width(), kLeastHalf + 4).height();
+}
+
+bool Sections::drawStrips(double below)
 {
     const std::vector<StripColon> colons = strips();
     if (colons.empty())
@@ -119,8 +141,7 @@ bool Sections::drawStrips()
     const double words = double(legend.size()) * leadingOf(look::kSmall);
     const double least = StripChart(flow_.type, colons, flow_.width(), kLeastHalf).height();
     constexpr double kSlack = 2;  // sums in another order differ in their last digit
-    const double spare =
-        flow_.room() - leadingOf(look::kSection) - 8 - words - kBelowStrips - least - tailHeight() - kSlack;
+    const double spare = flow_.room() - leadingOf(look::kSection) - 8 - words - kBelowStrips - least - below - kSlack;
     const double half = spare < 0 && !isQuiet()
                             ? kMostHalf
                             : std::clamp(kLeastHalf + spare / (2 * double(colons.size())), kLeastHalf, kMostHalf);
@@ -129,6 +150,7 @@ bool Sections::drawStrips()
     flow_.paragraph(flow_.left(), flow_.width(), legend, look::kSmall, look::kMuted);
     chart.draw(flow_);
     flow_.skip(kBelowStrips);
+    strips_told_ = true;
     return true;
 }
 

@@ -27,10 +27,8 @@ void Sections::draw()
         drawStudy();
         study_told = true;
     }
-    // Page one has it too where that leaves the room: then nothing follows findings but what is technical.
-    bool quality_told = !isQuiet() && flow_.page() == 0 && study_told && qualityHeight() <= flow_.room();
-    if (quality_told)
-        drawQuality();
+    if (!isQuiet() && flow_.page() == 0)
+        drawQualityOnPageOne();
     // Page one is for who referred the patient; what follows is for who looks closer.
     if (!content_.markers.empty() && flow_.page() == 0)
         flow_.startPage();
@@ -41,8 +39,7 @@ void Sections::draw()
     drawMarkers();
     if (!study_told)
         drawStudy();
-    if (!quality_told)
-        drawQuality();
+    drawQuality();
     if (!scansToldInStrips())
         drawScans();
     drawSignature();
@@ -102,7 +99,7 @@ void Sections::drawScans()
 {
     if (const std::vector<Statement> said = briefScans(); !said.empty()) {
         const StatementTable table(flow_.type, said, flow_.width(), kScanLabelWidth);
-        drawSection(flow_, "Scans", table.height());
+        drawSection(flow_, "Scans", table.height() + look::kGap / 2 + signatureHeight());
         table.draw(flow_, flow_.left());
         flow_.skip(look::kGap / 2);
         return;
@@ -125,7 +122,8 @@ void Sections::drawScans()
             }
             continue;
         }
-        flow_.need(heading + height);
+        const double last = end == content_.scans.size() ? look::kGap + signatureHeight() : 0;
+        flow_.need(heading + height + last);
         const double top = flow_.y();
         if (n == 0)
             flow_.pdf.bookmark(flow_.page(), top + 4, "Scans");
@@ -142,14 +140,24 @@ void Sections::drawScans()
     }
 }
 
-void Sections::drawSignature()
+std::vector<TextLine> Sections::signatureLines() const
 {
     std::vector<TextLine> lines{flow_.type.line(stateWords(content_.version), look::kBold)};
     if (const std::string amends = amendmentWords(content_.version); !amends.empty())
         for (const TextLine& line : flow_.type.lines(amends, look::kBody, flow_.width()))
             lines.push_back(line);
-    flow_.need(double(lines.size()) * leadingOf(look::kBold));
-    flow_.paragraph(flow_.left(), flow_.width(), lines, look::kBold, look::kInk);
+    return lines;
+}
+
+double Sections::signatureHeight() const
+{
+    return double(signatureLines().size()) * leadingOf(look::kBold);
+}
+
+void Sections::drawSignature()
+{
+    flow_.need(signatureHeight());
+    flow_.paragraph(flow_.left(), flow_.width(), signatureLines(), look::kBold, look::kInk);
 }
 
 FramedPicture Sections::framed(const std::filesystem::path& file, double print_width, const std::string& caption,

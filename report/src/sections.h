@@ -61,6 +61,8 @@ private:
     bool drawMapBesideFacts();
     /// The map of one scan leaves the room for what was measured of the colon's parts as well.
     bool drawOneMapBesideParts();
+    /// The same where it leaves less: map, facts and parts side by side.
+    bool drawOneMapInThreeColumns(double room);
     /// What the page has for the map, when all that follows has its place.
     double roomForMap() const;
     /// @param of_colon with what is said of the colon
@@ -79,18 +81,27 @@ private:
     double studyHeight() const;
     void drawScans();
     void drawSignature();
+    std::vector<TextLine> signatureLines() const;
+    double signatureHeight() const;
     /// The markers of no finding.
     std::vector<const MarkerEntry*> looseMarkers() const;
+    /// What was not told of it yet: strips and parts.
     void drawQuality();
     double qualityHeight() const;
-    /// The colons laid straight; false where no scan has one.
-    bool drawStrips();
+    /// As much of it as page one has the room for.
+    void drawQualityOnPageOne();
+    /// The colons laid straight; false where no scan has one, or they are drawn already.
+    /// @param below of what follows on the same page: points
+    bool drawStrips(double below);
+    double stripsHeight() const;
+    /// @param headed whether it needs a heading of its own
+    void drawParts(bool headed);
     /// Whether what is to be said of the scans stands with their strips: that is little, and nothing was found.
     bool scansToldInStrips() const;
     std::vector<const ScanEntry*> stripScans() const;
     std::vector<StripColon> strips() const;
     StripColon stripOf(const ScanEntry& entry) const;
-    /// Whose parts are told below each other in a table; none where they were told beside the map.
+    /// Whose parts are to be told below each other in a table; none where they were told already.
     std::vector<const ScanEntry*> measuredScans() const;
     double partRowsHeight() const;
     double tailHeight() const;
@@ -138,7 +149,8 @@ private:
     PageFlow& flow_;
     PictureShelf shelf_;
     std::map<std::string, TableRow> rows_;  ///< by the id of marker or finding
-    bool parts_told_ = false;               ///< what was measured of the colon's parts, beside the map
+    bool parts_told_ = false;               ///< what was measured of the colon's parts
+    bool strips_told_ = false;
     std::vector<std::string> warnings_;
 };
 

@@ -161,7 +161,7 @@ TEST_F(GivenLumenOfTheCommand, IsCorrectedAsAFoundOneIs)
     EXPECT_DOUBLE_EQ(millilitres(), half_ml);
 }
 
-TEST_F(GivenLumenOfTheCommand, IsNotCalledViconsInTheSegmentationOfAReport)
+TEST_F(GivenLumenOfTheCommand, IsNotCalledViconsInAnyFormOfAReport)
 {
     const fs::path store = folder_->path() / "named", config = folder_->path() / "c.toml";
     readSmallStudy(store);
@@ -179,6 +179,17 @@ TEST_F(GivenLumenOfTheCommand, IsNotCalledViconsInTheSegmentationOfAReport)
                                 sha256OfFile(masks() / "nifti-sform.-20-1.nii").substr(0, 12)));
     EXPECT_THAT(dump, testing::Not(HasSubstr("segmented by VICON")));
     EXPECT_THAT(runCommand("dciodvfy " + plain.string()).output, testing::Not(HasSubstr("Error")));
+
+    const std::string sha256 = sha256OfFile(masks() / "nifti-sform.-20-1.nii");
+    EXPECT_EQ(
+        viconJson(store, "export " + scan_.case_id + " --as json")["content"]["scans"][0]["given_lumen"]["sha256"],
+        sha256);
+    for (const char* form : {"text", "fhir", "hl7"})
+        EXPECT_THAT(viconOn(store, "export " + scan_.case_id + " --as " + form),
+                    testing::AllOf(HasSubstr("made by another program"), HasSubstr(sha256.substr(0, 12))))
+            << form;
+    EXPECT_THAT(runCommand("dsrdump +Pl " + (report / "version-1-sr.dcm").string()).output,
+                HasSubstr("Made by another program: NIfTI, label 1, SHA-256 " + sha256.substr(0, 12)));
 }
 
 TEST_F(GivenLumenOfTheCommand, OfASignedReportComesBackAsItWasAndMarkersAndReportStay)

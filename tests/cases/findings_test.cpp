@@ -283,7 +283,10 @@ TEST_F(Findings, AreReadBackFromAReportsContent)
 {
     case_.add({"m1", "m2"});
     saveAssessment(store_, "c1", {}, fullAssessment());
-    const auto content = reportContent(readCase(store_, "c1"));
+    ReadCase read = readCase(store_, "c1");
+    read.given_lumens["s1"] = {"NIfTI", "0123", 7, 0.97, "anna", "2026-11-25T12:00:00Z"};
+    const auto content = reportContent(read);
+    EXPECT_EQ(content["scans"][0]["given_lumen"]["label"], 7);
     EXPECT_EQ(reportContent(readCaseFromContent(content)), content);
 }
 

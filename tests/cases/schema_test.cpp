@@ -66,6 +66,11 @@ TEST(Schemas, HoldForReports)
     marked.choose();
     write(keepVersion(marked.store, "c1", draftVersion(marked.store, {}, "c1", false, "0.1.0"), "a PDF"));
     EXPECT_EQ(schemaFaults("report", {file}), "") << "of everything";
+    ReadCase other = readCase(marked.store, "c1");
+    other.given_lumens["s1"] = {"NIfTI", std::string(64, 'a'), 7, 0.97, "anna", "2026-11-25T12:00:00Z"};
+    std::ofstream(file) << reportDocument({}, reportContent(other));
+    EXPECT_EQ(schemaFaults("report", {file}), "") << "of a lumen that another program made";
+    write({});
     auto wrong = nlohmann::json::parse(readFile(file));
     wrong["content"]["findings"][0]["facts"]["sights"][0]["clock_hour"] = 13;
     std::ofstream(file) << wrong;

@@ -1,6 +1,7 @@
 #include "vicon/report/forms.h"
 
 #include <fstream>
+#include <regex>
 
 #include "pdf_fixture.h"
 #include "vicon/core/file.h"
@@ -22,6 +23,16 @@ protected:
             content_.read.markers.push_back(entry.marker);
     }
     const ReadCase& read() const { return content_.read; }
+    /// Another program made the scan's lumen.
+    void giveLumen()
+    {
+        content_.read.given_lumens["s1"] = {.form = "NRRD",
+                                            .sha256 = std::string(64, 'b'),
+                                            .label = 3,
+                                            .gas_or_fluid = 0.98,
+                                            .by = "anna",
+                                            .at = "2026-11-25T12:00:00Z"};
+    }
     /// The finding with one of an earlier report, as the reader confirmed; and with another that it is not.
     void compare()
     {
@@ -105,6 +116,19 @@ TEST_F(Forms, AsCsvListAFindingThatNoMarkerShows)
     const std::string csv = asCsv(read());
     EXPECT_EQ(std::count(csv.begin(), csv.begin() + long(csv.find("\r\n", csv.find("\r\n") + 2)), ','), 2 * 31 + 1)
         << "the note holds one more";
+}
+
+/// What the forms say of a lumen that another program made.
+constexpr const char* kOtherLumen =
+    "made by another program: NRRD, label 3, SHA-256 bbbbbbbbbbbb..., given by anna on 2026-11-25T12:00:00Z";
+
+TEST_F(Forms, AsTextNameALumenThatAnotherProgramMade)
+{
+    EXPECT_THAT(asText(read(), {}), testing::Not(HasSubstr("Lumen:")));
+    giveLumen();
+    std::string text = asText(read(), {});
+    text = std::regex_replace(text, std::regex("\\s+"), " ");
+    EXPECT_THAT(text, HasSubstr(std::string("Lumen: prone (series 3): ") + kOtherLumen));
 }
 
 ReportVersion signedVersion(ReportState state)
@@ -197,6 +221,33 @@ TEST_F(Fhir, AConfirmedPriorFindingAndItsGrowthAreMembersOfTheFinding)
     EXPECT_EQ(told, 1) << "the one that was confirmed";
 }
 
+TEST_F(Fhir, WhatIsMeasuredInALumenThatAnotherProgramMadeSaysSo)
+{
+    samples::makeNormal(content_);
+    content_.read.record.study.uid = "1.2.3";
+    content_.read.scans.at(0).series.uid = "1.2.3.4";
+    content_.read.parts.at(0).by_reader = true;
+    const auto methods = [](const nlohmann::json& bundle) {
+        std::map<std::string, int> told;
+        for (const auto& entry : bundle["entry"])
+            if (const auto& one = entry["resource"]; one.contains("method")) {
+                EXPECT_EQ(one["method"]["coding"][0]["code"], "OTHER_LUMEN");
+                EXPECT_EQ(one["method"]["text"], std::string("in a lumen ") + kOtherLumen);
+                ++told[one["code"]["text"].get<std::string>()];
+            }
+        return told;
+    };
+    EXPECT_THAT(methods(asFhir(read(), {})), testing::IsEmpty());
+    giveLumen();
+    const auto bundle = asFhir(read(), signedVersion(ReportState::final));
+    EXPECT_EQ(faults(bundle), "");
+    EXPECT_EQ(only(bundle, "ImagingStudy")["note"][0]["text"],
+              std::string("Lumen of prone (series 3): ") + kOtherLumen);
+    auto told = methods(bundle);
+    EXPECT_EQ(told["Measurement Group"], 2);
+    EXPECT_EQ(told["Distension"], 7) << "but for the one that the reader told";
+}
+
 TEST_F(Fhir, ACaseOfWhichLittleIsKnownIsValid)
 {
     ReadCase bare;
@@ -236,6 +287,24 @@ TEST_F(Forms, AsHl7AreReadBackByAnotherProgram)
     const FindingFacts& facts = read().findings[0].facts;
     EXPECT_EQ(std::stod(said["373197004/1"]), *facts.size_mm);
     EXPECT_NEAR(std::stod(said["112233/1.2"]), facts.sights[1].station_mm, 1e-5);
+}
+
+TEST_F(Forms, AsHl7NameALumenThatAnotherProgramMadeAsAnObservationOfItsOwn)
+{
+    const auto told = [&] {
+        replaceFile(folder_ / "m.hl7", asHl7(read(), signedVersion(ReportState::final)));
+        std::vector<std::string> values;
+        const auto message = parsedHl7(folder_ / "m.hl7");
+        for (const auto& observation : message["OBX"])
+            if (observation[3] == "OTHER_LUMEN^Lumen made by another program^L") {
+                EXPECT_EQ(observation[2], "ST");
+                values.push_back(observation[5]);
+            }
+        return values;
+    };
+    EXPECT_THAT(told(), testing::IsEmpty());
+    giveLumen();
+    EXPECT_THAT(told(), testing::ElementsAre(std::string("prone (series 3): ") + kOtherLumen));
 }
 
 TEST_F(Forms, AsHl7TellWhatAFindingWasInAnEarlierReport)

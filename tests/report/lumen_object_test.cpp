@@ -17,6 +17,9 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
+const LumenOrigin kOther{
+    .form = "NIfTI", .sha256 = std::string(64, 'a'), .label = 7, .by = "jörg", .at = "2026-11-25T12:00:00Z"};
+
 /// A scan all of whose voxels are lumen.
 class LumenObject : public StoreFixture {
 protected:
@@ -44,8 +47,8 @@ protected:
                 soci::use(case_id_), soci::use(scan), soci::use(result);
         });
     }
-    /// What is in the object; it has no fault.
-    std::string dumped()
+    /// What is in the object, by another program; it has no fault.
+    std::string dumped(report::ObjectKind kind = report::ObjectKind::lumen, const char* by = "dcmdump +L ")
     {
         const ReadCase read = readCase(store, case_id_);
         const ReportVersion version{.version = 1,
@@ -55,14 +58,14 @@ protected:
                                     .software = "0.1.0",
                                     .digest = "d"};
         report::ShownScans scans(store, read);
-        const auto objects = report::writeReportObjects(
-            scans, {read, version, std::nullopt, "pdf", {}, {report::ObjectKind::lumen}}, folder.path());
+        const auto objects =
+            report::writeReportObjects(scans, {read, version, std::nullopt, "pdf", {}, {kind}}, folder.path());
         if (objects.size() != 1)
             return std::to_string(objects.size()) + " objects";
         const std::string plain = (folder / "plain.dcm").string();
         support::runCommand("dcmconv +te " + objects[0].file.string() + " " + plain);
         EXPECT_THAT(support::runCommand("dciodvfy " + plain).output, Not(HasSubstr("Error")));
-        return support::runCommand("dcmdump +L " + plain).output;
+        return support::runCommand(by + plain).output;
     }
 };
 
@@ -75,14 +78,29 @@ TEST_F(LumenObject, SaysThatViconSegmentedWhatItFound)
 
 TEST_F(LumenObject, NamesAnotherProgramsLumenAsThatAndNotAsViconsOwn)
 {
-    segment(LumenOrigin{
-        .form = "NIfTI", .sha256 = std::string(64, 'a'), .label = 7, .by = "jörg", .at = "2026-11-25T12:00:00Z"});
+    segment(kOther);
     EXPECT_THAT(dumped(),
                 testing::AllOf(HasSubstr("[Lumen of the colon, made by another program]"),
                                HasSubstr("[Another program's, not known to VICON]"),
                                HasSubstr("[Made by another program: NIfTI, label 7, SHA-256 aaaaaaaaaaaa..., "
                                          "given by jörg on 2026-11-25T12:00:00Z]"),
                                HasSubstr("segmented by another program"), Not(HasSubstr("segmented by VICON"))));
+}
+
+TEST_F(LumenObject, OfAnotherProgramIsNamedInTheMeasurementsThatRestOnIt)
+{
+    segment(kOther);
+    const std::string tree = dumped(report::ObjectKind::measurements, "dsrdump +Pl ");
+    EXPECT_THAT(
+        tree, testing::AllOf(HasSubstr("Lumen made by another program"), HasSubstr("Algorithm Name"),
+                             HasSubstr("Another program's, not known to VICON"),
+                             HasSubstr("Made by another program: NIfTI, label 7, SHA-256 aaaaaaaaaaaa..., given by")));
+}
+
+TEST_F(LumenObject, ThatViconFoundIsNotMentionedInTheMeasurements)
+{
+    segment(std::nullopt);
+    EXPECT_THAT(dumped(report::ObjectKind::measurements, "dsrdump +Pl "), Not(HasSubstr("another program")));
 }
 
 }  // namespace

@@ -126,6 +126,14 @@ const Page kPages[] = {
     {"OneFinding", 1, 2, [](ReportContent&) {}, 3, "Example Hospital", true},
     {"OneFindingInOneScan", 1, 1, [](ReportContent&) {}, 3, "Example Hospital", true},
     {"TwelveFindings", 12, 2, [](ReportContent&) {}, 15},
+    {"TwelveFindingsInOneScan", 12, 1, [](ReportContent&) {}, 15},
+    {"MarkersOfNoFinding", 3, 2,
+     [](ReportContent& content) {
+         content.read.findings.clear();
+         for (const MarkerEntry& entry : content.markers)
+             content.read.loose_markers.push_back(entry.marker.id);
+     },
+     7},
     {"AMass", 1, 2,
      [](ReportContent& content) {
          Finding& mass = content.read.findings[0].finding;
@@ -167,6 +175,18 @@ const Page kPages[] = {
     {"NoBirthDate", 1, 2, [](ReportContent& content) { content.read.record.patient.birth_date.clear(); }, 3},
 };
 
+/// Where the lowest word of page one stands that is not in the footer, as a share of the page's height.
+double filledShare(const std::filesystem::path& pdf, double page_height)
+{
+    constexpr double kFooter = 45;  // points
+    double lowest = 0;
+    const std::vector<std::vector<samples::Word>> pages = samples::wordsByPage(pdf);
+    for (const samples::Word& word : pages.at(0))
+        if (word.bottom < page_height - kFooter)
+            lowest = std::max(lowest, word.bottom);
+    return lowest / page_height;
+}
+
 class Pages : public PdfWriter, public testing::WithParamInterface<Page> {
 protected:
     void SetUp() override
@@ -185,6 +205,8 @@ protected:
     }
 };
 
+constexpr std::size_t kLeastWords = 45;  // of the last page, with what stands on every page
+
 TEST_P(Pages, AreSoundAndTidyAndSayEveryNumber)
 {
     for (const char* paper : {"a4", "letter"}) {
@@ -198,6 +220,14 @@ TEST_P(Pages, AreSoundAndTidyAndSayEveryNumber)
                 samples::expectLayout(pdf_, GetParam().name);
         } else {
             expectTidy(pdf_, 612, 792);
+        }
+        EXPECT_THAT(samples::pageTexts(pdf_).back(), HasSubstr(content_.version ? "Signed by" : "Draft, not signed"));
+        EXPECT_GT(samples::wordsByPage(pdf_).back().size(), kLeastWords) << "no page for the signature alone";
+        if (content_.version && content_.version->replaces != 0) {
+            EXPECT_THAT(samples::pageTexts(pdf_).at(0), HasSubstr("CT colonography report, amended"));
+        }
+        if (GetParam().findings > 0) {
+            EXPECT_GT(filledShare(pdf_, std::string(paper) == "a4" ? 842 : 792), 0.75) << paper;
         }
         std::string text =
             samples::textOf(pdf_) + support::runCommand("pdftotext -layout " + pdf_.string() + " -").output;

@@ -55,6 +55,11 @@ Code kernelConcept()
     return ours("KERNEL", "Convolution Kernel");
 }
 
+Code otherLumenConcept()
+{
+    return ours("OTHER_LUMEN", "Lumen made by another program");
+}
+
 Code dcm(const char* value, const char* meaning)
 {
     return {value, "DCM", meaning};

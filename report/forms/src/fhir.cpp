@@ -67,6 +67,14 @@ private:
         results_.push_back(fhir::reference(add(name, resource)));
     }
     json observed(const Code& code, const CodedFacts& facts) { return fhir::observation(subject_, code, facts); }
+    /// What is measured along a lumen that another program made says so.
+    void putLumen(json& measured, const std::string& scan_id) const
+    {
+        if (const auto given = read_.given_lumens.find(scan_id); given != read_.given_lumens.end()) {
+            measured["method"] = fhir::codeable(otherLumenConcept());
+            measured["method"]["text"] = "in a lumen " + otherProgramsLumen(given->second);
+        }
+    }
 
     void addFinding(const FindingWithFacts& one)
     {
@@ -90,6 +98,7 @@ private:
         seen["identifier"] = {{{"value", trackingName(finding) + ", marker " + sight.marker_id}}};
         if (sight.part)
             seen["bodySite"] = fhir::codeable(codeOf(*sight.part));
+        putLumen(seen, sight.scan_id);
         return add(finding.id + " " + sight.marker_id, seen);
     }
     std::string addComparison(const Finding& finding, const ComparedFinding& compared, int number)
@@ -115,6 +124,8 @@ private:
             part["valueCodeableConcept"] = fhir::codeable(codeOf(state.distension));
             part["bodySite"] = fhir::codeable(codeOf(state.part));
             part["note"] = {{{"text", scanLabel(read_, state.scan_id)}}};
+            if (!state.by_reader)
+                putLumen(part, state.scan_id);
             addResult("distension " + state.scan_id + " " + nameOf(state.part), part);
         }
     }

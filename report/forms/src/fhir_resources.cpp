@@ -4,6 +4,7 @@
 #include "split.h"
 #include "vicon/cases/printed.h"
 #include "vicon/core/uid.h"
+#include "vicon/report/finding_statements.h"
 
 namespace vicon::report::fhir {
 namespace {
@@ -136,6 +137,8 @@ json imagingStudy(const ReadCase& read)
         out["referrer"] = {{"display", referrer}};
     for (const ScanRecord& scan : read.scans)
         out["series"].push_back(seriesOf(scan));
+    for (const Statement& lumen : lumenStatements(read))
+        out["note"].push_back({{"text", "Lumen of " + lumen.text}});
     return out;
 }
 

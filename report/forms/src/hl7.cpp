@@ -111,6 +111,8 @@ public:
         addText(loinc("18782-3", "Radiology Study observation (narrative)"), asText(read_, version_));
         addText(loinc("19005-8", "Radiology Imaging study [Impression] (narrative)"), impressionText(read_));
         addFacts(factsOfStudy(read_.assessment), "");
+        for (const Statement& lumen : lumenStatements(read_))
+            observe("ST", otherLumenConcept(), "", escaped(lumen.text));
         for (const FindingWithFacts& finding : read_.findings)
             addFinding(finding);
         return out_;

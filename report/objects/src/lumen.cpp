@@ -69,8 +69,8 @@ Maker makerOf(const std::optional<LumenOrigin>& given)
 {
     if (!given)
         return {"Lumen of the colon: gas and tagged fluid", "VICON", "", "segmented by VICON"};
-    return {"Lumen of the colon, made by another program", "Another program's, not known to VICON",
-            "Made by another program: " + textOf(*given), "segmented by another program, put on these planes by VICON"};
+    return {"Lumen of the colon, made by another program", kOtherAlgorithm, otherLumenWords(*given),
+            "segmented by another program, put on these planes by VICON"};
 }
 
 std::unique_ptr<DcmSegmentation> emptySegmentation(const ImagePlane& plane, const Maker& maker)

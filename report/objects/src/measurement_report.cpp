@@ -78,6 +78,22 @@ void addParts(SrTree& tree, const ReadCase& read)
         });
 }
 
+/// Of each lumen that another program made (TID 4019): what is measured along the colon rests on it.
+void addOtherLumens(SrTree& tree, const ReadCase& read)
+{
+    for (const ScanRecord& scan : read.scans) {
+        const auto given = read.given_lumens.find(scan.id);
+        if (given == read.given_lumens.end())
+            continue;
+        tree.container(kContains, otherLumenConcept(), nullptr, [&] {
+            tree.uid(kObserved, seriesConcept(), scan.series.uid);
+            tree.text(kObserved, dcm("111001", "Algorithm Name"), kOtherAlgorithm);
+            tree.text(kObserved, dcm("111003", "Algorithm Version"), "not known");
+            tree.text(kContains, dcm("121106", "Comment"), otherLumenWords(given->second));
+        });
+    }
+}
+
 void addExtracolonic(SrTree& tree, const Assessment& said)
 {
     for (const ExtracolonicFinding& finding : said.extracolonic)
@@ -106,6 +122,7 @@ void fillTree(DSRDocumentTree& document, const ObjectContent& content, const Mar
         tree.container(kContains, {"C0034375", "UMLS", "Qualitative Evaluations"}, nullptr, [&] {
             tree.words(study);
             addParts(tree, read);
+            addOtherLumens(tree, read);
             addExtracolonic(tree, read.assessment);
         });
         addWords(tree, read.assessment);

@@ -22,6 +22,13 @@ int seriesNumber(ObjectKind kind);
 /// A decimal string of DICOM: the most digits that its 16 characters hold.
 std::string decimalString(double value);
 
+/// Of a lumen that VICON did not make: its algorithm's name, at most 64 characters, and whence it came.
+inline constexpr const char* kOtherAlgorithm = "Another program's, not known to VICON";
+inline std::string otherLumenWords(const LumenOrigin& origin)
+{
+    return "Made by another program: " + textOf(origin);
+}
+
 /// Puts a text; an empty one leaves the element empty.
 void put(DcmItem& item, const DcmTagKey& tag, const std::string& value);
 /// Puts a code as the only item of a sequence.

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <future>
 
-#include "vicon/cases/step_results.h"
 #include "vicon/dicom/dicom_setup.h"
 #include "vicon/scan_files/skeleton_file.h"
 
@@ -49,8 +48,8 @@ std::vector<ToRead> toRead(CaseStore& store, const ReadCase& read, const std::ve
         one.lumen = prepared && has(kinds, ObjectKind::lumen);
         if (one.lumen || !one.sights.empty())
             one.instances = store.instances(scan.case_id, scan.id);
-        if (const StepResults results = resultsOf(store.steps(scan.case_id, scan.id)); results.segment)
-            one.given = results.segment->given;
+        if (const auto given = read.given_lumens.find(scan.id); given != read.given_lumens.end())
+            one.given = given->second;
         all.push_back(std::move(one));
     }
     return all;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "vicon/cases/comparisons.h"
 #include "vicon/cases/finding_facts.h"
 #include "vicon/cases/findings.h"
+#include "vicon/cases/given_lumen.h"
 
 namespace vicon {
 
@@ -28,7 +30,8 @@ struct FindingWithFacts {
 /// All that is known for a case's report: what people said, and what follows from it.
 struct ReadCase {
     CaseRecord record;
-    std::vector<ScanRecord> scans;  ///< of role "scan", and those with markers
+    std::vector<ScanRecord> scans;                    ///< of role "scan", and those with markers
+    std::map<std::string, LumenOrigin> given_lumens;  ///< by scan: of those whose lumen another program made
     std::vector<Marker> markers;
     std::vector<FindingWithFacts> findings;
     std::vector<std::string> loose_markers;  ///< ids of those that belong to no finding

@@ -25,6 +25,9 @@ std::string placeWords(const FindingFacts& facts);
 /// "about 32 cm (26 to 39 cm)"; empty where no marker shows the finding.
 std::string endoscopeWords(const FindingFacts& facts);
 
+/// "made by another program: NIfTI, label 1, SHA-256 0123456789ab..., given by anna on 2026-11-25T12:00:00Z".
+std::string otherProgramsLumen(const LumenOrigin& origin);
+
 /// All that is known of a finding but its number, kind and leading size.
 std::vector<Statement> findingStatements(const ReadCase& read, const FindingWithFacts& finding);
 
@@ -43,7 +46,9 @@ std::vector<Statement> occasionStatements(const ReadCase& read);
 std::vector<Statement> reliabilityStatements(const ReadCase& read);
 /// Technique, dose, coverage and reading time, where they were said.
 std::vector<Statement> techniqueStatements(const ReadCase& read);
-/// All of the three.
+/// Of each scan whose lumen another program made, that it did; all that lies along the colon is measured in it.
+std::vector<Statement> lumenStatements(const ReadCase& read);
+/// All of the four.
 std::vector<Statement> assessmentStatements(const ReadCase& read);
 std::vector<Statement> extracolonicStatements(const ReadCase& read);
 

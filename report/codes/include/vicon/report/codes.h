@@ -36,6 +36,7 @@ Code seriesConcept();  ///< Series Instance UID
 Code patientPositionConcept();
 Code sliceThicknessConcept();
 Code kernelConcept();
+Code otherLumenConcept();  ///< that another program made the lumen
 
 Code dcm(const char* value, const char* meaning);
 Code sct(const char* value, const char* meaning);
