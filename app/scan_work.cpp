@@ -38,18 +38,18 @@ pipeline::JobWork scanWork(CaseStore& store, const Config& config)
 void requeueOutdated(CaseStore& store, const Config& config, const std::string& case_id, const std::string& scan_id)
 {
     JobQueue queue(store.database(), config.get<QueueOptions>());
-    for (const Job& job : queue.jobs())
-        if (job.state == JobState::done && (case_id.empty() || job.case_id == case_id) &&
-            (scan_id.empty() || job.scan_id == scan_id) && isOutdated(store, config, job))
+    for (const Job& job :
+         case_id.empty() ? queue.jobs(JobState::done) : queue.jobs(std::vector{CaseRecord{.id = case_id}}))
+        if (job.state == JobState::done && (scan_id.empty() || job.scan_id == scan_id) &&
+            isOutdated(store, config, job))
             queue.retry(job.case_id, job.scan_id);
 }
 
 int countOutdated(CaseStore& store, const Config& config)
 {
-    const auto jobs = JobQueue(store.database(), config.get<QueueOptions>()).jobs();
-    return int(std::count_if(jobs.begin(), jobs.end(), [&](const Job& job) {
-        return job.state == JobState::done && isOutdated(store, config, job);
-    }));
+    constexpr int kLookedAt = 1000;  // each costs a look at its files, and an archive has a million
+    const auto jobs = JobQueue(store.database(), config.get<QueueOptions>()).newestDone(kLookedAt);
+    return int(std::count_if(jobs.begin(), jobs.end(), [&](const Job& job) { return isOutdated(store, config, job); }));
 }
 
 }  // namespace vicon::app

@@ -14,7 +14,7 @@ pipeline::JobWork scanWork(CaseStore& store, const Config& config);
 void requeueOutdated(CaseStore& store, const Config& config, const std::string& case_id = {},
                      const std::string& scan_id = {});
 
-/// How many finished scans are out of date.
+/// How many finished scans are out of date, of the thousand that came last.
 int countOutdated(CaseStore& store, const Config& config);
 
 }  // namespace vicon::app

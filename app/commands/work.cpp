@@ -62,9 +62,8 @@ std::string warningOf(CaseStore& store, const Job& job)
 void retryFailed(CaseStore& store, const QueueOptions& options)
 {
     JobQueue queue(store.database(), options);
-    for (const Job& job : queue.jobs())
-        if (job.state == JobState::failed)
-            queue.retry(job.case_id, job.scan_id);
+    for (const Job& job : queue.jobs(JobState::failed))
+        queue.retry(job.case_id, job.scan_id);
 }
 
 /// Steps take and give back hundreds of megabytes at a time. What goes back to the system comes again page by page,

@@ -221,7 +221,7 @@ void CaseStore::addScan(const CaseRecord& a_case, const ScanRecord& scan, const 
         putScan(sql, scan);
         putInstances(sql, instances);
         if (queue)
-            enqueueJob(sql, scan.case_id, scan.id);
+            enqueueJob(sql, scan.case_id, scan.id, scan.ingest.value(kIngestSender, ""));
         else if (scan.role != ScanRole::scan)
             withdrawJob(sql, scan.case_id, scan.id);
         putAudit(sql, "imported", scan.case_id, scan.id, std::to_string(instances.size()) + " objects");

@@ -117,8 +117,17 @@ const std::vector<std::vector<const char*>> kMigrations = {
         // By which a server is asked for a commit whose answer did not come; in a file it stays empty.
         "CREATE TABLE commits (name TEXT PRIMARY KEY, at REAL NOT NULL)",
     },
+    {
+        // Senders take turns, so that none waits for all that another sent.
+        "ALTER TABLE jobs ADD COLUMN sender TEXT NOT NULL DEFAULT ''",
+        "ALTER TABLE jobs ADD COLUMN turn INTEGER NOT NULL DEFAULT 0",
+        "DROP INDEX jobs_waiting",
+        "CREATE INDEX jobs_waiting ON jobs (opened DESC, turn, queued) WHERE state = 'queued'",
+        "CREATE INDEX jobs_turn ON jobs (turn) WHERE state = 'queued'",
+        "CREATE INDEX jobs_sender ON jobs (sender, turn) WHERE state = 'queued'",
+    },
 };
-static_assert(Database::kSchemaVersion == 8, "add a migration for every version");
+static_assert(Database::kSchemaVersion == 9, "add a migration for every version");
 
 /// The connection broke before the server had committed.
 struct NotCommitted {};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "case_rows.h"
 #include "database_engine.h"
@@ -129,7 +130,7 @@ std::optional<Job> JobQueue::claim(const std::string& owner)
             (sql.prepare
                  << "UPDATE jobs SET state = 'running', owner = :owner, lease_until = :until, fence = fence + 1,"
                     " changed = :changed WHERE (case_id, scan_id) = (SELECT case_id, scan_id FROM jobs"
-                    " WHERE state = 'queued' AND not_before <= :now ORDER BY opened DESC, queued, rowid LIMIT 1" +
+                    " WHERE state = 'queued' AND not_before <= :now ORDER BY opened DESC, turn, queued, rowid LIMIT 1" +
                         skippingLocked(sql) + ") RETURNING *",
              soci::use(owner), soci::use(lease_until), soci::use(changed), soci::use(now));
         const auto jobs = collect(rows);
@@ -152,10 +153,11 @@ void JobQueue::capTimes(soci::session& sql)
 void JobQueue::dropLost(soci::session& sql)
 {
     const double now = nowIn(sql);
-    // In one order for all: two that drop the same jobs must not wait for each other.
-    const soci::rowset<soci::row> rows =
-        (sql.prepare << "SELECT * FROM jobs WHERE state = 'running' ORDER BY case_id, scan_id");
-    for (Job& job : collect(rows)) {
+    std::vector<Job> running = collect((sql.prepare << "SELECT * FROM jobs WHERE state = 'running'"));
+    // In one order for all: two that drop the same jobs must not wait for each other. Sorted here: SQLite would walk
+    // through all jobs for it.
+    std::ranges::sort(running, {}, [](const Job& job) { return std::tie(job.case_id, job.scan_id); });
+    for (Job& job : running) {
         const auto isLost = [&](const Job& seen) { return seen.lease_until <= now || ownerIsGone(seen.owner); };
         if (!isLost(job) || !hold(sql, job) || !isLost(*find(job.case_id, job.scan_id)))
             continue;  // others may have renewed or dropped it since it was read
@@ -292,9 +294,15 @@ std::vector<Job> JobQueue::jobs()
     return select("ORDER BY rowid");
 }
 
+/// By the state's own index: without the sign SQLite would walk through all jobs, which have their order.
 std::vector<Job> JobQueue::jobs(JobState state)
 {
-    return select("WHERE state = '" + nameOf(state) + "' ORDER BY rowid");
+    return select("WHERE state = '" + nameOf(state) + "' ORDER BY +rowid");
+}
+
+std::vector<Job> JobQueue::newestDone(int most)
+{
+    return select("WHERE state = 'done' ORDER BY rowid DESC LIMIT " + std::to_string(most));
 }
 
 std::vector<Job> JobQueue::jobs(const std::vector<CaseRecord>& cases)

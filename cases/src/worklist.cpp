@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 
+#include "search_words.h"
 #include "vicon/cases/corrections.h"
 #include "vicon/cases/outbox.h"
 #include "vicon/cases/report_files.h"
@@ -112,6 +113,25 @@ std::vector<WorklistCase> makeWorklistCases(CaseStore& store, const QueueOptions
     return out;
 }
 
+/// Those of the wanted cases that are in the wanted state; at most `most` of them.
+std::vector<WorklistCase> casesInState(CaseStore& store, const QueueOptions& options, WorklistPageWanted wanted,
+                                       int most)
+{
+    constexpr int kAtOnce = 500;
+    const bool searched = !wordsIn(wanted.words).empty();
+    const int at_once = searched ? kMostLookedAt : std::min(2 * most, kAtOnce);
+    std::vector<WorklistCase> out;
+    while (true) {
+        const std::vector<CaseRecord> records = casesOfPage(store, wanted, at_once);
+        for (WorklistCase& one : makeWorklistCases(store, options, records))
+            if (one.state == *wanted.state && int(out.size()) < most)
+                out.push_back(std::move(one));
+        if (searched || int(out.size()) == most || int(records.size()) < at_once)
+            return out;
+        wanted.after = records.back().id;
+    }
+}
+
 nlohmann::json toJson(const WorklistScan& s)
 {
     return {{"id", s.record.id},
@@ -183,12 +203,13 @@ std::vector<WorklistCase> makeWorklist(CaseStore& store, const QueueOptions& opt
 
 WorklistPage makeWorklistPage(CaseStore& store, const QueueOptions& options, const WorklistPageWanted& wanted)
 {
-    std::vector<CaseRecord> records = casesOfPage(store, wanted);
+    const int most = wanted.most + 1;
     WorklistPage page;
-    page.more = int(records.size()) > wanted.most;
+    page.cases = wanted.state ? casesInState(store, options, wanted, most)
+                              : makeWorklistCases(store, options, casesOfPage(store, wanted, most));
+    page.more = int(page.cases.size()) > wanted.most;
     if (page.more)
-        records.pop_back();
-    page.cases = makeWorklistCases(store, options, records);
+        page.cases.pop_back();
     return page;
 }
 

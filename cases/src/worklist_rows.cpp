@@ -39,11 +39,12 @@ int matches(soci::session& sql, const std::string& beginning, int most)
 /// The rarest word finds, the others tell apart.
 std::vector<CaseRecord> found(soci::session& sql, const std::vector<std::string>& words, int most)
 {
-    constexpr int kMostLookedAt = 2000;
     const std::string from = *std::ranges::min_element(
         words, {}, [&](const std::string& word) { return matches(sql, word, kMostLookedAt); });
     const std::string to = endOf(from);
-    for (int looked_at = std::min(2 * most, kMostLookedAt);; looked_at = std::min(4 * looked_at, kMostLookedAt)) {
+    // Where the others tell apart, more are looked at than are wanted.
+    for (int looked_at = std::min(words.size() == 1 ? most : 2 * most, kMostLookedAt);;
+         looked_at = std::min(4 * looked_at, kMostLookedAt)) {
         const Rows rows = (sql.prepare << kFound, soci::use(from), soci::use(to), soci::use(looked_at));
         const std::vector<CaseRecord> all = collect(rows, caseFrom);
         std::vector<CaseRecord> cases;
@@ -56,22 +57,38 @@ std::vector<CaseRecord> found(soci::session& sql, const std::vector<std::string>
     }
 }
 
+/// Where the cases are read from that have a job in this state: from the jobs where there are few, else along all
+/// cases, so that the newest are found soon.
+std::string casesWith(soci::session& sql, const std::optional<WorkState>& state)
+{
+    const bool known = state && *state != WorkState::kept && *state != WorkState::refused;
+    if (!known)
+        return "cases c WHERE TRUE";
+    const std::string jobs = "jobs WHERE state = '" + nameOf(*state) + "'";
+    int count = kMostLookedAt;
+    if (*state != WorkState::done)  // mostly nearly all, and in no index
+        sql << "SELECT COUNT(*) FROM (SELECT 1 FROM " + jobs + " LIMIT :most) AS found", soci::use(kMostLookedAt),
+            soci::into(count);
+    if (count < kMostLookedAt)
+        return "(SELECT DISTINCT case_id FROM (SELECT case_id FROM " + jobs + " LIMIT " +
+               std::to_string(kMostLookedAt) + ") AS few) found JOIN cases c ON c.id = found.case_id WHERE TRUE";
+    return "cases c WHERE EXISTS (SELECT 1 FROM " + jobs + " AND jobs.case_id = c.id)";
+}
+
 }  // namespace
 
-std::vector<CaseRecord> casesOfPage(CaseStore& store, const WorklistPageWanted& wanted)
+std::vector<CaseRecord> casesOfPage(CaseStore& store, const WorklistPageWanted& wanted, int most)
 {
     soci::session& sql = store.database().session();
-    const int most = wanted.most + 1;
     if (const auto words = wordsIn(wanted.words); !words.empty())
         return found(sql, words, most);
+    const std::string from = casesWith(sql, wanted.state), order = " ORDER BY c.created DESC, c.id DESC LIMIT :most";
     if (wanted.after.empty()) {
-        const Rows rows =
-            (sql.prepare << "SELECT * FROM cases ORDER BY created DESC, id DESC LIMIT :most", soci::use(most));
+        const Rows rows = (sql.prepare << "SELECT c.* FROM " + from + order, soci::use(most));
         return collect(rows, caseFrom);
     }
     const CaseRecord last = store.requireCase(wanted.after);
-    const Rows rows = (sql.prepare << "SELECT * FROM cases WHERE (created, id) < (:created, :id)"
-                                      " ORDER BY created DESC, id DESC LIMIT :most",
+    const Rows rows = (sql.prepare << "SELECT c.* FROM " + from + " AND (c.created, c.id) < (:created, :id)" + order,
                        soci::use(last.created), soci::use(last.id), soci::use(most));
     return collect(rows, caseFrom);
 }

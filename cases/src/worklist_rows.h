@@ -22,7 +22,10 @@ struct WorklistRows {
 };
 WorklistRows worklistRows(CaseStore& store, const QueueOptions& options, const std::vector<CaseRecord>& cases);
 
-/// The cases of a page, and one more where there are more.
-std::vector<CaseRecord> casesOfPage(CaseStore& store, const WorklistPageWanted& wanted);
+/// Of what a word finds, or of the jobs in a state.
+inline constexpr int kMostLookedAt = 2000;
+
+/// The cases of a page, at most `most` of them. Where a state is wanted: those that may be in it.
+std::vector<CaseRecord> casesOfPage(CaseStore& store, const WorklistPageWanted& wanted, int most);
 
 }  // namespace vicon

@@ -18,7 +18,9 @@ namespace vicon::ingest {
 namespace {
 
 constexpr const char* kParts[] = {"arrivals-1.journal", "arrivals-2.journal"};
-constexpr std::size_t kFlushedAtOnce = 8;  // each waits for the disk, which flushes several in the time of one
+/// All of a part: each waits for the disk, which flushes those that wait at once in the time of one. The fewer flushes,
+/// the less do those wait whose copies are flushed meanwhile.
+constexpr std::size_t kFlushedAtOnce = 32;
 constexpr auto kSettleAgain = std::chrono::seconds(1);
 
 /// The disk begins with it, and nobody waits.
@@ -41,25 +43,23 @@ int flushOne(const fs::path& path)
 /// Flushes files and the folders that they lie in. Throws Error{store}.
 void flushAll(const std::vector<fs::path>& files)
 {
-    std::set<fs::path> folders;
+    std::set<fs::path> all(files.begin(), files.end());
     for (const fs::path& file : files) {  // with all before one is waited for
-        folders.insert(file.parent_path());
+        all.insert(file.parent_path());
         beginToFlush(file);
     }
+    const std::vector<fs::path> paths(all.begin(), all.end());
     std::atomic<std::size_t> next = 0;
     std::atomic<int> error = 0;
     std::vector<std::thread> threads;
-    for (std::size_t n = 0; n < std::min(kFlushedAtOnce, files.size()); ++n)
+    for (std::size_t n = 0; n < std::min(kFlushedAtOnce, paths.size()); ++n)
         threads.emplace_back([&] {
-            for (std::size_t one = next++; one < files.size(); one = next++)
-                if (const int number = flushOne(files[one]); number != 0)
+            for (std::size_t one = next++; one < paths.size(); one = next++)
+                if (const int number = flushOne(paths[one]); number != 0)
                     error = number;
         });
     for (std::thread& thread : threads)
         thread.join();
-    for (const fs::path& folder : folders)
-        if (const int number = flushOne(folder); number != 0)
-            error = number;
     if (error != 0)
         throw Error(ErrorCode::store,
                     "received files cannot be flushed to disk (" + std::string(std::strerror(error)) + ")");

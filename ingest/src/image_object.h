@@ -52,6 +52,7 @@ struct ImageObject {
     std::string sop_uid;
     std::string sop_class;
     std::string sha256;
+    std::string sender;  ///< application entity title, where whoever wrote the file knew it
     Patient patient;
     Study study;
     Series series;

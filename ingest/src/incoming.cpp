@@ -111,10 +111,9 @@ int Incoming::waitingOf(const std::string& caller)
     return found == waiting_.end() ? 0 : found->second;
 }
 
-void Incoming::add(const fs::path& folder, const fs::path& received, const fs::path& file)
+void Incoming::add(const fs::path& folder, const fs::path& received, const fs::path& file, const std::string& study)
 {
     journal_->keep(received, file);
-    const std::string study = uidsOf(file).study;
     const std::lock_guard lock(mutex_);
     Batch& batch = batches_[study];
     batch.files.push_back(file);

@@ -45,10 +45,10 @@ public:
     std::filesystem::path open(const std::string& caller = {});
     /// How many objects of this caller wait to be taken.
     int waitingOf(const std::string& caller);
-    /// Takes a file that was received under another name: when this returns, it lies durably in its folder.
-    /// Throws Error{store}.
+    /// Takes an object of a study that was received under another name: when this returns, it lies durably in its
+    /// folder. Throws Error{store}.
     void add(const std::filesystem::path& folder, const std::filesystem::path& received,
-             const std::filesystem::path& file);
+             const std::filesystem::path& file, const std::string& study);
     /// The association is over.
     void close(const std::filesystem::path& folder);
     void trouble(const std::string& what) const;

@@ -61,6 +61,7 @@ void readIdentity(const Dataset& dataset, const Dataset& meta, ImageObject& obje
     object.study.uid = firstOf(dataset.values(DCM_StudyInstanceUID));
     object.series.uid = firstOf(dataset.values(DCM_SeriesInstanceUID));
     object.series.modality = firstOf(dataset.values(DCM_Modality));
+    object.sender = meta.text(DCM_SourceApplicationEntityTitle);
 }
 
 void readPatientAndStudy(const Dataset& dataset, ImageObject& object)

@@ -24,7 +24,7 @@ namespace {
 /// Of a part: about thirty slices of 512 x 512. Two of them bound what a start after a crash puts back.
 constexpr std::uint64_t kPartBytes = 16U << 20U;
 constexpr std::uint64_t kHeadBytes = 4096;  // of a part and of each copy; places are multiples of it
-constexpr std::size_t kCopiedAtOnce = 64U << 10U;
+constexpr std::size_t kCopiedAtOnce = 64U << 10U, kZerosAtOnce = 1U << 20U;
 constexpr const char* kPartMagic = "vicon-arrivals-1";
 
 [[noreturn]] void partFailed(const std::string& what, const fs::path& where)
@@ -115,7 +115,7 @@ bool leadsInside(const std::string& name)
 template <class Take>
 bool readStretch(std::istream& in, std::uint64_t place, std::uint64_t bytes, Take take)
 {
-    std::vector<char> block(kCopiedAtOnce);
+    std::vector<char> block(std::min<std::uint64_t>(bytes, kCopiedAtOnce));
     in.clear();
     in.seekg(std::streamoff(place));
     while (bytes > 0) {
@@ -192,6 +192,15 @@ void JournalPart::open()
     errno = flushToDisk(file_.parent_path());
     if (errno != 0)
         partFailed("cannot be made", file_);
+    writeZeros(kPartBytes);
+}
+
+/// Over the beginning, so that its blocks are there: a flush that has to allocate some takes three times as long.
+void JournalPart::writeZeros(std::uint64_t bytes)
+{
+    const std::string zeros(kZerosAtOnce, '\0');
+    for (std::uint64_t at = 0; at < bytes; at += zeros.size())
+        writeAt(descriptor_, std::string_view(zeros).substr(0, bytes - at), at, file_);
 }
 
 void JournalPart::writeHead()
@@ -204,16 +213,12 @@ void JournalPart::writeHead()
 void JournalPart::copy(const fs::path& from, std::uint64_t bytes, std::uint64_t place, const std::string& name)
 {
     std::ifstream in(from, std::ios::binary);
-    CopyHead head{key_, name, bytes, 0};
-    std::uint64_t at = place + kHeadBytes;
-    const bool all = in && readStretch(in, 0, bytes, [&](std::string_view block) {
-                         head.crc = crcOf(head.crc, block);
-                         writeAt(descriptor_, block, at, file_);
-                         at += block.size();
-                     });
-    if (!all)
+    std::string copy(kHeadBytes + bytes, '\0');  // written at once: a sender waits
+    if (!in.read(copy.data() + kHeadBytes, std::streamsize(bytes)))
         partFailed("cannot be read", from);
-    writeAt(descriptor_, headOf(head.line()), place, file_);
+    const Crc crc = crcOf(0, std::string_view(copy).substr(kHeadBytes));
+    copy.replace(0, kHeadBytes, headOf(CopyHead{key_, name, bytes, crc}.line()));
+    writeAt(descriptor_, copy, place, file_);
     flush();
 }
 
@@ -251,8 +256,13 @@ void JournalPart::renew()
 
 void JournalPart::clear()
 {
+    const std::uint64_t used = end_;
     end_ = 0;
-    if (::ftruncate(descriptor_, 0) != 0 || ::fsync(descriptor_) != 0)
+    if (!broken_)
+        writeZeros(used);
+    else if (::ftruncate(descriptor_, 0) != 0)
+        partFailed("cannot be emptied", file_);
+    if (::fsync(descriptor_) != 0)
         partFailed("cannot be emptied", file_);
 }
 

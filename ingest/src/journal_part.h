@@ -8,9 +8,10 @@
 
 namespace vicon::ingest {
 
-/// A file of copies of other files, one behind the other. Its blocks stay allocated while copies are given up and
-/// others take their place, so that the disk is flushed once for one or several of them, and no table of the file
-/// system changes. A copy is whole, or is not found again; what a copied file holds cannot be made to look like one.
+/// A file of copies of other files, one behind the other. Its blocks are allocated before and stay so while copies are
+/// given up and others take their place, so that the disk is flushed once for one or several of them, and no table of
+/// the file system changes. A copy is whole, or is not found again; what a copied file holds cannot be made to look
+/// like one.
 class JournalPart {
 public:
     explicit JournalPart(std::filesystem::path file) : file_(std::move(file)) {}
@@ -32,6 +33,7 @@ public:
 
 private:
     void open();
+    void writeZeros(std::uint64_t bytes);
     void writeHead();
     void flush();
 

@@ -28,12 +28,11 @@ struct Fault {
 };
 
 /// What import could not take under this name is refused at once, so that its sender knows.
-Fault faultOf(const fs::path& file, const T_DIMSE_C_StoreRQ& request)
+Fault faultOf(const fs::path& file, const ObjectUids& uids, const T_DIMSE_C_StoreRQ& request)
 {
     const Structure structure = scanStructure(file);
     if (structure.fate == Structure::Fate::refused)
         return {STATUS_STORE_Error_CannotUnderstand, structure.why};
-    const ObjectUids uids = uidsOf(file);
     const bool deflated = structure.fate == Structure::Fate::odd && uids.object.empty();
     if (!deflated && uids.object != request.AffectedSOPInstanceUID)
         return {STATUS_STORE_Error_DataSetDoesNotMatchSOPClass, "its SOP Instance UID is not what was announced"};
@@ -157,6 +156,7 @@ OFCondition StorageAssociation::receive(T_DIMSE_C_StoreRQ& request, T_ASC_Presen
     const std::string name = keptNameOf(request.AffectedSOPInstanceUID) + "-" + std::to_string(count_) + ".dcm";
     const fs::path temporary = folder_ / (std::string(kTemporaryPrefix) + name);
     Fault fault;
+    ObjectUids uids;
     try {
         makePrivateFolder(folder_);
         received = receiveSTORERequest(request, context, OFString(temporary.c_str()));
@@ -165,12 +165,12 @@ OFCondition StorageAssociation::receive(T_DIMSE_C_StoreRQ& request, T_ASC_Presen
             fault = {kOutOfResources, "was refused: it has no room on the store's disk"};
         } else if (received.bad()) {
             fault.why = std::string("was not received completely: ") + received.text();
-        } else if (fault = faultOf(temporary, request); fault.status != STATUS_Success) {
+        } else if (fault = faultOf(temporary, uids = uidsOf(temporary), request); fault.status != STATUS_Success) {
             if (const std::string why = whyNoPlace(); !why.empty())  // its end may be missing for that
                 fault = {kOutOfResources, why};
             fault.why = "was refused: " + fault.why;
         } else {
-            service_.incoming.add(folder_, temporary, folder_ / name);
+            service_.incoming.add(folder_, temporary, folder_ / name, uids.study);
         }
     } catch (const std::exception& e) {
         fault = {kOutOfResources, std::string("was refused: ") + e.what()};

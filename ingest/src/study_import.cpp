@@ -14,6 +14,19 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace vicon::ingest {
+namespace {
+
+/// Of several the one that a later import of the same objects finds as well.
+std::string senderOf(const AssembledScan& scan)
+{
+    std::string sender;
+    for (const ImageObject* object : scan.objects)
+        if (!object->sender.empty() && (sender.empty() || object->sender < sender))
+            sender = object->sender;
+    return sender;
+}
+
+}  // namespace
 
 void StudyImport::run(std::vector<Arrival> arrivals, std::map<std::string, SeriesNotes>& notes)
 {
@@ -40,6 +53,8 @@ void StudyImport::describe(AssembledScan& scan, const std::map<std::string, Seri
         ingest["geometry"] = describeGeometry(scan.stack, scan.plan);
         ingest["repairs"] = describeRepairs(scan.objects, scan.plan);
         ingest["lossy"] = scan.record.series.lossy;
+        if (const std::string sender = senderOf(scan); !sender.empty())
+            ingest[kIngestSender] = sender;
         const auto old = stored_.scans.find(scan.record.id);
         scan.record.created = old == stored_.scans.end() ? nowUtc() : old->second.created;
     }

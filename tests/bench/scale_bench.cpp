@@ -44,9 +44,9 @@ void fill(CaseStore& store, int cases)
                        scan + "', " + id + ", '1.2', '{\"number\":1, \"patient_position\":\"HFS\"}', 'scan', '{}', ''" +
                        from;
             sql << "INSERT INTO jobs (case_id, scan_id, state, attempts, not_before, fence, owner, lease_until, step,"
-                   " progress, reason, changed, queued)" +
+                   " progress, reason, changed, queued, sender, turn)" +
                        numbers(cases) + id + ", '" + scan + "', " + state +
-                       ", 0, 0, 1, 'elsewhere/x/1/1', 9e9, '', 0, '', '', n" + from;
+                       ", 0, 0, 1, 'elsewhere/x/1/1', 9e9, '', 0, '', '', n, 'CT' || CAST(n % 7 AS TEXT), n" + from;
         }
     });
     if (!store.place().database.empty())

@@ -62,6 +62,34 @@ TEST_F(Queue, GivesWhatAReaderOpenedFirstAndThatOfTheLastOpenedBeforeAll)
     EXPECT_EQ(queue_.claim("a")->case_id, "e");
 }
 
+TEST_F(Queue, LetsSendersTakeTurnsSoThatNoneWaitsForAllThatAnotherSent)
+{
+    const auto send = [&](const std::string& sender, const std::string& id) {
+        std::filesystem::create_directories(fake_.store.scanFolder(id, "s0"));
+        const nlohmann::json ingest = {{kIngestSender, sender}};
+        fake_.store.addScan({.id = id, .study = {.uid = id}}, {.id = "s0", .case_id = id, .ingest = ingest}, {}, true);
+    };
+    const auto next = [&] { return queue_.claim("a")->case_id; };
+    for (int n = 0; n < 100; ++n)
+        send("CT1", "a" + std::to_string(n));
+    EXPECT_EQ(next(), "a0");
+    EXPECT_EQ(next(), "a1");
+    for (const char* id : {"b0", "b1", "b2"})
+        send("CT2", id);
+    std::vector<std::string> order;
+    for (int n = 0; n < 6; ++n)
+        order.push_back(next());
+    EXPECT_THAT(order, testing::ElementsAre("a2", "b0", "a3", "b1", "a4", "b2"));
+    send("CT3", "c0");
+    send("CT2", "b3");
+    EXPECT_EQ(next(), "a5");
+    EXPECT_EQ(next(), "c0");
+    EXPECT_EQ(next(), "b3");
+    EXPECT_EQ(next(), "a6");
+    queue_.putFirst("a99");
+    EXPECT_EQ(next(), "a99") << "what a reader opened comes before all turns";
+}
+
 TEST_F(Queue, CountsAndListsJobsOfAState)
 {
     fake_.addJobs(3);

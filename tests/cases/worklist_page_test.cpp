@@ -102,6 +102,32 @@ TEST_F(WorklistPages, FindNoMoreThanIsWantedAndEachOnce)
     EXPECT_THAT(found("lee"), UnorderedElementsAre("c1", "c2", "c3"));
 }
 
+TEST_F(WorklistPages, GiveOnlyCasesThatAreInTheWantedState)
+{
+    for (const char* id : {"c1", "c2", "c3", "c4", "c5"})
+        add(id, {"P" + std::string(id), "Doe^Jane", "19600101", "F"});
+    JobQueue queue(store_.database(), {});
+    queue.complete(*queue.claim(thisOwner()));
+    queue.fail(*queue.claim(thisOwner()), "broken", true);
+    ASSERT_TRUE(queue.claim(thisOwner()));
+    const auto in = [&](WorkState state, const std::string& words = {}) {
+        return idsOf(makeWorklistPage(store_, {}, {.words = words, .state = state}));
+    };
+    EXPECT_THAT(in(WorkState::done), ElementsAre("c1"));
+    EXPECT_THAT(in(WorkState::failed), ElementsAre("c2"));
+    EXPECT_THAT(in(WorkState::running), ElementsAre("c3"));
+    EXPECT_THAT(in(WorkState::queued), ElementsAre("c5", "c4"));
+    EXPECT_THAT(in(WorkState::kept), IsEmpty());
+    EXPECT_THAT(in(WorkState::queued, "jane"), UnorderedElementsAre("c4", "c5"));
+    EXPECT_THAT(in(WorkState::queued, "pc1"), IsEmpty());
+    const WorklistPage first = makeWorklistPage(store_, {}, {.most = 1, .state = WorkState::queued});
+    EXPECT_THAT(idsOf(first), ElementsAre("c5"));
+    EXPECT_TRUE(first.more);
+    const WorklistPage last = makeWorklistPage(store_, {}, {.most = 1, .after = "c5", .state = WorkState::queued});
+    EXPECT_THAT(idsOf(last), ElementsAre("c4"));
+    EXPECT_FALSE(last.more);
+}
+
 TEST(WorklistSearch, FindsCasesOfAStoreThatAnEarlierViconMade)
 {
     constexpr int kBeforeTheSearch = 3;

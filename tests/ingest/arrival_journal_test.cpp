@@ -155,7 +155,7 @@ TEST_F(Arrivals, CannotPutAnythingElsewhere)
     journal();
     EXPECT_FALSE(fs::exists(elsewhere));
 
-    const std::string copy = bytes.substr(kHead);
+    const std::string copy = bytes.substr(kHead, kHead + content(0).size());
     inProcessThatDies([&](auto& dying) {
         keep(dying, 1, copy);  // a copy of another key
         fs::remove(file(0));

@@ -41,6 +41,7 @@ TEST_F(Network, AStudySentByStorescuIsHandedOverAndImports)
     receiver.stop();
     EXPECT_EQ(filesIn(incoming), 0u);
     EXPECT_EQ(load(onlyScan()).grid.size[2], 12);
+    EXPECT_EQ(onlyScan().ingest.value(kIngestSender, ""), "STORESCU") << "whose turn it is in the queue";
 }
 
 TEST_F(Network, EveryEncodingArrivesAsItIs)

@@ -16,7 +16,7 @@ class DatabaseEngine;
 /// a connection to a server that broke is made anew. One object serves one thread at a time.
 class Database {
 public:
-    static constexpr int kSchemaVersion = 8;
+    static constexpr int kSchemaVersion = 9;
 
     /// Opens (and creates) the database. Throws Error{database} when it cannot, or when its schema is newer than
     /// this VICON knows.

@@ -73,8 +73,8 @@ public:
     const QueueOptions& options() const { return options_; }
     double now();
 
-    /// Takes the job that is due: of the case that a reader opened last, else the one that has waited longest. First
-    /// drops those whose worker is gone.
+    /// Takes the job that is due: of the case that a reader opened last, else the one that has waited longest of the
+    /// sender whose turn it is. First drops those whose worker is gone.
     std::optional<Job> claim(const std::string& owner);
     /// Extends the lease and shows where the job is. Throws Error{lease_lost} when another worker has the job.
     void renew(const Job& job, const std::string& step, double progress);
@@ -98,6 +98,8 @@ public:
     std::vector<Job> jobs();
     std::vector<Job> jobs(JobState state);
     std::vector<Job> jobs(const std::vector<CaseRecord>& cases);
+    /// Of the jobs that are done, those of the scans that came last.
+    std::vector<Job> newestDone(int most);
     int count(JobState state);
     /// Jobs that run, or on which a worker has been since then ("2026-11-21T08:15:30Z").
     std::vector<Job> workedOnSince(const std::string& utc);

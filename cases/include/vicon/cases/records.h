@@ -18,6 +18,9 @@ struct CaseRecord {
     std::string created;
 };
 
+/// In what ingest wrote: the application entity title by which its images were sent.
+inline constexpr const char* kIngestSender = "sender";
+
 /// A scan and what ingest found out about it.
 struct ScanRecord {
     std::string id;

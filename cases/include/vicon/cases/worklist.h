@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,13 +61,16 @@ struct WorklistPageWanted {
     /// What the reader typed: each the beginning of a part of the patient's name, of ID, accession number, study date
     /// or case id. Those found come in the order of the word that is longest here. Empty: all cases, the newest first.
     std::string words;
-    std::string after;  ///< the last case of the page before; empty: the first page
+    std::string after;                    ///< the last case of the page before; empty: the first page
+    std::optional<WorkState> state = {};  ///< only cases that are so; none: whatever they are
+
+    bool operator==(const WorklistPageWanted&) const = default;
 };
 struct WorklistPage {
     std::vector<WorklistCase> cases;
     bool more = false;  ///< than these
 };
-/// As quick among a million cases as among ten.
+/// As quick among a million cases as among ten, but where many are looked through for few that are so.
 WorklistPage makeWorklistPage(CaseStore& store, const QueueOptions& options, const WorklistPageWanted& wanted);
 
 /// All of it, the oldest first.
