@@ -113,7 +113,15 @@ viewer::ReadingServices readingServices(const StorePlace& store, const Config& c
     viewer::ReadingServices services;
     services.store = store;
     services.receiver = receiverOf(config);
-    services.worklist = [&config](CaseStore& store) { return makeWorklist(store, config.get<QueueOptions>()); };
+    services.worklist = [&config](CaseStore& store, const WorklistPageWanted& wanted) {
+        return makeWorklistPage(store, config.get<QueueOptions>(), wanted);
+    };
+    services.worklist_case = [&config](CaseStore& store, const std::string& case_id) -> std::optional<WorklistCase> {
+        const auto record = store.findCase(case_id);
+        if (!record)
+            return {};
+        return makeWorklistCase(store, config.get<QueueOptions>(), *record);
+    };
     services.worklist_version = [](CaseStore& store) { return store.database().version(); };
     services.opened = [&config](CaseStore& store, const std::string& case_id) {
         JobQueue(store.database(), config.get<QueueOptions>()).putFirst(case_id);

@@ -22,7 +22,7 @@ TEST(RetryOfTheWorklist, ForgetsCorrectionsThatLeftNoColonAndLeavesOthers)
     const auto config = app::declaredConfig();
     const viewer::ReadingServices services = app::readingServices(path, config);
     CaseStore store(path);
-    const auto scan = [&] { return services.worklist(store).at(0).scans.at(0); };
+    const auto scan = [&] { return services.worklist(store, {}).cases.at(0).scans.at(0); };
     EXPECT_FALSE(scan().ready()) << "there is no colon";
     EXPECT_FALSE(scan().spoiled()) << "which nobody caused";
     const ScanRecord record = scan().record;

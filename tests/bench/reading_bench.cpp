@@ -140,16 +140,16 @@ ReadingServices servicesFor(const std::filesystem::path& folder)
 {
     ReadingServices services;
     services.store = folder;
-    services.worklist = [](CaseStore& store) {
-        std::vector<WorklistCase> rows;
+    services.worklist = [](CaseStore& store, const WorklistPageWanted&) {
+        WorklistPage page;
         for (const CaseRecord& record : store.cases()) {
             WorklistCase row{record, WorkState::done, "", 1, 0, 0, {}};
             for (const ScanRecord& scan : store.scans(record.id))
                 if (scan.role == ScanRole::scan)
                     row.scans.push_back({scan, WorkState::done, "", 1, "", store.scanFolder(record.id, scan.id), {}});
-            rows.push_back(row);
+            page.cases.push_back(row);
         }
-        return rows;
+        return page;
     };
     services.bridges = [](CaseStore&, const ScanRecord&) { return std::vector<ReviewedBridge>(); };
     return services;

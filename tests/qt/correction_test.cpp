@@ -280,13 +280,13 @@ TEST_F(Correcting, WorkThatIsStoppedLeavesTheWindowAsItWas)
             std::this_thread::yield();
         stopped = true;
     };
-    services.worklist = [&stopped, before = services.worklist](CaseStore& store) {
-        auto rows = before(store);
-        for (WorklistCase& row : rows)
+    services.worklist = [&stopped, before = services.worklist](CaseStore& store, const WorklistPageWanted& wanted) {
+        WorklistPage page = before(store, wanted);
+        for (WorklistCase& row : page.cases)
             for (WorklistScan& scan : row.scans)
                 if (scan.state == WorkState::running && stopped)
                     scan.state = WorkState::queued;
-        return rows;
+        return page;
     };
     room_.reset();
     openRoom(services);

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "test_colon.h"
 #include "vicon/core/error.h"
@@ -118,14 +119,14 @@ void addWork(ReadingServices& services, const std::shared_ptr<Said>& state)
         const std::lock_guard lock(state->mutex);
         state->queued.clear();
     };
-    services.worklist = [state, before = services.worklist](CaseStore& store) {
-        auto rows = before(store);
+    services.worklist = [state, before = services.worklist](CaseStore& store, const WorklistPageWanted& wanted) {
+        WorklistPage page = before(store, wanted);
         const std::lock_guard lock(state->mutex);
-        for (WorklistCase& row : rows)
+        for (WorklistCase& row : page.cases)
             for (WorklistScan& scan : row.scans)
                 if (scan.record.id == state->queued)
                     scan.state = WorkState::running;
-        return rows;
+        return page;
     };
 }
 
@@ -178,9 +179,12 @@ ReadingServices servicesFor(const fs::path& folder)
     ReadingServices services;
     services.store = folder;
     const auto retried = std::make_shared<std::atomic<bool>>(false);
-    services.worklist = [retried](CaseStore& store) {
+    services.worklist = [retried](CaseStore& store, WorklistPageWanted wanted) {
+        const auto wanted_state = std::exchange(wanted.state, {});
+        WorklistPage page = makeWorklistPage(store, {}, wanted);
         std::vector<WorklistCase> rows;
-        for (const CaseRecord& record : store.cases()) {
+        for (const WorklistCase& listed : page.cases) {
+            const CaseRecord& record = listed.record;
             const bool ready = record.id == kCase;
             const WorkState state = ready ? WorkState::done : *retried ? WorkState::queued : WorkState::failed;
             const std::string reason = state == WorkState::failed ? "the series has a gap of 40 mm" : "";
@@ -189,9 +193,11 @@ ReadingServices servicesFor(const fs::path& folder)
                 row.scans.push_back({scan, state, "", row.progress, reason, store.scanFolder(record.id, scan.id),
                                      ready ? "radius 18 mm, fluid 7 %, sigmoid collapsed over 38 mm" : "",
                                      scan.id != kProne});
-            rows.push_back(row);
+            if (!wanted_state || row.state == *wanted_state)
+                rows.push_back(row);
         }
-        return rows;
+        page.cases = rows;
+        return page;
     };
     services.retry = [retried](CaseStore&, const std::string&) { *retried = true; };
     services.place = [](CaseStore& store, const std::string& case_id, Marker marker) {

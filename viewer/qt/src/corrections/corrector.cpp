@@ -117,8 +117,8 @@ void Corrector::stop()
 void Corrector::look()
 {
     books_.post("look", [this](Books& books) -> Worker::Work {
-        return [this, rows = services_.worklist(books.store())] {
-            for (const WorklistCase& row : rows)
+        return [this, found = services_.worklist(books.store(), {.words = case_id_})] {
+            for (const WorklistCase& row : found.cases)
                 for (const WorklistScan& scan : row.scans)
                     if (row.record.id == case_id_ && scan.record.id == watched_)
                         show(scan);

@@ -125,12 +125,6 @@ void fitColumns(QTableWidget& table)
         table.resizeColumnToContents(column);
 }
 
-bool says(const WorklistCase& row, const QString& words)
-{
-    return patientOf(row).contains(words, Qt::CaseInsensitive) ||
-           cellText(row.record.patient.id).contains(words, Qt::CaseInsensitive);
-}
-
 QString wordsOf(const WorklistCase& row, bool with_reasons)
 {
     QStringList lines;

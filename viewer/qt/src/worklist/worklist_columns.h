@@ -18,9 +18,6 @@ bool fillLine(QTableWidget& table, int line, const WorklistCase& row);
 /// Makes each column as wide as what it holds; the patient's name takes the rest.
 void fitColumns(QTableWidget& table);
 
-/// Whether patient's name or ID have these words.
-bool says(const WorklistCase& row, const QString& words);
-
 /// A line a scan: how well it is distended, or what is wrong with it.
 QString wordsOf(const WorklistCase& row, bool with_reasons);
 

@@ -16,14 +16,15 @@ QString hintOfEmptyStore(const ReadingServices& services)
         .arg(store, QString::fromStdString(services.receiver));
 }
 
-QString hintOfNothingFound(const QString& words, const QString& state, int cases)
+QString hintOfNothingFound(const QString& words, const QString& state)
 {
     const QString none = words.isEmpty() ? QObject::tr("No case is \"%1\" now.").arg(state)
                          : state.isEmpty()
-                             ? QObject::tr("No case has \"%1\" in its name or ID.").arg(words)
-                             : QObject::tr("No case that is \"%1\" has \"%2\" in its name or ID.").arg(state, words);
-    return none +
-           QObject::tr("\n\nCases in all: %1. Clear the search (Ctrl+F), or choose \"all\" on the right.").arg(cases);
+                             ? QObject::tr("No case is found by \"%1\".").arg(words)
+                             : QObject::tr("No case that is \"%1\" is found by \"%2\".").arg(state, words);
+    return none + QObject::tr(
+                      "\n\nWhat is typed begins parts of the name, ID, accession number or date. Clear it (Ctrl+F), or "
+                      "choose \"all\" on the right.");
 }
 
 }  // namespace vicon::viewer

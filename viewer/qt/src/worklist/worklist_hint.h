@@ -10,6 +10,6 @@ struct ReadingServices;
 QString hintOfEmptyStore(const ReadingServices& services);
 
 /// What to do where there are cases and the search leaves none of them. @param state empty: any
-QString hintOfNothingFound(const QString& words, const QString& state, int cases);
+QString hintOfNothingFound(const QString& words, const QString& state);
 
 }  // namespace vicon::viewer

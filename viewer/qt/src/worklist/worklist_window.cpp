@@ -9,6 +9,7 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 #include "guide/guide.h"
 #include "window/reading_window.h"
@@ -19,6 +20,7 @@ namespace vicon::viewer {
 namespace {
 
 constexpr int kRefresh_ms = 2000;
+constexpr int kPage = 100;  // lines; a table of 1,000 takes the window's thread longer to fill than a reader waits
 
 QLabel* makeLabel(const char* name, QWidget* parent)
 {
@@ -51,14 +53,14 @@ void WorklistWindow::buildControls()
     search_ = new QLineEdit(this);
     search_->setObjectName("search");
     search_->setAccessibleName(tr("Search"));
-    search_->setPlaceholderText(tr("Search name or ID (Ctrl+F)"));
+    search_->setPlaceholderText(tr("Beginnings of name, ID, accession number or date (Ctrl+F)"));
     search_->setClearButtonEnabled(true);
     state_ = new QComboBox(this);
     state_->setObjectName("state");
     state_->setAccessibleName(tr("State of the cases shown"));
-    state_->addItem(tr("all"), "");
+    state_->addItem(tr("all"));
     for (const WorkState state : {WorkState::done, WorkState::running, WorkState::queued, WorkState::failed})
-        state_->addItem(QString::fromStdString(nameOf(state)), QString::fromStdString(nameOf(state)));
+        state_->addItem(QString::fromStdString(nameOf(state)), int(state));
     table_ = makeCaseTable(this);
     hint_ = makeLabel("hint", table_->viewport());
     hint_->setText(tr("Reading the worklist ..."));
@@ -78,6 +80,10 @@ void WorklistWindow::buildControls()
     open_ = button(tr("Open"), "open", tr("Read the case (Return)"));
     retry_ = button(tr("Retry"), "retry", tr("Put its failed jobs back into the queue"));
     report_ = button(tr("Report"), "report", tr("Write the report as PDF"));
+    newer_ = button(tr("Newer"), "newer", tr("The page before"));
+    older_ = button(tr("Older"), "older", tr("The next page"));
+    page_ = makeLabel("page", this);
+    page_->setWordWrap(false);
 }
 
 void WorklistWindow::layOut()
@@ -85,6 +91,8 @@ void WorklistWindow::layOut()
     auto* top = new QHBoxLayout;
     top->addWidget(search_, 1);
     top->addWidget(state_);
+    for (QWidget* w : std::initializer_list<QWidget*>{page_, newer_, older_})
+        top->addWidget(w);
     auto* bottom = new QHBoxLayout;
     bottom->addWidget(message_, 1);
     for (QPushButton* b : {retry_, report_, open_})
@@ -95,15 +103,21 @@ void WorklistWindow::layOut()
     column->addWidget(reason_);
     column->addLayout(bottom);
     resize(1000, 500);
-    QWidget* const order[] = {search_, state_, table_, retry_, report_, open_};
+    QWidget* const order[] = {search_, state_, newer_, older_, table_, retry_, report_, open_};
     for (std::size_t n = 1; n < std::size(order); ++n)
         setTabOrder(order[n - 1], order[n]);
 }
 
 void WorklistWindow::connectControls()
 {
-    connect(search_, &QLineEdit::textChanged, this, &WorklistWindow::filter);
-    connect(state_, qOverload<int>(&QComboBox::currentIndexChanged), this, &WorklistWindow::filter);
+    connect(search_, &QLineEdit::textChanged, this, [this] { turnTo({}); });
+    connect(state_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] { turnTo({}); });
+    connect(newer_, &QPushButton::clicked, this, [this] { turnTo({pages_.begin(), pages_.end() - 1}); });
+    connect(older_, &QPushButton::clicked, this, [this] {
+        auto pages = pages_;
+        pages.push_back(rows_.back().record.id);
+        turnTo(pages);
+    });
     connect(table_, &QTableWidget::itemSelectionChanged, this, &WorklistWindow::updateButtons);
     connect(table_, &QTableWidget::itemActivated, this, &WorklistWindow::openSelected);
     connect(open_, &QPushButton::clicked, this, &WorklistWindow::openSelected);
@@ -127,9 +141,11 @@ void WorklistWindow::addKeys()
     connect(new QShortcut(QKeySequence("Ctrl+Q"), this), &QShortcut::activated, this, &QWidget::close);
 }
 
+/// What is typed and opened at once is not what was chosen before it was typed.
 void WorklistWindow::openSelected()
 {
-    if (const WorklistCase* row = selected(); row && readable(*row))
+    open_when_listed_ = !isListed();
+    if (const WorklistCase* row = selected(); row && readable(*row) && isListed())
         open(*row);
 }
 
@@ -139,94 +155,149 @@ WorklistWindow::~WorklistWindow()
         delete window.data();
 }
 
-void WorklistWindow::refresh()
+WorklistPageWanted WorklistWindow::wanted() const
 {
-    books_.post("list", [this](Books& books) -> Worker::Work {
-        // Asked for first: what changes while the rows are read is read the next time.
-        std::optional<std::string> version;
-        if (services_.worklist_version)
-            version = services_.worklist_version(books.store());
-        if (version && version == books.version)
-            return {};
-        auto rows = services_.worklist(books.store());
-        books.version = version;
-        return [this, rows = std::move(rows)] { show(rows); };
-    });
+    WorklistPageWanted wanted{.most = kPage, .words = search_->text().trimmed().toStdString()};
+    if (!pages_.empty())
+        wanted.after = pages_.back();
+    if (state_->currentData().isValid())
+        wanted.state = WorkState(state_->currentData().toInt());
+    return wanted;
 }
 
-void WorklistWindow::show(const std::vector<WorklistCase>& rows)
+/// Whether the lines are those that are wanted now.
+bool WorklistWindow::isListed() const
 {
+    return shown_ == wanted();
+}
+
+/// The buttons wait for it: they mean what is shown.
+void WorklistWindow::turnTo(std::vector<std::string> pages)
+{
+    pages_ = std::move(pages);
+    open_when_listed_ = false;
+    updateButtons();
+    refresh();
+}
+
+std::vector<std::string> WorklistWindow::casesInHand() const
+{
+    std::vector<std::string> cases;
+    for (const auto& [id, window] : windows_)
+        cases.push_back(id);
+    if (!open_case_.empty())
+        cases.push_back(open_case_);
+    return cases;
+}
+
+void WorklistWindow::refresh()
+{
+    books_.post("list",
+                [this, wanted = wanted(), shown = isListed(), in_hand = casesInHand()](Books& books) -> Worker::Work {
+                    // Asked for first: what changes while the rows are read is read the next time.
+                    std::optional<std::string> version;
+                    if (services_.worklist_version)
+                        version = services_.worklist_version(books.store());
+                    if (version && version == books.version && wanted == books.wanted && shown)
+                        return {};
+                    Listed listed{wanted, services_.worklist(books.store(), wanted), {}};
+                    for (const std::string& id : in_hand)
+                        if (!listed.has(id) && services_.worklist_case)
+                            if (auto row = services_.worklist_case(books.store(), id))
+                                listed.beside.push_back(std::move(*row));
+                    books.version = version;
+                    books.wanted = wanted;
+                    return [this, listed = std::move(listed)] { show(listed); };
+                });
+}
+
+bool WorklistWindow::Listed::has(const std::string& id) const
+{
+    return std::ranges::any_of(page.cases, [&](const WorklistCase& row) { return row.record.id == id; });
+}
+
+void WorklistWindow::show(const Listed& listed)
+{
+    if (listed.wanted != wanted())  // typed on meanwhile: what is wanted now comes next
+        return;
     const WorklistCase* chosen = selected();
-    const std::string chosen_id = chosen ? chosen->record.id : "";
+    const std::string chosen_id = chosen && listed.has(chosen->record.id) ? chosen->record.id : "";
     const QSignalBlocker quiet(table_);
-    rows_ = rows;
-    listed_ = true;
-    bool changed = table_->rowCount() != int(rows.size());
-    table_->setRowCount(int(rows.size()));
-    for (int n = 0; n < int(rows.size()); ++n) {
-        const WorklistCase& row = rows[std::size_t(n)];
+    rows_ = listed.page.cases;
+    bool changed = table_->rowCount() != int(rows_.size());
+    table_->setRowCount(int(rows_.size()));
+    for (int n = 0; n < int(rows_.size()); ++n) {
+        const WorklistCase& row = rows_[std::size_t(n)];
         changed = fillLine(*table_, n, row) || changed;
         if (row.record.id == chosen_id || (chosen_id.empty() && n == 0))
-            table_->selectRow(n);
+            table_->selectRow(n);  // what was chosen is not shown: the first that is found is opened by Return
     }
     // Once for all: a header that keeps to its contents measures every line again for each cell that is filled.
     if (changed)
         fitColumns(*table_);
-    filter();
+    shown_ = listed.wanted;
+    more_ = listed.page.more;
+    showPlace();
+    hint_->setVisible(rows_.empty());
+    if (rows_.empty())
+        hint_->setText(hintOfNothing());
     updateButtons();
-    for (const WorklistCase& row : rows_)
-        if (const auto window = windows_.find(row.record.id); window != windows_.end())
-            window->second->renew(row);
-    const auto wanted = std::find_if(rows_.begin(), rows_.end(), [&](const WorklistCase& row) {
-        return !open_case_.empty() && row.record.id == open_case_;
-    });
+    renewWindows(listed);
+    if (std::exchange(open_when_listed_, false))
+        openSelected();
+}
+
+/// Which page it is, where there are several.
+void WorklistWindow::showPlace()
+{
+    const bool searched = !search_->text().trimmed().isEmpty(), several = more_ || !pages_.empty();
+    const int before = kPage * int(pages_.size());
+    page_->setText(searched ? tr("more are found: type more")
+                            : tr("%1 to %2").arg(before + 1).arg(before + int(rows_.size())));
+    page_->setVisible(several);
+    newer_->setVisible(several && !searched);
+    older_->setVisible(several && !searched);
+}
+
+QString WorklistWindow::hintOfNothing() const
+{
+    const QString words = search_->text().trimmed();
+    const bool any_state = !state_->currentData().isValid();
+    if (words.isEmpty() && any_state && pages_.empty())
+        return hintOfEmptyStore(services_);
+    return hintOfNothingFound(words, any_state ? QString() : state_->currentText());
+}
+
+void WorklistWindow::renewWindows(const Listed& listed)
+{
+    std::vector<const WorklistCase*> rows;
+    for (const std::vector<WorklistCase>* all : {&std::as_const(rows_), &listed.beside})
+        for (const WorklistCase& row : *all)
+            rows.push_back(&row);
+    for (const WorklistCase* row : rows)
+        if (const auto window = windows_.find(row->record.id); window != windows_.end())
+            window->second->renew(*row);
+    const auto asked = std::ranges::find_if(
+        rows, [&](const WorklistCase* row) { return !open_case_.empty() && row->record.id == open_case_; });
     open_case_.clear();
-    if (wanted != rows_.end())
-        open(*wanted);
-}
-
-void WorklistWindow::filter()
-{
-    const QString words = search_->text().trimmed(), state = state_->currentData().toString();
-    for (int n = 0; n < table_->rowCount(); ++n) {
-        const WorklistCase& row = rows_[std::size_t(n)];
-        table_->setRowHidden(
-            n, !says(row, words) || (!state.isEmpty() && QString::fromStdString(nameOf(row.state)) != state));
-    }
-    if (!selected())  // what was chosen is hidden: the first that was found is opened by Return
-        for (int n = 0; n < table_->rowCount(); ++n)
-            if (!table_->isRowHidden(n)) {
-                table_->selectRow(n);
-                break;
-            }
-    updateButtons();
-    if (listed_)
-        showHint();
-}
-
-void WorklistWindow::showHint()
-{
-    int shown = 0;
-    for (int n = 0; n < table_->rowCount(); ++n)
-        shown += table_->isRowHidden(n) ? 0 : 1;
-    hint_->setVisible(shown == 0);
-    hint_->setText(rows_.empty() ? hintOfEmptyStore(services_)
-                                 : hintOfNothingFound(search_->text().trimmed(),
-                                                      state_->currentIndex() > 0 ? state_->currentText() : QString(),
-                                                      int(rows_.size())));
+    if (asked != rows.end())
+        open(**asked);
 }
 
 const WorklistCase* WorklistWindow::selected() const
 {
     const auto chosen = table_->selectionModel()->selectedRows();
-    if (chosen.empty() || chosen.front().row() >= int(rows_.size()) || table_->isRowHidden(chosen.front().row()))
+    if (chosen.empty() || chosen.front().row() >= int(rows_.size()))
         return nullptr;
     return &rows_[std::size_t(chosen.front().row())];
 }
 
 void WorklistWindow::updateButtons()
 {
-    const WorklistCase* row = selected();
+    const bool listed = isListed();
+    newer_->setEnabled(listed && !pages_.empty());
+    older_->setEnabled(listed && more_);
+    const WorklistCase* row = listed ? selected() : nullptr;
     open_->setEnabled(row && readable(*row));
     report_->setEnabled(row && readable(*row));
     retry_->setEnabled(row && (row->state == WorkState::failed || spoiled(*row)));

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,9 @@ struct PriorServices {
 struct ReadingServices {
     StorePlace store;
     std::string receiver;  ///< where a PACS sends studies to, in words
-    std::function<std::vector<WorklistCase>(CaseStore&)> worklist;
+    std::function<WorklistPage(CaseStore&, const WorklistPageWanted&)> worklist;
+    /// One case of it; nothing where it is there no more. A case whose window is open need not be on the page shown.
+    std::function<std::optional<WorklistCase>(CaseStore&, const std::string& case_id)> worklist_case;
     /// The same again where the worklist is still the same, for that connection; none: the worklist is always read.
     std::function<std::string(CaseStore&)> worklist_version;
     /// A reader opened the case: what is still to be done of it comes first. May be empty.
