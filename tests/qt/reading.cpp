@@ -193,8 +193,10 @@ void Reader::startOpening(const char* patient_id)
 {
     constexpr int kIdColumn = 1;
     for (int row = 0; row < cases()->rowCount(); ++row)
-        if (cases()->item(row, kIdColumn)->text() == patient_id)
+        if (cases()->item(row, kIdColumn)->text() == patient_id) {
             clickRow(cases(), row);
+            break;  // the newest of the patient's
+        }
     press(room_.get(), "open");
     ASSERT_NE(window(), nullptr);
 }
