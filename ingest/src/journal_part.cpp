@@ -192,7 +192,17 @@ void JournalPart::open()
     errno = flushToDisk(file_.parent_path());
     if (errno != 0)
         partFailed("cannot be made", file_);
-    writeZeros(kPartBytes);
+    if (hasPlentyOfRoom())
+        writeZeros(kPartBytes);
+}
+
+/// On a disk that is nearly full the copies take what they need, and give it back.
+bool JournalPart::hasPlentyOfRoom() const
+{
+    constexpr std::uintmax_t kPlenty = 64 * kPartBytes;
+    std::error_code unknown;
+    const fs::space_info space = fs::space(file_, unknown);
+    return !unknown && space.available >= kPlenty;
 }
 
 /// Over the beginning, so that its blocks are there: a flush that has to allocate some takes three times as long.
@@ -258,7 +268,7 @@ void JournalPart::clear()
 {
     const std::uint64_t used = end_;
     end_ = 0;
-    if (!broken_)
+    if (!broken_ && hasPlentyOfRoom())
         writeZeros(used);
     else if (::ftruncate(descriptor_, 0) != 0)
         partFailed("cannot be emptied", file_);

@@ -33,6 +33,7 @@ public:
 
 private:
     void open();
+    bool hasPlentyOfRoom() const;
     void writeZeros(std::uint64_t bytes);
     void writeHead();
     void flush();

@@ -123,7 +123,7 @@ TEST_F(FullDisk, AnObjectThatTheDiskHasNoRoomForIsRefusedWithA700)
     EXPECT_FALSE(refused.failures[0].for_good);
     EXPECT_THAT(refused.failures[0].reason, HasSubstr("a700"));
     EXPECT_THAT(listener.log(), HasSubstr("was refused: it has no room on the store's disk"));
-    EXPECT_TRUE(ingest::storeFiles(listener.peer(), small, "SCANNER", quiet_).complete());
+    EXPECT_TRUE(ingest::storeFiles(listener.peer(), small, "SCANNER", quiet_).complete()) << listener.log();
     EXPECT_TRUE(waitUntil([&] { return viconJson(store_, "cases")["cases"].size() == 1; }));
 }
 
