@@ -20,10 +20,9 @@ constexpr unsigned kMostThreads = 4;      // more wait for each other in the ker
 /// Asks for pages of 2 MiB, where the system gives them to who asks: a page costs about the same whatever its size.
 void useHugePages(void* begin, std::size_t bytes)
 {
-    const auto from = (reinterpret_cast<std::uintptr_t>(begin) + kHugePage - 1) / kHugePage * kHugePage;
-    const auto to = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / kHugePage * kHugePage;
-    if (from < to)
-        ::madvise(reinterpret_cast<void*>(from), to - from, MADV_HUGEPAGE);  // where it cannot, small ones do
+    const std::size_t before = (kHugePage - reinterpret_cast<std::uintptr_t>(begin) % kHugePage) % kHugePage;
+    if (before + kHugePage <= bytes)  // where the system cannot, small ones do
+        ::madvise(static_cast<char*>(begin) + before, (bytes - before) / kHugePage * kHugePage, MADV_HUGEPAGE);
 }
 
 }  // namespace

@@ -144,18 +144,19 @@ void FluidDensity::smooth()
     for (int pass = 0; pass < kSmoothing; ++pass) {
         const std::vector<float> sum = sum_, weight = weight_;
         const auto isKnown = [&](int j, int k) {
-            const auto row = weight.begin() + std::ptrdiff_t(index(0, j, k));
-            return std::any_of(row, row + size_[0], [](float value) { return value > 0; });
+            const auto first = weight.begin() + std::ptrdiff_t(index(0, j, k));
+            return std::any_of(first, first + size_[0], [](float value) { return value > 0; });
         };
         std::vector<std::uint8_t> known(std::size_t(size_[1]) * std::size_t(size_[2]));
+        const auto row = [&](int j, int k) { return std::size_t(j) + std::size_t(size_[1]) * std::size_t(k); };
         tbb::parallel_for(0, size_[2], [&](int k) {
             for (int j = 0; j < size_[1]; ++j)
-                known[std::size_t(j + size_[1] * k)] = isKnown(j, k) ? 1 : 0;
+                known[row(j, k)] = isKnown(j, k) ? 1 : 0;
         });
         const auto isKnownBeside = [&](int j, int k) {
             for (int b = std::max(0, k - 1); b <= std::min(size_[2] - 1, k + 1); ++b)
                 for (int a = std::max(0, j - 1); a <= std::min(size_[1] - 1, j + 1); ++a)
-                    if (known[std::size_t(a + size_[1] * b)])
+                    if (known[row(a, b)])
                         return true;
             return false;
         };
