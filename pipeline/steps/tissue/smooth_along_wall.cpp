@@ -9,6 +9,7 @@
 #include <cstring>
 #include <vector>
 
+#include "grid/byte_rows.h"
 #include "tissue/mixture.h"
 
 namespace vicon::steps {
@@ -93,12 +94,6 @@ public:
     }
 
 private:
-    static std::uint64_t eightOf(const std::uint8_t* at)
-    {
-        std::uint64_t eight;
-        std::memcpy(&eight, at, sizeof eight);
-        return eight;
-    }
     /// Whether eight voxels of a row are all lumen or all tissue.
     static bool isPure(const std::uint8_t* at)
     {
