@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "priors.h"
+#include "report_folder.h"
 #include "report_known.h"
 #include "report_pictures.h"
 #include "report_writing.h"
@@ -72,7 +73,7 @@ std::string pdfOfReport(CaseStore& store, const Config& config, const std::strin
     const std::vector<ReportVersion> versions = reportVersions(store, case_id);
     if (!versions.empty() && !reportStatus(store, case_id).open())
         return readFile(versions.back().file);
-    const PictureFolder folder;
+    const ReportFolder folder;
     NoProgress progress;
     return readFile(writeReport(store, config, case_id, folder / "preview.pdf", progress).file);
 }

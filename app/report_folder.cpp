@@ -47,7 +47,7 @@ void removeLeftBehind()
 
 }  // namespace
 
-PictureFolder::PictureFolder()
+ReportFolder::ReportFolder()
 {
     removeLeftBehind();
     path_ = makeTemporaryFolder(kName, ErrorCode::store);
@@ -58,7 +58,7 @@ PictureFolder::PictureFolder()
         throw Error(ErrorCode::store, "a temporary folder cannot be used", path_.string());
 }
 
-PictureFolder::~PictureFolder()
+ReportFolder::~ReportFolder()
 {
     std::error_code ignored;
     fs::remove_all(path_, ignored);

@@ -5,15 +5,15 @@
 
 namespace vicon::app {
 
-/// A private folder for a report's pictures, gone when the report is written. Those that killed commands of this user
-/// left behind go when the next one is made.
-class PictureFolder {
+/// A private folder for a report's files until they are kept, gone when the report is written. Those that killed
+/// commands of this user left behind go when the next one is made.
+class ReportFolder {
 public:
     /// Throws Error{store}.
-    PictureFolder();
-    ~PictureFolder();
-    PictureFolder(const PictureFolder&) = delete;
-    PictureFolder& operator=(const PictureFolder&) = delete;
+    ReportFolder();
+    ~ReportFolder();
+    ReportFolder(const ReportFolder&) = delete;
+    ReportFolder& operator=(const ReportFolder&) = delete;
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
 private:

@@ -17,7 +17,6 @@
 #include "vicon/viewer/scene/measures_picture.h"
 #include "vicon/viewer/scene/snapshot.h"
 
-namespace fs = std::filesystem;
 using vicon::viewer::SnapshotRequest;
 
 namespace vicon::app {
@@ -75,13 +74,32 @@ report::ScanEntry describeScan(CaseStore& store, const ScanRecord& scan)
     return entry;
 }
 
+picture::SharedPicture shared(viewer::Picture drawn)
+{
+    return std::make_shared<const picture::Picture>(
+        picture::Picture{drawn.width, drawn.height, 3, std::move(drawn.rgb)});
+}
+
+/// The pictures of one sight of a finding, from left to right.
+struct Sight {
+    picture::SharedPicture endoscopic, below, slices, measures;
+    std::atomic<int> halves = 0;  ///< that are drawn
+
+    std::vector<picture::SharedPicture> all() const
+    {
+        std::vector<picture::SharedPicture> pictures{endoscopic, below, slices};
+        if (measures)
+            pictures.push_back(measures);
+        return pictures;
+    }
+};
+
 /// A scan's finding pictures. OpenGL's are drawn on the thread that asks, all others meanwhile on a second one.
 class FindingPictures {
 public:
     FindingPictures(const ReadCase& read, const viewer::PreparedScan& prepared,
-                    std::unique_ptr<viewer::KnownSnapshots> sights, const ScanRecord& scan, const PictureFolder& folder,
-                    const PicturesMade& made)
-        : read_(read), prepared_(prepared), sights_(std::move(sights)), scan_(scan), folder_(folder), made_(made)
+                    std::unique_ptr<viewer::KnownSnapshots> sights, const ScanRecord& scan, const PicturesMade& made)
+        : read_(read), prepared_(prepared), sights_(std::move(sights)), scan_(scan), made_(made)
     {
     }
 
@@ -90,21 +108,21 @@ public:
     void draw(const std::vector<report::MarkerEntry*>& entries, const std::function<void(const Marker&)>& each)
     {
         std::atomic<bool> given_up = false;
-        std::vector<std::atomic<int>> halves(entries.size());  // of each marker, that are drawn
+        std::vector<Sight> sights(entries.size());
         const auto drawn = [&](std::size_t n) {
-            if (++halves[n] == 2)
-                made_.marker(*entries[n]);
+            if (++sights[n].halves == 2)
+                made_.marker(entries[n]->marker.id, sights[n].all());
         };
         auto others = std::async(std::launch::async, [&] {
             for (std::size_t n = 0; n < entries.size() && !given_up; ++n) {
-                drawOthers(*entries[n]);
+                drawOthers(*entries[n], sights[n]);
                 drawn(n);
             }
         });
         try {
             for (std::size_t n = 0; n < entries.size(); ++n) {
                 each(entries[n]->marker);
-                drawEndoscopic(*entries[n], n);
+                drawEndoscopic(*entries[n], n, sights[n]);
                 drawn(n);
             }
         } catch (...) {
@@ -115,37 +133,42 @@ public:
     }
 
 private:
-    void drawEndoscopic(report::MarkerEntry& entry, std::size_t place)
+    picture::SharedPicture made(const std::string& name, viewer::Picture drawn) const
+    {
+        picture::SharedPicture picture = shared(std::move(drawn));
+        made_.picture(name, picture);
+        return picture;
+    }
+
+    void drawEndoscopic(report::MarkerEntry& entry, std::size_t place, Sight& sight)
     {
         const Marker& marker = entry.marker;
-        entry.endoscopic_picture = folder_ / (marker.id + "-endo.png");
-        const viewer::SnapshotResult seen = sights_->render(place, {marker}, {}, entry.endoscopic_picture);
-        made_.picture(entry.endoscopic_picture);
-        entry.seen_from = "towards " + viewer::sideName(seen.pose.forward) + ", " +
-                          std::to_string(std::lround(distance(seen.pose.eye_mm, marker.position_mm))) + " mm away";
+        viewer::DrawnSnapshot seen = sights_->draw(place, {marker}, {});
+        entry.endoscopic_picture = marker.id + "-endo";
+        sight.endoscopic = made(entry.endoscopic_picture, std::move(seen.picture));
+        const viewer::Pose& pose = seen.place.pose;
+        entry.seen_from = "towards " + viewer::sideName(pose.forward) + ", " +
+                          std::to_string(std::lround(distance(pose.eye_mm, marker.position_mm))) + " mm away";
         viewer::PeelRequest below;
         below.preset = kBelowTheWall;
         below.options.offset_mm = depthBelow_mm(read_, marker.id);
         below.middle_only = true;
         below.coarse = kBelowCoarse;
         below.circle_px = kBelowRadius_px;
-        entry.below_picture = folder_ / (marker.id + "-below.png");
-        sights_->render(place, {}, below, entry.below_picture);  // without a ring, which would lie over what is seen
-        made_.picture(entry.below_picture);
+        entry.below_picture = marker.id + "-below";  // without a ring, which would lie over what is seen
+        sight.below = made(entry.below_picture, sights_->draw(place, {}, below).picture);
     }
 
-    void drawOthers(report::MarkerEntry& entry) const
+    void drawOthers(report::MarkerEntry& entry, Sight& sight) const
     {
         const Marker& marker = entry.marker;
-        entry.slices_picture = folder_ / (marker.id + "-slices.png");
-        const auto request = markerPicture(SnapshotRequest::View::slices, scan_, marker, kSlicesWidth, kSlicesHeight);
-        viewer::renderSnapshot(prepared_, request, entry.slices_picture);
-        made_.picture(entry.slices_picture);
-        if (const auto measures =
+        const auto slices = markerPicture(SnapshotRequest::View::slices, scan_, marker, kSlicesWidth, kSlicesHeight);
+        entry.slices_picture = marker.id + "-slices";
+        sight.slices = made(entry.slices_picture, viewer::drawSnapshot(prepared_, slices).picture);
+        if (auto measures =
                 viewer::measuresPicture(prepared_, marker, captionOf(scan_), kMeasuresSide, kMeasuresTextRatio)) {
-            entry.measures_picture = folder_ / (marker.id + "-measures.png");
-            viewer::writePng(entry.measures_picture, *measures, request.lasting);
-            made_.picture(entry.measures_picture);
+            entry.measures_picture = marker.id + "-measures";
+            sight.measures = made(entry.measures_picture, std::move(*measures));
         }
     }
 
@@ -153,7 +176,6 @@ private:
     const viewer::PreparedScan& prepared_;
     const std::unique_ptr<viewer::KnownSnapshots> sights_;
     const ScanRecord& scan_;
-    const PictureFolder& folder_;
     const PicturesMade& made_;
 };
 
@@ -168,8 +190,8 @@ double depthBelow_mm(const ReadCase& read, const std::string& marker_id)
     return depth_mm;
 }
 
-std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read, ReportScans& scans,
-                                         const PictureFolder& pictures, Progress& progress, const PicturesMade& made)
+std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read, ReportScans& scans, Progress& progress,
+                                         const PicturesMade& made)
 {
     const CaseRecord& record = read.record;
     std::vector<report::ScanEntry> entries;
@@ -188,9 +210,8 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read,
             auto request = reportPicture(SnapshotRequest::View::overview, scan, kOverviewWidth, kOverviewHeight);
             request.markers = numbered(read, markersOf(read, scan));
             request.pixel_ratio = kOverviewTextRatio;
-            entry.overview_picture = pictures / (scan.id + "-overview.png");
-            viewer::renderSnapshot(*prepared, request, entry.overview_picture);
-            made.picture(entry.overview_picture);
+            entry.overview_picture = scan.id + "-overview";
+            made.picture(entry.overview_picture, shared(viewer::drawSnapshot(*prepared, request).picture));
         }
         entries.push_back(std::move(entry));
     }
@@ -199,8 +220,7 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read,
 
 std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const ReadCase& read,
                                              const std::vector<report::ScanEntry>& entries_of_scans, ReportScans& scans,
-                                             const PictureFolder& pictures, Progress& progress,
-                                             const PicturesMade& made)
+                                             Progress& progress, const PicturesMade& made)
 {
     std::vector<report::MarkerEntry> entries;
     entries.reserve(read.markers.size());
@@ -219,7 +239,7 @@ std::vector<report::MarkerEntry> drawMarkers(CaseStore& store, const ReadCase& r
         if (of_scan.empty())
             continue;
         if (const viewer::PreparedScan* prepared = scans.find(scan.id))
-            FindingPictures(read, *prepared, scans.sights(scan.id), scan, pictures, made)
+            FindingPictures(read, *prepared, scans.sights(scan.id), scan, made)
                 .draw(of_scan, [&](const Marker& marker) {
                     progress.check();
                     progress.report(drawn++ / double(read.markers.size()), "pictures of marker " + marker.id);

@@ -39,7 +39,6 @@ SnapshotRequest reportPicture(SnapshotRequest::View view, const ScanRecord& scan
     request.captioned = false;  // the page says it
     request.width = width;
     request.height = height;
-    request.lasting = false;
     return request;
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "peers.h"
+#include "report_folder.h"
 #include "report_pictures.h"
 #include "report_scans.h"
 #include "vicon/cases/outbox.h"
@@ -19,32 +20,23 @@ namespace fs = std::filesystem;
 namespace vicon::app {
 namespace {
 
-/// From left to right, as an object shows them.
-std::vector<fs::path> filesOf(const report::MarkerEntry& entry)
-{
-    std::vector<fs::path> files{entry.endoscopic_picture, entry.below_picture, entry.slices_picture,
-                                entry.measures_picture};
-    std::erase_if(files, [](const fs::path& file) { return file.empty(); });
-    return files;
-}
-
-/// Draws the content's pictures, and makes them ready for the PDF meanwhile.
+/// Draws the content's pictures, and makes them ready for the PDF and for objects meanwhile.
 /// @param overviews_drawn what else the report takes is begun then: before, all cores make the first picture ready
 void drawPictures(
-    CaseStore& store, report::ReportContent& content, ReportScans& scans, const PictureFolder& pictures,
-    report::PrintPictures& printed, Progress& progress, report::PackedSights* packed = nullptr,
-    const std::function<void()>& overviews_drawn = [] {})
+    CaseStore& store, report::ReportContent& content, ReportScans& scans, report::PrintPictures& printed,
+    Progress& progress, report::PackedSights* packed = nullptr, const std::function<void()>& overviews_drawn = [] {})
 {
-    PicturesMade made{.picture = [&](const fs::path& file) { printed.begin(file); }};
-    if (packed)
-        made.marker = [&](const report::MarkerEntry& entry) {
-            const auto& loose = content.read.loose_markers;
-            if (std::find(loose.begin(), loose.end(), entry.marker.id) == loose.end())
-                packed->begin(entry.marker.id, filesOf(entry));
-        };
-    content.scans = drawScans(store, content.read, scans, pictures, progress, made);
+    const auto& loose = content.read.loose_markers;
+    const PicturesMade made{
+        .picture = [&](const std::string& name, const picture::SharedPicture& drawn) { printed.begin(name, drawn); },
+        .marker =
+            [&](const std::string& marker_id, std::vector<picture::SharedPicture> drawn) {
+                if (packed && std::find(loose.begin(), loose.end(), marker_id) == loose.end())
+                    packed->begin(marker_id, std::move(drawn));
+            }};
+    content.scans = drawScans(store, content.read, scans, progress, made);
     overviews_drawn();
-    content.markers = drawMarkers(store, content.read, content.scans, scans, pictures, progress, made);
+    content.markers = drawMarkers(store, content.read, content.scans, scans, progress, made);
 }
 
 }  // namespace
@@ -61,11 +53,10 @@ WrittenReport writeReport(CaseStore& store, const Config& config, const std::str
     content.number = store.nextNumber("report " + record.id);
     if (out.empty())
         out = reportFile(store, record.id, content.number);
-    const PictureFolder folder;
     const viewer::Display display;  // one for all pictures
     ReportScans scans(store, content.read);
     report::PrintPictures printed;
-    drawPictures(store, content, scans, folder, printed, progress);
+    drawPictures(store, content, scans, printed, progress);
     const report::PdfResult written = report::writePdf(content, out, config.get<report::ReportOptions>(), &printed);
     store.audit("report written", record.id, "", "number " + std::to_string(content.number));
     return {out, content.number, written.pages, content.markers.size(), written.warnings};
@@ -91,11 +82,9 @@ std::vector<report::SightPictures> picturesOf(const report::ReportContent& conte
             const std::string& id = entry.marker.id;
             if (std::find(finding.markers.begin(), finding.markers.end(), id) == finding.markers.end())
                 continue;
-            report::SightPictures of{
-                id, "Finding " + std::to_string(finding.number()) + ", marker " + id + ", " + entry.scan_label,
-                filesOf(entry)};
-            if (!of.files.empty())
-                pictures.push_back(std::move(of));
+            if (!entry.endoscopic_picture.empty())
+                pictures.push_back(
+                    {id, "Finding " + std::to_string(finding.number()) + ", marker " + id + ", " + entry.scan_label});
         }
     return pictures;
 }
@@ -143,14 +132,14 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
     content.created = draft.version.at;
     content.software_version = VICON_VERSION;
     content.version = draft.version;
-    const PictureFolder folder;
+    const ReportFolder folder;
     report::PackedSights packed;
     const viewer::Display display;  // one for all pictures, before there are other threads
     ReportScans scans(store, content.read);
     std::optional<report::ShownScans> shown;
     report::PrintPictures printed;
     const bool pictured = sign && std::find(kinds.begin(), kinds.end(), report::ObjectKind::picture) != kinds.end();
-    drawPictures(store, content, scans, folder, printed, progress, pictured ? &packed : nullptr, [&] {
+    drawPictures(store, content, scans, printed, progress, pictured ? &packed : nullptr, [&] {
         if (sign)
             shown.emplace(store, content.read, kinds);
     });

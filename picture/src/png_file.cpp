@@ -65,7 +65,7 @@ void addText(Writer& writer, std::string keyword, std::string text)
 void writePng(const std::filesystem::path& file, int width, int height, std::span<const std::uint8_t> pixels,
               const PngOptions& options)
 {
-    const auto write = [&](const std::filesystem::path& to) {
+    replaceFile(file, [&](const std::filesystem::path& to) {
         const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(to.c_str(), "wb"), std::fclose);
         if (!out)
             throw Error(ErrorCode::store, "cannot be written", file.string());
@@ -75,9 +75,7 @@ void writePng(const std::filesystem::path& file, int width, int height, std::spa
         png_set_IHDR(writer.png(), writer.info(), png_uint_32(width), png_uint_32(height), 8,
                      colorTypeOf(row / std::size_t(width)), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                      PNG_FILTER_TYPE_DEFAULT);
-        png_set_compression_level(writer.png(), options.lasting ? options.compression : 0);
-        if (!options.lasting)
-            png_set_filter(writer.png(), PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+        png_set_compression_level(writer.png(), options.compression);
         if (options.says_srgb)
             png_set_sRGB(writer.png(), writer.info(), PNG_sRGB_INTENT_PERCEPTUAL);
         if (!options.keyword.empty())
@@ -88,11 +86,7 @@ void writePng(const std::filesystem::path& file, int width, int height, std::spa
         png_write_end(writer.png(), nullptr);
         if (std::fflush(out.get()) != 0)
             fail(writer.png(), "the file is not whole");
-    };
-    if (options.lasting)
-        replaceFile(file, write);
-    else
-        write(file);
+    });
 }
 
 Picture readPng(const std::filesystem::path& file, int channels)

@@ -85,11 +85,11 @@ const PictureShelf::Shelved& PictureShelf::get(const std::filesystem::path& file
     if (file.empty())
         return nothing;
     const int most_pixels = int(print_width / kPointsPerInch * kPrintDpi);
-    if (const PrintPictures::Ready* ready = begun_ ? begun_->get(file) : nullptr;
-        ready && ready->width <= most_pixels) {
-        if (!shelf_.contains(ready->sha256))
-            shelf_[ready->sha256] = {pdf_.addPicture(*ready), double(ready->width), double(ready->height), false};
-        return shelf_[ready->sha256];
+    if (const PrintPictures::Ready* ready = begun_ ? begun_->get(file) : nullptr) {
+        const std::string key = "begun: " + file.string();
+        if (!shelf_.contains(key))
+            shelf_[key] = {pdf_.addPicture(*ready), double(ready->width), double(ready->height), false};
+        return shelf_[key];
     }
     std::string key = "not readable: " + file.string();
     try {

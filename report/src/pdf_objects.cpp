@@ -4,7 +4,7 @@
 #include <hpdf_fontdef.h>
 #include <hpdf_objects.h>
 #include <hpdf_streams.h>
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <array>
 #include <cstdio>
@@ -21,27 +21,9 @@ namespace {
 /// PNG's filter type "Paeth" and PDF's predictor for rows with a filter type each (PDF 32000-1, 7.4.4.4).
 constexpr std::uint8_t kPaethRow = 4;
 constexpr int kPngPredictor = 15;
-/// zlib's level for pictures.
+/// Endoscopic pictures and slices: smaller than zlib's 3 by 5 % and more, in less than half its time; 6 takes twice as
+/// long for another 5 %.
 constexpr int kPictureLevel = 3;
-
-/// Slices are, but for what is drawn over them.
-bool isMostlyGrey(const Picture& picture)
-{
-    if (picture.channels < 3)
-        return true;
-    std::size_t grey = 0;
-    const auto step = std::size_t(picture.channels);
-    for (std::size_t n = 0; n + 2 < picture.pixels.size(); n += step)
-        grey += picture.pixels[n] == picture.pixels[n + 1] && picture.pixels[n] == picture.pixels[n + 2] ? 1U : 0U;
-    return 2 * step * grey > picture.pixels.size();
-}
-
-/// What is drawn in colours and shades repeats nothing but runs: looking for more takes twice the time, and ten
-/// endoscopic pictures became a tenth larger by it. Grey slices become half as large again without.
-int strategyFor(const Picture& picture)
-{
-    return isMostlyGrey(picture) ? Z_DEFAULT_STRATEGY : Z_RLE;
-}
 
 std::uint8_t paeth(int left, int above, int above_left)
 {
@@ -89,20 +71,16 @@ std::string hexUtf16(char32_t c)
 std::vector<std::uint8_t> packed(const Picture& picture)
 {
     const std::vector<std::uint8_t> rows = predicted(picture);
-    constexpr int kWindowBits = 15, kMemoryLevel = 9;
-    z_stream stream{};
-    if (deflateInit2(&stream, kPictureLevel, Z_DEFLATED, kWindowBits, kMemoryLevel, strategyFor(picture)) != Z_OK)
+    const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+        libdeflate_alloc_compressor(kPictureLevel), libdeflate_free_compressor);
+    if (!compressor)
         throw Error(ErrorCode::no_memory, "there is not enough memory for the report");
-    const std::unique_ptr<z_stream, int (*)(z_stream*)> ended(&stream, deflateEnd);
-    std::vector<std::uint8_t> out(deflateBound(&stream, uLong(rows.size())));
-    stream.next_in = const_cast<Bytef*>(rows.data());
-    stream.avail_in = uInt(rows.size());
-    stream.next_out = out.data();
-    stream.avail_out = uInt(out.size());
-    if (deflate(&stream, Z_FINISH) != Z_STREAM_END)
+    const std::size_t most = libdeflate_zlib_compress_bound(compressor.get(), rows.size());
+    const auto out = std::make_unique_for_overwrite<std::uint8_t[]>(most);
+    const std::size_t size = libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(), out.get(), most);
+    if (size == 0)
         throw Error(ErrorCode::internal, "a picture of the report cannot be compressed");
-    out.resize(stream.total_out);
-    return out;
+    return {out.get(), out.get() + size};
 }
 
 HPDF_Image addImage(HPDF_Doc document, int width, int height, int channels)

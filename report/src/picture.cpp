@@ -6,23 +6,6 @@
 namespace vicon::report {
 namespace {
 
-bool isGrey(const std::vector<std::uint8_t>& rgb)
-{
-    for (std::size_t n = 0; n + 2 < rgb.size(); n += 3)
-        if (rgb[n] != rgb[n + 1] || rgb[n] != rgb[n + 2])
-            return false;
-    return true;
-}
-
-Picture inGrey(Picture picture)
-{
-    for (std::size_t n = 0; n < picture.pixels.size() / 3; ++n)
-        picture.pixels[n] = picture.pixels[3 * n];
-    picture.pixels.resize(picture.pixels.size() / 3);
-    picture.channels = 1;
-    return picture;
-}
-
 /// The source interval [from, to) that a target pixel covers, as weights of whole source pixels.
 struct Cover {
     int first = 0;
@@ -70,10 +53,28 @@ Picture reduced(Picture picture, int max_width)
 
 }  // namespace
 
+bool isGrey(const Picture& picture)
+{
+    const std::vector<std::uint8_t>& rgb = picture.pixels;
+    for (std::size_t n = 0; n + 2 < rgb.size(); n += 3)
+        if (rgb[n] != rgb[n + 1] || rgb[n] != rgb[n + 2])
+            return false;
+    return true;
+}
+
+Picture inGrey(Picture picture)
+{
+    for (std::size_t n = 0; n < picture.pixels.size() / 3; ++n)
+        picture.pixels[n] = picture.pixels[3 * n];
+    picture.pixels.resize(picture.pixels.size() / 3);
+    picture.channels = 1;
+    return picture;
+}
+
 Picture readForPrint(const std::filesystem::path& file, int max_width)
 {
     Picture picture = picture::readPng(file);
-    return reduced(isGrey(picture.pixels) ? inGrey(std::move(picture)) : std::move(picture), max_width);
+    return reduced(isGrey(picture) ? inGrey(std::move(picture)) : std::move(picture), max_width);
 }
 
 }  // namespace vicon::report

@@ -1,60 +1,53 @@
 #include "vicon/report/print_pictures.h"
 
 #include <future>
-#include <limits>
 #include <map>
 #include <mutex>
-#include <optional>
 
 #include "pdf_objects.h"
+#include "picture.h"
 #include "ready_picture.h"
-#include "vicon/core/error.h"
-#include "vicon/core/file.h"
 
 namespace vicon::report {
 namespace {
 
-std::optional<PrintPictures::Ready> readyOf(const std::filesystem::path& png)
+PrintPictures::Ready readyOf(const picture::SharedPicture& picture)
 {
-    try {
-        const Picture picture = readForPrint(png, std::numeric_limits<int>::max());
-        return PrintPictures::Ready{sha256OfFile(png), picture.width, picture.height, picture.channels,
-                                    packed(picture)};
-    } catch (const Error&) {
-        return std::nullopt;  // writePdf() says what is wrong with it
-    }
+    const auto ready = [](const Picture& from) {
+        return PrintPictures::Ready{from.width, from.height, from.channels, packed(from)};
+    };
+    return isGrey(*picture) ? ready(inGrey(*picture)) : ready(*picture);
 }
 
 }  // namespace
 
 struct PrintPictures::Work {
     std::mutex mutex;
-    std::map<std::filesystem::path, std::shared_future<std::optional<Ready>>> pictures;
+    std::map<std::filesystem::path, std::shared_future<Ready>> pictures;
 };
 
 PrintPictures::PrintPictures() : work_(std::make_unique<Work>()) {}
 
 PrintPictures::~PrintPictures() = default;
 
-void PrintPictures::begin(const std::filesystem::path& png)
+void PrintPictures::begin(const std::filesystem::path& name, picture::SharedPicture picture)
 {
     const std::lock_guard lock(work_->mutex);
-    if (!work_->pictures.contains(png))
-        work_->pictures[png] = std::async(std::launch::async, readyOf, png).share();
+    if (!work_->pictures.contains(name))
+        work_->pictures[name] = std::async(std::launch::async, readyOf, std::move(picture)).share();
 }
 
-const PrintPictures::Ready* PrintPictures::get(const std::filesystem::path& png) const
+const PrintPictures::Ready* PrintPictures::get(const std::filesystem::path& name) const
 {
-    std::shared_future<std::optional<Ready>> picture;
+    std::shared_future<Ready> picture;
     {
         const std::lock_guard lock(work_->mutex);
-        const auto found = work_->pictures.find(png);
+        const auto found = work_->pictures.find(name);
         if (found == work_->pictures.end())
             return nullptr;
         picture = found->second;
     }
-    const std::optional<Ready>& ready = picture.get();  // lives in the map
-    return ready ? &*ready : nullptr;
+    return &picture.get();  // lives in the map
 }
 
 }  // namespace vicon::report

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "vicon/report/print_pictures.h"
@@ -10,7 +9,6 @@ namespace vicon::report {
 
 /// A picture as the PDF takes it.
 struct PrintPictures::Ready {
-    std::string sha256;  ///< of its file
     int width = 0, height = 0, channels = 0;
     std::vector<std::uint8_t> stream;  ///< see packed()
 };

@@ -13,6 +13,7 @@
 #include "streamed_file.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/fresh_memory.h"
 #include "vicon/scan_files/stored_volume.h"
 
 namespace fs = std::filesystem;
@@ -158,7 +159,7 @@ Volume<T> readVoxels(itk::MetaImageIO& io, const fs::path& file)
         region.SetSize(a, std::size_t(volume.grid.size[a]));
     io.SetIORegion(region);
     try {
-        volume.voxels.resize(volume.grid.voxelCount());
+        fillFresh(volume.voxels, volume.grid.voxelCount(), T{});
         io.Read(volume.voxels.data());
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::no_memory, "does not fit into memory", file.string(), "close other programs");

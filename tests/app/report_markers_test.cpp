@@ -61,7 +61,7 @@ TEST(LookBelowTheWall, EndsHalfwayToTheMiddleOfASmallFinding)
         EXPECT_DOUBLE_EQ(app::depthBelow_mm(read, id), 2) << id << ", of no known size";
 }
 
-TEST(PictureFolder, OfAKilledCommandGoesWithTheNextOneAndThatOfARunningOneStays)
+TEST(ReportFolder, OfAKilledCommandGoesWithTheNextOneAndThatOfARunningOneStays)
 {
     const TemporaryFolder temporary;
     ::setenv("TMPDIR", temporary.path().c_str(), 1);
@@ -72,7 +72,7 @@ TEST(PictureFolder, OfAKilledCommandGoesWithTheNextOneAndThatOfARunningOneStays)
     ASSERT_EQ(::pipe(ready), 0);
     const pid_t child = ::fork();
     if (child == 0) {
-        const app::PictureFolder pictures;
+        const app::ReportFolder pictures;
         replaceFile(pictures / "m1.png", "a picture");
         ::write(ready[1], "r", 1);
         ::pause();
@@ -81,14 +81,14 @@ TEST(PictureFolder, OfAKilledCommandGoesWithTheNextOneAndThatOfARunningOneStays)
     char byte = 0;
     ASSERT_EQ(::read(ready[0], &byte, 1), 1);
     {
-        const app::PictureFolder beside;
+        const app::ReportFolder beside;
         EXPECT_EQ(folders(), 2) << "the other command runs";
     }
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     EXPECT_EQ(folders(), 1);
     {
-        const app::PictureFolder next;
+        const app::ReportFolder next;
         EXPECT_EQ(folders(), 1);
     }
     EXPECT_EQ(folders(), 0);

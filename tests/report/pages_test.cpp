@@ -260,9 +260,9 @@ TEST_F(PdfWriter, PicturesThatWereBegunAreTheSameInTheFile)
     write();
     const std::string alone = readFile(pdf_);
     PrintPictures begun;
-    begun.begin(content_.scans[0].overview_picture);
-    begun.begin(content_.markers[0].endoscopic_picture);
-    begun.begin(folder_ / "none.png");
+    for (const std::filesystem::path& file :
+         {content_.scans[0].overview_picture, content_.markers[0].endoscopic_picture})
+        begun.begin(file, std::make_shared<picture::Picture>(picture::readPng(file)));
     writePdf(content_, pdf_, {}, &begun);
     EXPECT_EQ(readFile(pdf_), alone);
 }

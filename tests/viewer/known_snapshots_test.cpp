@@ -15,7 +15,6 @@ struct KnownPlaces : Shooting<ColonFixture> {
     {
         SnapshotRequest request;
         request.width = request.height = 240;
-        request.lasting = false;
         std::vector<SnapshotRequest> all;
         for (const double part : {0.05, 0.5, 0.9}) {
             request.station_mm = part * of.skeleton().length_mm();
@@ -40,11 +39,11 @@ struct KnownPlaces : Shooting<ColonFixture> {
                 SnapshotRequest request = all[n];
                 request.markers = {markerAt(colon.polyp_mm, MarkerColor::red, "m1")};
                 request.peel = peel;
-                const SnapshotResult place = known.render(n, request.markers, peel, folder / "known.png");
+                const DrawnSnapshot drawn = known.draw(n, request.markers, peel);
                 SnapshotResult same;
                 const Picture expected = shoot(of, request, &same);
-                EXPECT_EQ(differing(readPng(folder / "known.png"), expected, 0), 0) << n << peel.preset;
-                EXPECT_EQ(place.pose, same.pose);
+                EXPECT_EQ(differing(drawn.picture, expected, 0), 0) << n << peel.preset;
+                EXPECT_EQ(drawn.place.pose, same.pose);
             }
     }
 };

@@ -12,22 +12,20 @@ namespace vicon::report {
 namespace {
 
 /// From left to right, the tops in line, on black.
-picture::Picture sideBySide(const std::vector<std::filesystem::path>& files)
+picture::Picture sideBySide(const std::vector<picture::SharedPicture>& parts)
 {
-    std::vector<picture::Picture> parts;
     picture::Picture all;
-    for (const auto& file : files) {
-        const picture::Picture& part = parts.emplace_back(picture::readPng(file));
-        all.width += part.width;
-        all.height = std::max(all.height, part.height);
+    for (const auto& part : parts) {
+        all.width += part->width;
+        all.height = std::max(all.height, part->height);
     }
     const auto row = std::size_t(all.width) * std::size_t(all.channels);
     all.pixels.resize(row * std::size_t(all.height));
     std::size_t left = 0;
-    for (const picture::Picture& part : parts) {
-        const auto part_row = std::size_t(part.width) * std::size_t(part.channels);
-        for (std::size_t y = 0; y < std::size_t(part.height); ++y)
-            std::copy_n(&part.pixels[y * part_row], part_row, &all.pixels[y * row + left]);
+    for (const auto& part : parts) {
+        const auto part_row = std::size_t(part->width) * std::size_t(part->channels);
+        for (std::size_t y = 0; y < std::size_t(part->height); ++y)
+            std::copy_n(&part->pixels[y * part_row], part_row, &all.pixels[y * row + left]);
         left += part_row;
     }
     return all;
@@ -51,9 +49,9 @@ void putPixels(DcmItem& d, const picture::Picture& picture)
         throw Error(ErrorCode::no_memory, "the picture does not go into an object", done.text());
 }
 
-void pack(DcmDataset& d, const std::vector<std::filesystem::path>& files)
+void pack(DcmDataset& d, const std::vector<picture::SharedPicture>& pictures)
 {
-    putPixels(d, sideBySide(files));
+    putPixels(d, sideBySide(pictures));
     if (const OFCondition packed = d.chooseRepresentation(EXS_RLELossless, nullptr); packed.bad())
         throw Error(ErrorCode::internal, "the picture cannot be compressed", packed.text());
     d.removeAllButCurrentRepresentations();
@@ -76,10 +74,10 @@ struct PackedSights::Packed {
 
 namespace {
 
-std::unique_ptr<PackedSights::Packed> packedOf(const std::vector<std::filesystem::path>& files)
+std::unique_ptr<PackedSights::Packed> packedOf(const std::vector<picture::SharedPicture>& pictures)
 {
     auto out = std::make_unique<PackedSights::Packed>();
-    pack(*out->format.getDataset(), files);
+    pack(*out->format.getDataset(), pictures);
     return out;
 }
 
@@ -97,23 +95,20 @@ PackedSights::PackedSights() : work_(std::make_unique<Work>())
 
 PackedSights::~PackedSights() = default;
 
-void PackedSights::begin(const std::string& marker_id, const std::vector<std::filesystem::path>& files)
+void PackedSights::begin(const std::string& marker_id, std::vector<picture::SharedPicture> pictures)
 {
     const std::lock_guard lock(work_->mutex);
-    if (!files.empty())
-        work_->sights[marker_id] = std::async(std::launch::async, packedOf, files);
+    work_->sights[marker_id] = std::async(std::launch::async, packedOf, std::move(pictures));
 }
 
-std::unique_ptr<PackedSights::Packed> PackedSights::take(const SightPictures& pictures)
+std::unique_ptr<PackedSights::Packed> PackedSights::take(const std::string& marker_id)
 {
     std::future<std::unique_ptr<Packed>> begun;
     {
         const std::lock_guard lock(work_->mutex);
-        const auto found = work_->sights.find(pictures.marker_id);
-        if (found != work_->sights.end())
-            begun = std::move(found->second);
+        begun = std::move(work_->sights.at(marker_id));
     }
-    return begun.valid() ? begun.get() : packedOf(pictures.files);
+    return begun.get();
 }
 
 /// PS3.3 A.8.1, RLE: lossless, and half the bytes at next to no cost. One object for all pictures of a sight: it is
@@ -122,7 +117,7 @@ ReportObject writePictures(const ObjectContent& content, const SightPictures& pi
                            const SourceImage* source, const std::filesystem::path& folder)
 {
     const ObjectName name{ObjectKind::picture, "OT", "Pictures of the findings", pictures.marker_id, number};
-    const auto packed = content.packed ? content.packed->take(pictures) : packedOf(pictures.files);
+    const auto packed = content.packed->take(pictures.marker_id);
     DcmFileFormat& format = packed->format;
     DcmDataset& d = *format.getDataset();
     put(d, DCM_SOPClassUID, UID_SecondaryCaptureImageStorage);

@@ -143,9 +143,9 @@ void copyInto(Picture& target, const Picture& source, int x, int y)
                 target.set(x + column, y + row, source.at(column, row));
 }
 
-void writePng(const std::filesystem::path& file, const Picture& picture, bool lasting)
+void writePng(const std::filesystem::path& file, const Picture& picture)
 {
-    picture::writePng(file, picture.width, picture.height, picture.rgb, {.lasting = lasting, .says_srgb = true});
+    picture::writePng(file, picture.width, picture.height, picture.rgb, {.says_srgb = true});
 }
 
 }  // namespace vicon::viewer

@@ -93,16 +93,14 @@ KnownSnapshots::KnownSnapshots(PreparedScan scan, std::vector<SnapshotRequest> r
 
 KnownSnapshots::~KnownSnapshots() = default;
 
-SnapshotResult KnownSnapshots::render(std::size_t place, const std::vector<Marker>& markers, const PeelRequest& peel,
-                                      const std::filesystem::path& png)
+DrawnSnapshot KnownSnapshots::draw(std::size_t place, const std::vector<Marker>& markers, const PeelRequest& peel)
 {
     if (!endoscopic_)
         endoscopic_ = std::make_unique<EndoscopicPictures>(scan_, seen_);
     SnapshotRequest request = requests_.at(place);
     request.markers = markers;
     request.peel = peel;
-    writePng(png, endoscopic_->draw(request, places_[place]), request.lasting);
-    return places_[place];
+    return {endoscopic_->draw(request, places_[place]), places_[place]};
 }
 
 std::size_t KnownSnapshots::triangles() const

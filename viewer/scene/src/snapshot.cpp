@@ -124,34 +124,31 @@ std::vector<OverlayText> captionLines(const Caption& caption, double station_mm,
     return lines;
 }
 
+DrawnSnapshot drawSnapshot(const PreparedScan& scan, const SnapshotRequest& request)
+{
+    const SnapshotRequest whole = completed(request);
+    const SnapshotResult place = placeOf(scan, whole);
+    switch (whole.view) {
+        case SnapshotRequest::View::slices:
+            return {slicesPicture(scan, whole, place), place};
+        case SnapshotRequest::View::overview:
+            return {overviewPicture(scan, whole, place), place};
+        case SnapshotRequest::View::band:
+            return {bandSnapshot(scan, whole, place), place};
+        case SnapshotRequest::View::cube:
+            return {EndoscopicPictures(scan).drawCube(whole, place), place};
+        case SnapshotRequest::View::endo:
+            break;
+    }
+    return {EndoscopicPictures(scan).draw(whole, place), place};
+}
+
 SnapshotResult renderSnapshot(const PreparedScan& scan, const SnapshotRequest& request,
                               const std::filesystem::path& png)
 {
-    return Snapshots(scan).render(request, png);
-}
-
-Snapshots::Snapshots(PreparedScan scan) : scan_(std::move(scan)) {}
-
-Snapshots::~Snapshots() = default;
-
-SnapshotResult Snapshots::render(const SnapshotRequest& request, const std::filesystem::path& png)
-{
-    const SnapshotRequest whole = completed(request);
-    const SnapshotResult place = placeOf(scan_, whole);
-    const auto write = [&](const Picture& picture) { writePng(png, picture, whole.lasting); };
-    if (whole.view == SnapshotRequest::View::slices) {
-        write(slicesPicture(scan_, whole, place));
-    } else if (whole.view == SnapshotRequest::View::overview) {
-        write(overviewPicture(scan_, whole, place));
-    } else if (whole.view == SnapshotRequest::View::band) {
-        write(bandSnapshot(scan_, whole, place));
-    } else {
-        if (!endoscopic_)
-            endoscopic_ = std::make_unique<EndoscopicPictures>(scan_);
-        const bool cube = whole.view == SnapshotRequest::View::cube;
-        write(cube ? endoscopic_->drawCube(whole, place) : endoscopic_->draw(whole, place));
-    }
-    return place;
+    DrawnSnapshot drawn = drawSnapshot(scan, request);
+    writePng(png, drawn.picture);
+    return drawn.place;
 }
 
 }  // namespace vicon::viewer

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,10 +15,11 @@ struct Picture {
     int channels = 3;
     std::vector<std::uint8_t> pixels;
 };
+/// One that several threads read.
+using SharedPicture = std::shared_ptr<const Picture>;
 
 struct PngOptions {
     int compression = 6;        ///< zlib's level, 0 to 9
-    bool lasting = true;        ///< false: read soon and thrown away, so neither compressed nor flushed
     bool says_srgb = false;     ///< with a chunk that says which colours are meant
     std::string keyword, text;  ///< of a text chunk; none where the keyword is empty
 };

@@ -27,10 +27,10 @@ struct ScanEntry {
     std::vector<ReviewedBridge> bridges;     ///< from the rectum
     ColonPartRanges parts;                   ///< empty: not known
     std::optional<ScanQuality> quality;      ///< absent: not measured
-    std::filesystem::path overview_picture;  ///< PNG; empty: none was made
+    std::filesystem::path overview_picture;  ///< PNG, or its name among PrintPictures; empty: none was made
 };
 
-/// A marker, with the names and pictures that its entry shows.
+/// A marker, with the names and pictures that its entry shows; pictures as those of scans.
 struct MarkerEntry {
     Marker marker;
     std::string scan_label;  ///< as a reader calls the scan: "supine (series 3)"

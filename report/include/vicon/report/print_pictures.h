@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "vicon/picture/png_file.h"
+
 namespace vicon::report {
 
-/// Pictures on their way into a PDF: each is read and compressed on a thread of its own as soon as it is there, while
-/// others are still drawn. One that was not begun, or did not work, writePdf() reads itself.
+/// Pictures on their way into a PDF: each is compressed on a thread of its own as soon as it is there, while others are
+/// still drawn. They need no files. One that was not begun writePdf() reads itself.
 class PrintPictures {
 public:
     PrintPictures();
@@ -15,12 +17,13 @@ public:
     PrintPictures(const PrintPictures&) = delete;
     PrintPictures& operator=(const PrintPictures&) = delete;
 
-    /// The file is whole and stays as it is. Any thread may call it.
-    void begin(const std::filesystem::path& png);
+    /// Any thread may call it.
+    /// @param name by which the report's content calls it in place of a file
+    void begin(const std::filesystem::path& name, picture::SharedPicture picture);
 
     struct Ready;
-    /// Waits for it; nothing where it was not begun or cannot be read. Any thread may call it.
-    const Ready* get(const std::filesystem::path& png) const;
+    /// Waits for it; nothing where it was not begun. Throws what went wrong. Any thread may call it.
+    const Ready* get(const std::filesystem::path& name) const;
 
 private:
     struct Work;

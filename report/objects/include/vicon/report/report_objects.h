@@ -10,6 +10,7 @@
 #include "vicon/cases/case_store.h"
 #include "vicon/cases/report_content.h"
 #include "vicon/cases/report_versions.h"
+#include "vicon/picture/png_file.h"
 
 namespace vicon::report {
 
@@ -42,8 +43,7 @@ struct ReportObject {
 /// The pictures of one sight of a finding. They do not say whose they are: the object's header does.
 struct SightPictures {
     std::string marker_id;
-    std::string what;                          ///< in words
-    std::vector<std::filesystem::path> files;  ///< PNG, from left to right; at least one
+    std::string what;  ///< in words
 };
 
 /// Pictures on their way into objects: those of a sight are joined and compressed on a thread of its own as soon as
@@ -56,12 +56,13 @@ public:
     PackedSights(const PackedSights&) = delete;
     PackedSights& operator=(const PackedSights&) = delete;
 
-    /// The files are whole and stay as they are. Any thread may call it, once for each marker.
-    void begin(const std::string& marker_id, const std::vector<std::filesystem::path>& files);
+    /// Any thread may call it, once for each marker.
+    /// @param pictures from left to right; at least one
+    void begin(const std::string& marker_id, std::vector<picture::SharedPicture> pictures);
 
     struct Packed;
-    /// Waits for it; packs now what was not begun. Throws what went wrong. To be called once for each marker.
-    std::unique_ptr<Packed> take(const SightPictures& pictures);
+    /// Waits for it. Throws what went wrong. To be called once for each marker that was begun.
+    std::unique_ptr<Packed> take(const std::string& marker_id);
 
 private:
     struct Work;
@@ -76,7 +77,7 @@ struct ObjectContent {
     std::string_view pdf;
     std::vector<SightPictures> pictures = {};
     std::vector<ObjectKind> kinds = kAllObjects;  ///< that are made
-    PackedSights* packed = nullptr;               ///< the pictures, begun already; may be none
+    PackedSights* packed = nullptr;               ///< where all the pictures were begun; none where there are none
 };
 
 /// What a report's objects show of its scans: where the images lie, the centrelines, the lumen on the images. It takes

@@ -38,7 +38,6 @@ std::vector<Area> textAreas(const Overlay& overlay);
 void copyInto(Picture& target, const Picture& source, int x, int y);
 
 /// Writes a PNG by replaceFile(). Throws Error{store}.
-/// @param lasting false: read soon and thrown away, so neither compressed nor flushed
-void writePng(const std::filesystem::path& file, const Picture& picture, bool lasting = true);
+void writePng(const std::filesystem::path& file, const Picture& picture);
 
 }  // namespace vicon::viewer

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -8,8 +7,8 @@
 
 namespace vicon::viewer {
 
-/// Endoscopic pictures from places that are known beforehand, the same as of Snapshots in less time: of the surface
-/// only the cells that may be seen from there are made ready and drawn.
+/// Endoscopic pictures from places that are known beforehand, the same as of drawSnapshot() in less time: of the
+/// surface only the cells that may be seen from there are made ready and drawn.
 class KnownSnapshots {
 public:
     /// Reads and makes ready what needs no OpenGL, on all cores; any thread may do that. Where segments or subdivision
@@ -18,10 +17,9 @@ public:
     KnownSnapshots(PreparedScan scan, std::vector<SnapshotRequest> requests);
     ~KnownSnapshots();
 
-    /// As Snapshots::render() does, and on one thread; the last picture goes there too.
+    /// As drawSnapshot() does, and on one thread; the last picture goes there too.
     /// @param place number of its request, of which markers and peeling are replaced
-    SnapshotResult render(std::size_t place, const std::vector<Marker>& markers, const PeelRequest& peel,
-                          const std::filesystem::path& png);
+    DrawnSnapshot draw(std::size_t place, const std::vector<Marker>& markers, const PeelRequest& peel);
     /// Triangles that are made ready: those of the cells that may be seen from any of the places.
     std::size_t triangles() const;
 

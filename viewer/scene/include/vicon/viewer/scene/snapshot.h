@@ -10,6 +10,7 @@
 #include "vicon/viewer/model/peeling.h"
 #include "vicon/viewer/model/prior_place.h"
 #include "vicon/viewer/model/view_pose.h"
+#include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/prepared_scan.h"
 
 namespace vicon::viewer {
@@ -62,7 +63,6 @@ struct SnapshotRequest {
     double slice_field_mm = 0;      ///< slices: how much to show around the point; 0: the whole scan
     ViewPoseOptions pose;           ///< endo: where to put the eye
     PeelRequest peel;               ///< endo: the look below the wall
-    bool lasting = true;            ///< false: read soon and thrown away, so neither compressed nor flushed
 
     static constexpr int kLeastSide = 200;
     static constexpr int kMostSide = 4096;
@@ -79,24 +79,17 @@ struct SnapshotResult {
     bool sees_target = true;  ///< endo: false where nothing inside the lumen has the marker in plain view
 };
 
-/// Renders a picture and writes it as PNG by replaceFile(). Starts a private display for the time of the call where
-/// there is none; for many pictures hold a Display. The same scan and request give the same bytes on the same machine.
-/// Throws Error{wrong_use} for a size or an angle out of range, Error{not_ready}, Error{no_display}, Error{store}.
+struct DrawnSnapshot {
+    Picture picture;
+    SnapshotResult place;
+};
+
+/// Starts a private display for the time of the call where there is none; for many pictures hold a Display. The same
+/// scan and request give the same picture on the same machine. Throws Error{wrong_use} for a size or an angle out of
+/// range, Error{not_ready}, Error{no_display}.
+DrawnSnapshot drawSnapshot(const PreparedScan& scan, const SnapshotRequest& request);
+/// The same, written as PNG by replaceFile(). Throws Error{store}, too.
 SnapshotResult renderSnapshot(const PreparedScan& scan, const SnapshotRequest& request,
                               const std::filesystem::path& png);
-
-/// Many pictures of one scan, the same as of renderSnapshot(): what is costly is made once. To be used, and to end, on
-/// one thread, as OpenGL is.
-class Snapshots {
-public:
-    explicit Snapshots(PreparedScan scan);
-    ~Snapshots();
-    /// As renderSnapshot() does.
-    SnapshotResult render(const SnapshotRequest& request, const std::filesystem::path& png);
-
-private:
-    PreparedScan scan_;
-    std::unique_ptr<class EndoscopicPictures> endoscopic_;
-};
 
 }  // namespace vicon::viewer
