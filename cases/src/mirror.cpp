@@ -11,13 +11,12 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/file_copy.h"
+#include "vicon/core/file_modes.h"
 
 namespace fs = std::filesystem;
 
 namespace vicon {
 namespace {
-
-constexpr mode_t kPrivateFile = 0600;
 
 Error failure(const std::string& what, const fs::path& where, int number)
 {
@@ -55,7 +54,8 @@ void copyFile(const fs::path& from, const fs::path& to, Copied& copied)
     if (number != 0)
         throw failure("a file cannot be copied", to, number);
     fs::last_write_time(temporary, time, trouble);
-    if (trouble || ::chmod(temporary.c_str(), kPrivateFile) != 0 || ::rename(temporary.c_str(), to.c_str()) != 0)
+    if (trouble || ::chmod(temporary.c_str(), fileModeIn(to.parent_path())) != 0 ||
+        ::rename(temporary.c_str(), to.c_str()) != 0)
         throw failure("a file cannot be copied", to, trouble ? trouble.value() : errno);
     ++copied.copied;
     copied.bytes_copied += fs::file_size(to);

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "database_engine.h"
+#include "vicon/core/file_modes.h"
 
 namespace vicon {
 namespace {
@@ -43,13 +44,14 @@ private:
     int descriptor_;
 };
 
-/// Nobody else may read the database, at no moment. SQLite gives its other files the same mode. The file is made
-/// without being opened: closing it again would drop the locks of every connection that this process has to it, and
-/// another program would delete the log under them (sqlite.org/howtocorrupt.html, section 2.2).
+/// Nobody else than fileModeIn() says may read the database, at no moment. SQLite gives its other files the same mode.
+/// The file is made without being opened: closing it again would drop the locks of every connection that this process
+/// has to it, and another program would delete the log under them (sqlite.org/howtocorrupt.html, section 2.2).
 void createPrivately(const std::filesystem::path& file)
 {
-    ::mknod(file.c_str(), S_IFREG | 0600, 0);  // that it is there, or cannot be made, SQLite finds
-    ::chmod(file.c_str(), 0600);
+    const mode_t mode = fileModeIn(file.parent_path());
+    ::mknod(file.c_str(), S_IFREG | mode, 0);  // that it is there, or cannot be made, SQLite finds
+    ::chmod(file.c_str(), mode);
 }
 
 class Sqlite : public DatabaseEngine {

@@ -12,23 +12,17 @@
 
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/file_modes.h"
 
 namespace fs = std::filesystem;
 
 namespace vicon {
 namespace {
 
-constexpr mode_t kPrivate = 0600;
-
 /// Outside the case's folder, which a deletion takes away.
 fs::path lockOf(const fs::path& store, const std::string& case_id)
 {
     return store / "in_use" / case_id;
-}
-
-int openLock(const fs::path& file)
-{
-    return ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kPrivate);
 }
 
 /// Whether this is still the file of that name: who waited for a lock may have got that of a file that is gone.
@@ -41,7 +35,7 @@ bool isStillThere(int descriptor, const fs::path& file)
 
 }  // namespace
 
-StoreLock::StoreLock(const fs::path& store, Progress& progress) : descriptor_(openLock(store / "import.lock"))
+StoreLock::StoreLock(const fs::path& store, Progress& progress) : descriptor_(openOrMake(store / "import.lock"))
 {
     constexpr auto kPause = std::chrono::milliseconds(10);
     if (descriptor_ < 0)
@@ -68,7 +62,7 @@ CaseInUse::CaseInUse(const fs::path& store, const std::string& case_id) noexcept
 {
     try {
         makePrivateFolder(store / "in_use");
-        descriptor_ = openLock(lockOf(store, case_id));
+        descriptor_ = openOrMake(lockOf(store, case_id));
         if (descriptor_ >= 0)
             ::flock(descriptor_, LOCK_SH | LOCK_NB);
     } catch (const std::exception&) {  // a store that cannot be written to: nobody can delete there either
@@ -84,7 +78,7 @@ CaseInUse::~CaseInUse()
 CaseUnused::CaseUnused(const fs::path& store, const std::string& case_id) : file_(lockOf(store, case_id))
 {
     makePrivateFolder(file_.parent_path());
-    descriptor_ = openLock(file_);
+    descriptor_ = openOrMake(file_);
     if (descriptor_ < 0)
         throw Error(ErrorCode::store, std::string("the case cannot be locked (") + std::strerror(errno) + ")", case_id,
                     "check that the store is yours, and its disk not full");

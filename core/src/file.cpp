@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "vicon/core/error.h"
+#include "vicon/core/file_modes.h"
 
 namespace fs = std::filesystem;
 
@@ -70,7 +71,7 @@ void replaceFile(const fs::path& target, const std::function<void(const fs::path
     const fs::path temporary = temporaryNameFor(target);
     try {
         write(temporary);
-        if (::chmod(temporary.c_str(), 0600) != 0)
+        if (::chmod(temporary.c_str(), fileModeIn(target.parent_path())) != 0)
             failed("cannot be written", target);
         flush(temporary);
         if (::rename(temporary.c_str(), target.c_str()) != 0)
@@ -116,7 +117,7 @@ void makePrivateFolder(const fs::path& folder)
     if (folder.empty() || fs::is_directory(folder))
         return;
     makePrivateFolder(folder.parent_path());
-    if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+    if (const int number = makeFolder(folder); number != 0 && number != EEXIST)
         failed("folder cannot be created", folder);
     flush(folder.has_parent_path() ? folder.parent_path() : fs::path("."));
 }

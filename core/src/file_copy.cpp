@@ -7,6 +7,8 @@
 #include <array>
 #include <cerrno>
 
+#include "vicon/core/file_modes.h"
+
 namespace vicon {
 namespace {
 
@@ -58,11 +60,10 @@ int copyInside(int from, int to)
 
 int copyBytes(const std::filesystem::path& from, const std::filesystem::path& to)
 {
-    constexpr mode_t kPrivate = 0600;
     const int source = ::open(from.c_str(), O_RDONLY | O_CLOEXEC);
     if (source < 0)
         return errno;
-    const int target = ::open(to.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kPrivate);
+    const int target = openOrMake(to, O_TRUNC);
     int number = target < 0 ? errno : copyInside(source, target);
     ::close(source);
     if (target >= 0 && ::close(target) != 0 && number == 0)

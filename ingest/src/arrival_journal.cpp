@@ -1,6 +1,7 @@
 #include "arrival_journal.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/file_modes.h"
 
 namespace fs = std::filesystem;
 
@@ -134,7 +136,7 @@ bool ArrivalJournal::isCopied(const fs::path& temporary, const fs::path& target)
         turn = turnFor(bytes, place);
         if (turn) {
             turn->part.copy(temporary, bytes, place, target.lexically_relative(folder_).string());
-            fs::permissions(temporary, fs::perms::owner_read | fs::perms::owner_write);
+            ::chmod(temporary.c_str(), fileModeIn(folder_));
             fs::rename(temporary, target);
             copied = true;
         }

@@ -10,6 +10,7 @@
 #include "trial_record.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/file_modes.h"
 
 namespace fs = std::filesystem;
 
@@ -38,7 +39,7 @@ Incoming::~Incoming()
 
 void Incoming::lockFolder()
 {
-    lock_descriptor_ = ::open((folder_ / kReceiverLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    lock_descriptor_ = openOrMake(folder_ / kReceiverLock);
     if (lock_descriptor_ >= 0 && ::flock(lock_descriptor_, LOCK_EX | LOCK_NB) == 0)
         return;
     if (lock_descriptor_ >= 0)

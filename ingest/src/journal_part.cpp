@@ -15,6 +15,7 @@
 
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/file_modes.h"
 
 namespace fs = std::filesystem;
 
@@ -186,7 +187,7 @@ std::uint64_t JournalPart::reserve(std::uint64_t bytes)
 
 void JournalPart::open()
 {
-    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    descriptor_ = openOrMake(file_, O_TRUNC);
     if (descriptor_ < 0)
         partFailed("cannot be made", file_);
     errno = flushToDisk(file_.parent_path());

@@ -13,6 +13,7 @@
 
 #include "vicon/core/file.h"
 #include "vicon/core/file_copy.h"
+#include "vicon/core/file_modes.h"
 
 namespace fs = std::filesystem;
 
@@ -48,7 +49,7 @@ void copyPrivately(const fs::path& from, const fs::path& to)
 {
     if (const int number = copyBytes(from, to); number != 0)
         throw notCopied(from, to, number);
-    if (::chmod(to.c_str(), 0600) != 0)
+    if (::chmod(to.c_str(), fileModeIn(to.parent_path())) != 0)
         failed("cannot be made private", to, errno);
     flush(to);
 }

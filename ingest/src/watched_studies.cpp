@@ -9,6 +9,7 @@
 
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/file_modes.h"
 
 namespace fs = std::filesystem;
 
@@ -21,7 +22,7 @@ WatchedStudies::WatchedStudies(const fs::path& store, const std::string& peer)
     makePrivateFolder(folder);
     file_ = folder / (sha256(peer).substr(0, kDigits) + ".json");
     const fs::path lock = fs::path(file_).replace_extension(".lock");
-    lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    lock_ = openOrMake(lock);
     if (lock_ < 0 || ::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
         ::close(lock_);
         throw Error(ErrorCode::store, "another program watches this peer for this store", peer, "stop it");

@@ -61,6 +61,24 @@ TEST_F(Study, HasEveryFileOfTheContract)
     }
 }
 
+TEST_F(Study, InAStoreThatAGroupSharesEverythingIsTheGroups)
+{
+    const TemporaryFolder folder;
+    const fs::path shared = folder / "store";
+    fs::create_directory(shared);
+    fs::permissions(shared, fs::perms::owner_all | fs::perms::group_all | fs::perms::set_gid);
+    const ListedScan scan = readSmallStudy(shared);
+    viconOn(shared, "report " + scan.case_id);
+    constexpr auto kOfGroup = fs::perms::group_read | fs::perms::group_write;
+    for (const auto& entry : fs::recursive_directory_iterator(shared)) {
+        const auto mode = entry.status().permissions();
+        EXPECT_EQ(mode & kOfGroup, kOfGroup) << entry.path();
+        EXPECT_EQ(mode & fs::perms::others_all, fs::perms::none) << entry.path();
+        if (entry.is_directory())
+            EXPECT_EQ(mode & fs::perms::set_gid, fs::perms::set_gid) << entry.path();
+    }
+}
+
 TEST_F(Study, FindsTheColonsLength)
 {
     const auto show = viconJson(store(), "show " + scan_.case_id);

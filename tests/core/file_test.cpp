@@ -2,12 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 
 #include "vicon/core/error.h"
+#include "vicon/core/file_modes.h"
 #include "vicon/core/temporary_folder.h"
 #include "vicon/support/support.h"
 
@@ -55,6 +57,34 @@ TEST(ReplaceFile, MakesFilesThatOnlyTheOwnerReads)
     EXPECT_EQ(modeOf(folder / "a"), 0700u);
     EXPECT_EQ(modeOf(folder / "a" / "b"), 0700u);
     EXPECT_EQ(modeOf(folder / "a" / "b" / "c"), 0600u);
+}
+
+TEST(ReplaceFile, InAFolderThatAGroupSharesMakesFilesAndFoldersOfTheGroup)
+{
+    const support::TemporaryFolder folder;
+    const fs::path shared = folder / "shared";
+    makePrivateFolder(shared);
+    ASSERT_EQ(::chmod(shared.c_str(), 02770), 0);
+    for (const mode_t umask : {0077U, 0022U, 0007U}) {
+        const mode_t before = ::umask(umask);
+        const fs::path made = shared / std::to_string(umask);
+        makePrivateFolder(made / "b");
+        replaceFile(made / "b" / "c", "x");
+        ::close(openOrMake(made / "lock"));
+        ::umask(before);
+        EXPECT_EQ(modeOf(made / "b"), 0770u);
+        EXPECT_NE(fs::status(made / "b").permissions() & fs::perms::set_gid, fs::perms::none) << "it hands it on";
+        EXPECT_EQ(modeOf(made / "b" / "c"), 0660u);
+        EXPECT_EQ(modeOf(made / "lock"), 0660u);
+    }
+}
+
+TEST(ReplaceFile, WhereTheGroupMayOnlyWriteNothingIsGivenToIt)
+{
+    const support::TemporaryFolder folder;
+    ASSERT_EQ(::chmod(folder.path().c_str(), 0770), 0);  // the file's group would be whichever its account has
+    replaceFile(folder / "a", "x");
+    EXPECT_EQ(modeOf(folder / "a"), 0600u);
 }
 
 TEST(ReplaceFile, SaysWhichFolderIsMissing)

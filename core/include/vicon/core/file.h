@@ -9,7 +9,7 @@
 namespace vicon {
 
 /// Writes a file so that a crash leaves the old file or the new one: `write` fills a temporary name in the same folder,
-/// which is then flushed to disk, made 0600, and renamed to `target`; the folder is flushed too.
+/// which is then flushed to disk, given the mode of fileModeIn(), and renamed to `target`; the folder is flushed too.
 /// The temporary name keeps the target's extension and starts with kTemporaryPrefix. When `write` throws, it is
 /// removed.
 void replaceFile(const std::filesystem::path& target, const std::function<void(const std::filesystem::path&)>& write);
@@ -22,7 +22,7 @@ int flushToDisk(const std::filesystem::path& path);
 /// Removes temporaries that a killed process left directly in `folder`. Call only while nobody else writes there.
 void removeTemporaries(const std::filesystem::path& folder);
 
-/// Creates a folder (0700) and what leads to it, and flushes its parent.
+/// Creates a folder and what leads to it, each by makeFolder(), and flushes its parent.
 void makePrivateFolder(const std::filesystem::path& folder);
 
 /// The whole file. Throws Error{not_found} or Error{store}.
