@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -8,6 +9,7 @@
 #include <new>
 #include <optional>
 #include <string_view>
+#include <thread>
 
 #include "command.h"
 #include "log_lines.h"
@@ -52,6 +54,17 @@ std::optional<Role> roleFor(std::string_view subcommand)
     if (has(kAnybody))
         return {};
     return has(kReading) ? Role::read : has(kMarking) ? Role::mark : Role::operate;
+}
+
+/// Memory that was given back is kept for what asks next, in a heap for each core: threads that come and go would have
+/// up to eight for each, and pages brought in anew were a sixth of the time that a signature with ten findings takes.
+/// What is larger than a picture goes back to the system at once, as before.
+void keepMemoryForReuse()
+{
+    constexpr int kPicture = 32 << 20, kKeptOfAHeap = 64 << 20;
+    ::mallopt(M_ARENA_MAX, int(std::max(1U, std::thread::hardware_concurrency())));
+    ::mallopt(M_MMAP_THRESHOLD, kPicture);
+    ::mallopt(M_TRIM_THRESHOLD, kKeptOfAHeap);
 }
 
 /// A variable that is not set must not mean the usual place.
@@ -138,6 +151,7 @@ try {
 int main(int argc, char** argv)
 {
     using namespace vicon;
+    app::keepMemoryForReuse();
     app::openStandardStreams();
     spdlog::set_default_logger(spdlog::stderr_logger_mt("vicon"));
     app::writeLogAs({});
