@@ -7,6 +7,7 @@
 #include "pdf_fixture.h"
 #include "quality_table.h"
 #include "vicon/core/file.h"
+#include "vicon/picture/png_file.h"
 #include "vicon/report/finding_statements.h"
 #include "vicon/report/wording.h"
 

@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "vicon/picture/png_file.h"
+namespace vicon::picture {
+struct Picture;
+}
 
 namespace vicon::report {
 
@@ -19,7 +21,7 @@ public:
 
     /// Any thread may call it.
     /// @param name by which the report's content calls it in place of a file
-    void begin(const std::filesystem::path& name, picture::SharedPicture picture);
+    void begin(const std::filesystem::path& name, std::shared_ptr<const picture::Picture> picture);
 
     struct Ready;
     /// Waits for it; nothing where it was not begun. Throws what went wrong. Any thread may call it.
