@@ -29,10 +29,10 @@ mode_t fileModeIn(const fs::path& folder)
 int openOrMake(const fs::path& file, int flags)
 {
     const mode_t mode = fileModeIn(file.parent_path());
-    const int made = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | flags, mode);
-    if (made >= 0)
-        ::fchmod(made, mode);
-    return made >= 0 || errno != EEXIST ? made : ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | flags, mode);
+    const int opened = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | flags, mode);
+    if (opened >= 0)
+        ::fchmod(opened, mode);  // whose file it is may; the group's others need not
+    return opened;
 }
 
 int makeFolder(const fs::path& folder)

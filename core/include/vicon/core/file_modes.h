@@ -11,8 +11,8 @@ namespace vicon {
 /// @param folder in which the file is made
 mode_t fileModeIn(const std::filesystem::path& folder);
 
-/// Opens a file for reading and writing, and makes it by fileModeIn(), whatever the umask. Returns a descriptor, else
-/// -1 with errno.
+/// Opens a file for reading and writing, made if need be, with the mode of fileModeIn() whatever the umask. Returns a
+/// descriptor, else -1 with errno.
 /// @param flags more of open()'s, as O_TRUNC
 int openOrMake(const std::filesystem::path& file, int flags = 0);
 
