@@ -4,11 +4,13 @@
 #include "vicon/cases/given_lumen.h"
 #include "vicon/cases/store_locks.h"
 #include "vicon/core/error.h"
+#include "vicon/core/quantity.h"
 #include "vicon/ingest/load_scan.h"
 #include "vicon/ingest/mask_file.h"
 #include "vicon/report/wording.h"
 #include "vicon/scan_files/volume_file.h"
 #include "vicon/steps/given_fit.h"
+#include "vicon/steps/lumen_contrast.h"
 #include "vicon/steps/resample.h"
 
 namespace fs = std::filesystem;
@@ -30,14 +32,28 @@ std::string percent(double share)
     return report::percent(share, 0);
 }
 
-/// The densities on which the pipeline finds a lumen; made anew where it has not been at work yet.
-HuVolume densitiesOf(CaseStore& store, const ScanRecord& scan, const Config& config, Progress& progress)
+/// What the pipeline resampled, or would.
+HuVolume volumeOf(CaseStore& store, const ScanRecord& scan, const Config& config, Progress& progress)
 {
     const fs::path folder = store.scanFolder(scan.case_id, scan.id);
     if (fs::exists(folder / "volume.mha"))
         return scan_files::readVolume<std::int16_t>(folder / "volume.mha");
     return steps::resample(ingest::loadScan(folder / "dicom", config.get<ingest::ImportOptions>(), progress),
                            config.get<steps::ResampleOptions>(), progress);
+}
+
+/// The densities that tell a lumen, of MR its signal on the lumen's scale.
+HuVolume densitiesOf(CaseStore& store, const ScanRecord& scan, const Config& config, const LumenImport& asked,
+                     const InsideVolume& lumen, Progress& progress)
+{
+    HuVolume volume = volumeOf(store, scan, config, progress);
+    if (quantityOf(scan.series) == Quantity::density)
+        return volume;
+    try {
+        return steps::onLumenScaleOf(volume, lumen, config.get<steps::SignalOptions>(), progress);
+    } catch (const Error& e) {
+        throw Error(e.code(), e.what(), asked.file.string(), e.remedy());
+    }
 }
 
 std::string fitWords(const steps::GivenFit& fit)
@@ -102,7 +118,7 @@ std::vector<ingest::ImportLine> importLumen(CaseStore& store, const Config& conf
     const double largest_mvoxel = config.get<ingest::ImportOptions>().largest_volume_mvoxel;
     ingest::MaskFile mask = ingest::readMask(asked.file, asked.label, largest_mvoxel, progress);
     requireSameFrame(mask, scan, asked.file);
-    const steps::GivenFit fit = steps::fitOf(densitiesOf(store, scan, config, progress), mask.mask,
+    const steps::GivenFit fit = steps::fitOf(densitiesOf(store, scan, config, asked, mask.mask, progress), mask.mask,
                                              mask.lattice_middle_mm, config.get<steps::SegmentOptions>(), progress);
     requireFit(fit, asked.file);
     giveLumen(

@@ -45,6 +45,7 @@ KnownStudy knownOf(CaseStore& store, const std::string& case_id)
     KnownStudy known;
     double dose_mgy_cm = 0;
     bool all_dosed = true;
+    Quantity quantity = Quantity::density;
     std::string contrast;
     const auto join = [](std::string& to, const std::string& what, const char* by) {
         if (!what.empty())
@@ -62,13 +63,14 @@ KnownStudy knownOf(CaseStore& store, const std::string& case_id)
         dose_mgy_cm += facts.dose_mgy_cm.value_or(0);
         all_dosed = all_dosed && facts.dose_mgy_cm;
         join(known.technique, techniqueOf(scan), "; ");
+        quantity = quantityOf(scan.series);
         join(known.fluid, fluidOf(store, scan), ", ");
     }
     if (const auto order = orderOf(store, case_id); order && known.indication.empty())
         known.indication = order->reason.empty() ? order->procedure : order->reason;
     if (!known.technique.empty())
-        known.technique =
-            "CT colonography, " + known.technique + (contrast.empty() ? "" : "; contrast: " + contrast) + ".";
+        known.technique = std::string(examinationOf(quantity)) + ", " + known.technique +
+                          (contrast.empty() ? "" : "; contrast: " + contrast) + ".";
     if (all_dosed && dose_mgy_cm > 0)
         known.dose_mgy_cm = std::round(dose_mgy_cm * 10) / 10;
     return known;

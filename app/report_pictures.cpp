@@ -82,14 +82,13 @@ picture::SharedPicture shared(viewer::Picture drawn)
 
 /// The pictures of one sight of a finding, from left to right.
 struct Sight {
-    picture::SharedPicture endoscopic, below, slices, measures;
-    std::atomic<int> halves = 0;  ///< that are drawn
+    picture::SharedPicture endoscopic, below, slices, measures;  ///< some may be none
+    std::atomic<int> halves = 0;                                 ///< that are drawn
 
     std::vector<picture::SharedPicture> all() const
     {
-        std::vector<picture::SharedPicture> pictures{endoscopic, below, slices};
-        if (measures)
-            pictures.push_back(measures);
+        std::vector<picture::SharedPicture> pictures{endoscopic, below, slices, measures};
+        std::erase(pictures, nullptr);
         return pictures;
     }
 };
@@ -149,6 +148,8 @@ private:
         const viewer::Pose& pose = seen.place.pose;
         entry.seen_from = "towards " + viewer::sideName(pose.forward) + ", " +
                           std::to_string(std::lround(distance(pose.eye_mm, marker.position_mm))) + " mm away";
+        if (prepared_.quantity() == Quantity::signal)  // what lies below the wall is told by densities
+            return;
         viewer::PeelRequest below;
         below.preset = kBelowTheWall;
         below.options.offset_mm = depthBelow_mm(read_, marker.id);

@@ -83,6 +83,8 @@ Subcommand phantomCommand()
             command.flag("--thin-walls", options.thin_walls, "Loops with 1 mm of wall between them");
             command.flag("--self-contact", options.self_contact, "Two loops run into one another once");
             command.flag("--ileum", options.ileum, "A terminal ileum filled through the ileocaecal valve");
+            command.option("--mr", options.mr, "MR images in place of CT, the lumen dark or bright in them")
+                .check(oneOf({"none", "dark", "bright"}));
             command.flag("--low-dose", options.low_dose, "Noise of 50 to 80 HU");
             command.option("--seed", options.seed, "Number that the study is drawn from").captureDefault();
             command.option("--size", arguments->size, "Voxels (default: 512x512x430)").typeName("COLUMNSxROWSxSLICES");

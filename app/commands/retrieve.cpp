@@ -127,11 +127,14 @@ int retrieve(Context& context, const Request& request)
     const ingest::Peer peer = requirePeer(context.config(), request.peer, PeerUse::query);
     const std::string title = context.config().get<ingest::ReceiverOptions>().ae_title;
     ProgressLine progress("retrieve");
-    const auto series = ingest::findSeries(peer, request.study_uid, request.reports ? "SR" : "CT", title, progress);
+    std::vector<std::string> series;
+    for (const char* modality : request.reports ? std::vector{"SR"} : std::vector{"CT", "MR"})
+        for (std::string& uid : ingest::findSeries(peer, request.study_uid, modality, title, progress))
+            series.push_back(std::move(uid));
     if (series.empty())
         throw Error(ErrorCode::not_found,
                     request.reports ? "the peer has no structured report of this study"
-                                    : "the peer has no CT series of this study",
+                                    : "the peer has no series of CT or MR of this study",
                     request.study_uid, "look for it with 'vicon query " + request.peer + "'");
     const Fetched fetched = request.method == "get" ? fetchByGet(context, request.study_uid, peer, series, progress)
                                                     : fetchByMove(context, request, peer, series, progress);

@@ -24,8 +24,9 @@ void printQuality(const QualityFound& found)
     if (!found.quality)
         return;
     const ScanQuality& quality = *found.quality;
-    std::printf("  quality: %s%s%s, noise %s HU\n", quality.whole.adequate ? "adequate" : "not adequate",
-                quality.reason.empty() ? "" : ": ", quality.reason.c_str(), formatNumber(quality.noise_hu, 0).c_str());
+    const std::string noise = quality.noise_hu > 0 ? ", noise " + formatNumber(quality.noise_hu, 0) + " HU" : "";
+    std::printf("  quality: %s%s%s%s\n", quality.whole.adequate ? "adequate" : "not adequate",
+                quality.reason.empty() ? "" : ": ", quality.reason.c_str(), noise.c_str());
     std::vector<std::vector<std::string>> rows;
     const auto addRow = [&](const std::string& name, const std::string& stations, const StretchQuality& q) {
         const auto number = [](double value) { return formatNumber(value, 0); };

@@ -8,6 +8,7 @@
 #include "vicon/cases/polyp_size.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/core/error.h"
+#include "vicon/core/quantity.h"
 #include "vicon/scan_files/cells_file.h"
 #include "vicon/scan_files/volume_file.h"
 
@@ -121,6 +122,8 @@ void renewPlaces(CaseStore& store, const MarkOptions& options, const std::string
 
 void addDensity(CaseStore& store, const std::string& case_id, Marker& marker, double radius_mm)
 {
+    if (quantityOf(store.requireScan(case_id, marker.scan_id).series) == Quantity::signal)
+        throw Error(ErrorCode::wrong_use, "a biopsy measures densities, and MR has none", marker.scan_id);
     const fs::path folder = store.scanFolder(case_id, marker.scan_id);
     const auto volume = scan_files::readVolume<std::int16_t>(folder / "volume.mha");
     const auto inside = scan_files::readVolume<std::uint8_t>(folder / "inside.mha");

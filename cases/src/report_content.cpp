@@ -91,6 +91,13 @@ std::string unexplained(const Proposal<Category>& proposal, const std::optional<
 
 }  // namespace
 
+Quantity quantityOf(const ReadCase& read)
+{
+    const bool signal = std::any_of(read.scans.begin(), read.scans.end(),
+                                    [](const ScanRecord& scan) { return quantityOf(scan.series) == Quantity::signal; });
+    return signal ? Quantity::signal : Quantity::density;
+}
+
 ReadCase readCase(CaseStore& store, const std::string& case_id)
 {
     const std::string id = store.requireCase(case_id).id;

@@ -9,16 +9,19 @@ namespace {
 
 json scanJson(const ScanRecord& scan)
 {
-    return {{"id", scan.id},
-            {"series_uid", scan.series.uid},
-            {"series_number", scan.series.number},
-            {"description", scan.series.description},
-            {"position", positionName(scan.series.patient_position)},
-            {"patient_position", scan.series.patient_position},
-            {"frame_of_reference_uid", scan.series.frame_of_reference_uid},
-            {"slice_thickness_mm", scan.series.slice_thickness_mm},
-            {"kernel", scan.series.kernel},
-            {"lossy", scan.series.lossy}};
+    json out = {{"id", scan.id},
+                {"series_uid", scan.series.uid},
+                {"series_number", scan.series.number},
+                {"description", scan.series.description},
+                {"position", positionName(scan.series.patient_position)},
+                {"patient_position", scan.series.patient_position},
+                {"frame_of_reference_uid", scan.series.frame_of_reference_uid},
+                {"slice_thickness_mm", scan.series.slice_thickness_mm},
+                {"kernel", scan.series.kernel},
+                {"lossy", scan.series.lossy}};
+    if (quantityOf(scan.series) == Quantity::signal)
+        out["modality"] = scan.series.modality;  // else CT
+    return out;
 }
 
 template <class Category>
@@ -46,6 +49,7 @@ ScanRecord scanFromContent(const json& from)
     scan.series.slice_thickness_mm = from.value("slice_thickness_mm", 0.0);
     scan.series.kernel = from.value("kernel", "");
     scan.series.lossy = from.value("lossy", false);
+    scan.series.modality = from.value("modality", "CT");
     return scan;
 }
 

@@ -142,10 +142,12 @@ std::string whyNotAnonymous(DcmDataset& dataset)
 {
     const Dataset read(dataset);
     const std::string sop_class = read.raw(DCM_SOPClassUID), modality = read.raw(DCM_Modality);
-    if ((sop_class != UID_CTImageStorage && sop_class != UID_EnhancedCTImageStorage &&
-         sop_class != UID_LegacyConvertedEnhancedCTImageStorage) ||
-        modality != "CT")
-        return "no CT image";
+    const bool ct = sop_class == UID_CTImageStorage || sop_class == UID_EnhancedCTImageStorage ||
+                    sop_class == UID_LegacyConvertedEnhancedCTImageStorage;
+    const bool mr = sop_class == UID_MRImageStorage || sop_class == UID_EnhancedMRImageStorage ||
+                    sop_class == UID_LegacyConvertedEnhancedMRImageStorage;
+    if (!(ct && modality == "CT") && !(mr && modality == "MR"))
+        return "no image of CT or MR";
     if (read.raw(DCM_BurnedInAnnotation) == "YES")
         return "text burnt into its pixels";
     for (const std::string& value : read.values(DCM_ImageType))

@@ -61,6 +61,15 @@ const Tags& image()
 const Tags& acquisition()
 {
     static const Tags kTags = {DCM_ScanOptions,
+                               DCM_ScanningSequence,
+                               DCM_SequenceVariant,
+                               DCM_MRAcquisitionType,
+                               DCM_RepetitionTime,
+                               DCM_EchoTime,
+                               DCM_EchoTrainLength,
+                               DCM_InversionTime,
+                               DCM_FlipAngle,
+                               DCM_MagneticFieldStrength,
                                DCM_SliceThickness,
                                DCM_SpacingBetweenSlices,
                                DCM_KVP,

@@ -35,7 +35,7 @@ struct Slice {
     Vector3 column;       ///< unit vector along a column: row index grows
     double pixel_mm = 0;  ///< between the pixels of a row
     double row_mm = 0;    ///< between rows
-    double slope = 1;     ///< HU = slope * stored value + intercept
+    double slope = 1;     ///< HU = slope * stored value + intercept; of MR the signal, see readSignal()
     double intercept = 0;
     double thickness_mm = 0;
     std::string image_type;  ///< values 1 to 4 joined by backslashes
@@ -46,7 +46,7 @@ struct Slice {
     Vector3 normal() const { return cross(row, column); }
 };
 
-/// What VICON needs to know of a CT object, from its header.
+/// What VICON needs to know of a CT or MR object, from its header.
 struct ImageObject {
     std::filesystem::path file;
     std::string sop_uid;

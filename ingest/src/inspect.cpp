@@ -115,16 +115,23 @@ bool isCtClass(const std::string& sop_class)
            sop_class == UID_LegacyConvertedEnhancedCTImageStorage;
 }
 
-/// Why an object is no CT slice, though it is a proper object; empty when it may be one.
+bool isMrClass(const std::string& sop_class)
+{
+    return sop_class == UID_MRImageStorage || sop_class == UID_EnhancedMRImageStorage ||
+           sop_class == UID_LegacyConvertedEnhancedMRImageStorage;
+}
+
+/// Why an object is no slice of CT or MR, though it is a proper object; empty when it may be one.
 std::string whySetAside(const Dataset& dataset, const ImageObject& object)
 {
     const std::string& modality = object.series.modality;
     const auto said_modality = modality.empty() ? std::string() : " (" + modality + ")";
-    if (!object.sop_class.empty() && !isCtClass(object.sop_class))
+    if (!object.sop_class.empty() && !isCtClass(object.sop_class) && !isMrClass(object.sop_class))
         return std::string(dcmFindNameOfUID(object.sop_class.c_str(), "object of an unknown class")) + said_modality +
-               ", no CT slice";
-    if (!modality.empty() && modality != "CT")
-        return "modality " + modality + ", no CT slice";
+               ", no slice of CT or MR";
+    const std::string expected = isMrClass(object.sop_class) ? "MR" : "CT";
+    if (!modality.empty() && modality != expected && !(object.sop_class.empty() && modality == "MR"))
+        return "modality " + modality + ", no slice of CT or MR";
     for (const std::string& value : dataset.values(DCM_ImageType)) {
         if (value == "LOCALIZER" || value == "SCOUT")
             return "localizer";
@@ -155,7 +162,9 @@ Inspection judge(const Dataset& dataset, const ImportOptions& options, ImageObje
         return {Verdict::set_aside, std::move(why), object};
     if (std::string why = readPixelFormat(dataset, options, object); !why.empty())
         return {Verdict::refused, std::move(why), object};
-    Planes planes = readPlanes(dataset, object.pixels.frames);
+    if (isMrClass(object.sop_class))
+        object.series.modality = "MR";  // also where it is not said
+    Planes planes = readPlanes(dataset, object.pixels.frames, quantityOf(object.series));
     if (planes.slices.empty() && planes.without_geometry && looksLikeScreenSave(dataset))
         return {Verdict::set_aside, "screen save or dose sheet", object};
     if (planes.slices.empty())

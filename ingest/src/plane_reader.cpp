@@ -102,6 +102,19 @@ bool meansHounsfield(const std::string& type)
            name.starts_with("HOUNDSFIELD");
 }
 
+/// Whether one of the values, which backslashes part, is among these.
+bool hasValueOf(const std::string& values, const std::set<std::string>& wanted)
+{
+    std::size_t from = 0;
+    while (from <= values.size()) {
+        const std::size_t to = std::min(values.find('\\', from), values.size());
+        if (wanted.contains(upper(values.substr(from, to - from))))
+            return true;
+        from = to + 1;
+    }
+    return false;
+}
+
 /// Maps of blood flow, volume and the like, and of materials: numbers of their own, with a slope and an intercept too.
 bool isParametricMap(const std::string& image_type)
 {
@@ -109,14 +122,7 @@ bool isParametricMap(const std::string& image_type)
                                              "TMAX",          "PBF",          "PBV",          "PERFUSION",
                                              "PERFUSION_MAP", "RHO_Z",        "ZEFF",         "EFF_ATOMIC_NUM",
                                              "BLOOD_FLOW",    "BLOOD_VOLUME", "FLOW_EXTRACT", "PERMEABILITY"};
-    std::size_t from = 0;
-    while (from <= image_type.size()) {
-        const std::size_t to = std::min(image_type.find('\\', from), image_type.size());
-        if (kMaps.contains(upper(image_type.substr(from, to - from))))
-            return true;
-        from = to + 1;
-    }
-    return false;
+    return hasValueOf(image_type, kMaps);
 }
 
 /// Fills slope and intercept; returns what is wrong with them.
@@ -141,6 +147,28 @@ std::string readDensities(const Groups& groups, Slice& slice, std::set<std::stri
     return {};
 }
 
+/// A signal has no unit: slopes and intercepts only make slices of one series comparable, and where they are not said
+/// the values are as the scanner wrote them. Fills both; returns what is wrong with them.
+std::string readSignal(const Groups& groups, Slice& slice)
+{
+    const Dataset transformation = groups.group(DCM_PixelValueTransformationSequence);
+    slice.slope = transformation.number(DCM_RescaleSlope).value_or(1);
+    slice.intercept = transformation.number(DCM_RescaleIntercept).value_or(0);
+    if (slice.slope <= 0 || slice.slope > kLargestSlope || std::abs(slice.intercept) > kLargestIntercept_hu)
+        return "its signal cannot be told (Rescale Slope and Intercept)";
+    return {};
+}
+
+/// Of MR: numbers of their own, and phases.
+bool isMrMap(const std::string& image_type)
+{
+    static const std::set<std::string> kMaps{
+        "ADC",    "EADC",   "TRACEW",      "FA",          "PHASE",        "PHASE MAP",
+        "P",      "R",      "I",           "VELOCITY",    "VELOCITY MAP", "T1 MAP",
+        "T2 MAP", "R2 MAP", "T2_STAR MAP", "R2_STAR MAP", "FAT_FRACTION", "B0 MAP"};
+    return hasValueOf(image_type, kMaps);
+}
+
 bool usesDecimalCommas(const Groups& groups)
 {
     const Dataset measures = groups.group(DCM_PixelMeasuresSequence);
@@ -151,14 +179,17 @@ bool usesDecimalCommas(const Groups& groups)
            transformation.hasDecimalComma(DCM_RescaleSlope) || transformation.hasDecimalComma(DCM_RescaleIntercept);
 }
 
-void readKind(const Dataset& dataset, const Groups& groups, bool multi_frame, Slice& slice)
+void readKind(const Dataset& dataset, const Groups& groups, bool multi_frame, bool signal, Slice& slice)
 {
     constexpr std::size_t kImageTypeValues = 4;
-    const Dataset type = groups.group(DCM_CTImageFrameTypeSequence);
+    const Dataset type = groups.group(signal ? DCM_MRImageFrameTypeSequence : DCM_CTImageFrameTypeSequence);
     slice.image_type = joined(type.values(type.has(DCM_FrameType) ? DCM_FrameType : DCM_ImageType), kImageTypeValues);
     slice.kernel = joined(groups.group(DCM_CTReconstructionSequence).values(DCM_ConvolutionKernel), 2);
     if (!multi_frame) {
         slice.acquisition = joined(dataset.values(DCM_AcquisitionNumber), 1);
+        if (signal)  // two echoes, or a moment after another, of one place
+            slice.phase = joined(dataset.values(DCM_EchoTime), 1) + "/" +
+                          joined(dataset.values(DCM_TemporalPositionIdentifier), 1);
         return;
     }
     const Dataset content = groups.group(DCM_FrameContentSequence);
@@ -171,8 +202,9 @@ void readKind(const Dataset& dataset, const Groups& groups, bool multi_frame, Sl
 
 }  // namespace
 
-Planes readPlanes(const Dataset& dataset, int frames)
+Planes readPlanes(const Dataset& dataset, int frames, Quantity quantity)
 {
+    const bool signal = quantity == Quantity::signal;
     Planes planes;
     const bool multi_frame =
         dataset.has(DCM_SharedFunctionalGroupsSequence) || dataset.has(DCM_PerFrameFunctionalGroupsSequence);
@@ -190,16 +222,17 @@ Planes readPlanes(const Dataset& dataset, int frames)
         slice.frame = frame;
         planes.why = readGeometry(groups, slice, planes.without_geometry);
         if (planes.why.empty())
-            planes.why = readDensities(groups, slice, planes.repairs);
+            planes.why = signal ? readSignal(groups, slice) : readDensities(groups, slice, planes.repairs);
         if (planes.why.empty() && usesDecimalCommas(groups))
             planes.repairs.insert("decimal commas read as points");
         if (!planes.why.empty()) {
             planes.slices.clear();
             return planes;
         }
-        readKind(dataset, groups, multi_frame, slice);
-        if (isParametricMap(slice.image_type)) {
-            planes.why = "its values are no CT densities (Image Type " + slice.image_type + ")";
+        readKind(dataset, groups, multi_frame, signal, slice);
+        if (signal ? isMrMap(slice.image_type) : isParametricMap(slice.image_type)) {
+            planes.why = std::string("its values are no ") + (signal ? "MR signal" : "CT densities") + " (Image Type " +
+                         slice.image_type + ")";
             planes.slices.clear();
             return planes;
         }

@@ -6,6 +6,7 @@
 
 #include "dataset.h"
 #include "image_object.h"
+#include "vicon/core/quantity.h"
 
 namespace vicon::ingest {
 
@@ -19,6 +20,6 @@ struct Planes {
     /// What had to be assumed.
     std::set<std::string> repairs;
 };
-Planes readPlanes(const Dataset& dataset, int frames);
+Planes readPlanes(const Dataset& dataset, int frames, Quantity quantity);
 
 }  // namespace vicon::ingest

@@ -2,11 +2,14 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <mutex>
 
 #include "pixels.h"
 #include "vicon/core/error.h"
+#include "vicon/core/quantity.h"
 #include "volume_writer.h"
 
 namespace vicon::ingest {
@@ -18,7 +21,8 @@ constexpr std::size_t kPlanesAtATime = 8;
 /// Opens the object of a slice, and keeps it open while the slices come from the same one.
 class SliceDecoder {
 public:
-    explicit SliceDecoder(const Stack& stack) : stack_(stack) {}
+    /// @param scale of the values, see signalScale()
+    SliceDecoder(const Stack& stack, double scale) : stack_(stack), scale_(scale) {}
 
     std::vector<std::int16_t> densities(std::size_t slice)
     {
@@ -39,13 +43,54 @@ private:
             decoder_ = std::make_unique<FrameDecoder>(*ref.object);
             object_ = ref.object;
         }
-        return decoder_->densities(*ref.slice);
+        Slice scaled = *ref.slice;
+        scaled.slope *= scale_;
+        scaled.intercept *= scale_;
+        return decoder_->densities(scaled);
     }
 
     const Stack& stack_;
+    double scale_;
     const ImageObject* object_ = nullptr;
     std::unique_ptr<FrameDecoder> decoder_;
 };
+
+constexpr double kHighestKept = 32767;
+
+/// The highest value that a slice's pixels can stand for, by its header.
+double highestSaid(const SliceRef& ref)
+{
+    const int bits = ref.object->pixels.bits_stored - (ref.object->pixels.is_signed ? 1 : 0);
+    return ref.slice->slope * (std::ldexp(1, bits) - 1) + ref.slice->intercept;
+}
+
+/// The highest that they do stand for.
+double highestStored(const SliceRef& ref)
+{
+    const std::vector<std::uint16_t> stored = FrameDecoder(*ref.object).storedPixels(ref.slice->frame);
+    return ref.slice->slope * *std::max_element(stored.begin(), stored.end()) + ref.slice->intercept;
+}
+
+/// Densities are taken as they are. A signal has no unit: one that 16 bits cannot hold is halved until they can, one
+/// whose steps are less than 1 is doubled as long as they can, so that rounding loses nothing.
+double signalScale(const Stack& stack, Progress& progress)
+{
+    double highest = 0, step = 0;
+    for (const SliceRef& ref : stack.slices) {
+        if (quantityOf(ref.object->series) != Quantity::signal)
+            return 1;
+        progress.check();
+        const double said = highestSaid(ref);
+        highest = std::max(highest, said > kHighestKept ? highestStored(ref) : said);
+        step = std::max(step, ref.slice->slope);
+    }
+    double scale = 1;
+    while (highest * scale > kHighestKept)
+        scale /= 2;
+    while (step * scale < 1 && 2 * highest * scale <= kHighestKept)
+        scale *= 2;
+    return scale;
+}
 
 std::vector<std::int16_t> planeOf(const StackPlan& plan, const Stack& stack, const PlaneSource& source,
                                   const VolumeWriter& writer, SliceDecoder& decoder)
@@ -71,8 +116,9 @@ HuVolume readVolume(const Stack& stack, const StackPlan& plan, Progress& progres
     std::atomic<std::size_t> done = 0;
     std::mutex telling;
     const std::size_t count = plan.planes.size();
+    const double scale = signalScale(stack, progress);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kPlanesAtATime), [&](const auto& range) {
-        SliceDecoder decoder(stack);
+        SliceDecoder decoder(stack, scale);
         for (std::size_t k = range.begin(); k < range.end(); ++k) {
             writer.put(int(k), planeOf(plan, stack, plan.planes[k], writer, decoder));
             const std::lock_guard lock(telling);

@@ -58,21 +58,41 @@ void setInstance(DicomObject& d, const char* sop_class, const StudyHeader& study
     d.set(DCM_InstanceNumber, std::to_string(number));
 }
 
-void setCt(DicomObject& d, const StudyHeader& study, const SeriesHeader& series)
+void setAcquisition(DicomObject& d, const StudyHeader& study, const SeriesHeader& series)
 {
-    d.set(DCM_Modality, "CT");
+    d.set(DCM_Modality, series.modality);
     d.set(DCM_PatientPosition, series.patient_position);
     d.set(DCM_FrameOfReferenceUID, uidFor(study.key, "frame " + series.patient_position));
     d.set(DCM_PositionReferenceIndicator, "");
     d.set(DCM_AcquisitionNumber, "1");
     d.set(DCM_AcquisitionDate, study.date);
     d.set(DCM_AcquisitionTime, "090500");
+    d.set(DCM_ProtocolName, study.protocol);
+}
+
+void setCt(DicomObject& d, const StudyHeader& study, const SeriesHeader& series)
+{
+    setAcquisition(d, study, series);
     d.set(DCM_KVP, "120");
     d.set(DCM_XRayTubeCurrent, "60");
     d.set(DCM_GantryDetectorTilt, "0");
-    d.set(DCM_ProtocolName, study.protocol);
     d.set(DCM_RescaleIntercept, std::to_string(kIntercept));
     d.set(DCM_RescaleSlope, "1");
+}
+
+/// As a spoiled gradient echo of the whole abdomen.
+void setMr(DicomObject& d, const StudyHeader& study, const SeriesHeader& series)
+{
+    setAcquisition(d, study, series);
+    d.set(DCM_ScanningSequence, "GR");
+    d.set(DCM_SequenceVariant, "SP");
+    d.set(DCM_ScanOptions, "FS");
+    d.set(DCM_MRAcquisitionType, "3D");
+    d.set(DCM_RepetitionTime, "3.2");
+    d.set(DCM_EchoTime, "1.2");
+    d.set(DCM_EchoTrainLength, "1");
+    d.set(DCM_FlipAngle, "10");
+    d.set(DCM_MagneticFieldStrength, "1.5");
 }
 
 void setPicture(DicomObject& d, int rows, int columns, int bits, bool is_signed)
@@ -95,13 +115,32 @@ void setPlane(DicomObject& d, Point3 origin, Vector3 row, Vector3 column, double
     d.set(DCM_PixelSpacing, decimals({row_spacing_mm, column_spacing_mm}));
 }
 
-/// Values as the scanner stores them: offset by the intercept, padding as a value that no tissue has.
-std::vector<std::uint16_t> stored(const std::int16_t* hu, std::size_t count)
+/// Values as the scanner stores them: densities offset by the intercept, padding as a value that no tissue has; a
+/// signal as it is.
+std::vector<std::uint16_t> stored(const std::int16_t* hu, std::size_t count, bool signal)
 {
     std::vector<std::uint16_t> values(count);
-    std::transform(hu, hu + count, values.begin(),
-                   [](std::int16_t v) { return std::uint16_t(v == kPaddingHu ? kPaddingStored : v - kIntercept); });
+    if (signal)
+        std::copy_n(hu, count, values.begin());
+    else
+        std::transform(hu, hu + count, values.begin(),
+                       [](std::int16_t v) { return std::uint16_t(v == kPaddingHu ? kPaddingStored : v - kIntercept); });
     return values;
+}
+
+void setKindOfImage(DicomObject& d, const StudyHeader& study, const SeriesHeader& series, const Grid& grid)
+{
+    if (series.modality == "MR") {
+        setMr(d, study, series);
+        d.set(DCM_ImageType, "ORIGINAL\\PRIMARY\\M\\NONE");
+        return;
+    }
+    setCt(d, study, series);
+    d.set(DCM_ImageType, "ORIGINAL\\PRIMARY\\AXIAL");
+    d.set(DCM_RescaleType, "HU");
+    d.set(DCM_ConvolutionKernel, "SOFT");
+    d.set(DCM_DataCollectionDiameter, "500");
+    d.set(DCM_ReconstructionDiameter, decimal(grid.spacing_mm[0] * grid.size[0]));
 }
 
 fs::path fileFor(const fs::path& folder, const StudyHeader& study, const SeriesHeader& series, int number)
@@ -116,30 +155,27 @@ void writeSlice(const fs::path& folder, const StudyHeader& study, const SeriesHe
     const int number = grid.axis[2].z > 0 ? grid.size[2] - k : k + 1;
     DicomObject d;
     setStudy(d, study, series);
-    setInstance(d, UID_CTImageStorage, study, series, number);
-    setCt(d, study, series);
-    d.set(DCM_ImageType, "ORIGINAL\\PRIMARY\\AXIAL");
-    d.set(DCM_RescaleType, "HU");
-    d.set(DCM_ConvolutionKernel, "SOFT");
-    d.set(DCM_DataCollectionDiameter, "500");
-    d.set(DCM_ReconstructionDiameter, decimal(grid.spacing_mm[0] * grid.size[0]));
+    const bool signal = series.modality == "MR";
+    setInstance(d, signal ? UID_MRImageStorage : UID_CTImageStorage, study, series, number);
+    setKindOfImage(d, study, series, grid);
     d.set(DCM_SliceThickness, decimal(grid.spacing_mm[2]));
     const Point3 origin = grid.pointAt(Index3{0, 0, k});
     setPlane(d, origin, grid.axis[0], grid.axis[1], grid.spacing_mm[1], grid.spacing_mm[0]);
     d.set(DCM_SliceLocation, decimal(dot(origin - Point3{}, grid.axis[2])));
-    setPicture(d, grid.size[1], grid.size[0], 16, true);
-    d.setSigned(DCM_PixelPaddingValue, kPaddingStored);
-    d.set(DCM_WindowCenter, "0");
-    d.set(DCM_WindowWidth, "1500");
+    setPicture(d, grid.size[1], grid.size[0], 16, !signal);
+    if (!signal)
+        d.setSigned(DCM_PixelPaddingValue, kPaddingStored);
+    d.set(DCM_WindowCenter, signal ? "450" : "0");
+    d.set(DCM_WindowWidth, signal ? "900" : "1500");
     const std::size_t plane = std::size_t(grid.size[0]) * std::size_t(grid.size[1]);
-    d.setWords(DCM_PixelData, stored(&hu.voxels[grid.offset({0, 0, k})], plane));
+    d.setWords(DCM_PixelData, stored(&hu.voxels[grid.offset({0, 0, k})], plane, signal));
     d.save(fileFor(folder, study, series, number));
 }
 
 }  // namespace
 
-void writeCtSeries(const fs::path& folder, const StudyHeader& study, const SeriesHeader& series, const HuVolume& hu,
-                   Progress& progress)
+void writeSeries(const fs::path& folder, const StudyHeader& study, const SeriesHeader& series, const HuVolume& hu,
+                 Progress& progress)
 {
     makePrivateFolder(folder);
     writeSlice(folder, study, series, hu, 0);  // loads the dictionary before the threads share it

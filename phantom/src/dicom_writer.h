@@ -23,11 +23,12 @@ struct SeriesHeader {
     std::string uid;
     std::string description;
     std::string patient_position;
+    std::string modality = "CT";  ///< or "MR": the values are a signal, without slope and intercept
 };
 
-/// Writes one CT image per slice, under file names in no order; explicit little endian.
-void writeCtSeries(const std::filesystem::path& folder, const StudyHeader& study, const SeriesHeader& series,
-                   const HuVolume& hu, Progress& progress);
+/// Writes one CT or MR image per slice, under file names in no order; explicit little endian.
+void writeSeries(const std::filesystem::path& folder, const StudyHeader& study, const SeriesHeader& series,
+                 const HuVolume& hu, Progress& progress);
 
 /// Writes the scan's coronal mean as a localizer.
 void writeLocalizer(const std::filesystem::path& folder, const StudyHeader& study, const SeriesHeader& series,

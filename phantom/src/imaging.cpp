@@ -44,15 +44,6 @@ double gain(const std::vector<float>& half)
     return std::sqrt(sum);
 }
 
-/// Nearly normal, mean 0, deviation 1: the sum of four uniform numbers.
-float whiteNoise(std::uint64_t seed, std::uint64_t voxel)
-{
-    const std::uint64_t bits = mix(seed + voxel * 0x9e3779b97f4a7c15ULL);
-    const auto part = [bits](int shift) { return int((bits >> shift) & 0xffff); };
-    constexpr float kScale = 1.0F / 37837.2F;  // 65536 / sqrt(3)
-    return float(part(0) + part(16) + part(32) + part(48) - 2 * 65535) * kScale;
-}
-
 /// A run of values filtered along one direction; values beyond the ends repeat the last.
 void filterRow(const float* in, float* out, int count, const std::vector<float>& half)
 {

@@ -134,7 +134,7 @@ void writeOrganStudy(const fs::path& out, const OrganPhantomOptions& options, Pr
     study.body_part = airway ? "CHEST" : "AORTA";
     study.protocol = airway ? "CHEST" : "AORTA";
     const SeriesHeader series{2, uidFor(study.key, options.organ), options.organ + " soft", "HFS"};
-    writeCtSeries(out / ("series-2-" + options.organ), study, series, scan.hu, progress);
+    writeSeries(out / ("series-2-" + options.organ), study, series, scan.hu, progress);
     scan_files::writeVolume(out / ("truth-" + options.organ + "-inside.mha"), scan.truth.inside,
                             scan_files::Packing::zlib);
     nlohmann::json truth = describe(scan.truth);

@@ -14,6 +14,15 @@ inline std::uint64_t mix(std::uint64_t z)
     return z ^ (z >> 31);
 }
 
+/// Nearly normal, mean 0, deviation 1: the sum of four uniform numbers.
+inline float whiteNoise(std::uint64_t seed, std::uint64_t voxel)
+{
+    const std::uint64_t bits = mix(seed + voxel * 0x9e3779b97f4a7c15ULL);
+    const auto part = [bits](int shift) { return int((bits >> shift) & 0xffff); };
+    constexpr float kScale = 1.0F / 37837.2F;  // 65536 / sqrt(3)
+    return float(part(0) + part(16) + part(32) + part(48) - 2 * 65535) * kScale;
+}
+
 /// A stream of random numbers that is the same on every platform: the standard's distributions are not.
 /// Each purpose draws from a stream of its own, so a new purpose changes no other.
 class Random {

@@ -6,6 +6,7 @@
 #include "ileum.h"
 #include "imaging.h"
 #include "lumen_field.h"
+#include "magnetic.h"
 #include "paint.h"
 #include "pools.h"
 #include "scene.h"
@@ -195,7 +196,7 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
     scan.patient_position = patient_position;
     scan.truth = describe(course, wall);
     scan.truth.gravity = gravityOf(placement.position);
-    if (options.fluid)
+    if (options.fluid && options.mr == "none")  // in MR all of the lumen is filled alike
         scan.truth.pools = drawPools(options.seed, course.course, wall, placement.position);
 
     progress.report(0.1, "lumen");
@@ -218,9 +219,15 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
     scan.truth.noise_hu = noiseOf(options);
     scan.hu = paintScene(grid, scene, field, scan.truth.pools, progress);
     progress.report(0.7, "blur and noise");
-    scan.hu = imageScene(
-        scan.hu, {options.seed * 8 + std::uint64_t(placement.position), scan.truth.blur_mm, scan.truth.noise_hu},
-        progress);
+    const std::uint64_t seed = options.seed * 8 + std::uint64_t(placement.position);
+    if (options.mr == "none") {
+        scan.hu = imageScene(scan.hu, {seed, scan.truth.blur_mm, scan.truth.noise_hu}, progress);
+    } else {
+        scan.truth.noise_hu = 0;
+        scan.hu = imageScene(signalScene(scan.hu, scan.truth.inside, options.mr == "bright"),
+                             {seed, scan.truth.blur_mm, 0}, progress);
+        receive(scan.hu, options.seed, seed);
+    }
     progress.report(1, "scan");
     return scan;
 }

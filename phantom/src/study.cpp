@@ -34,7 +34,10 @@ private:
 StudyHeader headerFor(const PhantomOptions& options)
 {
     StudyHeader study;
-    study.key = Random(options.seed, toJson(options).dump()).bits();
+    nlohmann::json shaping = toJson(options);
+    if (options.mr == "none")
+        shaping.erase("phantom.mr");  // studies of CT keep the identifiers that they had before there was MR
+    study.key = Random(options.seed, shaping.dump()).bits();
     study.study_uid = uidFor(study.key, "study");
     const std::string seed = std::to_string(options.seed);
     study.patient_name = "Phantom^Seed" + seed;
@@ -44,6 +47,8 @@ StudyHeader headerFor(const PhantomOptions& options)
     study.date = "20240115";
     study.accession_number = "P" + seed;
     study.study_id = seed.substr(0, 16);
+    if (options.mr != "none")
+        study.description = "MR COLONOGRAPHY";
     return study;
 }
 
@@ -105,15 +110,18 @@ void writeStudy(const fs::path& out, const PhantomOptions& options, Progress& pr
         PartProgress part(progress, (number - 1.0) / double(positions.size()), 1.0 / double(positions.size()));
         const PhantomScan scan = makeScan(options, position, part);
         const std::string name = nameOfPosition(position);
-        if (options.extras && number == 1)
+        if (options.extras && number == 1 && options.mr == "none")
             writeLocalizer(out / "series-1-localizer", study,
                            {1, uidFor(study.key, "localizer"), "Localizer", position}, scan.hu);
         ++number;
         char thickness[16];
         std::snprintf(thickness, sizeof thickness, "%.1f", scan.hu.grid.spacing_mm[2]);
-        const SeriesHeader series{number, uidFor(study.key, name), "CTC " + name + " " + thickness + " mm soft",
-                                  position};
-        writeCtSeries(out / ("series-" + std::to_string(number) + "-" + name), study, series, scan.hu, part);
+        const bool mr = options.mr != "none";
+        const SeriesHeader series{number, uidFor(study.key, name),
+                                  mr ? "MRC " + name + " " + thickness + " mm, " + options.mr + " lumen"
+                                     : "CTC " + name + " " + thickness + " mm soft",
+                                  position, mr ? "MR" : "CT"};
+        writeSeries(out / ("series-" + std::to_string(number) + "-" + name), study, series, scan.hu, part);
         scan_files::writeVolume(out / ("truth-" + name + "-inside.mha"), scan.truth.inside, scan_files::Packing::zlib);
         nlohmann::json truth = describeTruth(scan.truth);
         truth["scan"] = series.uid;
@@ -122,7 +130,7 @@ void writeStudy(const fs::path& out, const PhantomOptions& options, Progress& pr
         truth["options"] = toJson(options);
         replaceFile(out / ("truth-" + name + ".json"), truth.dump() + "\n");
     }
-    if (options.extras)
+    if (options.extras && options.mr == "none")
         writeDoseSheet(out / "series-999-dose", study, {999, uidFor(study.key, "dose"), "Dose report", ""});
     progress.report(1, "study");
 }

@@ -11,6 +11,7 @@
 
 #include "published_file.h"
 #include "vicon/core/file.h"
+#include "vicon/core/quantity.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume.h"
 #include "vicon/scan_files/skeleton_file.h"
@@ -31,8 +32,9 @@ class ScanResults {
 public:
     /// @param folder of the scan
     /// @param claim folder of the files that this claim of the job makes, until publish() puts them into the scan's
-    ScanResults(std::filesystem::path folder, std::filesystem::path claim)
-        : folder_(std::move(folder)), claim_(std::move(claim))
+    /// @param quantity of volume.mha; where it is a signal, the steps after segment read lumen_scale.mha in its place
+    ScanResults(std::filesystem::path folder, std::filesystem::path claim, Quantity quantity)
+        : folder_(std::move(folder)), claim_(std::move(claim)), quantity_(quantity)
     {
         makePrivateFolder(claim_ / "projections");
     }
@@ -61,17 +63,22 @@ public:
     }
 
     const HuVolume& volume() { return get(volume_, "volume.mha"); }
-    /// The part of volume() around the lumen; the whole need not be kept for it.
+    /// The part of volume(), or of a signal on the lumen's scale, around the lumen; the whole need not be kept for it.
     const HuVolume& densitiesAroundLumen()
     {
         const Grid lumen = gridOfLumen();
+        const bool signal = quantity_ == Quantity::signal;
         const std::lock_guard lock(mutex_);
-        if (!around_lumen_ && volume_)
-            around_lumen_ = steps::densitiesAround(*volume_, lumen);
+        const std::optional<HuVolume>& whole = signal ? lumen_scale_ : volume_;
+        if (!around_lumen_ && whole)
+            around_lumen_ = steps::densitiesAround(*whole, lumen);
         if (!around_lumen_)
-            around_lumen_ = steps::densitiesAround(scan_files::readVolume<std::int16_t>(source("volume.mha")), lumen);
+            around_lumen_ = steps::densitiesAround(
+                scan_files::readVolume<std::int16_t>(source(signal ? "lumen_scale.mha" : "volume.mha")), lumen);
         return *around_lumen_;
     }
+    /// Keeps a signal on the lumen's scale, and begins to write it.
+    void putLumenScale(HuVolume v) { put(lumen_scale_, std::move(v), "lumen_scale.mha", scan_files::Packing::zlib); }
     /// The lumen as the densities told, before its wall was placed. On the grid of inside().
     const InsideVolume& mask() { return get(mask_, "mask.mha"); }
     const InsideVolume& inside() { return get(inside_, "inside.mha"); }
@@ -196,8 +203,10 @@ public:
     /// Gives the whole volume's memory back. It must be written, and no step at work on it.
     void dropVolume()
     {
+        finish({"lumen_scale.mha"});
         const std::lock_guard lock(mutex_);
         volume_.reset();
+        lumen_scale_.reset();
     }
     /// Gives back what densitiesAroundLumen() keeps; no step may be at work on it.
     void dropDensitiesAroundLumen()
@@ -254,7 +263,8 @@ private:
 
     std::filesystem::path folder_, claim_;
     std::mutex mutex_;
-    std::optional<HuVolume> volume_, around_lumen_;
+    Quantity quantity_;
+    std::optional<HuVolume> volume_, lumen_scale_, around_lumen_;
     std::optional<InsideVolume> mask_, inside_;
     std::optional<steps::TissueVolume> tissue_;
     std::optional<SegmentVolume> segments_;

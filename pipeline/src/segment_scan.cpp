@@ -2,6 +2,7 @@
 
 #include "vicon/core/error.h"
 #include "vicon/scan_files/volume_file.h"
+#include "vicon/steps/lumen_contrast.h"
 
 namespace vicon::pipeline {
 namespace {
@@ -16,17 +17,35 @@ try {
                 "give it again with 'vicon import --mask CASE SCAN FILE', or 'none' as FILE");
 }
 
+SegmentedScan segmentMr(const StepInputs& inputs, const steps::OrganOptions& organ, const HuVolume& signal,
+                        Progress& progress)
+{
+    if (!organ.isColon()) {
+        SegmentedScan none;
+        none.found.verdict = Verdict::absent;
+        none.found.reason = "in MR the colon alone is sought";
+        return none;
+    }
+    const auto given = inputs.lumen ? std::optional(givenMask(*inputs.lumen)) : std::nullopt;
+    steps::SignalSegmentation found =
+        steps::segmentSignal(signal, given, inputs.gravity, inputs.config.get<steps::SegmentOptions>(),
+                             inputs.config.get<steps::SignalOptions>(), progress);
+    return {std::move(found.found), std::move(found.lumen_scale)};
+}
+
 }  // namespace
 
-steps::Segmentation segmentScan(const StepInputs& inputs, const steps::OrganOptions& organ, const HuVolume& volume,
-                                Progress& progress)
+SegmentedScan segmentScan(const StepInputs& inputs, const steps::OrganOptions& organ, const HuVolume& volume,
+                          Progress& progress)
 {
+    if (inputs.quantity == Quantity::signal)
+        return segmentMr(inputs, organ, volume, progress);
     const auto options = inputs.config.get<steps::SegmentOptions>();
     if (!organ.isColon())
-        return steps::segmentOrgan(volume, organ, progress);
+        return {steps::segmentOrgan(volume, organ, progress), {}};
     if (inputs.lumen)
-        return steps::segmentGivenColon(volume, givenMask(*inputs.lumen), inputs.gravity, options, progress);
-    return steps::segmentColon(volume, inputs.gravity, options, progress);
+        return {steps::segmentGivenColon(volume, givenMask(*inputs.lumen), inputs.gravity, options, progress), {}};
+    return {steps::segmentColon(volume, inputs.gravity, options, progress), {}};
 }
 
 }  // namespace vicon::pipeline

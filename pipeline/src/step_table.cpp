@@ -15,6 +15,7 @@
 #include "vicon/steps/cells.h"
 #include "vicon/steps/colon_parts.h"
 #include "vicon/steps/exit_distance.h"
+#include "vicon/steps/lumen_contrast.h"
 #include "vicon/steps/organ.h"
 #include "vicon/steps/projections.h"
 #include "vicon/steps/quality.h"
@@ -118,16 +119,30 @@ SegmentFound foundBy(const steps::OrganOptions& organ, const steps::Segmentation
     return found;
 }
 
+/// Those of a signal are told only where they are set: the digests of CT scans stay as they are.
+json segmentParameters(const Config& config)
+{
+    json all = parametersByOrgan<steps::SegmentOptions, steps::OrganOptions>(config);
+    const json usual = toJson(steps::SignalOptions()), set = toJson(config.get<steps::SignalOptions>());
+    for (const auto& [key, value] : set.items())
+        if (value != usual.at(key))
+            all[key] = value;
+    return all;
+}
+
 json runSegment(const StepInputs& inputs, ScanResults& results, const StepRecords&, Progress& progress)
 {
     const auto organ = inputs.config.get<steps::OrganOptions>();
-    steps::Segmentation found = segmentScan(inputs, organ, results.volume(), progress);
+    SegmentedScan segmented = segmentScan(inputs, organ, results.volume(), progress);
+    steps::Segmentation& found = segmented.found;
     SegmentFound told = foundBy(organ, found);
     if (inputs.lumen && organ.isColon())
         told.given = inputs.lumen->origin;
     json result = toJson(told);
     if (found.verdict != Verdict::absent) {
         results.putMask(std::move(found.inside));
+        if (segmented.lumen_scale)
+            results.putLumenScale(std::move(*segmented.lumen_scale));
         results.densitiesAroundLumen();  // while the whole is there
     }
     return result;
@@ -137,8 +152,19 @@ std::vector<std::string> segmentFiles(const json& result)
 {
     if (segmentFoundFromJson(result).verdict == Verdict::absent)
         return {};
+    if (json(result).contains("contrast"))
+        return {"mask.mha", "lumen_scale.mha"};
     return {"mask.mha"};
 }
+
+/// On the scale that the tissue step reads.
+double noiseOf(const SegmentFound& segment)
+{
+    return segment.noise_hu ? *segment.noise_hu
+                            : segment.measures.value("noise_percent", 0.0) / 100 * steps::kLumenToTissue;
+}
+
+constexpr const char* kNoTagging = "none: MR";  // nothing is cleansed then
 
 json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords& records, Progress& progress)
 {
@@ -152,9 +178,12 @@ json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords
     options.leave_out_other_bowel = !segment.given;
     steps::TissueResult found =
         steps::findTissue(results.densitiesAroundLumen(), results.mask(), inputs.gravity,
-                          inputs.config.get<steps::WallDensities>(), segment.noise_hu.value_or(0), progress, options);
+                          inputs.config.get<steps::WallDensities>(), noiseOf(segment), progress, options);
     results.dropMask();
-    results.write("cleansed.mha", std::move(found.cleansed));
+    if (inputs.quantity == Quantity::density)
+        results.write("cleansed.mha", std::move(found.cleansed));
+    else
+        found.found["tagging"] = kNoTagging;
     results.put(std::move(found.lumen));
     results.putTissue(std::move(found.tissue));
     return toJson(TissueFound{.blur_mm = found.blur_mm, .measures = std::move(found.found)});
@@ -162,8 +191,11 @@ json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords
 
 std::vector<std::string> tissueFiles(const json& result)
 {
-    if (!tissueFoundFromJson(result).not_sought.empty())
+    const TissueFound found = tissueFoundFromJson(result);
+    if (!found.not_sought.empty())
         return {"inside.mha"};
+    if (found.measures.contains("tagging"))
+        return {"inside.mha", "tissue.mha"};
     return {"inside.mha", "tissue.mha", "cleansed.mha"};
 }
 
@@ -220,7 +252,7 @@ json runQuality(const StepInputs& inputs, ScanResults& results, const StepRecord
     QualityFound found{.parts = parts.ranges, .parts_unknown = parts.reason};
     if (!results.skeleton().empty())
         found.quality = steps::measureQuality(results.inside(), results.skeleton(), parts.ranges,
-                                              segmentFoundFromJson(records.at("segment").result).noise_hu.value(),
+                                              segmentFoundFromJson(records.at("segment").result).noise_hu.value_or(0),
                                               options, progress);
     return toJson(found);
 }
@@ -282,15 +314,7 @@ std::vector<Step> stepsOfLumen()
          always({"volume.mha"}),
          parametersFrom<ResampleOptions>,
          runResample},
-        {"segment",
-         14,
-         0.3,
-         0.55,
-         {"resample"},
-         Densities::whole,
-         segmentFiles,
-         parametersByOrgan<SegmentOptions, OrganOptions>,
-         runSegment},
+        {"segment", 14, 0.3, 0.55, {"resample"}, Densities::whole, segmentFiles, segmentParameters, runSegment},
         {"tissue",
          4,
          0.55,
@@ -374,6 +398,7 @@ std::vector<OptionSpec> stepOptionSpecs()
     add(specsOf<StepOptions>());
     add(specsOf<steps::ResampleOptions>());
     add(specsOf<steps::SegmentOptions>());
+    add(specsOf<steps::SignalOptions>());
     add(specsOf<steps::OrganOptions>());
     add(specsOf<steps::TissueOptions>());
     add(specsOf<steps::SkeletonOptions>());

@@ -11,6 +11,7 @@
 #include "vicon/cases/given_lumen.h"
 #include "vicon/cases/records.h"
 #include "vicon/core/options.h"
+#include "vicon/core/quantity.h"
 #include "vicon/pipeline/scan_work.h"
 
 namespace vicon::pipeline {
@@ -22,6 +23,7 @@ struct StepInputs {
     Vector3 gravity;
     std::filesystem::path dicom_folder;
     std::optional<GivenLumen> lumen;  ///< instead of the one that would be found
+    Quantity quantity = Quantity::density;
 };
 
 using StepRecords = std::map<std::string, StepRecord>;

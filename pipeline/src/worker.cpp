@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "vicon/core/error.h"
+#include "vicon/core/printable.h"
 
 namespace vicon::pipeline {
 namespace {
@@ -196,8 +197,8 @@ Outcome doWork(const JobWork& work, Context& context)
     } catch (const std::system_error& e) {
         const bool no_thread = e.code() == std::errc::resource_unavailable_try_again;
         return {Outcome::Kind::failed, no_thread ? kNoMemory : e.what()};
-    } catch (const std::exception& e) {
-        return {Outcome::Kind::failed, e.what()};
+    } catch (const std::exception& e) {  // a library's words may hold what came from outside
+        return {Outcome::Kind::failed, printable(e.what())};
     }
 }
 

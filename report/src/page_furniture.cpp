@@ -58,8 +58,9 @@ PageFurniture::PageFurniture(const ReportContent& content, Typesetter& type, dou
                           look::kBody, width);
     study_ = {
         type.line("Study of " + orNone(printedDate(content.read.record.study.date), "(date not given)"), look::kBold),
-        type.line(content.version ? "CT colonography report, version " + std::to_string(content.version->version)
-                                  : "CT colonography report, draft " + std::to_string(content.number),
+        type.line(std::string(examinationOf(quantityOf(content.read))) + " report, " +
+                      (content.version ? "version " + std::to_string(content.version->version)
+                                       : "draft " + std::to_string(content.number)),
                   look::kBody)};
     if (!content.version)
         draft_ = type.line(kDraftLine, look::kBold);

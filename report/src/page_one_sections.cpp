@@ -50,8 +50,8 @@ double Sections::drawSite(double width)
 void Sections::drawTitle()
 {
     const bool amended = content_.version && content_.version->replaces != 0;
-    const TextLine title =
-        flow_.type.line(amended ? "CT colonography report, amended" : "CT colonography report", look::kTitle);
+    const std::string what = std::string(examinationOf(quantityOf(content_.read))) + " report";
+    const TextLine title = flow_.type.line(amended ? what + ", amended" : what, look::kTitle);
     const std::string made = content_.version
                                  ? stateWords(content_.version)
                                  : "Draft " + std::to_string(content_.number) + ", made on " +

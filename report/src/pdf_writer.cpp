@@ -46,8 +46,8 @@ PdfResult drawPdf(const ReportContent& content, std::string& pdf, const ReportOp
         throw Error(ErrorCode::not_found, "no font for the report is installed here", options.font_folder,
                     "install the packages fonts-noto-core and fonts-dejavu-core, or set report.font_folder");
     Typesetter typesetter(fonts);
-    PdfDocument document(fonts, {"CT colonography report", subjectOf(content.version),
-                                 "VICON " + content.software_version, content.created});
+    PdfDocument document(fonts, {std::string(examinationOf(quantityOf(content.read))) + " report",
+                                 subjectOf(content.version), "VICON " + content.software_version, content.created});
     PageFlow::Paper paper = paperOf(options.paper);
     const PageFurniture furniture(content, typesetter, paper.width);
     paper.top = furniture.topHeight();

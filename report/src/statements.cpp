@@ -190,8 +190,9 @@ Statement briefStatement(const ScanEntry& entry)
     std::string text = seriesWords(entry.scan.series);
     if (ingest.is_object() && ingest.contains("geometry"))
         text += "; " + geometryWords(ingest["geometry"]);
-    text += "; colon of " + millimetres(entry.skeleton_length_mm) + "; noise " +
-            number(entry.quality ? entry.quality->noise_hu : 0, "%.0f HU");
+    text += "; colon of " + millimetres(entry.skeleton_length_mm);
+    if (entry.quality && entry.quality->noise_hu > 0)
+        text += "; noise " + number(entry.quality->noise_hu, "%.0f HU");
     return {scanTitle(entry), text};
 }
 

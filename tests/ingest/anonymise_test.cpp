@@ -103,7 +103,7 @@ TEST_F(Anonymous, WhatMayHoldTextInItsPixelsIsLeftOut)
     EXPECT_EQ(made.written, 8);
     const std::map<std::string, int> expected = {{"text burnt into its pixels", 1},
                                                  {"a page, not a slice", 1},
-                                                 {"no CT image", 1},
+                                                 {"no image of CT or MR", 1},
                                                  {"an overlay in its pixels", 1}};
     EXPECT_EQ(made.left_out, expected);
 }

@@ -106,14 +106,18 @@ std::vector<fs::path> writeSeries(const fs::path& folder, const SeriesSpec& spec
     for (const int slice : wanted) {
         DicomObject d;
         setCommon(d, spec);
-        d.set(DCM_SOPClassUID, UID_CTImageStorage);
+        d.set(DCM_SOPClassUID, spec.mr_images ? UID_MRImageStorage : UID_CTImageStorage);
+        if (!spec.echo_time.empty())
+            d.set(DCM_EchoTime, spec.echo_time);
         d.set(DCM_SOPInstanceUID, spec.sopUid(slice));
         d.set(DCM_ImagePositionPatient, decimals(spec.position(slice)));
         d.set(DCM_ImageOrientationPatient, directions(spec));
         d.set(DCM_PixelSpacing, phantom::decimals({spec.row_mm, spec.pixel_mm}));
         d.set(DCM_SliceThickness, phantom::decimals({spec.thickness_mm}));
-        d.set(DCM_RescaleSlope, phantom::decimals({spec.slope}));
-        d.set(DCM_RescaleIntercept, phantom::decimals({spec.intercept}));
+        if (!spec.mr_images || spec.slope != 1 || spec.intercept != 0) {
+            d.set(DCM_RescaleSlope, phantom::decimals({spec.slope}));
+            d.set(DCM_RescaleIntercept, phantom::decimals({spec.intercept}));
+        }
         d.set(DCM_ConvolutionKernel, spec.kernel);
         d.set(DCM_AcquisitionNumber, spec.acquisition_number);
         setPixels(d, spec, storedPixels(spec, slice));

@@ -25,6 +25,9 @@ struct SeriesSpec {
     std::string accession_number, referring_physician;  ///< empty: it has none
     std::string patient_position = "HFS";
     std::string modality = "CT";
+    bool mr_images = false;  ///< in place of CT; without slope and intercept where they say nothing
+    std::string echo_time;   ///< empty: it has none
+    std::string sop_suffix;  ///< of the instances' UIDs
     std::string image_type = "ORIGINAL\\PRIMARY\\AXIAL";
     std::string kernel = "B30f";
     std::string acquisition_number = "1";
@@ -49,7 +52,7 @@ struct SeriesSpec {
     std::optional<int> padding;
     Densities densities = [](Point3 p) { return 2 * p.x + 3 * p.y + 5 * p.z; };
 
-    std::string sopUid(int slice) const { return series_uid + "." + std::to_string(slice + 1); }
+    std::string sopUid(int slice) const { return series_uid + "." + std::to_string(slice + 1) + sop_suffix; }
     Point3 position(int slice) const { return first_mm + step_mm * slice; }
 };
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "import_fixture.h"
+#include "vicon/core/quantity.h"
 
 using namespace vicon;
 using namespace vicon::test;
@@ -98,8 +99,90 @@ TEST_F(Import, LocalizersScreenSavesAndOtherModalitiesAreSetAside)
     EXPECT_EQ(report.set_aside, 14);
     EXPECT_EQ(report.refused, 0);
     EXPECT_TRUE(says(report, Kind::set_aside, "localizer"));
-    EXPECT_TRUE(says(report, Kind::set_aside, "modality PT, no CT slice (12 files)"));
+    EXPECT_TRUE(says(report, Kind::set_aside, "modality PT, no slice of CT or MR (12 files)"));
     EXPECT_EQ(onlyScan().ingest["set_aside"].size(), 1u);
+}
+
+SeriesSpec mrSeries()
+{
+    SeriesSpec spec;
+    spec.modality = "MR";
+    spec.mr_images = true;
+    spec.image_type = "ORIGINAL\\PRIMARY\\M\\NONE";
+    spec.intercept = 0;
+    spec.densities = [](Point3 p) { return 300 + 2 * p.x + 3 * p.y + 5 * p.z; };
+    return spec;
+}
+
+TEST_F(Import, MrIsAScanOfSignalWithOrWithoutRescale)
+{
+    SeriesSpec spec = mrSeries();
+    writeSeries(folder / "in", spec);
+    const auto report = import({folder / "in"});
+    EXPECT_EQ(report.scans_stored, 1) << lines(report);
+    EXPECT_EQ(quantityOf(onlyScan().series), Quantity::signal);
+    const HuVolume read = load(onlyScan());
+    EXPECT_EQ(read.at({3, 4, 5}), std::lround(spec.densities(read.grid.pointAt(Index3{3, 4, 5})))) << "as stored";
+}
+
+TEST_F(Import, ASignalInSmallStepsLosesNothing)
+{
+    SeriesSpec spec = mrSeries();
+    spec.slope = 0.25;
+    spec.densities = [](Point3 p) { return 100 + 0.25 * p.x + 0.5 * p.y + 0.75 * p.z; };
+    writeSeries(folder / "in", spec);
+    import({folder / "in"});
+    const HuVolume read = load(onlyScan());
+    EXPECT_EQ(read.at({3, 4, 5}), std::lround(4 * spec.densities(read.grid.pointAt(Index3{3, 4, 5}))))
+        << "in steps of a stored value";
+}
+
+TEST_F(Import, ASignalOver32767IsHalvedNotCutOff)
+{
+    SeriesSpec spec = mrSeries();
+    spec.bits_stored = 16;
+    spec.high_bit = 15;
+    spec.densities = [](Point3 p) { return 50000 + 20 * p.x + 30 * p.y; };
+    writeSeries(folder / "in", spec);
+    import({folder / "in"});
+    const HuVolume read = load(onlyScan());
+    EXPECT_NEAR(read.at({3, 4, 5}), spec.densities(read.grid.pointAt(Index3{3, 4, 5})) / 2, 1);
+}
+
+TEST_F(Import, AnMrImageWithoutAModalityIsNoDensity)
+{
+    SeriesSpec spec = mrSeries();
+    spec.modality = "";
+    spec.mr_images = true;
+    spec.intercept = -100;
+    writeSeries(folder / "in", spec);
+    import({folder / "in"});
+    EXPECT_EQ(quantityOf(onlyScan().series), Quantity::signal);
+}
+
+TEST_F(Import, MapsOfMrAreRefused)
+{
+    SeriesSpec spec = mrSeries();
+    spec.image_type = "DERIVED\\PRIMARY\\DIFFUSION\\ADC";
+    writeSeries(folder / "in", spec);
+    const auto report = import({folder / "in"});
+    EXPECT_EQ(report.scans_stored, 0) << lines(report);
+    EXPECT_TRUE(says(report, Kind::refused, "no MR signal")) << lines(report);
+}
+
+TEST_F(Import, EchoesOfMrAtOnePlaceAreScansOfTheirOwn)
+{
+    SeriesSpec first = mrSeries(), second = first;
+    first.echo_time = "2.3";
+    second.echo_time = "4.6";
+    second.series_uid = first.series_uid;
+    second.sop_suffix = ".7";
+    second.densities = [](Point3 p) { return 500 + p.x; };
+    writeSeries(folder / "a", first);
+    writeSeries(folder / "b", second);
+    const auto report = import({folder / "a", folder / "b"});
+    EXPECT_EQ(report.refused, 0) << lines(report);
+    EXPECT_EQ(report.scans_stored + report.images_kept, 2) << lines(report);
 }
 
 TEST_F(Import, AMissingPatientPositionIsSaidNotGuessed)

@@ -34,8 +34,8 @@ const DataCase kCases[] = {
     {"geometry/notavolume", Kind::refused, "up to 4 different images at one place (at z = 61.5 mm)"},
     {"geometry/sliceincrement/001", Kind::refused, "1 slice missing at z = 33.1 mm (5.0 mm not measured), more than"},
     {"geometry/sliceincrement/002", Kind::kept, "4 slices, 0.75 mm apart"},
-    {"geometry/slicecount", Kind::set_aside, "MRImageStorage (MR), no CT slice (2 files)"},
-    {"geometry/sliceorientation", Kind::set_aside, "MRImageStorage (MR), no CT slice (4 files)"},
+    {"geometry/slicecount", Kind::kept, "2 slices, fewer than the 10 of a scan"},        // MR
+    {"geometry/sliceorientation", Kind::kept, "2 slices, fewer than the 10 of a scan"},  // MR
     {"syntaxes/LICENSE", Kind::refused, "no DICOM file"},
     {"syntaxes/CTImage.dcm", Kind::kept, "1 slice, supine; not queued"},
     {"syntaxes/CTImage.dcm_BigEndianExplicitTransferSyntax_1.2.840.10008.1.2.2.dcm", Kind::kept,
@@ -64,7 +64,7 @@ const DataCase kCases[] = {
     {"broken/J2K_pixelrep_mismatch.dcm", Kind::kept, "1 slice, supine; not queued"},
     {"broken/ExplVR_BigEndNoMeta.dcm", Kind::set_aside, "RTIonPlanStorage (RTPLAN)"},
     {"broken/ExplVR_LitEndNoMeta.dcm", Kind::set_aside, "RTIonPlanStorage (RTPLAN)"},
-    {"broken/MR_small.dcm", Kind::set_aside, "MRImageStorage (MR)"},
+    {"broken/MR_small.dcm", Kind::kept, "1 slice, fewer than the 10 of a scan"},
     {"broken/MR_truncated.dcm", Kind::refused, "truncated or damaged"},
     {"broken/SC_rgb_jpeg_dcmtk.dcm", Kind::set_aside, "SecondaryCaptureImageStorage (OT)"},
     {"broken/UN_sequence.dcm", Kind::refused, "it has no pixels"},
@@ -76,7 +76,7 @@ const DataCase kCases[] = {
     {"broken/nested_priv_SQ.dcm", Kind::refused, "does not say what it is"},
     {"broken/no_meta.dcm", Kind::refused, "damaged beyond reading"},
     {"broken/no_meta_group_length.dcm", Kind::set_aside, "RTImageStorage"},
-    {"broken/priv_SQ.dcm", Kind::set_aside, "MRImageStorage"},
+    {"broken/priv_SQ.dcm", Kind::refused, "it has no pixels"},
     {"broken/reportsi.dcm", Kind::set_aside, "BasicTextSRStorage (SR)"},
     {"broken/rtdose.dcm", Kind::set_aside, "RTDoseStorage (RTDOSE)"},
     {"broken/rtplan_truncated.dcm", Kind::refused, "truncated or damaged"},

@@ -54,7 +54,7 @@ struct Bench {
     void run(int at_once = 3)
     {
         const support::TemporaryFolder folder;
-        ScanResults results(folder.path(), folder / "claim");
+        ScanResults results(folder.path(), folder / "claim", Quantity::density);
         StepRunner(table,
                    {.is_due = [&](const Step& step) { return !current.contains(step.name); },
                     .made = [&](const Step& step, const json&) { made.push_back(step.name); },
@@ -200,7 +200,7 @@ TEST(StepRunner, StopsWhenTheJobIsCancelled)
 TEST(ScanResults, HandOnWhatIsStillBeingWrittenAndSayWhenItCannotBe)
 {
     const support::TemporaryFolder folder;
-    ScanResults results(folder.path(), folder / "claim");
+    ScanResults results(folder.path(), folder / "claim", Quantity::density);
     HuVolume volume(Grid{.size = {40, 30, 20}}, 7);
     results.put(std::move(volume));
     EXPECT_EQ(results.volume().voxels.front(), 7);
@@ -216,7 +216,7 @@ TEST(ScanResults, HandOnWhatIsStillBeingWrittenAndSayWhenItCannotBe)
     results.dropDensitiesAroundLumen();
     EXPECT_EQ(results.densitiesAroundLumen().voxels.size(), 21U * 22U * 19U) << "read back from the whole's file";
 
-    ScanResults nowhere(folder / "missing", folder / "missing/claim");
+    ScanResults nowhere(folder / "missing", folder / "missing/claim", Quantity::density);
     fs::remove_all(folder / "missing");
     nowhere.put(HuVolume(Grid{.size = {4, 3, 2}}));
     EXPECT_THROW(nowhere.finish({"volume.mha"}), Error);
@@ -227,14 +227,14 @@ TEST(ScanResults, WhatAClaimMakesReachesTheScanOnlyWhenItIsPublished)
     const support::TemporaryFolder folder;
     replaceFile(folder / "skeleton.vtp", "the successor's");
     {
-        const ScanResults stale(folder.path(), folder / ".vicon-tmp-claim-1");
+        const ScanResults stale(folder.path(), folder / ".vicon-tmp-claim-1", Quantity::density);
         EXPECT_EQ(stale.source("skeleton.vtp"), folder / "skeleton.vtp");
         replaceFile(stale.target("skeleton.vtp"), "the stale one's");
         EXPECT_EQ(readFile(stale.source("skeleton.vtp")), "the stale one's");
         EXPECT_EQ(readFile(folder / "skeleton.vtp"), "the successor's");
     }
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1) << "nothing of it stays";
-    const ScanResults mine(folder.path(), folder / ".vicon-tmp-claim-2");
+    const ScanResults mine(folder.path(), folder / ".vicon-tmp-claim-2", Quantity::density);
     replaceFile(mine.target("skeleton.vtp"), "mine");
     mine.publish({"skeleton.vtp", "not made.vtp"});
     EXPECT_EQ(readFile(folder / "skeleton.vtp"), "mine");

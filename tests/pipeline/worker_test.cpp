@@ -61,6 +61,18 @@ TEST(Worker, CountsAnUnknownExceptionAsAFailureWithItsReason)
     EXPECT_EQ(reason, "boom");
 }
 
+TEST(Worker, KeepsAReasonThatIsNoTextAsText)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    std::string reason;
+    WorkerEvents events;
+    events.ended = [&](const Job&, JobState, const std::string& why) { reason = why; };
+    work(
+        fake, [](JobContext&) { throw std::runtime_error("key '\xff\x1b'"); }, events);
+    EXPECT_EQ(reason, "key '\xef\xbf\xbd\\x1b'");
+}
+
 TEST(Worker, DoesNotRepeatWhatBadInputMadeFail)
 {
     FakeStore fake;

@@ -20,8 +20,10 @@ Code oursFor(const std::string& name)
 
 }  // namespace
 
-Code procedureReported()
+Code procedureReported(Quantity quantity)
 {
+    if (quantity == Quantity::signal)  // LOINC has none for MR of the colon
+        return ours("MR_COLONOGRAPHY", "MR colonography");
     return loinc("60515-4", "CT Colon and Rectum W air contrast PR");
 }
 

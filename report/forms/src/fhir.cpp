@@ -115,7 +115,7 @@ private:
     {
         const CodedFacts facts = factsOfStudy(read_.assessment);
         if (!facts.numbers.empty() || !facts.words.empty() || !facts.texts.empty())
-            addResult("assessment", observed(procedureReported(), facts));
+            addResult("assessment", observed(procedureReported(quantityOf(read_)), facts));
     }
     void addParts()
     {
@@ -149,7 +149,7 @@ private:
                     {"identifier", {{{"system", "urn:ietf:rfc:3986"}, {"value", fhir::urlOf(read_, "report")}}}},
                     {"category",
                      {{{"coding", {{{"system", "http://terminology.hl7.org/CodeSystem/v2-0074"}, {"code", "RAD"}}}}}}},
-                    {"code", fhir::codeable(procedureReported())},
+                    {"code", fhir::codeable(procedureReported(quantityOf(read_)))},
                     {"subject", fhir::reference(subject_.patient_url)},
                     {"imagingStudy", json::array({fhir::reference(subject_.study_url)})}};
         fhir::putWhereGiven(report, "effectiveDateTime", subject_.date);

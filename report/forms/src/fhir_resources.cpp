@@ -66,7 +66,9 @@ json seriesOf(const ScanRecord& scan)
 {
     json series{{"uid", scan.series.uid},
                 {"number", scan.series.number},
-                {"modality", {{"system", "http://dicom.nema.org/resources/ontology/DCM"}, {"code", "CT"}}}};
+                {"modality",
+                 {{"system", "http://dicom.nema.org/resources/ontology/DCM"},
+                  {"code", quantityOf(scan.series) == Quantity::signal ? "MR" : "CT"}}}};
     if (scan.series.number < 0)
         series.erase("number");
     putWhereGiven(series, "description", scan.series.description);
@@ -126,7 +128,7 @@ json imagingStudy(const ReadCase& read)
              {"status", "available"},
              {"identifier", json::array({studyIdentifier(study.uid)})},
              {"subject", reference(urlOf(read, "patient"))},
-             {"procedureCode", json::array({codeable(procedureReported())})}};
+             {"procedureCode", json::array({codeable(procedureReported(quantityOf(read)))})}};
     if (!study.accession_number.empty())
         out["identifier"].push_back(
             {{"type", {{"coding", {{{"system", "http://terminology.hl7.org/CodeSystem/v2-0203"}, {"code", "ACSN"}}}}}},

@@ -156,7 +156,7 @@ private:
         const std::string referrer = nameFrom(study.referring_physician);
         add("OBR", {{1, "1"},
                     {3, escaped(study.accession_number)},
-                    {4, codeField(procedureReported())},
+                    {4, codeField(procedureReported(quantityOf(read_)))},
                     {7, escaped(study.date + study.time.substr(0, study.time.find('.')))},
                     {16, referrer.empty() ? "" : std::string("^").append(referrer, 0, referrer.find('~'))},
                     {22, version_ ? timeFrom(version_->at) : ""},

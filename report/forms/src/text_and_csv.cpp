@@ -163,7 +163,7 @@ std::vector<std::string> sightFields(const ReadCase& read, const FindingSight& s
 
 std::string asText(const ReadCase& read, const std::optional<ReportVersion>& version)
 {
-    std::string out = "CT COLONOGRAPHY REPORT\n";
+    std::string out = quantityOf(read) == Quantity::signal ? "MR COLONOGRAPHY REPORT\n" : "CT COLONOGRAPHY REPORT\n";
     out += stateWords(version) + "\n";
     if (const std::string amends = amendmentWords(version); !amends.empty())
         out += amends + "\n";

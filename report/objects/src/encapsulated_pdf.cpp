@@ -8,14 +8,15 @@ ReportObject writeEncapsulatedPdf(const ObjectContent& content, const std::files
 {
     DcmFileFormat format;
     DcmDataset& d = *format.getDataset();
-    const ObjectName name{ObjectKind::pdf, "DOC", "CT colonography report"};
+    const std::string title = std::string(examinationOf(quantityOf(content.read))) + " report";
+    const ObjectName name{ObjectKind::pdf, "DOC", title};
     put(d, DCM_SOPClassUID, UID_EncapsulatedPDFStorage);
     putCommon(d, content, name);
     put(d, DCM_ConversionType, "WSD");
     put(d, DCM_AcquisitionDateTime, "");
     put(d, DCM_BurnedInAnnotation, "YES");
     put(d, DCM_RecognizableVisualFeatures, "NO");
-    put(d, DCM_DocumentTitle, "CT colonography report");
+    put(d, DCM_DocumentTitle, title);
     put(d, DCM_VerificationFlag, content.version.isSigned() ? "VERIFIED" : "UNVERIFIED");
     putCode(d, DCM_ConceptNameCodeSequence, "11528-7", "LN", "Radiology Report");
     put(d, DCM_MIMETypeOfEncapsulatedDocument, "application/pdf");

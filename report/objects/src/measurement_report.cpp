@@ -15,19 +15,21 @@ void mustBeWritten(const OFCondition& done)
         throw Error(ErrorCode::internal, std::string("the structured report cannot be written (") + done.text() + ")");
 }
 
-void addContext(SrTree& tree, const ReportVersion& version)
+void addContext(SrTree& tree, const ObjectContent& content)
 {
     tree.code(kMeaning, dcm("121049", "Language of Content Item and Descendants"), {"en", "RFC5646", "English"});
     tree.code(kObserved, dcm("121005", "Observer Type"), dcm("121006", "Person"));
-    tree.person(kObserved, dcm("121008", "Person Observer Name"), version.person);
-    tree.code(kMeaning, dcm("121058", "Procedure reported"), procedureReported());
+    tree.person(kObserved, dcm("121008", "Person Observer Name"), content.version.person);
+    tree.code(kMeaning, dcm("121058", "Procedure reported"), procedureReported(quantityOf(content.read)));
 }
 
 /// What all images of a scan have in common (TID 1602, 1604): who compares sizes years later must know it.
 void describeScan(SrTree& tree, const ScanRecord& scan)
 {
     constexpr auto kOfImages = DSRTypes::RT_hasAcqContext;
-    tree.code(kOfImages, dcm("121139", "Modality"), dcm("CT", "Computed Tomography"));
+    tree.code(kOfImages, dcm("121139", "Modality"),
+              quantityOf(scan.series) == Quantity::signal ? dcm("MR", "Magnetic Resonance")
+                                                          : dcm("CT", "Computed Tomography"));
     tree.uid(kOfImages, seriesConcept(), scan.series.uid);
     if (!scan.series.patient_position.empty())
         tree.text(kOfImages, patientPositionConcept(), scan.series.patient_position);
@@ -111,7 +113,7 @@ void fillTree(DSRDocumentTree& document, const ObjectContent& content, const Mar
     const ReadCase& read = content.read;
     const CodedFacts study = factsOfStudy(read.assessment);
     tree.container(DSRTypes::RT_isRoot, dcm("126000", "Imaging Measurement Report"), "1500", [&] {
-        addContext(tree, content.version);
+        addContext(tree, content);
         if (!images.empty())
             addLibrary(tree, read, images);
         tree.container(kContains, dcm("126010", "Imaging Measurements"), nullptr, [&] {
@@ -189,7 +191,8 @@ ReportObject writeMeasurementReport(const ObjectContent& content, const MarkerIm
     DcmFileFormat format;
     DcmDataset& d = *format.getDataset();
     mustBeWritten(document.write(d));
-    const ObjectName name{ObjectKind::measurements, "SR", "CT colonography measurements"};
+    const ObjectName name{ObjectKind::measurements, "SR",
+                          std::string(examinationOf(quantityOf(content.read))) + " measurements"};
     putCommon(d, content, name);
     put(d, DCM_SOPClassUID, UID_Comprehensive3DSRStorage);
     if (content.amended)

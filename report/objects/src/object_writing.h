@@ -38,7 +38,7 @@ void putCode(DcmItem& item, const DcmTagKey& tag, const char* value, const char*
 struct ObjectName {
     ObjectKind kind = ObjectKind::pdf;
     const char* modality = "";
-    const char* series = "";  ///< the description of its series
+    std::string series = {};  ///< the description of its series
     std::string which = {};   ///< of several of this kind
     int number = 0;           ///< within its series; 0: the version's
 };

@@ -58,6 +58,7 @@ std::string toText(const Hanging& hanging)
                           {"window", window.name},
                           {"width_hu", window.width_hu},
                           {"level_hu", window.level_hu},
+                          {"unit", window.unit},
                           {"of", int(hanging.slices.thick.of)},
                           {"thickness_mm", hanging.slices.thick.thickness_mm},
                           {"tracks", hanging.slices.tracks}}
@@ -72,7 +73,7 @@ Hanging hangingFrom(const std::string& text, const Hanging& otherwise)
         read.layout = choice(json, "layout", ViewLayout::planes);
         read.plane = choice(json, "plane", SlicePlane::sagittal);
         read.slices.window = {json.at("window").get<std::string>(), number(json, "width_hu", kLeastWidth_hu, kMostHu),
-                              number(json, "level_hu", -kMostHu, kMostHu)};
+                              number(json, "level_hu", -kMostHu, kMostHu), json.value("unit", "HU")};
         read.slices.thick = {choice(json, "of", ThickSlice::Of::minimum),
                              number(json, "thickness_mm", 0, kMostThick_mm)};
         read.slices.tracks = json.at("tracks").get<bool>();

@@ -5,6 +5,7 @@
 
 #include "presets_data.h"
 #include "vicon/core/error.h"
+#include "vicon/core/quantity.h"
 #include "vicon/viewer/model/transfer_function.h"
 #include "vicon/viewer/model/window_level.h"
 
@@ -88,6 +89,21 @@ std::uint8_t WindowLevel::greyOf(double density_hu) const
 {
     const double share = (density_hu - level_hu) / width_hu + 0.5;
     return std::uint8_t(std::lround(std::clamp(share, 0.0, 1.0) * 255));
+}
+
+std::string WindowLevel::words() const
+{
+    return std::to_string(std::lround(width_hu)) + " / " + std::to_string(std::lround(level_hu)) + " " + unit;
+}
+
+std::vector<WindowLevel> signalWindows(double lumen, double tissue)
+{
+    const char* const unit = unitOf(Quantity::signal);
+    const double brightest = std::max({1.1 * lumen, 2.2 * tissue, 1.0}),
+                 apart = std::max(1.0, std::abs(lumen - tissue));
+    return {{"whole", brightest, brightest / 2, unit},
+            {"wall", 1.4 * apart, (lumen + tissue) / 2, unit},
+            {"tissue", std::max(1.0, tissue), tissue, unit}};
 }
 
 std::vector<WindowLevel> windowPresets(const std::string& organ)

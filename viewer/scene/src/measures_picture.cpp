@@ -137,7 +137,7 @@ Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Capt
                      double pixel_ratio)
 {
     const PlaneView view = viewOf(size, width, height, std::max(kLeastField_mm, kFieldOfDiameter * size.diameter_mm));
-    const WindowLevel window = windowPreset(kWindow);
+    const WindowLevel window = scan.quantity() == Quantity::signal ? scan.windows().front() : windowPreset(kWindow);
     Picture picture(width, height);
     const auto densities = sliceDensities(scan.volume(), view);
     for (std::size_t n = 0; n < densities.size(); ++n)

@@ -77,6 +77,7 @@ struct PreparedScan::Files {
     Lazy<LumenAlong> along;
     Lazy<OrganWords> words;
     Lazy<StepResults> results;
+    Lazy<Quantity> quantity;
     Lazy<std::unique_ptr<const DensityBricks>> bricks;
     Lazy<std::vector<float>> openness;
 
@@ -239,6 +240,34 @@ const LumenAlong& PreparedScan::along() const
 const OrganWords& PreparedScan::words() const
 {
     return files_->words.get([&] { return wordsFor(files_->stepResults().organ()); });
+}
+
+Quantity PreparedScan::quantity() const
+{
+    return files_->quantity.get([&] { return quantityOf(scan_files::readDescription(files_->folder).series); });
+}
+
+std::vector<WindowLevel> PreparedScan::windows() const
+{
+    if (quantity() == Quantity::density)
+        return windowPresets(words().organ.name());
+    const auto& segment = files_->stepResults().segment;
+    const nlohmann::json measures = segment ? segment->measures : nlohmann::json::object();
+    return signalWindows(measures.value("lumen_signal", 0.0), measures.value("tissue_signal", 0.0));
+}
+
+WindowLevel PreparedScan::window(const std::string& name) const
+{
+    if (quantity() == Quantity::density)
+        return windowPreset(name);
+    std::string names;
+    for (const WindowLevel& window : windows()) {
+        if (window.name == name)
+            return window;
+        names += (names.empty() ? "" : ", ") + window.name;
+    }
+    throw Error(ErrorCode::wrong_use, "there is no window of this name for MR", "'" + name + "'",
+                "use one of " + names);
 }
 
 const DensityBricks& PreparedScan::bricks() const

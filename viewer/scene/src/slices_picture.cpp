@@ -65,7 +65,7 @@ struct Panel {
 
 WindowLevel windowOf(const PreparedScan& scan, const SnapshotRequest& request)
 {
-    return request.window.empty() ? windowPresets(scan.words().organ.name()).front() : windowPreset(request.window);
+    return request.window.empty() ? scan.windows().front() : scan.window(request.window);
 }
 
 Picture slice(const PreparedScan& scan, const SnapshotRequest& request, const Panel& panel)
@@ -103,8 +103,7 @@ std::vector<OverlayText> linesOf(const PreparedScan& scan, const SnapshotRequest
     const WindowLevel window = windowOf(scan, request);
     OverlayText line;
     line.color = kTextColor;
-    line.text = "window " + window.name + ": " + std::to_string(std::lround(window.width_hu)) + " / " +
-                std::to_string(std::lround(window.level_hu)) + " HU" + wordFor(scan.cleansed(), request.cleansed);
+    line.text = "window " + window.name + ": " + window.words() + wordFor(scan.cleansed(), request.cleansed);
     lines.push_back(line);
     if (!request.captioned)
         return lines;
@@ -163,8 +162,7 @@ Picture slicePicture(const HuView& volume, const SliceRequest& request, const Hu
     const Area caption = captionArea(area.width, area.height, text_px);
     addLines(overlay, caption, {line}, text_px);
     std::vector<OverlayText> lines = patientLines(request.caption);
-    line.text = request.window.name + " " + std::to_string(std::lround(request.window.width_hu)) + " / " +
-                std::to_string(std::lround(request.window.level_hu)) + " HU" + wordFor(cleansed, request.cleansed);
+    line.text = request.window.name + " " + request.window.words() + wordFor(cleansed, request.cleansed);
     lines.push_back(line);
     if (line.text = nameOf(request.thick); !line.text.empty())
         lines.push_back(line);

@@ -12,7 +12,7 @@
 namespace vicon::viewer {
 namespace {
 
-SnapshotRequest completed(SnapshotRequest request)
+SnapshotRequest completed(const PreparedScan& scan, SnapshotRequest request)
 {
     constexpr double kNarrowest_deg = 20, kWidest_deg = 150;
     const bool overview = request.view == SnapshotRequest::View::overview;
@@ -27,9 +27,12 @@ SnapshotRequest completed(SnapshotRequest request)
         throw Error(ErrorCode::wrong_use, "the field of view must be 20 to 150 degrees",
                     std::to_string(request.view_angle_deg));
     if (!request.window.empty())
-        windowPreset(request.window);
-    if (!request.peel.preset.empty())
+        scan.window(request.window);
+    if (!request.peel.preset.empty()) {
         transferFunction(request.peel.preset);
+        if (scan.quantity() == Quantity::signal)
+            throw Error(ErrorCode::wrong_use, "translucency shows densities, and MR has none", "--peel");
+    }
     return request;
 }
 
@@ -126,7 +129,7 @@ std::vector<OverlayText> captionLines(const Caption& caption, double station_mm,
 
 DrawnSnapshot drawSnapshot(const PreparedScan& scan, const SnapshotRequest& request)
 {
-    const SnapshotRequest whole = completed(request);
+    const SnapshotRequest whole = completed(scan, request);
     const SnapshotResult place = placeOf(scan, whole);
     switch (whole.view) {
         case SnapshotRequest::View::slices:

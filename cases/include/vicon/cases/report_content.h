@@ -11,6 +11,7 @@
 #include "vicon/cases/finding_facts.h"
 #include "vicon/cases/findings.h"
 #include "vicon/cases/given_lumen.h"
+#include "vicon/core/quantity.h"
 
 namespace vicon {
 
@@ -42,6 +43,8 @@ struct ReadCase {
     Proposal<ExtracolonicCategory> extracolonic_proposal;
 };
 ReadCase readCase(CaseStore& store, const std::string& case_id);
+/// Of its scans: a signal where there is one of MR.
+Quantity quantityOf(const ReadCase& read);
 /// As it would be with another assessment.
 ReadCase readCaseWith(CaseStore& store, const std::string& case_id, const Assessment& assessment);
 

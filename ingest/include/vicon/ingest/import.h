@@ -55,7 +55,7 @@ struct ImportLine {
         stored,       ///< a scan or a kept series was stored, or grew
         unchanged,    ///< it was there already
         kept,         ///< stored and selectable, not queued: another reconstruction, or too few slices
-        set_aside,    ///< no CT slice: localizer, dose sheet, secondary capture, report, another modality
+        set_aside,    ///< no slice of CT or MR: localizer, dose sheet, secondary capture, report, another modality
         refused,      ///< cannot be used; the text says why
         quarantined,  ///< the same study UID with another patient
         repaired,     ///< was used, but something had to be mended or assumed

@@ -37,7 +37,9 @@ struct PhantomOptions {
     double noise_hu = -1;       ///< standard deviation in soft tissue; below 0: drawn from 15 to 40
     bool low_dose = false;      ///< noise drawn from 50 to 80 HU when noise_hu is below 0
     double blur_mm = 0;         ///< sigma of the point spread; 0: drawn from 0.5 to 0.8
-    bool extras = true;         ///< a localizer and a dose sheet beside the scans (writeStudy)
+    std::string mr =
+        "none";          ///< "none": CT; "dark", "bright": MR colonography with such a lumen, all of it filled alike
+    bool extras = true;  ///< a localizer and a dose sheet beside the scans (writeStudy)
 
     template <class Visitor>
     void visit(Visitor&& v)
@@ -69,6 +71,8 @@ struct PhantomOptions {
         v("phantom.noise_hu", noise_hu, "HU", "Noise; below 0: drawn from 15 to 40 HU.", {-1, 500});
         v("phantom.low_dose", low_dose, "", "Noise drawn from 50 to 80 HU.");
         v("phantom.blur_mm", blur_mm, "mm", "Sigma of the point spread; 0: drawn from 0.5 to 0.8 mm.", {0, 3});
+        v("phantom.mr", mr, "", "Make MR images in place of CT, with a lumen like this.",
+          {.choices = {"none", "dark", "bright"}});
         v("phantom.extras", extras, "", "Write a localizer and a dose sheet too.");
     }
 };

@@ -27,6 +27,10 @@ void BiopsyTool::start()
 {
     if (!reading_.navigator())
         return;
+    if (reading_.scan()->files.quantity() == Quantity::signal) {
+        reading_.warn(tr("A biopsy measures densities, and MR has none."));
+        return;
+    }
     reading_.begin(CircleFinding{},
                    tr("Virtual biopsy: drag from the middle of the finding to its edge; or arrows and Return at both"));
 }

@@ -134,8 +134,8 @@ void CorrectionTool::correct(const ClickedPoint& point, Correction kind)
         reading_.warn(tr("There is no lumen at this point; click into the gas or fluid that is to be cut or dropped."));
         return;
     }
-    const LumenGuess guess =
-        kind == Correction::add ? guessLumen(scan.files.volume(), point.at_mm) : LumenGuess::possible;
+    const bool can_guess = kind == Correction::add && scan.files.quantity() == Quantity::density;
+    const LumenGuess guess = can_guess ? guessLumen(scan.files.volume(), point.at_mm) : LumenGuess::possible;
     if (guess != LumenGuess::possible) {
         reading_.warn(
             guess == LumenGuess::outside_body

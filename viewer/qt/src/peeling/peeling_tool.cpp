@@ -39,6 +39,13 @@ void PeelingTool::restore()
                    keptSetting(readerKey("peel_circle")).toBool(), keptSetting(readerKey("peel_over")).toBool());
 }
 
+void PeelingTool::scanOpened(const Arrival&)
+{
+    const bool has_densities = reading_.scan()->files.quantity() == Quantity::density;
+    panel_->setEnabled(has_densities);
+    panel_->setToolTip(has_densities ? QString() : tr("Translucency shows densities, and MR has none."));
+}
+
 QVariantMap PeelingTool::kept() const
 {
     const CaseRecord& record = reading_.session().record();
@@ -50,7 +57,8 @@ QVariantMap PeelingTool::kept() const
 
 void PeelingTool::complete(EndoscopicRequest& request) const
 {
-    panel_->fill(request.snapshot);
+    if (panel_->isEnabled())
+        panel_->fill(request.snapshot);
     request.snapshot.peel.circle_at = mouse_at_;
 }
 

@@ -16,6 +16,7 @@ public:
 
     void addTo(ReadingLayout& layout) override;
     void restore() override;
+    void scanOpened(const Arrival&) override;
     QVariantMap kept() const override;
     void complete(EndoscopicRequest& request) const override;
 

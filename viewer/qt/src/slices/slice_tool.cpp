@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reading/reading.h"
+#include "vicon/core/quantity.h"
 #include "vicon/viewer/model/tracked_lumen.h"
 #include "window/reading_layout.h"
 
@@ -15,6 +16,7 @@ namespace {
 
 constexpr const char* kByHand = "by hand";
 constexpr double kLeastWidth_hu = 10, kMostWidth_hu = 6000, kMostLevel_hu = 3000;
+constexpr double kUsualWidth_hu = 1500;
 constexpr double kDragged_hu = 2;  // a pixel: across a screen from lung to bone
 constexpr std::array<double, 4> kThicknesses_mm{3, 5, 10, 20};
 
@@ -50,7 +52,7 @@ void SliceTool::addTo(ReadingLayout& layout)
     addKeys(layout);
     connect(window_, &QComboBox::currentTextChanged, this, [this](const QString& name) {
         if (name != kByHand)
-            choose(windowPreset(name.toStdString()));
+            choose(presetOf(name));
     });
     connect(&reading_, &Reading::windowDragged, this, &SliceTool::dragWindow);
     connect(&reading_, &Reading::trackWanted, this, &SliceTool::track);
@@ -73,15 +75,15 @@ void SliceTool::addKeys(ReadingLayout& layout)
 
 void SliceTool::useWords(const OrganWords& words)
 {
-    const auto presets = windowPresets(words.organ.name());
+    presets_ = reading_.scan() ? reading_.scan()->files.windows() : windowPresets(words.organ.name());
     {
         const QSignalBlocker quiet(window_);
         window_->clear();
-        for (const WindowLevel& window : presets)
+        for (const WindowLevel& window : presets_)
             window_->addItem(QString::fromStdString(window.name));
     }
     for (std::size_t n = 0; n < keys_.size(); ++n) {
-        const bool there = n < presets.size();
+        const bool there = n < presets_.size();
         keys_[n]->setVisible(there);
         keys_[n]->setText(there ? tr("Window: %1").arg(window_->itemText(int(n))) : QString());
         keys_[n]->setShortcut(there ? QKeySequence(QString::number(kFirstKey + int(n))) : QKeySequence());
@@ -93,10 +95,11 @@ void SliceTool::setLook(const SliceLook& look)
 {
     wanted_ = look;
     const int at = window_->findText(QString::fromStdString(look.window.name));
-    if (look.window.name == kByHand)
+    const bool by_hand = look.window.name == kByHand && !presets_.empty() && look.window.unit == presets_[0].unit;
+    if (by_hand)
         shown_ = look.window;
     else if (window_->count() > 0)
-        shown_ = windowPreset(window_->itemText(std::max(0, at)).toStdString());
+        shown_ = presetOf(window_->itemText(std::max(0, at)));
     show();
 }
 
@@ -118,6 +121,14 @@ void SliceTool::show()
     emit reading_.sliceLookChanged(look);
 }
 
+/// The default where there is no such window.
+WindowLevel SliceTool::presetOf(const QString& name) const
+{
+    const auto at = std::find_if(presets_.begin(), presets_.end(),
+                                 [&](const WindowLevel& window) { return window.name == name.toStdString(); });
+    return at != presets_.end() ? *at : presets_.empty() ? WindowLevel() : presets_.front();
+}
+
 void SliceTool::choose(const WindowLevel& window)
 {
     wanted_.window = shown_ = window;
@@ -128,8 +139,12 @@ void SliceTool::dragWindow(QPointF by)
 {
     WindowLevel window = shown_;
     window.name = kByHand;
-    window.width_hu = std::clamp(window.width_hu + kDragged_hu * by.x(), kLeastWidth_hu, kMostWidth_hu);
-    window.level_hu = std::clamp(window.level_hu - kDragged_hu * by.y(), -kMostLevel_hu, kMostLevel_hu);
+    // A signal may be a hundred or ten thousand: as fine as a density's steps in the widest window.
+    const double scale =
+        window.unit == unitOf(Quantity::density) || presets_.empty() ? 1 : presets_.front().width_hu / kUsualWidth_hu;
+    const double step = kDragged_hu * scale;
+    window.width_hu = std::clamp(window.width_hu + step * by.x(), kLeastWidth_hu * scale, kMostWidth_hu * scale);
+    window.level_hu = std::clamp(window.level_hu - step * by.y(), -kMostLevel_hu * scale, kMostLevel_hu * scale);
     choose(window);
 }
 

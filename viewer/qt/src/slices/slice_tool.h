@@ -35,10 +35,12 @@ private:
     void nextOf();
     void track(Vector3 across, int slices);
     void show();
+    WindowLevel presetOf(const QString& name) const;
 
     QComboBox* window_;  // and level
     QAction* tracks_ = nullptr;
     std::array<QAction*, kLastKey - kFirstKey + 1> keys_{};  // of the windows in their order
+    std::vector<WindowLevel> presets_;
     SliceLook wanted_;
     WindowLevel shown_;
 };

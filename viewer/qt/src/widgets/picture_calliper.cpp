@@ -10,6 +10,7 @@ namespace vicon::viewer {
 namespace {
 
 constexpr double kGrip_px = 4, kGrasp_px = 10, kLabelOff_px = 10;  // of 96 to the inch
+constexpr double kWidestLabel = 0.3;                               // of the view's width
 const QColor kCalliperColor(255, 214, 102);                        // as in the picture of the best plane
 
 }  // namespace
@@ -64,14 +65,19 @@ void PictureView::drawCalliperText(QPainter& painter) const
 {
     if (calliper_->text.isEmpty())
         return;
-    const QRectF words = painter.fontMetrics().boundingRect(calliper_->text).adjusted(-3, -1, 3, 1);
+    // In a narrow view the length and what is said of it stand below each other, clear of the title.
+    QString text = calliper_->text;
+    if (painter.fontMetrics().horizontalAdvance(text) > kWidestLabel * width())
+        text.replace(", ", ",\n");
+    const QRectF words =
+        QRectF(painter.fontMetrics().boundingRect(rect(), Qt::AlignLeft | Qt::AlignTop, text)).adjusted(-3, -1, 3, 1);
     const QPointF at = toWidget({calliper_->label_at.x(), calliper_->label_at.y()});
     const double x = std::clamp(at.x() + kLabelOff_px, 0.0, std::max(0.0, width() - words.width()));
     const double y = std::clamp(at.y() - words.height() / 2, 0.0, std::max(0.0, height() - words.height()));
     const QRectF box({x, y}, words.size());
     painter.fillRect(box, QColor(0, 0, 0, 190));
     painter.setPen(kCalliperColor);
-    painter.drawText(box, Qt::AlignCenter, calliper_->text);
+    painter.drawText(box, Qt::AlignCenter, text);
 }
 
 }  // namespace vicon::viewer

@@ -5,6 +5,7 @@
 #include "vicon/cases/assessment.h"
 #include "vicon/cases/finding.h"
 #include "vicon/core/colon_parts.h"
+#include "vicon/core/quantity.h"
 
 namespace vicon::report {
 
@@ -28,8 +29,8 @@ Code codeOf(Distension distension);
 Code codeOf(Grade grade);
 
 // Of whole reports.
-Code procedureReported();    ///< CT of colon and rectum
-Code extracolonicConcept();  ///< C-RADS outside the colon
+Code procedureReported(Quantity quantity);  ///< CT of colon and rectum, or MR colonography
+Code extracolonicConcept();                 ///< C-RADS outside the colon
 Code findingSiteConcept();
 Code seriesConcept();  ///< Series Instance UID
 // Of the images of a scan.

@@ -6,6 +6,7 @@
 
 #include "vicon/core/colon_parts.h"
 #include "vicon/core/progress.h"
+#include "vicon/core/quantity.h"
 #include "vicon/core/scan_quality.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/skeleton_tree.h"
@@ -17,6 +18,7 @@
 #include "vicon/viewer/model/lumen.h"
 #include "vicon/viewer/model/organ_words.h"
 #include "vicon/viewer/model/path_frames.h"
+#include "vicon/viewer/model/window_level.h"
 
 namespace vicon::viewer {
 
@@ -55,8 +57,13 @@ public:
     const ColonPartRanges& parts() const;         ///< of scan.json; empty where it knows none
     const LumenAlong& along() const;              ///< of scan.json's quality; empty where it has none
     const OrganWords& words() const;              ///< for the organ that scan.json names
-    const DensityBricks& bricks() const;          ///< of the volume
-    bool hasOpenness() const;                     ///< openness() answers at once
+    Quantity quantity() const;                    ///< of the volume, by scan.json
+    /// For its slices, the default first: those of the organ, of MR those of this scan.
+    std::vector<WindowLevel> windows() const;
+    /// One of them. Throws Error{wrong_use} naming those there are.
+    WindowLevel window(const std::string& name) const;
+    const DensityBricks& bricks() const;  ///< of the volume
+    bool hasOpenness() const;             ///< openness() answers at once
     /// Of the points of cells(), see opennessOf().
     const std::vector<float>& openness(const Progress* wanted = nullptr) const;
     Lumen lumen() const;  ///< of inside and wallDistance; valid while this object lives
