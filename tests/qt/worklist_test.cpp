@@ -69,10 +69,10 @@ TEST_F(Reading, ALongWorklistIsTurnedPageByPageAndACaseBesideThePageIsOpenedAndK
         CaseStore store(store_);
         store.database().write([](soci::session& sql) {
             for (int n = 0; n < kMore; ++n) {
-                const std::string id = "m" + std::to_string(1000 + n);
+                const std::string id = "m" + std::to_string(1000 + n), uid = "1.2." + id;  // bound: they must live on
                 sql << "INSERT INTO cases (id, study_uid, patient_id, patient_name, birth_date, sex, study, flags,"
                        " created) VALUES (:id, :uid, :patient, 'Many', '', 'F', '{}', '[]', '2099-01-01')",
-                    soci::use(id), soci::use("1.2." + id), soci::use(id);
+                    soci::use(id), soci::use(uid), soci::use(id);
             }
         });
     }
