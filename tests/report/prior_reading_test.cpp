@@ -282,7 +282,7 @@ TEST_F(ForeignReports, OfOtherKindsAreSetAsideAndHostileOnesRefused)
                  {"too-many-items", ingest::ImportLine::Kind::refused, "more than 20000 items"},
                  {"too-deep", ingest::ImportLine::Kind::refused, "nested deeper than 64"},
                  {"without-study", ingest::ImportLine::Kind::refused, "does not say which it is"},
-                 {"dose", ingest::ImportLine::Kind::set_aside, "no CT slice"}};
+                 {"dose", ingest::ImportLine::Kind::set_aside, "no slice of CT or MR"}};
     for (const auto& c : cases) {
         const auto report = import({folder / "sr" / (std::string(c.name) + ".dcm")});
         EXPECT_EQ(report.lines.size(), 1u) << c.name << "\n" << lines(report);
