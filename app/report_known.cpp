@@ -5,6 +5,7 @@
 #include "text_table.h"
 #include "vicon/cases/orders.h"
 #include "vicon/cases/step_results.h"
+#include "vicon/core/quantity.h"
 #include "vicon/ingest/acquisition_facts.h"
 
 namespace vicon::app {
