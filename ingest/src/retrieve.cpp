@@ -16,6 +16,7 @@ namespace vicon::ingest {
 namespace {
 
 const char* const kKinds[] = {UID_CTImageStorage, UID_EnhancedCTImageStorage, UID_LegacyConvertedEnhancedCTImageStorage,
+                              UID_MRImageStorage, UID_EnhancedMRImageStorage, UID_LegacyConvertedEnhancedMRImageStorage,
                               // CT scanners put their dose pages into series of modality CT.
                               UID_SecondaryCaptureImageStorage};
 /// What series of modality SR hold; import sets aside what is no measurement report.
