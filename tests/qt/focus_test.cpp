@@ -22,6 +22,7 @@
 namespace vicon::viewer {
 namespace {
 
+using test::activate;
 using test::Reading;
 using test::type;
 
@@ -78,14 +79,6 @@ std::vector<QWidget*> walkByTab()
         type(Qt::Key_Tab);
     } while (QApplication::focusWidget() != first && way.size() < kMost);
     return way;
-}
-
-/// Before the first key, as a window manager does it.
-void activate(QWidget* window, QWidget* focus)
-{
-    window->activateWindow();
-    focus->setFocus();
-    ASSERT_TRUE(QTest::qWaitFor([&] { return QApplication::focusWidget() == focus; }));
 }
 
 void expectAllReached(QWidget* window)

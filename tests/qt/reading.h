@@ -25,6 +25,14 @@ inline void type(int key, Qt::KeyboardModifiers modifiers = {})
     QTest::keyClick(QApplication::focusWidget(), Qt::Key(key), modifiers);
 }
 
+/// Before the first key, as a window manager does it.
+inline void activate(QWidget* window, QWidget* focus)
+{
+    window->activateWindow();
+    focus->setFocus();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return QApplication::focusWidget() == focus; }));
+}
+
 /// One reader at the screen: looks for controls by name, presses, waits until what must follow is there. The screen is
 /// shared by the tests of a program; pictures of each step stay in the build tree.
 class Reader : public testing::Test {

@@ -143,6 +143,24 @@ TEST_F(Reading2D, TheWheelAndKeysFollowTheLumenFromSliceToSlice)
     ASSERT_TRUE(eventually([&] { return std::abs(shown("axial").depth_mm(axial->point_mm())) < 0.1; }));
 }
 
+TEST_F(Reading2D, ReturnMeansWhatThePictureShowsAlsoWhereItIsStillThatOfTheLastPlace)
+{
+    constexpr double kMost_mm = 1.5;  // a pixel or two
+    type(Qt::Key_F6);
+    ASSERT_TRUE(arrived("axial"));
+    for (int n = 1; n <= 4; ++n) {
+        for (int centimetres = 0; centimetres < 6; ++centimetres)
+            type(Qt::Key_Period);
+        ASSERT_TRUE(arrived("axial"));
+        waitUntilQuiet();
+        const Point3 shown_mm = the<SliceView>("axial")->point_mm();
+        type(Qt::Key_Period);
+        type(Qt::Key_Return, Qt::ShiftModifier);
+        ASSERT_TRUE(eventually([&] { return markers()->rowCount() == n && settled(); })) << warning();
+        EXPECT_LT(distance(stored().back().position_mm, shown_mm), kMost_mm) << station();
+    }
+}
+
 TEST_F(Reading2D, ZoomStaysOnTheCrossAlsoWhileTheLumenIsFollowed)
 {
     type(Qt::Key_F6);

@@ -302,6 +302,33 @@ TEST_F(Form, ShowsItsPagesAndGivesItsText)
     EXPECT_TRUE(eventually([] { return QApplication::clipboard()->text() == "the report of c1"; }));
 }
 
+TEST_F(Form, TakesTheListsPlaceInANarrowWindowAndGivesItBack)
+{
+    constexpr int kLeastPicture_px = 400;
+    const QSize screen(1366, 738);  // of 1366 x 768 with a window's title
+    window()->resize(screen);
+    ASSERT_TRUE(eventually([&] { return window()->size() == screen; }));
+    waitUntilQuiet();
+    const int before_px = the<QWidget>("endoscopic")->width();
+    for (const char* time : {"first", "again"}) {
+        ASSERT_NO_FATAL_FAILURE(openForm());
+        waitUntilQuiet();
+        screenshot("form_1366");
+        EXPECT_EQ(window()->size(), screen);
+        EXPECT_GE(the<QWidget>("endoscopic")->width(), kLeastPicture_px);
+        EXPECT_FALSE(the<QWidget>("overview")->isVisible());
+        key(Qt::Key_R, Qt::ControlModifier);
+        ASSERT_TRUE(eventually([] { return the<QWidget>("overview")->isVisible(); }));
+        EXPECT_TRUE(the<QWidget>("lists")->isVisible());
+        waitUntilQuiet();
+        EXPECT_NEAR(the<QWidget>("endoscopic")->width(), before_px, 8) << time;
+    }
+    const QSize large(1920, 1080);
+    window()->resize(large);
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    EXPECT_TRUE(the<QWidget>("overview")->isVisible()) << "there is room for both";
+}
+
 TEST_F(Form, LosesNoWordThatWasBeingTypedWhenTheWindowCloses)
 {
     ASSERT_NO_FATAL_FAILURE(openForm());

@@ -13,6 +13,7 @@ namespace {
 constexpr int kPart_px = 150, kSideWidth_px = 430;  // of 96 to the inch, before the window is resized
 constexpr int kLeastOverview_px = 200;              // less shows no colon between its words
 constexpr int kMostSideWidth_px = kSideWidth_px * 5 / 4;
+constexpr int kLeastBesideForm_px = 1000;  // of all columns; less leaves pictures that nobody can read
 
 SliceView* slice(SlicePlane plane, const char* name, const QString& title)
 {
@@ -129,6 +130,32 @@ void ReadingViews::showViews()
     };
     show(first_column_, firstColumn(), true);
     show(second_column_, secondColumn(), !for_second_window_alone);
+    showSide();
+}
+
+void ReadingViews::showSide()
+{
+    const bool shown = !form_beside_ || second_ || enlarged_ == overview_ || width() >= kLeastBesideForm_px;
+    if (shown == !side_->isHidden())
+        return;
+    if (!shown)
+        columns_before_form_ = saveState();
+    side_->setVisible(shown);
+    if (shown)
+        restoreState(columns_before_form_);
+    emit arranged();
+}
+
+void ReadingViews::setFormBeside(bool on)
+{
+    form_beside_ = on;
+    showSide();
+}
+
+void ReadingViews::resizeEvent(QResizeEvent* event)
+{
+    QSplitter::resizeEvent(event);
+    showSide();
 }
 
 void ReadingViews::enlargeFocused()

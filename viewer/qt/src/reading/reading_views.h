@@ -39,6 +39,8 @@ public:
     bool roomBeside() const;
     /// On the right, below the projection.
     void addControls(QWidget* controls);
+    /// A form stands beside the views. Where that leaves too little, projection and controls make room for it.
+    void setFormBeside(bool on);
 
     /// This view alone, or all again where it is alone already.
     void enlarge(QWidget* view);
@@ -68,12 +70,16 @@ signals:
     void keyReleased(QKeyEvent* event);
     void keyboardLeft();  ///< keys are let go elsewhere
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
     bool inSecondWindow(const QWidget* view) const;
     std::vector<QWidget*> firstColumn() const;
     std::vector<QWidget*> secondColumn() const;
     void fillColumns();
     void showViews();
+    void showSide();
     /// Of this layout, as they were left or as is usual.
     void takeSizes();
     QString sizesKey(const char* of) const;
@@ -91,6 +97,8 @@ private:
     QSplitter* beside_ = nullptr;
     QWidget* controls_ = nullptr;
     QWidget* enlarged_ = nullptr;
+    bool form_beside_ = false;
+    QByteArray columns_before_form_;  // their widths, while it takes the place of some
     SecondWindow* second_ = nullptr;  // the slices and the projection are in it
     QByteArray columns_in_one_;       // their widths, while two windows are used
     ViewLayout layout_ = ViewLayout::three_d_first;

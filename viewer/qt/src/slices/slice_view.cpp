@@ -87,7 +87,7 @@ void SliceView::setCleansed(bool cleansed)
 
 QPoint SliceView::home() const
 {
-    const QPoint at = scan_ ? toWidget(shown_.toPixel(request_.point_mm)).toPoint() : rect().center();
+    const QPoint at = scan_ ? toWidget(shown_.toPixel(shown_point_mm_)).toPoint() : rect().center();
     return rect().contains(at) ? at : rect().center();
 }
 

@@ -54,7 +54,7 @@ signals:
     void failed(const QString& message);
 
 protected:
-    /// The point that is looked at.
+    /// Where the lines cross in the picture that is shown, which may still be that of an earlier place.
     QPoint home() const override;
 
 private:

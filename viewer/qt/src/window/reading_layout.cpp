@@ -12,6 +12,7 @@
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "widgets/control_keys.h"
 #include "widgets/controls_area.h"
@@ -120,6 +121,13 @@ QDockWidget* ReadingLayout::addForm(QWidget* form, const QString& title, Qt::Doc
                                  : Qt::TopDockWidgetArea | Qt::BottomDockWidgetArea);
     window_.addDockWidget(area, dock);
     dock->hide();
+    if (beside) {
+        beside_.push_back(dock);
+        connect(dock, &QDockWidget::visibilityChanged, this, [this] {
+            views_.setFormBeside(
+                std::ranges::any_of(beside_, [](const QDockWidget* form) { return form->isVisible(); }));
+        });
+    }
     return dock;
 }
 

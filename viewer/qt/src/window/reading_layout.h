@@ -78,6 +78,7 @@ private:
     QLabel *banner_, *notice_, *warning_;
     std::vector<QMenu*> menus_;
     std::vector<QWidget*> choices_, above_, below_, status_;
+    std::vector<QDockWidget*> beside_;  // forms that stand beside the views
 };
 
 }  // namespace vicon::viewer
