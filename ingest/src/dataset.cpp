@@ -20,6 +20,12 @@ std::string trimmed(std::string text)
     return text;
 }
 
+/// Bytes in any amount, or of a kind that nobody knows: no text, whatever the tag says. A library would spell out each.
+bool isBulk(const DcmElement& element)
+{
+    return element.ident() != EVR_UN && dynamic_cast<const DcmOtherByteOtherWord*>(&element);
+}
+
 /// What an element holds that was written without saying its kind.
 std::string bytesOf(DcmElement& element)
 {
@@ -117,9 +123,11 @@ std::string Dataset::raw(const DcmTagKey& tag) const
 {
     OFString value;
     DcmElement* element = nullptr;
-    if (item_->findAndGetElement(tag, element).good() && element && element->ident() == EVR_UN)
+    if (item_->findAndGetElement(tag, element).bad() || !element || isBulk(*element))
+        return {};
+    if (element->ident() == EVR_UN)
         return bytesOf(*element);
-    if (item_->findAndGetOFStringArray(tag, value).bad())
+    if (element->getOFStringArray(value).bad())
         return {};
     return {value.c_str(), value.size()};
 }

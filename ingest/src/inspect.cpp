@@ -188,14 +188,13 @@ OFCondition load(const fs::path& file, const Structure& structure, DcmFileFormat
 
 /// A value that breaks off with the file stays in the data set with the length that it claims, and memory is asked for
 /// where it is read. Compressed pixels claim none.
-void removeBrokenOff(DcmItem& dataset, const fs::path& file)
+void removeBrokenOff(DcmItem& item, std::uintmax_t file_bytes)
 {
-    const std::uintmax_t file_bytes = fs::file_size(file);
-    for (unsigned long n = dataset.card(); n-- > 0;)
-        if (const DcmElement* element = dataset.getElement(n); !element->valueLoaded() &&
-                                                               element->getLengthField() != DCM_UndefinedLength &&
-                                                               element->getLengthField() > file_bytes)
-            delete dataset.remove(n);
+    for (unsigned long n = item.card(); n-- > 0;)
+        if (const DcmElement* element = item.getElement(n); !element->valueLoaded() &&
+                                                            element->getLengthField() != DCM_UndefinedLength &&
+                                                            element->getLengthField() > file_bytes)
+            delete item.remove(n);
 }
 
 /// Reads a file whose structure a library may see.
@@ -203,7 +202,8 @@ Inspection inspectElements(const fs::path& file, const Structure& structure, con
 {
     DcmFileFormat format;
     const OFCondition loaded = load(file, structure, format);
-    removeBrokenOff(*format.getDataset(), file);
+    for (DcmItem* item : {static_cast<DcmItem*>(format.getMetaInfo()), static_cast<DcmItem*>(format.getDataset())})
+        removeBrokenOff(*item, fs::file_size(file));
     ImageObject object;
     object.file = file;
     const Dataset dataset(*format.getDataset()), meta(*format.getMetaInfo());

@@ -170,6 +170,23 @@ TEST_F(Hostile, NoMemoryIsAskedForAValueThatTheFileCannotHold)
     EXPECT_LT(peakOfAddressesKb() - before_kb, 1'000'000);
 }
 
+/// The same in the meta header, where a damaged kind made a library spell out 775 million bytes that are not there.
+TEST_F(Hostile, NoTextIsMadeOfAMetaHeadersValueThatTheFileCannotHold)
+{
+    const fs::path claims = folder / "claims.dcm";
+    const auto bytes = [](std::string_view text) { return std::string(text); };
+    using namespace std::string_view_literals;
+    std::ofstream(claims, std::ios::binary)
+        << std::string(128, '\0') << "DICM" << bytes("\2\0\0\0UL\4\0\x8e\0\0\0"sv)
+        << bytes("\xff\xff\xff\xffOB\0\0\2\0\0\0\0\1"sv) << bytes("\2\0\2\0QI\x1a\0"sv)
+        << bytes("1.2.840.10008.5.1.4.1.1.2\0"sv) << bytes("\2\0\3\0UI\4\0001.2\0"sv)
+        << bytes("\2\0\x10\0UI\x14\0001.2.840.10008.1.2.1\0"sv);
+    const long before_kb = peakOfAddressesKb();
+    const auto report = import({claims});
+    EXPECT_TRUE(says(report, Kind::refused, "truncated or damaged")) << lines(report);
+    EXPECT_LT(peakOfAddressesKb() - before_kb, 1'000'000);
+}
+
 TEST_F(Hostile, ZerosAreNoDicom)
 {
     const fs::path zeros = folder / "zeros.bin";
