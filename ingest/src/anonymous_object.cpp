@@ -8,6 +8,7 @@
 
 #include "anonymous_profile.h"
 #include "dataset.h"
+#include "image_classes.h"
 #include "stream_comments.h"
 #include "vicon/core/error.h"
 
@@ -142,11 +143,7 @@ std::string whyNotAnonymous(DcmDataset& dataset)
 {
     const Dataset read(dataset);
     const std::string sop_class = read.raw(DCM_SOPClassUID), modality = read.raw(DCM_Modality);
-    const bool ct = sop_class == UID_CTImageStorage || sop_class == UID_EnhancedCTImageStorage ||
-                    sop_class == UID_LegacyConvertedEnhancedCTImageStorage;
-    const bool mr = sop_class == UID_MRImageStorage || sop_class == UID_EnhancedMRImageStorage ||
-                    sop_class == UID_LegacyConvertedEnhancedMRImageStorage;
-    if (!(ct && modality == "CT") && !(mr && modality == "MR"))
+    if (!(isCtClass(sop_class) && modality == "CT") && !(isMrClass(sop_class) && modality == "MR"))
         return "no image of CT or MR";
     if (read.raw(DCM_BurnedInAnnotation) == "YES")
         return "text burnt into its pixels";

@@ -195,13 +195,18 @@ const std::vector<DcmTagKey>& requiredOfAnonymous(const std::string& sop_class)
                                 DCM_PatientBirthDate, DCM_PatientSex,
                                 DCM_StudyID,          DCM_StudyDate,
                                 DCM_StudyTime};
-    static const Tags kOfSlices = [] {
+    const auto ofSlices = [](std::initializer_list<DcmTagKey> own) {
         Tags tags = kOfAll;
-        tags.insert(tags.end(), {DCM_PositionReferenceIndicator, DCM_Manufacturer, DCM_InstanceNumber, DCM_Laterality,
-                                 DCM_KVP, DCM_AcquisitionNumber});
+        tags.insert(tags.end(), {DCM_PositionReferenceIndicator, DCM_Manufacturer, DCM_InstanceNumber, DCM_Laterality});
+        tags.insert(tags.end(), own);
         return tags;
-    }();
-    return sop_class == UID_CTImageStorage ? kOfSlices : kOfAll;
+    };
+    static const Tags kOfCt = ofSlices({DCM_KVP, DCM_AcquisitionNumber});
+    static const Tags kOfMr =
+        ofSlices({DCM_ScanOptions, DCM_MRAcquisitionType, DCM_RepetitionTime, DCM_EchoTime, DCM_EchoTrainLength});
+    if (sop_class == UID_CTImageStorage)
+        return kOfCt;
+    return sop_class == UID_MRImageStorage ? kOfMr : kOfAll;
 }
 
 std::optional<AnonymousFate> anonymousFateOf(const DcmTagKey& tag)

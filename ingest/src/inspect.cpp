@@ -6,6 +6,7 @@
 
 #include "dataset.h"
 #include "helper.h"
+#include "image_classes.h"
 #include "pixel_format.h"
 #include "plane_reader.h"
 #include "stand_in_uid.h"
@@ -107,18 +108,6 @@ void readSeries(const Dataset& dataset, ImageObject& object)
     object.acquisition_time = dataset.text(DCM_AcquisitionDateTime);
     if (object.acquisition_time.empty() && dataset.has(DCM_AcquisitionTime))
         object.acquisition_time = dataset.text(DCM_AcquisitionDate) + dataset.text(DCM_AcquisitionTime);
-}
-
-bool isCtClass(const std::string& sop_class)
-{
-    return sop_class == UID_CTImageStorage || sop_class == UID_EnhancedCTImageStorage ||
-           sop_class == UID_LegacyConvertedEnhancedCTImageStorage;
-}
-
-bool isMrClass(const std::string& sop_class)
-{
-    return sop_class == UID_MRImageStorage || sop_class == UID_EnhancedMRImageStorage ||
-           sop_class == UID_LegacyConvertedEnhancedMRImageStorage;
 }
 
 /// Why an object is no slice of CT or MR, though it is a proper object; empty when it may be one.

@@ -4,6 +4,7 @@
 
 #include "association.h"
 #include "helper.h"
+#include "image_classes.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/dicom/dicom_setup.h"
@@ -15,10 +16,14 @@ namespace fs = std::filesystem;
 namespace vicon::ingest {
 namespace {
 
-const char* const kKinds[] = {UID_CTImageStorage, UID_EnhancedCTImageStorage, UID_LegacyConvertedEnhancedCTImageStorage,
-                              UID_MRImageStorage, UID_EnhancedMRImageStorage, UID_LegacyConvertedEnhancedMRImageStorage,
-                              // CT scanners put their dose pages into series of modality CT.
-                              UID_SecondaryCaptureImageStorage};
+/// Slices, and what CT scanners put into series of modality CT for their dose pages.
+std::vector<const char*> imageKinds()
+{
+    std::vector<const char*> kinds(kCtClasses.begin(), kCtClasses.end());
+    kinds.insert(kinds.end(), kMrClasses.begin(), kMrClasses.end());
+    kinds.push_back(UID_SecondaryCaptureImageStorage);
+    return kinds;
+}
 /// What series of modality SR hold; import sets aside what is no measurement report.
 const char* const kReports[] = {UID_Comprehensive3DSRStorage,  UID_ComprehensiveSRStorage, UID_EnhancedSRStorage,
                                 UID_ExtensibleSRStorage,       UID_BasicTextSRStorage,     UID_ColonCADSRStorage,
@@ -122,7 +127,7 @@ void offerAlone(PeerScu& scu, const char* kind, const char* syntax)
 
 void offerObjects(PeerScu& scu)
 {
-    for (const char* kind : kKinds)
+    for (const char* kind : imageKinds())
         for (const char* syntax : kSyntaxes)
             offerAlone(scu, kind, syntax);
     for (const char* kind : kReports)

@@ -6,7 +6,9 @@
 #include <iterator>
 #include <optional>
 
-#include "segment_scan.h"
+#include "segment_step.h"
+#include "step_parameters.h"
+#include "tissue_step.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/scan_files/cells_file.h"
 #include "vicon/scan_files/projections_file.h"
@@ -30,30 +32,6 @@ using nlohmann::json;
 
 namespace vicon::pipeline {
 namespace {
-
-/// Parameters of a step from the options structs it uses.
-template <class... Options>
-json parametersFrom(const Config& config)
-{
-    json all = json::object();
-    (all.update(toJson(config.get<Options>())), ...);
-    return all;
-}
-
-bool isColon(const Config& config)
-{
-    return config.get<steps::OrganOptions>().isColon();
-}
-
-/// Parameters of a step that other organs go through too; the colon's do not depend on options of other organs.
-template <class OfColon, class OfOthers>
-json parametersByOrgan(const Config& config)
-{
-    json all = isColon(config) ? parametersFrom<OfColon>(config) : parametersFrom<OfOthers>(config);
-    if (!isColon(config))
-        all.update(parametersFrom<steps::OrganOptions>(config));
-    return all;
-}
 
 std::function<std::vector<std::string>(const json&)> always(std::vector<std::string> files)
 {
@@ -84,119 +62,6 @@ json runResample(const StepInputs& inputs, ScanResults& results, const StepRecor
     found.size = results.volume().grid.size;
     found.spacing_mm = results.volume().grid.spacing_mm[0];
     return toJson(found);
-}
-
-/// Whether the wall is contoured from the fraction of tissue, and not from labels and densities.
-bool wallFromTissue(const Config& config)
-{
-    return isColon(config) && config.get<steps::WallOptions>().wall == steps::WallSource::tissue;
-}
-
-json tissueParameters(const Config& config)
-{
-    return wallFromTissue(config)
-               ? parametersFrom<steps::WallOptions, steps::WallDensities, steps::TissueOptions>(config)
-               : parametersFrom<steps::WallOptions>(config);
-}
-
-std::shared_future<steps::LumenSurface> surfaceOf(const Config& config, ScanResults& results)
-{
-    return wallFromTissue(config) ? results.surface() : results.surface(config.get<steps::WallDensities>());
-}
-
-SegmentFound foundBy(const steps::OrganOptions& organ, const steps::Segmentation& segmentation)
-{
-    SegmentFound found{.verdict = segmentation.verdict,
-                       .organ_title = organ.title,
-                       .confidence = segmentation.confidence,
-                       .reason = segmentation.reason,
-                       .organ = Organ(organ.name),
-                       .bridges = segmentation.plan.bridges,
-                       .plan = toJson(segmentation.plan),
-                       .measures = segmentation.measures};
-    for (Bridge& bridge : found.bridges)
-        bridge.path_mm.clear();
-    return found;
-}
-
-/// Those of a signal are told only where they are set: the digests of CT scans stay as they are.
-json segmentParameters(const Config& config)
-{
-    json all = parametersByOrgan<steps::SegmentOptions, steps::OrganOptions>(config);
-    const json usual = toJson(steps::SignalOptions()), set = toJson(config.get<steps::SignalOptions>());
-    for (const auto& [key, value] : set.items())
-        if (value != usual.at(key))
-            all[key] = value;
-    return all;
-}
-
-json runSegment(const StepInputs& inputs, ScanResults& results, const StepRecords&, Progress& progress)
-{
-    const auto organ = inputs.config.get<steps::OrganOptions>();
-    SegmentedScan segmented = segmentScan(inputs, organ, results.volume(), progress);
-    steps::Segmentation& found = segmented.found;
-    SegmentFound told = foundBy(organ, found);
-    if (inputs.lumen && organ.isColon())
-        told.given = inputs.lumen->origin;
-    json result = toJson(told);
-    if (found.verdict != Verdict::absent) {
-        results.putMask(std::move(found.inside));
-        if (segmented.lumen_scale)
-            results.putLumenScale(std::move(*segmented.lumen_scale));
-        results.densitiesAroundLumen();  // while the whole is there
-    }
-    return result;
-}
-
-std::vector<std::string> segmentFiles(const json& result)
-{
-    if (segmentFoundFromJson(result).verdict == Verdict::absent)
-        return {};
-    if (json(result).contains("contrast"))
-        return {"mask.mha", "lumen_scale.mha"};
-    return {"mask.mha"};
-}
-
-/// On the scale that the tissue step reads.
-double noiseOf(const SegmentFound& segment)
-{
-    return segment.noise_hu ? *segment.noise_hu
-                            : segment.measures.value("noise_percent", 0.0) / 100 * steps::kLumenToTissue;
-}
-
-constexpr const char* kNoTagging = "none: MR";  // nothing is cleansed then
-
-json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords& records, Progress& progress)
-{
-    if (!wallFromTissue(inputs.config)) {
-        results.put(InsideVolume(results.mask()));
-        results.dropMask();
-        return toJson(TissueFound{.not_sought = "the wall is not taken from it"});
-    }
-    const SegmentFound segment = segmentFoundFromJson(records.at("segment").result);
-    auto options = inputs.config.get<steps::TissueOptions>();
-    options.leave_out_other_bowel = !segment.given;
-    steps::TissueResult found =
-        steps::findTissue(results.densitiesAroundLumen(), results.mask(), inputs.gravity,
-                          inputs.config.get<steps::WallDensities>(), noiseOf(segment), progress, options);
-    results.dropMask();
-    if (inputs.quantity == Quantity::density)
-        results.write("cleansed.mha", std::move(found.cleansed));
-    else
-        found.found["tagging"] = kNoTagging;
-    results.put(std::move(found.lumen));
-    results.putTissue(std::move(found.tissue));
-    return toJson(TissueFound{.blur_mm = found.blur_mm, .measures = std::move(found.found)});
-}
-
-std::vector<std::string> tissueFiles(const json& result)
-{
-    const TissueFound found = tissueFoundFromJson(result);
-    if (!found.not_sought.empty())
-        return {"inside.mha"};
-    if (found.measures.contains("tagging"))
-        return {"inside.mha", "tissue.mha"};
-    return {"inside.mha", "tissue.mha", "cleansed.mha"};
 }
 
 /// The skeleton of an organ that branches.

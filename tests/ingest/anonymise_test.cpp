@@ -69,6 +69,26 @@ TEST_F(Anonymous, AnEnhancedCaseToo)
     expectSameVoxels(id);
 }
 
+TEST_F(Anonymous, ACaseOfMrToo)
+{
+    test::SeriesSpec spec;
+    spec.mr_images = true;
+    spec.modality = "MR";
+    test::writeSeries(originals_, spec);
+    const std::string id = caseOf();
+    EXPECT_EQ(write(id).written, 12);
+    check();
+    expectSameVoxels(id);
+    for (const auto& file : fs::recursive_directory_iterator(out_)) {
+        if (!file.is_regular_file())
+            continue;
+        DcmFileFormat format;
+        ASSERT_TRUE(format.loadFile(file.path().c_str()).good());
+        for (const DcmTagKey& tag : {DCM_Manufacturer, DCM_PositionReferenceIndicator, DCM_EchoTime, DCM_ScanOptions})
+            EXPECT_TRUE(format.getDataset()->tagExists(tag)) << DcmTag(tag).getTagName();
+    }
+}
+
 TEST_F(Anonymous, TheSameCaseBecomesTheSameAgain)
 {
     test::writeSeries(originals_, {});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QSplitter>
+#include <QVariant>
 #include <array>
 
 #include "slices/slice_view.h"
