@@ -323,6 +323,13 @@ TEST_F(Form, TakesTheListsPlaceInANarrowWindowAndGivesItBack)
         waitUntilQuiet();
         EXPECT_NEAR(the<QWidget>("endoscopic")->width(), before_px, 8) << time;
     }
+    const int side_px = the<QWidget>("overview")->width();
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    closeCase();
+    openCase();
+    window()->resize(screen);
+    waitUntilQuiet();
+    EXPECT_NEAR(the<QWidget>("overview")->width(), side_px, side_px / 10) << "closed with the form, opened without";
     const QSize large(1920, 1080);
     window()->resize(large);
     ASSERT_NO_FATAL_FAILURE(openForm());
