@@ -100,6 +100,15 @@ protected:
     double straight() const { return stored()[0].size.value().straight_mm; }
 };
 
+TEST_F(Measuring, ItsWordsNeverLieOverTheLineAlsoAtThePicturesEdge)
+{
+    zoom("coronal", 3);
+    const QPoint last(the<QWidget>("coronal")->width() - 16, middle("coronal").y());
+    measuredBetween("coronal", last - QPoint(60, 0), last);
+    screenshot("measured_at_the_edge");
+    EXPECT_GE(calliperBetween("coronal", last - QPoint(60, 0), last), 0.9);
+}
+
 TEST_F(Measuring, InAZoomedSliceEveryDirectionMeasuresWhatItsScaleSays)
 {
     zoom("coronal", 6);

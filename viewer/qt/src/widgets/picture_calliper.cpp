@@ -13,6 +13,19 @@ constexpr double kGrip_px = 4, kGrasp_px = 10, kLabelOff_px = 10;  // of 96 to t
 constexpr double kWidestLabel = 0.3;                               // of the view's width
 const QColor kCalliperColor(255, 214, 102);                        // as in the picture of the best plane
 
+/// Of all that is drawn, in pixels of the picture.
+double leftmostOf(const Calliper& calliper)
+{
+    double x = calliper.label_at.x();
+    for (const QVector<QLineF>* lines : {&calliper.lines, &calliper.rim})
+        for (const QLineF& line : *lines)
+            x = std::min({x, line.x1(), line.x2()});
+    for (const auto& grip : calliper.grips)
+        if (grip)
+            x = std::min(x, grip->x());
+    return x;
+}
+
 }  // namespace
 
 void PictureView::setCalliper(const std::optional<Calliper>& calliper)
@@ -72,7 +85,10 @@ void PictureView::drawCalliperText(QPainter& painter) const
     const QRectF words =
         QRectF(painter.fontMetrics().boundingRect(rect(), Qt::AlignLeft | Qt::AlignTop, text)).adjusted(-3, -1, 3, 1);
     const QPointF at = toWidget({calliper_->label_at.x(), calliper_->label_at.y()});
-    const double x = std::clamp(at.x() + kLabelOff_px, 0.0, std::max(0.0, width() - words.width()));
+    const double on_the_right = at.x() + kLabelOff_px,
+                 on_the_left = toWidget({leftmostOf(*calliper_), 0}).x() - kLabelOff_px - words.width();
+    const bool fits = on_the_right + words.width() <= width() || on_the_left < 0;
+    const double x = std::clamp(fits ? on_the_right : on_the_left, 0.0, std::max(0.0, width() - words.width()));
     const double y = std::clamp(at.y() - words.height() / 2, 0.0, std::max(0.0, height() - words.height()));
     const QRectF box({x, y}, words.size());
     painter.fillRect(box, QColor(0, 0, 0, 190));
