@@ -6,6 +6,7 @@
 
 #include "dataset.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/dicom/load_file.h"
 
 namespace vicon::ingest {
 namespace {
@@ -48,9 +49,7 @@ std::string reasonOf(const Dataset& d)
 ImageFacts factsOf(const std::filesystem::path& file)
 {
     DcmFileFormat format;
-    if (format
-            .loadFileUntilTag(file.c_str(), EXS_Unknown, EGL_noChange, DCM_MaxReadLength, ERM_autoDetect, DCM_PixelData)
-            .bad())
+    if (loadFile(format, file, DCM_MaxReadLength, DCM_PixelData).bad())
         return {};
     const Dataset d(*format.getDataset());
     return {reasonOf(d), d.text(DCM_ContrastBolusAgent), d.number(DCM_CTDIvol), heightOf(d)};

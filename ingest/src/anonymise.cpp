@@ -6,6 +6,7 @@
 #include "vicon/core/file.h"
 #include "vicon/core/uid.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/dicom/load_file.h"
 
 namespace fs = std::filesystem;
 
@@ -25,7 +26,7 @@ std::string keyOf(const CaseStore& store)
 std::string writeOne(const fs::path& from, const fs::path& folder, const Pseudonyms& pseudonyms, const NewUids& uids)
 {
     DcmFileFormat format;
-    if (format.loadFile(from.c_str(), EXS_Unknown, EGL_noChange, DCM_MaxReadLength).bad())
+    if (loadFile(format, from).bad())
         throw Error(ErrorCode::bad_input, "an object cannot be read", from.filename().string(),
                     "see 'vicon doctor' and restore it from a backup");
     DcmDataset& dataset = *format.getDataset();

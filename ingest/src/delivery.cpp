@@ -14,6 +14,7 @@
 #include "vicon/core/file.h"
 #include "vicon/core/uid.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/dicom/load_file.h"
 #include "vicon/ingest/sender.h"
 #include "web_peer.h"
 
@@ -227,8 +228,7 @@ OutboxObject outboxObject(const fs::path& file)
 {
     setUpDicom();
     DcmFileFormat format;
-    const OFCondition loaded = format.loadFileUntilTag(file.c_str(), EXS_Unknown, EGL_noChange, DCM_MaxReadLength,
-                                                       ERM_autoDetect, DCM_StudyDate);
+    const OFCondition loaded = loadFile(format, file, DCM_MaxReadLength, DCM_StudyDate);
     OFString sop_class, sop_uid;
     if (loaded.good()) {
         format.getDataset()->findAndGetOFString(DCM_SOPClassUID, sop_class);

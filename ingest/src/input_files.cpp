@@ -11,6 +11,7 @@
 #include "vicon/core/file.h"
 #include "vicon/core/printable.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/dicom/load_file.h"
 
 namespace fs = std::filesystem;
 
@@ -56,13 +57,10 @@ fs::path referencedFile(const fs::path& folder, const std::vector<std::string>& 
     return {};
 }
 
-void listDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::vector<ImportLine>& lines)
+void readDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::vector<ImportLine>& lines)
 {
-    setUpDicom();
-    if (const std::string why = whyNotToRead(dicomdir); !why.empty())
-        return refuse(lines, dicomdir.string(), why + "; import its folder instead");
     DcmFileFormat format;
-    if (format.loadFile(dicomdir.c_str()).bad())
+    if (loadFile(format, dicomdir).bad())
         return refuse(lines, dicomdir.string(), "the DICOMDIR is damaged; import its folder instead");
     const Dataset dataset(*format.getDataset());
     const unsigned long count = dataset.itemCount(DCM_DirectoryRecordSequence);
@@ -79,6 +77,19 @@ void listDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::
             refuse(lines, dicomdir.string(), "names a file that is not there: " + named);
         else
             files.push_back({file, printable(file.string()), false});
+    }
+}
+
+void listDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::vector<ImportLine>& lines)
+{
+    setUpDicom();
+    if (const std::string why = whyNotToRead(dicomdir); !why.empty())
+        return refuse(lines, dicomdir.string(), why + "; import its folder instead");
+    try {
+        readDicomdir(dicomdir, files, lines);
+    } catch (const std::exception& e) {  // DCMTK makes texts of values that are not there
+        refuse(lines, dicomdir.string(),
+               std::string("the DICOMDIR is damaged (") + e.what() + "); import its folder instead");
     }
 }
 

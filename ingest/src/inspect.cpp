@@ -14,6 +14,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/dicom/load_file.h"
 #include "vicon/ingest/structured_report.h"
 
 namespace fs = std::filesystem;
@@ -169,9 +170,8 @@ Inspection judge(const Dataset& dataset, const ImportOptions& options, ImageObje
 OFCondition load(const fs::path& file, const Structure& structure, DcmFileFormat& format)
 {
     if (structure.fate == Structure::Fate::refused)  // for its UIDs
-        return format.loadFileUntilTag(file.c_str(), EXS_Unknown, EGL_noChange, kLargestElementInMemory, ERM_autoDetect,
-                                       DCM_PixelData);
-    const OFCondition loaded = format.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, kLargestElementInMemory);
+        return loadFile(format, file, kLargestElementInMemory, DCM_PixelData);
+    const OFCondition loaded = loadFile(format, file, kLargestElementInMemory);
     return structure.trailing_bytes > 0 ? EC_Normal : loaded;
 }
 

@@ -21,6 +21,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/volume.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/dicom/load_file.h"
 
 namespace vicon::ingest {
 namespace {
@@ -116,8 +117,7 @@ FrameDecoder::FrameDecoder(const ImageObject& object) : object_(object), opened_
 {
     setUpDicom();
     DcmElement* element = nullptr;
-    const OFCondition loaded =
-        opened_->format.loadFile(object.file.c_str(), EXS_Unknown, EGL_noChange, kLargestElementInMemory);
+    const OFCondition loaded = loadFile(opened_->format, object.file, kLargestElementInMemory);
     if (loaded.bad() && object.trailing_bytes == 0)
         failed("cannot be read (" + std::string(loaded.text()) + ")");
     if (opened_->format.getDataset()->findAndGetElement(DCM_PixelData, element).good())

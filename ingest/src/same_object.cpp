@@ -10,6 +10,7 @@
 
 #include "vicon/core/file.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/dicom/load_file.h"
 
 namespace fs = std::filesystem;
 
@@ -29,7 +30,7 @@ E_TransferSyntax commonSyntax(E_TransferSyntax syntax)
 std::optional<std::string> canonical(const fs::path& file, E_TransferSyntax& syntax)
 {
     DcmFileFormat format;
-    if (format.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, DCM_MaxReadLength).bad())
+    if (loadFile(format, file).bad())
         return {};
     DcmDataset& dataset = *format.getDataset();
     syntax = commonSyntax(dataset.getOriginalXfer());

@@ -13,6 +13,7 @@
 #include "outcomes.h"
 #include "vicon/core/error.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/dicom/load_file.h"
 #include "web_peer.h"
 
 namespace fs = std::filesystem;
@@ -59,7 +60,7 @@ std::vector<Item> readKinds(const std::vector<fs::path>& files, Outcomes& outcom
     std::vector<Item> items;
     for (const fs::path& file : files) {
         DcmFileFormat format;
-        const OFCondition loaded = format.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, kLargestElementInMemory);
+        const OFCondition loaded = loadFile(format, file, kLargestElementInMemory);
         const auto sop_class = Dataset(*format.getDataset()).values(DCM_SOPClassUID);
         if (loaded.bad() || sop_class.empty()) {
             outcomes.add({file, false, true, loaded.bad() ? loaded.text() : "it does not say its SOP Class"});

@@ -9,6 +9,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/printable.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/dicom/load_file.h"
 
 namespace vicon::ingest {
 namespace {
@@ -190,7 +191,7 @@ ContentDocument readStructuredReport(const std::filesystem::path& file)
     if (const std::string why = whyNotToRead(file); !why.empty())
         throw Error(ErrorCode::bad_input, "the structured report cannot be read: " + why);
     DcmFileFormat format;
-    if (const OFCondition loaded = format.loadFile(file.c_str()); loaded.bad())
+    if (const OFCondition loaded = loadFile(format, file); loaded.bad())
         throw Error(ErrorCode::bad_input,
                     std::string("the structured report is truncated or damaged (") + loaded.text() + ")");
     const Dataset d(*format.getDataset());

@@ -9,6 +9,7 @@
 #include "study_key.h"
 #include "vicon/core/error.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/dicom/load_file.h"
 #include "web_object.h"
 #include "web_peer.h"
 
@@ -48,7 +49,7 @@ ObjectUids uidsOfOurs(const fs::path& file)
     constexpr Uint32 kLargestElementInMemory = 16384;
     setUpDicom();
     DcmFileFormat format;
-    if (format.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, kLargestElementInMemory).bad())
+    if (loadFile(format, file, kLargestElementInMemory).bad())
         return {};
     const Dataset d(*format.getDataset());
     return {d.raw(DCM_StudyInstanceUID), d.raw(DCM_SeriesInstanceUID), d.raw(DCM_SOPInstanceUID),

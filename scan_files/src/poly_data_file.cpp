@@ -9,13 +9,11 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
-#include <fstream>
 #include <new>
-#include <regex>
-#include <set>
 
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vtp_header.h"
 
 namespace fs = std::filesystem;
 
@@ -37,31 +35,6 @@ bool refersTo(vtkCellArray* cells, vtkIdType points)
         return false;
     const auto ids = vtk::DataArrayValueRange<1>(corners);
     return std::all_of(ids.begin(), ids.end(), [&](double id) { return id >= 0 && id < double(points); });
-}
-
-/// Whether no two arrays of the points, or of the cells, have one name: VTK's reader then reads into one that is not
-/// there.
-bool namesEachArrayOnce(const fs::path& file)
-{
-    constexpr std::size_t kLongestHeader = 65536;
-    std::string head(kLongestHeader, '\0');
-    std::ifstream in(file, std::ios::binary);
-    in.read(head.data(), std::streamsize(head.size()));
-    head.resize(std::size_t(in.gcount()));
-    head.resize(std::min(head.find("<AppendedData"), head.size()));
-    static const std::regex kName(R"(Name\s*=\s*["']([^"']*)["'])");
-    for (const char* section : {"PointData", "CellData"}) {
-        const std::size_t begin = head.find(std::string("<") + section);
-        const std::size_t end = std::min(head.find(std::string("</") + section), head.size());
-        if (begin >= end)
-            continue;
-        std::set<std::string> names;
-        const std::string arrays = head.substr(begin, end - begin);
-        for (std::sregex_iterator name(arrays.begin(), arrays.end(), kName), none; name != none; ++name)
-            if (!names.insert((*name)[1]).second)
-                return false;
-    }
-    return true;
 }
 
 bool haveValuesFor(vtkFieldData* arrays, vtkIdType count)
@@ -105,7 +78,7 @@ vtkSmartPointer<vtkPolyData> readPolyData(const fs::path& file)
     if (!fs::exists(file))
         throw Error(ErrorCode::not_found, "no such file", file.string(), "run 'vicon work' to make it");
     vtkNew<vtkXMLPolyDataReader> reader;
-    if (!reader->CanReadFile(file.c_str()) || !namesEachArrayOnce(file))
+    if (!isSoundVtp(file) || !reader->CanReadFile(file.c_str()))
         throw Error(ErrorCode::bad_input, "not a .vtp file", file.string(), "run 'vicon work' to make it anew");
     reader->SetFileName(file.c_str());
     bool fits = true;

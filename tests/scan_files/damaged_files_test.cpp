@@ -125,6 +125,35 @@ TEST_F(DamagedFile, SurfacesWithTwoArraysOfOneNameAreRefused)
     EXPECT_TRUE(isRefused([&] { readCells(file); }));
 }
 
+TEST_F(DamagedFile, SurfacesWhoseHeadersSayWhatTheirBytesDoNotAreRefused)
+{
+    writeCells(file, twoTriangles());
+    const std::string sound = readFile(file);
+    ASSERT_NO_THROW(readCells(file));
+    for (const auto& [said, lie] : std::vector<std::pair<std::string, std::string>>{
+             {"NumberOfComponents=\"3\"", "NumberOfComponents=\"0\""},
+             {"NumberOfComponents=\"3\"", "NumberOfComponents=\"4\""},
+             {"NumberOfComponents=\"3\"", "NumberOfComponents=\"3\" NumberOfTuples=\"9\""},
+             {"type=\"UInt16\"", "type=\"Bit\""},
+             {"type=\"UInt16\"", "type=\"UInt64\""},
+             {"type=\"Int32\" Name=\"connectivity\"", "type=\"Int32\" Name=\"connectivity\" NumberOfComponents=\"0\""},
+             {"type=\"Int32\" Name=\"offsets\"", "type=\"Int8\" Name=\"offsets\""},
+             {"NumberOfPolys=\"2\"", "NumberOfPolys=\"3\""},
+             {"NumberOfLines=\"0\"", "NumberOfLines=\"-1\""},
+             {"header_type=\"UInt32\"", "header_type=\"UInt64\""},
+             {"byte_order=\"LittleEndian\"", "byte_order=\"BigEndian\""},
+             {"format=\"appended\"", "format=\"ascii\""},
+             {"offset=\"0\"", "offset=\"4000000000\""},
+             {"<Verts>", "<!-- --><Verts>"},
+             {"<CellData>", "<CellData><DataArray type=\"UInt16\"/>"},
+             {"encoding=\"raw\"", "encoding=\"base64\""}}) {
+        replaceFile(file, sound);
+        replace(said, lie);
+        ASSERT_NE(readFile(file), sound) << said;
+        EXPECT_TRUE(isRefused([&] { readCells(file); })) << lie;
+    }
+}
+
 TEST_F(DamagedFile, TreesWithoutARootAreRefused)
 {
     SkeletonTree tree;

@@ -10,6 +10,7 @@
 #include "mask/labelled_slices.h"
 #include "mask/refusal.h"
 #include "vicon/dicom/dicom_setup.h"
+#include "vicon/dicom/load_file.h"
 
 namespace fs = std::filesystem;
 
@@ -26,7 +27,7 @@ public:
         setUpDicom();
         if (const std::string why = whyNotToRead(file); !why.empty())
             throw maskRefused(file, why, kWriteSegAgain);
-        if (format_.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, kLargestElementInMemory).bad())
+        if (loadFile(format_, file, kLargestElementInMemory).bad())
             throw maskRefused(file, "is damaged or cut off", "copy it again");
         data_.emplace(*format_.getDataset());
         if (firstOf(data_->values(DCM_SOPClassUID)) != UID_SegmentationStorage)

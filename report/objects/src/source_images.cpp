@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "vicon/dicom/load_file.h"
+
 namespace vicon::report {
 namespace {
 
@@ -38,10 +40,7 @@ std::string text(DcmDataset& dataset, const DcmTagKey& tag)
 std::optional<ImagePlane> planeOf(const std::filesystem::path& file, const std::string& sop_uid)
 {
     DcmFileFormat format;
-    if (format
-            .loadFileUntilTag(file.c_str(), EXS_Unknown, EGL_noChange, DCM_MaxReadLength, ERM_autoDetect,
-                              DCM_BitsAllocated)
-            .bad())
+    if (loadFile(format, file, DCM_MaxReadLength, DCM_BitsAllocated).bad())
         return std::nullopt;
     DcmDataset& d = *format.getDataset();
     const auto origin = numbers<3>(d, DCM_ImagePositionPatient);
