@@ -33,7 +33,8 @@ TEST_P(AtLevels, TheFractionIsRightWhereGasFluidAndWallMeet)
             ghost = std::max(ghost, found);
     });
     // Beaches are the worst: over millimetres fluid is thinner than the blur.
-    EXPECT_LT(std::sqrt(squares / count), GetParam() < 45 ? 0.11 : 0.09) << GetParam() << " degrees";
+    EXPECT_LT(std::sqrt(squares / count), GetParam() < 45 || GetParam() > 135 ? 0.07 : 0.04)
+        << GetParam() << " degrees";
     EXPECT_LT(ghost, 0.3) << GetParam() << " degrees";
 }
 

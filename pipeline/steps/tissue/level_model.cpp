@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -35,27 +36,27 @@ public:
     {
     }
 
-    std::size_t set(const LevelColumn& column, TissueVolume& tissue)
+    /// Calls set(voxel) for those that it set.
+    template <class Set>
+    void set(const LevelColumn& column, TissueVolume& tissue, Set set)
     {
         const int half = std::max(1, int(std::ceil(kLayer_sigmas * column.sigma / down_.upright)));
         voxels_.clear();
         for (int n = -half; n <= depthWithoutWall(column, half); ++n)
             if (const Index3 v = down_.moved(column.at, n); tissue.grid.contains(v))
                 voxels_.push_back(measure(v, column));
-        std::size_t count = 0;
         for (std::size_t n = 0; n < voxels_.size(); ++n)
             if (voxels_[n].fits || mixture_.inside.at(voxels_[n].at) != kOutside)
                 if (const auto s = fraction(n)) {
                     tissue.at(voxels_[n].at) = stored(*s);
-                    ++count;
+                    set(voxels_[n].at);
                 }
-        return count;
     }
 
 private:
     struct Voxel {
         Index3 at;
-        double fraction = 0, weight = 0;
+        TissueShare share;
         bool fits = false;  ///< its density lies between what the contents would have there and tissue's
     };
 
@@ -65,9 +66,9 @@ private:
     int depthWithoutWall(const LevelColumn& column, int half) const
     {
         const double wall_hu = (mixture_.gas_hu + mixture_.tissue_hu) / 2;
-        int highest = -half;
-        double highest_hu = mixture_.hu(down_.moved(column.at, highest));
-        for (int n = -half; n <= half + kWall_voxels; ++n) {
+        int highest = 0;  // a wall over the gas is none
+        double highest_hu = mixture_.hu(column.at);
+        for (int n = 0; n <= half + kWall_voxels; ++n) {
             const double hu = mixture_.hu(down_.moved(column.at, n));
             if (n <= half && hu > highest_hu) {
                 highest = n;
@@ -84,15 +85,12 @@ private:
         const double step = column.fluid_hu - mixture_.gas_hu;
         const double below = (down_.depth(v) - column.depth) / column.sigma;
         const double content_hu = mixture_.gas_hu + step * 0.5 * std::erfc(-below / std::sqrt(2.0));
-        const double hu = mixture_.hu(v), off_hu = mixture_.tissue_hu - content_hu;
+        const double hu = mixture_.hu(v);
         const double miss_hu = kNoises * noise_hu_ + kMisfit * step;
         Voxel voxel{.at = v};
         voxel.fits = hu > std::min(content_hu, mixture_.tissue_hu) - miss_hu &&
                      hu < std::max(content_hu, mixture_.tissue_hu) + miss_hu;
-        const double telling_hu =
-            kTelling * (off_hu > 0 ? mixture_.tissue_hu - mixture_.gas_hu : column.fluid_hu - mixture_.tissue_hu);
-        voxel.weight = std::min(1.0, off_hu * off_hu / (telling_hu * telling_hu));
-        voxel.fraction = std::abs(off_hu) < 1 ? 0.5 : std::clamp((hu - content_hu) / off_hu, 0.0, 1.0);
+        voxel.share = tissueBeside(mixture_, hu, content_hu, column.fluid_hu);
         return voxel;
     }
 
@@ -100,25 +98,25 @@ private:
     std::optional<double> fraction(std::size_t n) const
     {
         const Voxel& own = voxels_[n];
-        const double weight = own.fits ? own.weight : 0;
+        const double weight = own.fits ? own.share.weight : 0;
         if (weight >= 1)
-            return own.fraction;
+            return own.share.fraction;
         const auto [above, above_weight] = toldFrom(n, -1);
         const auto [below, below_weight] = toldFrom(n, 1);
         if (!own.fits && (above_weight <= 0 || below_weight <= 0))
             return std::nullopt;
         const double weights = above_weight + below_weight;
-        return weights > 0
-                   ? weight * own.fraction + (1 - weight) * (above * above_weight + below * below_weight) / weights
-                   : own.fraction;
+        return weights > 0 ? weight * own.share.fraction +
+                                 (1 - weight) * (above * above_weight + below * below_weight) / weights
+                           : own.share.fraction;
     }
 
     /// The fraction of the nearest telling voxel on one side, and how near it is; 0 where there is none.
     std::pair<double, double> toldFrom(std::size_t n, int step) const
     {
         for (auto m = std::ptrdiff_t(n) + step; m >= 0 && m < std::ptrdiff_t(voxels_.size()); m += step)
-            if (const Voxel& other = voxels_[std::size_t(m)]; other.fits && other.weight >= 1)
-                return {other.fraction, 1 / double(std::abs(m - std::ptrdiff_t(n)))};
+            if (const Voxel& other = voxels_[std::size_t(m)]; other.fits && other.share.weight >= 1)
+                return {other.share.fraction, 1 / double(std::abs(m - std::ptrdiff_t(n)))};
         return {0, 0};
     }
 
@@ -130,17 +128,30 @@ private:
 
 }  // namespace
 
-std::size_t applyLevels(const Mixture& mixture, const DownAxis& down, const FluidLevels& levels, double noise_hu,
-                        TissueVolume& tissue)
+TissueShare tissueBeside(const Mixture& mixture, double hu, double content_hu, double fluid_hu)
+{
+    const double off_hu = mixture.tissue_hu - content_hu;
+    const double telling_hu =
+        kTelling * (off_hu > 0 ? mixture.tissue_hu - mixture.gas_hu : fluid_hu - mixture.tissue_hu);
+    return {std::abs(off_hu) < 1 ? 0.5 : std::clamp((hu - content_hu) / off_hu, 0.0, 1.0),
+            std::min(1.0, off_hu * off_hu / (telling_hu * telling_hu))};
+}
+
+std::vector<LevelVoxel> applyLevels(const Mixture& mixture, const DownAxis& down, const FluidLevels& levels,
+                                    double noise_hu, TissueVolume& tissue)
 {
     // Columns are taken one after the other where two levels' layers overlap: the later one, farther from its level's
     // own gas and fluid, must not undo the earlier.
-    std::vector<LevelColumn> columns = levels.columns;
     Layer layer(mixture, down, noise_hu);
-    std::size_t count = 0;
-    for (auto column = columns.rbegin(); column != columns.rend(); ++column)
-        count += layer.set(*column, tissue);
-    return count;
+    std::unordered_map<std::size_t, std::uint32_t> column_of;
+    column_of.reserve(levels.columns.size() * 8);
+    for (std::size_t n = levels.columns.size(); n-- > 0;)
+        layer.set(levels.columns[n], tissue, [&](Index3 v) { column_of[tissue.grid.offset(v)] = std::uint32_t(n); });
+    std::vector<LevelVoxel> voxels;
+    voxels.reserve(column_of.size());
+    for (const auto& [offset, column] : column_of)
+        voxels.push_back({tissue.grid.indexOf(offset), column});
+    return voxels;
 }
 
 }  // namespace vicon::steps

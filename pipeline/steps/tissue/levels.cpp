@@ -151,7 +151,7 @@ private:
     Contact contactAt(Index3 gas) const
     {
         Contact contact{.gas = gas};
-        if (const auto depth = crossingNear(gas, pure_)) {
+        if (const auto depth = crossingNear(mixture_, down_, gas, pure_)) {
             contact.crosses = true;
             contact.crossing = float(*depth);
         }
@@ -182,32 +182,6 @@ private:
         contact.fitted = contact.sigma * spacing_mm_ > kNarrowest_mm && contact.sigma * spacing_mm_ < kWidest_mm &&
                          std::abs(*half - read_ - 0.5) < pure_;
         return contact;
-    }
-
-    /// The depth at which the densities pass that of tissue, on the way down, nearest to a voxel. There the lumen has
-    /// tissue's density too, so it does not matter how much of the column is wall.
-    std::optional<double> crossingNear(Index3 v, int reach) const
-    {
-        std::optional<double> found;
-        double nearest = reach + 1;
-        for (int n = -reach; n <= reach; ++n) {
-            const double a = mixture_.hu(down_.moved(v, n)), b = mixture_.hu(down_.moved(v, n + 1));
-            if (a > mixture_.tissue_hu || b <= mixture_.tissue_hu)
-                continue;
-            const double at = n + (mixture_.tissue_hu - a) / (b - a);
-            if (std::abs(at - 0.5) < nearest && mixture_.hu(down_.moved(v, n + 2)) - a > kLeastRise_hu) {
-                nearest = std::abs(at - 0.5);
-                found = down_.depth(v) + at * down_.upright;
-            }
-        }
-        return found;
-    }
-
-    /// Where the middle of the step lies when it passes tissue's density at `crossing`.
-    double planeOf(double crossing, const LevelColumn& column) const
-    {
-        const double part = (mixture_.tissue_hu - mixture_.gas_hu) / (column.fluid_hu - mixture_.gas_hu);
-        return crossing - column.sigma * sigmasAt(part);
     }
 
     /// The crossing of a contact, the median of those around it; nothing where there are none.
@@ -299,7 +273,7 @@ private:
             column.fluid_hu = float(fluid_.at(down_.moved(contact.gas, pure_ + 1)));
             if (!crossing || column.fluid_hu <= 0)
                 continue;
-            column.depth = float(planeOf(*crossing, column));
+            column.depth = float(planeOf(*crossing, column, mixture_));
             column.at = onPlane(contact.gas, column.depth);
             if (grid.contains(column.at) && taken.try_emplace(grid.offset(column.at)).second)
                 found.push_back(column);
@@ -314,9 +288,9 @@ private:
                         next.at = onPlane(beside(next.at, axis, side), next.depth);
                         if (!grid.contains(next.at) || !taken.try_emplace(grid.offset(next.at)).second)
                             continue;
-                        if (const auto crossing = crossingNear(next.at, 2))
-                            next.depth = float(
-                                std::clamp(planeOf(*crossing, next), next.depth - kSteepest, next.depth + kSteepest));
+                        if (const auto crossing = crossingNear(mixture_, down_, next.at, 2))
+                            next.depth = float(std::clamp(planeOf(*crossing, next, mixture_), next.depth - kSteepest,
+                                                          next.depth + kSteepest));
                         next.at = onPlane(next.at, next.depth);
                         if (grid.contains(next.at))
                             found.push_back(next);
@@ -359,6 +333,29 @@ DownAxis::DownAxis(const Grid& grid, Vector3 gravity)
                  dot(grid.axis[1], gravity) * grid.spacing_mm[1] / unit_mm,
                  dot(grid.axis[2], gravity) * grid.spacing_mm[2] / unit_mm};
     upright = most;
+}
+
+std::optional<double> crossingNear(const Mixture& mixture, const DownAxis& down, Index3 v, int reach)
+{
+    std::optional<double> found;
+    double nearest = reach + 1;
+    for (int n = -reach; n <= reach; ++n) {
+        const double a = mixture.hu(down.moved(v, n)), b = mixture.hu(down.moved(v, n + 1));
+        if (a > mixture.tissue_hu || b <= mixture.tissue_hu)
+            continue;
+        const double at = n + (mixture.tissue_hu - a) / (b - a);
+        if (std::abs(at - 0.5) < nearest && mixture.hu(down.moved(v, n + 2)) - a > kLeastRise_hu) {
+            nearest = std::abs(at - 0.5);
+            found = down.depth(v) + at * down.upright;
+        }
+    }
+    return found;
+}
+
+double planeOf(double crossing, const LevelColumn& column, const Mixture& mixture)
+{
+    const double part = (mixture.tissue_hu - mixture.gas_hu) / (column.fluid_hu - mixture.gas_hu);
+    return crossing - column.sigma * sigmasAt(part);
 }
 
 FluidLevels findLevels(const Mixture& mixture, const FluidDensity& fluid, const DownAxis& down, double usual_blur_mm)

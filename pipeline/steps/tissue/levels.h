@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "tissue/fluid_density.h"
@@ -43,9 +45,30 @@ struct FluidLevels {
 /// @param usual_blur_mm TissueOptions::usual_blur_mm
 FluidLevels findLevels(const Mixture& mixture, const FluidDensity& fluid, const DownAxis& down, double usual_blur_mm);
 
-/// Sets the fraction of tissue in the blurred layers of the levels.
-/// @return the number of voxels set
-std::size_t applyLevels(const Mixture& mixture, const DownAxis& down, const FluidLevels& levels, double noise_hu,
-                        TissueVolume& tissue);
+/// The depth at which the densities pass that of tissue, on the way down, nearest to a voxel. There the lumen has
+/// tissue's density too, so it matters little how much of the column is wall.
+/// @param reach how many voxels above and below are looked at
+std::optional<double> crossingNear(const Mixture& mixture, const DownAxis& down, Index3 v, int reach);
+/// Where the middle of the step lies when it passes tissue's density at `crossing`.
+double planeOf(double crossing, const LevelColumn& column, const Mixture& mixture);
+
+/// A voxel of a level's blurred layer.
+struct LevelVoxel {
+    Index3 at;
+    std::uint32_t column = 0;  ///< whose plane it has
+};
+
+/// What a voxel's density says of the tissue in it, if all else has another density.
+struct TissueShare {
+    double fraction = 0;
+    double weight = 0;  ///< 1 where that density is far from tissue's, 0 where it is tissue's
+};
+TissueShare tissueBeside(const Mixture& mixture, double hu, double content_hu, double fluid_hu);
+
+/// Sets the fraction of tissue in the blurred layers of the levels: gas and fluid share what is not tissue as the
+/// blurred plane does.
+/// @return the voxels set, in no order; where two layers overlap, each once
+std::vector<LevelVoxel> applyLevels(const Mixture& mixture, const DownAxis& down, const FluidLevels& levels,
+                                    double noise_hu, TissueVolume& tissue);
 
 }  // namespace vicon::steps

@@ -9,6 +9,7 @@
 #include "grid/byte_rows.h"
 #include "grid/run_labels.h"
 #include "tissue/edge_model.h"
+#include "tissue/level_wall.h"
 #include "tissue/levels.h"
 #include "tissue/lumen_of_tissue.h"
 #include "tissue/near_mask.h"
@@ -68,6 +69,16 @@ HuVolume cleanse(const Mixture& mixture, const std::vector<std::uint8_t>& tagged
     return cleansed;
 }
 
+/// Sets the fraction in the levels' layers: column by column, and beside the wall along it.
+/// @return the number of voxels
+std::size_t modelLevels(const Mixture& mixture, const DownAxis& down, double noise_hu, const FluidLevels& levels,
+                        TissueVolume& tissue)
+{
+    const LevelVoxels voxels(applyLevels(mixture, down, levels, noise_hu, tissue), tissue.grid, down);
+    refineAtWall(mixture, down, levels, voxels, tissue);
+    return voxels.size();
+}
+
 }  // namespace
 
 TissueResult findTissue(const HuVolume& hu, const InsideVolume& inside, Vector3 gravity, const WallDensities& densities,
@@ -86,7 +97,7 @@ TissueResult findTissue(const HuVolume& hu, const InsideVolume& inside, Vector3 
     result.tissue = fractionAtEdges(mixture, fluid, down, blur_voxels);
     progress.check();
     progress.report(0.5, "tissue");
-    const std::size_t in_levels = applyLevels(mixture, down, levels, noise_hu, result.tissue);
+    const std::size_t in_levels = modelLevels(mixture, down, noise_hu, levels, result.tissue);
     const double noise = noise_hu / (mixture.tissue_hu - mixture.gas_hu);
     const auto near_fluid = nearMask(inside, kFluid, kTagged_voxels);
     smoothAlongWall(nearGasToo(inside, near_fluid), result.tissue);
