@@ -148,4 +148,30 @@ TEST_F(Archive, ADicomdirNamesItsFiles)
     EXPECT_EQ(store.scans(CaseStore::caseIdFor(SeriesSpec{}.study_uid)).size(), 2u);
 }
 
+/// DCMTK's parser throws there, on its way through any file that holds such a record.
+TEST_F(Archive, ARecordOfATypeTooLongIsOneLine)
+{
+    const auto files = writeSeries(folder / "disc/IMAGES", {});
+    const auto addRecord = [](DcmFileFormat& format) {
+        DcmItem* record = nullptr;
+        format.getDataset()->findOrCreateSequenceItem(DCM_DirectoryRecordSequence, record, -2);
+        record->putAndInsertString(DCM_DirectoryRecordType, "AAAAAAAAAAAAAAAAAAAA\\BBBBBBBBBBBBBBBBBBBB");
+    };
+    DcmFileFormat directory, slice;
+    addRecord(directory);
+    directory.getDataset()->putAndInsertString(DCM_SOPClassUID, UID_MediaStorageDirectoryStorage);
+    directory.getDataset()->putAndInsertString(DCM_SOPInstanceUID, "1.2.3.4");
+    ASSERT_TRUE(directory.saveFile((folder / "disc/DICOMDIR").c_str(), EXS_LittleEndianExplicit).good());
+    ASSERT_TRUE(slice.loadFile(files[0].c_str()).good());
+    ASSERT_TRUE(slice.loadAllDataIntoMemory().good());
+    addRecord(slice);
+    ASSERT_TRUE(slice.saveFile(files[0].c_str(), EXS_LittleEndianExplicit).good());
+    const auto by_directory = import({folder / "disc/DICOMDIR", files[1]});
+    EXPECT_TRUE(says(by_directory, Kind::refused, "the DICOMDIR is damaged")) << lines(by_directory);
+    EXPECT_EQ(by_directory.refused, 1) << lines(by_directory);
+    const auto by_folder = import({folder / "disc"});
+    EXPECT_EQ(by_folder.refused, 1) << lines(by_folder);
+    EXPECT_TRUE(says(by_folder, Kind::refused, "truncated or damaged")) << lines(by_folder);
+}
+
 }  // namespace
