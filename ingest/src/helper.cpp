@@ -120,7 +120,7 @@ std::string whyHarmful(const std::filesystem::path& file)
     } catch (const Error& e) {
         if (e.code() != ErrorCode::bad_input)
             throw;
-        return e.what();
+        return "damaged: its elements cannot be read (" + std::string(e.what()) + ")";
     }
     return {};
 }
