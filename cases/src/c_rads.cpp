@@ -215,17 +215,18 @@ std::string meaningOf(ColonCategory category)
     return {};
 }
 
-std::string adviceFor(ColonCategory category)
+std::string adviceFor(ColonCategory category, Quantity quantity)
 {
+    const std::string again = std::string("Repeat ") + examinationOf(quantity);
     switch (category) {
         case ColonCategory::c0:
             return "Repeat the examination, use another test, or compare with the earlier studies.";
         case ColonCategory::c1:
             return "Continue routine screening.";
         case ColonCategory::c2a:
-            return "Repeat CT colonography in 3 years, or colonoscopy.";
+            return again + " in 3 years, or colonoscopy.";
         case ColonCategory::c2b:
-            return "Repeat CT colonography in 5 years; within 3 years where it is not surely benign.";
+            return again + " in 5 years; within 3 years where it is not surely benign.";
         case ColonCategory::c3:
             return "Colonoscopy.";
         case ColonCategory::c4:

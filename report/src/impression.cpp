@@ -105,7 +105,8 @@ std::string recommendationText(const ReadCase& read)
 {
     if (!read.assessment.recommendation.empty())
         return read.assessment.recommendation;
-    return read.assessment.colon_category ? adviceFor(read.assessment.colon_category->category) : "not given";
+    return read.assessment.colon_category ? adviceFor(read.assessment.colon_category->category, quantityOf(read))
+                                          : "not given";
 }
 
 }  // namespace vicon::report

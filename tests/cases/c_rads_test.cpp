@@ -239,5 +239,12 @@ TEST(Categories, HaveNamesThatAreReadBack)
     EXPECT_THROW(extracolonicCategoryFrom("E5"), Error);
 }
 
+TEST(Categories, AdviseTheKindOfExaminationThatWasMade)
+{
+    EXPECT_EQ(adviceFor(ColonCategory::c2a, Quantity::density), "Repeat CT colonography in 3 years, or colonoscopy.");
+    EXPECT_EQ(adviceFor(ColonCategory::c2a, Quantity::signal), "Repeat MR colonography in 3 years, or colonoscopy.");
+    EXPECT_THAT(adviceFor(ColonCategory::c2b, Quantity::signal), HasSubstr("MR colonography in 5 years"));
+}
+
 }  // namespace
 }  // namespace vicon

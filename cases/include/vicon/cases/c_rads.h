@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vicon/cases/finding.h"
+#include "vicon/core/quantity.h"
 
 namespace vicon {
 
@@ -17,8 +18,9 @@ std::string nameOf(ColonCategory category);
 ColonCategory colonCategoryFrom(const std::string& name);
 /// What it means, in the words of a report.
 std::string meaningOf(ColonCategory category);
-/// What is usually advised; the reader's recommendation replaces it.
-std::string adviceFor(ColonCategory category);
+/// What is usually advised, the same kind of examination where it is to be repeated; the reader's recommendation
+/// replaces it.
+std::string adviceFor(ColonCategory category, Quantity quantity);
 
 enum class ExtracolonicCategory { e0, e1, e3, e4 };
 /// "E0", "E1/E2", "E3", "E4". E1 and E2 are one since 2023.
