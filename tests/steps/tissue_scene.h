@@ -13,11 +13,18 @@ namespace vicon::steps {
 inline constexpr double kGasHu = -1000, kTissueHu = 40, kFluidHu = 700, kSigma_mm = 0.7, kVoxel_mm = 0.7;
 inline constexpr Vector3 kDown{0, 1, 0};  // supine; levels lie at y = 0.1
 
+/// How far down the fluid begins: everywhere alike, or higher where it has risen along a wall.
+struct Level {
+    Level(double depth_mm) : at([depth_mm](Point3) { return depth_mm; }) {}
+    Level(std::function<double(Point3)> depth_mm) : at(std::move(depth_mm)) {}
+    std::function<double(Point3)> at;
+};
+
 /// A blurred scan of tissue with gas above the level and fluid below it.
 struct Scene {
     using IsTissue = std::function<bool(Point3)>;
 
-    explicit Scene(const IsTissue& isTissue, double level_mm = 0.1, double noise_hu = 0, int size = 48,
+    explicit Scene(const IsTissue& isTissue, const Level& level = 0.1, double noise_hu = 0, int size = 48,
                    Vector3 down = kDown)
         : grid{.size = {size, size, size}, .spacing_mm = {kVoxel_mm, kVoxel_mm, kVoxel_mm}},
           hu(grid),
@@ -30,7 +37,7 @@ struct Scene {
         hu.grid = inside.grid = truth.grid = grid;
         const std::vector<float> tissue = blurred([&](Point3 p) { return isTissue(p) ? 1.0 : 0.0; });
         const std::vector<float> fluid =
-            blurred([&](Point3 p) { return !isTissue(p) && dot(p - Point3{}, down) > level_mm ? 1.0 : 0.0; });
+            blurred([&](Point3 p) { return !isTissue(p) && dot(p - Point3{}, down) > level.at(p) ? 1.0 : 0.0; });
         std::mt19937 random(7);
         std::normal_distribution<double> noise(0, std::max(noise_hu, 1e-9));
         for (std::size_t n = 0; n < grid.voxelCount(); ++n) {
@@ -38,8 +45,8 @@ struct Scene {
             truth.voxels[n] = float(s);
             hu.voxels[n] = std::int16_t(
                 std::lround(s * kTissueHu + f * kFluidHu + (1 - s - f) * kGasHu + (noise_hu > 0 ? noise(random) : 0)));
-            const double depth_mm = dot(grid.pointAt(grid.indexOf(n)) - Point3{}, down);
-            inside.voxels[n] = s >= 0.5 ? kOutside : depth_mm > level_mm ? kFluid : kGas;
+            const Point3 p = grid.pointAt(grid.indexOf(n));
+            inside.voxels[n] = s >= 0.5 ? kOutside : dot(p - Point3{}, down) > level.at(p) ? kFluid : kGas;
         }
     }
 

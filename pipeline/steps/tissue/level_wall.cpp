@@ -36,8 +36,10 @@ constexpr float kLabelled_voxels = 1.5F;
 /// Fluid rises along a wall: water along one that it wets by up to 3.8 mm, along mucosa by less. So far above its level
 /// fluid or gas may be beside tissue.
 constexpr double kMeniscus_mm = 1.2;
-/// What the fraction may be is so much wide where a voxel tells nothing.
+/// Where that changes the fraction by so much, a voxel is believed only as far as the wall beside it agrees.
 constexpr double kUncertain = 0.25;
+/// So far apart they agree by half.
+constexpr double kApart = 0.15;
 /// The reach of the blur, in voxels squared: 2.4 of them, which are sigmas.
 constexpr int kReach_voxels2 = 6;
 /// Voxels so near to the border of the scan are left as they are.
@@ -79,8 +81,9 @@ private:
     /// Of one level voxel, with the tissue found so far.
     struct Known {
         Vector3 slope;               ///< of the fraction
-        double weight = 1;           ///< 1 where its density tells the fraction, 0 where it tells nothing
-        double least = 0, most = 0;  ///< what the fraction may be
+        double fraction = 0;         ///< of a level that is a plane
+        double telling = 1;          ///< 1 where the density tells that fraction, 0 where it tells nothing
+        double certain = 1;          ///< 1 where fluid that has risen would not change it, 0 where it would
         std::uint8_t by_column = 0;  ///< what applyLevels() found
     };
     /// The same between voxels.
@@ -114,7 +117,7 @@ private:
     {
         Known known{.slope = slopeAt(voxels_[n].at), .by_column = known_[n].by_column};
         if (length(known.slope) <= kWallSlope) {
-            known.least = known.most = known.by_column / double(kWhole);
+            known.fraction = known.by_column / double(kWhole);
             return known;
         }
         const Index3 v = voxels_[n].at;
@@ -123,9 +126,9 @@ private:
         const FluidShare fluid = fluidShare(v, column, planes_[voxels_[n].column]);
         const TissueShare flat = tissueBeside(mixture_, hu, mixture_.gas_hu + fluid.flat * step_hu, column.fluid_hu);
         const double risen = fractionBeside(hu, mixture_.gas_hu + fluid.risen * step_hu);
-        known.least = std::min(flat.fraction, risen);
-        known.most = std::max(flat.fraction, risen);
-        known.weight = flat.weight * std::clamp(1 - (known.most - known.least) / kUncertain, 0.0, 1.0);
+        known.fraction = flat.fraction;
+        known.telling = flat.weight;
+        known.certain = std::clamp(1 - std::abs(flat.fraction - risen) / kUncertain, 0.0, 1.0);
         return known;
     }
 
@@ -221,8 +224,8 @@ private:
                 continue;
             const auto n = voxels_.find(v);
             const Vector3 slope = n ? known_[*n].slope : slopeAt(v);
-            const double weight = n ? known_[*n].weight : 1;
-            const double fraction = n ? (known_[*n].least + known_[*n].most) / 2 : tissue_.at(v) / double(kWhole);
+            const double weight = n ? known_[*n].telling * known_[*n].certain : 1;
+            const double fraction = n ? known_[*n].fraction : tissue_.at(v) / double(kWhole);
             sample.slope = sample.slope + slope * part;
             sample.weight += part * weight;
             sample.weighted += part * weight * fraction;
@@ -257,9 +260,8 @@ private:
         const Known& known = known_[n];
         if (length(known.slope) <= kWallSlope)
             return known.by_column;
-        const double own = (known.least + known.most) / 2;
-        if (known.weight >= 1)
-            return stored(own);
+        if (known.telling >= 1 && known.certain >= 1)
+            return stored(known.fraction);
         const auto above = toldAlongWall(voxels_[n].at, -1), below = toldAlongWall(voxels_[n].at, 1);
         double told = 0, nearness = 0;
         for (const auto& side : {above, below})
@@ -269,7 +271,11 @@ private:
             }
         if (nearness <= 0)
             return known.by_column;
-        return stored(known.weight * own + (1 - known.weight) * told / nearness);
+        told /= nearness;
+        const double apart = (told - known.fraction) / kApart;
+        const double agrees = 1 / (1 + apart * apart * apart * apart);
+        const double own = known.telling * (known.certain + (1 - known.certain) * agrees);
+        return stored(own * known.fraction + (1 - own) * told);
     }
 
     const Mixture& mixture_;
