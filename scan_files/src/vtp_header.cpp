@@ -125,7 +125,7 @@ public:
         return true;
     }
 
-    /// Whether cells have an end each, and corners; which corners is seen when they are read.
+    /// Whether cells have an end each, the last behind the last corner; which corners is seen when they are read.
     bool areCells(vtkXMLDataElement* part, Size count) const
     {
         if (part->GetNumberOfNestedElements() != 2)
@@ -137,8 +137,9 @@ public:
                 (attribute(array, "type") != "Int32" && attribute(array, "type") != "Int64"))
                 return false;
         return attribute(corners, "Name") == "connectivity" && attribute(ends, "Name") == "offsets" &&
+               blockBytes(ends) == count * *valueBytes(attribute(ends, "type")) &&
                blockBytes(corners).value_or(1) % *valueBytes(attribute(corners, "type")) == 0 &&
-               blockBytes(ends) == count * *valueBytes(attribute(ends, "type"));
+               *blockBytes(corners) / *valueBytes(attribute(corners, "type")) == lastEnd(ends, count);
     }
 
 private:
@@ -162,6 +163,18 @@ private:
         if (begin_ + *offset + sizeof bytes + bytes > file_bytes_)
             return {};
         return bytes;
+    }
+
+    /// The last of `count` values of an array that has as many.
+    Size lastEnd(vtkXMLDataElement* ends, Size count) const
+    {
+        if (count == 0)
+            return 0;
+        const Size bytes = *valueBytes(attribute(ends, "type"));
+        Size value = 0;  // as they are written, the lowest byte first
+        in_->seekg(std::streamoff(begin_ + *number(ends, "offset") + sizeof(std::uint32_t) + (count - 1) * bytes));
+        in_->read(reinterpret_cast<char*>(&value), std::streamsize(bytes));
+        return value;
     }
 
     std::istream* in_;

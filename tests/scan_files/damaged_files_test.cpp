@@ -154,6 +154,19 @@ TEST_F(DamagedFile, SurfacesWhoseHeadersSayWhatTheirBytesDoNotAreRefused)
     }
 }
 
+/// VTK asks for as many corners as the last cell's end says.
+TEST_F(DamagedFile, SurfacesThatEndBehindTheirCornersAreRefused)
+{
+    writeCells(file, twoTriangles());
+    std::string bytes = readFile(file);
+    const std::string ends("\x08\0\0\0\x03\0\0\0\x06\0\0\0", 12);  // of the block: its bytes, 3, 6
+    const auto at = bytes.rfind(ends);
+    ASSERT_NE(at, std::string::npos);
+    bytes[at + 11] = '\x7f';
+    replaceFile(file, bytes);
+    EXPECT_TRUE(isRefused([&] { readCells(file); }));
+}
+
 TEST_F(DamagedFile, TreesWithoutARootAreRefused)
 {
     SkeletonTree tree;
