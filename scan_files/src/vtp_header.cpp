@@ -71,12 +71,9 @@ std::optional<Size> number(vtkXMLDataElement* element, const char* name)
 
 bool hasOnly(vtkXMLDataElement* element, std::initializer_list<std::string_view> names)
 {
-    std::set<std::string_view> seen;
-    for (int n = 0; n < element->GetNumberOfAttributes(); ++n) {
-        const std::string_view name = element->GetAttributeName(n);
-        if (std::find(names.begin(), names.end(), name) == names.end() || !seen.insert(name).second)
+    for (int n = 0; n < element->GetNumberOfAttributes(); ++n)
+        if (std::find(names.begin(), names.end(), std::string_view(element->GetAttributeName(n))) == names.end())
             return false;
-    }
     return true;
 }
 

@@ -79,7 +79,7 @@ private:
         double depth = 0, weight = 0;
         for (int a = -reach; a <= reach; ++a)
             for (int b = -reach; b <= reach; ++b) {
-                const Index3 v = beside(column.at, a, b);
+                const Index3 v = beside(beside(column.at, (down_.axis + 1) % 3, a), (down_.axis + 2) % 3, b);
                 if (!tissue_.grid.contains(v))
                     continue;
                 if (const auto other = columnAt(v)) {
@@ -90,14 +90,6 @@ private:
                 }
             }
         return weight > 0 ? Plane{depth / weight, weight} : Plane{};
-    }
-
-    Index3 beside(Index3 v, int a, int b) const
-    {
-        std::array<int*, 3> of{&v.i, &v.j, &v.k};
-        *of[std::size_t((down_.axis + 1) % 3)] += a;
-        *of[std::size_t((down_.axis + 2) % 3)] += b;
-        return v;
     }
 
     /// The column of a level whose plane passes beside a voxel, at most a voxel higher or lower.

@@ -51,7 +51,6 @@ public:
     }
 
 private:
-    static int coordinate(Index3 v, int axis) { return axis == 0 ? v.i : axis == 1 ? v.j : v.k; }
     std::size_t cellOf(Index3 v) const
     {
         return std::size_t(coordinate(v, a_)) + std::size_t(size_[std::size_t(a_)]) * std::size_t(coordinate(v, b_));

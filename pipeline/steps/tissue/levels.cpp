@@ -121,12 +121,6 @@ private:
     };
 
     std::array<int, 2> sides() const { return {(down_.axis + 1) % 3, (down_.axis + 2) % 3}; }
-    static int coordinate(Index3 v, int axis) { return axis == 0 ? v.i : axis == 1 ? v.j : v.k; }
-    static Index3 beside(Index3 v, int axis, int step)
-    {
-        (axis == 0 ? v.i : axis == 1 ? v.j : v.k) += step;
-        return v;
-    }
 
     void findContacts()
     {

@@ -10,16 +10,22 @@
 
 namespace vicon::steps {
 
+inline int coordinate(Index3 v, int axis)
+{
+    return axis == 0 ? v.i : axis == 1 ? v.j : v.k;
+}
+inline Index3 beside(Index3 v, int axis, int steps)
+{
+    (axis == 0 ? v.i : axis == 1 ? v.j : v.k) += steps;
+    return v;
+}
+
 /// Depth along gravity as a linear function of a voxel's place, in voxels of the axis nearest to gravity.
 struct DownAxis {
     DownAxis(const Grid& grid, Vector3 gravity);
     double depth(Index3 v) const { return per_voxel.x * v.i + per_voxel.y * v.j + per_voxel.z * v.k; }
-    int along(Index3 v) const { return axis == 0 ? v.i : axis == 1 ? v.j : v.k; }
-    Index3 moved(Index3 v, int steps) const
-    {
-        (axis == 0 ? v.i : axis == 1 ? v.j : v.k) += steps * sign;
-        return v;
-    }
+    int along(Index3 v) const { return coordinate(v, axis); }
+    Index3 moved(Index3 v, int steps) const { return beside(v, axis, steps * sign); }
 
     int axis = 1;
     int sign = 1;
