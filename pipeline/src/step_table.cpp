@@ -181,7 +181,7 @@ std::vector<Step> stepsOfLumen()
          runResample},
         {"segment", 14, 0.3, 0.55, {"resample"}, Densities::whole, segmentFiles, segmentParameters, runSegment},
         {"tissue",
-         5,
+         6,
          0.55,
          0.6,
          {"resample", "segment"},

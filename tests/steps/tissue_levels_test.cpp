@@ -33,7 +33,7 @@ TEST_P(AtLevels, TheFractionIsRightWhereGasFluidAndWallMeet)
             ghost = std::max(ghost, found);
     });
     // Beaches are the worst: over millimetres fluid is thinner than the blur.
-    EXPECT_LT(std::sqrt(squares / count), GetParam() < 45 || GetParam() > 135 ? 0.06 : 0.03)
+    EXPECT_LT(std::sqrt(squares / count), GetParam() < 45 || GetParam() > 135 ? 0.05 : 0.03)
         << GetParam() << " degrees";
     EXPECT_LT(ghost, 0.3) << GetParam() << " degrees";
 }
@@ -60,7 +60,7 @@ TEST_P(Risen, FluidIsNoLedgeOfTheWall)
             ++count;
         }
     });
-    EXPECT_LT(std::sqrt(squares / count), 0.07) << GetParam() << " degrees";
+    EXPECT_LT(std::sqrt(squares / count), 0.05) << GetParam() << " degrees";
 }
 
 INSTANTIATE_TEST_SUITE_P(Walls, Risen, testing::Values(60.0, 90.0, 120.0, 135.0));
@@ -80,7 +80,7 @@ TEST(Tissue, FoldsAndBallsAtALevelKeepTheirShape)
                 ++count;
             }
         });
-        EXPECT_LT(std::sqrt(squares / count), 0.12);
+        EXPECT_LT(std::sqrt(squares / count), 0.08);
     }
 }
 

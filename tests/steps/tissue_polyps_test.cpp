@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -8,27 +7,6 @@
 
 namespace vicon::steps {
 namespace {
-
-/// How far from a place along a direction the fraction falls to one half, mm.
-double toWall_mm(const TissueVolume& tissue, Point3 from, Vector3 direction)
-{
-    constexpr double kStep_mm = 0.05;
-    const auto at = [&](double off_mm) {
-        const ContinuousIndex3 p = tissue.grid.continuousIndexAt(from + direction * off_mm);
-        double sum = 0;
-        for (int n = 0; n < 8; ++n) {
-            const Index3 v{int(std::floor(p.i)) + (n & 1), int(std::floor(p.j)) + (n >> 1 & 1),
-                           int(std::floor(p.k)) + (n >> 2)};
-            sum += (1 - std::abs(p.i - v.i)) * (1 - std::abs(p.j - v.j)) * (1 - std::abs(p.k - v.k)) *
-                   tissue.valueOr(v, 255) / 255.0;
-        }
-        return sum;
-    };
-    double off_mm = 0;
-    while (off_mm < 15 && at(off_mm) >= 0.5)
-        off_mm += kStep_mm;
-    return off_mm;
-}
 
 struct Polyp {
     double width_mm, height_mm, noise_hu;
@@ -46,9 +24,7 @@ TEST_P(Polyps, KeepTheirDiameterAndHeightWhateverTheNoise)
         return p.z < wall_mm || (p.x * p.x + p.y * p.y) / (radius_mm * radius_mm) + up * up < 1;
     };
     const Scene scene(isTissue, 20, noise_hu);
-    TissueVolume blurred(scene.grid);  // without noise and smoothing
-    std::transform(scene.truth.voxels.begin(), scene.truth.voxels.end(), blurred.voxels.begin(),
-                   [](float s) { return std::uint8_t(std::lround(255 * s)); });
+    const TissueVolume blurred = scene.blurredTruth();
     const TissueVolume found = scene.find(noise_hu).tissue;
     const auto heightIn = [&](const TissueVolume& tissue) { return toWall_mm(tissue, {0, 0, wall_mm - 2}, {0, 0, 1}); };
     const auto diameterIn = [&](const TissueVolume& tissue) {

@@ -56,6 +56,15 @@ struct Scene {
         return findTissue(hu, inside, down, {}, noise_hu, quiet);
     }
 
+    /// As the step would find it without noise.
+    TissueVolume blurredTruth() const
+    {
+        TissueVolume blurred(grid);
+        std::transform(truth.voxels.begin(), truth.voxels.end(), blurred.voxels.begin(),
+                       [](float s) { return std::uint8_t(std::lround(255 * s)); });
+        return blurred;
+    }
+
     /// Calls use(place, found fraction, true fraction) for the voxels at least `margin_mm` within the scan.
     template <class Use>
     void forEach(const TissueVolume& tissue, double margin_mm, Use use) const
@@ -113,5 +122,26 @@ private:
         return out;
     }
 };
+
+/// How far from a place along a direction the fraction falls to one half, mm.
+inline double toWall_mm(const TissueVolume& tissue, Point3 from, Vector3 direction)
+{
+    constexpr double kStep_mm = 0.05;
+    const auto at = [&](double off_mm) {
+        const ContinuousIndex3 p = tissue.grid.continuousIndexAt(from + direction * off_mm);
+        double sum = 0;
+        for (int n = 0; n < 8; ++n) {
+            const Index3 v{int(std::floor(p.i)) + (n & 1), int(std::floor(p.j)) + (n >> 1 & 1),
+                           int(std::floor(p.k)) + (n >> 2)};
+            sum += (1 - std::abs(p.i - v.i)) * (1 - std::abs(p.j - v.j)) * (1 - std::abs(p.k - v.k)) *
+                   tissue.valueOr(v, 255) / 255.0;
+        }
+        return sum;
+    };
+    double off_mm = 0;
+    while (off_mm < 15 && at(off_mm) >= 0.5)
+        off_mm += kStep_mm;
+    return off_mm;
+}
 
 }  // namespace vicon::steps

@@ -11,15 +11,15 @@
 #include <utility>
 
 #include "tissue/level_planes.h"
+#include "tissue/meniscus.h"
 
 namespace vicon::steps {
 namespace {
 
 // Chosen in two dimensions, on walls at 20 to 150 degrees, folds, balls and tubes at a level, at a blur of a voxel and
-// a noise of 20 HU; kMeniscus_mm, kUncertain and kRounds on ctc-prone at 350 to 550 mm: a rise of 0.7 mm or three
-// rounds leave more of a ledge there, one of 2 mm leaves it all. Held by tissue_levels_test.
+// a noise of 20 HU; kUncertain and kRounds on ctc-prone at 350 to 550 mm. Held by tissue_levels_test.
 
-constexpr int kRounds = 6;
+constexpr int kRounds = 4;
 /// The fraction's rise over a voxel that makes a wall.
 constexpr double kWallSlope = 0.08;
 /// Below it no wall leads on, and the way is straight.
@@ -34,13 +34,11 @@ constexpr double kTells = 0.9;
 constexpr double kFlattest = 0.15;
 /// So far from the plane, in voxels, the labels know whether gas or fluid is there: another level may be near.
 constexpr float kLabelled_voxels = 1.5F;
-/// Fluid rises along a wall: water along one that it wets by up to 3.8 mm, along mucosa by less. So far above its level
-/// fluid or gas may be beside tissue.
-constexpr double kMeniscus_mm = 1.2;
-/// Where that changes the fraction by so much, a voxel tells nothing. To believe it where the wall beside it agrees
-/// keeps a half-sunk ball of 8 mm better (error of its fraction .07, .11 without), and leaves grooves along the levels
-/// of ctc-prone.
+/// Where fluid that may have risen changes the fraction by so much, a voxel tells nothing.
 constexpr double kUncertain = 0.25;
+/// So far above and below its level a place tells how fluid stands there, where so much of it is neither lumen nor
+/// tissue.
+constexpr double kBeside_voxels = 3.2, kMixed = 0.02;
 /// The reach of the blur, in voxels squared: 2.4 of them, which are sigmas.
 constexpr int kReach_voxels2 = 6;
 /// Voxels so near to the border of the scan are left as they are.
@@ -51,12 +49,13 @@ constexpr float kLeastLumen = 0.05F;
 class Wall {
 public:
     Wall(const Mixture& mixture, const DownAxis& down, const FluidLevels& levels, const LevelVoxels& voxels,
-         TissueVolume& tissue)
+         double noise_hu, TissueVolume& tissue)
         : mixture_(mixture),
           down_(down),
           levels_(levels),
           planes_(settledPlanes(mixture, down, levels, voxels, tissue)),
-          rise_(float(kMeniscus_mm / tissue.grid.spacing_mm[std::size_t(down.axis)])),
+          noise_hu_(noise_hu),
+          voxel_mm_(tissue.grid.spacing_mm[std::size_t(down.axis)]),
           voxels_(voxels),
           tissue_(tissue),
           known_(voxels.size())
@@ -72,17 +71,23 @@ public:
 
     void refine()
     {
-        forAll([&](std::size_t n) { known_[n] = knownOf(n); });
-        std::vector<std::uint8_t> values(voxels_.size());
-        forAll([&](std::size_t n) { values[n] = valueOf(n); });
-        forAll([&](std::size_t n) { tissue_.at(voxels_[n].at) = values[n]; });
+        for (int round = 0; round < kRounds; ++round) {
+            forAll([&](std::size_t n) { known_[n] = knownOf(n); });
+            if (round == 0) {
+                findMenisci();
+                forAll([&](std::size_t n) { known_[n] = knownOf(n); });
+            }
+            std::vector<std::uint8_t> values(voxels_.size());
+            forAll([&](std::size_t n) { values[n] = valueOf(n); });
+            forAll([&](std::size_t n) { tissue_.at(voxels_[n].at) = values[n]; });
+        }
     }
 
 private:
     /// Of one level voxel, with the tissue found so far.
     struct Known {
         Vector3 slope;               ///< of the fraction
-        double fraction = 0;         ///< of a level that is a plane
+        double fraction = 0;         ///< of fluid that stands as is usual in the scan
         double telling = 1;          ///< 1 where the density tells that fraction, 0 where it tells nothing
         double certain = 1;          ///< 1 where fluid that has risen would not change it, 0 where it would
         std::uint8_t by_column = 0;  ///< what applyLevels() found
@@ -124,12 +129,18 @@ private:
         const Index3 v = voxels_[n].at;
         const LevelColumn& column = levels_.columns[voxels_[n].column];
         const double step_hu = column.fluid_hu - mixture_.gas_hu, hu = mixture_.hu(v);
-        const FluidShare fluid = fluidShare(v, column, planes_[voxels_[n].column]);
-        const TissueShare flat = tissueBeside(mixture_, hu, mixture_.gas_hu + fluid.flat * step_hu, column.fluid_hu);
-        const double risen = fractionBeside(hu, mixture_.gas_hu + fluid.risen * step_hu);
-        known.fraction = flat.fraction;
-        known.telling = flat.weight;
-        known.certain = std::clamp(1 - std::abs(flat.fraction - risen) / kUncertain, 0.0, 1.0);
+        const double overhang = overhangOf(known.slope), rise_mm = menisci_.usual().rise_mm(overhang),
+                     most_mm = menisci_.mayRise_mm(v, overhang);
+        const auto content_hu = [&](double risen_mm) {
+            return mixture_.gas_hu +
+                   step_hu * fluidShare(v, column, planes_[voxels_[n].column], float(risen_mm / voxel_mm_));
+        };
+        const TissueShare share = tissueBeside(mixture_, hu, content_hu(rise_mm), column.fluid_hu);
+        known.fraction = share.fraction;
+        known.telling = share.weight;
+        if (most_mm > rise_mm)
+            known.certain = std::clamp(
+                1 - std::abs(share.fraction - fractionBeside(hu, content_hu(most_mm))) / kUncertain, 0.0, 1.0);
         return known;
     }
 
@@ -141,33 +152,66 @@ private:
         return content_hu > hu ? mixture_.fraction(hu, content_hu) : 0;
     }
 
-    /// What fluid is of the contents of the lumen found so far, blurred.
-    struct FluidShare {
-        double flat = 0;   ///< when its level is a plane
-        double risen = 0;  ///< when it is as high as it may rise along a wall
-    };
+    /// How far a wall hangs over what it holds: radians from upright.
+    double overhangOf(Vector3 slope) const
+    {
+        const double steepness = length(slope);
+        return steepness > 0 ? -std::asin(std::clamp(dot(slope, down_way_) / steepness, -1.0, 1.0)) : 0;
+    }
 
-    FluidShare fluidShare(Index3 v, const LevelColumn& column, double plane) const
+    /// What fluid is of the contents of the lumen found so far, blurred.
+    /// @param rise of its level above the plane, in voxels
+    double fluidShare(Index3 v, const LevelColumn& column, double plane, float rise) const
     {
         std::array<float, kReach_voxels2 + 1> blur{};
         for (int n = 0; n <= kReach_voxels2; ++n)
             blur[std::size_t(n)] = std::exp(-0.5F * float(n) / (column.sigma * column.sigma));
         const std::size_t at = tissue_.grid.offset(v);
         const float below_plane = float(down_.depth(v) - plane);
-        float flat = 0, risen = 0, lumen = 0, all = 0;
+        float fluid = 0, lumen = 0, all = 0;
         for (const Tap& tap : taps_) {
             const std::size_t u = std::size_t(std::ptrdiff_t(at) + tap.step);
-            const float weight = blur[std::size_t(tap.squared)], part = weight * lumenIn(u),
-                        below = below_plane + tap.depth;
+            const float weight = blur[std::size_t(tap.squared)], part = weight * lumenIn(u);
             all += weight;
             lumen += part;
-            flat += part * fluidIn(u, below);
-            risen += part * fluidIn(u, below + rise_);
+            fluid += part * fluidIn(u, below_plane + tap.depth, rise);
         }
         if (lumen > kLeastLumen * all)
-            return {flat / lumen, risen / lumen};
-        const auto besideWhole = [&](float below) { return 0.5 * std::erfc(-below / column.sigma / std::sqrt(2.0F)); };
-        return {besideWhole(below_plane), besideWhole(below_plane + rise_)};
+            return fluid / lumen;
+        return 0.5 * std::erfc(-(below_plane + rise) / column.sigma / std::sqrt(2.0F));
+    }
+
+    void findMenisci()
+    {
+        std::vector<std::optional<MeniscusPlace>> places(voxels_.size());
+        forAll([&](std::size_t n) { places[n] = placeAt(n); });
+        menisci_ = Menisci(voxels_, places, noise_hu_);
+    }
+
+    /// What a voxel beside a wall says of how high fluid stands there.
+    std::optional<MeniscusPlace> placeAt(std::size_t n) const
+    {
+        const Index3 v = voxels_[n].at;
+        const LevelColumn& column = levels_.columns[voxels_[n].column];
+        const double plane = planes_[voxels_[n].column];
+        if (length(known_[n].slope) <= kWallSlope || std::abs(down_.depth(v) - plane) > kBeside_voxels)
+            return std::nullopt;
+        const auto above = toldAlongWall(v, -1), below = toldAlongWall(v, 1);
+        if (!above || !below)
+            return std::nullopt;
+        const double fraction =
+            (above->first * above->second + below->first * below->second) / (above->second + below->second);
+        if (fraction < kMixed || fraction > 1 - kMixed)
+            return std::nullopt;
+        const double step_hu = column.fluid_hu - mixture_.gas_hu;
+        MeniscusPlace place{.overhang = overhangOf(known_[n].slope)};
+        for (std::size_t height = 0; height < place.misses_hu.size(); ++height) {
+            const float rise = float(MeniscusPlace::height_mm(height) / voxel_mm_);
+            const double content_hu = mixture_.gas_hu + step_hu * fluidShare(v, column, plane, rise);
+            place.misses_hu[height] =
+                float(std::abs(mixture_.hu(v) - fraction * mixture_.tissue_hu - (1 - fraction) * content_hu));
+        }
+        return place;
     }
 
     /// How much of a voxel is lumen, before it is blurred.
@@ -177,12 +221,13 @@ private:
     }
 
     /// How much of a voxel's lumen is fluid, so far below the plane.
-    float fluidIn(std::size_t u, float below) const
+    /// @param rise of its level above the plane
+    float fluidIn(std::size_t u, float below, float rise) const
     {
-        if (std::abs(below) > kLabelled_voxels + rise_)
+        if (std::abs(below) > kLabelled_voxels + std::abs(rise))
             if (const std::uint8_t label = mixture_.inside.voxels[u]; label != kOutside)
                 return label == kFluid ? 1 : 0;
-        return std::clamp(below + 0.5F, 0.0F, 1.0F);
+        return std::clamp(below + rise + 0.5F, 0.0F, 1.0F);
     }
 
     /// The mean over the nine lines beside each other, of tissue found so far.
@@ -238,7 +283,7 @@ private:
     std::optional<std::pair<double, double>> toldAlongWall(Index3 v, double sign) const
     {
         ContinuousIndex3 p{double(v.i), double(v.j), double(v.k)};
-        Vector3 way = normalized(down_.per_voxel) * sign;
+        Vector3 way = down_way_ * sign;
         Sample here = sampleAt(p);
         for (double gone = kStep_voxels; gone <= kFarthest_voxels; gone += kStep_voxels) {
             if (const double slope = length(here.slope); slope > kLeastSlope) {
@@ -278,9 +323,12 @@ private:
 
     const Mixture& mixture_;
     const DownAxis& down_;
+    const Vector3 down_way_ = normalized(down_.per_voxel);
     const FluidLevels& levels_;
     std::vector<float> planes_;  ///< of each column
-    float rise_;                 ///< of fluid along a wall, in voxels
+    double noise_hu_;
+    double voxel_mm_;  ///< along the axis nearest to gravity
+    Menisci menisci_;
     const LevelVoxels& voxels_;
     TissueVolume& tissue_;
     std::vector<Tap> taps_;
@@ -290,11 +338,9 @@ private:
 }  // namespace
 
 void refineAtWall(const Mixture& mixture, const DownAxis& down, const FluidLevels& levels, const LevelVoxels& voxels,
-                  TissueVolume& tissue)
+                  double noise_hu, TissueVolume& tissue)
 {
-    Wall wall(mixture, down, levels, voxels, tissue);
-    for (int round = 0; round < kRounds; ++round)
-        wall.refine();
+    Wall(mixture, down, levels, voxels, noise_hu, tissue).refine();
 }
 
 }  // namespace vicon::steps

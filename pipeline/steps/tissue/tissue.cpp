@@ -75,7 +75,7 @@ std::size_t modelLevels(const Mixture& mixture, const DownAxis& down, double noi
                         TissueVolume& tissue)
 {
     const LevelVoxels voxels(applyLevels(mixture, down, levels, noise_hu, tissue), tissue.grid, down);
-    refineAtWall(mixture, down, levels, voxels, tissue);
+    refineAtWall(mixture, down, levels, voxels, noise_hu, tissue);
     return voxels.size();
 }
 
