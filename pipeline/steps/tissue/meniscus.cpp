@@ -50,8 +50,7 @@ MeniscusFit fitAround(Index3 cell, const std::unordered_map<std::size_t, Meniscu
     for (int dk = -1; dk <= 1; ++dk)
         for (int dj = -1; dj <= 1; ++dj)
             for (int di = -1; di <= 1; ++di)
-                if (const auto found = cells.find(keyOf({cell.i + di, cell.j + dj, cell.k + dk}));
-                    found != cells.end())
+                if (const auto found = cells.find(keyOf({cell.i + di, cell.j + dj, cell.k + dk})); found != cells.end())
                     around.add(found->second, 1);
     return around;
 }
