@@ -33,7 +33,7 @@ TEST_P(AtLevels, TheFractionIsRightWhereGasFluidAndWallMeet)
             ghost = std::max(ghost, found);
     });
     // Beaches are the worst: over millimetres fluid is thinner than the blur.
-    EXPECT_LT(std::sqrt(squares / count), GetParam() < 45 || GetParam() > 135 ? 0.05 : 0.03)
+    EXPECT_LT(std::sqrt(squares / count), GetParam() < 45 || GetParam() > 135 ? 0.04 : 0.03)
         << GetParam() << " degrees";
     EXPECT_LT(ghost, 0.3) << GetParam() << " degrees";
 }
@@ -80,7 +80,7 @@ TEST(Tissue, FoldsAndBallsAtALevelKeepTheirShape)
                 ++count;
             }
         });
-        EXPECT_LT(std::sqrt(squares / count), 0.08);
+        EXPECT_LT(std::sqrt(squares / count), 0.06);
     }
 }
 

@@ -58,7 +58,7 @@ double errorOfDiameter_mm(const PolypAtLevel& polyp)
     return diameterIn(scene.find().tissue, polyp) - diameterIn(scene.blurredTruth(), polyp);
 }
 
-/// On floors, where over millimetres fluid is thinner than the blur, a polyp of 6 mm loses 1 mm at worst.
+/// On floors, where over millimetres fluid is thinner than the blur, a polyp of 6 mm loses 0.9 mm at worst.
 TEST(PolypsAtLevels, KeepTheirDiameter)
 {
     std::vector<double> errors_mm;
@@ -70,14 +70,14 @@ TEST(PolypsAtLevels, KeepTheirDiameter)
                     if (!sampled && !support::inFull())
                         continue;
                     const double error_mm = errorOfDiameter_mm({wall_degrees, diameter_mm, sunk, rise_mm});
-                    EXPECT_LT(std::abs(error_mm), wall_degrees == 0 ? 1.0 : 0.8)
+                    EXPECT_LT(std::abs(error_mm), wall_degrees == 0 ? 0.9 : 0.7)
                         << diameter_mm << " mm on a wall of " << wall_degrees << " degrees, sunk by " << sunk
                         << ", fluid risen by " << rise_mm << " mm";
                     errors_mm.push_back(std::abs(error_mm));
                 }
     const auto middle = errors_mm.begin() + std::ptrdiff_t(errors_mm.size() / 2);
     std::nth_element(errors_mm.begin(), middle, errors_mm.end());
-    EXPECT_LT(*middle, 0.5);
+    EXPECT_LT(*middle, 0.4);
 }
 
 }  // namespace

@@ -129,8 +129,8 @@ TEST_P(WarpedShapes, AreFollowedFromTheRectumToTheCaecumInOnePiece)
 }
 
 INSTANTIATE_TEST_SUITE_P(Colons, WarpedShapes,
-                         testing::Combine(testing::Values("EdinGCA_3D_00060", "EdinGCA_3D_00090",
-                                                          "HuBMAPVHM_3D_00070", "ctc_460"),
+                         testing::Combine(testing::Values("EdinGCA_3D_00060", "EdinGCA_3D_00090", "HuBMAPVHM_3D_00070",
+                                                          "ctc_460"),
                                           testing::Range(1U, 21U)));
 
 }  // namespace
