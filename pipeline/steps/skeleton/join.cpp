@@ -61,7 +61,8 @@ Polyline evenedOver(const Polyline& before, const Polyline& middle, const Polyli
 {
     KnownLine known;
     known.add(before, weightFor(kCurveScale_mm, step_mm), step_mm);
-    known.add(middle, weightFor(kCordScale_mm, step_mm), step_mm);
+    if (!middle.empty())
+        known.add(middle, weightFor(kCordScale_mm, step_mm), step_mm);
     known.add(after, weightFor(kCurveScale_mm, step_mm), step_mm);
     known.weights.front() = known.weights.back() = kPinned;
     return resampled(evened(known), step_mm);
@@ -97,7 +98,7 @@ Polyline joined(Polyline& before, const Polyline& way, Polyline& after, const Di
     const auto run = [&](const Polyline& curve) {
         return std::ptrdiff_t(std::min(curve.size(), std::size_t(kRunUp_mm / step_mm)));
     };
-    const Polyline middle = sureMiddle(way, step_mm);
+    const Polyline middle = way.size() > 2 ? sureMiddle(way, step_mm) : Polyline{};
     Polyline line = evenedOver({before.end() - run(before), before.end()}, middle,
                                {after.begin(), after.begin() + run(after)}, step_mm);
     before.erase(before.end() - run(before) + 1, before.end());

@@ -25,6 +25,8 @@ constexpr double kBarredCost = 256;  // bone, air
 // Of a way in the lumen that is to be left: it may be left anywhere, but not for a neighbour through thin walls. With 1
 // a tip beside the body's wall is joined along that wall's muscle (phantom 247, by up to 30 mm aside of the bowel).
 constexpr double kLumenShare = 0.5;
+/// At no more than this share of soft tissue no cord is seen.
+constexpr double kCordSeen = 0.5;
 constexpr double kSmoothing_mm = 3;   // of the chain of voxels
 constexpr std::ptrdiff_t kLead = 15;  // mm of the chain in the lumen on either side, centred with what joins them
 
@@ -233,9 +235,9 @@ Crossing crossing(const Cord& cord, const std::vector<std::size_t>& chain, const
 void judgeBridge(Bridge& bridge, double soft_share, double longest_sure_mm)
 {
     bridge.confidence = std::clamp(soft_share, 0.2, 1.0) * std::exp(-bridge.length_mm / (2 * longest_sure_mm));
-    bridge.certain = bridge.length_mm <= longest_sure_mm && soft_share > 0.5;
+    bridge.certain = bridge.length_mm <= longest_sure_mm && soft_share > kCordSeen;
     bridge.reason = bridge.length_mm > longest_sure_mm ? "the gap is long"
-                    : soft_share <= 0.5                ? "the way between the pieces leads through fat"
+                    : soft_share <= kCordSeen          ? "the way between the pieces leads through fat"
                                                        : "a short gap through soft tissue";
 }
 
@@ -263,11 +265,13 @@ void followCords(const HuVolume& volume, const InsideVolume& inside, const Segme
         const Crossing way = crossing(cord, cheapest(cord, bridge.from_mm, bridge.to_mm, progress), volume, inside,
                                       options.densities, progress);
         bridge.path_mm = way.path_mm;
+        if (way.soft_share <= kCordSeen)
+            bridge.path_mm = {way.path_mm.front(), way.path_mm.back()};
         bridge.from_mm = way.path_mm.front();
         bridge.to_mm = way.path_mm.back();
         bridge.length_mm = 0;
-        for (std::size_t n = 1; n < way.path_mm.size(); ++n)
-            bridge.length_mm += distance(way.path_mm[n - 1], way.path_mm[n]);
+        for (std::size_t n = 1; n < bridge.path_mm.size(); ++n)
+            bridge.length_mm += distance(bridge.path_mm[n - 1], bridge.path_mm[n]);
         judgeBridge(bridge, way.soft_share, options.longest_sure_bridge_mm);
     }
 }
