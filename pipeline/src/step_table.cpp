@@ -179,7 +179,7 @@ std::vector<Step> stepsOfLumen()
          always({"volume.mha"}),
          parametersFrom<ResampleOptions>,
          runResample},
-        {"segment", 15, 0.3, 0.55, {"resample"}, Densities::whole, segmentFiles, segmentParameters, runSegment},
+        {"segment", 16, 0.3, 0.55, {"resample"}, Densities::whole, segmentFiles, segmentParameters, runSegment},
         {"tissue",
          6,
          0.55,

@@ -16,7 +16,8 @@ struct Body {
     bool holds(int j, int k, int coarse_i) const { return inside.at({coarse_i, j / factor, k / factor}) != 0; }
 };
 
-/// The body: above kBody_hu, opened to lose the table, its largest component, holes filled in each axial slice.
+/// The body: above kBody_hu, opened to lose the table, its largest component, holes filled in each axial slice; and
+/// bowel so close under the skin that the opening laid it open.
 /// The outside air is entered from the x and y faces only: lungs and colon may leave the scan through its ends.
 Body findBody(const HuVolume& volume, Progress& progress);
 
