@@ -4,6 +4,7 @@
 #include <QDialog>
 #include <QLabel>
 #include <QLineEdit>
+#include <QScreen>
 #include <QScrollBar>
 #include <QTextBlock>
 #include <QTextBrowser>
@@ -47,6 +48,21 @@ TEST_F(Reading, OneBannerNamesPatientAndScanAndPicturesThatLeaveTheWindowSayItTh
     key(Qt::Key_X);
     waitForScan();
     EXPECT_TRUE(banner->text().contains("prone")) << banner->text().toStdString();
+}
+
+TEST_F(Reading, TheWindowFitsTheScreenAtFirstAndThenOpensAsTheReaderLeftIt)
+{
+    openCase();
+    const QSize screen = window()->screen()->availableSize();
+    EXPECT_LE(window()->width(), screen.width());
+    EXPECT_LE(window()->height(), screen.height());
+    const QSize left(1180, 740);
+    window()->resize(left);
+    waitUntilQuiet();
+    window()->close();
+    ASSERT_TRUE(eventually([&] { return !window(); }));
+    openCase();
+    EXPECT_EQ(window()->size(), left);
 }
 
 TEST_F(Reading, ARedMarkerAwayFromAnyWallIsWarnedOf)

@@ -54,7 +54,8 @@ TEST(BodyWall, AirUnderABlanketIsNoBowel)
         const Point3 p = volume.grid.pointAt(volume.grid.indexOf(n));
         std::int16_t& hu = volume.voxels[n];
         hu = drawn.valueOr(body.indexAt(p), -1000);
-        const double out_mm = std::max({std::abs(p.x) - kHalf_mm, std::abs(p.z) - kHalf_mm, front_mm - kHeight_mm - p.y});
+        const double out_mm =
+            std::max({std::abs(p.x) - kHalf_mm, std::abs(p.z) - kHalf_mm, front_mm - kHeight_mm - p.y});
         if (p.y < front_mm + kHeight_mm && out_mm > 0 && out_mm < kBlanket_mm)
             hu = std::max<std::int16_t>(hu, 0);
     }

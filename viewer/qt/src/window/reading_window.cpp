@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QCloseEvent>
 #include <QKeyEvent>
+#include <QScreen>
 #include <algorithm>
 
 #include "opening/opening_tool.h"
@@ -17,6 +18,7 @@
 namespace vicon::viewer {
 namespace {
 constexpr int kPoll_ms = 2000;  // how often other readers' changes are looked for
+constexpr QSize kFirstSize{1500, 900};
 constexpr const char* kGeometry = "window/geometry";
 constexpr const char* kTwoWindows = "window/two";
 constexpr const char* kList = "list";
@@ -87,7 +89,8 @@ void ReadingWindow::connectAll()
 // The screen and the hands are the reader's, whatever the case.
 void ReadingWindow::restore()
 {
-    restoreGeometry(keptSetting(kGeometry).toByteArray());
+    if (!restoreGeometry(keptSetting(kGeometry).toByteArray()))
+        resize(kFirstSize.boundedTo(screen()->availableSize()));
     reading_->restore();
     two_windows_->setChecked(keptSetting(kTwoWindows).toBool());
     layout_->showList(keptSetting(readerKey(kList)).toInt());

@@ -322,7 +322,6 @@ void WorklistWindow::open(const WorklistCase& row)
             services_.opened(books.store(), id);
             return {};
         });
-    window->resize(1500, 900);
     // Making and laying out take some 15 ms each: as two events, so that none blocks for long.
     QTimer::singleShot(0, window, &QWidget::show);
 }
