@@ -30,7 +30,9 @@ endif()
 # What nearly every file includes; each still includes what it uses, so that it compiles without them as well.
 set(VICON_PRECOMPILED <algorithm> <array> <atomic> <cmath> <cstdint> <cstdio> <filesystem> <functional> <limits> <map> <memory>
     <mutex> <numbers> <optional> <set> <string> <string_view> <thread> <vector>
-    ${PROJECT_SOURCE_DIR}/cmake/json_without_literal.h <tbb/blocked_range.h> <tbb/parallel_for.h>)
+    <json_without_literal.h> <tbb/blocked_range.h> <tbb/parallel_for.h>)
+# By its name alone: a path in what is precompiled would keep one checkout from finding in the compiler cache what another made.
+include_directories(${PROJECT_SOURCE_DIR}/cmake/precompiled)
 
 # Warnings that the project's own code is held to; libraries' headers are system headers.
 add_library(vicon_warnings INTERFACE)
