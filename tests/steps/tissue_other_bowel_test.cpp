@@ -5,6 +5,8 @@
 namespace vicon::steps {
 namespace {
 
+constexpr double kSlit_mm = 1.2;
+
 /// Tagged bowel beside the colon, behind a wall of 1 mm; the labels hold it as far as this.
 Scene withOtherBowel(double labelled_to_mm)
 {
@@ -42,6 +44,41 @@ TEST(Tissue, BowelThatTheLabelsWereCutOffFromIsNoLumen)
         lost += scene.truth.voxels[n] < 0.2 && scene.grid.pointAt(scene.grid.indexOf(n)).x < 1 &&
                 scene.inside.voxels[n] != kOutside && found.lumen.voxels[n] == kOutside;
     EXPECT_EQ(lost, 0U) << "of the colon";
+}
+
+/// The colon, a slit of 1 mm in its wall, and what lies behind that; the labels end at `labelled_to_mm`.
+Scene withSlit(const Scene::IsTissue& isBehind, double labelled_to_mm)
+{
+    Scene scene([&](Point3 p) {
+        const bool colon = p.x > -14 && p.x < 2 && std::abs(p.y) < 13 && std::abs(p.z) < 13;
+        const bool slit = p.x > 0 && p.x < 5 && std::abs(p.y - 8) < kSlit_mm / 2 && std::abs(p.z) < 2;
+        return !(colon || slit || isBehind(p));
+    });
+    for (std::size_t n = 0; n < scene.grid.voxelCount(); ++n) {
+        const Point3 p = scene.grid.pointAt(scene.grid.indexOf(n));
+        const bool near_slit = std::abs(p.y - 8) < 1.5 && std::abs(p.z) < 2;
+        if (p.x > labelled_to_mm || (p.x > 3 && !near_slit))
+            scene.inside.voxels[n] = kOutside;
+        else if (p.x > 1 && std::abs(p.y - 8) < kSlit_mm / 2 && std::abs(p.z) < 2)
+            scene.inside.voxels[n] = kFluid;
+    }
+    return scene;
+}
+
+TEST(Tissue, ASliverOfOtherBowelBehindASlitIsNoLumen)
+{
+    const Scene scene =
+        withSlit([](Point3 p) { return p.x > 4 && p.x < 14 && p.y > 2 && p.y < 13 && std::abs(p.z) < 13; }, 6);
+    ASSERT_GT(labelledBeyond(scene.inside, 4), 20U);
+    EXPECT_EQ(labelledBeyond(scene.find().lumen, 4), 0U);
+}
+
+TEST(Tissue, APuddleThatTheLabelsHoldTheMostOfStaysLumen)
+{
+    const Scene scene =
+        withSlit([](Point3 p) { return p.x > 4 && p.x < 8 && std::abs(p.y - 8) < 1.5 && std::abs(p.z) < 2; }, 6);
+    ASSERT_GT(labelledBeyond(scene.inside, 4), 20U);
+    EXPECT_GE(labelledBeyond(scene.find().lumen, 4), labelledBeyond(scene.inside, 4));
 }
 
 TEST(Tissue, WhatHoldsGasIsNotTakenForOtherBowel)
