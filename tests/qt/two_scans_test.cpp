@@ -64,6 +64,18 @@ TEST_F(TwoScans, TheSamePlaceIsABandInTheOtherScansViewsAndMovesWithTheEye)
     EXPECT_TRUE(eventually([&] { return pictureOf("besideOverview") != first; }));
 }
 
+TEST_F(TwoScans, ACaseLeftInTheLayoutOfBothScansOpensWithBoth)
+{
+    key(Qt::Key_F7);
+    ASSERT_TRUE(eventually([] { return drawn("besideEndoscopic"); }));
+    window()->close();
+    ASSERT_TRUE(eventually([] { return !window(); }));
+    openCase();
+    EXPECT_TRUE(eventually([] { return drawn("besideEndoscopic") && drawn("besideAxial"); }));
+    key(Qt::Key_F5);
+    EXPECT_TRUE(eventually([] { return !the<QWidget>("beside")->isVisible(); })) << "it came with the layout";
+}
+
 TEST_F(TwoScans, AClickInTheOthersProjectionGoesToTheSamePlace)
 {
     key(Qt::Key_C);
@@ -102,6 +114,37 @@ TEST_F(TwoScans, MarkersOfOneFindingAreProposedAndPairedByTheReaderAlone)
     key(Qt::Key_Z, Qt::ControlModifier);
     EXPECT_TRUE(eventually([&] { return pairOf(first).empty() && pairOf(second).empty(); }));
     EXPECT_TRUE(eventually([&] { return table->rowCount() == 1; }));
+}
+
+TEST_F(TwoScans, BothMarkersOfAProposedPairAreSeenSideBySide)
+{
+    mark(test::kSupine);
+    mark(test::kProne);
+    room_.reset();
+    openRoom(services_);
+    openCase();
+    key(Qt::Key_C);
+    ASSERT_TRUE(eventually([] { return drawn("besideEndoscopic"); }));
+    showList(kPairList);
+    auto* table = the<QTableWidget>("pairs");
+    ASSERT_TRUE(eventually([&] { return table->rowCount() == 1; }));
+    // The marker's circle stands in the middle of what looks at it.
+    const auto circleIn = [](const char* view) {
+        const QImage picture = pictureOf(view);
+        const int width = picture.width() / 2, height = picture.height() / 2;
+        int count = 0;
+        for (int y = height - height / 2; y < height + height / 2; ++y)
+            for (int x = width - width / 2; x < width + width / 2; ++x) {
+                const QColor color = picture.pixelColor(x, y);
+                count += color.red() > 200 && color.green() < 90 && color.blue() < 90;
+            }
+        return count;
+    };
+    ASSERT_LT(circleIn("besideEndoscopic"), 20);
+    clickRow(table, 0);
+    EXPECT_TRUE(eventually([&] { return circleIn("endoscopic") > 100; }));
+    EXPECT_TRUE(eventually([&] { return circleIn("besideEndoscopic") > 100; }));
+    screenshot("pair_beside");
 }
 
 }  // namespace

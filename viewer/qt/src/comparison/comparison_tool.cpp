@@ -31,6 +31,7 @@ void ComparisonTool::addTo(ReadingLayout& layout)
         arrange();
     });
     connect(&reading_.session(), &CaseSession::besideClosed, this, &ComparisonTool::arrange);
+    connect(&reading_, &Reading::partnerWanted, this, &ComparisonTool::showPartner);
     connect(&reading_.drawing(), &DrawingThread::overviewDrawn, this,
             [this](const Picture& picture, const PlaneView& view, const std::shared_ptr<OpenScan>& of) {
                 if (of != reading_.session().sharedBeside())
@@ -71,7 +72,10 @@ void ComparisonTool::connectView()
 
 void ComparisonTool::restore()
 {
-    on_->setChecked(keptSetting(readerKey(kOn)).toBool());
+    if (!keptSetting(readerKey(kOn)).toBool())
+        return;  // the layout that the case is hung in may have asked already
+    by_layout_ = false;
+    on_->setChecked(true);
 }
 
 QVariantMap ComparisonTool::kept() const
@@ -275,10 +279,17 @@ void ComparisonTool::clickedOverview(Pixel at)
 void ComparisonTool::markerShown(const Marker& marker)
 {
     partner_.reset();
+    if (const auto partner = reading_.session().marker(marker.pair))
+        showPartner(*partner);
+}
+
+void ComparisonTool::showPartner(const Marker& partner)
+{
     const OpenScan* scan = reading_.session().beside();
-    const auto partner = reading_.session().marker(marker.pair);
-    if (partner && scan && partner->scan_id == scan->record.id)
-        partner_ = Partner{viewOfMarker(*scan, *partner), partner->position_mm};
+    if (!scan || partner.scan_id != scan->record.id)
+        return;
+    partner_ = Partner{viewOfMarker(*scan, partner), partner.position_mm};
+    draw(true);
 }
 
 }  // namespace vicon::viewer

@@ -31,6 +31,7 @@ private:
         Point3 at_mm;
     };
     void connectView();
+    void showPartner(const Marker& partner);
     /// The key: the other scan; of several the next one; after the last none.
     void switched(bool on);
     void compare(bool on);

@@ -21,7 +21,7 @@ PairPanel::PairPanel(QWidget* parent) : QWidget(parent)
     table_ = new QTableWidget(0, kPairColumns, this);
     table_->setObjectName("pairs");
     table_->setAccessibleName(tr("Proposed pairs"));
-    table_->setToolTip(tr("Click or Return: to the one marker, and once more to the other"));
+    table_->setToolTip(tr("Click or Return: to the one marker, beside it the other; once more: to the other"));
     table_->setHorizontalHeaderLabels({tr("Markers"), tr("Rank"), tr("Why")});
     setUpList(table_, kLeastPairs);
     table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);

@@ -44,11 +44,15 @@ void PairTool::refresh()
 
 void PairTool::fly(const PairProposal& proposal)
 {
-    const std::string& next = shown_ == proposal.first ? proposal.second : proposal.first;
-    if (const auto marker = reading_.session().marker(next)) {
-        shown_ = next;
-        reading_.showMarker(*marker);
-    }
+    const bool is_second = shown_ == proposal.first;
+    const auto next = reading_.session().marker(is_second ? proposal.second : proposal.first);
+    const auto other = reading_.session().marker(is_second ? proposal.first : proposal.second);
+    if (!next)
+        return;
+    shown_ = next->id;
+    reading_.showMarker(*next);
+    if (other)
+        emit reading_.partnerWanted(*other);
 }
 
 void PairTool::confirm(const PairProposal& proposal)

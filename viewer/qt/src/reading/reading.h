@@ -120,6 +120,8 @@ signals:
     void windowDragged(QPointF by);
     /// Along the way that is flown.
     void jumpWanted(double station_mm);
+    /// Beside the marker that is shown this one of the other scan, which may be the same finding.
+    void partnerWanted(const vicon::Marker& partner);
     void historyChanged();
 
 private:
