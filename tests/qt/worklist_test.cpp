@@ -62,6 +62,16 @@ TEST_F(Reading, WorklistSearchesFiltersAndRetriesAFailedCase)
     EXPECT_TRUE(eventually([&] { return shown(1) && cases()->item(0, 4)->text() == "queued"; }));
 }
 
+TEST_F(Reading, TheWorklistOpensAsLargeAsItWasLeft)
+{
+    const QSize left(820, 460);
+    room_->resize(left);
+    waitUntilQuiet();
+    room_->close();
+    openRoom(services_);
+    EXPECT_EQ(room_->size(), left);
+}
+
 TEST_F(Reading, ALongWorklistIsTurnedPageByPageAndACaseBesideThePageIsOpenedAndKeptUpToDate)
 {
     constexpr int kMore = 250, kPage = 100;

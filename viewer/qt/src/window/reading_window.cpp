@@ -90,7 +90,8 @@ void ReadingWindow::connectAll()
 void ReadingWindow::restore()
 {
     if (!restoreGeometry(keptSetting(kGeometry).toByteArray()))
-        resize(kFirstSize.boundedTo(screen()->availableSize()));
+        resize(kFirstSize.boundedTo(screen()->availableSize() -
+                                    QSize(0, style()->pixelMetric(QStyle::PM_TitleBarHeight))));
     reading_->restore();
     two_windows_->setChecked(keptSetting(kTwoWindows).toBool());
     layout_->showList(keptSetting(readerKey(kList)).toInt());

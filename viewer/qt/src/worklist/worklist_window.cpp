@@ -1,5 +1,6 @@
 #include "worklist/worklist_window.h"
 
+#include <QCloseEvent>
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -12,6 +13,7 @@
 #include <utility>
 
 #include "guide/guide.h"
+#include "widgets/kept_settings.h"
 #include "window/reading_window.h"
 #include "worklist/worklist_columns.h"
 #include "worklist/worklist_hint.h"
@@ -20,6 +22,8 @@ namespace vicon::viewer {
 namespace {
 
 constexpr int kRefresh_ms = 2000;
+constexpr QSize kFirstWorklistSize{1000, 500};
+constexpr const char* kWorklistGeometry = "worklist/geometry";
 constexpr int kPage = 100;  // lines; a table of 1,000 takes the window's thread longer to fill than a reader waits
 
 QLabel* makeLabel(const char* name, QWidget* parent)
@@ -102,7 +106,8 @@ void WorklistWindow::layOut()
     column->addWidget(table_, 1);
     column->addWidget(reason_);
     column->addLayout(bottom);
-    resize(1000, 500);
+    if (!restoreGeometry(keptSetting(kWorklistGeometry).toByteArray()))
+        resize(kFirstWorklistSize);
     QWidget* const order[] = {search_, state_, newer_, older_, table_, retry_, report_, open_};
     for (std::size_t n = 1; n < std::size(order); ++n)
         setTabOrder(order[n - 1], order[n]);
@@ -153,6 +158,12 @@ WorklistWindow::~WorklistWindow()
 {
     for (const auto& window : made_)
         delete window.data();
+}
+
+void WorklistWindow::closeEvent(QCloseEvent* event)
+{
+    keepSettings(settings_worker_, {{kWorklistGeometry, saveGeometry()}});
+    event->accept();
 }
 
 WorklistPageWanted WorklistWindow::wanted() const

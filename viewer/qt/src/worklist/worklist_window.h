@@ -10,6 +10,7 @@
 
 #include "session/own_store.h"
 #include "vicon/viewer/qt/reading_room.h"
+#include "widgets/worker.h"
 #include "widgets/worker_with.h"
 
 class QComboBox;
@@ -28,6 +29,9 @@ class WorklistWindow : public QWidget {
 public:
     WorklistWindow(const ReadingServices& services, const std::string& open_case);
     ~WorklistWindow() override;  ///< waits for reading windows that are closed but still saving
+
+protected:
+    void closeEvent(QCloseEvent* event) override;
 
 private:
     /// What the list is read from, and which state of it was read last.
@@ -82,6 +86,7 @@ private:
     QTimer timer_;
     std::map<std::string, ReadingWindow*> windows_;  ///< open ones, by case
     std::vector<QPointer<QWidget>> made_;            ///< with those that are closed but still saving
+    Worker settings_worker_{this};
     WorkerWith<Books> books_;
 };
 
