@@ -46,7 +46,7 @@ TEST(Tissue, BowelThatTheLabelsWereCutOffFromIsNoLumen)
     EXPECT_EQ(lost, 0U) << "of the colon";
 }
 
-/// The colon, a slit of 1 mm in its wall, and what lies behind that; the labels end at `labelled_to_mm`.
+/// The colon, a slit in its wall, and what lies behind that; the labels end at `labelled_to_mm`.
 Scene withSlit(const Scene::IsTissue& isBehind, double labelled_to_mm)
 {
     Scene scene([&](Point3 p) {

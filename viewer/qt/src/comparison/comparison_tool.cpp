@@ -31,7 +31,10 @@ void ComparisonTool::addTo(ReadingLayout& layout)
         arrange();
     });
     connect(&reading_.session(), &CaseSession::besideClosed, this, &ComparisonTool::arrange);
-    connect(&reading_, &Reading::partnerWanted, this, &ComparisonTool::showPartner);
+    connect(&reading_, &Reading::partnerWanted, this, [this](const Marker& partner) {
+        takePartner(partner);
+        draw(true);
+    });
     connect(&reading_.drawing(), &DrawingThread::overviewDrawn, this,
             [this](const Picture& picture, const PlaneView& view, const std::shared_ptr<OpenScan>& of) {
                 if (of != reading_.session().sharedBeside())
@@ -280,16 +283,15 @@ void ComparisonTool::markerShown(const Marker& marker)
 {
     partner_.reset();
     if (const auto partner = reading_.session().marker(marker.pair))
-        showPartner(*partner);
+        takePartner(*partner);
 }
 
-void ComparisonTool::showPartner(const Marker& partner)
+void ComparisonTool::takePartner(const Marker& partner)
 {
     const OpenScan* scan = reading_.session().beside();
     if (!scan || partner.scan_id != scan->record.id)
         return;
     partner_ = Partner{viewOfMarker(*scan, partner), partner.position_mm};
-    draw(true);
 }
 
 }  // namespace vicon::viewer

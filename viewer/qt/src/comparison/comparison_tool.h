@@ -31,7 +31,8 @@ private:
         Point3 at_mm;
     };
     void connectView();
-    void showPartner(const Marker& partner);
+    /// Nothing where it lies in a scan that is not beside.
+    void takePartner(const Marker& partner);
     /// The key: the other scan; of several the next one; after the last none.
     void switched(bool on);
     void compare(bool on);

@@ -4,6 +4,7 @@
 #include <QCloseEvent>
 #include <QKeyEvent>
 #include <QScreen>
+#include <QStyle>
 #include <algorithm>
 
 #include "opening/opening_tool.h"
