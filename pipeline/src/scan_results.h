@@ -14,6 +14,7 @@
 #include "vicon/core/quantity.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume.h"
+#include "vicon/scan_files/itk_globals.h"
 #include "vicon/scan_files/skeleton_file.h"
 #include "vicon/scan_files/subdivision_file.h"
 #include "vicon/scan_files/volume_file.h"
@@ -36,6 +37,7 @@ public:
     ScanResults(std::filesystem::path folder, std::filesystem::path claim, Quantity quantity)
         : folder_(std::move(folder)), claim_(std::move(claim)), quantity_(quantity)
     {
+        scan_files::makeItkGlobals();  // volumes are written beside the steps
         makePrivateFolder(claim_ / "projections");
     }
     ~ScanResults()
@@ -184,20 +186,22 @@ public:
         flood_ = std::move(flood);
     }
 
-    /// Waits until these files are on the disk, whichever of them were begun. Throws what their writing threw.
+    /// Waits until these files are on the disk, whichever of them were begun, and whoever else waits for them. Throws
+    /// what their writing threw.
     void finish(const std::vector<std::string>& files)
     {
         for (const std::string& file : files) {
-            std::future<void> writing;
+            std::shared_future<void> writing;
             {
                 const std::lock_guard lock(mutex_);
-                if (const auto at = writing_.find(file); at != writing_.end()) {
-                    writing = std::move(at->second);
-                    writing_.erase(at);
-                }
+                if (const auto at = writing_.find(file); at != writing_.end())
+                    writing = at->second;
             }
-            if (writing.valid())
-                writing.get();
+            if (!writing.valid())
+                continue;
+            writing.get();
+            const std::lock_guard lock(mutex_);
+            writing_.erase(file);  // with the memory of what was written
         }
     }
     /// Gives the whole volume's memory back. It must be written, and no step at work on it.
@@ -256,7 +260,7 @@ private:
     template <class Write>
     void begin(const std::string& file, Write write)
     {
-        auto writing = std::async(std::launch::async, std::move(write));
+        auto writing = std::async(std::launch::async, std::move(write)).share();
         const std::lock_guard lock(mutex_);
         writing_[file] = std::move(writing);
     }
@@ -272,7 +276,7 @@ private:
     std::shared_future<steps::LumenSurface> surface_;   // reads around_lumen_, inside_ and tissue_
     std::future<FieldVolume> wall_distance_;            // reads surface_ and inside_
     std::future<steps::PathFlood> flood_;               // reads inside_
-    std::map<std::string, std::future<void>> writing_;  // last: what is written must outlive it
+    std::map<std::string, std::shared_future<void>> writing_;  // last: what is written must outlive it
 };
 
 }  // namespace vicon::pipeline

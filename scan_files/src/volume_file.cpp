@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <mutex>
 #include <new>
 
 #include "mapped_file.h"
@@ -14,6 +13,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/fresh_memory.h"
+#include "vicon/scan_files/itk_globals.h"
 #include "vicon/scan_files/stored_volume.h"
 
 namespace fs = std::filesystem;
@@ -34,11 +34,9 @@ constexpr itk::IOComponentEnum kComponent<float> = itk::IOComponentEnum::FLOAT;
 
 constexpr int kZlibLevel = 1;  // labels: level 1 is four times as fast as 6 for files a fifth larger
 
-/// ITK registers its factories when the first object is made, which threads must not do at once.
 itk::MetaImageIO::Pointer newImageIO()
 {
-    static std::mutex mutex;
-    const std::lock_guard lock(mutex);
+    makeItkGlobals();
     return itk::MetaImageIO::New();
 }
 
