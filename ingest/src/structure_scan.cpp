@@ -18,7 +18,8 @@ using Fate = Structure::Fate;
 constexpr std::uint32_t kUndefined = 0xffffffff;
 constexpr std::uint64_t kOpenEnd = ~std::uint64_t(0);
 constexpr std::uint32_t kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd = 0xfffee0dd;
-constexpr std::uint32_t kTransferSyntax = 0x00020010, kPixelData = 0x7fe00010;
+constexpr std::uint32_t kTransferSyntax = 0x00020010, kRecordType = 0x00041430, kPixelData = 0x7fe00010;
+constexpr std::uint32_t kLongestCode = 16;  // PS3.5 6.2, CS
 constexpr std::uint64_t kPreamble = 128, kHead = 132;
 
 constexpr std::string_view kShortVrs = "AE AS AT CS DA DS DT FD FL IS LO LT PN SH SL SS ST TM UI UL US ";
@@ -253,6 +254,9 @@ private:
             return openSequence(kOpenEnd, inside);
         }
         mustFit(e);
+        if (e.tag == kRecordType && e.length > kLongestCode)  // DCMTK's parser throws there, and loses what it has read
+            refuse("truncated or damaged (" + tagName(e.tag) + " has " + std::to_string(e.length) + " bytes, " +
+                   std::to_string(kLongestCode) + " at most are allowed)");
         const bool items = e.vr == "SQ" || (e.vr.empty() && e.length >= 8 && tagAt(at_, coding.big_endian) == kItem);
         if (items && e.length > 0)
             openSequence(at_ + e.length, coding);
