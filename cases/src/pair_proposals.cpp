@@ -9,6 +9,7 @@
 #include "vicon/cases/case_store.h"
 #include "vicon/cases/finding_facts.h"
 #include "vicon/cases/step_results.h"
+#include "vicon/scan_files/stored_volume.h"
 
 namespace vicon {
 namespace {
@@ -51,9 +52,17 @@ struct Candidate {
     std::optional<double> first_mm, second_mm;
 };
 
+/// Where a marker of the same finding lies.
+StationInterval markerAt(StationInterval place)
+{
+    place.least_mm = std::min(place.least_mm, place.station_mm - kLeastDeviation_mm);
+    place.most_mm = std::max(place.most_mm, place.station_mm + kLeastDeviation_mm);
+    return place;
+}
+
 std::optional<Candidate> candidateOf(const Marker& first, const Marker& second, const StationMap& map)
 {
-    Candidate c{{first.id, second.id}, map.at(first.station_mm), sizeOf(first), sizeOf(second)};
+    Candidate c{{first.id, second.id}, markerAt(map.at(first.station_mm)), sizeOf(first), sizeOf(second)};
     PairProposal& p = c.proposal;
     p.off_mm = second.station_mm - c.place.station_mm;
     p.within = second.station_mm >= c.place.least_mm && second.station_mm <= c.place.most_mm;
@@ -114,7 +123,10 @@ std::vector<ScanMatch> matchesOf(CaseStore& store, const std::string& case_id)
         const StepResults results = resultsOf(store.steps(case_id, scan.id));
         const LumenAlong along =
             results.quality && results.quality->quality ? results.quality->quality->along : LumenAlong();
-        profiles.emplace_back(scan.id, profileOf(skeleton->second, results.parts(), along));
+        ColonProfile profile = profileOf(skeleton->second, results.parts(), along);
+        if (const auto inside = store.scanFolder(case_id, scan.id) / "inside.mha"; std::filesystem::exists(inside))
+            profile.relief = reliefOf(scan_files::StoredVolume<std::uint8_t>(inside).view(), skeleton->second);
+        profiles.emplace_back(scan.id, std::move(profile));
     }
     std::vector<ScanMatch> matches;
     for (std::size_t a = 0; a < profiles.size(); ++a)

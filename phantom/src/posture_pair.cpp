@@ -31,6 +31,15 @@ constexpr double kWildMark = 0.03;  // of the marks are another bend
 constexpr double kWildMark_mm = 80;
 constexpr double kClearanceNoise_mm = 1.4;  // the centreline is not quite in the middle
 constexpr double kWidthNoise = 0.08;        // of the width: cross-sections of a bent colon are not planes
+// Of a ray's length, one beside the other, its logarithm, which varies from bend to bend; and of the frame, which
+// follows the centreline's bends. With these the relief of one place in two postures correlates as in whole scans.
+constexpr double kRayNoise = -3.6, kRayNoiseVaries = 1.0;
+constexpr double kAside_mm = 0.55;  // of the middle
+constexpr double kFrameNoise = 25 * pi / 180;
+// Sharp bends, which a posture has of its own: the frame turns, and planes across the centreline cross.
+constexpr int kBends = 6;
+constexpr double kBend_mm = 30, kMostBendTurn = 120 * pi / 180, kBendNoise = 2.5;
+constexpr double kAlong_mm = 0.5;  // that planes across a found centreline lie off along the way
 
 /// A smooth wander of about `reach_mm`, standard deviation 1.
 std::vector<double> wander(Random& random, std::size_t count, double reach_mm)
@@ -98,9 +107,12 @@ std::vector<StationRange> drawBridges(Random& random, double length_mm)
     return bridges;
 }
 
-/// Width and narrowest radius at each mm of a posture.
+using Radii = std::array<float, kAngles>;
+
+/// Width, narrowest radius and all radii at each mm of a posture.
 struct Sections {
     std::vector<double> area_mm2, narrowest_mm;
+    std::vector<Radii> radius_mm;
 };
 
 Sections sectionsOf(const Relief& relief, const std::vector<double>& tube_mm)
@@ -121,12 +133,14 @@ Sections sectionsOf(const Relief& relief, const std::vector<double>& tube_mm)
         for (std::size_t r = first_ring; r < relief.ring_mm.size() && relief.ring_mm[r] < station_mm + 30; ++r)
             rings.push_back(relief.ring_mm[r]);
         double sum = 0, least = 1e9;
+        Radii& radii = out.radius_mm.emplace_back();
         for (int a = 0; a < kAngles; ++a) {
             const double angle = 2 * pi * a / kAngles;
             const double tube = tube_mm[n] * haustration(relief, rings, station_mm, angle);
             const double radius = std::max(0.0, tube - foldDepth_mm(relief, folds, {station_mm, angle, tube, 0}));
             sum += radius * radius;
             least = std::min(least, radius);
+            radii[std::size_t(a)] = float(radius);
         }
         out.area_mm2.push_back(sum * pi / kAngles);
         out.narrowest_mm.push_back(least);
@@ -144,6 +158,53 @@ std::vector<double> clearances(const Sections& sections, const std::vector<doubl
         for (int m = std::max(0, n - kReach); m <= std::min(count - 1, n + kReach); ++m)
             least = std::min(least, std::hypot(sections.narrowest_mm[std::size_t(m)], double(m - n)));
         out[std::size_t(n)] = std::max(0.5, least + kClearanceNoise_mm * noise[std::size_t(n)]);
+    }
+    return out;
+}
+
+/// A frame beside that of the other posture, and how much rays are off in it, the logarithm.
+struct Frames {
+    std::vector<double> turn, noise;
+};
+
+Frames drawFrames(Random& random, std::size_t count)
+{
+    Frames frames{wander(random, count, 150), wander(random, count, 60)};
+    for (std::size_t n = 0; n < count; ++n) {
+        frames.turn[n] = kFrameNoise * frames.turn[n];
+        frames.noise[n] = kRayNoise + kRayNoiseVaries * frames.noise[n];
+    }
+    for (int bend = 0; bend < kBends; ++bend) {
+        const double at = random.uniform() * double(count), turn = random.uniform(-1, 1) * kMostBendTurn;
+        for (std::size_t n = 0; n < count; ++n) {
+            const double off = (double(n) - at) / kBend_mm;
+            frames.turn[n] += turn * 0.5 * (1 + std::tanh(off));
+            frames.noise[n] += kBendNoise * std::exp(-0.5 * off * off);
+        }
+    }
+    return frames;
+}
+
+/// As rays from a centreline find them that is not quite in the middle, in a frame that wanders.
+std::vector<Radii> reliefOf(const Sections& sections, Random& random)
+{
+    const std::size_t count = sections.radius_mm.size();
+    const Frames frames = drawFrames(random, count);
+    const std::vector<double> aside = wander(random, count, 7), up = wander(random, count, 7);
+    std::vector<Radii> out(count);
+    for (std::size_t a = 0; a < kAngles; ++a) {
+        const double angle = 2 * pi * double(a) / kAngles;
+        const std::vector<double> uneven = wander(random, count, 5);
+        for (std::size_t n = 0; n < count; ++n) {
+            const double at = double(a) + frames.turn[n] / (2 * pi) * kAngles + 4.0 * kAngles;
+            const auto low = std::size_t(at);
+            const Radii& radii = sections.radius_mm[n];
+            const double radius =
+                std::lerp(double(radii[low % kAngles]), double(radii[(low + 1) % kAngles]), at - double(low));
+            const double off_mm = kAside_mm * (std::cos(angle) * aside[n] + std::sin(angle) * up[n]);
+            out[n][a] =
+                float(std::max(0.5, (radius - off_mm) * (1 + std::min(0.5, std::exp(frames.noise[n])) * uneven[n])));
+        }
     }
     return out;
 }
@@ -246,16 +307,23 @@ Drawn drawPosture(const Patient& patient, Position position)
     profile.length_mm = double(to - from);
     for (StationRange gap : bridges)
         profile.bridges.push_back({gap.from_mm - double(from), gap.to_mm - double(from)});
-    const Sections shown{cropped(sections.area_mm2), cropped(sections.narrowest_mm)};
+    const Sections shown{cropped(sections.area_mm2),
+                         cropped(sections.narrowest_mm),
+                         {sections.radius_mm.begin() + long(from), sections.radius_mm.begin() + long(to) + 1}};
     profile.clearance_mm = clearances(shown, cropped(off_middle));
+    Random rays(patient.seed, "posture relief", std::uint64_t(position));
+    profile.relief_mm = reliefOf(shown, rays);
     for (std::size_t n = 0; n < profile.clearance_mm.size(); ++n)
-        if (within(profile.bridges, double(n)))
+        if (within(profile.bridges, double(n))) {
             profile.clearance_mm[n] = 0;
+            profile.relief_mm[n] = {};
+        }
     profile.along = widthsOf(shown, profile.bridges, cropped(uneven));
     profile.parts = foundParts(patient, warp, double(from), profile.length_mm, random);
     drawn.warp = warp;
-    for (double& station : drawn.warp.station_mm)
-        station -= double(from);
+    const std::vector<double> slides = wander(rays, warp.station_mm.size(), 30);
+    for (std::size_t n = 0; n < slides.size(); ++n)
+        drawn.warp.station_mm[n] += kAlong_mm * slides[n] - double(from);
     return drawn;
 }
 

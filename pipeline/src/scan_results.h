@@ -273,9 +273,9 @@ private:
     std::optional<steps::TissueVolume> tissue_;
     std::optional<SegmentVolume> segments_;
     std::optional<Skeleton> skeleton_;
-    std::shared_future<steps::LumenSurface> surface_;   // reads around_lumen_, inside_ and tissue_
-    std::future<FieldVolume> wall_distance_;            // reads surface_ and inside_
-    std::future<steps::PathFlood> flood_;               // reads inside_
+    std::shared_future<steps::LumenSurface> surface_;          // reads around_lumen_, inside_ and tissue_
+    std::future<FieldVolume> wall_distance_;                   // reads surface_ and inside_
+    std::future<steps::PathFlood> flood_;                      // reads inside_
     std::map<std::string, std::shared_future<void>> writing_;  // last: what is written must outlive it
 };
 

@@ -15,12 +15,13 @@ namespace vicon {
 namespace {
 
 /// Constants of the map were chosen on seeds below; nothing was chosen on these.
-constexpr int kFirstSeed = 10001;
-const int kPairs = support::inFull() ? 2000 : 60;
+constexpr int kFirstSeed = 20001;
+const int kPairs = support::inFull() ? 500 : 30;
 
 ColonProfile profileFrom(const phantom::PostureProfile& posture)
 {
-    ColonProfile profile{posture.length_mm, posture.parts, {}, posture.clearance_mm, posture.bridges};
+    ColonProfile profile{posture.length_mm,    posture.parts,   {},
+                         posture.clearance_mm, posture.bridges, {posture.relief_mm}};
     for (std::size_t n = 0; n < posture.clearance_mm.size(); ++n)
         profile.width_mm.push_back(posture.along.radius_mm[std::min(n / std::size_t(posture.along.step_mm),
                                                                     posture.along.radius_mm.size() - 1)]);
@@ -97,10 +98,10 @@ const Measured& measured()
     return made;
 }
 
-TEST(StationMapOfPostures, IsRightWithin8MmInHalfAndWithin45In95OfAHundredPlaces)
+TEST(StationMapOfPostures, IsRightWithin8MmInHalfAndWithin30In95OfAHundredPlaces)
 {
     EXPECT_LE(quantile(measured().all.map_mm, 0.5), 8);
-    EXPECT_LE(quantile(measured().all.map_mm, 0.95), 45);
+    EXPECT_LE(quantile(measured().all.map_mm, 0.95), 30);
 }
 
 TEST(StationMapOfPostures, HoldsFourInFivePlacesInItsIntervalBothWays)
@@ -176,6 +177,19 @@ TEST(StationMap, OfTheSameScanIsWhereItIs)
     const ColonProfile one = profileFrom(phantom::drawPosturePair(5).first);
     const StationMap map = matchStations(one, one);
     EXPECT_EQ(map.source, MapSource::wall);
+    for (double s = 0; s < one.length_mm; s += 10)
+        EXPECT_NEAR(map.at(s).station_mm, s, 3);
+}
+
+TEST(StationMap, OfTheSameScanTurnedRoundIsWhereItIsByTheFoldsAlone)
+{
+    ColonProfile one = profileFrom(phantom::drawPosturePair(5).first);
+    one.clearance_mm.clear();
+    one.width_mm.clear();
+    ColonProfile turned = one;
+    for (auto& radii : turned.relief.radius_mm)
+        std::rotate(radii.begin(), radii.begin() + 14, radii.end());
+    const StationMap map = matchStations(one, turned);
     for (double s = 0; s < one.length_mm; s += 10)
         EXPECT_NEAR(map.at(s).station_mm, s, 3);
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "vicon/cases/wall_relief.h"
 #include "vicon/core/colon_parts.h"
 #include "vicon/core/scan_quality.h"
 #include "vicon/core/skeleton.h"
@@ -15,8 +16,9 @@ struct ColonProfile {
     std::vector<double> width_mm;       ///< radius of a disc as large as the cross-section, each mm; 0: not known
     std::vector<double> clearance_mm;   ///< from the centreline to the wall, each mm; 0: not known
     std::vector<StationRange> bridges;  ///< over collapsed parts: their length says little
+    WallRelief relief;                  ///< empty where the lumen was not looked at
 };
-/// @param along of the scan's quality; may be empty
+/// Without the relief, which reliefOf() makes. @param along of the scan's quality; may be empty
 ColonProfile profileOf(const Skeleton& skeleton, const ColonPartRanges& parts, const LumenAlong& along);
 
 /// Where a place of one scan lies in another.
@@ -49,12 +51,13 @@ struct StationMap {
 
 /// The same places of two scans of one colon.
 ///
-/// A hidden Markov chain runs along the first centreline in steps of 10 mm; its state is the station in the other scan
-/// and how fast that advances (0.5 to 1.5 mm a mm). What it sees are folds and haustra (the clearance's and the width's
-/// ripple) and how wide the colon is; nothing over bridges. Ends and landmarks (the rectum's end, the descending
-/// colon's begin, both flexures) hold it loosely. Forward and backward pass give the probability of every station at
-/// every station; its middle is the map, its middle 80 % the interval. Where no chain passes, as when one scan shows
-/// half of the colon, the map is by landmarks, and its interval 130 mm to either side.
+/// A hidden Markov chain runs along the first centreline in steps of 10 mm; its state is the station in the other scan,
+/// how fast that advances (0.5 to 1.5 mm a mm) and by how much the wall is turned there. What it sees are folds and
+/// haustra (the relief, the clearance's and the width's ripple) and how wide the colon is; nothing over bridges. Ends
+/// and landmarks (the rectum's end, the descending colon's begin, both flexures) hold it loosely. Forward and backward
+/// pass give the probability of every station at every station; its middle is the map, its middle 80 % the interval.
+/// Where no chain passes, as when one scan shows half of the colon, the map is by landmarks, and its interval 130 mm to
+/// either side.
 StationMap matchStations(const ColonProfile& from, const ColonProfile& to);
 
 }  // namespace vicon

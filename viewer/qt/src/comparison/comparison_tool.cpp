@@ -98,7 +98,7 @@ void ComparisonTool::scanOpened(const Arrival& arrival)
     came_to_.reset();
     const auto left = std::exchange(left_, {});
     if (const auto* from = std::get_if<CorrespondingPlace>(&arrival.place); from && left) {
-        const StationInterval place = mapBetween(*left, *reading_.scan()).at(from->station_mm);
+        const StationInterval place = reading_.session().mapBetween(*left, *reading_.scan()).at(from->station_mm);
         came_to_mm_ = place.station_mm;
         came_to_ = samePlace(tr("same place as %1").arg(left->caption.position.c_str()).toStdString(),
                              reading_.scan()->files.skeleton(), place);
@@ -214,7 +214,7 @@ void ComparisonTool::drawBeside(bool still)
 {
     const auto scan = reading_.session().sharedBeside();
     if (!map_)
-        map_ = mapBetween(*reading_.scan(), *scan);
+        map_ = reading_.session().mapBetween(*reading_.scan(), *scan);
     const StationInterval same = corresponding();
     const NavigationState at = place();
     EndoscopicRequest request = reading_.requestFor(*scan, at, view_->endoscopic()->pictureSize(), still);

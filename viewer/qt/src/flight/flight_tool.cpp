@@ -83,7 +83,7 @@ void FlightTool::takePlace(const Arrival& arrival, const OpenScan& left)
     navigator()->setHeading(left.navigator.heading());
     navigator()->setSpeed(left.navigator.speed_mm_s());
     if (const auto* other = std::get_if<CorrespondingPlace>(&arrival.place))
-        navigator()->jumpTo(mapBetween(left, scan).at(other->station_mm).station_mm);
+        navigator()->jumpTo(reading_.session().mapBetween(left, scan).at(other->station_mm).station_mm);
     else if (const auto* same = std::get_if<SamePlace>(&arrival.place))
         navigator()->jumpTo(
             scan.files.skeleton().nearest(same->point_mm.value_or(left.navigator.state().pose.eye_mm)).station_mm);

@@ -1,6 +1,7 @@
 // The part of CaseSession that reads scans, on the loader's thread.
 #include <QThreadPool>
 #include <algorithm>
+#include <array>
 
 #include "coverage/coverage_keeper.h"
 #include "session/case_session.h"
@@ -113,7 +114,8 @@ void CaseSession::load(const std::string& work, const ScanFiles& files, int bran
                 this, [this, stage] { emit opening(stage, kStages); }, Qt::QueuedConnection);
         return !stop || !*stop;
     };
-    loader_.post(work, [this, of = files, branch, then = std::move(then), at, stop]() -> Worker::Work {
+    const std::array others{scan_, beside_};
+    loader_.post(work, [this, of = files, branch, then = std::move(then), at, stop, others]() -> Worker::Work {
         const std::filesystem::path& folder = of.folder;
         try {
             if (!at(0))
@@ -131,6 +133,9 @@ void CaseSession::load(const std::string& work, const ScanFiles& files, int bran
                 return {};
             CoverageKeeper::restore(made->coverage, folder);
             readOn(files);
+            for (const auto& other : others)
+                if (other && other->record.id != made->record.id && (!stop || !*stop))
+                    maps_.between(*other, *made);
             return [made, then, stop] {
                 if (!stop || !*stop)
                     then(made);

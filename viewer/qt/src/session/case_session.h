@@ -9,6 +9,7 @@
 
 #include "session/open_scan.h"
 #include "session/own_store.h"
+#include "session/scan_maps.h"
 #include "vicon/cases/density_sample.h"
 #include "vicon/cases/polyp_size.h"
 #include "vicon/cases/store_locks.h"
@@ -57,6 +58,8 @@ public:
     bool besideIsPrior() const { return beside_ && beside_->record.case_id != row_.record.id; }
     OpenScan* beside() const { return beside_.get(); }
     std::shared_ptr<OpenScan> sharedBeside() const { return beside_; }
+    /// The stations of one open scan in another of the same patient.
+    StationMap mapBetween(const OpenScan& from, const OpenScan& to) { return maps_.between(from, to); }
     OpenScan* scan() const { return scan_.get(); }
     std::shared_ptr<OpenScan> sharedScan() const { return scan_; }
 
@@ -160,6 +163,7 @@ private:
     std::string wanted_scan_, wanted_beside_;
     std::shared_ptr<std::atomic<bool>> stop_opening_;
     std::optional<StepNumber> to_undo_, to_redo_;
+    ScanMaps maps_;
     bool markers_known_ = false;
     int edits_under_way_ = 0;
     Worker reads_on_{this};

@@ -8,11 +8,6 @@ namespace {
 
 constexpr double kReach_mm = 500;  // of a click into the endoscopic view
 
-ColonProfile profileOf(const OpenScan& scan)
-{
-    return profileOf(scan.files.skeleton(), scan.files.parts(), scan.files.along());
-}
-
 /// The saved one, unless the path was made anew meanwhile and runs elsewhere there.
 double stationOf(const OpenScan& scan, const SavedView& view)
 {
@@ -63,13 +58,6 @@ std::filesystem::file_time_type madeAt(const std::filesystem::path& folder)
 Point3 placeInSlices(const OpenScan& scan, const NavigationState& state)
 {
     return state.carried ? scan.files.frames().at(state.station_mm).position_mm : state.pose.eye_mm;
-}
-
-StationMap mapBetween(const OpenScan& from, const OpenScan& to)
-{
-    // One map for both directions, so that there and back is the same place.
-    return from.record.id < to.record.id ? matchStations(profileOf(from), profileOf(to))
-                                         : matchStations(profileOf(to), profileOf(from)).reversed();
 }
 
 ViewPose viewOfMarker(const OpenScan& scan, const Marker& marker)

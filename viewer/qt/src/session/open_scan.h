@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "vicon/cases/case_store.h"
-#include "vicon/cases/station_map.h"
 #include "vicon/viewer/model/navigator.h"
 #include "vicon/viewer/model/scan_coverage.h"
 #include "vicon/viewer/scene/canvas.h"
@@ -36,9 +35,6 @@ std::filesystem::file_time_type madeAt(const std::filesystem::path& folder);
 /// The place that slices show while the eye is led: the eye's or, where it is carried over a collapsed segment, the
 /// centreline's, for there is wall to be read there, too.
 Point3 placeInSlices(const OpenScan& scan, const NavigationState& state);
-
-/// The stations of one scan in another of the same patient; milliseconds to make.
-StationMap mapBetween(const OpenScan& from, const OpenScan& to);
 
 /// The view that was saved with a marker of this scan; where there is none or the eye would be in the wall: one that
 /// shows its place.

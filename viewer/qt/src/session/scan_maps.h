@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "session/open_scan.h"
+#include "vicon/cases/station_map.h"
+
+namespace vicon::viewer {
+
+/// The stations of scans in one another. One map serves both directions, so that there and back is the same place.
+/// From any thread.
+class ScanMaps {
+public:
+    /// Of two scans of one patient. Takes half a second the first time: the loader asks before the window does.
+    StationMap between(const OpenScan& from, const OpenScan& to);
+
+private:
+    /// A scan, and when its files were made.
+    using Version = std::pair<std::string, std::filesystem::file_time_type>;
+
+    std::mutex mutex_;
+    std::map<std::pair<Version, Version>, StationMap> maps_;
+};
+
+}  // namespace vicon::viewer
