@@ -89,6 +89,7 @@ protected:
         QMessageBox* box = nullptr;
         ASSERT_TRUE(dialog("confirmSigning", &box));
         screenshot("form-confirm");
+        question_ = box->text().toStdString();
         ++strokes_;
         QTest::keyClick(box, Qt::Key_Return);
         window()->activateWindow();
@@ -111,7 +112,8 @@ protected:
                     soci::use(scan), soci::use(result);
         });
     }
-    static inline int strokes_ = 0;  ///< of a person at the keyboard
+    static inline int strokes_ = 0;       ///< of a person at the keyboard
+    static inline std::string question_;  ///< before a signature
 
     /// A study without findings, said by keyboard alone.
     void sayNormal()
@@ -256,6 +258,25 @@ TEST_F(Form, AsksWhyWhereTheChosenCategoryIsNotTheProposedOne)
     ASSERT_TRUE(eventually([&] { return said().colon_category.has_value(); }));
     EXPECT_EQ(nameOf(said().colon_category->category), "C0");
     EXPECT_EQ(said().colon_category->why, "stool everywhere");
+}
+
+TEST_F(Form, NamesMarkersOfNoFindingBeforeItIsSigned)
+{
+    key(Qt::Key_2);
+    click("endoscopic", middle("endoscopic") + QPoint(90, 60));
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    type(Qt::Key_A, Qt::AltModifier);
+    ASSERT_TRUE(eventually([&] { return said().extracolonic_category && ready(); }));
+    form()->setFocus();
+    ASSERT_NO_FATAL_FAILURE(choose("colonCategoryChoice", 1));  // C0
+    QTest::keyClicks(QApplication::focusWidget(), "stool everywhere");
+    type(Qt::Key_Return);
+    ASSERT_TRUE(eventually([] { return the<QPushButton>("reportSign")->isEnabled(); }))
+        << the<QLabel>("reportMissing")->text().toStdString();
+    ASSERT_NO_FATAL_FAILURE(sign());
+    EXPECT_THAT(question_, testing::HasSubstr("0 findings, colon C0"));
+    EXPECT_THAT(question_, testing::HasSubstr("Markers not assigned to a finding: m1."));
 }
 
 TEST_F(Form, KeepsWhatAnotherReaderSaidFirst)

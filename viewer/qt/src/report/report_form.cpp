@@ -279,10 +279,18 @@ QString ReportForm::summary() const
     const auto name = [](const auto& chosen) {
         return chosen ? QString::fromStdString(nameOf(chosen->category)) : QString();
     };
-    return tr("%1\n%n finding(s), colon %2, outside the colon %3.\n\nAfter this it can only be amended.", nullptr,
-              int(page_.read.findings.size()))
-        .arg(QString::fromStdString(printedPatientName(page_.read.record.patient.name)), name(said.colon_category),
-             name(said.extracolonic_category));
+    const auto count = page_.read.findings.size();
+    QStringList lines{QString::fromStdString(printedPatientName(page_.read.record.patient.name)),
+                      tr("%1, colon %2, outside the colon %3.")
+                          .arg(count == 1 ? tr("1 finding") : tr("%1 findings").arg(count), name(said.colon_category),
+                               name(said.extracolonic_category))};
+    QStringList loose;
+    for (const std::string& marker : page_.read.loose_markers)
+        loose << QString::fromStdString(marker);
+    if (!loose.isEmpty())
+        lines << tr("Markers not assigned to a finding: %1.").arg(loose.join(", "));
+    lines << QString() << tr("After this it can only be amended.");
+    return lines.join("\n");
 }
 
 void ReportForm::takeKeyboard()

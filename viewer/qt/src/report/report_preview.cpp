@@ -12,7 +12,8 @@ ReportPreview::ReportPreview(const QByteArray& pdf, QWidget* parent) : QDialog(p
     setAttribute(Qt::WA_DeleteOnClose);
     buffer_.open(QIODevice::ReadOnly);
     document_.load(&buffer_);
-    setWindowTitle(tr("Report: %n page(s)", nullptr, document_.pageCount()));
+    const int pages = document_.pageCount();
+    setWindowTitle(pages == 1 ? tr("Report: 1 page") : tr("Report: %1 pages").arg(pages));
     auto* view = new QPdfView(this);
     view->setObjectName("reportPages");
     view->setPageMode(QPdfView::MultiPage);

@@ -71,8 +71,10 @@ void CaseSession::openPriorBeside(const CaseRecord& record, const ScanRecord& sc
         if (made->record.id != wanted_beside_)
             return;
         beside_ = std::move(made);
-        if (besideIsPrior())
+        if (besideIsPrior()) {
             beside_->caption.position += ", EARLIER EXAMINATION";
+            beside_->caption.study_date = beside_->saved_caption.study_date;
+        }
         emit besideOpened();
     });
 }

@@ -17,10 +17,11 @@ double stationOf(const OpenScan& scan, const SavedView& view)
     return off_mm > nearest.distance_mm + kOtherPath_mm ? nearest.station_mm : view.station_mm;
 }
 
-/// Which scan it is of, not whose.
+/// Which scan of the case it is of; the banner says whose and when.
 Caption unnamed(Caption caption)
 {
     caption.named = false;
+    caption.study_date.clear();
     return caption;
 }
 
