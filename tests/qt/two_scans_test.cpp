@@ -1,6 +1,7 @@
 // Two scans as one: the same place beside, its interval in every view of the other scan, pairs that are proposed.
 #include <gmock/gmock.h>
 
+#include <QComboBox>
 #include <QLabel>
 #include <QPushButton>
 #include <QTableWidget>
@@ -46,6 +47,19 @@ protected:
         Marker marker{.scan_id = scan, .position_mm = colon.polyp_mm};
         marker.station_mm = colon.polyp_station_mm;
         return store.saveMarker(test::kCase, marker).id;
+    }
+    /// Red in the middle of a picture: the circle of a marker stands there in what looks at it.
+    static int circleIn(const char* view)
+    {
+        const QImage picture = pictureOf(view);
+        const int width = picture.width() / 2, height = picture.height() / 2;
+        int count = 0;
+        for (int y = height - height / 2; y < height + height / 2; ++y)
+            for (int x = width - width / 2; x < width + width / 2; ++x) {
+                const QColor color = picture.pixelColor(x, y);
+                count += color.red() > 200 && color.green() < 90 && color.blue() < 90;
+            }
+        return count;
     }
 };
 
@@ -128,23 +142,22 @@ TEST_F(TwoScans, BothMarkersOfAProposedPairAreSeenSideBySide)
     showList(kPairList);
     auto* table = the<QTableWidget>("pairs");
     ASSERT_TRUE(eventually([&] { return table->rowCount() == 1; }));
-    // The marker's circle stands in the middle of what looks at it.
-    const auto circleIn = [](const char* view) {
-        const QImage picture = pictureOf(view);
-        const int width = picture.width() / 2, height = picture.height() / 2;
-        int count = 0;
-        for (int y = height - height / 2; y < height + height / 2; ++y)
-            for (int x = width - width / 2; x < width + width / 2; ++x) {
-                const QColor color = picture.pixelColor(x, y);
-                count += color.red() > 200 && color.green() < 90 && color.blue() < 90;
-            }
-        return count;
-    };
     ASSERT_LT(circleIn("besideEndoscopic"), 20);
     clickRow(table, 0);
     EXPECT_TRUE(eventually([&] { return circleIn("endoscopic") > 100; }));
     EXPECT_TRUE(eventually([&] { return circleIn("besideEndoscopic") > 100; }));
     screenshot("pair_beside");
+    // Paired: also where the marker that is chosen lies in the other scan, and the two change places.
+    press(window(), "pairConfirm");
+    ASSERT_TRUE(eventually([&] { return table->rowCount() == 0; }));
+    const QString read = the<QComboBox>("scan")->currentText();
+    key(Qt::Key_Home);
+    ASSERT_TRUE(eventually([&] { return circleIn("endoscopic") < 20 && circleIn("besideEndoscopic") < 20; }));
+    showList(0);  // of the markers
+    clickRow(markers(), 1);
+    ASSERT_TRUE(eventually([&] { return the<QComboBox>("scan")->currentText() != read; })) << "the other scan is read";
+    EXPECT_TRUE(eventually([&] { return circleIn("endoscopic") > 100; }));
+    EXPECT_TRUE(eventually([&] { return circleIn("besideEndoscopic") > 100; }));
 }
 
 }  // namespace

@@ -25,14 +25,15 @@ void ComparisonTool::addTo(ReadingLayout& layout)
     connect(&reading_.views(), &ReadingViews::arranged, this, &ComparisonTool::arrange);
     connect(&reading_.views(), &ReadingViews::laidOut, this, &ComparisonTool::followLayout);
     connect(&reading_.session(), &CaseSession::besideOpened, this, [this] {
-        partner_.reset();
         map_.reset();
         reading_.say({});
+        showPartner();
         arrange();
     });
     connect(&reading_.session(), &CaseSession::besideClosed, this, &ComparisonTool::arrange);
     connect(&reading_, &Reading::partnerWanted, this, [this](const Marker& partner) {
-        takePartner(partner);
+        partner_marker_ = partner;
+        showPartner();
         draw(true);
     });
     connect(&reading_.drawing(), &DrawingThread::overviewDrawn, this,
@@ -93,7 +94,7 @@ void ComparisonTool::scanLeft()
 
 void ComparisonTool::scanOpened(const Arrival& arrival)
 {
-    partner_.reset();
+    pointLeft();
     map_.reset();
     came_to_.reset();
     const auto left = std::exchange(left_, {});
@@ -281,17 +282,22 @@ void ComparisonTool::clickedOverview(Pixel at)
 
 void ComparisonTool::markerShown(const Marker& marker)
 {
-    partner_.reset();
-    if (const auto partner = reading_.session().marker(marker.pair))
-        takePartner(*partner);
+    partner_marker_ = reading_.session().marker(marker.pair);
+    showPartner();
 }
 
-void ComparisonTool::takePartner(const Marker& partner)
+void ComparisonTool::pointLeft()
+{
+    partner_marker_.reset();
+    partner_.reset();
+}
+
+void ComparisonTool::showPartner()
 {
     const OpenScan* scan = reading_.session().beside();
-    if (!scan || partner.scan_id != scan->record.id)
-        return;
-    partner_ = Partner{viewOfMarker(*scan, partner), partner.position_mm};
+    partner_.reset();
+    if (scan && partner_marker_ && partner_marker_->scan_id == scan->record.id)
+        partner_ = Partner{viewOfMarker(*scan, *partner_marker_), partner_marker_->position_mm};
 }
 
 }  // namespace vicon::viewer

@@ -19,7 +19,7 @@ public:
     QVariantMap kept() const override;
     void scanLeft() override;
     void scanOpened(const Arrival& arrival) override;
-    void pointLeft() override { partner_.reset(); }
+    void pointLeft() override;
     void markerShown(const Marker& marker) override;
     void draw(bool still) override;
     void annotate(SnapshotRequest& request, const OpenScan& scan) const override;
@@ -31,8 +31,8 @@ private:
         Point3 at_mm;
     };
     void connectView();
-    /// Nothing where it lies in a scan that is not beside.
-    void takePartner(const Marker& partner);
+    /// Not where it lies in a scan that is not beside, until that comes.
+    void showPartner();
     /// The key: the other scan; of several the next one; after the last none.
     void switched(bool on);
     void compare(bool on);
@@ -55,6 +55,7 @@ private:
     BesideView* view_;
     QAction* on_ = nullptr;
     bool by_layout_ = false;  // the reader did not ask for the other scan alone
+    std::optional<Marker> partner_marker_;
     std::optional<Partner> partner_;
     std::optional<StationMap> map_;  // from the scan that is read to the one beside
     std::shared_ptr<OpenScan> left_;

@@ -76,12 +76,6 @@ void MarkerTool::useWords(const OrganWords& words)
     table_->setStationTip(stationTip(words));
 }
 
-void MarkerTool::scanOpened(const Arrival& arrival)
-{
-    if (const auto marker = reading_.session().marker(arrival.marker_id.value_or("")))
-        reading_.showMarker(*marker);
-}
-
 void MarkerTool::markersChanged()
 {
     std::map<std::string, std::string> positions;

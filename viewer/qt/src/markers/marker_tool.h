@@ -15,7 +15,6 @@ public:
 
     void addTo(ReadingLayout& layout) override;
     void useWords(const OrganWords& words) override;
-    void scanOpened(const Arrival& arrival) override;
     void markersChanged() override;
     bool act(const ClickMeaning& meaning, const ClickedPoint& point) override;
 

@@ -300,6 +300,8 @@ void Reading::arrive(const Arrival& arrival)
     useWords(organWords());
     for (ReadingTool* tool : tools_)
         tool->scanOpened(arrival);
+    if (const auto marker = session_.marker(arrival.marker_id.value_or("")))
+        showMarker(*marker);
     markersChanged();
 }
 
