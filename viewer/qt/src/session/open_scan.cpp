@@ -1,5 +1,8 @@
 #include "session/open_scan.h"
 
+#include <QObject>
+#include <QStringList>
+
 #include "session/saved_view.h"
 #include "vicon/cases/printed.h"
 

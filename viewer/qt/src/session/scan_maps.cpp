@@ -14,14 +14,21 @@ ColonProfile profileOf(const OpenScan& scan)
 
 StationMap ScanMaps::between(const OpenScan& from, const OpenScan& to)
 {
-    const Version first{from.record.id, from.made}, second{to.record.id, to.made};
-    if (second < first)
+    const Versions versions{{from.record.id, from.made}, {to.record.id, to.made}};
+    if (versions.second < versions.first)
         return between(to, from).reversed();
+    if (const auto made = known(versions))
+        return *made;
+    StationMap map = matchStations(profileOf(from), profileOf(to));  // the window need not wait for another pair's
     const std::lock_guard lock(mutex_);
-    const auto known = maps_.find({first, second});
-    if (known != maps_.end())
-        return known->second;
-    return maps_.emplace(std::pair(first, second), matchStations(profileOf(from), profileOf(to))).first->second;
+    return maps_.insert_or_assign(versions, std::move(map)).first->second;
+}
+
+std::optional<StationMap> ScanMaps::known(const Versions& versions)
+{
+    const std::lock_guard lock(mutex_);
+    const auto at = maps_.find(versions);
+    return at != maps_.end() ? std::optional(at->second) : std::nullopt;
 }
 
 }  // namespace vicon::viewer

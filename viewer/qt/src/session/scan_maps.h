@@ -2,6 +2,7 @@
 
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -20,9 +21,11 @@ public:
 private:
     /// A scan, and when its files were made.
     using Version = std::pair<std::string, std::filesystem::file_time_type>;
+    using Versions = std::pair<Version, Version>;
+    std::optional<StationMap> known(const Versions& versions);
 
     std::mutex mutex_;
-    std::map<std::pair<Version, Version>, StationMap> maps_;
+    std::map<Versions, StationMap> maps_;
 };
 
 }  // namespace vicon::viewer
