@@ -115,7 +115,7 @@ int markers(Context& context, const MarkersArguments& arguments)
         std::printf("no markers; 'vicon mark %s --at X,Y,Z' adds one\n", case_id.c_str());
     else
         printMarkers(list);
-    if (!context.json && !proposePairs(list, matchesOf(store, case_id)).empty())
+    if (!context.json && mayBePaired(list) && !proposePairs(list, matchesOf(store, case_id)).empty())
         std::printf("some of them may be one finding; 'vicon match %s' proposes pairs\n", case_id.c_str());
     return 0;
 }

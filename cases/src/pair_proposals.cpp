@@ -143,6 +143,15 @@ nlohmann::json toJson(const ScanMatch& match)
             {"to_length_mm", match.map.to_length_mm}, {"stations", toJson(match.map)}};
 }
 
+bool mayBePaired(const std::vector<Marker>& markers)
+{
+    std::set<std::string> scans;
+    for (const Marker& marker : markers)
+        if (marker.pair.empty())
+            scans.insert(marker.scan_id);
+    return scans.size() > 1;
+}
+
 std::vector<PairProposal> proposePairs(const std::vector<Marker>& markers, const std::vector<ScanMatch>& matches)
 {
     std::vector<PairProposal> proposals;

@@ -71,6 +71,27 @@ TEST(PairProposals, OtherSizesSpeakAgainst)
     EXPECT_TRUE(proposePairs({marker("m1", "s1", 500, 5), marker("m2", "s2", 550, 15)}, {match()}).empty());
 }
 
+TEST(PairProposals, NeedMarkersOfNoPairInTwoScans)
+{
+    Marker paired = marker("m2", "s2", 552);
+    paired.pair = "m9";
+    EXPECT_TRUE(mayBePaired({marker("m1", "s1", 500), marker("m2", "s2", 552)}));
+    EXPECT_FALSE(mayBePaired({marker("m1", "s1", 500), paired}));
+    EXPECT_FALSE(mayBePaired({marker("m1", "s1", 500), marker("m2", "s1", 552)}));
+    EXPECT_FALSE(mayBePaired({}));
+}
+
+TEST(PairProposals, AMarkerInAnIntervalNarrowerThanItselfIsWithin)
+{
+    ScanMatch narrow = match();
+    for (StationInterval& place : narrow.map.to) {
+        place.least_mm = place.station_mm - 1;
+        place.most_mm = place.station_mm + 1;
+    }
+    EXPECT_TRUE(proposePairs({marker("m1", "s1", 500), marker("m2", "s2", 553)}, {narrow}).at(0).within);
+    EXPECT_FALSE(proposePairs({marker("m1", "s1", 500), marker("m2", "s2", 556)}, {narrow}).at(0).within);
+}
+
 TEST(PairProposals, PairedMarkersAndThoseOfOneScanAreLeftAlone)
 {
     Marker paired = marker("m2", "s2", 550);

@@ -37,7 +37,10 @@ void PairTool::markersChanged()
 void PairTool::refresh()
 {
     store_.post("pairs", [this](OwnStore& store) -> Worker::Work {
-        auto proposals = proposePairs(store().markers(case_id_), matchesOf(store(), case_id_));
+        const std::vector<Marker> markers = store().markers(case_id_);
+        std::vector<PairProposal> proposals;
+        if (mayBePaired(markers))
+            proposals = proposePairs(markers, matchesOf(store(), case_id_));
         return [this, proposals] { panel_->show(proposals); };
     });
 }
