@@ -8,7 +8,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
-#include <string_view>
+#include <utility>
 
 #include "vicon/core/error.h"
 
@@ -56,6 +56,39 @@ std::optional<Field> fieldIn(const std::string& line)
     return Field{line.substr(0, sign), line.substr(sign + 3)};
 }
 
+struct Header {
+    bool says(const std::string& name, const std::string& value) const
+    {
+        const auto field = said.find(name);
+        return field != said.end() && field->second == value;
+    }
+    bool saysOrIsSilent(const std::string& name, const std::string& value) const
+    {
+        return !said.contains(name) || says(name, value);
+    }
+
+    std::map<std::string, std::string> said;
+    std::size_t end = 0;  // where the voxels begin
+};
+
+/// Nothing where a line is none, something is said twice, or the voxels do not follow in the file.
+std::optional<Header> headerIn(const fs::path& file)
+{
+    constexpr std::size_t kMostFields = 40;
+    std::ifstream in(file, std::ios::binary);
+    Header header;
+    std::array<char, kLongestLine> line{};
+    while (header.said.size() < kMostFields && in.getline(line.data(), line.size())) {
+        header.end += std::size_t(in.gcount());
+        const std::optional<Field> field = fieldIn(std::string(line.data(), std::size_t(in.gcount() - 1)));
+        if (!field || !header.said.emplace(field->name, field->value).second)
+            return std::nullopt;
+        if (field->name == "ElementDataFile")
+            return field->value == "LOCAL" ? std::optional(std::move(header)) : std::nullopt;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::string rawHeader(const Grid& grid, const std::string& type)
@@ -76,35 +109,23 @@ std::string rawHeader(const Grid& grid, const std::string& type)
 
 bool isPlainHeader(const fs::path& file)
 {
-    constexpr std::size_t kMostFields = 40;
-    std::ifstream in(file, std::ios::binary);
-    std::map<std::string, std::string> said;
-    std::array<char, kLongestLine> line{};
-    while (said.size() < kMostFields && in.getline(line.data(), line.size())) {
-        const std::optional<Field> field = fieldIn(std::string(line.data(), std::size_t(in.gcount() - 1)));
-        if (!field || !said.emplace(field->name, field->value).second)
-            return false;
-        if (field->name == "ElementDataFile")
-            return field->value == "LOCAL" && said.contains("NDims") && said["NDims"] == "3";
-    }
-    return false;
+    const std::optional<Header> header = headerIn(file);
+    return header && header->says("NDims", "3") && header->says("BinaryData", "True") &&
+           header->saysOrIsSilent("BinaryDataByteOrderMSB", "False") &&
+           header->saysOrIsSilent("ElementByteOrderMSB", "False") && !header->said.contains("HeaderSize") &&
+           (header->saysOrIsSilent("CompressedData", "False") || header->says("CompressedData", "True"));
 }
 
 VoxelBytes voxelBytesIn(const fs::path& file, std::size_t raw_bytes)
 {
-    std::string head(4096, '\0');
-    std::ifstream in(file, std::ios::binary);
-    in.read(head.data(), std::streamsize(head.size()));
-    head.resize(std::size_t(in.gcount()));
-    const auto local = head.find(kVoxelsFollow);
-    if (local == std::string::npos)
+    const std::optional<Header> header = headerIn(file);
+    if (!header)
         throw Error(ErrorCode::bad_input, "does not hold its voxels itself", file.string(), kMakeAnew);
-    VoxelBytes bytes{local + std::char_traits<char>::length(kVoxelsFollow), raw_bytes, false};
-    const std::string key = "CompressedDataSize = ";
-    if (const auto at = head.find(key); at < local) {
-        bytes.packed = true;
-        const auto read = std::from_chars(head.data() + at + key.size(), head.data() + head.size(), bytes.count);
-        if (read.ec != std::errc())
+    VoxelBytes bytes{header->end, raw_bytes, header->says("CompressedData", "True")};
+    if (bytes.packed) {
+        const auto size = header->said.find("CompressedDataSize");
+        const std::string digits = size == header->said.end() ? "" : size->second;
+        if (std::from_chars(digits.data(), digits.data() + digits.size(), bytes.count).ec != std::errc())
             throw Error(ErrorCode::bad_input, "does not say how many bytes its voxels are", file.string(), kMakeAnew);
     }
     const std::uintmax_t size = fs::file_size(file), left = size - std::min<std::uintmax_t>(size, bytes.begin);

@@ -15,8 +15,9 @@ constexpr std::size_t kVoxelAlignment = 64;
 std::string rawHeader(const Grid& grid, const std::string& type);
 
 /// Whether a file's header is as plain as those that ITK and VICON write: printed characters, nothing said twice, three
-/// dimensions, the voxels in the same file. MetaIO reads two thousand million numbers where it is told so, copies long
-/// values over the end of its fields, and divides by nothing where voxels are said to lie in files of numbered names.
+/// dimensions, the voxels in the same file, as binary numbers, the lowest byte first. MetaIO reads two thousand million
+/// numbers where it is told so, copies long values over the end of its fields, and divides by nothing where voxels are
+/// said to lie in files of numbered names.
 bool isPlainHeader(const std::filesystem::path& file);
 
 /// Where the voxels of such a file lie.

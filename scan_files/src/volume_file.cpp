@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <new>
+#include <span>
 
 #include "mapped_file.h"
 #include "meta_header.h"
 #include "streamed_file.h"
+#include "unpack.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/fresh_memory.h"
@@ -148,22 +149,22 @@ itk::MetaImageIO::Pointer openVolume(const fs::path& file)
 }
 
 template <class T>
-Volume<T> readVoxels(itk::MetaImageIO& io, const fs::path& file)
+Volume<T> copyVoxels(const MappedFile& mapped, const VoxelBytes& bytes, const Grid& grid, const fs::path& file)
 {
     Volume<T> volume;
-    volume.grid = gridOf(io, file);
-    itk::ImageIORegion region(3);
-    for (unsigned a = 0; a < 3; ++a)
-        region.SetSize(a, std::size_t(volume.grid.size[a]));
-    io.SetIORegion(region);
+    volume.grid = grid;
     try {
-        fillFresh(volume.voxels, volume.grid.voxelCount(), T{});
-        io.Read(volume.voxels.data());
+        fillFresh(volume.voxels, grid.voxelCount(), T{});
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::no_memory, "does not fit into memory", file.string(), "close other programs");
-    } catch (const itk::ExceptionObject&) {
-        throw Error(ErrorCode::bad_input, "is damaged or too short", file.string(), "run 'vicon work' to make it anew");
     }
+    const std::span stored(mapped.data() + bytes.begin, bytes.count);
+    const auto voxels = std::as_writable_bytes(std::span(volume.voxels));
+    if (!bytes.packed)
+        std::copy_n(stored.begin(), voxels.size(), voxels.begin());
+    else if (!unpack(stored, voxels))
+        throw Error(ErrorCode::bad_input, "is damaged: its voxels cannot be unpacked", file.string(),
+                    "run 'vicon work' to make it anew");
     return volume;
 }
 
@@ -190,26 +191,24 @@ void writeVolume(const fs::path& file, const Volume<T>& volume, Packing packing)
 template <class T>
 Volume<T> readVolume(const fs::path& file)
 {
-    const auto io = openVolume<T>(file);
-    // ITK fills what a cut-off file lacks with zeros and says nothing, so its length is checked before.
-    voxelBytesIn(file, gridOf(*io, file).voxelCount() * sizeof(T));
-    return readVoxels<T>(*io, file);
+    const Grid grid = gridOf(*openVolume<T>(file), file);
+    const VoxelBytes bytes = voxelBytesIn(file, grid.voxelCount() * sizeof(T));
+    return copyVoxels<T>(MappedFile(file), bytes, grid, file);
 }
 
 template <class T>
 StoredVolume<T>::StoredVolume(const fs::path& file)
 {
-    const auto io = openVolume<T>(file);
-    const Grid grid = gridOf(*io, file);
+    const Grid grid = gridOf(*openVolume<T>(file), file);
     const VoxelBytes bytes = voxelBytesIn(file, grid.voxelCount() * sizeof(T));
+    auto mapped = std::make_shared<const MappedFile>(file);
     if (!bytes.packed && bytes.begin % kVoxelAlignment == 0) {
-        auto mapped = std::make_shared<const MappedFile>(file);
         const void* first = mapped->data() + bytes.begin;
         view_ = {grid, std::span(static_cast<const T*>(first), grid.voxelCount())};
         mapped_ = mapped.get();
         owner_ = std::move(mapped);
     } else {
-        auto read = std::make_shared<const Volume<T>>(readVoxels<T>(*io, file));
+        auto read = std::make_shared<const Volume<T>>(copyVoxels<T>(*mapped, bytes, grid, file));
         view_ = *read;
         owner_ = std::move(read);
     }

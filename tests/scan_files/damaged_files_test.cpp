@@ -69,6 +69,57 @@ TEST_P(DamagedHeader, IsRefused)
     EXPECT_TRUE(volumeIsRefused()) << change.with;
 }
 
+class DamagedVoxels : public DamagedFile {
+protected:
+    DamagedVoxels()
+    {
+        file = folder / "volume.mha";
+        writeSmallVolume(Packing::zlib);
+        sound_ = readFile(file);
+        const std::string end = "ElementDataFile = LOCAL\n";
+        begin_ = sound_.find(end) + end.size();
+    }
+    std::string voxels() const { return sound_.substr(begin_); }
+    /// With the header's count of them, and as many bytes behind, that the file is none that was cut off.
+    void replaceVoxels(const std::string& packed)
+    {
+        const std::string count = "CompressedDataSize = ";
+        std::string header = sound_.substr(0, begin_);
+        const auto at = header.find(count) + count.size();
+        header.replace(at, header.find('\n', at) - at, std::to_string(packed.size()));
+        replaceFile(file, header + packed + voxels());
+    }
+
+private:
+    std::string sound_;
+    std::size_t begin_ = 0;
+};
+
+TEST_F(DamagedVoxels, AreReadWhereTheyAreSound)
+{
+    replaceVoxels(voxels());
+    EXPECT_EQ(readVolume<std::uint8_t>(file).voxels, std::vector<std::uint8_t>(60, 1));
+}
+
+/// MetaIO never came back from such a stream.
+TEST_F(DamagedVoxels, ThatWantADictionaryAreRefused)
+{
+    replaceVoxels(std::string("\x78\x20\0\0\0\1", 6) + voxels().substr(2));
+    EXPECT_TRUE(volumeIsRefused());
+}
+
+/// MetaIO took these for sound, and left voxels at nothing.
+TEST_F(DamagedVoxels, AreRefusedWhateverIsWrong)
+{
+    const std::string packed = voxels(), nothing("\x78\x01\3\0\0\0\0\1", 8);
+    std::string wrong_sum = packed;
+    wrong_sum.back() ^= 1;
+    for (const std::string& bytes : {wrong_sum, packed.substr(0, packed.size() - 5), nothing, std::string()}) {
+        replaceVoxels(bytes);
+        EXPECT_TRUE(volumeIsRefused()) << bytes.size();
+    }
+}
+
 const std::string kComment = "Comment = " + std::string(300, 'x') + "\nDimSize";
 const char* const kLongComment = kComment.c_str();
 
@@ -85,6 +136,12 @@ INSTANTIATE_TEST_SUITE_P(
                     HeaderChange{Packing::raw, "DimSize = 4 3 5", "DimSize = 65536 65536 4294967296"},
                     HeaderChange{Packing::raw, "ElementSpacing = 1 1 1", "ElementSpacing = 1 nan 1"},
                     HeaderChange{Packing::raw, "ElementDataFile = LOCAL", "ElementDataFile = /etc/passwd"},
+                    HeaderChange{Packing::raw, "BinaryDataByteOrderMSB = False", "BinaryDataByteOrderMSB = True"},
+                    HeaderChange{Packing::raw, "BinaryDataByteOrderMSB = False", "ElementByteOrderMSB = True"},
+                    HeaderChange{Packing::raw, "BinaryData = True", "BinaryData = False"},
+                    HeaderChange{Packing::raw, "DimSize", "HeaderSize = 64\nDimSize"},
+                    HeaderChange{Packing::zlib, "CompressedData = True", "CompressedData = Perhaps"},
+                    HeaderChange{Packing::zlib, "CompressedDataSize = ", "Comment = CompressedDataSize "},
                     HeaderChange{Packing::raw, "Comment = ", "ID = 1\nID = 2\nComment = "},
                     HeaderChange{Packing::zlib, "DimSize", kLongComment},
                     HeaderChange{Packing::raw, "ElementDataFile = LOCAL", "ElementDataFile = LOCAL%d 1 2 1"},
