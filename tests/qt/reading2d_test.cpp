@@ -106,6 +106,52 @@ TEST_F(Reading2D, EachLayoutIsOneKeyAwayAndItsFirstViewIsTheLargestAndHasTheKeyb
     EXPECT_GT(area("endoscopic"), area("axial"));
 }
 
+TEST_F(Reading2D, ASliceAcrossTheLumenFollowsItAndIsSeenAsFromInside)
+{
+    type(Qt::Key_F6);
+    ASSERT_TRUE(arrived("axial"));
+    for (int n = 0; n < 3; ++n)
+        type(Qt::Key_H);
+    ASSERT_TRUE(eventually([] { return area("across") > 2 * area("axial"); }));
+    ASSERT_TRUE(arrived("across"));
+    EXPECT_EQ(QApplication::focusWidget(), the<QWidget>("across"));
+    const auto* slice = the<SliceView>("across");
+    for (int n = 0; n < 4; ++n) {
+        const double before = station();
+        const Point3 from_mm = slice->point_mm();
+        wheel("across", 8);
+        ASSERT_TRUE(eventually([&] { return station() > before + 5; })) << "each slice is the next";
+        EXPECT_LT(station(), before + 8 * 4 + 1);
+        waitUntilQuiet();
+        ASSERT_TRUE(eventually([&] { return std::abs(shown("across").depth_mm(slice->point_mm())) < 0.1; }));
+        EXPECT_GT(dot(shown("across").forward(), normalized(slice->point_mm() - from_mm)), 0.8) << "along the way";
+        EXPECT_GT(rimPixels("across"), 40);
+    }
+    screenshot("across");
+    const Point3 clicked = shown("across").pointAt({cross("across").x() + 10.5, cross("across").y() + 0.5});
+    click("across", cross("across") + QPoint(10, 0), Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); })) << warning();
+    EXPECT_LT(distance(stored().back().position_mm, clicked), 0.5) << "a click means what it points at";
+    const Vector3 forward = shown("across").forward();
+    type(Qt::Key_R);
+    EXPECT_TRUE(eventually([&] { return dot(shown("across").forward(), forward) < -0.99; })) << "the way it is flown";
+    type(Qt::Key_H);
+    ASSERT_TRUE(arrived("axial"));
+    EXPECT_FALSE(the<QWidget>("across")->isVisible());
+}
+
+TEST_F(Reading2D, BothScansAreSeenInTheSamePlane)
+{
+    type(Qt::Key_F7);
+    ASSERT_TRUE(eventually([] { return drawn("besideEndoscopic") && drawn("besideAxial"); })) << warning();
+    const auto isAlong = [](const char* view, Vector3 forward) {
+        return eventually([=] { return dot(shown(view).forward(), forward) > 0.999; });
+    };
+    EXPECT_TRUE(isAlong("axial", {0, 0, 1}) && isAlong("besideAxial", {0, 0, 1}));
+    type(Qt::Key_H);
+    EXPECT_TRUE(isAlong("coronal", {0, 1, 0}) && isAlong("besideAxial", {0, 1, 0}));
+}
+
 TEST_F(Reading2D, TheWheelAndKeysFollowTheLumenFromSliceToSlice)
 {
     type(Qt::Key_F6);

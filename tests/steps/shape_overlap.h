@@ -98,7 +98,7 @@ inline Overlap compare(const Skeleton& given, const Skeleton& found)
                     .found_mm = ours.loose_mm()};
     for (std::size_t n = ours.begin; n < ours.end; ++n) {
         overlap.mean_mm += feet[n].distance_mm / double(ours.end - ours.begin);
-        if (n + 10 < ours.end) {
+        if (n + 10 < ours.end && ours.covered[n] && ours.covered[n + 10]) {
             const double on_mm = feet[n + 10].station_mm - feet[n].station_mm;
             overlap.jump_mm = std::max(overlap.jump_mm, on_mm);
             overlap.back_mm = std::max(overlap.back_mm, -on_mm);

@@ -71,7 +71,7 @@ Hanging hangingFrom(const std::string& text, const Hanging& otherwise)
         const auto json = nlohmann::json::parse(text);
         Hanging read;
         read.layout = choice(json, "layout", ViewLayout::planes);
-        read.plane = choice(json, "plane", SlicePlane::sagittal);
+        read.plane = choice(json, "plane", SlicePlane::across);
         read.slices.window = {json.at("window").get<std::string>(), number(json, "width_hu", kLeastWidth_hu, kMostHu),
                               number(json, "level_hu", -kMostHu, kMostHu), json.value("unit", "HU")};
         read.slices.thick = {choice(json, "of", ThickSlice::Of::minimum),

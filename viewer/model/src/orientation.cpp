@@ -62,8 +62,10 @@ std::string nameOf(SlicePlane plane)
             return "axial";
         case SlicePlane::coronal:
             return "coronal";
-        default:
+        case SlicePlane::sagittal:
             return "sagittal";
+        default:
+            return "across the lumen";
     }
 }
 

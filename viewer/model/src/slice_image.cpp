@@ -89,8 +89,12 @@ Bounds boundsOf(const Grid& grid)
 
 PlaneView sliceThrough(const Grid& grid, SlicePlane plane, Point3 point, int width, int height, double field_mm)
 {
+    return sliceThrough(grid, axesOf(plane), point, width, height, field_mm);
+}
+
+PlaneView sliceThrough(const Grid& grid, const SliceAxes& axes, Point3 point, int width, int height, double field_mm)
+{
     const Bounds bounds = boundsOf(grid);
-    const SliceAxes axes = axesOf(plane);
     PlaneView view{point, axes.right, axes.down, 1, width, height};
     if (field_mm > 0) {
         view.mm_per_pixel = field_mm / std::min(width, height);

@@ -34,7 +34,7 @@ public:
     {
         if (!inPicture(x, y))
             return false;
-        return inside_.valueOr(inside_.grid.indexAt(view_.pointAt({x + 0.5, y + 0.5})), std::uint8_t(0)) != 0;
+        return shareAt(inside_.grid.continuousIndexAt(view_.pointAt({x + 0.5, y + 0.5}))) >= kHalf;
     }
     std::size_t offset(int x, int y) const { return std::size_t(y) * std::size_t(view_.width) + std::size_t(x); }
 
@@ -55,6 +55,22 @@ public:
     }
 
 private:
+    static constexpr double kHalf = 0.5;
+
+    /// How much lumen there is, trilinear: the voxels' own edges would be teeth where the slice lies askew to them.
+    double shareAt(ContinuousIndex3 c) const
+    {
+        const Index3 low{int(std::floor(c.i)), int(std::floor(c.j)), int(std::floor(c.k))};
+        const double i = c.i - low.i, j = c.j - low.j, k = c.k - low.k;
+        double share = 0;
+        for (int n = 0; n < 8; ++n) {
+            const int a = n & 1, b = n >> 1 & 1, d = n >> 2;
+            if (inside_.valueOr({low.i + a, low.j + b, low.k + d}, std::uint8_t(0)) != 0)
+                share += (a ? i : 1 - i) * (b ? j : 1 - j) * (d ? k : 1 - k);
+        }
+        return share;
+    }
+
     const InsideView& inside_;
     const PlaneView& view_;
 };
@@ -68,6 +84,19 @@ double stationSlicesOn(const PathFrames& path, double station_mm, Vector3 across
     for (int n = 0; n < std::abs(slices); ++n)
         station_mm = oneSliceOn(path, station_mm, across, slice_mm, slices > 0 ? 1 : -1);
     return station_mm;
+}
+
+SliceAxes axesAcross(const PathFrames& way, Point3 point, const Pose& eye)
+{
+    const auto nearest = [&](Point3 p) {
+        const double middle = way.length_mm() / 2;
+        return way.at(way.nearestStation(p, middle, middle));
+    };
+    const PathFrame here = nearest(eye.eye_mm), there = nearest(point);
+    const double roll = std::atan2(dot(eye.up, cross(here.forward, here.up)), dot(eye.up, here.up));
+    const Vector3 up = there.up * std::cos(roll) + cross(there.forward, there.up) * std::sin(roll);
+    const Vector3 forward = there.forward * (dot(eye.forward, here.forward) < 0 ? -1 : 1);
+    return {cross(forward, up), up * -1};
 }
 
 std::vector<std::uint8_t> lumenRim(const InsideView& inside, const PlaneView& view, Point3 in_lumen)
@@ -85,14 +114,14 @@ std::vector<std::uint8_t> lumenRim(const InsideView& inside, const PlaneView& vi
         to_visit.pop_back();
         for (const auto& [dx, dy] : kBeside) {
             const int bx = x + dx, by = y + dy;
-            if (!pixels.inPicture(bx, by))
+            if (!pixels.inPicture(bx, by) || met[pixels.offset(bx, by)])
                 continue;
             if (!pixels.has(bx, by)) {
                 rim[pixels.offset(x, y)] = 1;
-            } else if (auto& known = met[pixels.offset(bx, by)]; !known) {
-                known = 1;
-                to_visit.emplace_back(bx, by);
+                continue;
             }
+            met[pixels.offset(bx, by)] = 1;
+            to_visit.emplace_back(bx, by);
         }
     }
     return rim;

@@ -50,6 +50,8 @@ std::string wordFor(const HuView* cleansed, bool shown)
 
 std::string titleOf(SlicePlane plane, Point3 point)
 {
+    if (plane == SlicePlane::across)
+        return nameOf(plane);
     const double mm = plane == SlicePlane::axial ? point.z : plane == SlicePlane::coronal ? point.y : point.x;
     const char* axis = plane == SlicePlane::axial ? "z" : plane == SlicePlane::coronal ? "y" : "x";
     return nameOf(plane) + ", " + axis + " = " + std::to_string(std::lround(mm)) + " mm";

@@ -9,7 +9,7 @@ BesideView::BesideView(QWidget* parent) : QSplitter(Qt::Vertical, parent)
     endoscopic_->setObjectName("besideEndoscopic");
     endoscopic_->setToolTip(
         tr("The same place in the other scan. Click: read on from there. Shift and click: marker."));
-    slice_ = new SliceView(SlicePlane::axial, tr("Axial slice of the other scan"));
+    slice_ = new SliceView(SlicePlane::axial, tr("Slice of the other scan"));
     slice_->setObjectName("besideAxial");
     overview_ = new PictureView(tr("Projection of the other scan"));
     overview_->setObjectName("besideOverview");

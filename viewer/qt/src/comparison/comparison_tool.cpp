@@ -123,6 +123,7 @@ void ComparisonTool::annotate(SnapshotRequest& request, const OpenScan& scan) co
 /// A layout of both scans has the other one, and takes it along when it goes.
 void ComparisonTool::followLayout()
 {
+    view_->slice()->setPlane(reading_.views().plane());
     const bool wanted = reading_.views().layoutNow() == ViewLayout::both_scans;
     if (wanted && !on_->isChecked()) {
         by_layout_ = true;

@@ -75,7 +75,7 @@ void HangingTool::keepAs(std::size_t which)
 /// Where a slice is large.
 void HangingTool::nextPlane()
 {
-    constexpr int kPlanes = 3;
+    constexpr int kPlanes = int(SlicePlane::across) + 1;
     if (reading_.views().layoutNow() == ViewLayout::three_d_first) {
         reading_.say(tr("No slice is large here; F6 shows one."));
         return;

@@ -43,7 +43,8 @@ ReadingViews::ReadingViews(QWidget* parent) : QSplitter(Qt::Horizontal, parent)
     overview_->setToolTip(tr("Click: go there. Double click: enlarge."));
     slices_ = {slice(SlicePlane::axial, "axial", tr("Axial slice")),
                slice(SlicePlane::coronal, "coronal", tr("Coronal slice")),
-               slice(SlicePlane::sagittal, "sagittal", tr("Sagittal slice"))};
+               slice(SlicePlane::sagittal, "sagittal", tr("Sagittal slice")),
+               slice(SlicePlane::across, "across", tr("Slice across the lumen"))};
     first_column_ = column("firstColumn");
     second_column_ = column("slices");
     side_ = new QWidget;
@@ -130,6 +131,7 @@ void ReadingViews::showViews()
     };
     show(first_column_, firstColumn(), true);
     show(second_column_, secondColumn(), !for_second_window_alone);
+    slices_[std::size_t(restingPlane())]->hide();
     showSide();
 }
 
@@ -177,9 +179,10 @@ void ReadingViews::takeKeyboard()
 
 void ReadingViews::setPicking(bool on)
 {
-    for (PictureView* view :
-         std::initializer_list<PictureView*>{endoscopic_, overview_, slices_[0], slices_[1], slices_[2]})
+    for (PictureView* view : {endoscopic_, overview_})
         view->setPicking(on);
+    for (SliceView* slice : slices_)
+        slice->setPicking(on);
     if (on && !qobject_cast<PictureView*>(window()->focusWidget()))
         first()->setFocus(Qt::ShortcutFocusReason);  // Return clicks in a picture
 }

@@ -12,7 +12,7 @@ namespace vicon::viewer {
 
 class SecondWindow;
 
-/// The pictures of the reading window, in columns: the view from inside, the three slices, the projection of the
+/// The pictures of the reading window, in columns: the view from inside, the slices, the projection of the
 /// organ. How they are laid out can be chosen. One of them can be enlarged; the second column and the projection may
 /// lie in a window of their own, for a second screen.
 class ReadingViews : public QSplitter {
@@ -22,7 +22,7 @@ public:
 
     PictureView* endoscopic() const { return endoscopic_; }
     PictureView* overview() const { return overview_; }
-    const std::array<SliceView*, 3>& slices() const { return slices_; }
+    const std::array<SliceView*, 4>& slices() const { return slices_; }
     /// The view that is read in: it is large, and has the keyboard.
     PictureView* first() const;
     /// The slice that is read in; nothing where the view from inside is.
@@ -78,6 +78,9 @@ private:
     bool inSecondWindow(const QWidget* view) const;
     std::vector<QWidget*> firstColumn() const;
     std::vector<QWidget*> secondColumn() const;
+    /// Of four slices three are shown: across the lumen only where that is the large one, and then not the sagittal
+    /// one.
+    SlicePlane restingPlane() const;
     void fillColumns();
     void showViews();
     void showSide();
@@ -92,7 +95,7 @@ private:
     QVariantMap secondWindowSizes() const;
 
     PictureView *endoscopic_, *overview_;
-    std::array<SliceView*, 3> slices_;
+    std::array<SliceView*, 4> slices_;  // in the order of SlicePlane
     QSplitter *first_column_, *second_column_;
     QWidget* side_;
     QSplitter* beside_ = nullptr;

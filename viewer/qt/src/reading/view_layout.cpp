@@ -71,8 +71,15 @@ std::vector<QWidget*> ReadingViews::secondColumn() const
     };
     add(endoscopic_);
     for (SliceView* slice : slices_)
-        add(slice);
+        if (slice != slices_[std::size_t(restingPlane())])
+            add(slice);
     return others;
+}
+
+SlicePlane ReadingViews::restingPlane() const
+{
+    return plane_ == SlicePlane::across && layout_ != ViewLayout::three_d_first ? SlicePlane::sagittal
+                                                                                : SlicePlane::across;
 }
 
 void ReadingViews::fillColumns()
@@ -81,6 +88,7 @@ void ReadingViews::fillColumns()
         for (std::size_t n = 0; n < views.size(); ++n)
             column->insertWidget(int(n), views[n]);
     };
+    second_column_->addWidget(slices_[std::size_t(restingPlane())]);
     fill(first_column_, firstColumn());
     fill(second_column_, secondColumn());
 }
@@ -95,10 +103,15 @@ void ReadingViews::layOut(ViewLayout layout, SlicePlane plane)
     layout_ = layout;
     plane_ = plane;
     enlarged_ = nullptr;
+    const QList<int> first_px = first_column_->sizes(), second_px = second_column_->sizes();
     fillColumns();
     showViews();
-    if (other_columns)
+    if (other_columns) {
         takeSizes();
+    } else {
+        first_column_->setSizes(first_px);  // a slice takes the room of the one whose place it takes
+        second_column_->setSizes(second_px);
+    }
     emit laidOut();
     emit arranged();
     takeKeyboard();

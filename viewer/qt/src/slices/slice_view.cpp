@@ -4,12 +4,23 @@
 #include <cmath>
 
 #include "vicon/viewer/model/slice_image.h"
+#include "vicon/viewer/model/tracked_lumen.h"
 
 namespace vicon::viewer {
+namespace {
 
-SliceView::SliceView(SlicePlane plane, const QString& name, QWidget* parent) : PictureView(name, parent), plane_(plane)
+/// Across the lumen, what is farther than some 7 cm from it is of no use.
+double usualZoom(SlicePlane plane)
+{
+    return plane == SlicePlane::across ? 3 : 1;
+}
+
+}  // namespace
+
+SliceView::SliceView(SlicePlane plane, const QString& name, QWidget* parent) : PictureView(name, parent)
 {
     request_.plane = plane;
+    zoom_ = usualZoom(plane);
     setToolTip(
         tr("Click: look there. Wheel: scroll, or along the lumen (Q). Control and wheel: zoom. Drag: window. Right "
            "button: pan. Double click: enlarge. Shift and click: marker."));
@@ -29,6 +40,16 @@ SliceView::SliceView(SlicePlane plane, const QString& name, QWidget* parent) : P
             [this](int end, Pixel at, bool released) { emit lineDragged(end, shown_.pointAt(at), released); });
     connect(this, &PictureView::clicked, this,
             [this](Pixel at, Qt::KeyboardModifiers modifiers) { emit pointClicked(shown_.pointAt(at), modifiers); });
+}
+
+void SliceView::setPlane(SlicePlane plane)
+{
+    if (plane == request_.plane)
+        return;
+    request_.plane = plane;
+    zoom_ = usualZoom(plane);
+    pan_mm_ = {};
+    draw();
 }
 
 void SliceView::look(std::shared_ptr<OpenScan> scan, Point3 point, const Pose& pose, std::vector<Marker> markers,
@@ -145,12 +166,26 @@ void SliceView::zoom(int notches)
     draw();
 }
 
+SliceAxes SliceView::axes() const
+{
+    return request_.plane == SlicePlane::across ? axesAcross(scan_->files.frames(), request_.point_mm, request_.pose)
+                                                : axesOf(request_.plane);
+}
+
+/// What is hidden is not drawn.
+void SliceView::showEvent(QShowEvent* event)
+{
+    PictureView::showEvent(event);
+    draw();
+}
+
 void SliceView::draw()
 {
-    if (!scan_)
+    if (!scan_ || !isVisible())
         return;
     const QSize size = pictureSize();
-    PlaneView view = sliceThrough(scan_->files.volume().grid, plane_, request_.point_mm, size.width(), size.height());
+    const Grid& grid = scan_->files.volume().grid;
+    PlaneView view = sliceThrough(grid, axes(), request_.point_mm, size.width(), size.height());
     if (zoom_ > 1) {
         view.mm_per_pixel /= zoom_;
         const Vector3 to_point = request_.point_mm - view.centre_mm;  // across the plane it is none
@@ -158,7 +193,7 @@ void SliceView::draw()
     }
     view.centre_mm += pan_mm_;
     if (request_.exact)
-        view = pixelForPixel(scan_->files.volume().grid, view, request_.point_mm + pan_mm_);
+        view = pixelForPixel(grid, view, request_.point_mm + pan_mm_);
     request_.view = view;
     request_.pixel_ratio = devicePixelRatioF();
     request_.text_px = textHeight_px();

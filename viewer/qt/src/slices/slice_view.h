@@ -17,6 +17,7 @@ class SliceView : public PictureView {
     Q_OBJECT
 public:
     SliceView(SlicePlane plane, const QString& name, QWidget* parent = nullptr);
+    void setPlane(SlicePlane plane);
 
     /// What a zoomed picture does when another point is looked at: the cross stays where it is in the picture, or the
     /// picture stays where it is as long as the cross is well inside it.
@@ -56,8 +57,10 @@ signals:
 protected:
     /// Where the lines cross in the picture that is shown, which may still be that of an earlier place.
     QPoint home() const override;
+    void showEvent(QShowEvent* event) override;
 
 private:
+    SliceAxes axes() const;
     void draw();
     Vector3 panFor(Point3 point, Move how) const;
     void zoom(int notches);
@@ -65,7 +68,6 @@ private:
     void drawLine();
     void scroll(int steps, Qt::KeyboardModifiers modifiers);
 
-    SlicePlane plane_;
     std::shared_ptr<OpenScan> scan_;
     SliceRequest request_;
     // Of the picture's middle from where it would be, the scan's middle or, zoomed, the point; across the plane as

@@ -19,6 +19,9 @@ std::vector<float> sliceDensities(const HuView& volume, const HuView& cleansed, 
 /// The orthogonal slice through `point` that shows the whole scan, or, with `field_mm` above 0, that much of it around
 /// the point.
 PlaneView sliceThrough(const Grid& grid, SlicePlane plane, Point3 point, int width, int height, double field_mm = 0);
+/// The same of a slice whose picture has these directions.
+PlaneView sliceThrough(const Grid& grid, const SliceAxes& axes, Point3 point, int width, int height,
+                       double field_mm = 0);
 
 /// The same slice pixel for pixel: the voxel at `point` in the middle, and as many millimetres a pixel as the grid's
 /// finest axis in the plane has. Where the grid's axes are those of the picture, nothing is interpolated along it.

@@ -4,6 +4,7 @@
 
 #include "vicon/core/volume_view.h"
 #include "vicon/viewer/model/camera.h"
+#include "vicon/viewer/model/orientation.h"
 #include "vicon/viewer/model/path_frames.h"
 
 namespace vicon::viewer {
@@ -13,6 +14,11 @@ namespace vicon::viewer {
 /// @param across unit vector across the slices
 /// @param slices how many; negative: towards the first end
 double stationSlicesOn(const PathFrames& path, double station_mm, Vector3 across, double slice_mm, int slices);
+
+/// The slice across the lumen at the place of the centreline that is nearest to a point. It is seen the way the eye
+/// looks along the centreline, and rolled as the eye is: what the view from inside has above is above in it, too.
+/// @param eye anywhere on the way: it is carried along to that place
+SliceAxes axesAcross(const PathFrames& way, Point3 point, const Pose& eye);
 
 /// The rim of the lumen that a slice cuts around a place, other loops left out: of each pixel, 1 where it is the
 /// lumen's outermost; else 0. All 0 where the place is not in the lumen.
