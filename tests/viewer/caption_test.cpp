@@ -118,6 +118,32 @@ TEST_F(Captions, OfTheViewFromInsideTouchNeitherLettersNorEachOther)
     }
 }
 
+/// A view of the window that is small beside others.
+TEST_F(Captions, OfASmallViewFromInsideKeepTheTextsSize)
+{
+    const PreparedScan of = scan();
+    SnapshotRequest request;
+    request.caption = longCaption();
+    request.caption.named = false;  // as in the window
+    request.caption.lossy = true;
+    request.text_px = 12;
+    request.width = 226;
+    std::size_t texts = 0;
+    for (request.height = 140; request.height <= 400; request.height += 10) {
+        const Overlay overlay = endoscopicOverlay(of, request, placeOf(of, request));
+        EXPECT_EQ(overlapping(overlay.texts), "") << request.height;
+        bool warned = false;
+        for (const OverlayText& text : overlay.texts) {
+            warned = warned || text.color == kWarningColor;
+            EXPECT_GE(text.height_px, 0.9 * request.text_px) << request.height << " " << text.text;
+        }
+        EXPECT_TRUE(warned) << "lossy";
+        EXPECT_GE(overlay.texts.size(), texts) << "the more room the more is said";
+        texts = overlay.texts.size();
+    }
+    EXPECT_GE(texts, 14U) << "four letters, six around the eye, place and direction";
+}
+
 TEST_F(Captions, OfMarkersInTheProjectionMakeRoomForTheOnesOfItsParts)
 {
     const PreparedScan of = scan();

@@ -14,6 +14,7 @@ constexpr int kSmooth = 2;
 constexpr double kRing_mm = 8;           // a ring that leaves a polyp of 10 mm free
 constexpr double kMarkerReach_mm = 150;  // further off a marker is too small to mean anything
 constexpr double kSightSlack_mm = 2.5;
+constexpr double kLeastForTriad = 17;  // heights of text: in a lower view it lies on the caption
 
 /// The circle that is peeled, for a radiologist's eye on one finding.
 PictureCircle circleOf(const SnapshotRequest& request)
@@ -70,6 +71,46 @@ std::string directionText(const Pose& pose)
     return "looking towards " + sideName(pose.forward) + " (" + lettersFor(pose.forward) + ")";
 }
 
+std::vector<OverlayText> linesOfPlace(const PreparedScan& scan, const SnapshotRequest& request,
+                                      const SnapshotResult& place)
+{
+    auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), scan.words());
+    OverlayText line;
+    line.color = kTextColor;
+    line.text = directionText(place.pose);
+    if (request.look_at_mm)
+        line.text += ", " + std::to_string(std::lround(distance(place.pose.eye_mm, *request.look_at_mm))) + " mm away";
+    lines.push_back(line);
+    if (line.text = partNameAt(scan.parts(), place.station_mm); !line.text.empty())
+        lines.insert(lines.begin() + std::ptrdiff_t(patientLines(request.caption).size()), line);
+    return lines;
+}
+
+std::vector<OverlayText> linesOfPicture(const SnapshotRequest& request, const SnapshotResult& place)
+{
+    std::vector<OverlayText> lines;
+    OverlayText line;
+    if (!request.peel.preset.empty()) {
+        line.text = peelingText(request);
+        line.color = kTextColor;
+        lines.push_back(line);
+    }
+    if (!place.sees_target) {
+        line.text = "the marker lies behind the wall seen here";
+        line.color = kWarningColor;
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+/// In a window text keeps its size; where it has no room, the last lines go, which other views have. Warnings stay.
+void leaveOut(std::vector<OverlayText>& lines, int most)
+{
+    for (std::size_t n = lines.size(); n > 1 && int(lines.size()) > most; --n)
+        if (lines[n - 1].color == kTextColor)
+            lines.erase(lines.begin() + std::ptrdiff_t(n - 1));
+}
+
 }  // namespace
 
 void addMarkersInView(Overlay& overlay, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
@@ -101,32 +142,18 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
         request.text_px > 0 ? request.text_px : textHeightFor(request.width, request.height, request.pixel_ratio);
     addMarkersInView(overlay, scan, request, place.pose, lens, text_px);
     addLetters(overlay, area, place.pose.right(), -place.pose.up, text_px);
-    if (request.captioned)  // a picture of a list is too small for it
+    const bool tall = area.height >= kLeastForTriad * text_px;
+    if (request.captioned && (tall || request.text_px == 0))  // a picture of a list is too small for it
         addTriad(overlay, {4.2 * text_px, area.height - 4.2 * text_px}, 2.4 * text_px, place.pose, 0.9 * text_px);
-    auto lines = captionLines(request.caption, place.station_mm, scan.frames().length_mm(), scan.words());
-    OverlayText note;
-    note.text = directionText(place.pose);
-    if (request.look_at_mm)
-        note.text += ", " + std::to_string(std::lround(distance(place.pose.eye_mm, *request.look_at_mm))) + " mm away";
-    note.color = kTextColor;
-    lines.push_back(note);
-    if (note.text = partNameAt(scan.parts(), place.station_mm); !note.text.empty())
-        lines.insert(lines.begin() + std::ptrdiff_t(patientLines(request.caption).size()), note);
-    if (!request.captioned)
-        lines.clear();
-    if (!request.peel.preset.empty()) {
-        note.text = peelingText(request);
-        lines.push_back(note);
-        if (request.peel.middle_only)
-            overlay.discs.push_back({circleOf(request).centre, circleOf(request).radius_px, kTextColor, 1.5});
-    }
-    if (!place.sees_target) {
-        note.text = "the marker lies behind the wall seen here";
-        note.color = kWarningColor;
-        lines.push_back(note);
-    }
+    auto lines = request.captioned ? linesOfPlace(scan, request, place) : std::vector<OverlayText>();
+    const auto more = linesOfPicture(request, place);
     const double above_letter_px = area.height / 2 - text_px;  // the one in the middle of the left edge
     const Area caption = captionArea(area.width, area.height, text_px);
+    if (request.text_px > 0)
+        leaveOut(lines, linesIn(above_letter_px - caption.y, text_px) - int(more.size()));
+    lines.insert(lines.end(), more.begin(), more.end());
+    if (request.peel.middle_only && !request.peel.preset.empty())
+        overlay.discs.push_back({circleOf(request).centre, circleOf(request).radius_px, kTextColor, 1.5});
     addLines(overlay, caption, lines, std::min(text_px, heightOfText(lines.size(), above_letter_px - caption.y)));
     return overlay;
 }
