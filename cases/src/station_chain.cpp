@@ -194,9 +194,9 @@ void StationChain::forward()
             for (std::size_t speed = 0; speed < kSpeeds; ++speed) {
                 const Reach reach = reachOf(node, speed);
                 const auto says = evidence(node, turn, speed);
-                float* to = &next[turn * kLayer + speed * kColumns] + reach.shift;
+                float* to = &next[turn * kLayer + speed * kColumns];
                 for (std::size_t n = reach.from; n < reach.to; ++n)
-                    to[n] = after[speed * kColumns + n] * says[n];
+                    to[long(n) + reach.shift] = after[speed * kColumns + n] * says[n];
             }
         }
         normalise(next);
@@ -212,9 +212,9 @@ StationChain::Plane StationChain::before(std::size_t node, const Plane& behind) 
         for (std::size_t speed = 0; speed < kSpeeds; ++speed) {
             const Reach reach = reachOf(node, speed);
             const auto says = evidence(node, turn, speed);
-            const float* from = &behind[turn * kLayer + speed * kColumns] + reach.shift;
+            const float* from = &behind[turn * kLayer + speed * kColumns];
             for (std::size_t n = reach.from; n < reach.to; ++n)
-                after[speed * kColumns + n] = says[n] * from[n];
+                after[speed * kColumns + n] = says[n] * from[long(n) + reach.shift];
         }
         const std::vector<float> layer = spread(after.data(), free, kSpeeds);  // the change is as likely either way
         std::copy(layer.begin(), layer.end(), &out[turn * kLayer]);

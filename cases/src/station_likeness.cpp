@@ -62,7 +62,7 @@ void StationLikeness::compare(std::size_t node, std::size_t sample, long here, i
         if (there < 0 || there >= long(there_.known.size()) || there_.known[std::size_t(there)] <= 0)
             continue;
         const float plain = along(std::size_t(here), std::size_t(there));
-        const auto turned = turns_ > 1 ? about(std::size_t(here), std::size_t(there)) : decltype(about(0, 0)){1};
+        const Turns turned = turns_ > 1 ? about(std::size_t(here), std::size_t(there)) : Turns{1};
         for (std::size_t turn = 0; turn < turns_; ++turn)
             factor[turn * kSamples.size() * columns_ + column] = plain * turned[turn];
     }
@@ -79,7 +79,7 @@ float StationLikeness::along(std::size_t here, std::size_t there) const
     return float(std::pow((1 - kOtherwise) * std::exp(alike) + kOtherwise, kEvidence));
 }
 
-std::array<float, ProfileFeatures::kSectors> StationLikeness::about(std::size_t here, std::size_t there) const
+StationLikeness::Turns StationLikeness::about(std::size_t here, std::size_t there) const
 {
     constexpr std::size_t kSectors = ProfileFeatures::kSectors;
     static const double all = base(kFoldsAlike) * double(kSectors);
@@ -90,7 +90,7 @@ std::array<float, ProfileFeatures::kSectors> StationLikeness::about(std::size_t 
         twice[n] = twice[n + kSectors] = b[n];
         squares += double(a[n] * a[n] + b[n] * b[n]);
     }
-    std::array<float, kSectors> out{};
+    Turns out{};
     for (std::size_t turn = 0; turn < kSectors; ++turn) {
         const double alike = all + likeness(squares, double(dotAt(a, twice, turn)), kFoldsAlike);
         out[turn] = float(std::sqrt((1 - kFoldsOtherwise) * std::exp(kFoldEvidence * alike) + kFoldsOtherwise));

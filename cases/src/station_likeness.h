@@ -32,8 +32,9 @@ private:
     void compare(std::size_t node, std::size_t sample, long here, int lowest);
     /// By width and clearance.
     float along(std::size_t here, std::size_t there) const;
+    using Turns = std::array<float, ProfileFeatures::kSectors>;
     /// By the folds about it, at each turn.
-    std::array<float, ProfileFeatures::kSectors> about(std::size_t here, std::size_t there) const;
+    Turns about(std::size_t here, std::size_t there) const;
 
     const ProfileFeatures &here_, &there_;
     std::size_t turns_, columns_;
