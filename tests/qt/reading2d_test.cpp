@@ -108,6 +108,7 @@ TEST_F(Reading2D, EachLayoutIsOneKeyAwayAndItsFirstViewIsTheLargestAndHasTheKeyb
 
 TEST_F(Reading2D, ASliceAcrossTheLumenFollowsItAndIsSeenAsFromInside)
 {
+    EXPECT_FALSE(the<QWidget>("across")->isVisible()) << "where no slice is large";
     type(Qt::Key_F6);
     ASSERT_TRUE(arrived("axial"));
     for (int n = 0; n < 3; ++n)

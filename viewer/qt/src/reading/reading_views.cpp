@@ -131,7 +131,6 @@ void ReadingViews::showViews()
     };
     show(first_column_, firstColumn(), true);
     show(second_column_, secondColumn(), !for_second_window_alone);
-    slices_[std::size_t(restingPlane())]->hide();
     showSide();
 }
 

@@ -88,7 +88,9 @@ void ReadingViews::fillColumns()
         for (std::size_t n = 0; n < views.size(); ++n)
             column->insertWidget(int(n), views[n]);
     };
-    second_column_->addWidget(slices_[std::size_t(restingPlane())]);
+    SliceView* const resting = slices_[std::size_t(restingPlane())];
+    second_column_->addWidget(resting);
+    resting->hide();
     fill(first_column_, firstColumn());
     fill(second_column_, secondColumn());
 }
