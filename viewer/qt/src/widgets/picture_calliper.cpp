@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kGrip_px = 4, kGrasp_px = 10, kLabelOff_px = 10;  // of 96 to the inch
 constexpr double kWidestLabel = 0.3;                               // of the view's width
-const QColor kCalliperColor(255, 214, 102);                        // as in the picture of the best plane
+constexpr double kLabelAbove = 0.2;          // of its height: a marker's name stands above its ring
+const QColor kCalliperColor(255, 214, 102);  // as in the picture of the best plane
 
 /// Of all that is drawn, in pixels of the picture.
 double leftmostOf(const Calliper& calliper)
@@ -89,7 +90,7 @@ void PictureView::drawCalliperText(QPainter& painter) const
                  on_the_left = toWidget({leftmostOf(*calliper_), 0}).x() - kLabelOff_px - words.width();
     const bool fits = on_the_right + words.width() <= width() || on_the_left < 0;
     const double x = std::clamp(fits ? on_the_right : on_the_left, 0.0, std::max(0.0, width() - words.width()));
-    const double y = std::clamp(at.y() - words.height() / 2, 0.0, std::max(0.0, height() - words.height()));
+    const double y = std::clamp(at.y() - kLabelAbove * words.height(), 0.0, std::max(0.0, height() - words.height()));
     const QRectF box({x, y}, words.size());
     painter.fillRect(box, QColor(0, 0, 0, 190));
     painter.setPen(kCalliperColor);
