@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "tissue/fraction_noise.h"
 #include "tissue/levels.h"
 #include "vicon/steps/tissue.h"
 
@@ -16,7 +17,7 @@ struct SheetsFound {
 /// Scales sheets of tissue, folds and septa, so thin that the scanner's blur leaves their middle less than whole: by
 /// their own height, so that their surface lies where that of a sheet of such a height does. Never thinner than about a
 /// millimetre, never fainter than noise could make them.
-/// @param noise standard deviation of the fraction
-SheetsFound keepSheets(const InsideVolume& inside, const DownAxis& down, double noise, TissueVolume& tissue);
+SheetsFound keepSheets(const InsideVolume& inside, const DownAxis& down, const FractionNoise& noise,
+                       TissueVolume& tissue);
 
 }  // namespace vicon::steps

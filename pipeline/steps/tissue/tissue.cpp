@@ -98,10 +98,9 @@ TissueResult findTissue(const HuVolume& hu, const InsideVolume& inside, Vector3 
     progress.check();
     progress.report(0.5, "tissue");
     const std::size_t in_levels = modelLevels(mixture, down, noise_hu, levels, result.tissue);
-    const double noise = noise_hu / (mixture.tissue_hu - mixture.gas_hu);
     const auto near_fluid = nearMask(inside, kFluid, kTagged_voxels);
     smoothAlongWall(nearGasToo(inside, near_fluid), result.tissue);
-    const SheetsFound sheets = keepSheets(inside, down, noise, result.tissue);
+    const SheetsFound sheets = keepSheets(inside, down, FractionNoise(mixture, fluid, noise_hu), result.tissue);
     progress.check();
     progress.report(0.8, "tissue");
     const RunLabels pieces = labelLumen(inside, Neighbours::faces);
