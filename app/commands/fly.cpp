@@ -54,9 +54,12 @@ void printViews(const viewer::FlightReport& report)
         const viewer::FlightQuality& q = leg.quality;
         std::printf(
             "towards the %s: way on in the middle half of %.1f %% of the frames, wall in the middle within a "
-            "radius of %.1f %%; at %.0f mm/s the view turns %.1f deg/s (median), %.1f (99 %%)\n",
-            leg.heading == viewer::Heading::caecum ? "caecum" : "rectum", q.way_on_central * 100, q.wall_close * 100,
-            kUsualSpeed_mm_s, q.turn_median_deg_mm * kUsualSpeed_mm_s, q.turn_slow_deg_mm * kUsualSpeed_mm_s);
+            "radius of %.1f %%",
+            leg.heading == viewer::Heading::caecum ? "caecum" : "rectum", q.way_on_central * 100, q.wall_close * 100);
+        if (q.turn_slow_deg_mm > 0)
+            std::printf("; at %.0f mm/s the view turns %.1f deg/s (median), %.1f (99 %%)", kUsualSpeed_mm_s,
+                        q.turn_median_deg_mm * kUsualSpeed_mm_s, q.turn_slow_deg_mm * kUsualSpeed_mm_s);
+        std::printf("\n");
     }
 }
 
@@ -85,9 +88,11 @@ int fly(Context& context, const FlyArguments& arguments)
     if (request.measure_coverage)
         std::printf("; %.1f %% of the surface seen", report.coverage * 100);
     std::printf("\n");
-    std::printf("cells drawn %.1f of %zu, triangles drawn %.0f of %zu on average; frame %.1f ms median\n",
-                report.average_cells, report.cells, report.average_triangles, report.triangles,
-                report.median_seconds * 1e3);
+    std::printf("cells drawn %.1f of %zu, triangles drawn %.0f of %zu on average", report.average_cells, report.cells,
+                report.average_triangles, report.triangles);
+    if (report.median_seconds > 0)
+        std::printf("; frame %.1f ms median", report.median_seconds * 1e3);
+    std::printf("\n");
     printViews(report);
     printUnseen(report, request.least_unseen_mm2);
     if (!arguments.out.empty())

@@ -59,6 +59,17 @@ TEST_P(LookAheadBothWays, TurnsWithoutJerks)
 INSTANTIATE_TEST_SUITE_P(Way, LookAheadBothWays, testing::Values(Heading::caecum, Heading::rectum),
                          [](const auto& info) { return info.param == Heading::caecum ? "to_caecum" : "to_rectum"; });
 
+TEST(FlightQuality, SaysNothingOfTurnsBetweenFramesFarApart)
+{
+    const Course course;
+    const auto turns = [&](double step_mm) {
+        const auto poses = planFlight(course.path, course.lumen, step_mm, Heading::caecum);
+        return qualityOf(poses, Heading::caecum, course.path, course.lumen, kLens).turn_slow_deg_mm;
+    };
+    EXPECT_GT(turns(12), 0);
+    EXPECT_EQ(turns(20), 0) << "also where the last two are nearer";
+}
+
 TEST(FlightQuality, TellsACameraThatLooksAtTheWall)
 {
     const Course course;

@@ -71,6 +71,10 @@ FlightQuality qualityOf(const std::vector<ViewPose>& poses, Heading heading, con
         turns.push_back(angle_deg(view.pose.forward, before.forward) / moved_mm);
         rolls.push_back(angle_deg(uprightOn(view.pose.forward, before.up), view.pose.up) / moved_mm);
     }
+    if (2 * turns.size() < poses.size()) {
+        turns.clear();  // the few that are there would speak for all
+        rolls.clear();
+    }
     const double count = std::max<double>(1, double(poses.size()));
     quality.way_on_central /= count;
     quality.wall_close /= count;

@@ -16,8 +16,8 @@ struct FlightQuality {
 };
 
 /// Judges a flight by what can be seen from each of its places: the way on is the farthest place of the path ahead that
-/// is in plain view from the eye without a gap before it. What is jumped over between two frames does not count as a
-/// turn.
+/// is in plain view from the eye without a gap before it. What is jumped over between two frames, 15 mm and more, does
+/// not count as a turn; turns are 0 where that is most of the flight.
 /// @param poses in the order of flight
 FlightQuality qualityOf(const std::vector<ViewPose>& poses, Heading heading, const PathFrames& path, const Lumen& lumen,
                         const Lens& lens);
