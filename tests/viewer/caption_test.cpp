@@ -5,6 +5,7 @@
 #include "pictures.h"
 #include "scan_fixture.h"
 #include "vicon/viewer/model/annotate.h"
+#include "vicon/viewer/model/slice_image.h"
 
 namespace vicon::viewer {
 namespace {
@@ -118,31 +119,66 @@ TEST_F(Captions, OfTheViewFromInsideTouchNeitherLettersNorEachOther)
     }
 }
 
+void expectWholeText(const Overlay& overlay, double text_px)
+{
+    EXPECT_EQ(overlapping(overlay.texts), "");
+    const std::vector<Area> areas = textAreas(overlay);
+    for (std::size_t n = 0; n < areas.size(); ++n)  // an area has room for accents and tails
+        EXPECT_GE(areas[n].height, 0.9 * 1.2 * text_px) << overlay.texts[n].text;
+    EXPECT_TRUE(std::ranges::any_of(overlay.texts, [](const OverlayText& t) { return t.color == kWarningColor; }))
+        << "lossy";
+}
+
 /// A view of the window that is small beside others.
-TEST_F(Captions, OfASmallViewFromInsideKeepTheTextsSize)
+struct CaptionsOfSmallViews : Captions, testing::WithParamInterface<int> {
+    static constexpr double kText_px = 12;
+
+    static Caption caption()
+    {
+        Caption of = longCaption();
+        of.named = false;  // as in the window
+        of.lossy = true;
+        return of;
+    }
+};
+
+TEST_P(CaptionsOfSmallViews, KeepTheTextsSizeInTheViewFromInside)
 {
     const PreparedScan of = scan();
     SnapshotRequest request;
-    request.caption = longCaption();
-    request.caption.named = false;  // as in the window
-    request.caption.lossy = true;
-    request.text_px = 12;
-    request.width = 226;
+    request.caption = caption();
+    request.text_px = kText_px;
+    request.width = GetParam();
     std::size_t texts = 0;
     for (request.height = 140; request.height <= 400; request.height += 10) {
+        SCOPED_TRACE(request.height);
         const Overlay overlay = endoscopicOverlay(of, request, placeOf(of, request));
-        EXPECT_EQ(overlapping(overlay.texts), "") << request.height;
-        bool warned = false;
-        for (const OverlayText& text : overlay.texts) {
-            warned = warned || text.color == kWarningColor;
-            EXPECT_GE(text.height_px, 0.9 * request.text_px) << request.height << " " << text.text;
-        }
-        EXPECT_TRUE(warned) << "lossy";
+        expectWholeText(overlay, kText_px);
         EXPECT_GE(overlay.texts.size(), texts) << "the more room the more is said";
         texts = overlay.texts.size();
     }
     EXPECT_GE(texts, 14U) << "four letters, six around the eye, place and direction";
 }
+
+TEST_P(CaptionsOfSmallViews, KeepTheTextsSizeInASlice)
+{
+    const PreparedScan of = scan();
+    SliceRequest request;
+    request.caption = caption();
+    request.text_px = kText_px;
+    request.window = of.windows().front();
+    request.thick = {ThickSlice::Of::minimum, 5};
+    request.exact = true;
+    for (int height = 140; height <= 400; height += 10)
+        for (const SlicePlane plane : {SlicePlane::axial, SlicePlane::coronal, SlicePlane::sagittal}) {
+            SCOPED_TRACE(height);
+            request.plane = plane;
+            request.view = sliceThrough(of.volume().grid, request.plane, {-123, -123, -123}, GetParam(), height, 300);
+            expectWholeText(sliceOverlay(request, true), kText_px);
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Widths, CaptionsOfSmallViews, testing::Values(226, 285, 400, 520, 640));
 
 TEST_F(Captions, OfMarkersInTheProjectionMakeRoomForTheOnesOfItsParts)
 {

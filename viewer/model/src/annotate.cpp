@@ -158,10 +158,10 @@ void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>
     }
 }
 
-Area captionArea(double width_px, double height_px, double text_px)
+Area captionArea(double width_px, double height_px, double text_px, double longest_line)
 {
-    constexpr double kNarrow = 20, kLetter = 1.6, kBeside = 0.47;  // of the text's height, and of the width
-    if (width_px < kNarrow * text_px)
+    constexpr double kLetter = 1.6, kBeside = 0.47;  // of the text's height, and of the width
+    if (width_px * kBeside < (longest_line + 2 * kLineMargin) * text_px)
         return {0, kLetter * text_px, width_px, height_px - kLetter * text_px};
     return {0, 0, width_px * kBeside, height_px};
 }
@@ -174,6 +174,13 @@ double heightOfText(std::size_t lines, double height_px)
 int linesIn(double height_px, double text_px)
 {
     return std::max(1, int((height_px - 2 * kLineMargin * text_px) / (kLineHeight * text_px)));
+}
+
+void leaveOut(std::vector<OverlayText>& lines, int most)
+{
+    for (std::size_t n = lines.size(); n > 0 && int(lines.size()) > std::max(1, most); --n)
+        if (lines[n - 1].color == kTextColor)
+            lines.erase(lines.begin() + std::ptrdiff_t(n - 1));
 }
 
 void addMarkerRing(Overlay& overlay, Pixel at, double radius_px, const Marker& marker, double text_px)

@@ -15,6 +15,8 @@ constexpr double kRing_mm = 8;           // a ring that leaves a polyp of 10 mm 
 constexpr double kMarkerReach_mm = 150;  // further off a marker is too small to mean anything
 constexpr double kSightSlack_mm = 2.5;
 constexpr double kLeastForTriad = 17;  // heights of text: in a lower view it lies on the caption
+// In heights of the text. A window's text keeps its size, a picture's is made smaller where it does not fit.
+constexpr double kLongestLine = 24, kLongestLineOfPicture = 8.6;
 
 /// The circle that is peeled, for a radiologist's eye on one finding.
 PictureCircle circleOf(const SnapshotRequest& request)
@@ -103,14 +105,6 @@ std::vector<OverlayText> linesOfPicture(const SnapshotRequest& request, const Sn
     return lines;
 }
 
-/// In a window text keeps its size; where it has no room, the last lines go, which other views have. Warnings stay.
-void leaveOut(std::vector<OverlayText>& lines, int most)
-{
-    for (std::size_t n = lines.size(); n > 1 && int(lines.size()) > most; --n)
-        if (lines[n - 1].color == kTextColor)
-            lines.erase(lines.begin() + std::ptrdiff_t(n - 1));
-}
-
 }  // namespace
 
 void addMarkersInView(Overlay& overlay, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
@@ -148,8 +142,9 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
     auto lines = request.captioned ? linesOfPlace(scan, request, place) : std::vector<OverlayText>();
     const auto more = linesOfPicture(request, place);
     const double above_letter_px = area.height / 2 - text_px;  // the one in the middle of the left edge
-    const Area caption = captionArea(area.width, area.height, text_px);
-    if (request.text_px > 0)
+    const bool window = request.text_px > 0;
+    const Area caption = captionArea(area.width, area.height, text_px, window ? kLongestLine : kLongestLineOfPicture);
+    if (window)  // the lines that go are said by other views
         leaveOut(lines, linesIn(above_letter_px - caption.y, text_px) - int(more.size()));
     lines.insert(lines.end(), more.begin(), more.end());
     if (request.peel.middle_only && !request.peel.preset.empty())

@@ -6,6 +6,7 @@
 #include "seen_surface.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/offscreen.h"
+#include "vicon/viewer/scene/reading_pictures.h"
 #include "vicon/viewer/scene/snapshot.h"
 #include "vicon/viewer/scene/surface_scene.h"
 
@@ -22,6 +23,10 @@ std::vector<OverlayText> captionLines(const Caption& caption, double station_mm,
 
 /// What is written over an endoscopic picture; used by snapshots and flights alike.
 Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
+
+/// What is written over a slice.
+/// @param cleansable there are densities without tagging, so the picture says which it shows
+Overlay sliceOverlay(const SliceRequest& request, bool cleansable);
 
 /// Rings around the markers that are in plain view from `pose`; the one that is looked at wherever it lies.
 void addMarkersInView(Overlay& overlay, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,

@@ -15,7 +15,8 @@ constexpr double kMarkerNear_mm = 5;  // a marker is drawn in slices that pass t
 constexpr double kRing_mm = 8;
 constexpr std::size_t kNoteLine = 44;  // characters
 constexpr std::size_t kMostNoteLines = 3;
-constexpr double kCloseUp_mm = 50;  // what the close-up shows: a polyp of 6 mm fills an eighth of it
+constexpr double kLongestTitle = 9;  // in heights of the text: "sagittal, x = -123 mm"
+constexpr double kCloseUp_mm = 50;   // what the close-up shows: a polyp of 6 mm fills an eighth of it
 
 /// @param cleansed shown where it has densities; nothing: nowhere
 Picture greyPicture(const HuView& volume, const HuView* cleansed, const PlaneView& view, const WindowLevel& window,
@@ -43,9 +44,9 @@ void drawRim(Picture& picture, const InsideView& inside, const SliceRequest& req
 }
 
 /// Which densities are shown, where there are two kinds.
-std::string wordFor(const HuView* cleansed, bool shown)
+std::string wordFor(bool cleansable, bool shown)
 {
-    return !cleansed ? "" : shown ? ", CLEANSED" : ", as acquired";
+    return !cleansable ? "" : shown ? ", CLEANSED" : ", as acquired";
 }
 
 std::string titleOf(SlicePlane plane, Point3 point)
@@ -55,6 +56,14 @@ std::string titleOf(SlicePlane plane, Point3 point)
     const double mm = plane == SlicePlane::axial ? point.z : plane == SlicePlane::coronal ? point.y : point.x;
     const char* axis = plane == SlicePlane::axial ? "z" : plane == SlicePlane::coronal ? "y" : "x";
     return nameOf(plane) + ", " + axis + " = " + std::to_string(std::lround(mm)) + " mm";
+}
+
+OverlayText plain(std::string words)
+{
+    OverlayText line;
+    line.text = std::move(words);
+    line.color = kTextColor;
+    return line;
 }
 
 struct Panel {
@@ -89,10 +98,8 @@ Picture slice(const PreparedScan& scan, const SnapshotRequest& request, const Pa
         addPriorDiamond(overlay, view, place, view.depth_mm(point), kMarkerNear_mm, ring, text_px);
     addLetters(overlay, area, view.right, view.down, text_px);
     addScaleBar(overlay, area, view.mm_per_pixel, text_px);
-    OverlayText title;
-    title.text = cross ? titleOf(plane, point) : "close-up";
-    title.color = kTextColor;
-    addLines(overlay, {0, 0, area.width * 0.47, area.height}, {title}, text_px);
+    addLines(overlay, {0, 0, area.width * 0.47, area.height}, {plain(cross ? titleOf(plane, point) : "close-up")},
+             text_px);
     paint(picture, overlay);
     return picture;
 }
@@ -105,7 +112,7 @@ std::vector<OverlayText> linesOf(const PreparedScan& scan, const SnapshotRequest
     const WindowLevel window = windowOf(scan, request);
     OverlayText line;
     line.color = kTextColor;
-    line.text = "window " + window.name + ": " + window.words() + wordFor(scan.cleansed(), request.cleansed);
+    line.text = "window " + window.name + ": " + window.words() + wordFor(scan.cleansed() != nullptr, request.cleansed);
     lines.push_back(line);
     if (!request.captioned)
         return lines;
@@ -135,15 +142,27 @@ Picture captionAndCloseUp(const PreparedScan& scan, const SnapshotRequest& reque
     return picture;
 }
 
+/// Below the plane's name, the more important ones first.
+std::vector<OverlayText> linesOfSlice(const SliceRequest& request, bool cleansable)
+{
+    std::vector<OverlayText> lines = patientLines(request.caption);
+    if (std::string thickness = nameOf(request.thick); !thickness.empty())
+        lines.push_back(plain(std::move(thickness)));
+    lines.push_back(plain(request.window.name + " " + request.window.words() + wordFor(cleansable, request.cleansed)));
+    if (request.exact)
+        lines.push_back(plain("pixel for pixel"));
+    if (request.caption.lossy)
+        lines.push_back(plain("LOSSY COMPRESSION"));
+    if (request.caption.lossy)
+        lines.back().color = kWarningColor;
+    return lines;
+}
+
 }  // namespace
 
-Picture slicePicture(const HuView& volume, const SliceRequest& request, const HuView* cleansed,
-                     const InsideView* inside)
+Overlay sliceOverlay(const SliceRequest& request, bool cleansable)
 {
     const PlaneView& view = request.view;
-    Picture picture = greyPicture(volume, request.cleansed ? cleansed : nullptr, view, request.window, request.thick);
-    if (request.tracks && inside)
-        drawRim(picture, *inside, request);
     Overlay overlay;
     const Area area{0, 0, double(view.width), double(view.height)};
     const double text_px =
@@ -158,25 +177,24 @@ Picture slicePicture(const HuView& volume, const SliceRequest& request, const Hu
         addPriorDiamond(overlay, view, place, 0, kMarkerNear_mm, ring, text_px);
     addLetters(overlay, area, view.right, view.down, text_px);
     addScaleBar(overlay, area, view.mm_per_pixel, text_px);
-    OverlayText line;
-    line.color = kTextColor;
-    line.text = titleOf(request.plane, view.centre_mm);
-    const Area caption = captionArea(area.width, area.height, text_px);
-    addLines(overlay, caption, {line}, text_px);
-    std::vector<OverlayText> lines = patientLines(request.caption);
-    line.text = request.window.name + " " + request.window.words() + wordFor(cleansed, request.cleansed);
-    lines.push_back(line);
-    if (line.text = nameOf(request.thick); !line.text.empty())
-        lines.push_back(line);
-    if (line.text = "pixel for pixel"; request.exact)
-        lines.push_back(line);
-    if (request.caption.lossy) {
-        line.text = "LOSSY COMPRESSION";
-        line.color = kWarningColor;
-        lines.push_back(line);
-    }
-    addLines(overlay, {0, caption.y + 1.35 * text_px, area.width, area.height}, lines, text_px);  // below it
-    paint(picture, overlay);
+    const Area caption = captionArea(area.width, area.height, text_px, kLongestTitle);
+    addLines(overlay, caption, {plain(titleOf(request.plane, view.centre_mm))}, text_px);
+    auto lines = linesOfSlice(request, cleansable);
+    const double below_title_px = caption.y + 1.35 * text_px, above_letter_px = area.height / 2 - text_px;
+    if (request.text_px > 0)
+        leaveOut(lines, linesIn(above_letter_px - below_title_px, text_px));
+    addLines(overlay, {0, below_title_px, area.width, area.height}, lines, text_px);
+    return overlay;
+}
+
+Picture slicePicture(const HuView& volume, const SliceRequest& request, const HuView* cleansed,
+                     const InsideView* inside)
+{
+    Picture picture =
+        greyPicture(volume, request.cleansed ? cleansed : nullptr, request.view, request.window, request.thick);
+    if (request.tracks && inside)
+        drawRim(picture, *inside, request);
+    paint(picture, sliceOverlay(request, cleansed != nullptr));
     return picture;
 }
 

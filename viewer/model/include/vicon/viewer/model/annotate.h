@@ -37,10 +37,13 @@ void addTriad(Overlay& overlay, Pixel centre, double radius_px, const Pose& pose
 
 /// Lines of text from the upper left corner of `area`, none wider than it.
 void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>& lines, double text_px);
-/// Where a caption lies beside the letter in the middle of the upper edge; in a narrow picture below it.
-Area captionArea(double width_px, double height_px, double text_px);
+/// Where a caption lies: beside the letter in the middle of the upper edge; below it in a picture too narrow for that.
+/// @param longest_line in heights of the text
+Area captionArea(double width_px, double height_px, double text_px, double longest_line);
 /// How many lines addLines() has room for in an area of this height; at least one.
 int linesIn(double height_px, double text_px);
+/// Leaves so many lines, at least one, where there are more: the last ones go, but no warning.
+void leaveOut(std::vector<OverlayText>& lines, int most);
 /// How high the text may be for that many lines to fit into an area of this height.
 double heightOfText(std::size_t lines, double height_px);
 
