@@ -9,6 +9,7 @@
 #include "reading.h"
 #include "test_colon.h"
 #include "vicon/viewer/model/prior_place.h"
+#include "widgets/picture_view.h"
 
 namespace vicon::viewer {
 namespace {
@@ -76,6 +77,18 @@ TEST_F(TwoScans, TheSamePlaceIsABandInTheOtherScansViewsAndMovesWithTheEye)
     key(Qt::Key_Period);
     EXPECT_TRUE(eventually([&] { return the<QLabel>("besidePlace")->text() != before; }));
     EXPECT_TRUE(eventually([&] { return pictureOf("besideOverview") != first; }));
+}
+
+TEST_F(TwoScans, ThePictureBesideSaysWhileItIsOfAnotherPlace)
+{
+    const auto note = [] { return the<PictureView>("besideEndoscopic")->note(); };
+    key(Qt::Key_C);
+    ASSERT_TRUE(eventually([] { return drawn("besideEndoscopic"); }));
+    waitUntilQuiet();
+    ASSERT_TRUE(note().isEmpty());
+    key(Qt::Key_End);
+    EXPECT_EQ(note(), PictureView::notThisPlaceYet());
+    EXPECT_TRUE(eventually([&] { return note().isEmpty(); }));
 }
 
 TEST_F(TwoScans, ACaseLeftInTheLayoutOfBothScansOpensWithBoth)

@@ -15,8 +15,8 @@ constexpr double kMarkerNear_mm = 5;  // a marker is drawn in slices that pass t
 constexpr double kRing_mm = 8;
 constexpr std::size_t kNoteLine = 44;  // characters
 constexpr std::size_t kMostNoteLines = 3;
-constexpr double kLongestTitle = 9;  // in heights of the text: "sagittal, x = -123 mm"
-constexpr double kCloseUp_mm = 50;   // what the close-up shows: a polyp of 6 mm fills an eighth of it
+constexpr double kLongestTitle = 11.5, kLongestTitleOfPicture = 9;  // in heights of the text: "sagittal, x = -123 mm"
+constexpr double kCloseUp_mm = 50;  // what the close-up shows: a polyp of 6 mm fills an eighth of it
 
 /// @param cleansed shown where it has densities; nothing: nowhere
 Picture greyPicture(const HuView& volume, const HuView* cleansed, const PlaneView& view, const WindowLevel& window,
@@ -177,7 +177,8 @@ Overlay sliceOverlay(const SliceRequest& request, bool cleansable)
         addPriorDiamond(overlay, view, place, 0, kMarkerNear_mm, ring, text_px);
     addLetters(overlay, area, view.right, view.down, text_px);
     addScaleBar(overlay, area, view.mm_per_pixel, text_px);
-    const Area caption = captionArea(area.width, area.height, text_px, kLongestTitle);
+    const Area caption =
+        captionArea(area.width, area.height, text_px, request.text_px > 0 ? kLongestTitle : kLongestTitleOfPicture);
     addLines(overlay, caption, {plain(titleOf(request.plane, view.centre_mm))}, text_px);
     auto lines = linesOfSlice(request, cleansable);
     const double below_title_px = caption.y + 1.35 * text_px, above_letter_px = area.height / 2 - text_px;

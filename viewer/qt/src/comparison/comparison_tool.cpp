@@ -47,6 +47,7 @@ void ComparisonTool::addTo(ReadingLayout& layout)
             [this](const Picture& picture, const ShownPicture& shown) {
                 shown_ = shown;
                 view_->endoscopic()->showPicture(picture);
+                view_->endoscopic()->noteWhereElsewhere(shown.place.pose.eye_mm, eye_mm_);
             });
     connectView();
 }
@@ -219,6 +220,9 @@ void ComparisonTool::drawBeside(bool still)
         map_ = reading_.session().mapBetween(*reading_.scan(), *scan);
     const StationInterval same = corresponding();
     const NavigationState at = place();
+    eye_mm_ = at.pose.eye_mm;
+    if (shown_.isOf(scan))
+        view_->endoscopic()->noteWhereElsewhere(shown_.place.pose.eye_mm, eye_mm_);
     EndoscopicRequest request = reading_.requestFor(*scan, at, view_->endoscopic()->pictureSize(), still);
     reading_.drawing().drawBeside(scan, request);
     const std::string label = tr("same place, 80 %").toStdString();

@@ -63,6 +63,7 @@ void PanoramaTool::addCube(ReadingLayout& layout)
                 if (shown.isOf(reading_.sharedScan())) {
                     shown_cube_ = shown;
                     cube_->showPicture(picture);
+                    cube_->noteWhereElsewhere(shown.place.pose.eye_mm, cube_eye_mm_);
                 }
                 if (cube_is_old_)
                     drawCube(false);
@@ -122,6 +123,7 @@ void PanoramaTool::scanOpened(const Arrival&)
     shown_cube_ = {};
     cube_under_way_ = cube_is_old_ = false;
     cube_->clearPicture(words);
+    cube_->setNote({});
     band_->leave(words);
     const bool one_way = reading_.scan()->files.tree().empty();
     band_on_->setEnabled(one_way);
@@ -145,6 +147,9 @@ void PanoramaTool::drawCube(bool still)
 {
     if (!reading_.scan() || !cube_->isVisible())
         return;
+    cube_eye_mm_ = reading_.navigator()->state().pose.eye_mm;
+    if (shown_cube_.isOf(reading_.sharedScan()))
+        cube_->noteWhereElsewhere(shown_cube_.place.pose.eye_mm, cube_eye_mm_);
     cube_is_old_ = !still && cube_under_way_;
     if (cube_is_old_)
         return;

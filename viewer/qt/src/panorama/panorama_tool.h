@@ -41,6 +41,7 @@ private:
     QDockWidget *cube_dock_ = nullptr, *band_dock_ = nullptr;
     QAction *cube_on_ = nullptr, *band_on_ = nullptr;
     ShownPicture shown_cube_;
+    Point3 cube_eye_mm_;  ///< of the cube that is looked at by now
     bool cube_under_way_ = false, cube_is_old_ = false;
 };
 

@@ -197,8 +197,8 @@ void SliceView::draw()
     request_.view = view;
     request_.pixel_ratio = devicePixelRatioF();
     request_.text_px = textHeight_px();
-    if (!image().isNull() && distance(shown_point_mm_, request_.point_mm) > kElsewhere_mm)
-        setNote(notThisPlaceYet());
+    if (!image().isNull())
+        noteWhereElsewhere(shown_point_mm_, request_.point_mm);
     worker_.post("slice", [this, scan = scan_, request = request_](SlicePictures& pictures) -> Worker::Work {
         const std::shared_ptr<const PreparedScan> files(scan, &scan->files);
         auto picture = std::make_shared<Picture>(pictures.draw(files, request));
@@ -217,7 +217,7 @@ void SliceView::show(const Picture& picture, const SliceRequest& of)
 {
     shown_ = of.view;
     shown_point_mm_ = of.point_mm;
-    setNote({});
+    noteWhereElsewhere(shown_point_mm_, request_.point_mm);
     showPicture(picture);
     drawLine();
 }

@@ -51,6 +51,11 @@ void PictureView::setNote(const QString& note)
     update();
 }
 
+void PictureView::noteWhereElsewhere(const Point3& shown_mm, const Point3& wanted_mm)
+{
+    setNote(distance(shown_mm, wanted_mm) > kElsewhere_mm ? notThisPlaceYet() : QString());
+}
+
 void PictureView::drawNote(QPainter& painter) const
 {
     if (note_.isEmpty())

@@ -34,6 +34,8 @@ public:
     const QString& note() const { return note_; }
     /// A picture this far from what is looked at by now says so; a flight is never so far ahead of its picture.
     static constexpr double kElsewhere_mm = 25;
+    /// Says so where the picture is of another place than the one that is looked at by now.
+    void noteWhereElsewhere(const Point3& shown_mm, const Point3& wanted_mm);
     static QString notThisPlaceYet() { return tr("not this place yet: being drawn ..."); }
     /// What was shown is no longer true; until the next picture these words stand there.
     void clearPicture(const QString& words);
