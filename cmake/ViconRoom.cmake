@@ -40,12 +40,12 @@ add_library(vicon_warnings INTERFACE)
 # initialiser that leaves the rest to the struct's own defaults is what options structs are for.
 target_compile_options(vicon_warnings INTERFACE -Wall -Wextra $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -Wno-missing-field-initializers)
 
-# vicon_unity(TARGET ...) compiles files of a target together, ten at a time: what they include is read, and its templates
+# vicon_unity(TARGET ...) compiles files of a target together, twenty at a time: what they include is read, and its templates
 # are instantiated, once for all of them. For targets where that is most of the work.
 option(VICON_UNITY_BUILD "Compile files of large targets together" ON)
 function(vicon_unity)
   if(VICON_UNITY_BUILD)
-    set_target_properties(${ARGN} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
+    set_target_properties(${ARGN} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 20)
   endif()
 endfunction()
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "triple_json.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/json_text.h"
@@ -16,24 +17,12 @@ namespace {
 
 constexpr int kCompression = 3;  // of zlib's 9: the projections of the 512 x 512 x 430 phantom in half the time of 6
 
-template <class Triple>
-nlohmann::json triple(const Triple& t)
-{
-    return {t.x, t.y, t.z};
-}
-
 nlohmann::json mappingOf(const Projection& p)
 {
     return {{"name", p.name},         {"file", p.name + ".png"},
             {"width", p.width},       {"height", p.height},
             {"pixel_mm", p.pixel_mm}, {"right", triple(p.right)},
             {"down", triple(p.down)}, {"first_pixel_mm", triple(p.first_pixel_mm)}};
-}
-
-template <class Triple>
-Triple tripleFrom(const nlohmann::json& j)
-{
-    return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
 }
 
 Projection described(const nlohmann::json& all, const std::string& name)

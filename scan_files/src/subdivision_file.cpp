@@ -1,5 +1,6 @@
 #include "vicon/scan_files/subdivision_file.h"
 
+#include "triple_json.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/json_text.h"
@@ -9,18 +10,6 @@ using nlohmann::json;
 
 namespace vicon::scan_files {
 namespace {
-
-template <class Triple>
-json triple(const Triple& t)
-{
-    return {t.x, t.y, t.z};
-}
-
-template <class Triple>
-Triple tripleFrom(const json& j)
-{
-    return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
-}
 
 json toJson(const Portal& p)
 {

@@ -63,7 +63,7 @@ StretchQuality measureStretch(std::optional<ColonPart> part, double from_mm, dou
     return q;
 }
 
-constexpr int kStep_mm = 5;  ///< of what is kept along the skeleton: finer than the average over a cross-section
+constexpr int kAlongStep_mm = 5;  ///< of what is kept along the skeleton: finer than the average over a cross-section
 
 double rounded(double value, double parts_of_one)
 {
@@ -89,9 +89,9 @@ std::vector<StationRange> collapsedAlong(const std::vector<double>& radii, doubl
 LumenAlong lumenAlong(const std::vector<double>& radii, const LumenProfile& profile, double length_mm,
                       const QualityOptions& options)
 {
-    LumenAlong along{.step_mm = kStep_mm, .collapsed = collapsedAlong(radii, length_mm, options)};
-    for (std::size_t from = 0; from < radii.size(); from += kStep_mm) {
-        const std::size_t to = std::min(from + kStep_mm, radii.size());
+    LumenAlong along{.step_mm = kAlongStep_mm, .collapsed = collapsedAlong(radii, length_mm, options)};
+    for (std::size_t from = 0; from < radii.size(); from += kAlongStep_mm) {
+        const std::size_t to = std::min(from + kAlongStep_mm, radii.size());
         double radius = 0, volume = 0, fluid = 0;
         for (std::size_t n = from; n < to; ++n) {
             radius += radii[n];

@@ -10,11 +10,11 @@ namespace vicon::steps {
 namespace {
 
 // A tube is at most 12 mm thick and lies anywhere in the rectum; phantom 1 and the prone reference scan.
-constexpr double kRunUp_mm = 12;     // before and after a stretch outside the lumen, in which the curve swings out
-constexpr double kFarthest_mm = 16;  // from the middle of the rectum
-constexpr double kRing_mm = 1;       // between the rings of places that are tried, and
-constexpr int kAngles = 24;          // how many there are on each
-constexpr double kClear_mm = 1.5;    // wished distance from the wall and from the tube
+constexpr double kDetourRunUp_mm = 12;  // before and after a stretch outside the lumen, in which the curve swings out
+constexpr double kFarthest_mm = 16;     // from the middle of the rectum
+constexpr double kRing_mm = 1;          // between the rings of places that are tried, and
+constexpr int kAngles = 24;             // how many there are on each
+constexpr double kClear_mm = 1.5;       // wished distance from the wall and from the tube
 constexpr double kOffCost = 0.02, kClearCost = 1, kChangeCost = 1;  // per mm² of each
 // Beside a bend, above or below it rather than outside or inside: so the stations stay those of the middle.
 constexpr double kLongerCost = 50;
@@ -41,13 +41,13 @@ double between(Offset a, Offset b)
 }
 
 /// A stretch of a curve, and where its points may go.
-struct Stretch {
+struct DetourStretch {
     std::size_t from = 0, to = 0;  ///< numbers of its first and last point
     bool free_start = false, free_end = false;
 };
 
 /// The cheapest offset of each point of a stretch: a dynamic programme over rings and angles.
-std::vector<Offset> cheapest(const Polyline& line, const std::vector<Frame>& frames, const Stretch& stretch,
+std::vector<Offset> cheapest(const Polyline& line, const std::vector<Frame>& frames, const DetourStretch& stretch,
                              const DistanceProbe& wall)
 {
     constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -94,7 +94,7 @@ std::vector<Offset> cheapest(const Polyline& line, const std::vector<Frame>& fra
 }
 
 /// Offsets without the steps of the rings; a fixed end stays, a free one goes on straight.
-std::vector<Offset> evened(std::vector<Offset> offsets, const Stretch& stretch)
+std::vector<Offset> evened(std::vector<Offset> offsets, const DetourStretch& stretch)
 {
     for (int round = 0; round < kRelaxations; ++round) {
         std::vector<Offset> even = offsets;
@@ -110,7 +110,8 @@ std::vector<Offset> evened(std::vector<Offset> offsets, const Stretch& stretch)
 }
 
 /// Moves the points of a stretch evenly; where that would leave the lumen, nearer to the programme's own steps.
-void moveAside(Polyline& line, const std::vector<Frame>& frames, const Stretch& stretch, const DistanceProbe& wall)
+void moveAside(Polyline& line, const std::vector<Frame>& frames, const DetourStretch& stretch,
+               const DistanceProbe& wall)
 {
     const std::vector<Offset> found = cheapest(line, frames, stretch, wall);
     if (found.empty())
@@ -134,7 +135,7 @@ void moveAside(Polyline& line, const std::vector<Frame>& frames, const Stretch& 
 Polyline besideTube(const Polyline& line, const DistanceProbe& wall, double step_mm)
 {
     Polyline out = line;
-    const auto run_up = std::size_t(kRunUp_mm / step_mm);
+    const auto run_up = std::size_t(kDetourRunUp_mm / step_mm);
     const std::vector<Frame> frames = framesAlong(line, std::max(std::size_t(1), std::size_t(3 / step_mm)));
     for (std::size_t n = 0; n < line.size(); ++n) {
         if (wall.inside(line[n]))
@@ -143,7 +144,7 @@ Polyline besideTube(const Polyline& line, const DistanceProbe& wall, double step
         for (std::size_t m = n; m < line.size() && m <= last + 2 * run_up; ++m)
             if (!wall.inside(line[m]))
                 last = m;
-        Stretch stretch{n > run_up ? n - run_up : 0, std::min(line.size() - 1, last + run_up)};
+        DetourStretch stretch{n > run_up ? n - run_up : 0, std::min(line.size() - 1, last + run_up)};
         stretch.free_start = stretch.from == 0;
         stretch.free_end = stretch.to + 1 == line.size();
         moveAside(out, frames, stretch, wall);

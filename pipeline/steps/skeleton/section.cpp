@@ -54,11 +54,11 @@ Radii sampleRadii(const Polyline& line, const std::vector<Frame>& frames, const 
 }
 
 /// The sections about one of them.
-struct Stretch {
+struct SectionRange {
     std::size_t first = 0, last = 0;
 };
 
-Stretch about(std::size_t middle, double half_mm, double apart_mm, std::size_t count)
+SectionRange about(std::size_t middle, double half_mm, double apart_mm, std::size_t count)
 {
     const auto half = std::size_t(half_mm / apart_mm);
     return {middle > half ? middle - half : 0, std::min(middle + half, count - 1)};
@@ -99,7 +99,7 @@ struct Sections {
 
 SectionFit fitAt(std::size_t middle, const Sections& sections)
 {
-    const Stretch stretch = about(middle, kStretch_mm, sections.apart_mm, sections.radii_mm.size());
+    const SectionRange stretch = about(middle, kStretch_mm, sections.apart_mm, sections.radii_mm.size());
     std::vector<WallRing> wall;
     for (std::size_t n = stretch.first; n <= stretch.last; ++n)
         wall.push_back({(double(n) - double(middle)) * sections.apart_mm / kStretch_mm, sections.radii_mm[n],
@@ -111,7 +111,7 @@ SectionFit fitAt(std::size_t middle, const Sections& sections)
 Shift medianMiddle(std::size_t middle, const Sections& sections)
 {
     const Radii& radii = sections.radii_mm;
-    const Stretch stretch = about(middle, kMedianOver_mm / 2, sections.apart_mm, radii.size());
+    const SectionRange stretch = about(middle, kMedianOver_mm / 2, sections.apart_mm, radii.size());
     const std::size_t rays = radii[middle].size();
     double area = 0;
     Shift sum{};

@@ -15,8 +15,8 @@ namespace {
 constexpr double kTight = 3.5;           // of the residuals' spread: what deviates more does not count
 constexpr double kLeastSpread_mm = 0.5;  // of noise and haustra
 constexpr double kStartQuantile = 0.6;   // of the radii: of the wall between folds
-constexpr int kRounds = 6;
-constexpr double kSettled_mm = 0.03;  // coarser, and the curve of HuBMAP (reference shapes) falls to an OV of 0.96
+constexpr int kFitRounds = 6;
+constexpr double kFitSettled_mm = 0.03;  // coarser, and the curve of HuBMAP (reference shapes) falls to an OV of 0.96
 
 // Each term is a power of the station times a wave of the angle: 1, cos t, sin t, cos 2 t, sin 2 t, cos 3 t, sin 3 t.
 constexpr std::size_t kWaves = 7, kPowers = 5, kTerms = 17;
@@ -232,12 +232,12 @@ public:
 
     void run()
     {
-        for (int round = 0; round < kRounds; ++round) {
+        for (int round = 0; round < kFitRounds; ++round) {
             deviate();
             spread_mm_ = 1.48 * quantile(certain_mm_, 0.5);
             const Terms before = fit_;
             fit_ = fitOnce(kTight * std::max(kLeastSpread_mm, spread_mm_));
-            if (differenceOf(fit_, before) < kSettled_mm)
+            if (differenceOf(fit_, before) < kFitSettled_mm)
                 break;
         }
     }

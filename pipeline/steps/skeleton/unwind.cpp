@@ -16,7 +16,7 @@ constexpr double kFromEnds = 4;    // radii; nearer to an end too little tells h
 constexpr double kSearch_mm = 40;  // ahead along the path, for the next point's foot on it
 
 /// Points of a line, both included.
-struct Stretch {
+struct Crossing {
     std::size_t from = 0, to = 0;
 };
 
@@ -31,9 +31,9 @@ double turnAt(const Polyline& line, std::size_t n, std::size_t reach)
 
 /// The stretches in which sections cross or the moved line turns on the spot, with a radius of the lumen on either
 /// side.
-std::vector<Stretch> crossings(const Polyline& line, const Polyline& moved, const DistanceProbe& wall, double step_mm)
+std::vector<Crossing> crossings(const Polyline& line, const Polyline& moved, const DistanceProbe& wall, double step_mm)
 {
-    std::vector<Stretch> all;
+    std::vector<Crossing> all;
     for (std::size_t n = 0; n + 1 < line.size(); ++n) {
         const Vector3 step = line[n + 1] - line[n];
         const bool goes_on = dot(moved[n + 1] - moved[n], step) >= kLeastOn * dot(step, step);
@@ -43,7 +43,7 @@ std::vector<Stretch> crossings(const Polyline& line, const Polyline& moved, cons
         const auto away = std::size_t(kFromEnds * double(around));
         if (n < away || n + 1 + away >= line.size())
             continue;
-        const Stretch own{n - around, n + 1 + around};
+        const Crossing own{n - around, n + 1 + around};
         if (all.empty() || own.from > all.back().to)
             all.push_back(own);
         else
@@ -86,7 +86,7 @@ Point3 pointOf(const Polyline& path, double at)
 
 Polyline unwound(const Polyline& line, Polyline moved, const Polyline& path, const DistanceProbe& wall, double step_mm)
 {
-    const std::vector<Stretch> stretches = crossings(line, moved, wall, step_mm);
+    const std::vector<Crossing> stretches = crossings(line, moved, wall, step_mm);
     if (stretches.empty() || path.size() < 2)
         return moved;
     const std::vector<std::size_t> feet = feetOn(path, line, step_mm);

@@ -24,7 +24,7 @@ constexpr double kLayer_sigmas = 3.2;
 constexpr double kTelling = 0.8;
 /// What the model may miss by, of the step, beside the noise: a tenth of a voxel's height.
 constexpr double kMisfit = 0.06;
-constexpr double kNoises = 4;
+constexpr double kMissNoises = 4;
 /// A wall under the layer that is no thicker than so many voxels is looked for: 2 mm.
 constexpr int kWall_voxels = 3;
 
@@ -86,7 +86,7 @@ private:
         const double below = (down_.depth(v) - column.depth) / column.sigma;
         const double content_hu = mixture_.gas_hu + step * 0.5 * std::erfc(-below / std::sqrt(2.0));
         const double hu = mixture_.hu(v);
-        const double miss_hu = kNoises * noise_hu_ + kMisfit * step;
+        const double miss_hu = kMissNoises * noise_hu_ + kMisfit * step;
         Voxel voxel{.at = v};
         voxel.fits = hu > std::min(content_hu, mixture_.tissue_hu) - miss_hu &&
                      hu < std::max(content_hu, mixture_.tissue_hu) + miss_hu;

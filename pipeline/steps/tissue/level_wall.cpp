@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kRounds = 4;
 /// The fraction's rise over a voxel that makes a wall.
-constexpr double kWallSlope = 0.08;
+constexpr double kLevelWallSlope = 0.08;
 /// Below it no wall leads on, and the way is straight.
 constexpr double kLeastSlope = 0.03;
 /// How steeply the lumen ends at the wall found, before it is blurred, per fraction.
@@ -122,7 +122,7 @@ private:
     Known knownOf(std::size_t n) const
     {
         Known known{.slope = slopeAt(voxels_[n].at), .by_column = known_[n].by_column};
-        if (length(known.slope) <= kWallSlope) {
+        if (length(known.slope) <= kLevelWallSlope) {
             known.fraction = known.by_column / double(kWhole);
             return known;
         }
@@ -194,7 +194,7 @@ private:
         const Index3 v = voxels_[n].at;
         const LevelColumn& column = levels_.columns[voxels_[n].column];
         const double plane = planes_[voxels_[n].column];
-        if (length(known_[n].slope) <= kWallSlope || std::abs(down_.depth(v) - plane) > kBeside_voxels)
+        if (length(known_[n].slope) <= kLevelWallSlope || std::abs(down_.depth(v) - plane) > kBeside_voxels)
             return std::nullopt;
         const auto above = toldAlongWall(v, -1), below = toldAlongWall(v, 1);
         if (!above || !below)
@@ -304,7 +304,7 @@ private:
     std::uint8_t valueOf(std::size_t n) const
     {
         const Known& known = known_[n];
-        if (length(known.slope) <= kWallSlope)
+        if (length(known.slope) <= kLevelWallSlope)
             return known.by_column;
         if (known.telling >= 1 && known.certain >= 1)
             return stored(known.fraction);

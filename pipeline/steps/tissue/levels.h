@@ -5,20 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "grid/along_axis.h"
 #include "tissue/fluid_density.h"
 #include "vicon/steps/tissue.h"
 
 namespace vicon::steps {
-
-inline int coordinate(Index3 v, int axis)
-{
-    return axis == 0 ? v.i : axis == 1 ? v.j : v.k;
-}
-inline Index3 beside(Index3 v, int axis, int steps)
-{
-    (axis == 0 ? v.i : axis == 1 ? v.j : v.k) += steps;
-    return v;
-}
 
 /// Depth along gravity as a linear function of a voxel's place, in voxels of the axis nearest to gravity.
 struct DownAxis {

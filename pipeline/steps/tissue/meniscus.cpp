@@ -18,7 +18,7 @@ constexpr double kMeniscus_mm = 1.2;
 /// A place that fits at no height says no more than this.
 constexpr float kMost_hu = 300;
 /// Fewer places than this tell nothing.
-constexpr double kFewest = 200;
+constexpr double kFewestPlaces = 200;
 /// Water beside a wall that it wets rises by 2.7 mm a radian; what clings to mucosa by much less.
 constexpr double kMostPerRadian_mm = 0.6;
 /// Both are sought in so many parts: of 0.05 mm.
@@ -95,7 +95,7 @@ double MeniscusFit::missOf_hu(std::size_t lean, double rise_mm) const
     return here + t * (above - below) / 2 + t * t * (above + below - 2 * here) / 2;
 }
 
-double MeniscusFit::missOf_hu(const Meniscus& meniscus) const
+double MeniscusFit::missOf_hu(const MeniscusShape& meniscus) const
 {
     double miss_hu = 0;
     for (std::size_t lean = 0; lean < kLeans; ++lean)
@@ -103,14 +103,14 @@ double MeniscusFit::missOf_hu(const Meniscus& meniscus) const
     return miss_hu;
 }
 
-Meniscus MeniscusFit::best() const
+MeniscusShape MeniscusFit::best() const
 {
-    Meniscus best;
+    MeniscusShape best;
     double least_hu = std::numeric_limits<double>::max();
     for (int slope = 0; slope <= kSlopes; ++slope)
         for (int part = 0; part <= kPartsOfHeight * int(MeniscusPlace::kHeights - 1); ++part) {
-            const Meniscus meniscus{MeniscusPlace::kLowest_mm + part * MeniscusPlace::kStep_mm / kPartsOfHeight,
-                                    slope * kMostPerRadian_mm / kSlopes};
+            const MeniscusShape meniscus{MeniscusPlace::kLowest_mm + part * MeniscusPlace::kStep_mm / kPartsOfHeight,
+                                         slope * kMostPerRadian_mm / kSlopes};
             if (const double miss_hu = missOf_hu(meniscus); miss_hu < least_hu) {
                 least_hu = miss_hu;
                 best = meniscus;
@@ -129,7 +129,7 @@ Menisci::Menisci(const LevelVoxels& voxels, const std::vector<std::optional<Meni
             whole.add(*places[n]);
             cells[keyOf(cellOf(voxels[n].at))].add(*places[n]);
         }
-    if (whole.places() < kFewest)
+    if (whole.places() < kFewestPlaces)
         return;
     usual_ = whole.best();
     std::unordered_map<std::size_t, float> may_rise_mm;

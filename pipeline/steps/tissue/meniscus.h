@@ -12,7 +12,7 @@ namespace vicon::steps {
 
 /// How much higher than its level fluid stands beside a wall, as far from it as the blur reaches: the more, the more
 /// the wall hangs over the fluid; at a beach it may stand lower.
-struct Meniscus {
+struct MeniscusShape {
     double beside_upright_mm = 0;
     double per_radian_mm = 0;  ///< for each radian by which a wall hangs over
     /// @param overhang radians from upright, negative at a beach
@@ -37,8 +37,8 @@ public:
     void add(const MeniscusFit& other, double weight);
     double places() const;
     /// What all places together miss when fluid stands so.
-    double missOf_hu(const Meniscus& meniscus) const;
-    Meniscus best() const;
+    double missOf_hu(const MeniscusShape& meniscus) const;
+    MeniscusShape best() const;
 
 private:
     static constexpr std::size_t kLeans = 6;  ///< of 30 degrees each
@@ -57,13 +57,13 @@ public:
     Menisci(const LevelVoxels& voxels, const std::vector<std::optional<MeniscusPlace>>& places, double noise_hu);
 
     /// That of the whole scan; a plane where too few places tell.
-    const Meniscus& usual() const { return usual_; }
+    const MeniscusShape& usual() const { return usual_; }
     /// As high as fluid may stand beside a voxel's wall: higher than usual where the densities around do not fit that.
     double mayRise_mm(Index3 v, double overhang) const;
 
 private:
     bool known_ = false;
-    Meniscus usual_;
+    MeniscusShape usual_;
     std::unordered_map<std::size_t, float> may_rise_mm_;  ///< by cell, where it differs
 };
 

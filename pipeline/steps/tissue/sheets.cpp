@@ -19,8 +19,8 @@ namespace {
 
 // Held by tissue_test: sheets of 0.8 to 2 mm in gas, fluid and through a level, at a blur of 0.7 mm and a noise of 0 to
 // 30 HU. Half and double of kEndOfFaint move the wall of ctc-prone by 0.13 mm in the mean (1.4 % of the lumen), of
-// kReach_mm, kThick, kSteepest and kLeastRise by 0.06 to 0.08 mm, of the others by less than 0.02 mm; that of phantom
-// 215 by 0.03 mm or less.
+// kReach_mm, kThick, kSteepestSheet and kLeastRise by 0.06 to 0.08 mm, of the others by less than 0.02 mm; that of
+// phantom 215 by 0.03 mm or less.
 
 /// A sheet falls off to lumen on both sides within this.
 constexpr double kReach_mm = 4;
@@ -36,7 +36,7 @@ constexpr float kFloor = 0.45F;
 /// A sheet's middle lies at most half a voxel from its highest one, so from one side of that to the other the fraction
 /// changes by at most this part of it, and less where the sheet is thicker than a faint one. What bulges from a wall
 /// has lumen all around too, but falls from wall to lumen: by 0.9 of a faint one, by 0.55 of one of 0.85.
-constexpr float kSteepest = 0.7F, kFaint = 0.6F;
+constexpr float kSteepestSheet = 0.7F, kFaint = 0.6F;
 /// Of this fraction a wall is thick enough to keep its own place.
 constexpr double kThick = 0.85;
 /// Smaller sets of voxels are specks.
@@ -125,7 +125,7 @@ private:
     {
         const std::uint8_t* at = &tissue_.voxels[n];
         const float height = float(at[0]) / kWhole;
-        const float steepest = float(at[0]) * (kSteepest - std::max(0.0F, height - kFaint));
+        const float steepest = float(at[0]) * (kSteepestSheet - std::max(0.0F, height - kFaint));
         if (std::any_of(strides_.begin(), strides_.end(),
                         [&](std::ptrdiff_t step) { return std::abs(float(at[step]) - float(at[-step])) > steepest; }))
             return false;

@@ -16,8 +16,8 @@ namespace vicon::steps {
 namespace {
 
 // Held by tissue_test: polyps of 5 to 10 mm keep their width and height at a noise of 10 to 80 HU. Half and
-// double of kTo move the wall of ctc-prone by 0.03 mm in the mean, of kAcross_voxels by 0.013 mm, of the others by less
-// than 0.004 mm.
+// double of kTo move the wall of ctc-prone by 0.03 mm in the mean, of kAcrossWall_voxels by 0.013 mm, of the others by
+// less than 0.004 mm.
 
 /// The wall's blurred edge, of kWhole: 0.08 to 0.92.
 constexpr std::uint8_t kFrom = 20, kTo = 235;
@@ -26,9 +26,9 @@ constexpr std::uint8_t kFrom = 20, kTo = 235;
 /// third.
 constexpr std::array kPasses{1.0F, 1.0F, 1.0F, -3.0F};
 /// Across the wall a voxel so far away counts for a quarter.
-constexpr float kAcross_voxels = 0.5F;
+constexpr float kAcrossWall_voxels = 0.5F;
 /// The fraction's rise over a voxel that tells which way the wall lies. In noise of 80 HU a mean slope is half of it.
-constexpr float kLeastSlope = 0.05F;
+constexpr float kLeastWallSlope = 0.05F;
 
 /// Four numbers that the compiler keeps in one register.
 using Lanes = float __attribute__((vector_size(16)));
@@ -119,7 +119,7 @@ private:
         }
         const float gx = x[2] - x[0], gy = sumOf(y), gz = sumOf(z);
         const float slope = std::sqrt(gx * gx + gy * gy + gz * gz);
-        const float unit = slope > kLeastSlope / 2 * kWhole ? 1 / (slope * kAcross_voxels) : 0;
+        const float unit = slope > kLeastWallSlope / 2 * kWhole ? 1 / (slope * kAcrossWall_voxels) : 0;
         const Lanes along = Around::kI * (gx * unit);
         const float uy = gy * unit, uz = gz * unit;
         Lanes sum{}, weights{};

@@ -1,11 +1,13 @@
 #include "segment/fluid/layer.h"
-#include "segment/constants.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
 #include <unordered_map>
+
+#include "grid/along_axis.h"
+#include "segment/constants.h"
 
 namespace vicon::steps {
 namespace {
@@ -21,11 +23,6 @@ constexpr int kBeside_voxels = 3;
 // Where a level's own blur is this far from tissue, a voxel nearer to tissue than to it is wall: half of it is two
 // standard deviations of a low-dose scan's noise.
 constexpr double kTelling_hu = 300;
-
-int& along(Index3& v, int axis)
-{
-    return axis == 0 ? v.i : axis == 1 ? v.j : v.k;
-}
 
 /// A column through a level: the voxel that holds the level, and the level's place below that voxel's middle.
 struct Column {
@@ -69,11 +66,7 @@ private:
             label = volume_.at(v) < (density_hu + kAir_hu) / 2 ? kGas : kFluid;
     }
 
-    Index3 below(Index3 v, int steps) const
-    {
-        along(v, down_.axis) += down_.sign * steps;
-        return v;
-    }
+    Index3 below(Index3 v, int steps) const { return beside(v, down_.axis, down_.sign * steps); }
 
     void fillContacts(const ContactPatch& patch)
     {
@@ -93,10 +86,10 @@ private:
                     const double level = contact.below_voxels + slope_[0] * a + slope_[1] * b;
                     const int whole = int(std::lround(level));
                     Column column{below(contact.gas, whole), level - whole, a * a + b * b};
-                    along(column.at, side_[0]) += a;
-                    along(column.at, side_[1]) += b;
+                    coordinate(column.at, side_[0]) += a;
+                    coordinate(column.at, side_[1]) += b;
                     Index3 foot = column.at;
-                    along(foot, down_.axis) = 0;
+                    coordinate(foot, down_.axis) = 0;
                     if (!labels_.grid.contains(foot) || !labels_.grid.contains(column.at))
                         continue;
                     const auto [entry, is_new] = number.try_emplace(labels_.grid.offset(foot), columns.size());
@@ -116,8 +109,8 @@ private:
         for (int b = -kBeside_voxels; b <= kBeside_voxels; ++b)
             for (int a = -kBeside_voxels; a <= kBeside_voxels; ++a) {
                 Index3 n = v;
-                along(n, side_[0]) += a;
-                along(n, side_[1]) += b;
+                coordinate(n, side_[0]) += a;
+                coordinate(n, side_[1]) += b;
                 if (a * a + b * b < nearest2 && (labels_.valueOr(n, kOutside) != kOutside) != inside)
                     nearest2 = a * a + b * b;
             }

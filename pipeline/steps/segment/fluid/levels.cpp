@@ -7,6 +7,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "grid/along_axis.h"
 #include "grid/byte_rows.h"
 #include "vicon/core/disjoint_sets.h"
 
@@ -29,15 +30,9 @@ constexpr double kSmallestLevel_mm2 = 20;  // of a level's area: a puddle of 5 m
 /// pool.
 constexpr double kNoisy = 2.5;
 
-int& along(Index3& v, int axis)
-{
-    return axis == 0 ? v.i : axis == 1 ? v.j : v.k;
-}
-
 Index3 moved(Index3 v, Down down, int steps)
 {
-    along(v, down.axis) += down.sign * steps;
-    return v;
+    return beside(v, down.axis, down.sign * steps);
 }
 
 /// Where the densities between voxel n-1 and n pass `hu`, in voxels.
@@ -129,8 +124,8 @@ std::vector<std::uint32_t> joinContacts(const std::vector<Contact>& contacts, co
         for (int axis = 0; axis < 3; ++axis)
             for (int step = -1; axis != down.axis && step <= 1; ++step) {
                 Index3 v = contacts[n].gas;
-                along(v, axis) += 1;
-                along(v, down.axis) += step;
+                coordinate(v, axis) += 1;
+                coordinate(v, down.axis) += step;
                 const auto found = grid.contains(v) ? at.find(grid.offset(v)) : at.end();
                 if (found != at.end())
                     levels.join(std::uint32_t(n), found->second);

@@ -20,7 +20,8 @@ constexpr double kCell_mm = 1.5;      // of the grid on which the way is sought:
 constexpr double kMargin_mm = 25;     // of that grid around the two tips
 constexpr double kReach_mm = 40;      // lumen farther from the tips is no part of the way
 constexpr double kCordRadius_mm = 8;  // no collapsed bowel is thicker: larger organs are no better than it
-constexpr double kFatCost = 64;  // per millimetre; soft tissue of 8 mm and more costs 1: fat is crossed only in need
+constexpr double kCostWithoutCord =
+    64;  // per millimetre; soft tissue of 8 mm and more costs 1: fat is crossed only in need
 constexpr double kBarredCost = 256;  // bone, air
 // Of a way in the lumen that is to be left: it may be left anywhere, but not for a neighbour through thin walls. With 1
 // a tip beside the body's wall is joined along that wall's muscle (phantom 247, by up to 30 mm aside of the bowel).
@@ -126,7 +127,7 @@ double costOf(const Cord& cord, std::size_t n)
         return kBarredCost;
     const double depth = std::min(double(cord.depth_mm.voxels[n]), kCordRadius_mm);
     const double share = cord.cells[n] == kSoft ? 1 : kLumenShare;
-    return depth > 0 ? share * std::min(kFatCost, std::pow(kCordRadius_mm / depth, 2)) : kFatCost;
+    return depth > 0 ? share * std::min(kCostWithoutCord, std::pow(kCordRadius_mm / depth, 2)) : kCostWithoutCord;
 }
 
 /// The cheapest chain of cells between two points.

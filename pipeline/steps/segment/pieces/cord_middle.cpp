@@ -18,12 +18,12 @@ namespace vicon::steps {
 namespace {
 
 // Chosen on phantoms 302, 304 and 305, full size.
-constexpr double kMargin_mm = 20;  // of the box around the line
-constexpr double kReach_mm = 15;   // wall farther away is not the cord's
+constexpr double kCordMargin_mm = 20;  // of the box around the line
+constexpr double kCordReach_mm = 15;   // wall farther away is not the cord's
 constexpr int kRays = 48;
 constexpr double kStretch_mm = 10;  // of the line on either side, fading outwards, for the fit
 constexpr int kRounds = 6;
-constexpr double kSmoothing_mm = 4;      // of the line after each round
+constexpr double kCordSmoothing_mm = 4;  // of the line after each round
 constexpr double kLeastSeen = 0.5;       // of the rays that must end in fat
 constexpr double kMostIrregular = 0.25;  // spread of the wall about the fit, in radii
 constexpr double kMostMoved_mm = 3;      // in a round
@@ -42,7 +42,7 @@ InsideVolume bowelAround(const HuVolume& volume, const InsideVolume& inside, con
             low = std::min(low, at);
             high = std::max(high, at);
         }
-        const double margin = kMargin_mm / volume.grid.spacing_mm[n];
+        const double margin = kCordMargin_mm / volume.grid.spacing_mm[n];
         first[n] = std::clamp(int(low - margin), 0, volume.grid.size[n] - 1);
         end[n] = std::clamp(int(high + margin), first[n], volume.grid.size[n] - 1) + 1;
     }
@@ -82,9 +82,9 @@ Polyline moved(const Polyline& line, const DistanceProbe& bowel)
         for (int r = 0; r < kRays; ++r) {
             const double angle = 2 * std::numbers::pi * r / kRays;
             const double d =
-                reach(bowel, line[n], frames[n].u * std::cos(angle) + frames[n].v * std::sin(angle), kReach_mm);
+                reach(bowel, line[n], frames[n].u * std::cos(angle) + frames[n].v * std::sin(angle), kCordReach_mm);
             radii_mm[n][std::size_t(r)] = float(d);
-            seen[n][std::size_t(r)] = d > 0 && d < kReach_mm ? 1 : 0;
+            seen[n][std::size_t(r)] = d > 0 && d < kCordReach_mm ? 1 : 0;
         }
     });
     Polyline out = line;
@@ -119,7 +119,7 @@ Polyline middleOfCord(const HuVolume& volume, const InsideVolume& inside, const 
     const DistanceProbe bowel(distance_mm);
     Polyline out = line;
     for (int n = 0; n < kRounds; ++n)
-        out = resampled(smoothed(moved(out, bowel), kSmoothing_mm, 1), 1);
+        out = resampled(smoothed(moved(out, bowel), kCordSmoothing_mm, 1), 1);
     return out;
 }
 

@@ -12,32 +12,33 @@
 namespace vicon::steps {
 namespace {
 
-// Costs of an order, in mm of soft tissue. No case recorded but for kFat; reason: each is the length of bridge against
-// which it is weighed. The order that comes out is held by chain_family_test, on seeds that nothing was chosen on;
-// half and double of each leave the three cases (CONTRIBUTING.md) as they are.
+// Costs of an order, in mm of soft tissue. No case recorded but for kPerMmOfFat; reason: each is the length of bridge
+// against which it is weighed. The order that comes out is held by chain_family_test, on seeds that nothing was chosen
+// on; half and double of each leave the three cases (CONTRIBUTING.md) as they are.
 constexpr double kWrongEnd = 60;  // a last end that is not in the patient's right lower half, in mm of tissue
 constexpr double kTurn = 15;      // a bridge that leaves a piece backwards
 constexpr double kOneMore = 20;   // every further piece: none is added without need
 constexpr double kNoWay = 1e8;
 // A millimetre of a bridge through fat, bone or other gas, beside its length: a collapsed colon is a cord of soft
 // tissue from lumen to lumen. Chosen on phantom 215.
-constexpr double kFat = 4;
+constexpr double kPerMmOfFat = 4;
 
-struct Ways {
+struct PieceWays {
     std::vector<std::vector<TissueWay>> from_tip;  // [2 * candidate + tip][2 * candidate + tip], where one is asked for
     std::vector<std::vector<bool>> judged;         // the same: whether the cost holds what the fat on the way costs
 };
 
 /// Ways from piece to piece; none leads into the rectum or out of its far end.
-Ways allWays(const std::vector<Candidate>& candidates, std::size_t rectum, const Body& body, const InsideVolume& labels,
-             const WallDensities& densities, Progress& progress)
+PieceWays allWays(const std::vector<Candidate>& candidates, std::size_t rectum, const Body& body,
+                  const InsideVolume& labels, const WallDensities& densities, Progress& progress)
 {
     const Volume<float> costs = tissueCosts(body, labels, densities);
     std::vector<Point3> tips;
     for (const Candidate& c : candidates)
         tips.insert(tips.end(), {c.tip_mm[0], c.tip_mm[1]});
     const std::size_t count = tips.size();
-    Ways ways{std::vector(count, std::vector<TissueWay>(count)), std::vector(count, std::vector<bool>(count, false))};
+    PieceWays ways{std::vector(count, std::vector<TissueWay>(count)),
+                   std::vector(count, std::vector<bool>(count, false))};
     tbb::parallel_for(std::size_t(0), count, [&](std::size_t from) {
         std::vector<std::size_t> others;
         std::vector<Point3> to;
@@ -106,7 +107,7 @@ Bridge makeBridge(const TissueWay& way, double longest_sure_mm)
 using TipOrder = std::vector<std::size_t>;
 
 TipOrder cheapestOrder(const std::vector<Candidate>& candidates, int rectum, const std::vector<int>& required,
-                       const Body& body, const Ways& ways)
+                       const Body& body, const PieceWays& ways)
 {
     const auto count = unsigned(candidates.size());
     // A state's tip is the one through which the piece is left: 2 * candidate + tip.
@@ -150,7 +151,7 @@ TipOrder cheapestOrder(const std::vector<Candidate>& candidates, int rectum, con
 }
 
 /// Adds to each bridge of an order what the fat on it costs; false where nothing was left to add.
-bool judgeBridges(const TipOrder& order, const FatBetween& fat_mm, Ways& ways)
+bool judgeBridges(const TipOrder& order, const FatBetween& fat_mm, PieceWays& ways)
 {
     bool changed = false;
     for (std::size_t n = 1; n + 1 < order.size(); n += 2) {
@@ -158,7 +159,7 @@ bool judgeBridges(const TipOrder& order, const FatBetween& fat_mm, Ways& ways)
         if (ways.judged[from][to])
             continue;
         const TissueWay& way = ways.from_tip[from][to];
-        const double cost = kFat * fat_mm(way.path_mm.front(), way.path_mm.back());
+        const double cost = kPerMmOfFat * fat_mm(way.path_mm.front(), way.path_mm.back());
         ways.from_tip[from][to].cost += cost;
         ways.from_tip[to][from].cost += cost;
         ways.judged[from][to] = ways.judged[to][from] = true;
@@ -181,7 +182,7 @@ Ordering orderPieces(const std::vector<Candidate>& candidates, int rectum, const
         ordering.pieces.push_back({rectum, false});
         return ordering;
     }
-    Ways ways = allWays(candidates, std::size_t(rectum), body, labels, options.densities, progress);
+    PieceWays ways = allWays(candidates, std::size_t(rectum), body, labels, options.densities, progress);
     // To look closely at a way takes long and only adds to its cost: when all bridges of the cheapest order have been
     // looked at, no other order can be cheaper.
     TipOrder order = cheapestOrder(candidates, rectum, required, body, ways);
