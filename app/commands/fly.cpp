@@ -12,7 +12,7 @@ namespace vicon::app {
 namespace {
 
 struct FlyArguments {
-    std::string case_id, scan_id, direction = "caecum", out;
+    std::string case_id, scan_id, direction = "caecum", colors = "mucosa", out;
     int branch = -1;
     viewer::FlightRequest request;
 };
@@ -70,6 +70,7 @@ int fly(Context& context, const FlyArguments& arguments)
     const ScanRecord scan = requirePreparedScan(store, record.id, arguments.scan_id);
     viewer::FlightRequest request = arguments.request;
     request.direction = directionFrom(arguments.direction);
+    request.wall.colors = viewer::wallColorsFrom(arguments.colors);
     request.out = arguments.out;
     request.write_frames = !arguments.out.empty();
     request.caption = viewer::captionFor(record, scan);
@@ -128,8 +129,11 @@ Subcommand flyCommand()
             command.option("--angle", request.view_angle_deg, "Viewing angle, degrees")
                 .check(range(20.0, 150.0))
                 .captureDefault();
-            command.flag("--ambient-occlusion,!--no-ambient-occlusion", request.ambient_occlusion,
+            command.flag("--ambient-occlusion,!--no-ambient-occlusion", request.wall.ambient_occlusion,
                          "Less light between folds and at the foot of what rises from the wall (default: on)");
+            command.option("--look", arguments->colors, "What the wall is coloured by: mucosa, bone (white) or depth")
+                .captureDefault();
+            command.flag("--tagging", request.wall.tagging, "Tint the wall blue where tagging touches it");
             command.flag("!--no-coverage", request.measure_coverage, "Do not measure what is seen (faster)");
             command.option("--unseen", request.least_unseen_mm2, "Least area of an unseen patch to be listed, mm2")
                 .check(range(0.0, 1e6))

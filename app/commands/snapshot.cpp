@@ -16,7 +16,8 @@ struct SnapshotArguments {
     bool at_station = false;
     int width = 0, height = 0;
     double angle_deg = 90;
-    bool ambient_occlusion = true;
+    viewer::WallLook wall;
+    std::string colors = "mucosa";
     std::string window;
     bool cleansed = false, from_caecum = false;
     std::string peel;
@@ -51,7 +52,8 @@ int snapshot(Context& context, const SnapshotArguments& arguments)
     request.width = arguments.width;
     request.height = arguments.height;
     request.view_angle_deg = arguments.angle_deg;
-    request.ambient_occlusion = arguments.ambient_occlusion;
+    request.wall = arguments.wall;
+    request.wall.colors = viewer::wallColorsFrom(arguments.colors);
     request.window = arguments.window;
     request.cleansed = arguments.cleansed;
     request.from_caecum = arguments.from_caecum;
@@ -115,8 +117,11 @@ Subcommand snapshotCommand()
             command.option("--angle", arguments->angle_deg, "Viewing angle of the endoscopic view, degrees")
                 .check(range(20.0, 150.0))
                 .captureDefault();
-            command.flag("--ambient-occlusion,!--no-ambient-occlusion", arguments->ambient_occlusion,
+            command.flag("--ambient-occlusion,!--no-ambient-occlusion", arguments->wall.ambient_occlusion,
                          "Less light between folds and at the foot of what rises from the wall (default: on)");
+            command.option("--look", arguments->colors, "What the wall is coloured by: mucosa, bone (white) or depth")
+                .captureDefault();
+            command.flag("--tagging", arguments->wall.tagging, "Tint the wall blue where tagging touches it");
             command.option("--window", arguments->window, "Window/level preset of the slices (default: the organ's)");
             command.flag("--priors", arguments->priors,
                          "Slices and overview: where findings of earlier reports should lie");

@@ -14,14 +14,14 @@ namespace vicon::phantom {
 namespace {
 
 using std::numbers::pi;
-constexpr double kShortest_mm = 1500, kLongest_mm = 1900;  // as the phantom's courses
+constexpr double kShortestOfPair_mm = 1500, kLongest_mm = 1900;  // as the phantom's courses
 constexpr int kAngles = 36;
 constexpr double kLeastDistension = 0.6, kMostDistension = 1.5;  // of one posture beside the other
-constexpr double kNarrowest_mm = 8.5, kWidest_mm = 34;
+constexpr double kNarrowestOfPair_mm = 8.5, kWidest_mm = 34;
 constexpr double kMostTurn = 80 * pi / 180;
 constexpr double kMissingFold = 1.0 / 12;
 constexpr double kShortEnd_mm = 10;
-constexpr int kStep_mm = 5;      // of the widths that the step quality keeps
+constexpr int kPairStep_mm = 5;  // of the widths that the step quality keeps
 constexpr int kAverage_mm = 10;  // half of the triangle that it averages over
 // Of the marks that are found in scans, about where they are (docs/evaluation/lumen-and-centreline.md), and of the wall
 // that slides past the places where the colon is held.
@@ -64,7 +64,7 @@ struct Patient {
 Patient drawPatient(std::uint64_t seed)
 {
     Random random(seed, "posture pair");
-    const double length_mm = random.uniform(kShortest_mm, kLongest_mm), girth = random.uniform(0.95, 1.07);
+    const double length_mm = random.uniform(kShortestOfPair_mm, kLongest_mm), girth = random.uniform(0.95, 1.07);
     Patient patient{seed, drawRelief(seed, length_mm, 2, 0), {}, {}};
     std::vector<double> radii;
     for (const WayPoint& stop : usualWay())
@@ -231,10 +231,10 @@ LumenAlong widthsOf(const Sections& sections, const std::vector<StationRange>& b
         if (!within(bridges, n))
             radii[std::size_t(n)] = std::sqrt(sum / weights / pi) * (1 + kWidthNoise * noise[std::size_t(n)]);
     }
-    LumenAlong along{.step_mm = kStep_mm, .radius_mm = {}, .fluid_fraction = {}, .collapsed = bridges};
-    for (int n = 0; n < count; n += kStep_mm) {
+    LumenAlong along{.step_mm = kPairStep_mm, .radius_mm = {}, .fluid_fraction = {}, .collapsed = bridges};
+    for (int n = 0; n < count; n += kPairStep_mm) {
         double sum = 0;
-        const int to = std::min(n + kStep_mm, count);
+        const int to = std::min(n + kPairStep_mm, count);
         for (int m = n; m < to; ++m)
             sum += radii[std::size_t(m)];
         along.radius_mm.push_back(sum / (to - n));
@@ -290,8 +290,8 @@ Drawn drawPosture(const Patient& patient, Position position)
     for (std::size_t m = 0; m + 1 < patient.radius_mm.size(); ++m)  // of each place of the wall, where it comes to lie
         for (auto n = std::size_t(warp.station_mm[m]); n < count && double(n) <= warp.station_mm[m + 1] + 1; ++n) {
             const double factor = std::exp(std::clamp(0.12 * distension[n], least, most));
-            tube[n] =
-                std::clamp(patient.radius_mm[m] * factor, kNarrowest_mm, kWidest_mm) * openness(bridges, double(n));
+            tube[n] = std::clamp(patient.radius_mm[m] * factor, kNarrowestOfPair_mm, kWidest_mm) *
+                      openness(bridges, double(n));
         }
     const Sections sections = sectionsOf(relief, tube);
     const std::vector<double> off_middle = wander(random, count, 7), uneven = wander(random, count, 15);

@@ -7,6 +7,7 @@
 #include <QTableWidget>
 
 #include "reading.h"
+#include "vicon/core/error.h"
 #include "vicon/scan_files/volume_file.h"
 
 namespace vicon::viewer {
@@ -102,6 +103,32 @@ TEST_F(Reading, AmbientOcclusionIsThereFromTheFirstAndWithoutItIsRemembered)
     EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == plain; }));
     the<QAction>("ambientOcclusion")->trigger();
     EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == shaded; }));
+}
+
+TEST_F(Reading, TheLookOfTheWallIsChosenAndRemembered)
+{
+    openCase();
+    waitUntilQuiet();
+    const auto look = [](const char* title) {
+        for (QAction* action : window()->findChildren<QAction*>())
+            if (action->text().startsWith(title))
+                return action;
+        throw Error(ErrorCode::not_found, "no such look", title);
+    };
+    EXPECT_TRUE(look("Wall: mucosa")->isChecked());
+    const QImage mucosa = pictureOf("endoscopic");
+    look("Wall: bone")->trigger();
+    ASSERT_TRUE(eventually([&] { return pictureOf("endoscopic") != mucosa; }));
+    EXPECT_FALSE(look("Wall: mucosa")->isChecked()) << "one at a time";
+    waitUntilQuiet();
+    const QImage bone = pictureOf("endoscopic");
+    screenshot("bone");
+    closeCase();
+    openCase();
+    EXPECT_TRUE(look("Wall: bone")->isChecked());
+    EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == bone; }));
+    look("Wall: mucosa")->trigger();
+    EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == mucosa; }));
 }
 
 TEST_F(Reading, SlicesWithoutTaggingAreOneKeyAwayAndNeverTheFirst)

@@ -105,6 +105,55 @@ TEST(LampLight, IsTakenAwayWhereTheWallIsClosedAndGivenBack)
     EXPECT_EQ(shade().rgb, plain.rgb);
 }
 
+Rgb middleOf(const Picture& picture)
+{
+    return picture.at(picture.width / 2, picture.height / 2);
+}
+
+TEST(LampColors, AreThoseThatWereChosen)
+{
+    const auto colorAt = [](double depth_mm, WallColors colors) {
+        SurfaceScene scene(wallAt(depth_mm, turned(0)));
+        Offscreen offscreen(scene.renderer());
+        scene.lookFrom(kPose, kLens.view_angle_deg);
+        scene.setColors(colors);
+        return middleOf(offscreen.render(kLens.width, kLens.height));
+    };
+    const Rgb mucosa = colorAt(20, WallColors::mucosa), bone = colorAt(20, WallColors::bone);
+    EXPECT_GT(mucosa.red, mucosa.blue * 4 / 3) << "pink";
+    EXPECT_LT(bone.red, bone.blue * 6 / 5) << "white";
+    const Rgb near = colorAt(5, WallColors::depth), far = colorAt(100, WallColors::depth);
+    EXPECT_GT(near.red, near.blue) << "warm";
+    EXPECT_GT(far.blue, far.red * 2) << "blue";
+}
+
+TEST(LampColors, AreDrawnTowardsBlueWhereTaggingTouchesTheWallAndGivenBack)
+{
+    const CellSurface wall = wallAt(20, turned(0));
+    SurfaceScene scene(wall);
+    Offscreen offscreen(scene.renderer());
+    scene.lookFrom(kPose, kLens.view_angle_deg);
+    const auto draw = [&] { return offscreen.render(kLens.width, kLens.height); };
+    const Picture plain = draw();
+    scene.tintTagging(wall, std::vector<float>(wall.pointCount(), 1.F));
+    const Rgb tinted = middleOf(draw()), before = middleOf(plain);
+    EXPECT_LT(tinted.red, before.red - 20);
+    EXPECT_GT(tinted.blue, before.blue + 20);
+    scene.tintNothing();
+    EXPECT_EQ(draw().rgb, plain.rgb);
+}
+
+TEST(LampColors, OfWallThatNoTaggingTouchesAreTheSame)
+{
+    const CellSurface wall = wallAt(20, turned(0));
+    SurfaceScene scene(wall);
+    Offscreen offscreen(scene.renderer());
+    scene.lookFrom(kPose, kLens.view_angle_deg);
+    const Picture plain = offscreen.render(kLens.width, kLens.height);
+    scene.tintTagging(wall, std::vector<float>(wall.pointCount(), 0.F));
+    EXPECT_EQ(offscreen.render(kLens.width, kLens.height).rgb, plain.rgb);
+}
+
 TEST(LampLight, ReachesFartherWhenAskedTo)
 {
     SurfaceScene scene(wallAt(40, turned(0)));

@@ -133,9 +133,9 @@ TEST_F(Snapshots, WithAmbientOcclusionShadeWhatIsBesideAPolypAndLeaveItReadable)
     request.look_at_mm = colon.polyp_mm;
     request.width = request.height = 300;
     const PreparedScan of = scan();
-    request.ambient_occlusion = false;
+    request.wall.ambient_occlusion = false;
     const Picture plain = shoot(of, request);
-    request.ambient_occlusion = true;
+    request.wall.ambient_occlusion = true;
     const Picture shaded = shoot(of, request);
     int same = 0, darker = 0, too_dark = 0, brighter = 0, count = 0;
     for (int y = 60; y < 240; ++y)  // between caption and indicator

@@ -16,8 +16,6 @@ namespace {
 
 constexpr double kFar_mm = 2000;  // longer than any line of sight in a body
 
-constexpr const char* kOpenness = "openness";
-
 vtkSmartPointer<vtkFloatArray> gathered(const std::vector<float>& values, const std::vector<std::uint32_t>& points,
                                         std::size_t components = 3)
 {
@@ -153,14 +151,15 @@ void sendAll(std::vector<CellActor>& cells)
         }
 }
 
-void addOpenness(std::vector<CellActor>& cells, const CellSurface& surface, const std::vector<float>& openness)
+void addAttribute(std::vector<CellActor>& cells, const CellSurface& surface, const char* name,
+                  const std::vector<float>& values)
 {
     std::vector<std::uint32_t> number_of(surface.pointCount(), 0);
     for (CellActor& cell : cells) {
-        const auto values = gathered(openness, pointsOf(surface, cell, number_of), 1);
-        values->SetName(kOpenness);
-        cell.data->GetPointData()->AddArray(values);
-        cell.mapper->MapDataArrayToVertexAttribute(kOpenness, kOpenness, vtkDataObject::FIELD_ASSOCIATION_POINTS);
+        const auto of_cell = gathered(values, pointsOf(surface, cell, number_of), 1);
+        of_cell->SetName(name);
+        cell.data->GetPointData()->AddArray(of_cell);
+        cell.mapper->MapDataArrayToVertexAttribute(name, name, vtkDataObject::FIELD_ASSOCIATION_POINTS);
     }
 }
 

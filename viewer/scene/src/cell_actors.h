@@ -42,9 +42,10 @@ void showPatches(std::vector<CellActor>& cells, const std::vector<Patch>& patche
 /// shown for the first time.
 void sendAll(std::vector<CellActor>& cells);
 
-/// Gives each corner of a triangle how open the wall is there, of opennessOf() for the same surface: the shader's
-/// attribute `openness`.
-void addOpenness(std::vector<CellActor>& cells, const CellSurface& surface, const std::vector<float>& openness);
+/// Gives each corner of a triangle the value of its point, as an attribute of the shader.
+/// @param values one for each point of the surface
+void addAttribute(std::vector<CellActor>& cells, const CellSurface& surface, const char* name,
+                  const std::vector<float>& values);
 
 void placeCamera(vtkCamera* camera, const Pose& pose, double view_angle_deg);
 

@@ -5,6 +5,7 @@
 #include "vicon/core/error.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/orientation.h"
+#include "vicon/viewer/model/wall_tagging.h"
 #include "vicon/viewer/scene/cube_picture.h"
 
 namespace vicon::viewer {
@@ -88,12 +89,18 @@ std::vector<OverlayText> linesOfPlace(const PreparedScan& scan, const SnapshotRe
     return lines;
 }
 
-std::vector<OverlayText> linesOfPicture(const SnapshotRequest& request, const SnapshotResult& place)
+std::vector<OverlayText> linesOfPicture(const PreparedScan& scan, const SnapshotRequest& request,
+                                        const SnapshotResult& place)
 {
     std::vector<OverlayText> lines;
     OverlayText line;
     if (!request.peel.preset.empty()) {
         line.text = peelingText(request);
+        line.color = kTextColor;
+        lines.push_back(line);
+    }
+    if (request.wall.tagging && scan.hasTagging() && !scan.tagging().empty()) {
+        line.text = "blue: tagging on the wall";
         line.color = kTextColor;
         lines.push_back(line);
     }
@@ -140,7 +147,7 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
     if (request.captioned && (tall || request.text_px == 0))  // a picture of a list is too small for it
         addTriad(overlay, {4.2 * text_px, area.height - 4.2 * text_px}, 2.4 * text_px, place.pose, 0.9 * text_px);
     auto lines = request.captioned ? linesOfPlace(scan, request, place) : std::vector<OverlayText>();
-    const auto more = linesOfPicture(request, place);
+    const auto more = linesOfPicture(scan, request, place);
     const double above_letter_px = area.height / 2 - text_px;  // the one in the middle of the left edge
     const bool window = request.text_px > 0;
     const Area caption = captionArea(area.width, area.height, text_px, window ? kLongestLine : kLongestLineOfPicture);
@@ -173,20 +180,32 @@ void EndoscopicPictures::chooseCells(const Pose& pose, const Lens& lens)
     scene_.showOnly(place->segments);
 }
 
+void EndoscopicPictures::wear(const WallLook& look)
+{
+    if (!seen_) {
+        look_.wear(scene_, look, scan_);
+        return;
+    }
+    const CellSurface& cells = seen_->cells;
+    look_.wear(
+        scene_, look, cells, [&]() -> const std::vector<float>& { return seen_->openness; },
+        [&]() -> const std::vector<float>& {
+            if (scan_.quantity() == Quantity::density)
+                tagging_ = taggingOf(cells.points_mm, cells.normals, scan_.volume(), scan_.inside(), scan_.noise_hu());
+            return tagging_;
+        });
+}
+
 const Picture& EndoscopicPictures::wall(const SnapshotRequest& request, const SnapshotResult& place)
 {
     const Lens lens{request.view_angle_deg, request.width, request.height};
-    if (last_ && last_->pose == place.pose && last_->lens == lens && last_->occluded == request.ambient_occlusion)
+    if (last_ && last_->pose == place.pose && last_->lens == lens && last_->look == request.wall)
         return last_->picture;
     chooseCells(place.pose, lens);
     scene_.lookFrom(place.pose, request.view_angle_deg);
     scene_.setLampReach(lampReachAt_mm(scan_.frames(), place.station_mm));
-    if (request.ambient_occlusion && !occluded_)
-        scene_.shadeByOpenness(seen_ ? seen_->cells : scan_.cells(), seen_ ? seen_->openness : scan_.openness());
-    if (!request.ambient_occlusion && occluded_)
-        scene_.shadeEvenly();
-    occluded_ = request.ambient_occlusion;
-    last_ = {place.pose, lens, occluded_, offscreen_.render(request.width, request.height, kSmooth)};
+    wear(request.wall);
+    last_ = {place.pose, lens, request.wall, offscreen_.render(request.width, request.height, kSmooth)};
     return last_->picture;
 }
 

@@ -60,8 +60,7 @@ struct FlightRenderer {
           coverage(triangleAreas_mm2(s.cells().points_mm, s.cells().triangles)),
           reviewed(coverage)
     {
-        if (request.ambient_occlusion)
-            scene.shadeByOpenness(s.cells(), s.openness());
+        SceneLook().wear(scene, request.wall, s);
         if (request.measure_coverage) {
             ids.emplace(s.cells());
             ids_offscreen.emplace(ids->renderer());

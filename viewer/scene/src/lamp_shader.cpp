@@ -25,12 +25,13 @@ constexpr double kClosedLight = 0.35;
 constexpr const char* kVertexShader = R"(//VTK::System::Dec
 in vec4 vertexMC;
 in vec3 normalMC;
-OPENNESS_IN
+ATTRIBUTES_IN
 uniform mat3 normalMatrix;
 uniform mat4 MCVCMatrix;
 uniform mat4 MCDCMatrix;
 uniform float lampReach;
 out vec3 leanAndLight;
+HANDED_ON
 void main()
 {
   vec3 normal = normalMatrix * normalMC;
@@ -43,6 +44,7 @@ void main()
   lean *= inversesqrt(max(1.0 + facing, 0.01));
   float light = sqrt(1.12 / (1.0 + distance2 / (lampReach * lampReach)));
   leanAndLight = vec3(lean, light * OPEN_LIGHT);
+  HAND_ON
   gl_Position = MCDCMatrix * vertexMC;
 }
 )";
@@ -51,16 +53,46 @@ void main()
 constexpr const char* kFragmentShader = R"(//VTK::System::Dec
 //VTK::Output::Dec
 in vec3 leanAndLight;
+TAKEN_OVER
 uniform vec3 diffuseColorUniform;
 void main()
 {
+  vec3 color = diffuseColorUniform;
+  OTHER_COLOR
   float facing = max(1.0 - dot(leanAndLight.xy, leanAndLight.xy), 0.0);
   float facing2 = facing * facing, facing4 = facing2 * facing2, facing8 = facing4 * facing4;
   float facing16 = facing8 * facing8;
   float shine = 0.09 * facing16 * facing16 * facing8;
-  gl_FragData[0] = vec4((diffuseColorUniform * (0.16 + 0.84 * facing) + vec3(shine)) * leanAndLight.z, 1.0);
+  gl_FragData[0] = vec4((color * (0.16 + 0.84 * facing) + vec3(shine)) * leanAndLight.z, 1.0);
 }
 )";
+
+/// What a look adds to the two shaders.
+struct Addition {
+    std::string attributes, out, hand_on, in, color;
+};
+
+Addition additionOf(const LampLook& look)
+{
+    Addition adds;
+    if (look.by_openness)
+        adds.attributes += "in float openness;\n";
+    if (look.colors == WallColors::depth) {  // the light says less of the distance then: the colour does
+        adds.out += "out float depth;\n";
+        adds.hand_on +=
+            "depth = min(sqrt(distance2) / (1.6 * lampReach), 1.0); leanAndLight.z = sqrt(leanAndLight.z);\n";
+        adds.in += "in float depth;\n";
+        adds.color += "color = mix(vec3(1.0, 0.88, 0.68), vec3(0.16, 0.36, 0.82), depth);\n";
+    }
+    if (look.by_tagging) {
+        adds.attributes += "in float tagging;\n";
+        adds.out += "out float tagged;\n";
+        adds.hand_on += "tagged = tagging;\n";
+        adds.in += "in float tagged;\n";
+        adds.color += "color = mix(color, vec3(0.45, 0.66, 0.95), 0.45 * tagged);\n";
+    }
+    return adds;
+}
 
 void put(std::string& code, const std::string& place, const std::string& what)
 {
@@ -69,14 +101,19 @@ void put(std::string& code, const std::string& place, const std::string& what)
 
 }  // namespace
 
-void useLampShader(vtkShaderProperty* shader, double reach_mm, bool by_openness)
+void useLampShader(vtkShaderProperty* shader, double reach_mm, const LampLook& look)
 {
-    std::string vertices = kVertexShader;
-    put(vertices, "OPENNESS_IN", by_openness ? "in float openness;" : "");
+    const Addition adds = additionOf(look);
+    std::string vertices = kVertexShader, fragments = kFragmentShader;
+    put(vertices, "ATTRIBUTES_IN", adds.attributes);
+    put(vertices, "HANDED_ON", adds.out);
     put(vertices, "OPEN_LIGHT",
-        by_openness ? "mix(" + std::to_string(kClosedLight) + ", 1.0, openness * openness)" : "1.0");
+        look.by_openness ? "mix(" + std::to_string(kClosedLight) + ", 1.0, openness * openness)" : "1.0");
+    put(vertices, "HAND_ON", adds.hand_on);
+    put(fragments, "TAKEN_OVER", adds.in);
+    put(fragments, "OTHER_COLOR", adds.color);
     shader->SetVertexShaderCode(vertices.c_str());
-    shader->SetFragmentShaderCode(kFragmentShader);
+    shader->SetFragmentShaderCode(fragments.c_str());
     setLampReach(shader, reach_mm);
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "scene_look.h"
 #include "seen_surface.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/offscreen.h"
@@ -49,12 +50,13 @@ public:
 private:
     const Picture& wall(const SnapshotRequest& request, const SnapshotResult& place);
     void chooseCells(const Pose& pose, const Lens& lens);
+    void wear(const WallLook& look);
 
     /// The wall as it was drawn last: what is laid over it changes more often.
     struct Drawn {
         Pose pose;
         Lens lens;
-        bool occluded = false;
+        WallLook look;
         Picture picture;
     };
 
@@ -62,7 +64,8 @@ private:
     std::shared_ptr<const SeenSurface> seen_;  ///< nothing: all of the surface is drawn
     SurfaceScene scene_;
     Offscreen offscreen_;
-    bool occluded_ = false;  ///< the scene shades with ambient occlusion
+    SceneLook look_;
+    std::vector<float> tagging_;  ///< of what is seen
     std::optional<Drawn> last_;
 };
 /// Lays what the request asks to peel, and everything that is written, over a picture of the surface. Throws

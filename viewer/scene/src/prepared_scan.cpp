@@ -17,6 +17,7 @@
 #include "vicon/scan_files/stored_volume.h"
 #include "vicon/scan_files/subdivision_file.h"
 #include "vicon/viewer/model/openness.h"
+#include "vicon/viewer/model/wall_tagging.h"
 
 namespace fs = std::filesystem;
 
@@ -79,7 +80,7 @@ struct PreparedScan::Files {
     Lazy<StepResults> results;
     Lazy<Quantity> quantity;
     Lazy<std::unique_ptr<const DensityBricks>> bricks;
-    Lazy<std::vector<float>> openness;
+    Lazy<std::vector<float>> openness, tagging;
 
     fs::path at(const char* name) const
     {
@@ -283,6 +284,29 @@ bool PreparedScan::hasOpenness() const
 const std::vector<float>& PreparedScan::openness(const Progress* wanted) const
 {
     return files_->openness.get([&] { return opennessOf(cells().points_mm, cells().normals, lumen(), wanted); });
+}
+
+bool PreparedScan::hasTagging() const
+{
+    return files_->tagging.known();
+}
+
+const std::vector<float>& PreparedScan::tagging(const Progress* wanted) const
+{
+    return files_->tagging.get([&] {
+        if (quantity() != Quantity::density)
+            return std::vector<float>();
+        auto tagging = taggingOf(cells().points_mm, cells().normals, volume(), inside(), noise_hu(), wanted);
+        constexpr float kSure = 0.5F;
+        const bool any = std::ranges::any_of(tagging, [](float of) { return of > kSure; });
+        return any ? tagging : std::vector<float>();
+    });
+}
+
+double PreparedScan::noise_hu() const
+{
+    const StepResults& results = files_->stepResults();
+    return results.quality && results.quality->quality ? results.quality->quality->noise_hu : 0;
 }
 
 Lumen PreparedScan::lumen() const

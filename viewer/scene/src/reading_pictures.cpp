@@ -30,7 +30,8 @@ struct ReadingPictures::Parts {
     };
     std::optional<Shown> shown;
     PeelingPace pace;
-    bool cells_colored = false, occluded = false;
+    SceneLook wall_look;
+    bool cells_colored = false;
     double lamp_reach_mm = kUsualLampReach_mm;
     std::optional<PictureCoverage> picture_coverage;  // made when it is first asked for
 
@@ -88,14 +89,12 @@ struct ReadingPictures::Parts {
         return picture;
     }
 
-    void setLook(bool color_cells, double reach_mm, bool wants_occlusion)
+    /// Shadows and tints come when they are known: no picture waits for them.
+    void setLook(bool color_cells, double reach_mm, WallLook wall)
     {
-        const bool ambient_occlusion = wants_occlusion && scan.hasOpenness();
-        if (occluded != ambient_occlusion && ambient_occlusion)
-            scene.shadeByOpenness(scan.cells(), scan.openness());
-        else if (occluded != ambient_occlusion)
-            scene.shadeEvenly();
-        occluded = ambient_occlusion;
+        wall.ambient_occlusion = wall.ambient_occlusion && scan.hasOpenness();
+        wall.tagging = wall.tagging && scan.hasTagging();
+        wall_look.wear(scene, wall, scan);
         if (cells_colored != color_cells)
             scene.colorCells(color_cells);
         if (lamp_reach_mm != reach_mm)
@@ -109,8 +108,7 @@ struct ReadingPictures::Parts {
     {
         const Lens lens{request.view_angle_deg, request.width, request.height};
         shown = Shown{visibility->visibleFrom(place.pose, lens), place.pose, lens, request.pixel_ratio};
-        setLook(how.structure, how.lamp_factor * lampReachAt_mm(scan.frames(), place.station_mm),
-                request.ambient_occlusion);
+        setLook(how.structure, how.lamp_factor * lampReachAt_mm(scan.frames(), place.station_mm), request.wall);
         scene.showSeen(shown->parts);
         scene.lookFrom(place.pose, request.view_angle_deg);
         return lens;

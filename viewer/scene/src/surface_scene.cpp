@@ -15,7 +15,7 @@
 namespace vicon::viewer {
 namespace {
 
-constexpr std::array kMucosa{0.93, 0.66, 0.56};
+constexpr std::array kMucosa{0.93, 0.66, 0.56}, kBone{0.93, 0.9, 0.82};
 
 std::array<double, 3> cellColor(int segment)
 {
@@ -44,13 +44,16 @@ struct SurfaceScene::Parts {
     vtkNew<vtkRenderer> renderer;
     vtkNew<vtkLight> lamp;
     double lamp_reach_mm = kUsualLampReach_mm;
-    bool color_cells = false, has_openness = false, by_openness = false;
+    LampLook look;
+    bool color_cells = false, has_openness = false, has_tagging = false;
 
     void setMaterial() const
     {
         for (const CellActor& cell : cells) {
             vtkProperty* p = cell.actor->GetProperty();
-            const auto color = color_cells ? cellColor(cell.segment) : kMucosa;
+            const auto color = color_cells                       ? cellColor(cell.segment)
+                               : look.colors == WallColors::bone ? kBone
+                                                                 : kMucosa;
             p->SetColor(color[0], color[1], color[2]);
             p->SetAmbient(0);
             p->SetDiffuse(1);
@@ -62,7 +65,7 @@ struct SurfaceScene::Parts {
     {
         lamp->SetLightTypeToHeadlight();
         for (const CellActor& cell : cells)
-            useLampShader(cell.actor->GetShaderProperty(), lamp_reach_mm, by_openness);
+            useLampShader(cell.actor->GetShaderProperty(), lamp_reach_mm, look);
     }
 };
 
@@ -130,14 +133,35 @@ void SurfaceScene::setLampReach(double half_mm)
 void SurfaceScene::shadeByOpenness(const CellSurface& surface, const std::vector<float>& openness)
 {
     if (!parts_->has_openness)
-        addOpenness(parts_->cells, surface, openness);
-    parts_->has_openness = parts_->by_openness = true;
+        addAttribute(parts_->cells, surface, kOpenness, openness);
+    parts_->has_openness = parts_->look.by_openness = true;
     parts_->setLamp();
 }
 
 void SurfaceScene::shadeEvenly()
 {
-    parts_->by_openness = false;
+    parts_->look.by_openness = false;
+    parts_->setLamp();
+}
+
+void SurfaceScene::setColors(WallColors colors)
+{
+    parts_->look.colors = colors;
+    parts_->setMaterial();
+    parts_->setLamp();
+}
+
+void SurfaceScene::tintTagging(const CellSurface& surface, const std::vector<float>& tagging)
+{
+    if (!parts_->has_tagging)
+        addAttribute(parts_->cells, surface, kTagging, tagging);
+    parts_->has_tagging = parts_->look.by_tagging = true;
+    parts_->setLamp();
+}
+
+void SurfaceScene::tintNothing()
+{
+    parts_->look.by_tagging = false;
     parts_->setLamp();
 }
 

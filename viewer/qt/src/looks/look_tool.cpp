@@ -14,16 +14,39 @@ constexpr double kNear = 0.5, kUsual = 1, kFar = 2;  // of the usual reach of th
 // The reader's own, whatever the case.
 constexpr const char* kLight = "look/light";
 constexpr const char* kOcclusion = "look/ambient_occlusion";
+constexpr const char* kColors = "look/colors";
+constexpr const char* kTagging = "look/tagging";
 }  // namespace
 
 void LookTool::addTo(ReadingLayout& layout)
 {
     structure_ = layout.addSwitch(ReadingMenu::view, tr("Cells, gates and what is drawn"), QKeySequence("O"));
     connect(structure_, &QAction::toggled, this, &LookTool::drawAnew);
+    addColors(layout);
+    tagging_ = layout.addSwitch(ReadingMenu::view, tr("Wall: blue where tagging touches it"), QKeySequence("Shift+K"));
+    tagging_->setObjectName("tagging");
+    connect(tagging_, &QAction::toggled, this, &LookTool::drawAnew);
     addLights(layout);
     occlusion_ = layout.addSwitch(ReadingMenu::view, tr("Light: less between folds (ambient occlusion)"), {});
     occlusion_->setObjectName("ambientOcclusion");
     connect(occlusion_, &QAction::toggled, this, &LookTool::drawAnew);
+}
+
+void LookTool::addColors(ReadingLayout& layout)
+{
+    colors_ = new QActionGroup(this);
+    for (const auto& [title, colors] :
+         {std::pair(tr("Wall: mucosa"), WallColors::mucosa), std::pair(tr("Wall: bone white"), WallColors::bone),
+          std::pair(tr("Wall: depth, from warm to blue"), WallColors::depth)}) {
+        QAction* action = layout.addSwitch(ReadingMenu::view, title, {});
+        action->setChecked(colors == wall_.colors);
+        action->setData(QString::fromStdString(nameOf(colors)));
+        colors_->addAction(action);
+        connect(action, &QAction::triggered, this, [this, colors = colors] {
+            wall_.colors = colors;
+            drawAnew();
+        });
+    }
 }
 
 void LookTool::addLights(ReadingLayout& layout)
@@ -55,17 +78,27 @@ void LookTool::restore()
             light->setChecked(true);
             lamp_factor_ = factor;
         }
+    const QVariant colors = keptSetting(kColors, QString::fromStdString(nameOf(wall_.colors)));
+    for (QAction* action : colors_->actions())
+        if (action->data() == colors) {
+            action->setChecked(true);
+            wall_.colors = wallColorsFrom(colors.toString().toStdString());
+        }
+    tagging_->setChecked(keptSetting(kTagging, true).toBool());  // what tagging may hide is no secret
     occlusion_->setChecked(keptSetting(kOcclusion, true).toBool());
 }
 
 QVariantMap LookTool::kept() const
 {
-    return {{kLight, lamp_factor_}, {kOcclusion, occlusion_->isChecked()}};
+    return {{kLight, lamp_factor_},
+            {kOcclusion, occlusion_->isChecked()},
+            {kColors, QString::fromStdString(nameOf(wall_.colors))},
+            {kTagging, tagging_->isChecked()}};
 }
 
 void LookTool::style(EndoscopicRequest& request) const
 {
-    request.snapshot.ambient_occlusion = occlusion_->isChecked();
+    request.snapshot.wall = {wall_.colors, occlusion_->isChecked(), tagging_->isChecked()};
     request.structure = structure_->isChecked();
     request.lamp_factor = lamp_factor_;
 }

@@ -7,7 +7,8 @@ class QActionGroup;
 
 namespace vicon::viewer {
 
-/// How the wall looks: its light, the shade between folds, and the cells and gates behind the picture.
+/// How the wall looks: its colours, the tint of tagging, its light, the shade between folds, and the cells and gates
+/// behind the picture.
 class LookTool : public ReadingTool {
     Q_OBJECT
 public:
@@ -19,11 +20,13 @@ public:
     void style(EndoscopicRequest& request) const override;
 
 private:
+    void addColors(ReadingLayout& layout);
     void addLights(ReadingLayout& layout);
     void drawAnew();
 
-    QAction *structure_ = nullptr, *occlusion_ = nullptr;
-    QActionGroup* lights_ = nullptr;
+    QAction *structure_ = nullptr, *tagging_ = nullptr, *occlusion_ = nullptr;
+    QActionGroup *colors_ = nullptr, *lights_ = nullptr;
+    WallLook wall_;
     double lamp_factor_ = 1;
 };
 

@@ -70,6 +70,8 @@ void DrawingThread::findSightLines(const std::shared_ptr<OpenScan>& scan)
                         some.pictures->chooseBy(visibility);
                 return {};
             });
+            files.tagging(&wanted);
+            worker_.post("shade", [this](AllPictures&) -> Worker::Work { return [this] { emit wallShaded(); }; });
             return {};
         });
 }
@@ -92,7 +94,7 @@ void DrawingThread::draw(Which which, std::shared_ptr<OpenScan> scan, const Endo
     worker_.post(
         name, [this, which, scan = std::move(scan), request](AllPictures& all, const Progress& wanted) -> Worker::Work {
             const SnapshotRequest& snapshot = request.snapshot;
-            const bool shaded = !snapshot.ambient_occlusion || scan->files.hasOpenness();
+            const bool shaded = !snapshot.wall.ambient_occlusion || scan->files.hasOpenness();
             auto picture = std::make_shared<Picture>(
                 picturesOf(all, scan).endoscopic(snapshot, request.place, request.still,
                                                  {request.paint_seen ? &scan->coverage : nullptr, request.structure,

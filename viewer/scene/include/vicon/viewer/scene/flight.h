@@ -20,10 +20,10 @@ struct FlightRequest {
     int width = 0;       ///< pixels of a frame; 0: 512
     int height = 0;      ///< 0: 512
     double view_angle_deg = 90;
-    bool ambient_occlusion = true;  ///< less light where the wall is less open, see opennessOf()
-    bool write_frames = true;       ///< frames as PNG, "frame-00001.png" and on
-    bool measure_coverage = true;   ///< which triangles are seen; costs a second rendering of each frame
-    bool cull = true;               ///< draw only cells that may be seen
+    WallLook wall;
+    bool write_frames = true;      ///< frames as PNG, "frame-00001.png" and on
+    bool measure_coverage = true;  ///< which triangles are seen; costs a second rendering of each frame
+    bool cull = true;              ///< draw only cells that may be seen
     double least_unseen_mm2 = UnseenOptions().least_area_mm2;  ///< smaller unseen patches are not listed
     std::filesystem::path out;  ///< folder for frames and flight.json; empty: nothing is written
     std::vector<Marker> markers;

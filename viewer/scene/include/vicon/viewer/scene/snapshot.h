@@ -10,6 +10,7 @@
 #include "vicon/viewer/model/peeling.h"
 #include "vicon/viewer/model/prior_place.h"
 #include "vicon/viewer/model/view_pose.h"
+#include "vicon/viewer/model/wall_look.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/prepared_scan.h"
 
@@ -49,20 +50,20 @@ struct SnapshotRequest {
     std::vector<Marker> markers;       ///< drawn where they are in view
     std::vector<PriorPlace> priors;    ///< overview and slices: where findings of earlier reports should lie
     Caption caption;
-    bool captioned = true;          ///< who, when and where is written into the picture
-    int width = 0;                  ///< pixels, kLeastSide to kMostSide; 0: 1024
-    int height = 0;                 ///< 0: 768, or 1024 for the overview
-    double pixel_ratio = 1;         ///< of the screen that it is shown on; text is as high there as on any other
-    double text_px = 0;             ///< height of what is written; 0: as is read well in a picture of this size
-    double view_angle_deg = 90;     ///< endo: over the picture's height, 20 to 150
-    bool ambient_occlusion = true;  ///< endo: less light where the wall is less open, see opennessOf()
-    std::string window;             ///< slices: a preset of config/windows.toml; empty: the organ's default
-    bool cleansed = false;          ///< slices: without tagging, where that was taken out
-    bool from_caecum = false;       ///< band: its rows begin there
-    bool whole_band = true;         ///< band: all of it, in rows; else a single row around the place
-    double slice_field_mm = 0;      ///< slices: how much to show around the point; 0: the whole scan
-    ViewPoseOptions pose;           ///< endo: where to put the eye
-    PeelRequest peel;               ///< endo: the look below the wall
+    bool captioned = true;       ///< who, when and where is written into the picture
+    int width = 0;               ///< pixels, kLeastSide to kMostSide; 0: 1024
+    int height = 0;              ///< 0: 768, or 1024 for the overview
+    double pixel_ratio = 1;      ///< of the screen that it is shown on; text is as high there as on any other
+    double text_px = 0;          ///< height of what is written; 0: as is read well in a picture of this size
+    double view_angle_deg = 90;  ///< endo: over the picture's height, 20 to 150
+    WallLook wall;               ///< endo, cube: how the wall looks
+    std::string window;          ///< slices: a preset of config/windows.toml; empty: the organ's default
+    bool cleansed = false;       ///< slices: without tagging, where that was taken out
+    bool from_caecum = false;    ///< band: its rows begin there
+    bool whole_band = true;      ///< band: all of it, in rows; else a single row around the place
+    double slice_field_mm = 0;   ///< slices: how much to show around the point; 0: the whole scan
+    ViewPoseOptions pose;        ///< endo: where to put the eye
+    PeelRequest peel;            ///< endo: the look below the wall
 
     static constexpr int kLeastSide = 200;
     static constexpr int kMostSide = 4096;

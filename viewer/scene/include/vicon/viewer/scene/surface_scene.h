@@ -7,6 +7,7 @@
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/overlay.h"
 #include "vicon/viewer/model/path_frames.h"
+#include "vicon/viewer/model/wall_look.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/cell_visibility.h"
 
@@ -51,6 +52,14 @@ public:
     void shadeByOpenness(const CellSurface& surface, const std::vector<float>& openness);
     /// Without ambient occlusion, as at the beginning.
     void shadeEvenly();
+    /// What the wall is coloured by; mucosa at the beginning.
+    void setColors(WallColors colors);
+    /// Blue where tagging touches the wall.
+    /// @param surface that this scene was made from
+    /// @param tagging of taggingOf() for it
+    void tintTagging(const CellSurface& surface, const std::vector<float>& tagging);
+    /// Without that tint, as at the beginning.
+    void tintNothing();
 
     std::size_t cellCount() const;
     std::size_t triangleCount() const;

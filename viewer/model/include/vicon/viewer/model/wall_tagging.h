@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "vicon/core/progress.h"
+#include "vicon/core/volume_view.h"
+
+namespace vicon::viewer {
+
+/// How much tagging touches each point of a surface, 0 to 1, by the acquired densities before it: under a pool 1, and
+/// on what carries a film of contrast, which is a sign of a flat lesion and is not to be taken out unseen. A film
+/// thinner than about a millimetre is hidden by the scanner's blur.
+/// @param points_mm x, y, z of each point, LPS
+/// @param normals unit vectors into the lumen, as many as points
+/// @param inside the lumen's labels: what lies behind the next wall does not count
+/// @param noise_hu standard deviation of the scan's noise; 0: not known
+/// Throws Error{cancelled} where `wanted`, if there is one, says so.
+std::vector<float> taggingOf(const std::vector<float>& points_mm, const std::vector<float>& normals,
+                             const HuView& volume, const InsideView& inside, double noise_hu,
+                             const Progress* wanted = nullptr);
+
+}  // namespace vicon::viewer
