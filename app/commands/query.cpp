@@ -11,7 +11,7 @@
 namespace vicon::app {
 namespace {
 
-nlohmann::json toJson(const std::vector<ingest::FoundStudy>& studies)
+nlohmann::json studiesJson(const std::vector<ingest::FoundStudy>& studies)
 {
     nlohmann::json list = nlohmann::json::array();
     for (const ingest::FoundStudy& s : studies)
@@ -32,7 +32,7 @@ std::string countText(int count)
     return count < 0 ? "" : std::to_string(count);
 }
 
-nlohmann::json toJson(const std::vector<ingest::ScheduledStep>& steps)
+nlohmann::json stepsJson(const std::vector<ingest::ScheduledStep>& steps)
 {
     nlohmann::json list = nlohmann::json::array();
     for (const ingest::ScheduledStep& s : steps)
@@ -57,7 +57,7 @@ int queryWorklist(Context& context, const std::string& peer_name, const ingest::
     const auto steps = ingest::findScheduledSteps(requirePeer(context.config(), peer_name, PeerUse::query), query,
                                                   context.config().get<ingest::ReceiverOptions>().ae_title, quiet);
     if (context.json) {
-        std::printf("%s\n", toJson(steps).dump(2).c_str());
+        std::printf("%s\n", stepsJson(steps).dump(2).c_str());
         return 0;
     }
     std::vector<std::vector<std::string>> rows;
@@ -77,7 +77,7 @@ int query(Context& context, const std::string& peer_name, const ingest::StudyQue
     const auto studies = ingest::findStudies(requirePeer(context.config(), peer_name, PeerUse::query), query,
                                              context.config().get<ingest::ReceiverOptions>().ae_title, quiet);
     if (context.json) {
-        std::printf("%s\n", toJson(studies).dump(2).c_str());
+        std::printf("%s\n", studiesJson(studies).dump(2).c_str());
         return 0;
     }
     std::vector<std::vector<std::string>> rows;

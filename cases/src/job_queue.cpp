@@ -44,7 +44,7 @@ Job jobFrom(const soci::row& row)
     return job;
 }
 
-std::vector<Job> collect(const soci::rowset<soci::row>& rows)
+std::vector<Job> jobsOf(const soci::rowset<soci::row>& rows)
 {
     std::vector<Job> jobs;
     for (const soci::row& row : rows)
@@ -133,7 +133,7 @@ std::optional<Job> JobQueue::claim(const std::string& owner)
                     " WHERE state = 'queued' AND not_before <= :now ORDER BY opened DESC, turn, queued, rowid LIMIT 1" +
                         skippingLocked(sql) + ") RETURNING *",
              soci::use(owner), soci::use(lease_until), soci::use(changed), soci::use(now));
-        const auto jobs = collect(rows);
+        const auto jobs = jobsOf(rows);
         if (!jobs.empty())
             claimed = jobs.front();
     });
@@ -153,7 +153,7 @@ void JobQueue::capTimes(soci::session& sql)
 void JobQueue::dropLost(soci::session& sql)
 {
     const double now = nowIn(sql);
-    std::vector<Job> running = collect((sql.prepare << "SELECT * FROM jobs WHERE state = 'running'"));
+    std::vector<Job> running = jobsOf((sql.prepare << "SELECT * FROM jobs WHERE state = 'running'"));
     // In one order for all: two that drop the same jobs must not wait for each other. Sorted here: SQLite would walk
     // through all jobs for it.
     std::ranges::sort(running, {}, [](const Job& job) { return std::tie(job.case_id, job.scan_id); });
@@ -275,8 +275,8 @@ std::optional<Job> JobQueue::find(const std::string& case_id, const std::string&
 {
     std::optional<Job> found;
     database_.read([&](soci::session& sql) {
-        const auto jobs = collect((sql.prepare << "SELECT * FROM jobs WHERE case_id = :c AND scan_id = :s",
-                                   soci::use(case_id), soci::use(scan_id)));
+        const auto jobs = jobsOf((sql.prepare << "SELECT * FROM jobs WHERE case_id = :c AND scan_id = :s",
+                                  soci::use(case_id), soci::use(scan_id)));
         found = jobs.empty() ? std::nullopt : std::optional(jobs.front());
     });
     return found;
@@ -285,7 +285,7 @@ std::optional<Job> JobQueue::find(const std::string& case_id, const std::string&
 std::vector<Job> JobQueue::select(const std::string& where)
 {
     std::vector<Job> jobs;
-    database_.read([&](soci::session& sql) { jobs = collect((sql.prepare << "SELECT * FROM jobs " + where)); });
+    database_.read([&](soci::session& sql) { jobs = jobsOf((sql.prepare << "SELECT * FROM jobs " + where)); });
     return jobs;
 }
 
@@ -324,7 +324,7 @@ std::vector<Job> JobQueue::workedOnSince(const std::string& utc)
     std::vector<Job> jobs;
     database_.read([&](soci::session& sql) {
         jobs =
-            collect((sql.prepare << "SELECT * FROM jobs WHERE state = 'running' OR changed >= :since", soci::use(utc)));
+            jobsOf((sql.prepare << "SELECT * FROM jobs WHERE state = 'running' OR changed >= :since", soci::use(utc)));
     });
     return jobs;
 }

@@ -1,6 +1,7 @@
 #include "vicon/cases/step_results.h"
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <string_view>
 
@@ -18,6 +19,24 @@ void take(const json& from, const char* key, Value& into)
 {
     if (const auto found = from.find(key); found != from.end())
         into = found->get<Value>();
+}
+
+/// To hundredths of a millimetre: there may be thousands of blocks.
+json toJson(const MottledTagging& mottled)
+{
+    json blocks = json::array();
+    const auto rounded = [](double mm) { return std::round(mm * 100) / 100; };
+    for (const Point3& p : mottled.blocks_mm)
+        blocks.push_back({rounded(p.x), rounded(p.y), rounded(p.z)});
+    return {{"block_mm", mottled.block_mm}, {"blocks_mm", std::move(blocks)}};
+}
+
+MottledTagging mottledFrom(const json& json)
+{
+    MottledTagging mottled{.block_mm = json.at("block_mm").get<double>(), .blocks_mm = {}};
+    for (const auto& p : json.at("blocks_mm"))
+        mottled.blocks_mm.push_back({p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()});
+    return mottled;
 }
 
 /// Voxels along each axis, if they are there.
@@ -104,7 +123,10 @@ json toJson(const TissueFound& found)
     json measures = found.measures;
     if (found.blur_mm)
         measures["blur_mm"] = *found.blur_mm;
-    return {{"measures", std::move(measures)}};
+    json out = {{"measures", std::move(measures)}};
+    if (!found.mottled.blocks_mm.empty())
+        out["mottled"] = toJson(found.mottled);
+    return out;
 }
 
 TissueFound tissueFoundFromJson(const json& json)
@@ -112,6 +134,8 @@ TissueFound tissueFoundFromJson(const json& json)
     TissueFound found;
     take(json, "not_sought", found.not_sought);
     take(json, "measures", found.measures);
+    if (const auto mottled = json.find("mottled"); mottled != json.end())
+        found.mottled = mottledFrom(*mottled);
     if (found.measures.contains("blur_mm"))
         found.blur_mm = found.measures["blur_mm"].get<double>();
     found.measures.erase("blur_mm");

@@ -10,8 +10,8 @@ using nlohmann::json;
 namespace vicon {
 namespace {
 
-constexpr std::array<QualityReason, 3> kReasons = {QualityReason::collapsed, QualityReason::implausible_length,
-                                                   QualityReason::noise};
+constexpr std::array<QualityReason, 4> kReasons = {QualityReason::collapsed, QualityReason::implausible_length,
+                                                   QualityReason::noise, QualityReason::mottled};
 
 std::string text(const char* pattern, double value)
 {
@@ -29,7 +29,8 @@ json toJson(const StretchQuality& q)
                 {"collapsed_fraction", q.collapsed_fraction},
                 {"volume_ml", q.volume_ml},
                 {"fluid_ml", q.fluid_ml},
-                {"fluid_fraction", q.fluidFraction()}};
+                {"fluid_fraction", q.fluidFraction()},
+                {"mottled_ml", q.mottled_ml}};
     if (q.part)
         out["name"] = nameOf(*q.part);
     return out;
@@ -45,6 +46,7 @@ StretchQuality stretchFrom(const json& json)
     q.collapsed_fraction = json.at("collapsed_fraction").get<double>();
     q.volume_ml = json.at("volume_ml").get<double>();
     q.fluid_ml = json.at("fluid_ml").get<double>();
+    q.mottled_ml = json.value("mottled_ml", 0.0);
     if (const auto name = json.find("name"); name != json.end())
         q.part = colonPartFrom(name->get<std::string>());
     return q;
@@ -99,6 +101,8 @@ std::string nameOf(QualityReason reason)
             return "implausible_length";
         case QualityReason::noise:
             return "noise";
+        case QualityReason::mottled:
+            return "mottled";
     }
     return "noise";
 }
@@ -120,6 +124,8 @@ std::string textOf(const QualityNote& note)
             return text("a length of %.0f mm is not plausible for a whole colon", note.value);
         case QualityReason::noise:
             return text("more noise than usual: %.0f HU", note.value);
+        case QualityReason::mottled:
+            return text("%.1f ml of mottled tagging", note.value) + (note.part ? ", " + nameOf(*note.part) : "");
     }
     return {};
 }

@@ -29,14 +29,14 @@ bool isDicomdirName(const fs::path& file)
     return inCase(file.filename().string(), std::tolower) == "dicomdir";
 }
 
-void refuse(std::vector<ImportLine>& lines, const std::string& subject, const std::string& why)
+void addRefusal(std::vector<ImportLine>& lines, const std::string& subject, const std::string& why)
 {
     lines.push_back({ImportLine::Kind::refused, printable(subject), printable(why), {}, {}});
 }
 
 void refuseUnseen(std::vector<ImportLine>& lines, const fs::path& path, const std::error_code& failure)
 {
-    refuse(lines, path.string(), "it cannot be looked at (" + failure.message() + ")");
+    addRefusal(lines, path.string(), "it cannot be looked at (" + failure.message() + ")");
 }
 
 /// The file that a DICOMDIR means; file systems of discs change the case of names. Empty when there is none, or there
@@ -61,7 +61,7 @@ void readDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::
 {
     DcmFileFormat format;
     if (loadFile(format, dicomdir).bad())
-        return refuse(lines, dicomdir.string(), "the DICOMDIR is damaged; import its folder instead");
+        return addRefusal(lines, dicomdir.string(), "the DICOMDIR is damaged; import its folder instead");
     const Dataset dataset(*format.getDataset());
     const unsigned long count = dataset.itemCount(DCM_DirectoryRecordSequence);
     for (unsigned long n = 0; n < count; ++n) {
@@ -74,7 +74,7 @@ void readDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::
         for (const std::string& component : components)
             named += (named.empty() ? "" : "/") + component;
         if (file.empty())
-            refuse(lines, dicomdir.string(), "names a file that is not there: " + named);
+            addRefusal(lines, dicomdir.string(), "names a file that is not there: " + named);
         else
             files.push_back({file, printable(file.string()), false});
     }
@@ -84,12 +84,12 @@ void listDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::
 {
     setUpDicom();
     if (const std::string why = whyNotToRead(dicomdir); !why.empty())
-        return refuse(lines, dicomdir.string(), why + "; import its folder instead");
+        return addRefusal(lines, dicomdir.string(), why + "; import its folder instead");
     try {
         readDicomdir(dicomdir, files, lines);
     } catch (const std::exception& e) {  // DCMTK makes texts of values that are not there
-        refuse(lines, dicomdir.string(),
-               std::string("the DICOMDIR is damaged (") + e.what() + "); import its folder instead");
+        addRefusal(lines, dicomdir.string(),
+                   std::string("the DICOMDIR is damaged (") + e.what() + "); import its folder instead");
     }
 }
 
@@ -101,7 +101,7 @@ void listFolder(const fs::path& folder, std::vector<InputFile>& files, std::vect
          it.increment(failure))
         entries.push_back(it->path());
     if (failure)
-        refuse(lines, folder.string(), "the folder cannot be read (" + failure.message() + ")");
+        addRefusal(lines, folder.string(), "the folder cannot be read (" + failure.message() + ")");
     std::sort(entries.begin(), entries.end());
     for (const fs::path& entry : entries) {
         const fs::file_status status = fs::status(entry, failure);
@@ -161,7 +161,7 @@ std::vector<InputFile> listFiles(const std::vector<fs::path>& paths, std::vector
         else if (fs::is_directory(status))
             listFolder(path, files, lines);
         else if (!fs::is_regular_file(status))
-            refuse(lines, path.string(), "neither a file nor a folder");
+            addRefusal(lines, path.string(), "neither a file nor a folder");
         else if (isDicomdirName(path))
             listDicomdir(path, files, lines);
         else

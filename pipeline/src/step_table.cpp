@@ -116,9 +116,10 @@ json runQuality(const StepInputs& inputs, ScanResults& results, const StepRecord
     const steps::FoundParts parts = steps::findColonParts(results.skeleton());
     QualityFound found{.parts = parts.ranges, .parts_unknown = parts.reason};
     if (!results.skeleton().empty())
-        found.quality = steps::measureQuality(results.inside(), results.skeleton(), parts.ranges,
-                                              segmentFoundFromJson(records.at("segment").result).noise_hu.value_or(0),
-                                              options, progress);
+        found.quality =
+            steps::measureQuality(results.inside(), results.skeleton(), parts.ranges,
+                                  segmentFoundFromJson(records.at("segment").result).noise_hu.value_or(0),
+                                  tissueFoundFromJson(records.at("tissue").result).mottled, options, progress);
     return toJson(found);
 }
 
@@ -181,7 +182,7 @@ std::vector<Step> stepsOfLumen()
          runResample},
         {"segment", 16, 0.3, 0.55, {"resample"}, Densities::whole, segmentFiles, segmentParameters, runSegment},
         {"tissue",
-         8,
+         9,
          0.55,
          0.6,
          {"resample", "segment"},
@@ -207,7 +208,7 @@ std::vector<Step> stepsOfResults()
     using namespace steps;
     return {
         {"quality",
-         3,
+         4,
          0.65,
          0.67,
          {"segment", "tissue", "skeleton"},

@@ -52,13 +52,16 @@ json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords
         steps::findTissue(results.densitiesAroundLumen(), results.mask(), inputs.gravity,
                           inputs.config.get<steps::WallDensities>(), noiseOf(segment), progress, options);
     results.dropMask();
-    if (inputs.quantity == Quantity::density)
+    TissueFound told{.blur_mm = found.blur_mm, .mottled = {}, .measures = std::move(found.found)};
+    if (inputs.quantity == Quantity::density) {
         results.write("cleansed.mha", std::move(found.cleansed));
-    else
-        found.found["tagging"] = kNoTagging;
+        told.mottled = std::move(found.mottled);
+    } else {
+        told.measures["tagging"] = kNoTagging;
+    }
     results.put(std::move(found.lumen));
     results.putTissue(std::move(found.tissue));
-    return toJson(TissueFound{.blur_mm = found.blur_mm, .measures = std::move(found.found)});
+    return toJson(told);
 }
 
 std::vector<std::string> tissueFiles(const json& result)

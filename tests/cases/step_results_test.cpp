@@ -65,6 +65,17 @@ TEST(StepResults, WarnOfAnOrganThatWasNotFoundOrNotSurely)
     EXPECT_TRUE(resultsOf({}).organ().isColon());
 }
 
+TEST(StepResults, OfTheTissueStepKeepWhereTaggingIsMottled)
+{
+    TissueFound found;
+    found.mottled = {.block_mm = 4.05, .blocks_mm = {{-105.42, -108.12, 3.5}, {1, 2, 3}}};
+    const TissueFound read = tissueFoundFromJson(toJson(found));
+    EXPECT_EQ(read.mottled.block_mm, 4.05);
+    ASSERT_EQ(read.mottled.blocks_mm.size(), 2U);
+    EXPECT_NEAR(distance(read.mottled.blocks_mm[0], found.mottled.blocks_mm[0]), 0, 0.01);
+    EXPECT_TRUE(tissueFoundFromJson(toJson(TissueFound())).mottled.blocks_mm.empty());
+}
+
 TEST(StepResults, OfAnotherShapeAreSaidToBe)
 {
     EXPECT_THROW(resultsOf({{.step = "segment", .result = {{"confidence", "much"}}}}), Error);
@@ -79,12 +90,17 @@ TEST(ScanQuality, IsReadBackWithItsNotesAndWithoutThemFromBefore)
         .median_radius_mm = 16, .collapsed_mm = 40, .collapsed_fraction = 0.025, .volume_ml = 2000, .fluid_ml = 500};
     quality.parts = {quality.whole};
     quality.parts[0].part = ColonPart::sigmoid;
-    quality.notes = {{QualityReason::collapsed, ColonPart::sigmoid, 38.4}, {QualityReason::noise, {}, 45}};
+    quality.parts[0].mottled_ml = 2.5;
+    quality.notes = {{QualityReason::collapsed, ColonPart::sigmoid, 38.4},
+                     {QualityReason::noise, {}, 45},
+                     {QualityReason::mottled, ColonPart::caecum, 2.73}};
     quality.reason = "sigmoid collapsed over 38 mm; more noise than usual: 45 HU";
     json written = toJson(quality);
     EXPECT_EQ(written["fluid_fraction"], 0.25);
     EXPECT_EQ(written["parts"][0]["name"], "sigmoid");
     EXPECT_EQ(toJson(scanQualityFromJson(written)), written);
+    EXPECT_EQ(scanQualityFromJson(written).parts[0].mottled_ml, 2.5);
+    EXPECT_EQ(textOf(quality.notes[2]), "2.7 ml of mottled tagging, caecum");
     EXPECT_EQ(textOf(quality.notes[0]) + "; " + textOf(quality.notes[1]), quality.reason);
     written.erase("notes");
     EXPECT_EQ(scanQualityFromJson(written).reason, quality.reason);

@@ -47,7 +47,7 @@ Posture postureOf(int seed, const char* position)
     Posture posture;
     posture.curve = steps::findSkeleton(found.inside, found.plan, {}, quiet).curve;
     const ColonPartRanges parts = steps::findColonParts(posture.curve).ranges;
-    const ScanQuality quality = steps::measureQuality(found.inside, posture.curve, parts, 0, {}, quiet);
+    const ScanQuality quality = steps::measureQuality(found.inside, posture.curve, parts, 0, {}, {}, quiet);
     posture.profile = profileOf(posture.curve, parts, quality.along);
     posture.profile.relief = reliefOf(found.inside, posture.curve);
     scan.truth.inside = {};

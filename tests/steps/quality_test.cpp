@@ -44,7 +44,7 @@ struct Tube {
     ScanQuality measure(const ColonPartRanges& parts = {})
     {
         NoProgress progress;
-        return measureQuality(inside, skeleton, parts, 0, {}, progress);
+        return measureQuality(inside, skeleton, parts, 0, {}, {}, progress);
     }
 };
 
@@ -57,6 +57,22 @@ TEST(Quality, OfATubeIsItsRadiusAndVolume)
     EXPECT_EQ(q.whole.collapsed_mm, 0);
     EXPECT_TRUE(q.whole.adequate);
     EXPECT_EQ(q.reason, "");
+}
+
+TEST(Quality, MottledTaggingIsCountedInThePartWhereItLiesAndTold)
+{
+    const ColonPartRanges parts{{ColonPart::rectum, 0, 400}, {ColonPart::sigmoid, 400, 1200}};
+    Tube tube;
+    NoProgress progress;
+    MottledTagging mottled{.block_mm = 4, .blocks_mm = {{27, 20, 110}}};
+    for (double z = 510; z < 550; z += 4)
+        mottled.blocks_mm.push_back({27, 20, z});
+    const ScanQuality q = measureQuality(tube.inside, tube.skeleton, parts, 0, mottled, {}, progress);
+    EXPECT_NEAR(q.parts[0].mottled_ml, 0.064, 1e-9);
+    EXPECT_NEAR(q.parts[1].mottled_ml, 0.64, 1e-9);
+    EXPECT_NEAR(q.whole.mottled_ml, 0.704, 1e-9);
+    EXPECT_TRUE(q.whole.adequate) << "it is read with care, not anew";
+    EXPECT_EQ(q.reason, "0.6 ml of mottled tagging, sigmoid");
 }
 
 TEST(Quality, FluidIsCountedInThePartWhereItLies)
@@ -146,7 +162,7 @@ TEST_P(PhantomQuality, AgreesWithTheTruthInNoiseFluidAndCollapsedLength)
             curve.pieces.push_back({bridge, {}});
         curve.pieces.back().points.push_back(p);
     }
-    const ScanQuality q = measureQuality(truth.inside, curve, truth.parts, softTissueNoise(scan.hu), {}, progress);
+    const ScanQuality q = measureQuality(truth.inside, curve, truth.parts, softTissueNoise(scan.hu), {}, {}, progress);
     EXPECT_NEAR(q.noise_hu / truth.noise_hu, 1, 0.25);
     EXPECT_NEAR(q.whole.fluid_ml, truth.fluid_ml, 0.02 * truth.fluid_ml + 1);
     EXPECT_NEAR(q.whole.volume_ml, truth.volume_ml, 0.02 * truth.volume_ml);

@@ -41,7 +41,7 @@ std::vector<std::int32_t> contactsOf(const InsideVolume& labels, int j, int k)
 }
 
 /// What a voxel becomes when its binomial neighbourhood decides.
-std::uint8_t smoothed(const InsideVolume& labels, Index3 v)
+std::uint8_t smoothedLabel(const InsideVolume& labels, Index3 v)
 {
     int gas = 0, fluid = 0;
     for (int k = -2; k <= 2; ++k)
@@ -144,7 +144,7 @@ void smoothAtMeniscus(InsideVolume& labels)
     std::vector<std::uint8_t> becomes(voxels.size());
     tbb::parallel_for(std::size_t(0), voxels.size() / 1024 + 1, [&](std::size_t chunk) {
         for (std::size_t n = chunk * 1024; n < std::min(voxels.size(), (chunk + 1) * 1024); ++n)
-            becomes[n] = smoothed(labels, labels.grid.indexOf(voxels[n]));
+            becomes[n] = smoothedLabel(labels, labels.grid.indexOf(voxels[n]));
     });
     for (std::size_t n = 0; n < voxels.size(); ++n)
         labels.voxels[voxels[n]] = becomes[n];

@@ -63,6 +63,8 @@ StretchQuality measureStretch(std::optional<ColonPart> part, double from_mm, dou
     return q;
 }
 
+constexpr double kLeastMottled_ml = 0.5;  ///< a ball of 10 mm: less hides no lesion that matters
+
 constexpr int kAlongStep_mm = 5;  ///< of what is kept along the skeleton: finer than the average over a cross-section
 
 double rounded(double value, double parts_of_one)
@@ -104,6 +106,21 @@ LumenAlong lumenAlong(const std::vector<double>& radii, const LumenProfile& prof
     return along;
 }
 
+/// Each block counts where the centreline is nearest to it.
+void addMottled(ScanQuality& quality, const MottledTagging& mottled, const Skeleton& skeleton,
+                const ColonPartRanges& parts)
+{
+    quality.whole.mottled_ml = mottled.volume_ml();
+    for (const Point3& block : mottled.blocks_mm) {
+        const double station_mm = skeleton.nearest(block).station_mm;
+        for (std::size_t n = 0; n < parts.size(); ++n)
+            if (station_mm >= parts[n].from_mm && (station_mm < parts[n].to_mm || n + 1 == parts.size())) {
+                quality.parts[n].mottled_ml += mottled.blockVolume_ml();
+                break;
+            }
+    }
+}
+
 void judge(ScanQuality& quality, double length_mm, const QualityOptions& options)
 {
     const auto note = [&](QualityReason reason, std::optional<ColonPart> part, double value) {
@@ -123,12 +140,18 @@ void judge(ScanQuality& quality, double length_mm, const QualityOptions& options
     }
     if (quality.noise_hu > options.usual_noise_hu)
         note(QualityReason::noise, {}, quality.noise_hu);
+    for (const StretchQuality& part : quality.parts)
+        if (part.mottled_ml >= kLeastMottled_ml)
+            note(QualityReason::mottled, part.part, part.mottled_ml);
+    if (quality.parts.empty() && quality.whole.mottled_ml >= kLeastMottled_ml)
+        note(QualityReason::mottled, {}, quality.whole.mottled_ml);
 }
 
 }  // namespace
 
 ScanQuality measureQuality(const InsideVolume& inside, const Skeleton& skeleton, const ColonPartRanges& parts,
-                           double noise_hu, const QualityOptions& options, Progress& progress)
+                           double noise_hu, const MottledTagging& mottled, const QualityOptions& options,
+                           Progress& progress)
 {
     if (skeleton.empty())
         throw Error(ErrorCode::bad_input, "the quality of a scan without a skeleton cannot be measured");
@@ -141,6 +164,7 @@ ScanQuality measureQuality(const InsideVolume& inside, const Skeleton& skeleton,
     quality.whole = measureStretch(std::nullopt, 0, skeleton.length_mm(), radii, profile, options);
     for (const ColonPartRange& range : parts)
         quality.parts.push_back(measureStretch(range.part, range.from_mm, range.to_mm, radii, profile, options));
+    addMottled(quality, mottled, skeleton, parts);
     quality.along = lumenAlong(radii, profile, skeleton.length_mm(), options);
     quality.thresholds = vicon::toJson(options);
     judge(quality, skeleton.length_mm(), options);

@@ -24,7 +24,7 @@ std::array<unsigned, 3> nearestPermutation(const std::array<Vector3, 3>& axis)
     return best;
 }
 
-double rounded(double mm)
+double onOriginStep(double mm)
 {
     return std::round(mm / kOriginStep_mm) * kOriginStep_mm + 0.0;
 }
@@ -54,7 +54,7 @@ OrientedScan orient(HuVolume& acquired)
             scan.grid.origin_mm += axis * (from.spacing_mm[a] * (from.size[a] - 1));
     }
     const Point3 origin = scan.grid.origin_mm;
-    scan.grid.origin_mm = {rounded(origin.x), rounded(origin.y), rounded(origin.z)};
+    scan.grid.origin_mm = {onOriginStep(origin.x), onOriginStep(origin.y), onOriginStep(origin.z)};
     return scan;
 }
 

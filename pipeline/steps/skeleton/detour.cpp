@@ -94,7 +94,7 @@ std::vector<Offset> cheapest(const Polyline& line, const std::vector<Frame>& fra
 }
 
 /// Offsets without the steps of the rings; a fixed end stays, a free one goes on straight.
-std::vector<Offset> evened(std::vector<Offset> offsets, const DetourStretch& stretch)
+std::vector<Offset> evenedOffsets(std::vector<Offset> offsets, const DetourStretch& stretch)
 {
     for (int round = 0; round < kRelaxations; ++round) {
         std::vector<Offset> even = offsets;
@@ -116,7 +116,7 @@ void moveAside(Polyline& line, const std::vector<Frame>& frames, const DetourStr
     const std::vector<Offset> found = cheapest(line, frames, stretch, wall);
     if (found.empty())
         return;
-    const std::vector<Offset> even = evened(found, stretch);
+    const std::vector<Offset> even = evenedOffsets(found, stretch);
     for (std::size_t n = 0; n < found.size(); ++n) {
         const std::size_t at = stretch.from + n;
         const auto moved = [&](double t) {

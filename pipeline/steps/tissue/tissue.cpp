@@ -12,6 +12,7 @@
 #include "tissue/level_wall.h"
 #include "tissue/levels.h"
 #include "tissue/lumen_of_tissue.h"
+#include "tissue/mottled.h"
 #include "tissue/near_mask.h"
 #include "tissue/other_bowel.h"
 #include "tissue/sheets.h"
@@ -107,6 +108,7 @@ TissueResult findTissue(const HuVolume& hu, const InsideVolume& inside, Vector3 
     const std::vector<std::size_t> other_bowel =
         options.leave_out_other_bowel ? otherBowel(result.tissue, inside, pieces) : std::vector<std::size_t>{};
     result.lumen = lumenOf(result.tissue, inside, pieces, other_bowel);
+    result.mottled = findMottled(mixture, noise_hu);
     result.cleansed = cleanse(mixture, near_fluid, result.tissue);
     result.blur_mm = blur_voxels * inside.grid.spacing_mm[std::size_t(down.axis)];
     result.found = {{"level_columns", levels.columns.size()},

@@ -30,7 +30,7 @@ int size(DcmDataset& dataset, const DcmTagKey& tag)
     return value;
 }
 
-std::string text(DcmDataset& dataset, const DcmTagKey& tag)
+std::string textOf(DcmDataset& dataset, const DcmTagKey& tag)
 {
     OFString value;
     dataset.findAndGetOFString(tag, value);
@@ -56,7 +56,7 @@ std::optional<ImagePlane> planeOf(const std::filesystem::path& file, const std::
                       spacing[0],
                       size(d, DCM_Rows),
                       size(d, DCM_Columns),
-                      {text(d, DCM_SeriesInstanceUID), text(d, DCM_SOPClassUID), sop_uid}};
+                      {textOf(d, DCM_SeriesInstanceUID), textOf(d, DCM_SOPClassUID), sop_uid}};
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ struct Flat {
     double u = 0, v = 0;
 };
 
-double cross(Flat o, Flat a, Flat b)
+double turnOf(Flat o, Flat a, Flat b)
 {
     return (a.u - o.u) * (b.v - o.v) - (a.v - o.v) * (b.u - o.u);
 }
@@ -70,7 +70,7 @@ std::vector<Flat> hullOf(const std::vector<Flat>& points)
 {
     std::vector<Flat> hull;
     const auto add = [&](Flat p, std::size_t keep) {
-        while (hull.size() >= keep + 2 && cross(hull[hull.size() - 2], hull.back(), p) <= 0)
+        while (hull.size() >= keep + 2 && turnOf(hull[hull.size() - 2], hull.back(), p) <= 0)
             hull.pop_back();
         hull.push_back(p);
     };

@@ -4,6 +4,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 
 #include "density_sampler.h"
 
@@ -12,9 +15,11 @@ namespace {
 
 // Soft tissue, and contrast medium in the mucosa, end some 120 HU above 40 HU, as tissue.tag_contrast_hu has it.
 constexpr float kTissue_hu = 40, kLeastContrast_hu = 120;
-constexpr float kTagNoises = 3;   // a density between voxels has less noise than a voxel: five of its own
+constexpr float kTagNoises = 3;     // a density between voxels has less noise than a voxel: five of its own
 constexpr float kTagRise_hu = 100;  // from where tagging begins to where it is sure
 // A film is 1.5 mm thick in the mean (beyond.md); farther in stands what does not touch the wall.
+// Of a block's side: a block reaches to within two voxels of the wall.
+constexpr double kBesideMottled = 1.75;
 constexpr float kTagReach_mm = 2.5F, kTagStep_mm = 0.5F;
 
 /// The highest density on the way into the lumen, from the wall to where the lumen ends or is wide.
@@ -36,6 +41,41 @@ float highestBefore(Point3 point, Vector3 normal, const DensitySampler& densitie
     return highest;
 }
 
+/// Points by cubes, so that only near ones are looked at.
+class NearBlocks {
+public:
+    explicit NearBlocks(const MottledTagging& mottled) : side_mm_(mottled.block_mm)
+    {
+        for (const Point3& block : mottled.blocks_mm)
+            cubes_[cubeOf(block)].push_back(block);
+    }
+
+    /// Whether one lies within kBesideMottled sides.
+    bool near(Point3 p) const
+    {
+        const double reach_mm = kBesideMottled * side_mm_;
+        const Cube at = cubeOf(p);
+        for (int k = -2; k <= 2; ++k)
+            for (int j = -2; j <= 2; ++j)
+                for (int i = -2; i <= 2; ++i)
+                    if (const auto found = cubes_.find({at[0] + i, at[1] + j, at[2] + k}); found != cubes_.end())
+                        for (const Point3& block : found->second)
+                            if (distance(block, p) <= reach_mm)
+                                return true;
+        return false;
+    }
+
+private:
+    using Cube = std::array<int, 3>;
+    Cube cubeOf(Point3 p) const
+    {
+        return {int(std::floor(p.x / side_mm_)), int(std::floor(p.y / side_mm_)), int(std::floor(p.z / side_mm_))};
+    }
+
+    double side_mm_;
+    std::map<Cube, std::vector<Point3>> cubes_;
+};
+
 }  // namespace
 
 std::vector<float> taggingOf(const std::vector<float>& points_mm, const std::vector<float>& normals,
@@ -54,6 +94,18 @@ std::vector<float> taggingOf(const std::vector<float>& points_mm, const std::vec
         }
     });
     return tagging;
+}
+
+void addMottled(std::vector<float>& tagging, const std::vector<float>& points_mm, const MottledTagging& mottled)
+{
+    if (mottled.blocks_mm.empty())
+        return;
+    const NearBlocks blocks(mottled);
+    tbb::parallel_for(std::size_t(0), tagging.size(), [&](std::size_t n) {
+        const float* p = &points_mm[3 * n];
+        if (tagging[n] > 0 && blocks.near({p[0], p[1], p[2]}))
+            tagging[n] += 1;
+    });
 }
 
 }  // namespace vicon::viewer

@@ -5,7 +5,6 @@
 #include "vicon/core/error.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/orientation.h"
-#include "vicon/viewer/model/wall_tagging.h"
 #include "vicon/viewer/scene/cube_picture.h"
 
 namespace vicon::viewer {
@@ -101,6 +100,8 @@ std::vector<OverlayText> linesOfPicture(const PreparedScan& scan, const Snapshot
     }
     if (request.wall.tagging && scan.hasTagging() && !scan.tagging().empty()) {
         line.text = "blue: tagging on the wall";
+        if (scan.hasMottledTagging())
+            line.text += "; violet: mottled";
         line.color = kTextColor;
         lines.push_back(line);
     }
@@ -190,8 +191,7 @@ void EndoscopicPictures::wear(const WallLook& look)
     look_.wear(
         scene_, look, cells, [&]() -> const std::vector<float>& { return seen_->openness; },
         [&]() -> const std::vector<float>& {
-            if (scan_.quantity() == Quantity::density)
-                tagging_ = taggingOf(cells.points_mm, cells.normals, scan_.volume(), scan_.inside(), scan_.noise_hu());
+            tagging_ = scan_.taggingOf(cells);
             return tagging_;
         });
 }

@@ -89,7 +89,9 @@ Addition additionOf(const LampLook& look)
         adds.out += "out float tagged;\n";
         adds.hand_on += "tagged = tagging;\n";
         adds.in += "in float tagged;\n";
-        adds.color += "color = mix(color, vec3(0.45, 0.66, 0.95), 0.45 * tagged);\n";
+        adds.color +=
+            "color = mix(color, vec3(0.45, 0.66, 0.95), 0.45 * min(tagged, 1.0));\n"
+            "color = mix(color, vec3(0.62, 0.30, 0.85), 0.7 * clamp(tagged - 1.0, 0.0, 1.0));\n";
     }
     return adds;
 }

@@ -32,7 +32,7 @@ std::string text(const char* pattern, double value)
     return words.data();
 }
 
-OverlayText words(Pixel at, const std::string& what, double height_px, Rgb color, Across across, Along along)
+OverlayText writtenAt(Pixel at, const std::string& what, double height_px, Rgb color, Across across, Along along)
 {
     OverlayText made;
     made.at = at;
@@ -90,8 +90,8 @@ void addAxis(Overlay& overlay, const Axes& axes, double text_px)
         }
     for (double hu = std::ceil(axes.from_hu / step) * step; hu <= axes.to_hu; hu += step) {
         overlay.lines.push_back({{{axes.x(hu), below}, {axes.x(hu), below + 0.4 * text_px}}, kAxisColor, 1.5, 0});
-        overlay.texts.push_back(words({axes.x(hu), below + 0.5 * text_px}, text("%.0f", hu), 0.9 * text_px, kTextColor,
-                                      Across::centre, Along::top));
+        overlay.texts.push_back(writtenAt({axes.x(hu), below + 0.5 * text_px}, text("%.0f", hu), 0.9 * text_px,
+                                          kTextColor, Across::centre, Along::top));
     }
     for (const Landmark& mark : kLandmarks) {
         const double from = std::max(mark.from_hu, axes.from_hu), to = std::min(mark.to_hu, axes.to_hu);
@@ -99,8 +99,8 @@ void addAxis(Overlay& overlay, const Axes& axes, double text_px)
             continue;
         const double y = below + 2.1 * text_px;
         overlay.lines.push_back({{{axes.x(from) + 2, y}, {axes.x(to) - 2, y}}, kAxisColor, 2, 0});
-        overlay.texts.push_back(words({(axes.x(from) + axes.x(to)) / 2, y + 0.2 * text_px}, mark.name, 0.9 * text_px,
-                                      kTextColor, Across::centre, Along::top));
+        overlay.texts.push_back(writtenAt({(axes.x(from) + axes.x(to)) / 2, y + 0.2 * text_px}, mark.name,
+                                          0.9 * text_px, kTextColor, Across::centre, Along::top));
     }
 }
 

@@ -293,14 +293,25 @@ bool PreparedScan::hasTagging() const
 
 const std::vector<float>& PreparedScan::tagging(const Progress* wanted) const
 {
-    return files_->tagging.get([&] {
-        if (quantity() != Quantity::density)
-            return std::vector<float>();
-        auto tagging = taggingOf(cells().points_mm, cells().normals, volume(), inside(), noise_hu(), wanted);
-        constexpr float kSure = 0.5F;
-        const bool any = std::ranges::any_of(tagging, [](float of) { return of > kSure; });
-        return any ? tagging : std::vector<float>();
-    });
+    return files_->tagging.get([&] { return taggingOf(cells(), wanted); });
+}
+
+std::vector<float> PreparedScan::taggingOf(const CellSurface& surface, const Progress* wanted) const
+{
+    if (quantity() != Quantity::density)
+        return {};
+    auto tagging = viewer::taggingOf(surface.points_mm, surface.normals, volume(), inside(), noise_hu(), wanted);
+    if (const StepResults& results = files_->stepResults(); results.tissue)
+        addMottled(tagging, surface.points_mm, results.tissue->mottled);
+    constexpr float kSure = 0.5F;
+    const bool any = std::ranges::any_of(tagging, [](float of) { return of > kSure; });
+    return any ? tagging : std::vector<float>();
+}
+
+bool PreparedScan::hasMottledTagging() const
+{
+    const StepResults& results = files_->stepResults();
+    return results.tissue && !results.tissue->mottled.blocks_mm.empty();
 }
 
 double PreparedScan::noise_hu() const

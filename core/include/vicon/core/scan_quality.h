@@ -18,6 +18,7 @@ struct StretchQuality {
     double longest_collapsed_mm = 0;  ///< without interruption
     double volume_ml = 0;             ///< gas and tagged fluid
     double fluid_ml = 0;              ///< tagged fluid
+    double mottled_ml = 0;            ///< tagging in which wall cannot be told, see MottledTagging
     bool adequate = false;            ///< no collapsed stretch of quality.longest_collapsed_mm or more
 
     double fluidFraction() const { return volume_ml > 0 ? fluid_ml / volume_ml : 0; }
@@ -28,8 +29,9 @@ enum class QualityReason {
     collapsed,           ///< a part, or the whole where parts are not known, over a length
     implausible_length,  ///< the colon's; it can hardly be the whole of it
     noise,               ///< more than usual
+    mottled,             ///< tagging, in a part or in the whole
 };
-/// "collapsed", "implausible_length", "noise".
+/// "collapsed", "implausible_length", "noise", "mottled".
 std::string nameOf(QualityReason reason);
 /// Throws Error{bad_input} for any other name.
 QualityReason qualityReasonFrom(const std::string& name);
@@ -38,7 +40,7 @@ QualityReason qualityReasonFrom(const std::string& name);
 struct QualityNote {
     QualityReason reason = QualityReason::collapsed;
     std::optional<ColonPart> part;
-    double value = 0;  ///< mm, of noise HU
+    double value = 0;  ///< mm, of noise HU, of tagging ml
 };
 /// "sigmoid collapsed over 38 mm", "more noise than usual: 45 HU".
 std::string textOf(const QualityNote& note);

@@ -25,7 +25,7 @@ QString text(const std::string& utf8)
     return QString::fromStdString(utf8);
 }
 
-QString sizeOf(const Marker& marker)
+QString sizeCell(const Marker& marker)
 {
     return marker.size ? QString::number(largestDiameter_mm(*marker.size), 'f', 1) : QString();
 }
@@ -145,7 +145,7 @@ void MarkerTable::show(const std::vector<Marker>& markers, const std::map<std::s
                                 QString::number(m.station_mm, 'f', 0),
                                 m.part ? text(nameOf(*m.part)) : QString(),
                                 text(m.pair),
-                                sizeOf(m),
+                                sizeCell(m),
                                 text(m.note)};
         for (int column = 0; column < kColumns; ++column) {
             auto* item = new QTableWidgetItem(cells[column]);

@@ -28,7 +28,7 @@ struct Group {
     int lines() const { return int(keys.size()) + 2; }
 };
 
-QString tr(const char* text)
+QString translated(const char* text)
 {
     return QObject::tr(text);
 }
@@ -43,13 +43,13 @@ std::vector<Group> groupsOf(const QMainWindow& window)
             if (!action->shortcut().isEmpty())
                 groups.back().keys.push_back({action->shortcut().toString(), action->text().remove('&')});
     }
-    groups.push_back({tr("In a view"),
-                      {{tr("W A S D"), tr("Guided and free: on, left, back, right")},
-                       {tr("arrows"), tr("Guided and free: turn the view")},
-                       {tr("arrows, Return"), tr("A click is awaited: move the cross, click")},
-                       {tr("Shift+Return"), tr("Red marker in the middle or at the mouse")},
-                       {tr("Tab, Shift+Tab"), tr("Next, previous view or control")},
-                       {tr("PgUp, PgDown"), tr("Slices (Ctrl: zoom; Ctrl+arrows: pan)")}}});
+    groups.push_back({translated("In a view"),
+                      {{translated("W A S D"), translated("Guided and free: on, left, back, right")},
+                       {translated("arrows"), translated("Guided and free: turn the view")},
+                       {translated("arrows, Return"), translated("A click is awaited: move the cross, click")},
+                       {translated("Shift+Return"), translated("Red marker in the middle or at the mouse")},
+                       {translated("Tab, Shift+Tab"), translated("Next, previous view or control")},
+                       {translated("PgUp, PgDown"), translated("Slices (Ctrl: zoom; Ctrl+arrows: pan)")}}});
     return groups;
 }
 
@@ -110,7 +110,7 @@ void showKeys(QMainWindow& window)
 {
     auto* dialog = new QDialog(&window);
     dialog->setObjectName("keys");
-    dialog->setWindowTitle(tr("Keys"));
+    dialog->setWindowTitle(translated("Keys"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     auto* text = new QLabel(pageOf(groupsOf(window)), dialog);
     text->setObjectName("keysText");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "vicon/core/colon_parts.h"
+#include "vicon/core/mottled_tagging.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/scan_quality.h"
@@ -35,8 +36,10 @@ struct QualityOptions {
 /// Cross-sections come from the lumen's volume: each voxel belongs to the station whose front of a flood from the whole
 /// skeleton reaches it first (on blocks of 2 x 2 x 2 voxels), averaged over 10 mm (a triangle of 20 mm).
 /// @param noise_hu of softTissueNoise()
+/// @param mottled of findTissue(): told where it is half a millilitre or more in a part
 /// Throws Error{bad_input} when the skeleton is empty, Error{cancelled}.
 ScanQuality measureQuality(const InsideVolume& inside, const Skeleton& skeleton, const ColonPartRanges& parts,
-                           double noise_hu, const QualityOptions& options, Progress& progress);
+                           double noise_hu, const MottledTagging& mottled, const QualityOptions& options,
+                           Progress& progress);
 
 }  // namespace vicon::steps

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "vicon/core/mottled_tagging.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/scanner_blur.h"
@@ -30,10 +31,11 @@ struct TissueOptions {
 };
 
 struct TissueResult {
-    TissueVolume tissue;   ///< 255 farther than about 5 mm from the lumen
-    InsideVolume lumen;    ///< the labels, with the wall where half of a voxel is tissue
-    HuVolume cleansed;     ///< the densities with tagging taken out: -1000 + 1040 x fraction beside tagging
-    double blur_mm = 0;    ///< standard deviation of the blur at fluid levels; a usual one where there are none
+    TissueVolume tissue;  ///< 255 farther than about 5 mm from the lumen
+    InsideVolume lumen;   ///< the labels, with the wall where half of a voxel is tissue
+    HuVolume cleansed;    ///< the densities with tagging taken out: -1000 + 1040 x fraction beside tagging
+    double blur_mm = 0;   ///< standard deviation of the blur at fluid levels; a usual one where there are none
+    MottledTagging mottled;
     nlohmann::json found;  ///< other measures, for the step's record
 };
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "vicon/core/mottled_tagging.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/volume_view.h"
 
@@ -18,5 +19,8 @@ namespace vicon::viewer {
 std::vector<float> taggingOf(const std::vector<float>& points_mm, const std::vector<float>& normals,
                              const HuView& volume, const InsideView& inside, double noise_hu,
                              const Progress* wanted = nullptr);
+
+/// Adds up to 1 to the tagging of points that lie on or beside mottled tagging.
+void addMottled(std::vector<float>& tagging, const std::vector<float>& points_mm, const MottledTagging& mottled);
 
 }  // namespace vicon::viewer
