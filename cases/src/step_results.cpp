@@ -1,5 +1,6 @@
 #include "vicon/cases/step_results.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -33,9 +34,16 @@ json toJson(const MottledTagging& mottled)
 
 MottledTagging mottledFrom(const json& json)
 {
+    constexpr double kLeast_mm = 0.1, kMost_mm = 100, kFarthest_mm = 1e5;  // whoever looks for a block counts on that
     MottledTagging mottled{.block_mm = json.at("block_mm").get<double>(), .blocks_mm = {}};
-    for (const auto& p : json.at("blocks_mm"))
+    bool sound = mottled.block_mm >= kLeast_mm && mottled.block_mm <= kMost_mm;
+    for (const auto& p : json.at("blocks_mm")) {
         mottled.blocks_mm.push_back({p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()});
+        const Point3& at = mottled.blocks_mm.back();
+        sound = sound && std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) <= kFarthest_mm;
+    }
+    if (!sound)
+        throw Error(ErrorCode::bad_input, "mottled tagging lies where no scan is");
     return mottled;
 }
 

@@ -74,6 +74,10 @@ TEST(StepResults, OfTheTissueStepKeepWhereTaggingIsMottled)
     ASSERT_EQ(read.mottled.blocks_mm.size(), 2U);
     EXPECT_NEAR(distance(read.mottled.blocks_mm[0], found.mottled.blocks_mm[0]), 0, 0.01);
     EXPECT_TRUE(tissueFoundFromJson(toJson(TissueFound())).mottled.blocks_mm.empty());
+    for (const auto& [side_mm, x_mm] : {std::pair(0.0, 1.0), std::pair(1e-300, 1.0), std::pair(4.0, 1e300)}) {
+        const json damaged = {{"mottled", {{"block_mm", side_mm}, {"blocks_mm", {{x_mm, 2, 3}}}}}};
+        EXPECT_THROW(tissueFoundFromJson(damaged), Error) << side_mm << ", " << x_mm;
+    }
 }
 
 TEST(StepResults, OfAnotherShapeAreSaidToBe)

@@ -17,10 +17,9 @@ namespace {
 constexpr float kTissue_hu = 40, kLeastContrast_hu = 120;
 constexpr float kTagNoises = 3;     // a density between voxels has less noise than a voxel: five of its own
 constexpr float kTagRise_hu = 100;  // from where tagging begins to where it is sure
-// A film is 1.5 mm thick in the mean (beyond.md); farther in stands what does not touch the wall.
-// Of a block's side: a block reaches to within two voxels of the wall.
-constexpr double kBesideMottled = 1.75;
+// A film on a flat polyp is 1.5 mm thick in the mean (PMC3996850); farther in stands what does not touch the wall.
 constexpr float kTagReach_mm = 2.5F, kTagStep_mm = 0.5F;
+constexpr double kBesideMottled = 1.75;  // of a block's side: a block keeps two voxels off the wall
 
 /// The highest density on the way into the lumen, from the wall to where the lumen ends or is wide.
 float highestBefore(Point3 point, Vector3 normal, const DensitySampler& densities, const InsideView& inside)
