@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "vicon/core/error.h"
+#include "vicon/core/geometry_json.h"
 #include "vicon/core/json_text.h"
 
 using nlohmann::json;
@@ -28,20 +29,18 @@ json toJson(const MottledTagging& mottled)
     json blocks = json::array();
     const auto rounded = [](double mm) { return std::round(mm * 100) / 100; };
     for (const Point3& p : mottled.blocks_mm)
-        blocks.push_back({rounded(p.x), rounded(p.y), rounded(p.z)});
+        blocks.push_back(Point3{rounded(p.x), rounded(p.y), rounded(p.z)});
     return {{"block_mm", mottled.block_mm}, {"blocks_mm", std::move(blocks)}};
 }
 
 MottledTagging mottledFrom(const json& json)
 {
     constexpr double kLeast_mm = 0.1, kMost_mm = 100, kFarthest_mm = 1e5;  // whoever looks for a block counts on that
-    MottledTagging mottled{.block_mm = json.at("block_mm").get<double>(), .blocks_mm = {}};
-    bool sound = mottled.block_mm >= kLeast_mm && mottled.block_mm <= kMost_mm;
-    for (const auto& p : json.at("blocks_mm")) {
-        mottled.blocks_mm.push_back({p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()});
-        const Point3& at = mottled.blocks_mm.back();
-        sound = sound && std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) <= kFarthest_mm;
-    }
+    MottledTagging mottled{json.at("block_mm").get<double>(), json.at("blocks_mm").get<std::vector<Point3>>()};
+    const bool sound = mottled.block_mm >= kLeast_mm && mottled.block_mm <= kMost_mm &&
+                       std::ranges::all_of(mottled.blocks_mm, [](Point3 p) {
+                           return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest_mm;
+                       });
     if (!sound)
         throw Error(ErrorCode::bad_input, "mottled tagging lies where no scan is");
     return mottled;

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "triple_json.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/geometry_json.h"
 #include "vicon/core/json_text.h"
 #include "vicon/picture/png_file.h"
 
@@ -19,10 +19,9 @@ constexpr int kCompression = 3;  // of zlib's 9: the projections of the 512 x 51
 
 nlohmann::json mappingOf(const Projection& p)
 {
-    return {{"name", p.name},         {"file", p.name + ".png"},
-            {"width", p.width},       {"height", p.height},
-            {"pixel_mm", p.pixel_mm}, {"right", triple(p.right)},
-            {"down", triple(p.down)}, {"first_pixel_mm", triple(p.first_pixel_mm)}};
+    return {
+        {"name", p.name},         {"file", p.name + ".png"}, {"width", p.width}, {"height", p.height},
+        {"pixel_mm", p.pixel_mm}, {"right", p.right},        {"down", p.down},   {"first_pixel_mm", p.first_pixel_mm}};
 }
 
 Projection described(const nlohmann::json& all, const std::string& name)
@@ -34,9 +33,9 @@ Projection described(const nlohmann::json& all, const std::string& name)
             p.width = j.at("width");
             p.height = j.at("height");
             p.pixel_mm = j.at("pixel_mm");
-            p.right = tripleFrom<Vector3>(j.at("right"));
-            p.down = tripleFrom<Vector3>(j.at("down"));
-            p.first_pixel_mm = tripleFrom<Point3>(j.at("first_pixel_mm"));
+            p.right = j.at("right").get<Vector3>();
+            p.down = j.at("down").get<Vector3>();
+            p.first_pixel_mm = j.at("first_pixel_mm").get<Point3>();
             return p;
         }
     return {};

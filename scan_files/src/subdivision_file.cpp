@@ -1,8 +1,8 @@
 #include "vicon/scan_files/subdivision_file.h"
 
-#include "triple_json.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/geometry_json.h"
 #include "vicon/core/json_text.h"
 
 namespace fs = std::filesystem;
@@ -15,12 +15,12 @@ json toJson(const Portal& p)
 {
     json gate = json::array(), box = json::array();
     for (const Point3& corner : p.gate_mm)
-        gate.push_back(triple(corner));
+        gate.push_back(corner);
     for (const Point3& corner : p.box_mm)
-        box.push_back(triple(corner));
+        box.push_back(corner);
     return {{"between", {p.segment_a, p.segment_b}},
-            {"centre_mm", triple(p.centre_mm)},
-            {"normal", triple(p.normal)},
+            {"centre_mm", p.centre_mm},
+            {"normal", p.normal},
             {"area_mm2", p.area_mm2},
             {"gate_mm", gate},
             {"box_mm", box},
@@ -32,35 +32,35 @@ Portal portalFrom(const json& j)
     Portal p;
     p.segment_a = wholeNumber(j.at("between").at(0));
     p.segment_b = wholeNumber(j.at("between").at(1));
-    p.centre_mm = tripleFrom<Point3>(j.at("centre_mm"));
-    p.normal = tripleFrom<Vector3>(j.at("normal"));
+    p.centre_mm = j.at("centre_mm").get<Point3>();
+    p.normal = j.at("normal").get<Vector3>();
     p.area_mm2 = j.at("area_mm2");
     for (std::size_t n = 0; n < 4; ++n)
-        p.gate_mm[n] = tripleFrom<Point3>(j.at("gate_mm").at(n));
+        p.gate_mm[n] = j.at("gate_mm").at(n).get<Point3>();
     for (std::size_t n = 0; n < 8; ++n)
-        p.box_mm[n] = tripleFrom<Point3>(j.at("box_mm").at(n));
+        p.box_mm[n] = j.at("box_mm").at(n).get<Point3>();
     p.along_skeleton = j.at("along_skeleton");
     return p;
 }
 
 json toJson(const SegmentInfo& s)
 {
-    return {{"number", s.number},         {"from_station_mm", s.from_station_mm}, {"to_station_mm", s.to_station_mm},
-            {"volume_mm3", s.volume_mm3}, {"inside_voxels", s.inside_voxels},     {"surface_voxels", s.surface_voxels},
-            {"triangles", s.triangles},   {"lower_mm", triple(s.lower_mm)},       {"upper_mm", triple(s.upper_mm)}};
+    return {{"number", s.number},
+            {"from_station_mm", s.from_station_mm},
+            {"to_station_mm", s.to_station_mm},
+            {"volume_mm3", s.volume_mm3},
+            {"inside_voxels", s.inside_voxels},
+            {"surface_voxels", s.surface_voxels},
+            {"triangles", s.triangles},
+            {"lower_mm", s.lower_mm},
+            {"upper_mm", s.upper_mm}};
 }
 
 SegmentInfo segmentFrom(const json& j)
 {
-    return {wholeNumber(j.at("number")),
-            j.at("from_station_mm"),
-            j.at("to_station_mm"),
-            j.at("volume_mm3"),
-            j.at("inside_voxels"),
-            j.at("surface_voxels"),
-            j.at("triangles"),
-            tripleFrom<Point3>(j.at("lower_mm")),
-            tripleFrom<Point3>(j.at("upper_mm"))};
+    return {wholeNumber(j.at("number")), j.at("from_station_mm"),        j.at("to_station_mm"),
+            j.at("volume_mm3"),          j.at("inside_voxels"),          j.at("surface_voxels"),
+            j.at("triangles"),           j.at("lower_mm").get<Point3>(), j.at("upper_mm").get<Point3>()};
 }
 
 }  // namespace
