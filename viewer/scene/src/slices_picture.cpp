@@ -15,7 +15,7 @@ constexpr double kMarkerNear_mm = 5;  // a marker is drawn in slices that pass t
 constexpr double kRing_mm = 8;
 constexpr std::size_t kNoteLine = 44;  // characters
 constexpr std::size_t kMostNoteLines = 3;
-constexpr double kLongestTitle = 11.5, kLongestTitleOfPicture = 9;  // in heights of the text: "sagittal, x = -123 mm"
+constexpr double kLongestTitle = 10.5, kLongestTitleOfPicture = 9;  // in heights of the text: "sagittal, x = -123 mm"
 constexpr double kCloseUp_mm = 50;  // what the close-up shows: a polyp of 6 mm fills an eighth of it
 
 /// @param cleansed shown where it has densities; nothing: nowhere
