@@ -82,6 +82,11 @@ Subcommand phantomCommand()
             command.flag("--catheter,!--no-catheter", options.catheter, "A rectal tube (default: yes)");
             command.flag("--thin-walls", options.thin_walls, "Loops with 1 mm of wall between them");
             command.flag("--self-contact", options.self_contact, "Two loops run into one another once");
+            command
+                .option("--stool", options.stool, "Lumps of tagged stool, half of them with air; without a number: 12")
+                .valueIfBare("12")
+                .check(range(0, 40));
+            command.flag("--film", options.film, "Films of tagging on the polyps");
             command.flag("--ileum", options.ileum, "A terminal ileum filled through the ileocaecal valve");
             command.option("--mr", options.mr, "MR images in place of CT, the lumen dark or bright in them")
                 .check(oneOf({"none", "dark", "bright"}));

@@ -23,21 +23,28 @@ void take(const json& from, const char* key, Value& into)
         into = found->get<Value>();
 }
 
-/// To hundredths of a millimetre: there may be thousands of blocks.
+/// To hundredths: there may be thousands of blocks.
 json toJson(const MottledTagging& mottled)
 {
     json blocks = json::array();
-    const auto rounded = [](double mm) { return std::round(mm * 100) / 100; };
+    json shares = json::array();
+    const auto rounded = [](double value) { return std::round(value * 100) / 100; };
     for (const Point3& p : mottled.blocks_mm)
         blocks.push_back(Point3{rounded(p.x), rounded(p.y), rounded(p.z)});
-    return {{"block_mm", mottled.block_mm}, {"blocks_mm", std::move(blocks)}};
+    for (const double share : mottled.shares)
+        shares.push_back(rounded(share));
+    return {{"block_mm", mottled.block_mm}, {"blocks_mm", std::move(blocks)}, {"shares", std::move(shares)}};
 }
 
 MottledTagging mottledFrom(const json& json)
 {
     constexpr double kLeast_mm = 0.1, kMost_mm = 100, kFarthest_mm = 1e5;  // whoever looks for a block counts on that
-    MottledTagging mottled{json.at("block_mm").get<double>(), json.at("blocks_mm").get<std::vector<Point3>>()};
+    MottledTagging mottled{json.at("block_mm").get<double>(), json.at("blocks_mm").get<std::vector<Point3>>(), {}};
+    mottled.shares.assign(mottled.blocks_mm.size(), 1);  // as records were before there were shares
+    take(json, "shares", mottled.shares);
     const bool sound = mottled.block_mm >= kLeast_mm && mottled.block_mm <= kMost_mm &&
+                       mottled.shares.size() == mottled.blocks_mm.size() &&
+                       std::ranges::all_of(mottled.shares, [](double s) { return s >= 0 && s <= 1; }) &&
                        std::ranges::all_of(mottled.blocks_mm, [](Point3 p) {
                            return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest_mm;
                        });

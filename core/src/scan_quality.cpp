@@ -125,7 +125,8 @@ std::string textOf(const QualityNote& note)
         case QualityReason::noise:
             return text("more noise than usual: %.0f HU", note.value);
         case QualityReason::mottled:
-            return text("%.1f ml of mottled tagging", note.value) + (note.part ? ", " + nameOf(*note.part) : "");
+            return text("%.1f ml of stool or mottled tagging", note.value) +
+                   (note.part ? ", " + nameOf(*note.part) : "");
     }
     return {};
 }

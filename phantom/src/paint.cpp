@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "densities.h"
+#include "lumen_content.h"
 #include "trunk_painter.h"
 
 namespace vicon::phantom {
@@ -66,11 +67,11 @@ void eachVoxelOf(const Grid& grid, const BoxedSolid& item, int k, double voxel_m
 
 class Painter {
 public:
-    Painter(const Grid& grid, const Scene& scene, const LumenField& field, const std::vector<FluidPool>& pools)
+    Painter(const Grid& grid, const Scene& scene, const LumenField& field, const PhantomTruth& truth)
         : grid_(grid),
           scene_(scene),
           field_(field),
-          pools_(pools),
+          content_(scene, truth),
           trunk_(scene),
           up_(-scene.down),
           organs_(boxed(grid, scene.organs)),
@@ -132,25 +133,17 @@ private:
                 double hu = v + rim * (kFat_hu - v);
                 hu += wall * (kWall_hu - hu);
                 if (lumen > 0)
-                    hu += lumen * (content({i, j, k}, field_.pool[at]) - hu);
+                    hu +=
+                        lumen * (content_.density_hu(grid_.pointAt(Index3{i, j, k}), field_.pool[at], voxel_mm_) - hu);
                 v = std::int16_t(std::lround(hu));
             }
     }
     static double mm(std::int8_t stored) { return (stored + 0.5) * LumenField::kUnit_mm; }
 
-    double content(Index3 v, std::uint8_t pool) const
-    {
-        if (pool == LumenField::kNoPool)
-            return kGas_hu;
-        const double above_mm = dot(grid_.pointAt(v) - Point3{}, up_) - pools_[pool].level_mm;
-        const double fluid = std::clamp(0.5 - above_mm / voxel_mm_, 0.0, 1.0);
-        return kGas_hu + fluid * (pools_[pool].density_hu - kGas_hu);
-    }
-
     const Grid& grid_;
     const Scene& scene_;
     const LumenField& field_;
-    const std::vector<FluidPool>& pools_;
+    LumenContent content_;
     TrunkPainter trunk_;
     Vector3 up_;
     std::vector<BoxedSolid> organs_, bones_, ileum_wall_, ileum_lumen_, tube_;
@@ -160,10 +153,10 @@ private:
 
 }  // namespace
 
-HuVolume paintScene(const Grid& grid, const Scene& scene, const LumenField& field, const std::vector<FluidPool>& pools,
+HuVolume paintScene(const Grid& grid, const Scene& scene, const LumenField& field, const PhantomTruth& truth,
                     Progress& progress)
 {
-    Painter painter(grid, scene, field, pools);
+    Painter painter(grid, scene, field, truth);
     tbb::parallel_for(0, grid.size[2], [&](int k) {
         progress.check();
         painter.slice(k);
@@ -171,11 +164,10 @@ HuVolume paintScene(const Grid& grid, const Scene& scene, const LumenField& fiel
     return painter.take();
 }
 
-InsideVolume labelLumen(const Grid& grid, const Scene& scene, const LumenField& field,
-                        const std::vector<FluidPool>& pools)
+InsideVolume labelLumen(const Grid& grid, const Scene& scene, const LumenField& field, const PhantomTruth& truth)
 {
     InsideVolume inside(grid);
-    const Vector3 up = -scene.down;
+    const LumenContent content(scene, truth);
     const auto tube = boxed(grid, scene.tube);
     tbb::parallel_for(field.low.k, field.low.k + field.size[2], [&](int k) {
         for (int j = field.low.j; j < field.low.j + field.size[1]; ++j)
@@ -183,10 +175,7 @@ InsideVolume labelLumen(const Grid& grid, const Scene& scene, const LumenField& 
                 const std::size_t at = field.offset({i, j, k});
                 if (field.lumen[at] >= 0)
                     continue;
-                const std::uint8_t pool = field.pool[at];
-                const double height_mm = dot(grid.pointAt(Index3{i, j, k}) - Point3{}, up);
-                const bool fluid = pool != LumenField::kNoPool && height_mm < pools[pool].level_mm;
-                inside.at({i, j, k}) = fluid ? kFluid : kGas;
+                inside.at({i, j, k}) = content.label(grid.pointAt(Index3{i, j, k}), field.pool[at]);
             }
         for (const BoxedSolid& item : tube)
             eachVoxelOf(grid, item, k, 1e-6, [&](int i, int j, Point3, double) { inside.at({i, j, k}) = kOutside; });

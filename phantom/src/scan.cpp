@@ -10,6 +10,7 @@
 #include "paint.h"
 #include "pools.h"
 #include "scene.h"
+#include "stool.h"
 #include "topology.h"
 #include "vicon/core/error.h"
 #include "wall.h"
@@ -138,7 +139,7 @@ InsideVolume soundLumen(const Grid& grid, const Scene& scene, LumenField& field,
         progress.check();
         // A polyp keeps its shape unless its foot is what the voxels cannot show.
         roundOff(field, grid, round < kRounds / 2 ? truth.polyps : std::vector<Polyp>());
-        InsideVolume inside = labelLumen(grid, scene, field, truth.pools);
+        InsideVolume inside = labelLumen(grid, scene, field, truth);
         if (field.cropped)
             return inside;
         if (hasTopology(inside, field, truth.euler_number))
@@ -198,6 +199,10 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
     scan.truth.gravity = gravityOf(placement.position);
     if (options.fluid && options.mr == "none")  // in MR all of the lumen is filled alike
         scan.truth.pools = drawPools(options.seed, course.course, wall, placement.position);
+    if (options.mr == "none") {
+        scan.truth.stool = drawStool(options, course.course, wall, placement.position);
+        scan.truth.films = drawFilms(options, wall, placement.position);
+    }
 
     progress.report(0.1, "lumen");
     Scene scene = drawScene(options.seed, course, placement.position, options.catheter);
@@ -217,7 +222,7 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
     progress.report(0.5, "body");
     scan.truth.blur_mm = options.blur_mm > 0 ? options.blur_mm : drawn(options, "blur", 0.5, 0.8);
     scan.truth.noise_hu = noiseOf(options);
-    scan.hu = paintScene(grid, scene, field, scan.truth.pools, progress);
+    scan.hu = paintScene(grid, scene, field, scan.truth, progress);
     progress.report(0.7, "blur and noise");
     const std::uint64_t seed = options.seed * 8 + std::uint64_t(placement.position);
     if (options.mr == "none") {

@@ -35,8 +35,13 @@ StudyHeader headerFor(const PhantomOptions& options)
 {
     StudyHeader study;
     nlohmann::json shaping = toJson(options);
+    // Studies keep the identifiers that they had before there was MR, stool and film.
     if (options.mr == "none")
-        shaping.erase("phantom.mr");  // studies of CT keep the identifiers that they had before there was MR
+        shaping.erase("phantom.mr");
+    if (options.stool == 0)
+        shaping.erase("phantom.stool");
+    if (!options.film)
+        shaping.erase("phantom.film");
     study.key = Random(options.seed, shaping.dump()).bits();
     study.study_uid = uidFor(study.key, "study");
     const std::string seed = std::to_string(options.seed);
@@ -74,7 +79,8 @@ nlohmann::json describeTruth(const PhantomTruth& truth)
         out["ileum"] = {{"valve_mm", triple(truth.ileum.valve_mm)},     {"station_mm", truth.ileum.station_mm},
                         {"neck_radius_mm", truth.ileum.neck_radius_mm}, {"radius_mm", truth.ileum.radius_mm},
                         {"length_mm", truth.ileum.length_mm},           {"through_fluid", truth.ileum.through_fluid}};
-    for (const char* list : {"curve_mm", "station_mm", "wall_mm", "radius_mm", "polyps", "gaps", "pools"})
+    for (const char* list :
+         {"curve_mm", "station_mm", "wall_mm", "radius_mm", "polyps", "gaps", "pools", "stool", "films"})
         out[list] = nlohmann::json::array();
     for (const SkeletonPoint& point : truth.curve) {
         out["curve_mm"].push_back(triple(point.position_mm));
@@ -94,6 +100,15 @@ nlohmann::json describeTruth(const PhantomTruth& truth)
                                 {"to_mm", pool.to_mm},
                                 {"level_mm", pool.level_mm},
                                 {"density_hu", pool.density_hu}});
+    for (const StoolLump& lump : truth.stool)
+        out["stool"].push_back({{"position_mm", triple(lump.position_mm)},
+                                {"station_mm", lump.station_mm},
+                                {"diameter_mm", lump.diameter_mm},
+                                {"density_hu", lump.density_hu},
+                                {"airy", lump.airy}});
+    for (const TaggingFilm& film : truth.films)
+        out["films"].push_back(
+            {{"polyp", film.polyp}, {"thickness_mm", film.thickness_mm}, {"density_hu", film.density_hu}});
     return out;
 }
 

@@ -182,7 +182,7 @@ std::vector<Step> stepsOfLumen()
          runResample},
         {"segment", 16, 0.3, 0.55, {"resample"}, Densities::whole, segmentFiles, segmentParameters, runSegment},
         {"tissue",
-         9,
+         10,
          0.55,
          0.6,
          {"resample", "segment"},
@@ -208,7 +208,7 @@ std::vector<Step> stepsOfResults()
     using namespace steps;
     return {
         {"quality",
-         4,
+         5,
          0.65,
          0.67,
          {"segment", "tissue", "skeleton"},

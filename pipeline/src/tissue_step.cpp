@@ -48,6 +48,7 @@ json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords
     const SegmentFound segment = segmentFoundFromJson(records.at("segment").result);
     auto options = inputs.config.get<steps::TissueOptions>();
     options.leave_out_other_bowel = !segment.given;
+    options.find_stool = inputs.quantity == Quantity::density;
     steps::TissueResult found =
         steps::findTissue(results.densitiesAroundLumen(), results.mask(), inputs.gravity,
                           inputs.config.get<steps::WallDensities>(), noiseOf(segment), progress, options);

@@ -68,10 +68,11 @@ TEST(StepResults, WarnOfAnOrganThatWasNotFoundOrNotSurely)
 TEST(StepResults, OfTheTissueStepKeepWhereTaggingIsMottled)
 {
     TissueFound found;
-    found.mottled = {.block_mm = 4.05, .blocks_mm = {{-105.42, -108.12, 3.5}, {1, 2, 3}}};
+    found.mottled = {.block_mm = 4.05, .blocks_mm = {{-105.42, -108.12, 3.5}, {1, 2, 3}}, .shares = {1, 0.25}};
     const TissueFound read = tissueFoundFromJson(toJson(found));
     EXPECT_EQ(read.mottled.block_mm, 4.05);
     ASSERT_EQ(read.mottled.blocks_mm.size(), 2U);
+    EXPECT_EQ(read.mottled.shares, found.mottled.shares);
     EXPECT_NEAR(distance(read.mottled.blocks_mm[0], found.mottled.blocks_mm[0]), 0, 0.01);
     EXPECT_TRUE(tissueFoundFromJson(toJson(TissueFound())).mottled.blocks_mm.empty());
     for (const auto& [side_mm, x_mm] : {std::pair(0.0, 1.0), std::pair(1e-300, 1.0), std::pair(4.0, 1e300)}) {
@@ -104,7 +105,7 @@ TEST(ScanQuality, IsReadBackWithItsNotesAndWithoutThemFromBefore)
     EXPECT_EQ(written["parts"][0]["name"], "sigmoid");
     EXPECT_EQ(toJson(scanQualityFromJson(written)), written);
     EXPECT_EQ(scanQualityFromJson(written).parts[0].mottled_ml, 2.5);
-    EXPECT_EQ(textOf(quality.notes[2]), "2.7 ml of mottled tagging, caecum");
+    EXPECT_EQ(textOf(quality.notes[2]), "2.7 ml of stool or mottled tagging, caecum");
     EXPECT_EQ(textOf(quality.notes[0]) + "; " + textOf(quality.notes[1]), quality.reason);
     written.erase("notes");
     EXPECT_EQ(scanQualityFromJson(written).reason, quality.reason);

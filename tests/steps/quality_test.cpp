@@ -64,15 +64,15 @@ TEST(Quality, MottledTaggingIsCountedInThePartWhereItLiesAndTold)
     const ColonPartRanges parts{{ColonPart::rectum, 0, 400}, {ColonPart::sigmoid, 400, 1200}};
     Tube tube;
     NoProgress progress;
-    MottledTagging mottled{.block_mm = 4, .blocks_mm = {{27, 20, 110}}};
+    MottledTagging mottled{.block_mm = 4, .blocks_mm = {{27, 20, 110}}, .shares = {1}};
     for (double z = 510; z < 550; z += 4)
-        mottled.blocks_mm.push_back({27, 20, z});
+        mottled.add({27, 20, z}, 1);
     const ScanQuality q = measureQuality(tube.inside, tube.skeleton, parts, 0, mottled, {}, progress);
     EXPECT_NEAR(q.parts[0].mottled_ml, 0.064, 1e-9);
     EXPECT_NEAR(q.parts[1].mottled_ml, 0.64, 1e-9);
     EXPECT_NEAR(q.whole.mottled_ml, 0.704, 1e-9);
     EXPECT_TRUE(q.whole.adequate) << "it is read with care, not anew";
-    EXPECT_EQ(q.reason, "0.6 ml of mottled tagging, sigmoid");
+    EXPECT_EQ(q.reason, "0.6 ml of stool or mottled tagging, sigmoid");
 }
 
 TEST(Quality, FluidIsCountedInThePartWhereItLies)

@@ -30,7 +30,7 @@ struct Pool {
             hu.voxels[n] = std::int16_t(std::lround((fluid ? density(p) : 40) + noise(random)));
         }
     }
-    MottledTagging mottled() const { return findMottled({hu, inside, WallDensities()}, kNoise_hu); }
+    MottledTagging mottled() const { return findMottled({hu, inside, WallDensities()}, {}, kNoise_hu); }
 
     HuVolume hu;
     InsideVolume inside;
@@ -47,7 +47,7 @@ double lumpsBeyondMiddle(Point3 p)
     if (p.x < 0)
         return kFluid_hu;
     const auto lump = [](double mm) { return int(std::floor(mm / 5)); };
-    return lump(p.x) + lump(p.y) + lump(p.z) & 1 ? 300 : 900;
+    return (lump(p.x) + lump(p.y) + lump(p.z)) % 2 != 0 ? 300 : 900;
 }
 
 TEST(MottledTagging, IsNoneInAnEvenPool)

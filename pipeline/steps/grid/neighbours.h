@@ -11,9 +11,30 @@ namespace vicon::steps {
 /// From a voxel to its neighbours over faces: -x, +x, -y, +y, -z, +z.
 inline constexpr std::array<Index3, 6> kFaces{{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
 
+/// The lines through a voxel and its neighbours.
+inline constexpr std::array<Index3, 13> kLines{{{1, 0, 0},
+                                                {0, 1, 0},
+                                                {0, 0, 1},
+                                                {1, 1, 0},
+                                                {1, -1, 0},
+                                                {1, 0, 1},
+                                                {1, 0, -1},
+                                                {0, 1, 1},
+                                                {0, 1, -1},
+                                                {1, 1, 1},
+                                                {1, 1, -1},
+                                                {1, -1, 1},
+                                                {-1, 1, 1}}};
+
 constexpr Index3 shifted(Index3 v, Index3 by)
 {
     return {v.i + by.i, v.j + by.j, v.k + by.k};
+}
+
+/// So many steps from a voxel along a line, backwards where below 0.
+constexpr Index3 along(Index3 v, Index3 line, int steps)
+{
+    return {v.i + steps * line.i, v.j + steps * line.j, v.k + steps * line.k};
 }
 
 /// Calls use(offset) for the voxels of the grid that share a face with a voxel, in the order of kFaces.

@@ -111,11 +111,11 @@ void addMottled(ScanQuality& quality, const MottledTagging& mottled, const Skele
                 const ColonPartRanges& parts)
 {
     quality.whole.mottled_ml = mottled.volume_ml();
-    for (const Point3& block : mottled.blocks_mm) {
-        const double station_mm = skeleton.nearest(block).station_mm;
+    for (std::size_t block = 0; block < mottled.blocks_mm.size(); ++block) {
+        const double station_mm = skeleton.nearest(mottled.blocks_mm[block]).station_mm;
         for (std::size_t n = 0; n < parts.size(); ++n)
             if (station_mm >= parts[n].from_mm && (station_mm < parts[n].to_mm || n + 1 == parts.size())) {
-                quality.parts[n].mottled_ml += mottled.blockVolume_ml();
+                quality.parts[n].mottled_ml += mottled.volume_ml(block);
                 break;
             }
     }

@@ -35,6 +35,9 @@ public:
     {
     }
 
+    /// The same densities under other labels, on the same grid.
+    Mixture with(const InsideVolume& labels) const { return {*this, labels}; }
+
     /// The density of a voxel of the labels' grid, or kPaddingHu.
     std::int16_t acquired(Index3 v) const
     {
@@ -63,6 +66,11 @@ public:
     const double gas_hu;
 
 private:
+    Mixture(const Mixture& other, const InsideVolume& labels)
+        : inside(labels), tissue_hu(other.tissue_hu), gas_hu(other.gas_hu), hu_(other.hu_), offset_(other.offset_)
+    {
+    }
+
     const HuVolume& hu_;
     Index3 offset_;
 };

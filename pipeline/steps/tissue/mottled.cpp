@@ -2,9 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "grid/along_axis.h"
+#include "tissue/enclosed.h"
 
 namespace vicon::steps {
 namespace {
@@ -14,6 +16,7 @@ namespace {
 constexpr double kBlock_mm = 4;
 constexpr int kEdge_voxels = 2;  // two sigma of the point spread: nearer to its edge fluid has no density of its own
 constexpr double kLeastShare = 0.3;       // of a block's voxels
+constexpr double kLeastEnclosed = 0.1;    // the same, of what is no fluid and lies in it: bubbles and untagged grains
 constexpr double kNoisesOfMottled = 3;    // dense fluid and streaks have more noise than tissue
 constexpr double kShareOfDensity = 0.15;  // beam hardening and sediment of even grain stay below
 
@@ -36,6 +39,7 @@ struct Blocks {
     {
         return b.i >= 0 && b.j >= 0 && b.k >= 0 && b.i < count[0] && b.j < count[1] && b.k < count[2];
     }
+    std::size_t numberAt(Index3 v) const { return number({v.i / voxels[0], v.j / voxels[1], v.k / voxels[2]}); }
     Index3 first(Index3 b) const { return {b.i * voxels[0], b.j * voxels[1], b.k * voxels[2]}; }
     Point3 middle_mm(Index3 b) const
     {
@@ -67,25 +71,63 @@ bool awayFromEdges(const InsideVolume& labels, Index3 v)
     return true;
 }
 
-bool isMottled(const Mixture& mixture, const Blocks& blocks, Index3 block, double noise_hu)
+/// The densities of a block's voxels.
+class Spread {
+public:
+    void add(double hu)
+    {
+        ++count_;
+        sum_ += hu;
+        squares_ += hu * hu;
+    }
+    double count() const { return count_; }
+    /// Whether they differ by more than noise and beam hardening do.
+    bool isMottled(double noise_hu) const
+    {
+        const double mean_hu = sum_ / count_, variance = squares_ / count_ - mean_hu * mean_hu;
+        return std::sqrt(std::max(0.0, variance)) > std::max(kNoisesOfMottled * noise_hu, kShareOfDensity * mean_hu);
+    }
+
+private:
+    double count_ = 0, sum_ = 0, squares_ = 0;
+};
+
+/// Calls use(Index3) for a block's voxels.
+template <class Use>
+void forEachIn(const Blocks& blocks, Index3 block, Use use)
 {
     const Index3 first = blocks.first(block);
-    double count = 0, sum = 0, squares = 0;
-    for (int k = first.k; k < first.k + blocks.voxels[2]; ++k)
-        for (int j = first.j; j < first.j + blocks.voxels[1]; ++j)
-            for (int i = first.i; i < first.i + blocks.voxels[0]; ++i) {
-                const Index3 v{i, j, k};
-                if (!mixture.inside.grid.contains(v) || !awayFromEdges(mixture.inside, v))
-                    continue;
-                const double hu = mixture.hu(v);
-                ++count;
-                sum += hu;
-                squares += hu * hu;
-            }
-    if (count < kLeastShare * blocks.voxels[0] * blocks.voxels[1] * blocks.voxels[2])
+    const auto end = [&](int from, std::size_t axis) {
+        return std::min(from + blocks.voxels[axis], blocks.grid.size[axis]);
+    };
+    for (int k = first.k; k < end(first.k, 2); ++k)
+        for (int j = first.j; j < end(first.j, 1); ++j)
+            for (int i = first.i; i < end(first.i, 0); ++i)
+                use(Index3{i, j, k});
+}
+
+bool isMottled(const Mixture& mixture, const Blocks& blocks, Index3 block, double noise_hu)
+{
+    const InsideVolume& labels = mixture.inside;
+    const double all = blocks.voxels[0] * blocks.voxels[1] * blocks.voxels[2];
+    double fluid = 0;
+    forEachIn(blocks, block, [&](Index3 v) { fluid += labels.at(v) == kFluid ? 1 : 0; });
+    if (fluid < kLeastShare * all)
         return false;
-    const double mean_hu = sum / count, variance = squares / count - mean_hu * mean_hu;
-    return std::sqrt(std::max(0.0, variance)) > std::max(kNoisesOfMottled * noise_hu, kShareOfDensity * mean_hu);
+    Spread pure, with_enclosed;
+    double enclosed = 0;
+    const auto isFluid = [&](Index3 v) { return labels.valueOr(v, kOutside) == kFluid; };
+    forEachIn(blocks, block, [&](Index3 v) {
+        const std::uint8_t label = labels.at(v);
+        if (label == kFluid && awayFromEdges(labels, v))
+            pure.add(mixture.hu(v));
+        const bool is_enclosed = label == kOutside && isEnclosed(v, isFluid);
+        if (label == kFluid || is_enclosed)
+            with_enclosed.add(mixture.hu(v));
+        enclosed += is_enclosed ? 1 : 0;
+    });
+    return (pure.count() >= kLeastShare * all && pure.isMottled(noise_hu)) ||
+           (enclosed >= kLeastEnclosed * all && with_enclosed.isMottled(noise_hu));
 }
 
 bool standsAlone(const Blocks& blocks, const std::vector<std::uint8_t>& mottled, Index3 b)
@@ -99,9 +141,24 @@ bool standsAlone(const Blocks& blocks, const std::vector<std::uint8_t>& mottled,
     return true;
 }
 
+/// The part of each block that stool takes; where it mixes with gas, half.
+std::vector<float> stoolShares(const Blocks& blocks, const Stool& stool)
+{
+    std::vector<float> shares(blocks.all(), 0);
+    const float voxel = 1 / float(blocks.voxels[0] * blocks.voxels[1] * blocks.voxels[2]);
+    const auto add = [&](const std::vector<std::size_t>& voxels, float part) {
+        for (const std::size_t n : voxels)
+            shares[blocks.numberAt(blocks.grid.indexOf(n))] += part * voxel;
+    };
+    add(stool.dense, 1);
+    add(stool.left, 1);
+    add(stool.mixed, 0.5F);
+    return shares;
+}
+
 }  // namespace
 
-MottledTagging findMottled(const Mixture& mixture, double noise_hu)
+MottledTagging findMottled(const Mixture& mixture, const Stool& stool, double noise_hu)
 {
     const Blocks blocks(mixture.inside.grid);
     std::vector<std::uint8_t> mottled(blocks.all(), 0);
@@ -113,10 +170,13 @@ MottledTagging findMottled(const Mixture& mixture, double noise_hu)
     double volume_mm3 = 1;
     for (std::size_t a = 0; a < 3; ++a)
         volume_mm3 *= blocks.voxels[a] * mixture.inside.grid.spacing_mm[a];
-    MottledTagging found{.block_mm = std::cbrt(volume_mm3), .blocks_mm = {}};
+    MottledTagging found{.block_mm = std::cbrt(volume_mm3), .blocks_mm = {}, .shares = {}};
+    const std::vector<float> stool_shares = stoolShares(blocks, stool);
     blocks.each([&](Index3 b) {
-        if (mottled[blocks.number(b)] && !standsAlone(blocks, mottled, b))
-            found.blocks_mm.push_back(blocks.middle_mm(b));
+        const std::size_t n = blocks.number(b);
+        const bool is_mottled = mottled[n] && !standsAlone(blocks, mottled, b);
+        if (is_mottled || stool_shares[n] > 0)
+            found.add(blocks.middle_mm(b), is_mottled ? 1 : std::min(1.0, double(stool_shares[n])));
     });
     return found;
 }

@@ -52,21 +52,6 @@ constexpr int kScalePasses = 2;
 /// Part of its height at which a sheet fainter than half ends: 1.3 mm wide at a blur of 0.7 mm.
 constexpr double kEndOfFaint = 0.65;
 
-/// The thirteen lines through a voxel and its neighbours.
-constexpr std::array<Index3, 13> kLines{{{1, 0, 0},
-                                         {0, 1, 0},
-                                         {0, 0, 1},
-                                         {1, 1, 0},
-                                         {1, -1, 0},
-                                         {1, 0, 1},
-                                         {1, 0, -1},
-                                         {0, 1, 1},
-                                         {0, 1, -1},
-                                         {1, 1, 1},
-                                         {1, 1, -1},
-                                         {1, -1, 1},
-                                         {-1, 1, 1}}};
-
 /// The level at which a blurred sheet of this height has its own width. The middle of a sheet of width w is erf(u), and
 /// it is half of erf(2u) where it ends, with u = w / (sqrt(8) sigma).
 double levelOf(double height)
@@ -80,8 +65,10 @@ double levelOf(double height)
 
 class Sheets {
 public:
-    Sheets(const InsideVolume& inside, const DownAxis& down, const FractionNoise& noise, const TissueVolume& tissue)
+    Sheets(const InsideVolume& inside, const Stool& stool, const DownAxis& down, const FractionNoise& noise,
+           const TissueVolume& tissue)
         : inside_(inside),
+          stool_(stool),
           tissue_(tissue),
           reach_(std::max(2, int(kReach_mm / tissue.grid.spacing_mm[0]))),
           noise_(noise),
@@ -120,6 +107,8 @@ public:
     }
 
 private:
+    static constexpr std::uint8_t kStool = 3;
+
     /// Whether it lies between lumen and lumen along a line, and is level along all.
     bool isRidge(std::size_t n) const
     {
@@ -140,9 +129,11 @@ private:
         return false;
     }
 
-    /// Whether gas lies over fluid; under it a wall must be.
+    /// Whether gas lies over fluid; under it a wall must be. Or beside stool.
     bool isLevel(Index3 line, std::uint8_t before, std::uint8_t after) const
     {
+        if ((before == kStool && after == kGas) || (before == kGas && after == kStool))
+            return true;
         const int downwards = down_.along(line) * down_.sign;
         return downwards > 0 ? before == kGas && after == kFluid : downwards < 0 && before == kFluid && after == kGas;
     }
@@ -158,7 +149,7 @@ private:
         return float(tissue_.voxels[side]) <= height - leastRise(kLeastRiseInFluid_noises * noise);
     }
 
-    /// The label of the lumen that a sheet falls off to on one side, or kOutside.
+    /// The label of the lumen that a sheet falls off to on one side, kStool or kOutside.
     std::uint8_t sideOf(std::size_t n, std::ptrdiff_t step, Index3 line) const
     {
         const double length = std::sqrt(double(line.i * line.i + line.j * line.j + line.k * line.k));
@@ -169,12 +160,13 @@ private:
             if (tissue_.voxels[p] > tissue_.voxels[n])
                 return kOutside;
             if (tissue_.voxels[p] <= floor && isBelow(float(tissue_.voxels[n]), p))
-                return inside_.voxels[p];
+                return std::binary_search(stool_.dense.begin(), stool_.dense.end(), p) ? kStool : inside_.voxels[p];
         }
         return kOutside;
     }
 
     const InsideVolume& inside_;
+    const Stool& stool_;
     const TissueVolume& tissue_;
     int reach_;
     const FractionNoise& noise_;
@@ -340,10 +332,11 @@ std::vector<float> scalesOf(const Flanks& flanks, const std::vector<float>& heig
 
 }  // namespace
 
-SheetsFound keepSheets(const InsideVolume& inside, const DownAxis& down, const FractionNoise& noise,
+SheetsFound keepSheets(const InsideVolume& inside, const Stool& stool, const DownAxis& down, const FractionNoise& noise,
                        TissueVolume& tissue)
 {
-    const SparseVoxels middles = connected(SparseVoxels(tissue.grid, Sheets(inside, down, noise, tissue).find()));
+    const SparseVoxels middles =
+        connected(SparseVoxels(tissue.grid, Sheets(inside, stool, down, noise, tissue).find()));
     SheetsFound found{.ridge_voxels = middles.size()};
     for (std::size_t n = 0; n < middles.size(); ++n)
         found.faint_voxels += tissue.voxels[middles[n]] < kWhole / 2 ? 1 : 0;

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "grid/allocate.h"
 #include "grid/byte_rows.h"
@@ -17,6 +18,9 @@
 #include "tissue/other_bowel.h"
 #include "tissue/sheets.h"
 #include "tissue/smooth_along_wall.h"
+#include "tissue/stool.h"
+#include "tissue/stool_in_fluid.h"
+#include "tissue/stool_walls.h"
 
 namespace vicon::steps {
 namespace {
@@ -70,6 +74,70 @@ HuVolume cleanse(const Mixture& mixture, const std::vector<std::uint8_t>& tagged
     return cleansed;
 }
 
+/// As the levels have it, or a usual one.
+double blurOf(const FluidLevels& levels, const DownAxis& down, const Grid& grid, const TissueOptions& options)
+{
+    return levels.fitted > 0 ? levels.sigma_voxels * grid.spacing_mm[std::size_t(down.axis)] : options.usual_blur_mm;
+}
+
+/// Tagging is brighter than tissue by this, and by so many times the noise that none of that is taken for it.
+double brightOfStool_hu(double tissue_hu, double noise_hu, const TissueOptions& options)
+{
+    constexpr double kNoises = 3;
+    return tissue_hu + std::max(options.tag_contrast_hu, kNoises * noise_hu);
+}
+
+/// What fills the lumen.
+struct Contents {
+    InsideVolume inside;  ///< with stool
+    FluidLevels levels;
+    Stool stool;
+    double blur_mm = 0;
+};
+
+/// The stool, and the labels as fluid alone has them: stool has no level, however flat its top.
+std::pair<Stool, InsideVolume> partStool(const Mixture& as_labelled, const DownAxis& down, double noise_hu,
+                                         const TissueOptions& options)
+{
+    InsideVolume fluid = as_labelled.inside;
+    if (!options.find_stool)
+        return {Stool(), std::move(fluid)};
+    const std::vector<std::size_t> in_fluid = stoolInFluid(as_labelled, down, options.usual_blur_mm);
+    for (const std::size_t n : in_fluid)
+        fluid.voxels[n] = kOutside;
+    const Mixture mixture = as_labelled.with(fluid);
+    Stool stool = findStool(mixture, brightOfStool_hu(mixture.tissue_hu, noise_hu, options), options.usual_blur_mm);
+    leaveOnThinFolds(fluid, stool);
+    keepWallsBehind(fluid, stool);
+    for (const std::size_t n : in_fluid)
+        if (!stool.holds(n))
+            fluid.voxels[n] = kFluid;
+    return {std::move(stool), std::move(fluid)};
+}
+
+Contents findContents(const Mixture& as_labelled, const DownAxis& down, double noise_hu, const TissueOptions& options)
+{
+    auto [stool, labels] = partStool(as_labelled, down, noise_hu, options);
+    const Mixture mixture = as_labelled.with(labels);
+    Contents contents;
+    contents.levels =
+        findLevels(mixture, FluidDensity(mixture, noise_hu, options.tag_contrast_hu), down, options.usual_blur_mm);
+    contents.blur_mm = blurOf(contents.levels, down, labels.grid, options);
+    labelStool(mixture, stool, labels);
+    contents.inside = std::move(labels);
+    contents.stool = std::move(stool);
+    return contents;
+}
+
+/// No tissue where stool mixes with gas; and walls that stay.
+void setBesideStool(const Mixture& mixture, const Stool& stool, TissueVolume& tissue)
+{
+    for (const std::size_t n : stool.mixed)
+        tissue.voxels[n] = 0;
+    for (const std::size_t n : stool.wall)
+        tissue.voxels[n] = stored(mixture.fraction(mixture.hu(tissue.grid.indexOf(n)), mixture.gas_hu));
+}
+
 /// Sets the fraction in the levels' layers: column by column, and beside the wall along it.
 /// @return the number of voxels
 std::size_t modelLevels(const Mixture& mixture, const DownAxis& down, double noise_hu, const FluidLevels& levels,
@@ -82,41 +150,44 @@ std::size_t modelLevels(const Mixture& mixture, const DownAxis& down, double noi
 
 }  // namespace
 
-TissueResult findTissue(const HuVolume& hu, const InsideVolume& inside, Vector3 gravity, const WallDensities& densities,
+TissueResult findTissue(const HuVolume& hu, const InsideVolume& labels, Vector3 gravity, const WallDensities& densities,
                         double noise_hu, Progress& progress, const TissueOptions& options)
 {
     progress.report(0, "tissue");
+    const DownAxis down(labels.grid, gravity);
+    const Contents contents = findContents({hu, labels, densities}, down, noise_hu, options);
+    const auto& [inside, levels, stool, blur_mm] = contents;
     const Mixture mixture(hu, inside, densities);
-    const DownAxis down(inside.grid, gravity);
     const FluidDensity fluid(mixture, noise_hu, options.tag_contrast_hu);
-    const FluidLevels levels = findLevels(mixture, fluid, down, options.usual_blur_mm);
     progress.check();
     progress.report(0.2, "tissue");
-    const double usual_voxels = options.usual_blur_mm / inside.grid.spacing_mm[std::size_t(down.axis)];
-    const double blur_voxels = levels.fitted > 0 ? levels.sigma_voxels : usual_voxels;
     TissueResult result;
-    result.tissue = fractionAtEdges(mixture, fluid, down, blur_voxels);
+    result.tissue = fractionAtEdges(mixture, fluid, down, blur_mm / inside.grid.spacing_mm[std::size_t(down.axis)]);
     progress.check();
     progress.report(0.5, "tissue");
+    setBesideStool(mixture, stool, result.tissue);
     const std::size_t in_levels = modelLevels(mixture, down, noise_hu, levels, result.tissue);
     const auto near_fluid = nearMask(inside, kFluid, kTagged_voxels);
     smoothAlongWall(nearGasToo(inside, near_fluid), result.tissue);
-    const SheetsFound sheets = keepSheets(inside, down, FractionNoise(mixture, fluid, noise_hu), result.tissue);
+    const SheetsFound sheets = keepSheets(inside, stool, down, FractionNoise(mixture, fluid, noise_hu), result.tissue);
+    setBesideStool(mixture, stool, result.tissue);  // what passes through the densities of tissue looks like a sheet
     progress.check();
     progress.report(0.8, "tissue");
     const RunLabels pieces = labelLumen(inside, Neighbours::faces);
     const std::vector<std::size_t> other_bowel =
         options.leave_out_other_bowel ? otherBowel(result.tissue, inside, pieces) : std::vector<std::size_t>{};
     result.lumen = lumenOf(result.tissue, inside, pieces, other_bowel);
-    result.mottled = findMottled(mixture, noise_hu);
+    result.mottled = findMottled(mixture, stool, noise_hu);
     result.cleansed = cleanse(mixture, near_fluid, result.tissue);
-    result.blur_mm = blur_voxels * inside.grid.spacing_mm[std::size_t(down.axis)];
+    result.blur_mm = blur_mm;
     result.found = {{"level_columns", levels.columns.size()},
                     {"level_columns_fitted", levels.fitted},
                     {"level_voxels", in_levels},
                     {"sheet_voxels", sheets.ridge_voxels},
                     {"faint_sheet_voxels", sheets.faint_voxels},
-                    {"other_bowel_voxels", other_bowel.size()}};
+                    {"other_bowel_voxels", other_bowel.size()},
+                    {"stool_lumps", stool.lumps},
+                    {"stool_ml", double(stool.dense.size()) * inside.grid.voxelVolume_mm3() / 1000}};
     progress.report(1, "tissue");
     return result;
 }

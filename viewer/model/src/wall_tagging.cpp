@@ -19,7 +19,9 @@ constexpr float kTagNoises = 3;     // a density between voxels has less noise t
 constexpr float kTagRise_hu = 100;  // from where tagging begins to where it is sure
 // A film on a flat polyp is 1.5 mm thick in the mean (PMC3996850); farther in stands what does not touch the wall.
 constexpr float kTagReach_mm = 2.5F, kTagStep_mm = 0.5F;
-constexpr double kBesideMottled = 1.75;  // of a block's side: a block keeps two voxels off the wall
+// Of a block's side. A block of mottled fluid keeps two voxels off the wall; one of stool holds the wall under it, also
+// where air in the stool leaves no tagging before it.
+constexpr double kBesideMottled = 1.75, kInMottled = 1;
 
 /// The highest density on the way into the lumen, from the wall to where the lumen ends or is wide.
 float highestBefore(Point3 point, Vector3 normal, const DensitySampler& densities, const InsideView& inside)
@@ -49,10 +51,10 @@ public:
             cubes_[cubeOf(block)].push_back(block);
     }
 
-    /// Whether one lies within kBesideMottled sides.
-    bool near(Point3 p) const
+    /// Whether the middle of one lies within so many sides, at most two.
+    bool within(double sides, Point3 p) const
     {
-        const double reach_mm = kBesideMottled * side_mm_;
+        const double reach_mm = sides * side_mm_;
         const Cube at = cubeOf(p);
         for (int k = -2; k <= 2; ++k)
             for (int j = -2; j <= 2; ++j)
@@ -102,7 +104,10 @@ void addMottled(std::vector<float>& tagging, const std::vector<float>& points_mm
     const NearBlocks blocks(mottled);
     tbb::parallel_for(std::size_t(0), tagging.size(), [&](std::size_t n) {
         const float* p = &points_mm[3 * n];
-        if (tagging[n] > 0 && blocks.near({p[0], p[1], p[2]}))
+        const Point3 point{p[0], p[1], p[2]};
+        if (blocks.within(kInMottled, point))
+            tagging[n] = 2;
+        else if (tagging[n] > 0 && blocks.within(kBesideMottled, point))
             tagging[n] += 1;
     });
 }

@@ -101,7 +101,7 @@ std::vector<OverlayText> linesOfPicture(const PreparedScan& scan, const Snapshot
     if (request.wall.tagging && scan.hasTagging() && !scan.tagging().empty()) {
         line.text = "blue: tagging on the wall";
         if (scan.hasMottledTagging())
-            line.text += "; violet: mottled";
+            line.text += "; violet: stool or mottled";
         line.color = kTextColor;
         lines.push_back(line);
     }

@@ -33,6 +33,8 @@ struct PhantomOptions {
     bool catheter = true;       ///< rectal tube
     bool thin_walls = false;    ///< three places where loops lie 1.5 voxels of wall apart
     bool self_contact = false;  ///< two loops that run into one another once: the lumen's Euler number is 0
+    int stool = 0;              ///< lumps of tagged stool, 5 to 18 mm, half of them with air in them
+    bool film = false;          ///< tagging clings to every polyp, 0.5 to 2 mm thick
     bool ileum = false;         ///< a valve of 3 to 5 mm that gas or fluid has gone through into the terminal ileum
     double noise_hu = -1;       ///< standard deviation in soft tissue; below 0: drawn from 15 to 40
     bool low_dose = false;      ///< noise drawn from 50 to 80 HU when noise_hu is below 0
@@ -67,6 +69,8 @@ struct PhantomOptions {
         v("phantom.catheter", catheter, "", "A rectal tube.");
         v("phantom.thin_walls", thin_walls, "", "Loops with 1.5 voxels of wall between them, in three places.");
         v("phantom.self_contact", self_contact, "", "Two loops run into one another once.");
+        v("phantom.stool", stool, "", "Lumps of tagged stool of 5 to 18 mm, half of them with air.", {0, 40});
+        v("phantom.film", film, "", "Films of tagging on polyps, 0.5 to 2 mm thick.");
         v("phantom.ileum", ileum, "", "A terminal ileum that is filled through the ileocaecal valve.");
         v("phantom.noise_hu", noise_hu, "HU", "Noise; below 0: drawn from 15 to 40 HU.", {-1, 500});
         v("phantom.low_dose", low_dose, "", "Noise drawn from 50 to 80 HU.");
@@ -99,6 +103,24 @@ struct FluidPool {
     double density_hu = 0;
 };
 
+/// A lump of tagged stool on the wall, part of the lumen: balls that run into one another.
+struct StoolLump {
+    Point3 position_mm;
+    double station_mm = 0;
+    double diameter_mm = 0;  ///< of the ball that holds all of it
+    double density_hu = 0;
+    bool airy = false;             ///< bubbles of 1.6 to 2.6 mm take about three tenths of it
+    std::vector<Point3> knobs_mm;  ///< middles of the smaller balls
+    std::uint64_t seed = 0;        ///< of its bubbles
+};
+
+/// Tagging that clings to a polyp.
+struct TaggingFilm {
+    std::size_t polyp = 0;  ///< which of the truth's polyps
+    double thickness_mm = 0;
+    double density_hu = 0;
+};
+
 /// The end of the small bowel, filled from the colon; no part of the colon's lumen.
 struct TerminalIleum {
     Point3 valve_mm;  ///< on the colon's inner surface
@@ -118,6 +140,8 @@ struct PhantomTruth {
     std::vector<Polyp> polyps;       ///< in order of station
     std::vector<CollapsedGap> gaps;  ///< in order of station
     std::vector<FluidPool> pools;    ///< in order of station
+    std::vector<StoolLump> stool;    ///< in order of station
+    std::vector<TaggingFilm> films;
     TerminalIleum ileum;
     ColonPartRanges parts;  ///< all eight, by where they are fixed, not by the shape of the curve
     Vector3 gravity;        ///< unit vector

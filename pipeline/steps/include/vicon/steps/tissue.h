@@ -19,6 +19,7 @@ struct TissueOptions {
     double usual_blur_mm = kUsualBlur_mm;
     double tag_contrast_hu = 120;
     bool leave_out_other_bowel = true;  ///< no option: false for a lumen of which a person says that all is colon
+    bool find_stool = true;             ///< no option: false where voxels hold no density, which tells tagging
 
     template <class Visitor>
     void visit(Visitor&& v)
@@ -46,7 +47,8 @@ struct TissueResult {
 /// At a level the lumen itself passes through tissue's densities. There its density is modelled, a step across gravity
 /// blurred by the scanner, whose height, width and fluid are fitted to columns of pure gas over pure fluid; what
 /// deviates from it towards tissue is tissue. Sheets of tissue so thin that blur leaves them less than half are scaled
-/// by their own height. Along the wall the fraction is smoothed.
+/// by their own height. Along the wall the fraction is smoothed. Lumps of tagged stool outside the labels are lumen,
+/// but where they lie on thin folds.
 ///
 /// @param hu on the lattice of `inside`, at least as large
 /// @param gravity unit vector along which fluid falls

@@ -20,7 +20,7 @@ std::vector<float> taggingOf(const std::vector<float>& points_mm, const std::vec
                              const HuView& volume, const InsideView& inside, double noise_hu,
                              const Progress* wanted = nullptr);
 
-/// Adds up to 1 to the tagging of points that lie on or beside mottled tagging.
+/// Adds up to 1 to the tagging of points that lie beside stool or mottled tagging, and gives 2 to those that lie in it.
 void addMottled(std::vector<float>& tagging, const std::vector<float>& points_mm, const MottledTagging& mottled);
 
 }  // namespace vicon::viewer
