@@ -97,6 +97,26 @@ TEST(Stool, WithAirInItIsTakenOutInPartAndToldAsAWhole)
         EXPECT_LT(distance(block, Point3{}), 6 + 2 * result.mottled.block_mm);
 }
 
+TEST(Stool, WhoseFlatTopPassedForALevelIsStool)
+{
+    const Shape lump = onWall(ball({1.5, 0, 0}, 4.5));
+    Scene scene = sceneWithStool(behindWall, lump);
+    for (std::size_t n = 0; n < scene.inside.voxels.size(); ++n)
+        if (scene.hu.voxels[n] > (kTissueHu + kFluidHu) / 2)
+            scene.inside.voxels[n] = kFluid;
+    const TissueResult result = scene.find();
+    EXPECT_EQ(lumps(result), 1);
+    EXPECT_GT(shareInLumen(scene, result.lumen, lump), 0.95);
+    EXPECT_NEAR(toWall_mm(result.tissue, {9, 0, 0}, {-1, 0, 0}), 9 - kWallAt_mm, 0.35);
+}
+
+TEST(Stool, IsNoPuddle)
+{
+    const Scene puddle([](Point3 p) { return std::hypot(p.x, p.z) > 6 + std::max(0.0, -p.y) || p.y > 4; }, 0.1, 20);
+    EXPECT_EQ(lumps(puddle.find()), 0);
+    EXPECT_EQ(puddle.find().mottled.blocks_mm.size(), 0U);
+}
+
 TEST(Stool, OnAPolypLeavesThePolyp)
 {
     const Shape polyp = ball({3, 0, 0}, 4);

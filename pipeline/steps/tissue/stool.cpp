@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "grid/byte_rows.h"
 #include "grid/neighbours.h"
@@ -238,6 +239,13 @@ private:
 };
 
 }  // namespace
+
+std::vector<std::size_t> without(const std::vector<std::size_t>& voxels, const std::vector<std::size_t>& others)
+{
+    std::vector<std::size_t> rest;
+    std::set_difference(voxels.begin(), voxels.end(), others.begin(), others.end(), std::back_inserter(rest));
+    return rest;
+}
 
 Stool findStool(const Mixture& mixture, double bright_hu, double blur_mm)
 {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -17,15 +16,10 @@ struct Stool {
     std::vector<std::size_t> mixed;  ///< ascending: of the lumen, gas and stool in one voxel
     std::vector<std::size_t> wall;   ///< ascending: bright, but all that parts the lumen's sides there
     std::vector<std::size_t> left;   ///< ascending: dense, but not told from a thin fold under it
-
-    bool holds(std::size_t voxel) const
-    {
-        const auto has = [voxel](const auto& voxels) {
-            return std::binary_search(voxels.begin(), voxels.end(), voxel);
-        };
-        return has(dense) || has(mixed) || has(wall) || has(left);
-    }
 };
+
+/// What is in the first list of voxels and not in the second, both ascending.
+std::vector<std::size_t> without(const std::vector<std::size_t>& voxels, const std::vector<std::size_t>& others);
 
 /// Finds what is as bright as tagging, lies outside the labels and meets gas without a wall between them over a good
 /// part of its surface. Bone and other bowel lie behind a wall, and only meet gas where that is too thin to be seen.

@@ -72,13 +72,6 @@ void addWall(const Grid& grid, const SparseVoxels& lump, const std::vector<std::
         });
 }
 
-std::vector<std::size_t> without(const std::vector<std::size_t>& voxels, const std::vector<std::size_t>& others)
-{
-    std::vector<std::size_t> rest;
-    std::set_difference(voxels.begin(), voxels.end(), others.begin(), others.end(), std::back_inserter(rest));
-    return rest;
-}
-
 bool holds(const std::vector<std::size_t>& voxels, std::size_t n)
 {
     return std::binary_search(voxels.begin(), voxels.end(), n);

@@ -109,9 +109,9 @@ std::pair<Stool, InsideVolume> partStool(const Mixture& as_labelled, const DownA
     Stool stool = findStool(mixture, brightOfStool_hu(mixture.tissue_hu, noise_hu, options), options.usual_blur_mm);
     leaveOnThinFolds(fluid, stool);
     keepWallsBehind(fluid, stool);
-    for (const std::size_t n : in_fluid)
-        if (!stool.holds(n))
-            fluid.voxels[n] = kFluid;
+    stool.wall = without(stool.wall, in_fluid);
+    for (const std::size_t n : without(without(in_fluid, stool.dense), stool.mixed))
+        fluid.voxels[n] = kFluid;  // its level tells the wall under it better than a guess
     return {std::move(stool), std::move(fluid)};
 }
 
