@@ -12,8 +12,7 @@ namespace vicon::phantom {
 namespace {
 
 constexpr double kSmallest_mm = 5, kLargest_mm = 18;
-constexpr double kSunk =
-    0.3;  // of a lump's radius: how far beyond the wall line its centre would be, were it a ball on the wall
+constexpr double kSunk = 0.3;           // of a lump's radius: how much nearer to the wall line its centre lies
 constexpr double kMostOfWidth = 0.45;   // of the lumen's diameter; the rest is left to gas
 constexpr double kClearOfTube_mm = 70;  // stations of the rectal tube
 constexpr double kClear_mm = 15;        // stations to polyps, gaps and other lumps, beyond the lump's size

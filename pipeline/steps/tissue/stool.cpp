@@ -14,7 +14,7 @@
 namespace vicon::steps {
 namespace {
 
-// Chosen on phantoms 3 and 5 with --stool and on ctc-prone. Held by Stool.
+// Chosen on phantoms 3 and 301 with --stool and on ctc-prone. Held by Stool.
 
 /// Of a lump's faces must look on gas. Lumps on the wall have .35 and more, a rectal tube .25, bone and bowel behind a
 /// thin wall .2 at most.
@@ -94,7 +94,7 @@ private:
         return bright <= DirectStep::kFarthest_voxels && step_.isDirect(gas, direction, bright) ? bright : 0;
     }
 
-    /// Takes the bright voxels that hang together, over faces, with a seed, if they are a lump of stool.
+    /// Takes the bright voxels that hang together with a seed, bubbles between them, if they are a lump of stool.
     void grow(std::size_t seed)
     {
         std::vector<std::size_t> lump{seed};
