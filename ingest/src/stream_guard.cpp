@@ -45,6 +45,10 @@ public:
         return value;
     }
     std::uint32_t sure(std::size_t at, std::size_t count) const { return number(at, count).value_or(0); }
+    bool hasFrom(std::size_t at, std::string_view what) const
+    {
+        return bytes_.find(what, at) != std::string_view::npos;
+    }
 
 private:
     std::string_view bytes_;
@@ -120,7 +124,7 @@ bool beginsFrame(std::uint32_t marker)
 /// JPEG (ITU-T T.81 annex B) and JPEG-LS (T.87 annex C).
 Reading readJpeg(const Bytes& bytes)
 {
-    constexpr std::uint32_t kSoi = 0xffd8, kSos = 0xffda, kEoi = 0xffd9;
+    constexpr std::uint32_t kSoi = 0xffd8, kSos = 0xffda, kEoi = 0xffd9, kSof55 = 0xfff7;  // the last: of JPEG-LS
     if (bytes.number(0, 2) != kSoi)
         return unreadable("its compressed pixels are no JPEG stream");
     for (std::size_t at = 2;;) {
@@ -135,7 +139,8 @@ Reading readJpeg(const Bytes& bytes)
         if (*marker < 0xffc0 || *marker == kSos || *marker == kEoi || *length < 2)
             return unreadable("its JPEG stream does not say how large its picture is");
         if (beginsFrame(*marker)) {
-            if (!bytes.number(at + 8, 2))
+            // A decoder of JPEG-LS that finds no end may read on for seconds; in its data no 0xff stands before 0xd9.
+            if (!bytes.number(at + 8, 2) || (*marker == kSof55 && !bytes.hasFrom(at, "\xff\xd9")))
                 return unreadable(kCutOff);
             return {Picture{bytes.sure(at + 7, 2), bytes.sure(at + 5, 2), bytes.sure(at + 4, 1), bytes.sure(at + 9, 1)},
                     {}};

@@ -8,6 +8,7 @@
 
 #include "import_fixture.h"
 #include "stored_files.h"
+#include "stream_guard.h"
 
 namespace fs = std::filesystem;
 using namespace vicon;
@@ -232,6 +233,21 @@ TEST_F(Hostile, TwoAcquisitionsInOneSeriesAreTwoScans)
         const auto report = ingest::importPaths(own, {root / name}, options, quiet);
         EXPECT_EQ(own.scans(own.cases().at(0).id).size(), 2u) << name << "\n" << lines(report);
     }
+}
+
+/// Found by the fuzzer of streams: without its end the decoder read on for four seconds.
+TEST_F(Hostile, AJpegLsStreamWithoutItsEndIsNotDecoded)
+{
+    const std::string frame("\xff\xd8\xff\xf7\0\x0b\x10\0\x10\0\x10\x01\x01\x11\0", 15);
+    const std::string scan("\xff\xda\0\x08\x01\x01\0\0\0\0\x30\x0c\x03\x80\x30\x0c\x03\x10", 18);
+    ingest::PixelFormat format;
+    format.columns = format.rows = 16;
+    format.bits_allocated = format.bits_stored = 16;
+    format.high_bit = 15;
+    constexpr const char* kJpegLs = "1.2.840.10008.1.2.4.80";
+    EXPECT_EQ(ingest::whyNotDecodable(frame + scan, format, kJpegLs), "its compressed pixels are cut off");
+    EXPECT_EQ(ingest::whyNotDecodable(frame + scan + "\xff\xd9", format, kJpegLs), "");
+    EXPECT_EQ(ingest::whyNotDecodable(frame + scan + std::string("\xff\xd9\0", 3), format, kJpegLs), "") << "padded";
 }
 
 TEST_F(Hostile, ARefusedVolumeTellsOfNoInterpolation)
