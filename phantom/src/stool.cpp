@@ -1,7 +1,6 @@
 #include "stool.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -35,6 +36,12 @@ constexpr Index3 shifted(Index3 v, Index3 by)
 constexpr Index3 along(Index3 v, Index3 line, int steps)
 {
     return {v.i + steps * line.i, v.j + steps * line.j, v.k + steps * line.k};
+}
+
+/// How far apart voxels lie along a line.
+inline double stepLength_mm(const Grid& grid, Index3 line)
+{
+    return std::hypot(line.i * grid.spacing_mm[0], line.j * grid.spacing_mm[1], line.k * grid.spacing_mm[2]);
 }
 
 /// Calls use(offset) for the voxels of the grid that share a face with a voxel, in the order of kFaces.

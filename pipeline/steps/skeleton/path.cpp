@@ -9,6 +9,7 @@
 #include "grid/cheapest_ways.h"
 #include "grid/contact.h"
 #include "grid/neighbours.h"
+#include "grid/voxel_lists.h"
 #include "vicon/core/error.h"
 
 namespace vicon::steps {
@@ -111,9 +112,7 @@ std::vector<std::size_t> neighbourhoodOf(const LumenGraph& graph, const FieldVol
             if (wall_mm.valueOr(v, 0) > 0)
                 neighbourhood.push_back(graph.grid.offset(v));
         });
-    std::sort(neighbourhood.begin(), neighbourhood.end());
-    neighbourhood.erase(std::unique(neighbourhood.begin(), neighbourhood.end()), neighbourhood.end());
-    return neighbourhood;
+    return sortedOnce(std::move(neighbourhood));
 }
 
 /// The central 26-connected path between two voxels inside a neighbourhood; without `from` itself.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "grid/neighbours.h"
 
@@ -33,8 +32,7 @@ bool DirectStep::isDirect(Index3 gas, Index3 direction, int steps) const
     }
     const double wall_hu = (mixture_.gas_hu + mixture_.tissue_hu) / 2,
                  half_hu = (mixture_.tissue_hu + brightest_hu) / 2;
-    const auto& spacing = mixture_.inside.grid.spacing_mm;
-    const double step_mm = std::hypot(direction.i * spacing[0], direction.j * spacing[1], direction.k * spacing[2]);
+    const double step_mm = stepLength_mm(mixture_.inside.grid, direction);
     double leaves_gas = 0;
     for (int n = 1; n <= count; ++n) {
         const double a = hu[std::size_t(n - 1)], b = hu[std::size_t(n)];

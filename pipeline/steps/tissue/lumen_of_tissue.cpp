@@ -14,6 +14,7 @@
 #include "grid/neighbours.h"
 #include "grid/run_labels.h"
 #include "grid/sparse_voxels.h"
+#include "grid/voxel_lists.h"
 #include "grid/wall_values.h"
 #include "tissue/mixture.h"
 #include "vicon/core/disjoint_sets.h"
@@ -147,9 +148,7 @@ public:
                     if (lumen_.voxels[beside] == kOutside && mayBecomeLumen(beside))
                         next.push_back(beside);
                 });
-            std::sort(next.begin(), next.end());
-            next.erase(std::unique(next.begin(), next.end()), next.end());
-            front = std::move(next);
+            front = sortedOnce(std::move(next));
         }
     }
 

@@ -5,6 +5,7 @@
 
 #include "grid/byte_rows.h"
 #include "grid/neighbours.h"
+#include "grid/voxel_lists.h"
 #include "tissue/lumen_of_tissue.h"
 #include "tissue/mixture.h"
 
@@ -60,9 +61,7 @@ std::vector<std::size_t> beside(const Grid& grid, const std::vector<std::size_t>
             if (wanted(other))
                 found.push_back(other);
         });
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
+    return sortedOnce(std::move(found));
 }
 
 /// Which share of a part's surface goes on without a wall, beyond the labels.
@@ -104,9 +103,7 @@ std::vector<std::size_t> otherBowel(const TissueVolume& tissue, const InsideVolu
         all.insert(all.end(), voxels.begin(), voxels.end());
         all.insert(all.end(), wall.begin(), wall.end());
     }
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    return all;
+    return sortedOnce(std::move(all));
 }
 
 }  // namespace vicon::steps

@@ -3,10 +3,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <iterator>
+#include <utility>
 
 #include "grid/byte_rows.h"
 #include "grid/neighbours.h"
+#include "grid/voxel_lists.h"
 #include "tissue/direct_step.h"
 #include "tissue/enclosed.h"
 #include "tissue/near_mask.h"
@@ -218,15 +219,12 @@ private:
         for (const std::size_t n : found_.dense)
             addUnlabelledAround(n, near);
         addBubblesOfPools(near);
-        std::sort(near.begin(), near.end());
-        near.erase(std::unique(near.begin(), near.end()), near.end());
-        for (const std::size_t n : near)
+        for (const std::size_t n : sortedOnce(std::move(near)))
             if (isBubble(grid_.indexOf(n)))
                 found_.mixed.push_back(n);
         for (const std::size_t n : found_.dense)
             addStepsToGas(n);
-        std::sort(found_.mixed.begin(), found_.mixed.end());
-        found_.mixed.erase(std::unique(found_.mixed.begin(), found_.mixed.end()), found_.mixed.end());
+        found_.mixed = sortedOnce(std::move(found_.mixed));
     }
 
     const Mixture& mixture_;
@@ -239,13 +237,6 @@ private:
 };
 
 }  // namespace
-
-std::vector<std::size_t> without(const std::vector<std::size_t>& voxels, const std::vector<std::size_t>& others)
-{
-    std::vector<std::size_t> rest;
-    std::set_difference(voxels.begin(), voxels.end(), others.begin(), others.end(), std::back_inserter(rest));
-    return rest;
-}
 
 Stool findStool(const Mixture& mixture, double bright_hu, double blur_mm)
 {

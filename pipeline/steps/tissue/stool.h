@@ -18,9 +18,6 @@ struct Stool {
     std::vector<std::size_t> left;   ///< ascending: dense, but not told from a thin fold under it
 };
 
-/// What is in the first list of voxels and not in the second, both ascending.
-std::vector<std::size_t> without(const std::vector<std::size_t>& voxels, const std::vector<std::size_t>& others);
-
 /// Finds what is as bright as tagging, lies outside the labels and meets gas without a wall between them over a good
 /// part of its surface. Bone and other bowel lie behind a wall, and only meet gas where that is too thin to be seen.
 /// @param bright_hu tagging has at least this density

@@ -19,13 +19,13 @@ std::vector<std::size_t> take(const InsideVolume& inside, std::size_t first, std
 {
     std::vector<std::size_t> fluid{first};
     taken[first] = 1;
-    for (std::size_t n = 0; n < fluid.size(); ++n)
-        forEachOverFaces(inside.grid, fluid[n], [&](std::size_t beside) {
-            if (inside.voxels[beside] == kFluid && !taken[beside]) {
-                taken[beside] = 1;
-                fluid.push_back(beside);
-            }
-        });
+    floodOverFaces(inside.grid, {first}, [&](std::size_t n) {
+        if (inside.voxels[n] != kFluid || taken[n])
+            return false;
+        taken[n] = 1;
+        fluid.push_back(n);
+        return true;
+    });
     return fluid;
 }
 

@@ -8,6 +8,7 @@
 
 #include "grid/neighbours.h"
 #include "grid/sparse_voxels.h"
+#include "grid/voxel_lists.h"
 #include "vicon/core/disjoint_sets.h"
 
 namespace vicon::steps {
@@ -24,13 +25,6 @@ constexpr double kLeastOnFold = 0.15;  // of a lump's voxels
 constexpr int kNear_voxels = 3;
 /// Parts with fewer voxels are no side.
 constexpr std::size_t kFewestOfSide = 6;
-
-std::vector<std::size_t> sortedOnce(std::vector<std::size_t> voxels)
-{
-    std::sort(voxels.begin(), voxels.end());
-    voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
-    return voxels;
-}
 
 /// The sets that hang together over faces, edges and corners.
 std::vector<std::vector<std::size_t>> connected(const Grid& grid, const std::vector<std::size_t>& voxels)
@@ -85,8 +79,7 @@ struct WayToLumen {
 
 WayToLumen wayToLumen(const InsideVolume& inside, const Stool& stool, Index3 from, Index3 direction)
 {
-    const auto& spacing = inside.grid.spacing_mm;
-    const double step_mm = std::hypot(direction.i * spacing[0], direction.j * spacing[1], direction.k * spacing[2]);
+    const double step_mm = stepLength_mm(inside.grid, direction);
     WayToLumen way;
     for (Index3 v = shifted(from, direction); way.length_mm < kThinFold_mm; v = shifted(v, direction)) {
         way.length_mm += step_mm;

@@ -9,6 +9,7 @@
 #include "grid/allocate.h"
 #include "grid/byte_rows.h"
 #include "grid/run_labels.h"
+#include "grid/voxel_lists.h"
 #include "tissue/edge_model.h"
 #include "tissue/level_wall.h"
 #include "tissue/levels.h"

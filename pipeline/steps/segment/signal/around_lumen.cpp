@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "grid/neighbours.h"
 #include "segment/signal/classes.h"
 #include "vicon/steps/lumen_contrast.h"
 
@@ -16,11 +17,6 @@ constexpr int kWallReach_voxels = 3;
 constexpr std::int16_t kLeastBeyond = 40;
 
 constexpr std::array<Index3, 6> kSixWays{Index3{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-
-Index3 along(Index3 v, Index3 way, int steps)
-{
-    return {v.i + way.i * steps, v.j + way.j * steps, v.k + way.k * steps};
-}
 
 /// The lumen as a part of the scan that begins at `low`.
 struct LumenInScan {

@@ -6,6 +6,7 @@
 
 #include "grid/mask.h"
 #include "grid/neighbours.h"
+#include "grid/voxel_lists.h"
 #include "segment/wall/trim_lumen.h"
 
 namespace vicon::steps {
@@ -75,8 +76,7 @@ std::vector<std::size_t> tooFaintBeside(const std::vector<std::size_t>& taken, c
             if (inside.voxels[m] == kFluid)
                 beside.push_back(m);
         });
-    std::sort(beside.begin(), beside.end());
-    beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+    beside = sortedOnce(std::move(beside));
     std::erase_if(beside, [&](std::size_t n) { return !isTooFaint(wall, tissue_hu, inside, inside.grid.indexOf(n)); });
     return beside;
 }
