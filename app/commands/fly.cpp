@@ -5,6 +5,7 @@
 
 #include "../command.h"
 #include "../progress_line.h"
+#include "../wall_look_options.h"
 #include "vicon/cases/placing.h"
 #include "vicon/core/error.h"
 
@@ -12,7 +13,8 @@ namespace vicon::app {
 namespace {
 
 struct FlyArguments {
-    std::string case_id, scan_id, direction = "caecum", colors = "mucosa", out;
+    std::string case_id, scan_id, direction = "caecum", out;
+    WallLookArguments wall;
     int branch = -1;
     viewer::FlightRequest request;
 };
@@ -70,7 +72,7 @@ int fly(Context& context, const FlyArguments& arguments)
     const ScanRecord scan = requirePreparedScan(store, record.id, arguments.scan_id);
     viewer::FlightRequest request = arguments.request;
     request.direction = directionFrom(arguments.direction);
-    request.wall.colors = viewer::wallColorsFrom(arguments.colors);
+    request.wall = arguments.wall.look();
     request.out = arguments.out;
     request.write_frames = !arguments.out.empty();
     request.caption = viewer::captionFor(record, scan);
@@ -129,11 +131,7 @@ Subcommand flyCommand()
             command.option("--angle", request.view_angle_deg, "Viewing angle, degrees")
                 .check(range(20.0, 150.0))
                 .captureDefault();
-            command.flag("--ambient-occlusion,!--no-ambient-occlusion", request.wall.ambient_occlusion,
-                         "Less light between folds and at the foot of what rises from the wall (default: on)");
-            command.option("--look", arguments->colors, "What the wall is coloured by: mucosa, bone (white) or depth")
-                .captureDefault();
-            command.flag("--tagging", request.wall.tagging, "Tint the wall blue where tagging touches it");
+            arguments->wall.addTo(command);
             command.flag("!--no-coverage", request.measure_coverage, "Do not measure what is seen (faster)");
             command.option("--unseen", request.least_unseen_mm2, "Least area of an unseen patch to be listed, mm2")
                 .check(range(0.0, 1e6))

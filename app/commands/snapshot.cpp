@@ -4,6 +4,7 @@
 
 #include "../command.h"
 #include "../priors.h"
+#include "../wall_look_options.h"
 #include "vicon/cases/placing.h"
 #include "vicon/core/error.h"
 
@@ -16,8 +17,7 @@ struct SnapshotArguments {
     bool at_station = false;
     int width = 0, height = 0;
     double angle_deg = 90;
-    viewer::WallLook wall;
-    std::string colors = "mucosa";
+    WallLookArguments wall;
     std::string window;
     bool cleansed = false, from_caecum = false;
     std::string peel;
@@ -52,8 +52,7 @@ int snapshot(Context& context, const SnapshotArguments& arguments)
     request.width = arguments.width;
     request.height = arguments.height;
     request.view_angle_deg = arguments.angle_deg;
-    request.wall = arguments.wall;
-    request.wall.colors = viewer::wallColorsFrom(arguments.colors);
+    request.wall = arguments.wall.look();
     request.window = arguments.window;
     request.cleansed = arguments.cleansed;
     request.from_caecum = arguments.from_caecum;
@@ -117,11 +116,9 @@ Subcommand snapshotCommand()
             command.option("--angle", arguments->angle_deg, "Viewing angle of the endoscopic view, degrees")
                 .check(range(20.0, 150.0))
                 .captureDefault();
-            command.flag("--ambient-occlusion,!--no-ambient-occlusion", arguments->wall.ambient_occlusion,
-                         "Less light between folds and at the foot of what rises from the wall (default: on)");
-            command.option("--look", arguments->colors, "What the wall is coloured by: mucosa, bone (white) or depth")
-                .captureDefault();
-            command.flag("--tagging", arguments->wall.tagging, "Tint the wall blue where tagging touches it");
+            arguments->wall.addTo(command);
+            command.flag("--as-acquired", arguments->wall.wall.acquired,
+                         "Endo and cube: the wall by the acquired densities, tagged fluid and stool standing");
             command.option("--window", arguments->window, "Window/level preset of the slices (default: the organ's)");
             command.flag("--priors", arguments->priors,
                          "Slices and overview: where findings of earlier reports should lie");

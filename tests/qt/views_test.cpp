@@ -153,6 +153,32 @@ TEST_F(Reading, SlicesWithoutTaggingAreOneKeyAwayAndNeverTheFirst)
     EXPECT_TRUE(eventually([&] { return pictureOf("axial") == acquired; }));
 }
 
+TEST_F(Reading, TheWallAsAcquiredIsOneKeyAwayCountsNothingAndIsNeverTheFirst)
+{
+    openCase();
+    waitUntilQuiet();
+    const QImage surface = pictureOf("endoscopic");
+    const QString seen = the<QLabel>("seen")->text();
+    key(Qt::Key_K, Qt::ControlModifier);
+    ASSERT_TRUE(eventually([&] { return pictureOf("endoscopic") != surface; }));
+    waitUntilQuiet();
+    screenshot("as-acquired");
+    const double from = station();
+    press(window(), "forward");
+    ASSERT_TRUE(eventually([&] { return station() > from + 40; }));
+    press(window(), "stop");
+    waitUntilQuiet();
+    EXPECT_EQ(the<QLabel>("seen")->text(), seen) << "the wall itself was not in these pictures";
+    key(Qt::Key_K, Qt::ControlModifier);
+    EXPECT_TRUE(eventually([&] { return the<QLabel>("seen")->text() != seen; }));
+    key(Qt::Key_Home);
+    EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == surface; }));
+    key(Qt::Key_K, Qt::ControlModifier);
+    closeCase();
+    openCase();
+    EXPECT_TRUE(eventually([&] { return pictureOf("endoscopic") == surface; })) << "opened with the surface";
+}
+
 TEST_F(Reading, WhatWasSeenIsCountedPaintedListedAndKept)
 {
     const auto seen = [] { return the<QLabel>("seen")->text().section(' ', 0, 0).toDouble(); };

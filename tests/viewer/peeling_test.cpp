@@ -40,7 +40,7 @@ std::array<double, 4> castPlainly(const HuVolume& volume, Point3 eye, Vector3 di
             continue;
         const TransferPoint p = colours.at(*density);
         const double opacity = 1 - std::pow(1 - p.opacity_per_mm, options.step_mm);
-        const double lamp = 1.12 / (1 + t * t / (options.lamp_half_mm * options.lamp_half_mm));
+        const double lamp = std::sqrt(1.12 / (1 + t * t / (options.lamp_reach_mm * options.lamp_reach_mm)));
         out[0] += left * opacity * lamp * p.red;
         out[1] += left * opacity * lamp * p.green;
         out[2] += left * opacity * lamp * p.blue;

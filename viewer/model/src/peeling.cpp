@@ -16,7 +16,7 @@ namespace {
 constexpr double kFarthest_mm = 500;  // longer than any colon is wide: no ray needs more to meet a wall
 constexpr double kMostPixels = 4096;
 constexpr int kTile = 8;  // pixels that are cast together: a beam through them finds what is free for all
-// As the lamp of the surface's picture (scene/surface_scene.cpp), so that the two fit together.
+// As the lamp of the surface's picture (scene/lamp_shader.cpp), so that the two fit together.
 constexpr float kLeastLight = 0.16F, kFacingLight = 0.84F;
 constexpr double kExposure = 1.12;
 
@@ -40,7 +40,8 @@ public:
     {
         const double farthest = kFarthest_mm + std::max(0.0, options.offset_mm) + options.reach_mm;
         for (double t = 0; t <= farthest + options.step_mm; t += options.step_mm)
-            fade_.push_back(float(kExposure / (1 + t * t / (options.lamp_half_mm * options.lamp_half_mm))));
+            fade_.push_back(
+                float(std::sqrt(kExposure / (1 + t * t / (options.lamp_reach_mm * options.lamp_reach_mm)))));
     }
 
     /// Hands the light of each pixel of a tile to `take`.

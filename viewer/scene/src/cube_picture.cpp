@@ -10,6 +10,21 @@
 namespace vicon::viewer {
 namespace {
 
+/// Into the corner below the left face.
+void addWallLines(Overlay& overlay, const CubeLayout& layout, const std::vector<OverlayText>& lines, double text_px)
+{
+    constexpr double kLetter = 0.55;       // width of a usual letter in heights of the text
+    constexpr std::size_t kMostLines = 3;  // of each
+    const Pixel face = layout.cornerOf(CubeFace::bottom);
+    std::vector<OverlayText> broken;
+    for (OverlayText line : lines)
+        for (const std::string& words : wrapped(line.text, std::size_t(face.x / (kLetter * text_px)), kMostLines)) {
+            line.text = words;
+            broken.push_back(line);
+        }
+    addLines(overlay, {0, face.y, face.x, face.x}, broken, text_px);
+}
+
 std::string faceName(CubeFace face)
 {
     switch (face) {
@@ -94,6 +109,7 @@ Overlay cubeOverlay(const PreparedScan& scan, const SnapshotRequest& request, co
         const double right = layout.cornerOf(CubeFace::top).x, bottom = layout.cornerOf(CubeFace::left).y;
         addLines(overlay, {0, 0, right, bottom}, lines, std::min(text_px, heightOfText(lines.size(), bottom)));
     }
+    addWallLines(overlay, layout, linesOfWall(scan, request.wall, place), text_px);
     return overlay;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cast_wall.h"
 #include "pictures.h"
 #include "vicon/core/error.h"
 #include "vicon/viewer/model/annotate.h"
@@ -18,14 +19,6 @@ constexpr double kLeastForTriad = 17;  // heights of text: in a lower view it li
 // In heights of the text. A window's text keeps its size, a picture's is made smaller where it does not fit.
 constexpr double kLongestLine = 24, kLongestLineOfPicture = 8.6;
 
-/// The circle that is peeled, for a radiologist's eye on one finding.
-PictureCircle circleOf(const SnapshotRequest& request)
-{
-    const Pixel middle{request.width / 2.0, request.height / 2.0};
-    const double usual_px = 0.3 * std::min(request.width, request.height);
-    return {request.peel.circle_at.value_or(middle), request.peel.circle_px > 0 ? request.peel.circle_px : usual_px};
-}
-
 std::string peelingText(const SnapshotRequest& request)
 {
     char offset[32];
@@ -33,39 +26,6 @@ std::string peelingText(const SnapshotRequest& request)
     std::snprintf(offset, sizeof offset, "%.1f", std::abs(offset_mm));
     return "translucent: " + transferFunction(request.peel.preset).title + ", " + offset + " mm " +
            (offset_mm < 0 ? "before" : "deep") + (request.peel.over_surface ? ", over" : "");
-}
-
-/// Each pixel as a square of pixels.
-PeeledPicture enlarged(const PeeledPicture& from, int times, int width, int height)
-{
-    PeeledPicture to{width, height, std::vector<std::uint8_t>(std::size_t(width) * std::size_t(height) * 4)};
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            std::copy_n(from.rgba.begin() + (std::ptrdiff_t(y / times) * from.width + x / times) * 4, 4,
-                        to.rgba.begin() + (std::ptrdiff_t(y) * width + x) * 4);
-    return to;
-}
-
-void layPeelingOver(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
-                    const Progress* wanted)
-{
-    const Lens lens{request.view_angle_deg, request.width, request.height};
-    std::optional<PictureCircle> only;
-    if (request.peel.middle_only)
-        only = circleOf(request);
-    for (int y = 0; y < picture.height; ++y)  // what is peeled off is not seen through the rest
-        for (int x = 0; x < picture.width; ++x)
-            if (!request.peel.over_surface && (!only || only->holds({x + 0.5, y + 0.5})))
-                picture.set(x, y, {0, 0, 0});
-    const int coarse = std::max(1, request.peel.coarse);
-    const Lens few{lens.view_angle_deg, (lens.width + coarse - 1) / coarse, (lens.height + coarse - 1) / coarse};
-    if (only)
-        only = PictureCircle{{only->centre.x / coarse, only->centre.y / coarse}, only->radius_px / coarse};
-    const PeeledPicture peeled = peel(scan.bricks(), scan.lumen(), pose, few, transferFunction(request.peel.preset),
-                                      request.peel.options, only, wanted);
-    constexpr double kOverSurface = 0.6;
-    blendOver(picture.rgb, coarse == 1 ? peeled : enlarged(peeled, coarse, lens.width, lens.height),
-              request.peel.over_surface ? kOverSurface : 1);
 }
 
 std::string directionText(const Pose& pose)
@@ -98,13 +58,8 @@ std::vector<OverlayText> linesOfPicture(const PreparedScan& scan, const Snapshot
         line.color = kTextColor;
         lines.push_back(line);
     }
-    if (request.wall.tagging && scan.hasTagging() && !scan.tagging().empty()) {
-        line.text = "blue: tagging on the wall";
-        if (scan.hasMottledTagging())
-            line.text += "; violet: stool or mottled";
-        line.color = kTextColor;
-        lines.push_back(line);
-    }
+    for (const OverlayText& of_wall : linesOfWall(scan, request.wall, place))
+        lines.push_back(of_wall);
     if (!place.sees_target) {
         line.text = "the marker lies behind the wall seen here";
         line.color = kWarningColor;
@@ -114,6 +69,29 @@ std::vector<OverlayText> linesOfPicture(const PreparedScan& scan, const Snapshot
 }
 
 }  // namespace
+
+std::vector<OverlayText> linesOfWall(const PreparedScan& scan, const WallLook& look, const SnapshotResult& place)
+{
+    std::vector<OverlayText> lines;
+    OverlayText line;
+    if (scan.canBeCleansed()) {
+        line.text = look.acquired ? "AS ACQUIRED" : "cleansed";
+        line.color = kTextColor;
+        lines.push_back(line);
+    }
+    if (look.acquired && !startsInGas(scan, place.pose.eye_mm)) {
+        line.text = "the eye is not in gas: as acquired there is nothing to see";
+        line.color = kWarningColor;
+        lines.push_back(line);
+    } else if (!look.acquired && look.tagging && scan.hasTagging() && !scan.tagging().empty()) {
+        line.text = "blue: tagging on the wall";
+        if (scan.hasMottledTagging())
+            line.text += "; violet: stool or mottled";
+        line.color = kTextColor;
+        lines.push_back(line);
+    }
+    return lines;
+}
 
 void addMarkersInView(Overlay& overlay, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
                       const Lens& lens, double text_px)
@@ -156,7 +134,7 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
         leaveOut(lines, linesIn(above_letter_px - caption.y, text_px) - int(more.size()));
     lines.insert(lines.end(), more.begin(), more.end());
     if (request.peel.middle_only && !request.peel.preset.empty())
-        overlay.discs.push_back({circleOf(request).centre, circleOf(request).radius_px, kTextColor, 1.5});
+        overlay.discs.push_back({peeledCircle(request).centre, peeledCircle(request).radius_px, kTextColor, 1.5});
     addLines(overlay, caption, lines, std::min(text_px, heightOfText(lines.size(), above_letter_px - caption.y)));
     return overlay;
 }
@@ -201,6 +179,11 @@ const Picture& EndoscopicPictures::wall(const SnapshotRequest& request, const Sn
     const Lens lens{request.view_angle_deg, request.width, request.height};
     if (last_ && last_->pose == place.pose && last_->lens == lens && last_->look == request.wall)
         return last_->picture;
+    if (request.wall.acquired) {
+        last_ = {place.pose, lens, request.wall, Picture(request.width, request.height)};
+        castWall(last_->picture, scan_, request, place);
+        return last_->picture;
+    }
     chooseCells(place.pose, lens);
     scene_.lookFrom(place.pose, request.view_angle_deg);
     scene_.setLampReach(lampReachAt_mm(scan_.frames(), place.station_mm));
@@ -226,21 +209,11 @@ Picture EndoscopicPictures::drawCube(const SnapshotRequest& request, const Snaps
     return picture;
 }
 
-void castWall(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
-              const Progress* wanted)
-{
-    SnapshotRequest cast = request;
-    cast.peel.preset = "soft-tissue";
-    cast.peel.options.offset_mm = 0;
-    cast.peel.middle_only = cast.peel.over_surface = false;
-    layPeelingOver(picture, scan, cast, pose, wanted);
-}
-
 void finishEndoscopic(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request,
                       const SnapshotResult& place, const Progress* wanted)
 {
     if (!request.peel.preset.empty())
-        layPeelingOver(picture, scan, request, place.pose, wanted);
+        layPeelingOver(picture, scan, request, place, wanted);
     paint(picture, endoscopicOverlay(scan, request, place));
 }
 

@@ -101,6 +101,7 @@ FlightFrame FlightRenderer::shoot(const ViewPose& view, const VisibleParts& show
         still.width = request.width;
         still.height = request.height;
         still.view_angle_deg = request.view_angle_deg;
+        still.wall = request.wall;
         paint(picture, endoscopicOverlay(scan, still, {view.pose, view.station_mm, view.clearance_mm, true}));
         writePng(png, picture);
     }

@@ -22,6 +22,9 @@ std::vector<OverlayText> patientLines(const Caption& caption);
 std::vector<OverlayText> captionLines(const Caption& caption, double station_mm, double length_mm,
                                       const OrganWords& words);
 
+/// Which wall is shown, where there are two kinds, and what its tints mean.
+std::vector<OverlayText> linesOfWall(const PreparedScan& scan, const WallLook& look, const SnapshotResult& place);
+
 /// What is written over an endoscopic picture; used by snapshots and flights alike.
 Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place);
 
@@ -33,10 +36,6 @@ Overlay sliceOverlay(const SliceRequest& request, bool cleansable);
 void addMarkersInView(Overlay& overlay, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
                       const Lens& lens, double text_px);
 
-/// The wall where the densities of tissue begin, for want of OpenGL; as fine as the request says that it is peeled.
-/// Throws Error{cancelled} where it is no longer wanted.
-void castWall(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
-              const Progress* wanted = nullptr);
 /// Endoscopic pictures of one scan; its surface is handed to the driver once.
 class EndoscopicPictures {
 public:

@@ -151,12 +151,18 @@ void PreparedScan::readOn(const Progress& wanted) const
     }
 }
 
+bool PreparedScan::canBeCleansed() const
+{
+    return fs::exists(files_->folder / "cleansed.mha");
+}
+
 const HuView* PreparedScan::cleansed() const
 {
-    const fs::path file = files_->folder / "cleansed.mha";
-    if (!fs::exists(file))
+    if (!canBeCleansed())
         return nullptr;
-    return &files_->cleansed.get([&] { return scan_files::StoredVolume<std::int16_t>(file); }).view();
+    return &files_->cleansed
+                .get([&] { return scan_files::StoredVolume<std::int16_t>(files_->folder / "cleansed.mha"); })
+                .view();
 }
 
 const HuView& PreparedScan::volume() const

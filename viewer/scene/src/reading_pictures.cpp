@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "cast_wall.h"
 #include "pictures.h"
 #include "vicon/core/error.h"
 #include "vicon/viewer/model/annotate.h"
@@ -61,13 +62,16 @@ struct ReadingPictures::Parts {
         pace.tell(request.width, request.height, request.peel.coarse, took.count());
     }
 
+    /// Whether the surface itself is drawn, so that what the picture shows can be known.
+    bool shows(const SnapshotRequest& request) const { return offscreen && !request.wall.acquired; }
+
     /// What is peeled, and written on.
-    Picture wall(const SnapshotRequest& request, const Pose& pose, bool still, const Progress* wanted)
+    Picture wall(const SnapshotRequest& request, const SnapshotResult& place, bool still, const Progress* wanted)
     {
-        if (offscreen)
+        if (shows(request))
             return offscreen->render(request.width, request.height, still ? 2 : 1);
         Picture picture(request.width, request.height);
-        cast(request, still, [&](const SnapshotRequest& as) { castWall(picture, scan, as, pose, wanted); });
+        cast(request, still, [&](const SnapshotRequest& as) { castWall(picture, scan, as, place, wanted); });
         return picture;
     }
 
@@ -79,10 +83,10 @@ struct ReadingPictures::Parts {
         const bool only_peeled =
             !request.peel.preset.empty() && !request.peel.middle_only && !request.peel.over_surface;
         Picture picture =
-            only_peeled ? Picture(request.width, request.height) : wall(request, place.pose, still, look.wanted);
-        if (look.earlier && !only_peeled && offscreen)
+            only_peeled ? Picture(request.width, request.height) : wall(request, place, still, look.wanted);
+        if (look.earlier && !only_peeled && shows(request))
             pictureCoverage().tint(picture, look.earlier->earlier());
-        if (look.missed && !only_peeled && offscreen)
+        if (look.missed && !only_peeled && shows(request))
             pictureCoverage().tint(picture, *look.missed, PictureCoverage::Tint::missed);
         cast(request, still || request.peel.preset.empty(),
              [&](const SnapshotRequest& as) { finishEndoscopic(picture, scan, as, place, look.wanted); });
@@ -190,7 +194,7 @@ Picture ReadingPictures::endoscopic(const SnapshotRequest& request, const Snapsh
     }
     if (look.structure)
         paint(picture, structureOverlay(*p.visibility, p.scene, place.pose, lens));
-    if ((!request.peel.preset.empty() && !request.peel.over_surface) || !p.offscreen)
+    if ((!request.peel.preset.empty() && !request.peel.over_surface) || !p.shows(request))
         p.shown.reset();
     if (!look.on_screen) {
         p.shown = std::move(on_screen);
@@ -208,10 +212,10 @@ Picture ReadingPictures::cubeFace(const SnapshotRequest& of_cube, const Snapshot
     const SnapshotRequest request = faceRequest(of_cube, {of_cube.width, of_cube.height});
     const SnapshotResult turned = faceOf(face, place);
     p.look(request, turned, look);
-    Picture picture = p.wall(request, turned.pose, still, look.wanted);
-    if (look.earlier && p.offscreen)
+    Picture picture = p.wall(request, turned, still, look.wanted);
+    if (look.earlier && p.shows(request))
         p.pictureCoverage().tint(picture, look.earlier->earlier());
-    if (seen && p.offscreen)
+    if (seen && p.shows(request))
         seen->see(p.pictureCoverage().triangles());
     p.shown = std::move(before);
     if (p.shown)

@@ -15,8 +15,6 @@
 namespace vicon::viewer {
 namespace {
 
-constexpr std::array kMucosa{0.93, 0.66, 0.56}, kBone{0.93, 0.9, 0.82};
-
 std::array<double, 3> cellColor(int segment)
 {
     constexpr double kGoldenAngle = 2.399963;  // neighbours get hues far apart
@@ -26,6 +24,12 @@ std::array<double, 3> cellColor(int segment)
 }
 
 }  // namespace
+
+std::array<double, 3> wallColor(WallColors colors)
+{
+    constexpr std::array kMucosa{0.93, 0.66, 0.56}, kBone{0.93, 0.9, 0.82};
+    return colors == WallColors::bone ? kBone : kMucosa;
+}
 
 double lampReachAt_mm(const PathFrames& path, double station_mm)
 {
@@ -51,9 +55,7 @@ struct SurfaceScene::Parts {
     {
         for (const CellActor& cell : cells) {
             vtkProperty* p = cell.actor->GetProperty();
-            const auto color = color_cells                       ? cellColor(cell.segment)
-                               : look.colors == WallColors::bone ? kBone
-                                                                 : kMucosa;
+            const auto color = color_cells ? cellColor(cell.segment) : wallColor(look.colors);
             p->SetColor(color[0], color[1], color[2]);
             p->SetAmbient(0);
             p->SetDiffuse(1);

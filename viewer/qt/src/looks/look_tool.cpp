@@ -26,6 +26,11 @@ void LookTool::addTo(ReadingLayout& layout)
     tagging_ = layout.addSwitch(ReadingMenu::view, tr("Wall: blue where tagging touches it"), QKeySequence("Shift+K"));
     tagging_->setObjectName("tagging");
     connect(tagging_, &QAction::toggled, this, &LookTool::drawAnew);
+    // Off whenever a case is opened, and not kept: under fluid a flight as acquired shows nothing.
+    acquired_ =
+        layout.addSwitch(ReadingMenu::view, tr("Wall as acquired (fluid and stool stand)"), QKeySequence("Ctrl+K"));
+    acquired_->setObjectName("acquired");
+    connect(acquired_, &QAction::toggled, this, &LookTool::drawAnew);
     addLights(layout);
     occlusion_ = layout.addSwitch(ReadingMenu::view, tr("Light: less between folds (ambient occlusion)"), {});
     occlusion_->setObjectName("ambientOcclusion");
@@ -88,6 +93,14 @@ void LookTool::restore()
     occlusion_->setChecked(keptSetting(kOcclusion, true).toBool());
 }
 
+void LookTool::scanOpened(const Arrival&)
+{
+    const bool has_densities = reading_.scan()->files.quantity() == Quantity::density;
+    acquired_->setEnabled(has_densities);
+    if (!has_densities)
+        acquired_->setChecked(false);
+}
+
 QVariantMap LookTool::kept() const
 {
     return {{kLight, lamp_factor_},
@@ -98,7 +111,7 @@ QVariantMap LookTool::kept() const
 
 void LookTool::style(EndoscopicRequest& request) const
 {
-    request.snapshot.wall = {wall_.colors, occlusion_->isChecked(), tagging_->isChecked()};
+    request.snapshot.wall = {wall_.colors, occlusion_->isChecked(), tagging_->isChecked(), acquired_->isChecked()};
     request.structure = structure_->isChecked();
     request.lamp_factor = lamp_factor_;
 }

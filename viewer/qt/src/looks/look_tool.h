@@ -16,6 +16,7 @@ public:
 
     void addTo(ReadingLayout& layout) override;
     void restore() override;
+    void scanOpened(const Arrival&) override;
     QVariantMap kept() const override;
     void style(EndoscopicRequest& request) const override;
 
@@ -24,7 +25,7 @@ private:
     void addLights(ReadingLayout& layout);
     void drawAnew();
 
-    QAction *structure_ = nullptr, *tagging_ = nullptr, *occlusion_ = nullptr;
+    QAction *structure_ = nullptr, *tagging_ = nullptr, *acquired_ = nullptr, *occlusion_ = nullptr;
     QActionGroup *colors_ = nullptr, *lights_ = nullptr;
     WallLook wall_;
     double lamp_factor_ = 1;

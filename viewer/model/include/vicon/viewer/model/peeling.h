@@ -28,7 +28,7 @@ struct PeelingOptions {
     double offset_mm = 0;        ///< along the ray, from where it would begin: what lies before is peeled off
     double step_mm = 0.5;        ///< between samples, 0.1 to 2. Half a voxel and more of clinical CT (0.6 to 0.9 mm)
     double reach_mm = 60;        ///< how far below the wall a ray goes at most
-    double lamp_half_mm = 45;    ///< the distance at which the lamp at the eye has lost half of its strength
+    double lamp_reach_mm = 45;   ///< the distance at which the lamp at the eye has lost half of its strength
     bool shaded = true;          ///< by the gradient of the density; else the colours of the transfer function, faded
     double shaded_from = 0.004;  ///< share of the light: samples that stop less are not shaded
     double least_light = 0.002;  ///< share of the light, half a grey level: when less is left a ray ends

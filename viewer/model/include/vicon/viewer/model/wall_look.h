@@ -21,6 +21,8 @@ struct WallLook {
     WallColors colors = WallColors::mucosa;
     bool ambient_occlusion = true;  ///< less light where the wall is less open, see opennessOf()
     bool tagging = false;           ///< blue where tagging touches the wall, see taggingOf()
+    /// As acquired: from where the densities leave gas, tagged fluid and stool standing. Else the surface, cleansed.
+    bool acquired = false;
     friend bool operator==(const WallLook&, const WallLook&) = default;
 };
 

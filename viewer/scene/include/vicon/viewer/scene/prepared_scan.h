@@ -62,6 +62,7 @@ public:
     std::vector<WindowLevel> windows() const;
     /// One of them. Throws Error{wrong_use} naming those there are.
     WindowLevel window(const std::string& name) const;
+    bool canBeCleansed() const;           ///< cleansed() is something
     const DensityBricks& bricks() const;  ///< of the volume
     bool hasOpenness() const;             ///< openness() answers at once
     /// Of the points of cells(), see opennessOf().

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -14,6 +15,9 @@
 class vtkRenderer;
 
 namespace vicon::viewer {
+
+/// Red, green and blue, 0 to 1, of a wall in the light; by depth the light itself is coloured.
+std::array<double, 3> wallColor(WallColors colors);
 
 /// How far the lamp at the eye reaches, where it has lost half of its strength, in a lumen of usual width.
 constexpr double kUsualLampReach_mm = 45;
