@@ -23,6 +23,12 @@ void take(const json& from, const char* key, Value& into)
         into = found->get<Value>();
 }
 
+bool mayBeOfScan(Point3 p)
+{
+    constexpr double kFarthest_mm = 1e5;
+    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest_mm;
+}
+
 /// To hundredths: there may be thousands of blocks.
 json toJson(const MottledTagging& mottled)
 {
@@ -38,19 +44,26 @@ json toJson(const MottledTagging& mottled)
 
 MottledTagging mottledFrom(const json& json)
 {
-    constexpr double kLeast_mm = 0.1, kMost_mm = 100, kFarthest_mm = 1e5;  // whoever looks for a block counts on that
+    constexpr double kLeast_mm = 0.1, kMost_mm = 100;  // whoever looks for a block counts on that
     MottledTagging mottled{json.at("block_mm").get<double>(), json.at("blocks_mm").get<std::vector<Point3>>(), {}};
     mottled.shares.assign(mottled.blocks_mm.size(), 1);  // as records were before there were shares
     take(json, "shares", mottled.shares);
     const bool sound = mottled.block_mm >= kLeast_mm && mottled.block_mm <= kMost_mm &&
                        mottled.shares.size() == mottled.blocks_mm.size() &&
                        std::ranges::all_of(mottled.shares, [](double s) { return s >= 0 && s <= 1; }) &&
-                       std::ranges::all_of(mottled.blocks_mm, [](Point3 p) {
-                           return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest_mm;
-                       });
+                       std::ranges::all_of(mottled.blocks_mm, mayBeOfScan);
     if (!sound)
         throw Error(ErrorCode::bad_input, "mottled tagging lies where no scan is");
     return mottled;
+}
+
+FaintWall faintWallFrom(const json& json)
+{
+    constexpr double kMost_mm2 = 1e6;
+    const FaintWall wall{json.at("middle_mm").get<Point3>(), json.at("area_mm2").get<double>()};
+    if (!mayBeOfScan(wall.middle_mm) || !(wall.area_mm2 >= 0 && wall.area_mm2 <= kMost_mm2))
+        throw Error(ErrorCode::bad_input, "a faint wall lies where no scan is");
+    return wall;
 }
 
 /// Voxels along each axis, if they are there.
@@ -138,8 +151,10 @@ json toJson(const TissueFound& found)
     if (found.blur_mm)
         measures["blur_mm"] = *found.blur_mm;
     json out = {{"measures", std::move(measures)}};
-    if (!found.mottled.blocks_mm.empty())
-        out["mottled"] = toJson(found.mottled);
+    if (!found.untrusted.mottled.blocks_mm.empty())
+        out["mottled"] = toJson(found.untrusted.mottled);
+    for (const FaintWall& wall : found.untrusted.faint)
+        out["faint_walls"].push_back({{"middle_mm", wall.middle_mm}, {"area_mm2", wall.area_mm2}});
     return out;
 }
 
@@ -149,7 +164,9 @@ TissueFound tissueFoundFromJson(const json& json)
     take(json, "not_sought", found.not_sought);
     take(json, "measures", found.measures);
     if (const auto mottled = json.find("mottled"); mottled != json.end())
-        found.mottled = mottledFrom(*mottled);
+        found.untrusted.mottled = mottledFrom(*mottled);
+    for (const auto& wall : json.value("faint_walls", nlohmann::json::array()))
+        found.untrusted.faint.push_back(faintWallFrom(wall));
     if (found.measures.contains("blur_mm"))
         found.blur_mm = found.measures["blur_mm"].get<double>();
     found.measures.erase("blur_mm");

@@ -10,8 +10,8 @@ using nlohmann::json;
 namespace vicon {
 namespace {
 
-constexpr std::array<QualityReason, 4> kReasons = {QualityReason::collapsed, QualityReason::implausible_length,
-                                                   QualityReason::noise, QualityReason::mottled};
+constexpr std::array kReasons = {QualityReason::collapsed, QualityReason::implausible_length, QualityReason::noise,
+                                 QualityReason::mottled, QualityReason::faint_walls};
 
 std::string text(const char* pattern, double value)
 {
@@ -30,7 +30,8 @@ json toJson(const StretchQuality& q)
                 {"volume_ml", q.volume_ml},
                 {"fluid_ml", q.fluid_ml},
                 {"fluid_fraction", q.fluidFraction()},
-                {"mottled_ml", q.mottled_ml}};
+                {"mottled_ml", q.mottled_ml},
+                {"faint_walls", q.faint_walls}};
     if (q.part)
         out["name"] = nameOf(*q.part);
     return out;
@@ -47,6 +48,7 @@ StretchQuality stretchFrom(const json& json)
     q.volume_ml = json.at("volume_ml").get<double>();
     q.fluid_ml = json.at("fluid_ml").get<double>();
     q.mottled_ml = json.value("mottled_ml", 0.0);
+    q.faint_walls = json.value("faint_walls", 0);
     if (const auto name = json.find("name"); name != json.end())
         q.part = colonPartFrom(name->get<std::string>());
     return q;
@@ -103,6 +105,8 @@ std::string nameOf(QualityReason reason)
             return "noise";
         case QualityReason::mottled:
             return "mottled";
+        case QualityReason::faint_walls:
+            return "faint_walls";
     }
     return "noise";
 }
@@ -126,6 +130,11 @@ std::string textOf(const QualityNote& note)
             return text("more noise than usual: %.0f HU", note.value);
         case QualityReason::mottled:
             return text("%.1f ml of stool or mottled tagging", note.value) +
+                   (note.part ? ", " + nameOf(*note.part) : "");
+        case QualityReason::faint_walls:
+            return text(note.value == 1 ? "%.0f wall between loops hardly shown"
+                                        : "%.0f walls between loops hardly shown",
+                        note.value) +
                    (note.part ? ", " + nameOf(*note.part) : "");
     }
     return {};

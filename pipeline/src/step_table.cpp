@@ -119,7 +119,7 @@ json runQuality(const StepInputs& inputs, ScanResults& results, const StepRecord
         found.quality =
             steps::measureQuality(results.inside(), results.skeleton(), parts.ranges,
                                   segmentFoundFromJson(records.at("segment").result).noise_hu.value_or(0),
-                                  tissueFoundFromJson(records.at("tissue").result).mottled, options, progress);
+                                  tissueFoundFromJson(records.at("tissue").result).untrusted, options, progress);
     return toJson(found);
 }
 
@@ -182,7 +182,7 @@ std::vector<Step> stepsOfLumen()
          runResample},
         {"segment", 16, 0.3, 0.55, {"resample"}, Densities::whole, segmentFiles, segmentParameters, runSegment},
         {"tissue",
-         10,
+         11,
          0.55,
          0.6,
          {"resample", "segment"},
@@ -208,7 +208,7 @@ std::vector<Step> stepsOfResults()
     using namespace steps;
     return {
         {"quality",
-         5,
+         6,
          0.65,
          0.67,
          {"segment", "tissue", "skeleton"},

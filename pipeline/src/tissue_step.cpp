@@ -53,11 +53,12 @@ json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords
         steps::findTissue(results.densitiesAroundLumen(), results.mask(), inputs.gravity,
                           inputs.config.get<steps::WallDensities>(), noiseOf(segment), progress, options);
     results.dropMask();
-    TissueFound told{.blur_mm = found.blur_mm, .mottled = {}, .measures = std::move(found.found)};
+    TissueFound told{
+        .blur_mm = found.blur_mm, .untrusted = std::move(found.untrusted), .measures = std::move(found.found)};
     if (inputs.quantity == Quantity::density) {
         results.write("cleansed.mha", std::move(found.cleansed));
-        told.mottled = std::move(found.mottled);
     } else {
+        told.untrusted.mottled = {};
         told.measures["tagging"] = kNoTagging;
     }
     results.put(std::move(found.lumen));

@@ -68,16 +68,32 @@ TEST(StepResults, WarnOfAnOrganThatWasNotFoundOrNotSurely)
 TEST(StepResults, OfTheTissueStepKeepWhereTaggingIsMottled)
 {
     TissueFound found;
-    found.mottled = {.block_mm = 4.05, .blocks_mm = {{-105.42, -108.12, 3.5}, {1, 2, 3}}, .shares = {1, 0.25}};
+    found.untrusted.mottled = {
+        .block_mm = 4.05, .blocks_mm = {{-105.42, -108.12, 3.5}, {1, 2, 3}}, .shares = {1, 0.25}};
     const TissueFound read = tissueFoundFromJson(toJson(found));
-    EXPECT_EQ(read.mottled.block_mm, 4.05);
-    ASSERT_EQ(read.mottled.blocks_mm.size(), 2U);
-    EXPECT_EQ(read.mottled.shares, found.mottled.shares);
-    EXPECT_NEAR(distance(read.mottled.blocks_mm[0], found.mottled.blocks_mm[0]), 0, 0.01);
-    EXPECT_TRUE(tissueFoundFromJson(toJson(TissueFound())).mottled.blocks_mm.empty());
+    EXPECT_EQ(read.untrusted.mottled.block_mm, 4.05);
+    ASSERT_EQ(read.untrusted.mottled.blocks_mm.size(), 2U);
+    EXPECT_EQ(read.untrusted.mottled.shares, found.untrusted.mottled.shares);
+    EXPECT_NEAR(distance(read.untrusted.mottled.blocks_mm[0], found.untrusted.mottled.blocks_mm[0]), 0, 0.01);
+    EXPECT_TRUE(tissueFoundFromJson(toJson(TissueFound())).untrusted.mottled.blocks_mm.empty());
     for (const auto& [side_mm, x_mm] : {std::pair(0.0, 1.0), std::pair(1e-300, 1.0), std::pair(4.0, 1e300)}) {
         const json damaged = {{"mottled", {{"block_mm", side_mm}, {"blocks_mm", {{x_mm, 2, 3}}}}}};
         EXPECT_THROW(tissueFoundFromJson(damaged), Error) << side_mm << ", " << x_mm;
+    }
+}
+
+TEST(StepResults, OfTheTissueStepKeepFaintWalls)
+{
+    TissueFound found;
+    found.untrusted.faint = {{{-44.9, -76.5, 26.7}, 2.5}, {{1, 2, 3}, 0.5}};
+    const TissueFound read = tissueFoundFromJson(toJson(found));
+    ASSERT_EQ(read.untrusted.faint.size(), 2U);
+    EXPECT_EQ(distance(read.untrusted.faint[0].middle_mm, found.untrusted.faint[0].middle_mm), 0);
+    EXPECT_EQ(read.untrusted.faint[1].area_mm2, 0.5);
+    EXPECT_TRUE(tissueFoundFromJson(toJson(TissueFound())).untrusted.faint.empty());
+    for (const auto& [x_mm, area_mm2] : {std::pair(1e300, 1.0), std::pair(1.0, -1.0), std::pair(1.0, 1e300)}) {
+        const json wall = {{"middle_mm", {x_mm, 2, 3}}, {"area_mm2", area_mm2}};
+        EXPECT_THROW(tissueFoundFromJson({{"faint_walls", json::array({wall})}}), Error) << x_mm << ", " << area_mm2;
     }
 }
 
@@ -98,7 +114,9 @@ TEST(ScanQuality, IsReadBackWithItsNotesAndWithoutThemFromBefore)
     quality.parts[0].mottled_ml = 2.5;
     quality.notes = {{QualityReason::collapsed, ColonPart::sigmoid, 38.4},
                      {QualityReason::noise, {}, 45},
-                     {QualityReason::mottled, ColonPart::caecum, 2.73}};
+                     {QualityReason::mottled, ColonPart::caecum, 2.73},
+                     {QualityReason::faint_walls, ColonPart::ascending, 1},
+                     {QualityReason::faint_walls, {}, 3}};
     quality.reason = "sigmoid collapsed over 38 mm; more noise than usual: 45 HU";
     json written = toJson(quality);
     EXPECT_EQ(written["fluid_fraction"], 0.25);
@@ -106,6 +124,8 @@ TEST(ScanQuality, IsReadBackWithItsNotesAndWithoutThemFromBefore)
     EXPECT_EQ(toJson(scanQualityFromJson(written)), written);
     EXPECT_EQ(scanQualityFromJson(written).parts[0].mottled_ml, 2.5);
     EXPECT_EQ(textOf(quality.notes[2]), "2.7 ml of stool or mottled tagging, caecum");
+    EXPECT_EQ(textOf(quality.notes[3]), "1 wall between loops hardly shown, ascending");
+    EXPECT_EQ(textOf(quality.notes[4]), "3 walls between loops hardly shown");
     EXPECT_EQ(textOf(quality.notes[0]) + "; " + textOf(quality.notes[1]), quality.reason);
     written.erase("notes");
     EXPECT_EQ(scanQualityFromJson(written).reason, quality.reason);

@@ -63,9 +63,10 @@ std::vector<Lump> lumpsOf(std::uint64_t seed)
     for (const phantom::StoolLump& lump : scan.truth.stool) {
         if (isAtPool(lump, scan.truth))
             continue;
-        const double near_mm = lump.diameter_mm / 2 + tissue.mottled.block_mm;
-        const bool told = std::any_of(tissue.mottled.blocks_mm.begin(), tissue.mottled.blocks_mm.end(),
-                                      [&](Point3 block) { return distance(block, lump.position_mm) < near_mm; });
+        const double near_mm = lump.diameter_mm / 2 + tissue.untrusted.mottled.block_mm;
+        const bool told =
+            std::any_of(tissue.untrusted.mottled.blocks_mm.begin(), tissue.untrusted.mottled.blocks_mm.end(),
+                        [&](Point3 block) { return distance(block, lump.position_mm) < near_mm; });
         lumps.push_back({lump.diameter_mm, lump.airy, shareInLumen(lump, scan.truth, tissue.lumen), told});
     }
     return lumps;

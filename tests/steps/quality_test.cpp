@@ -67,7 +67,7 @@ TEST(Quality, MottledTaggingIsCountedInThePartWhereItLiesAndTold)
     MottledTagging mottled{.block_mm = 4, .blocks_mm = {{27, 20, 110}}, .shares = {1}};
     for (double z = 510; z < 550; z += 4)
         mottled.add({27, 20, z}, 1);
-    const ScanQuality q = measureQuality(tube.inside, tube.skeleton, parts, 0, mottled, {}, progress);
+    const ScanQuality q = measureQuality(tube.inside, tube.skeleton, parts, 0, {mottled, {}}, {}, progress);
     EXPECT_NEAR(q.parts[0].mottled_ml, 0.064, 1e-9);
     EXPECT_NEAR(q.parts[1].mottled_ml, 0.64, 1e-9);
     EXPECT_NEAR(q.whole.mottled_ml, 0.704, 1e-9);

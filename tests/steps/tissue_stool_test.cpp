@@ -74,7 +74,7 @@ TEST_P(StoolOnAnySide, IsTakenOutAndTheWallUnderItIsFound)
     for (const double off_mm : {-2.0, 0.0, 2.0})
         EXPECT_NEAR(toWall_mm(result.tissue, {9, off_mm, off_mm / 2}, {-1, 0, 0}), 9 - kWallAt_mm, 0.35) << off_mm;
     const double lump_ml = 4.0 / 3 * 3.14159 * std::pow(4.5, 3) / 1000 * 0.85;  // the wall cuts off 15 %
-    EXPECT_NEAR(result.mottled.volume_ml(), lump_ml, 0.25 * lump_ml);
+    EXPECT_NEAR(result.untrusted.mottled.volume_ml(), lump_ml, 0.25 * lump_ml);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, StoolOnAnySide,
@@ -92,9 +92,9 @@ TEST(Stool, WithAirInItIsTakenOutInPartAndToldAsAWhole)
     const Scene scene = sceneWithStool(behindWall, [=](Point3 p) { return lump(p) && !bubbles(p); });
     const TissueResult result = scene.find();
     EXPECT_GT(shareInLumen(scene, result.lumen, lump), 0.7);
-    EXPECT_GT(result.mottled.volume_ml(), 0.5 * 0.9 * 4.0 / 3 * 3.14159 * 0.216);
-    for (const Point3& block : result.mottled.blocks_mm)
-        EXPECT_LT(distance(block, Point3{}), 6 + 2 * result.mottled.block_mm);
+    EXPECT_GT(result.untrusted.mottled.volume_ml(), 0.5 * 0.9 * 4.0 / 3 * 3.14159 * 0.216);
+    for (const Point3& block : result.untrusted.mottled.blocks_mm)
+        EXPECT_LT(distance(block, Point3{}), 6 + 2 * result.untrusted.mottled.block_mm);
 }
 
 TEST(Stool, WhoseFlatTopPassedForALevelIsStool)
@@ -114,7 +114,7 @@ TEST(Stool, IsNoPuddle)
 {
     const Scene puddle([](Point3 p) { return std::hypot(p.x, p.z) > 6 + std::max(0.0, -p.y) || p.y > 4; }, 0.1, 20);
     EXPECT_EQ(lumps(puddle.find()), 0);
-    EXPECT_EQ(puddle.find().mottled.blocks_mm.size(), 0U);
+    EXPECT_EQ(puddle.find().untrusted.mottled.blocks_mm.size(), 0U);
 }
 
 TEST(Stool, OnAPolypLeavesThePolyp)

@@ -110,8 +110,16 @@ TEST(WallTagging, IsMoreBesideMottledBlocksAndNotWhereNoneTouchesTheWall)
 {
     const std::vector<float> points_mm{0, 0, 0, 6, 0, 0, 12, 0, 0, 0, 5, 0, 0, 1, 0, 4.5F, 0, 0};
     std::vector<float> tagging{1, 1, 1, 0, 0, 0.5F};
-    addMottled(tagging, points_mm, {.block_mm = 4, .blocks_mm = {{0, 0, 3}, {-40, 7, 0}}, .shares = {1, 1}});
+    addUntrusted(tagging, points_mm, {{.block_mm = 4, .blocks_mm = {{0, 0, 3}, {-40, 7, 0}}, .shares = {1, 1}}, {}});
     EXPECT_EQ(tagging, (std::vector<float>{2, 2, 1, 0, 2, 1.5F}));
+}
+
+TEST(WallTagging, IsMostOnAFaintWallAndItsRim)
+{
+    const std::vector<float> points_mm{0, 0, 0, 2.9F, 0, 0, 3.1F, 0, 0};
+    std::vector<float> tagging{0, 0.5F, 0.5F};
+    addUntrusted(tagging, points_mm, {{}, {{{0, 0, 0}, std::numbers::pi}}});
+    EXPECT_EQ(tagging, (std::vector<float>{2, 2, 0.5F}));
 }
 
 }  // namespace

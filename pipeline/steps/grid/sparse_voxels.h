@@ -29,6 +29,15 @@ public:
     const Grid& grid() const { return grid_; }
     std::size_t size() const { return voxels_.size(); }
     std::size_t operator[](std::size_t n) const { return voxels_[n]; }
+    /// The number of a voxel; size() where it is not in the set.
+    std::size_t numberOf(std::size_t voxel) const
+    {
+        const std::size_t row = voxel / std::size_t(grid_.size[0]);
+        const auto begin = voxels_.begin() + std::ptrdiff_t(row_begin_[row]);
+        const auto end = voxels_.begin() + std::ptrdiff_t(row_begin_[row + 1]);
+        const auto found = std::lower_bound(begin, end, voxel);
+        return found != end && *found == voxel ? std::size_t(found - voxels_.begin()) : size();
+    }
     /// Numbers of the first voxel of a slice, and of the one after its last.
     std::pair<std::size_t, std::size_t> inSlices(int from, int to) const
     {

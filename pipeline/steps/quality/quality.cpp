@@ -106,19 +106,24 @@ LumenAlong lumenAlong(const std::vector<double>& radii, const LumenProfile& prof
     return along;
 }
 
-/// Each block counts where the centreline is nearest to it.
-void addMottled(ScanQuality& quality, const MottledTagging& mottled, const Skeleton& skeleton,
-                const ColonPartRanges& parts)
+/// Each block of mottled tagging and each faint wall counts where the centreline is nearest to it.
+void addUntrusted(ScanQuality& quality, const UntrustedWall& untrusted, const Skeleton& skeleton,
+                  const ColonPartRanges& parts)
 {
-    quality.whole.mottled_ml = mottled.volume_ml();
-    for (std::size_t block = 0; block < mottled.blocks_mm.size(); ++block) {
-        const double station_mm = skeleton.nearest(mottled.blocks_mm[block]).station_mm;
+    const auto addAt = [&](Point3 p, auto add) {
+        add(quality.whole);
+        const double station_mm = skeleton.nearest(p).station_mm;
         for (std::size_t n = 0; n < parts.size(); ++n)
             if (station_mm >= parts[n].from_mm && (station_mm < parts[n].to_mm || n + 1 == parts.size())) {
-                quality.parts[n].mottled_ml += mottled.volume_ml(block);
+                add(quality.parts[n]);
                 break;
             }
-    }
+    };
+    const MottledTagging& mottled = untrusted.mottled;
+    for (std::size_t block = 0; block < mottled.blocks_mm.size(); ++block)
+        addAt(mottled.blocks_mm[block], [&](StretchQuality& of) { of.mottled_ml += mottled.volume_ml(block); });
+    for (const FaintWall& wall : untrusted.faint)
+        addAt(wall.middle_mm, [](StretchQuality& of) { ++of.faint_walls; });
 }
 
 void judge(ScanQuality& quality, double length_mm, const QualityOptions& options)
@@ -140,17 +145,22 @@ void judge(ScanQuality& quality, double length_mm, const QualityOptions& options
     }
     if (quality.noise_hu > options.usual_noise_hu)
         note(QualityReason::noise, {}, quality.noise_hu);
+    const auto noteUntrusted = [&](const StretchQuality& of) {
+        if (of.mottled_ml >= kLeastMottled_ml)
+            note(QualityReason::mottled, of.part, of.mottled_ml);
+        if (of.faint_walls > 0)
+            note(QualityReason::faint_walls, of.part, of.faint_walls);
+    };
     for (const StretchQuality& part : quality.parts)
-        if (part.mottled_ml >= kLeastMottled_ml)
-            note(QualityReason::mottled, part.part, part.mottled_ml);
-    if (quality.parts.empty() && quality.whole.mottled_ml >= kLeastMottled_ml)
-        note(QualityReason::mottled, {}, quality.whole.mottled_ml);
+        noteUntrusted(part);
+    if (quality.parts.empty())
+        noteUntrusted(quality.whole);
 }
 
 }  // namespace
 
 ScanQuality measureQuality(const InsideVolume& inside, const Skeleton& skeleton, const ColonPartRanges& parts,
-                           double noise_hu, const MottledTagging& mottled, const QualityOptions& options,
+                           double noise_hu, const UntrustedWall& untrusted, const QualityOptions& options,
                            Progress& progress)
 {
     if (skeleton.empty())
@@ -164,7 +174,7 @@ ScanQuality measureQuality(const InsideVolume& inside, const Skeleton& skeleton,
     quality.whole = measureStretch(std::nullopt, 0, skeleton.length_mm(), radii, profile, options);
     for (const ColonPartRange& range : parts)
         quality.parts.push_back(measureStretch(range.part, range.from_mm, range.to_mm, radii, profile, options));
-    addMottled(quality, mottled, skeleton, parts);
+    addUntrusted(quality, untrusted, skeleton, parts);
     quality.along = lumenAlong(radii, profile, skeleton.length_mm(), options);
     quality.thresholds = vicon::toJson(options);
     judge(quality, skeleton.length_mm(), options);

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "grid/allocate.h"
-#include "grid/byte_rows.h"
 #include "grid/mask.h"
 #include "grid/neighbours.h"
 #include "grid/run_labels.h"
 #include "grid/sparse_voxels.h"
 #include "grid/voxel_lists.h"
+#include "grid/voxels_where.h"
 #include "grid/wall_values.h"
 #include "tissue/mixture.h"
 #include "vicon/core/disjoint_sets.h"
@@ -30,26 +30,6 @@ constexpr int kMostLayers = 2;
 /// Sets of tissue without a wall, and of lumen behind one, up to here are noise or bubbles: 0.03 ml at the usual
 /// voxels.
 constexpr std::size_t kSpeck_voxels = 100;
-
-/// The voxels that are wanted, in order. None is where `bytes` has `never`.
-template <class Wanted>
-std::vector<std::size_t> voxelsWhere(const Grid& grid, const std::vector<std::uint8_t>& bytes, std::uint8_t never,
-                                     Wanted wanted)
-{
-    const auto slice = std::size_t(grid.size[0]) * std::size_t(grid.size[1]);
-    std::vector<std::vector<std::size_t>> slices(std::size_t(grid.size[2]), std::vector<std::size_t>{});
-    tbb::parallel_for(std::size_t(0), slices.size(), [&](std::size_t k) {
-        const std::size_t end = (k + 1) * slice;
-        const auto next = [&](std::size_t n) { return firstOther(bytes.data(), n, end, never); };
-        for (std::size_t n = next(k * slice); n < end; n = next(n + 1))
-            if (wanted(n))
-                slices[k].push_back(n);
-    });
-    std::vector<std::size_t> all;
-    for (const auto& s : slices)
-        all.insert(all.end(), s.begin(), s.end());
-    return all;
-}
 
 /// Those of `voxels` that hang together, over faces, with the outside or are many; both in order.
 std::vector<std::size_t> withoutSpecks(const std::vector<std::size_t>& voxels, const InsideVolume& inside)

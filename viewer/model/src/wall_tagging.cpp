@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "density_sampler.h"
 
@@ -77,6 +78,35 @@ private:
     std::map<Cube, std::vector<Point3>> cubes_;
 };
 
+void addMottled(std::vector<float>& tagging, const std::vector<float>& points_mm, const MottledTagging& mottled)
+{
+    if (mottled.blocks_mm.empty())
+        return;
+    const NearBlocks blocks(mottled);
+    tbb::parallel_for(std::size_t(0), tagging.size(), [&](std::size_t n) {
+        const float* p = &points_mm[3 * n];
+        const Point3 point{p[0], p[1], p[2]};
+        if (blocks.within(kInMottled, point))
+            tagging[n] = 2;
+        else if (tagging[n] > 0 && blocks.within(kBesideMottled, point))
+            tagging[n] += 1;
+    });
+}
+
+/// As a disc of the wall's area, and a rim around it.
+void addFaint(std::vector<float>& tagging, const std::vector<float>& points_mm, const std::vector<FaintWall>& walls)
+{
+    constexpr double kRim_mm = 2;
+    for (const FaintWall& wall : walls) {
+        const double reach_mm = std::sqrt(wall.area_mm2 / std::numbers::pi) + kRim_mm;
+        tbb::parallel_for(std::size_t(0), tagging.size(), [&](std::size_t n) {
+            const float* p = &points_mm[3 * n];
+            if (distance({p[0], p[1], p[2]}, wall.middle_mm) <= reach_mm)
+                tagging[n] = 2;
+        });
+    }
+}
+
 }  // namespace
 
 std::vector<float> taggingOf(const std::vector<float>& points_mm, const std::vector<float>& normals,
@@ -97,19 +127,10 @@ std::vector<float> taggingOf(const std::vector<float>& points_mm, const std::vec
     return tagging;
 }
 
-void addMottled(std::vector<float>& tagging, const std::vector<float>& points_mm, const MottledTagging& mottled)
+void addUntrusted(std::vector<float>& tagging, const std::vector<float>& points_mm, const UntrustedWall& untrusted)
 {
-    if (mottled.blocks_mm.empty())
-        return;
-    const NearBlocks blocks(mottled);
-    tbb::parallel_for(std::size_t(0), tagging.size(), [&](std::size_t n) {
-        const float* p = &points_mm[3 * n];
-        const Point3 point{p[0], p[1], p[2]};
-        if (blocks.within(kInMottled, point))
-            tagging[n] = 2;
-        else if (tagging[n] > 0 && blocks.within(kBesideMottled, point))
-            tagging[n] += 1;
-    });
+    addMottled(tagging, points_mm, untrusted.mottled);
+    addFaint(tagging, points_mm, untrusted.faint);
 }
 
 }  // namespace vicon::viewer

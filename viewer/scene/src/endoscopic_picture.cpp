@@ -85,8 +85,8 @@ std::vector<OverlayText> linesOfWall(const PreparedScan& scan, const WallLook& l
         lines.push_back(line);
     } else if (!look.acquired && look.tagging && scan.hasTagging() && !scan.tagging().empty()) {
         line.text = "blue: tagging on the wall";
-        if (scan.hasMottledTagging())
-            line.text += "; violet: stool or mottled";
+        if (scan.hasUntrustedWall())
+            line.text += "; violet: wall not sure";
         line.color = kTextColor;
         lines.push_back(line);
     }

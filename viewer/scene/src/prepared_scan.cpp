@@ -308,16 +308,17 @@ std::vector<float> PreparedScan::taggingOf(const CellSurface& surface, const Pro
         return {};
     auto tagging = viewer::taggingOf(surface.points_mm, surface.normals, volume(), inside(), noise_hu(), wanted);
     if (const StepResults& results = files_->stepResults(); results.tissue)
-        addMottled(tagging, surface.points_mm, results.tissue->mottled);
+        addUntrusted(tagging, surface.points_mm, results.tissue->untrusted);
     constexpr float kSure = 0.5F;
     const bool any = std::ranges::any_of(tagging, [](float of) { return of > kSure; });
     return any ? tagging : std::vector<float>();
 }
 
-bool PreparedScan::hasMottledTagging() const
+bool PreparedScan::hasUntrustedWall() const
 {
     const StepResults& results = files_->stepResults();
-    return results.tissue && !results.tissue->mottled.blocks_mm.empty();
+    return results.tissue &&
+           !(results.tissue->untrusted.mottled.blocks_mm.empty() && results.tissue->untrusted.faint.empty());
 }
 
 double PreparedScan::noise_hu() const

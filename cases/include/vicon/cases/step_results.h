@@ -10,9 +10,9 @@
 #include "vicon/cases/records.h"
 #include "vicon/core/bridge.h"
 #include "vicon/core/colon_parts.h"
-#include "vicon/core/mottled_tagging.h"
 #include "vicon/core/organ.h"
 #include "vicon/core/scan_quality.h"
+#include "vicon/core/untrusted_wall.h"
 #include "vicon/core/verdict.h"
 
 namespace vicon {
@@ -51,7 +51,7 @@ SegmentFound segmentFoundFromJson(const nlohmann::json& json);
 struct TissueFound {
     std::string not_sought;         ///< why the wall was not placed; the rest is then empty
     std::optional<double> blur_mm;  ///< standard deviation of the scan's blur, as its fluid levels show it
-    MottledTagging mottled;
+    UntrustedWall untrusted;
     nlohmann::json measures = nlohmann::json::object();
 };
 nlohmann::json toJson(const TissueFound& found);

@@ -19,6 +19,7 @@ struct StretchQuality {
     double volume_ml = 0;             ///< gas and tagged fluid
     double fluid_ml = 0;              ///< tagged fluid
     double mottled_ml = 0;            ///< tagging in which wall cannot be told, see MottledTagging
+    int faint_walls = 0;              ///< see FaintWall
     bool adequate = false;            ///< no collapsed stretch of quality.longest_collapsed_mm or more
 
     double fluidFraction() const { return volume_ml > 0 ? fluid_ml / volume_ml : 0; }
@@ -30,8 +31,9 @@ enum class QualityReason {
     implausible_length,  ///< the colon's; it can hardly be the whole of it
     noise,               ///< more than usual
     mottled,             ///< tagging, in a part or in the whole
+    faint_walls,         ///< between loops
 };
-/// "collapsed", "implausible_length", "noise", "mottled".
+/// "collapsed", "implausible_length", "noise", "mottled", "faint_walls".
 std::string nameOf(QualityReason reason);
 /// Throws Error{bad_input} for any other name.
 QualityReason qualityReasonFrom(const std::string& name);
@@ -40,7 +42,7 @@ QualityReason qualityReasonFrom(const std::string& name);
 struct QualityNote {
     QualityReason reason = QualityReason::collapsed;
     std::optional<ColonPart> part;
-    double value = 0;  ///< mm, of noise HU, of tagging ml
+    double value = 0;  ///< mm, of noise HU, of tagging ml, of walls how many
 };
 /// "sigmoid collapsed over 38 mm", "more noise than usual: 45 HU".
 std::string textOf(const QualityNote& note);

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "vicon/core/colon_parts.h"
-#include "vicon/core/mottled_tagging.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/scan_quality.h"
 #include "vicon/core/skeleton.h"
+#include "vicon/core/untrusted_wall.h"
 #include "vicon/core/volume.h"
 
 namespace vicon::steps {
@@ -36,10 +36,10 @@ struct QualityOptions {
 /// Cross-sections come from the lumen's volume: each voxel belongs to the station whose front of a flood from the whole
 /// skeleton reaches it first (on blocks of 2 x 2 x 2 voxels), averaged over 10 mm (a triangle of 20 mm).
 /// @param noise_hu of softTissueNoise()
-/// @param mottled of findTissue(): told where it is half a millilitre or more in a part
+/// @param untrusted of findTissue(): told are half a millilitre or more of mottled tagging in a part, and faint walls
 /// Throws Error{bad_input} when the skeleton is empty, Error{cancelled}.
 ScanQuality measureQuality(const InsideVolume& inside, const Skeleton& skeleton, const ColonPartRanges& parts,
-                           double noise_hu, const MottledTagging& mottled, const QualityOptions& options,
+                           double noise_hu, const UntrustedWall& untrusted, const QualityOptions& options,
                            Progress& progress);
 
 }  // namespace vicon::steps

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "vicon/core/mottled_tagging.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/scanner_blur.h"
+#include "vicon/core/untrusted_wall.h"
 #include "vicon/core/volume.h"
 #include "vicon/steps/wall_densities.h"
 
@@ -36,7 +36,7 @@ struct TissueResult {
     InsideVolume lumen;   ///< the labels, with the wall where half of a voxel is tissue
     HuVolume cleansed;    ///< the densities with tagging taken out: -1000 + 1040 x fraction beside tagging
     double blur_mm = 0;   ///< standard deviation of the blur at fluid levels; a usual one where there are none
-    MottledTagging mottled;
+    UntrustedWall untrusted;
     nlohmann::json found;  ///< other measures, for the step's record
 };
 
@@ -47,7 +47,8 @@ struct TissueResult {
 /// At a level the lumen itself passes through tissue's densities. There its density is modelled, a step across gravity
 /// blurred by the scanner, whose height, width and fluid are fitted to columns of pure gas over pure fluid; what
 /// deviates from it towards tissue is tissue. Sheets of tissue so thin that blur leaves them less than half are scaled
-/// by their own height. Along the wall the fraction is smoothed. Lumps of tagged stool outside the labels are lumen,
+/// by their own height. Along the wall the fraction is smoothed. Where a wall between loops is so faint that a hole is
+/// left, that is closed and told. Lumps of tagged stool outside the labels are lumen,
 /// but where they lie on thin folds.
 ///
 /// @param hu on the lattice of `inside`, at least as large

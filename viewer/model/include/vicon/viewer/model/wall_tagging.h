@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "vicon/core/mottled_tagging.h"
 #include "vicon/core/progress.h"
+#include "vicon/core/untrusted_wall.h"
 #include "vicon/core/volume_view.h"
 
 namespace vicon::viewer {
@@ -20,7 +20,8 @@ std::vector<float> taggingOf(const std::vector<float>& points_mm, const std::vec
                              const HuView& volume, const InsideView& inside, double noise_hu,
                              const Progress* wanted = nullptr);
 
-/// Adds up to 1 to the tagging of points that lie beside stool or mottled tagging, and gives 2 to those that lie in it.
-void addMottled(std::vector<float>& tagging, const std::vector<float>& points_mm, const MottledTagging& mottled);
+/// Adds up to 1 to the tagging of points that lie beside stool or mottled tagging, and gives 2 to those that lie in it
+/// or on a faint wall.
+void addUntrusted(std::vector<float>& tagging, const std::vector<float>& points_mm, const UntrustedWall& untrusted);
 
 }  // namespace vicon::viewer

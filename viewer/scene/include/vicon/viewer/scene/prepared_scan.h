@@ -68,12 +68,12 @@ public:
     /// Of the points of cells(), see opennessOf().
     const std::vector<float>& openness(const Progress* wanted = nullptr) const;
     bool hasTagging() const;  ///< tagging() answers at once
-    /// Of the points of cells(), see taggingOf(), up to 2 beside mottled tagging; empty
+    /// Of the points of cells(), see taggingOf(), up to 2 on untrusted wall; empty
     /// where there is none on any wall.
     const std::vector<float>& tagging(const Progress* wanted = nullptr) const;
     /// The same of a part of them.
     std::vector<float> taggingOf(const CellSurface& surface, const Progress* wanted = nullptr) const;
-    bool hasMottledTagging() const;
+    bool hasUntrustedWall() const;
     /// Standard deviation of the noise, as the pipeline measured it; 0: it did not.
     double noise_hu() const;
     Lumen lumen() const;  ///< of inside and wallDistance; valid while this object lives
