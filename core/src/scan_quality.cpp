@@ -132,9 +132,7 @@ std::string textOf(const QualityNote& note)
             return text("%.1f ml of stool or mottled tagging", note.value) +
                    (note.part ? ", " + nameOf(*note.part) : "");
         case QualityReason::faint_walls:
-            return text(note.value == 1 ? "%.0f wall between loops hardly shown"
-                                        : "%.0f walls between loops hardly shown",
-                        note.value) +
+            return text(note.value == 1 ? "%.0f wall hardly shown" : "%.0f walls hardly shown", note.value) +
                    (note.part ? ", " + nameOf(*note.part) : "");
     }
     return {};

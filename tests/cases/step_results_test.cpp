@@ -124,8 +124,8 @@ TEST(ScanQuality, IsReadBackWithItsNotesAndWithoutThemFromBefore)
     EXPECT_EQ(toJson(scanQualityFromJson(written)), written);
     EXPECT_EQ(scanQualityFromJson(written).parts[0].mottled_ml, 2.5);
     EXPECT_EQ(textOf(quality.notes[2]), "2.7 ml of stool or mottled tagging, caecum");
-    EXPECT_EQ(textOf(quality.notes[3]), "1 wall between loops hardly shown, ascending");
-    EXPECT_EQ(textOf(quality.notes[4]), "3 walls between loops hardly shown");
+    EXPECT_EQ(textOf(quality.notes[3]), "1 wall hardly shown, ascending");
+    EXPECT_EQ(textOf(quality.notes[4]), "3 walls hardly shown");
     EXPECT_EQ(textOf(quality.notes[0]) + "; " + textOf(quality.notes[1]), quality.reason);
     written.erase("notes");
     EXPECT_EQ(scanQualityFromJson(written).reason, quality.reason);

@@ -31,7 +31,7 @@ enum class QualityReason {
     implausible_length,  ///< the colon's; it can hardly be the whole of it
     noise,               ///< more than usual
     mottled,             ///< tagging, in a part or in the whole
-    faint_walls,         ///< between loops
+    faint_walls,         ///< closed although the scan hardly shows them
 };
 /// "collapsed", "implausible_length", "noise", "mottled", "faint_walls".
 std::string nameOf(QualityReason reason);

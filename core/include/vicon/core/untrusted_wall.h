@@ -7,7 +7,7 @@
 
 namespace vicon {
 
-/// A place of a wall between two parts of the lumen, far apart along it, that the scan shows so faintly that a hole
+/// A place of a wall between two parts of the lumen, apart by way of it, that the scan shows so faintly that a hole
 /// would have been drawn. It is drawn closed.
 struct FaintWall {
     Point3 middle_mm;
