@@ -11,6 +11,7 @@
 #include "grid/run_labels.h"
 #include "grid/voxel_lists.h"
 #include "tissue/edge_model.h"
+#include "tissue/faint_walls.h"
 #include "tissue/level_wall.h"
 #include "tissue/levels.h"
 #include "tissue/lumen_of_tissue.h"
@@ -178,7 +179,8 @@ TissueResult findTissue(const HuVolume& hu, const InsideVolume& labels, Vector3 
     const std::vector<std::size_t> other_bowel =
         options.leave_out_other_bowel ? otherBowel(result.tissue, inside, pieces) : std::vector<std::size_t>{};
     result.lumen = lumenOf(result.tissue, inside, pieces, other_bowel);
-    result.untrusted = {findMottled(mixture, stool, noise_hu), closeFaintWalls(result.tissue, result.lumen)};
+    result.untrusted.mottled = findMottled(mixture, stool, noise_hu);
+    result.untrusted.faint = closeFaintWalls(result.tissue, result.lumen);
     result.cleansed = cleanse(mixture, near_fluid, result.tissue);
     result.blur_mm = blur_mm;
     result.found = {{"level_columns", levels.columns.size()},
