@@ -50,7 +50,7 @@ json toJson(const LumenOrigin& origin)
 
 LumenOrigin lumenOriginFromJson(const json& json)
 {
-    return {json.value("form", ""),          json.value("sha256", ""), json.value("label", 0),
+    return {json.value("form", ""),          json.value("sha256", ""), wholeNumber(json, "label", 0),
             json.value("gas_or_fluid", 0.0), json.value("by", ""),     json.value("at", "")};
 }
 

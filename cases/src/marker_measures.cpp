@@ -81,12 +81,13 @@ DensitySample densitySampleFromJson(const json& json)
     sample.centre_mm = json.at("position_mm").get<Point3>();
     sample.radius_mm = json.at("radius_mm").get<double>();
     sample.margin_mm = json.at("margin_mm").get<double>();
-    sample.voxels = json.at("voxels").get<std::size_t>();
+    sample.voxels = wholeCount(json.at("voxels"));
     sample.mean_hu = json.at("mean_hu").get<double>();
     sample.sd_hu = json.at("sd_hu").get<double>();
     sample.fat_fraction = json.at("fat_fraction").get<double>();
     sample.from_hu = wholeNumber(histogram.at("from_hu"));
-    sample.counts = histogram.at("counts").get<std::vector<std::size_t>>();
+    for (const auto& count : histogram.at("counts"))
+        sample.counts.push_back(wholeCount(count));
     return sample;
 }
 

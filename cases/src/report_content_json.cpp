@@ -1,6 +1,7 @@
 // The one JSON form of what is known for a report, which is what a signature is over.
 #include "json_fields.h"
 #include "vicon/cases/report_content.h"
+#include "vicon/core/json_text.h"
 
 using nlohmann::json;
 
@@ -42,7 +43,7 @@ ScanRecord scanFromContent(const json& from)
     ScanRecord scan;
     scan.id = from.at("id").get<std::string>();
     scan.series.uid = from.value("series_uid", "");
-    scan.series.number = from.value("series_number", 0);
+    scan.series.number = wholeNumber(from, "series_number", 0);
     scan.series.description = from.value("description", "");
     scan.series.patient_position = from.value("patient_position", "");
     scan.series.frame_of_reference_uid = from.value("frame_of_reference_uid", "");

@@ -220,7 +220,8 @@ SubdivideFound subdivideFoundFromJson(const json& json)
 {
     SubdivideFound found;
     take(json, "method", found.method);
-    take(json, "triangles", found.triangles);
+    if (json.contains("triangles"))
+        found.triangles = wholeCount(json["triangles"]);
     found.measures = without(json, {"method", "triangles"});
     return found;
 }

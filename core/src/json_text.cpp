@@ -28,6 +28,14 @@ bool isTooDeep(std::string_view text)
     return false;
 }
 
+double between(double least, const json& number, double most)
+{
+    const auto value = number.get<double>();
+    if (!(value >= least && value <= most))
+        (void)number.at("a whole number");  // throws: a number has no such key
+    return value;
+}
+
 }  // namespace
 
 json parsedJson(std::string_view text)
@@ -39,10 +47,20 @@ json parsedJson(std::string_view text)
 
 int wholeNumber(const json& number)
 {
-    const double value = number.get<double>();
-    if (!(std::abs(value) <= double(std::numeric_limits<int>::max())))
-        (void)number.at("a whole number");  // throws: a number has no such key
-    return int(value);
+    constexpr double kMost = std::numeric_limits<int>::max();
+    return int(between(-kMost, number, kMost));
+}
+
+int wholeNumber(const json& from, const char* key, int missing)
+{
+    const auto found = from.find(key);
+    return found == from.end() ? missing : wholeNumber(*found);
+}
+
+std::size_t wholeCount(const json& number)
+{
+    constexpr double kMost = 1LL << std::numeric_limits<double>::digits;
+    return std::size_t(between(0, number, kMost));
 }
 
 }  // namespace vicon

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "vicon/core/error.h"
+#include "vicon/core/json_text.h"
 
 using nlohmann::json;
 
@@ -48,7 +49,7 @@ StretchQuality stretchFrom(const json& json)
     q.volume_ml = json.at("volume_ml").get<double>();
     q.fluid_ml = json.at("fluid_ml").get<double>();
     q.mottled_ml = json.value("mottled_ml", 0.0);
-    q.faint_walls = json.value("faint_walls", 0);
+    q.faint_walls = wholeNumber(json, "faint_walls", 0);
     if (const auto name = json.find("name"); name != json.end())
         q.part = colonPartFrom(name->get<std::string>());
     return q;

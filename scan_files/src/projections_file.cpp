@@ -30,8 +30,8 @@ Projection described(const nlohmann::json& all, const std::string& name)
         if (j.at("name") == name) {
             Projection p;
             p.name = name;
-            p.width = j.at("width");
-            p.height = j.at("height");
+            p.width = wholeNumber(j.at("width"));
+            p.height = wholeNumber(j.at("height"));
             p.pixel_mm = j.at("pixel_mm");
             p.right = j.at("right").get<Vector3>();
             p.down = j.at("down").get<Vector3>();

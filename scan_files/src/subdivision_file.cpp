@@ -58,9 +58,15 @@ json toJson(const SegmentInfo& s)
 
 SegmentInfo segmentFrom(const json& j)
 {
-    return {wholeNumber(j.at("number")), j.at("from_station_mm"),        j.at("to_station_mm"),
-            j.at("volume_mm3"),          j.at("inside_voxels"),          j.at("surface_voxels"),
-            j.at("triangles"),           j.at("lower_mm").get<Point3>(), j.at("upper_mm").get<Point3>()};
+    return {.number = wholeNumber(j.at("number")),
+            .from_station_mm = j.at("from_station_mm"),
+            .to_station_mm = j.at("to_station_mm"),
+            .volume_mm3 = j.at("volume_mm3"),
+            .inside_voxels = wholeCount(j.at("inside_voxels")),
+            .surface_voxels = wholeCount(j.at("surface_voxels")),
+            .triangles = wholeCount(j.at("triangles")),
+            .lower_mm = j.at("lower_mm").get<Point3>(),
+            .upper_mm = j.at("upper_mm").get<Point3>()};
 }
 
 }  // namespace

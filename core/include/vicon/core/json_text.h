@@ -16,4 +16,10 @@ inline constexpr int kDeepestJson = 100;
 /// not fit: converting it would mean nothing.
 int wholeNumber(const nlohmann::json& json);
 
+/// wholeNumber() of a key; `missing` where it is not there.
+int wholeNumber(const nlohmann::json& json, const char* key, int missing);
+
+/// A count: 0 or more, and not more than a double can count. Throws as wholeNumber() does.
+std::size_t wholeCount(const nlohmann::json& json);
+
 }  // namespace vicon
