@@ -66,7 +66,7 @@ TEST(FaintWalls, AreClosedBetweenLoopsAndToldWithTheirPlace)
         Loops loops(100);
         loops.tear(fraction);
         const Loops before = loops;
-        const auto walls = closeFaintWalls(loops.tissue, loops.lumen);
+        const auto walls = closeFaintWalls({}, loops.tissue, loops.lumen);
         ASSERT_EQ(walls.size(), 1U) << fraction;
         EXPECT_TRUE(loops.isWhole());
         EXPECT_NEAR(walls[0].area_mm2, 9 * kVoxel_mm * kVoxel_mm, 0.6 * 9 * kVoxel_mm * kVoxel_mm);
@@ -85,7 +85,7 @@ TEST(FaintWalls, AreNoneWhereTheWallIsWhole)
 {
     Loops loops(100);
     const Loops before = loops;
-    EXPECT_TRUE(closeFaintWalls(loops.tissue, loops.lumen).empty());
+    EXPECT_TRUE(closeFaintWalls({}, loops.tissue, loops.lumen).empty());
     EXPECT_EQ(loops.lumen.voxels, before.lumen.voxels);
     EXPECT_EQ(loops.tissue.voxels, before.tissue.voxels);
 }
@@ -94,22 +94,53 @@ TEST(FaintWalls, AreNoneInAnOpenPassage)
 {
     Loops loops(100);
     loops.tear(0.1);
-    EXPECT_TRUE(closeFaintWalls(loops.tissue, loops.lumen).empty());
+    EXPECT_TRUE(closeFaintWalls({}, loops.tissue, loops.lumen).empty());
     EXPECT_FALSE(loops.isWhole());
 }
 
-TEST(FaintWalls, AreNoneBetweenPlacesNearOneAnother)
+TEST(FaintWalls, AreClosedInFoldsAwayFromTheirEdge)
 {
-    Loops loops(28);  // around the wall's end it is some 10 mm
+    for (const int from_edge : {2, 10}) {
+        Loops fold(2 * kChannel + 6);  // the wall between the channels is a fold, its edge where they meet
+        for (int k = 6; k < 9; ++k)
+            for (int i = 0; i < 3; ++i)
+                for (int j = kWall_j; j < kWall_j + 2; ++j)
+                    fold.open({2 + kChannel + from_edge + i, j, k}, 0.4);
+        EXPECT_EQ(closeFaintWalls({}, fold.tissue, fold.lumen).size(), from_edge == 10 ? 1U : 0U) << from_edge;
+        EXPECT_EQ(fold.isWhole(), from_edge == 10);
+    }
+}
+
+TEST(FaintWalls, AreNoneInANarrowPassage)
+{
+    Loops loops(100);
+    for (int k = 2; k < 2 + kChannel; ++k)  // a wall of 14 voxels
+        for (int i = 2 + kChannel; i < 102; ++i)
+            for (int j = kWall_j - 6; j < kWall_j + 8; ++j) {
+                loops.lumen.at({i, j, k}) = kOutside;
+                loops.tissue.at({i, j, k}) = 255;
+            }
+    for (int k = 6; k < 9; ++k)
+        for (int i = 93; i < 96; ++i)
+            for (int j = kWall_j - 6; j < kWall_j + 8; ++j)
+                loops.open({i, j, k}, 0.4);
+    EXPECT_TRUE(closeFaintWalls({}, loops.tissue, loops.lumen).empty());
+    EXPECT_FALSE(loops.isWhole());
+}
+
+TEST(FaintWalls, AreNoneBesideStool)
+{
+    Loops loops(100);
     loops.tear(0.4);
-    EXPECT_TRUE(closeFaintWalls(loops.tissue, loops.lumen).empty());
+    const std::vector<std::size_t> dense{loops.lumen.grid.offset({95, kWall_j - 1, 7})};
+    EXPECT_TRUE(closeFaintWalls({.lumps = 1, .dense = dense}, loops.tissue, loops.lumen).empty());
 }
 
 TEST(FaintWalls, NeverCutTheOnlyWay)
 {
     Loops loops(100, false);
     loops.tear(0.4);
-    EXPECT_TRUE(closeFaintWalls(loops.tissue, loops.lumen).empty());
+    EXPECT_TRUE(closeFaintWalls({}, loops.tissue, loops.lumen).empty());
     EXPECT_FALSE(loops.isWhole());
 }
 

@@ -6,11 +6,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 #include <utility>
 
-#include "grid/lumen_front.h"
 #include "grid/neighbours.h"
 #include "grid/run_labels.h"
 #include "grid/sparse_voxels.h"
@@ -21,106 +19,113 @@
 namespace vicon::steps {
 namespace {
 
-/// Up to this fraction the lumen is open. On ctc-prone .15 and .35 tell the same holes between loops, whose ridges hold
-/// .44 and more; walls of faint_walls_test.cpp.
-constexpr float kOpen = 0.25F;
-/// On ctc-prone two loops lie 210 and 290 mm apart by way of the open lumen, the sides of a torn fold 33 mm, and what
-/// is no wall at most 21: the slit beside the rectal tube, the bottoms of puddles.
-constexpr float kFarApart_mm = 25;
+// On ctc-prone with fractions of .15 to .25, 3.5 to 5 mm and 3 to 8 voxels the same walls between loops and torn folds
+// are closed, give or take two specks and a side hole of the rectal tube; with .25 walls of half a millimetre
+// (tissue_faint_walls_test.cpp) are open. On ten phantom scans, one of them with low dose and one with stool, none is.
+/// Up to this fraction the lumen is open.
+constexpr float kOpen = 0.2F;
+/// Sides that are not joined within a cube of this half width are the sides of a wall.
+constexpr double kNear_mm = 4;
+/// So far behind a crest a thin wall's lumen is open: what is longer is a narrow passage.
+constexpr std::uint8_t kThin_voxels = 5;
 /// Lower crests are bottoms of puddles, where the fraction is 0 in places; walls of half a millimetre have .2.
 constexpr float kLeastCrest = 0.15F;
 constexpr float kClosed = 0.75F;
-/// Open parts of fewer blocks are recesses: what they hang on counts. 0.1 ml at the usual voxels.
-constexpr std::size_t kLeastBlocks = 40;
 constexpr std::uint8_t kOpenLevel = std::uint8_t(kOpen * kWhole);
 
-/// Blocks of two voxels a side, all lumen and open.
-InsideVolume openBlocks(const TissueVolume& tissue, const InsideVolume& lumen)
-{
-    Grid grid = lumen.grid;
-    for (std::size_t a = 0; a < 3; ++a) {
-        grid.size[a] /= 2;
-        grid.spacing_mm[a] *= 2;
-    }
-    grid.origin_mm = lumen.grid.pointAt(ContinuousIndex3{0.5, 0.5, 0.5});
-    InsideVolume open(grid, kOutside);
-    tbb::parallel_for(0, grid.size[2], [&](int k) {
-        for (int j = 0; j < grid.size[1]; ++j)
-            for (int i = 0; i < grid.size[0]; ++i) {
-                bool is_open = true;
-                for (int corner = 0; is_open && corner < 8; ++corner) {
-                    const std::size_t n =
-                        lumen.grid.offset({2 * i + (corner & 1), 2 * j + (corner >> 1 & 1), 2 * k + (corner >> 2)});
-                    is_open = lumen.voxels[n] != kOutside && tissue.voxels[n] <= kOpenLevel;
-                }
-                if (is_open)
-                    open.at({i, j, k}) = kGas;
-            }
-    });
-    return open;
-}
-
-/// How far along the open lumen: in each of its parts from its farthest end.
-struct Way {
-    float mm = 0;
-    std::uint16_t part = LumenFront::kNoLabel;
-};
-
+/// The lumen where cubes of two voxels a side are open, and its connected parts.
 class OpenLumen {
 public:
-    explicit OpenLumen(InsideVolume blocks) : blocks_(std::move(blocks)), front_(blocks_)
+    OpenLumen(const TissueVolume& tissue, const InsideVolume& lumen) : open_(lumen.grid, kOutside)
     {
-        const RunLabels parts = labelLumen(blocks_, Neighbours::faces);
-        std::vector<std::optional<std::size_t>> from(std::min<std::size_t>(parts.components.size(), UINT16_MAX));
-        forEachRun(parts, from.size(), [&](std::size_t part, std::size_t begin, std::size_t) {
-            if (!from[part] && parts.components[part].voxels >= kLeastBlocks)
-                from[part] = begin;
+        const auto isLow = [&](Index3 v) {
+            return lumen.valueOr(v, kOutside) != kOutside && tissue.at(v) <= kOpenLevel;
+        };
+        tbb::parallel_for(0, lumen.grid.size[2], [&](int k) {
+            for (int j = 0; j < lumen.grid.size[1]; ++j)
+                for (int i = 0; i < lumen.grid.size[0]; ++i)
+                    if (isLow({i, j, k}) && inLowCube({i, j, k}, isLow))
+                        open_.at({i, j, k}) = kGas;
         });
-        run(from);
-        forEachRun(parts, from.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-            for (std::size_t n = begin; from[part] && n < end; ++n)
-                if (front_.timeAt(n) > front_.timeAt(*from[part]))
-                    from[part] = n;
-        });
-        front_.restart();
-        run(from);
+        parts_ = labelLumen(open_, Neighbours::faces);
+        for (int axis = 0; axis < 3; ++axis)
+            reach_[std::size_t(axis)] = int(std::lround(kNear_mm / lumen.grid.spacing_mm[std::size_t(axis)]));
     }
 
-    /// Of a voxel of the lumen; part kNoLabel where it is not open.
-    Way at(Index3 v) const
+    const Grid& grid() const { return open_.grid; }
+    bool has(std::size_t voxel) const { return open_.voxels[voxel] != kOutside; }
+
+    /// Whether two of its voxels hang together, but not near `middle`.
+    bool joinedFarOffOnly(std::size_t a, std::size_t b, std::size_t middle) const
     {
-        const Index3 block{v.i / 2, v.j / 2, v.k / 2};
-        if (blocks_.valueOr(block, kOutside) == kOutside)
-            return {};
-        const std::size_t n = blocks_.grid.offset(block);
-        return front_.timeAt(n) == LumenFront::kUnreached ? Way{} : Way{front_.timeAt(n), front_.labelAt(n)};
+        return !joinedAlongAxes(a, b) && !joinedNear(a, b, middle) && partOf(a) == partOf(b);
     }
 
 private:
-    /// Calls use(part, first offset, end) for each run of the first `count` parts.
-    template <class Use>
-    void forEachRun(const RunLabels& parts, std::size_t count, Use use) const
+    /// Of the eight cubes that hold a voxel.
+    template <class IsLow>
+    static bool inLowCube(Index3 v, const IsLow& isLow)
     {
-        for (int k = 0; k < parts.size[2]; ++k)
-            for (int j = 0; j < parts.size[1]; ++j)
-                for (std::size_t r = parts.row_begin[parts.row(j, k)]; r < parts.row_begin[parts.row(j, k) + 1]; ++r) {
-                    const VoxelRun& run = parts.runs[r];
-                    const std::size_t row = blocks_.grid.offset({0, j, k});
-                    if (run.label < count)
-                        use(run.label, row + std::size_t(run.begin), row + std::size_t(run.end));
+        for (int cube = 0; cube < 8; ++cube) {
+            const Index3 first{v.i - (cube & 1), v.j - (cube >> 1 & 1), v.k - (cube >> 2)};
+            bool is_low = true;
+            for (int corner = 0; is_low && corner < 8; ++corner)
+                is_low = isLow(shifted(first, {corner & 1, corner >> 1 & 1, corner >> 2}));
+            if (is_low)
+                return true;
+        }
+        return false;
+    }
+
+    int partOf(std::size_t voxel) const { return parts_.labelAt(grid().indexOf(voxel)); }
+
+    /// Whether an open way leads from one voxel to another along one axis after the other: so do nearly all.
+    bool joinedAlongAxes(std::size_t from, std::size_t to) const
+    {
+        const Index3 a = grid().indexOf(from);
+        const Index3 b = grid().indexOf(to);
+        const std::array<int, 3> steps{b.i - a.i, b.j - a.j, b.k - a.k};
+        const std::array<std::size_t, 3> stride{1, grid().offset({0, 1, 0}), grid().offset({0, 0, 1})};
+        const auto leads = [&](const std::array<std::size_t, 3>& axes) {
+            std::size_t at = from;
+            for (const std::size_t axis : axes)
+                for (int n = 0; n < std::abs(steps[axis]); ++n) {
+                    at += steps[axis] > 0 ? stride[axis] : 0 - stride[axis];
+                    if (!has(at))
+                        return false;
                 }
+            return true;
+        };
+        return leads({0, 1, 2}) || leads({0, 2, 1}) || leads({1, 0, 2}) || leads({1, 2, 0}) || leads({2, 0, 1}) ||
+               leads({2, 1, 0});
     }
 
-    void run(const std::vector<std::optional<std::size_t>>& from)
+    /// Whether a way leads from one voxel to another through voxels near `middle`.
+    bool joinedNear(std::size_t from, std::size_t to, std::size_t middle) const
     {
-        for (std::size_t part = 0; part < from.size(); ++part)
-            if (from[part])
-                front_.seed(*from[part], 0, std::uint16_t(part + 1));
-        front_.run(LumenFront::Labels::adopt);
+        const Index3 centre = grid().indexOf(middle);
+        const auto numberOf = [&](std::size_t voxel) {
+            const Index3 v = grid().indexOf(voxel);
+            const std::array<int, 3> at{v.i - centre.i + reach_[0], v.j - centre.j + reach_[1],
+                                        v.k - centre.k + reach_[2]};
+            for (std::size_t a = 0; a < 3; ++a)
+                if (at[a] < 0 || at[a] > 2 * reach_[a])
+                    return -1;
+            return at[0] + (2 * reach_[0] + 1) * (at[1] + (2 * reach_[1] + 1) * at[2]);
+        };
+        std::vector<char> taken(std::size_t((2 * reach_[0] + 1) * (2 * reach_[1] + 1) * (2 * reach_[2] + 1)), 0);
+        bool joined = false;
+        floodOverFaces(grid(), {from}, [&](std::size_t voxel) {
+            joined = joined || voxel == to;
+            const int n = joined || !has(voxel) ? -1 : numberOf(voxel);
+            return n >= 0 && std::exchange(taken[std::size_t(n)], char(1)) == 0;
+        });
+        return joined;
     }
 
-    InsideVolume blocks_;
-    LumenFront front_;
+    InsideVolume open_;
+    RunLabels parts_;
+    std::array<int, 3> reach_{};
 };
 
 struct Crest {
@@ -134,62 +139,68 @@ public:
     DimLumen(const TissueVolume& tissue, const InsideVolume& lumen, const OpenLumen& open)
         : tissue_(tissue),
           open_(open),
-          voxels_(lumen.grid, voxelsWhere(lumen.grid, lumen.voxels, kOutside,
-                                          [&](std::size_t n) {
-                                              return open.at(lumen.grid.indexOf(n)).part == LumenFront::kNoLabel;
-                                          })),
+          voxels_(lumen.grid,
+                  voxelsWhere(lumen.grid, lumen.voxels, kOutside, [&](std::size_t n) { return !open.has(n); })),
           reached_(voxels_.size())
     {
         for (std::size_t n = 0; n < voxels_.size(); ++n)
-            forEachOverFaces(grid(), voxels_[n], [&](std::size_t beside) {
-                if (const Way way = open.at(grid().indexOf(beside)); way.part != LumenFront::kNoLabel)
-                    reach(n, way, 0);
+            forEachOverFaces(voxels_.grid(), voxels_[n], [&](std::size_t beside) {
+                if (open.has(beside))
+                    reach(n, {beside, 1}, 0);
             });
         for (std::size_t level = 0; level < waiting_.size(); ++level)
             for (std::size_t next = 0; next < waiting_[level].size(); ++next) {
-                const std::size_t from = waiting_[level][next];
-                forEachOverFaces(grid(), voxels_[from], [&](std::size_t beside) {
+                const Way& from = reached_[waiting_[level][next]];
+                const Way way{from.open, std::uint8_t(std::min(from.steps + 1, UINT8_MAX))};
+                forEachOverFaces(voxels_.grid(), voxels_[waiting_[level][next]], [&](std::size_t beside) {
                     if (const std::size_t n = voxels_.numberOf(beside); n < voxels_.size())
-                        reach(n, reached_[from], level);
+                        reach(n, way, level);
                 });
             }
     }
 
-    /// Voxels where ways from far apart meet, and the fraction on the crest between them.
+    /// Voxels where ways from both sides of a wall meet, and the fraction on the crest between them.
     std::vector<Crest> crests() const
     {
-        std::vector<Crest> found;
-        for (std::size_t n = 0; n < voxels_.size(); ++n) {
-            Crest crest{voxels_[n]};
-            bool meets = false;
-            forEachOverFaces(grid(), voxels_[n], [&](std::size_t beside) {
-                if (!isFar(reached_[n], wayAt(beside)))
+        std::vector<Crest> all(voxels_.size());
+        tbb::parallel_for(std::size_t(0), voxels_.size(), [&](std::size_t n) {
+            all[n] = {kNone, UINT8_MAX};
+            forEachOverFaces(voxels_.grid(), voxels_[n], [&](std::size_t beside) {
+                if (!isAcross(reached_[n], wayAt(beside), voxels_[n]))
                     return;
-                meets = true;
-                crest.fraction = std::min(crest.fraction, std::max(tissue_.voxels[voxels_[n]], tissue_.voxels[beside]));
+                all[n].voxel = voxels_[n];
+                all[n].fraction =
+                    std::min(all[n].fraction, std::max(tissue_.voxels[voxels_[n]], tissue_.voxels[beside]));
             });
-            if (meets)
-                found.push_back(crest);
-        }
-        return found;
+        });
+        std::erase_if(all, [](const Crest& crest) { return crest.voxel == kNone; });
+        return all;
     }
 
 private:
-    const Grid& grid() const { return voxels_.grid(); }
+    static constexpr std::size_t kNone = SIZE_MAX;
+
+    struct Way {
+        std::size_t open = kNone;  ///< the open voxel that it begins at
+        std::uint8_t steps = 0;
+    };
+
     Way wayAt(std::size_t voxel) const
     {
         const std::size_t n = voxels_.numberOf(voxel);
-        return n < voxels_.size() ? reached_[n] : open_.at(grid().indexOf(voxel));
+        return n < voxels_.size() ? reached_[n] : open_.has(voxel) ? Way{voxel, 0} : Way{};
     }
-    static bool isFar(const Way& a, const Way& b)
+
+    bool isAcross(const Way& a, const Way& b, std::size_t between) const
     {
-        return a.part != LumenFront::kNoLabel && a.part == b.part && std::abs(a.mm - b.mm) > kFarApart_mm;
+        return a.open != kNone && b.open != kNone && a.open != b.open && std::max(a.steps, b.steps) <= kThin_voxels &&
+               open_.joinedFarOffOnly(a.open, b.open, between);
     }
 
     /// @param level the most tissue on the way before
     void reach(std::size_t n, const Way& way, std::size_t level)
     {
-        if (reached_[n].part != LumenFront::kNoLabel)
+        if (reached_[n].open != kNone)
             return;
         reached_[n] = way;
         waiting_[std::max<std::size_t>(level, tissue_.voxels[voxels_[n]])].push_back(std::uint32_t(n));
@@ -225,6 +236,14 @@ std::vector<std::vector<std::size_t>> wallsAmong(const Grid& grid, const std::ve
     return found;
 }
 
+bool isBeside(const Stool& stool, std::size_t voxel, const Grid& grid)
+{
+    return anyInCube(grid.indexOf(voxel), 1, [&](Index3 v) {
+        const std::size_t n = grid.contains(v) ? grid.offset(v) : voxel;
+        return std::ranges::binary_search(stool.dense, n) || std::ranges::binary_search(stool.mixed, n);
+    });
+}
+
 FaintWall described(const std::vector<std::size_t>& wall, const Grid& grid)
 {
     Vector3 sum;
@@ -236,11 +255,13 @@ FaintWall described(const std::vector<std::size_t>& wall, const Grid& grid)
 
 }  // namespace
 
-std::vector<FaintWall> closeFaintWalls(TissueVolume& tissue, InsideVolume& lumen)
+std::vector<FaintWall> closeFaintWalls(const Stool& stool, TissueVolume& tissue, InsideVolume& lumen)
 {
-    const OpenLumen open(openBlocks(tissue, lumen));
+    const OpenLumen open(tissue, lumen);
     std::vector<FaintWall> walls;
     for (const auto& wall : wallsAmong(lumen.grid, DimLumen(tissue, lumen, open).crests())) {
+        if (std::ranges::any_of(wall, [&](std::size_t n) { return isBeside(stool, n, lumen.grid); }))
+            continue;
         for (const std::size_t n : wall) {
             lumen.voxels[n] = kOutside;
             tissue.voxels[n] = std::max(tissue.voxels[n], std::uint8_t(kClosed * kWhole));
