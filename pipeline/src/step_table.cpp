@@ -180,7 +180,7 @@ std::vector<Step> stepsOfLumen()
          always({"volume.mha"}),
          parametersFrom<ResampleOptions>,
          runResample},
-        {"segment", 16, 0.3, 0.55, {"resample"}, Densities::whole, segmentFiles, segmentParameters, runSegment},
+        {"segment", 17, 0.3, 0.55, {"resample"}, Densities::whole, segmentFiles, segmentParameters, runSegment},
         {"tissue",
          12,
          0.55,

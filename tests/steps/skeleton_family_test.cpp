@@ -13,6 +13,7 @@ namespace {
 struct Study {
     std::uint64_t seed;
     const char* position;
+    bool thin_walls = false;
 };
 
 double diceOf(const InsideVolume& found, const InsideVolume& truth)
@@ -37,6 +38,7 @@ TEST_P(FullSize, PhantomIsFollowedFromRectumToCaecum)
     NoProgress progress;
     phantom::PhantomOptions options;
     options.seed = GetParam().seed;
+    options.thin_walls = GetParam().thin_walls;
     phantom::PhantomScan scan = phantom::makeScan(options, GetParam().position, progress);
     const HuVolume volume = resample(std::move(scan.hu), {}, progress);
     const Segmentation found = segmentColon(volume, scan.truth.gravity, {}, progress);
@@ -60,6 +62,9 @@ TEST_P(FullSize, PhantomIsFollowedFromRectumToCaecum)
 INSTANTIATE_TEST_SUITE_P(Seeds, FullSize,
                          testing::Values(Study{1, "HFS"}, Study{2, "HFP"}, Study{3, "HFS"}, Study{4, "HFP"},
                                          Study{5, "HFS"}, Study{6, "HFP"}, Study{1, "HFP"}));
+
+// The halves on both sides of the gap hang together by a hole in the wall between two loops alone.
+INSTANTIATE_TEST_SUITE_P(HalvesThatLeak, FullSize, testing::Values(Study{365, "HFS", true}, Study{393, "HFS", true}));
 
 }  // namespace
 }  // namespace vicon::steps

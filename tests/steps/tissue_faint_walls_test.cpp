@@ -66,7 +66,7 @@ TEST(FaintWalls, AreClosedBetweenLoopsAndToldWithTheirPlace)
         Loops loops(100);
         loops.tear(fraction);
         const Loops before = loops;
-        const auto walls = closeFaintWalls({}, loops.tissue, loops.lumen);
+        const auto walls = closeFaintWalls(loops.lumen, {}, loops.tissue, loops.lumen);
         ASSERT_EQ(walls.size(), 1U) << fraction;
         EXPECT_TRUE(loops.isWhole());
         EXPECT_NEAR(walls[0].area_mm2, 9 * kVoxel_mm * kVoxel_mm, 0.6 * 9 * kVoxel_mm * kVoxel_mm);
@@ -85,7 +85,7 @@ TEST(FaintWalls, AreNoneWhereTheWallIsWhole)
 {
     Loops loops(100);
     const Loops before = loops;
-    EXPECT_TRUE(closeFaintWalls({}, loops.tissue, loops.lumen).empty());
+    EXPECT_TRUE(closeFaintWalls(loops.lumen, {}, loops.tissue, loops.lumen).empty());
     EXPECT_EQ(loops.lumen.voxels, before.lumen.voxels);
     EXPECT_EQ(loops.tissue.voxels, before.tissue.voxels);
 }
@@ -94,7 +94,7 @@ TEST(FaintWalls, AreNoneInAnOpenPassage)
 {
     Loops loops(100);
     loops.tear(0.1);
-    EXPECT_TRUE(closeFaintWalls({}, loops.tissue, loops.lumen).empty());
+    EXPECT_TRUE(closeFaintWalls(loops.lumen, {}, loops.tissue, loops.lumen).empty());
     EXPECT_FALSE(loops.isWhole());
 }
 
@@ -106,7 +106,8 @@ TEST(FaintWalls, AreClosedInFoldsAwayFromTheirEdge)
             for (int i = 0; i < 3; ++i)
                 for (int j = kWall_j; j < kWall_j + 2; ++j)
                     fold.open({2 + kChannel + from_edge + i, j, k}, 0.4);
-        EXPECT_EQ(closeFaintWalls({}, fold.tissue, fold.lumen).size(), from_edge == 10 ? 1U : 0U) << from_edge;
+        EXPECT_EQ(closeFaintWalls(fold.lumen, {}, fold.tissue, fold.lumen).size(), from_edge == 10 ? 1U : 0U)
+            << from_edge;
         EXPECT_EQ(fold.isWhole(), from_edge == 10);
     }
 }
@@ -124,7 +125,7 @@ TEST(FaintWalls, AreNoneInANarrowPassage)
         for (int i = 93; i < 96; ++i)
             for (int j = kWall_j - 6; j < kWall_j + 8; ++j)
                 loops.open({i, j, k}, 0.4);
-    EXPECT_TRUE(closeFaintWalls({}, loops.tissue, loops.lumen).empty());
+    EXPECT_TRUE(closeFaintWalls(loops.lumen, {}, loops.tissue, loops.lumen).empty());
     EXPECT_FALSE(loops.isWhole());
 }
 
@@ -133,14 +134,14 @@ TEST(FaintWalls, AreNoneBesideStool)
     Loops loops(100);
     loops.tear(0.4);
     const std::vector<std::size_t> dense{loops.lumen.grid.offset({95, kWall_j - 1, 7})};
-    EXPECT_TRUE(closeFaintWalls({.lumps = 1, .dense = dense}, loops.tissue, loops.lumen).empty());
+    EXPECT_TRUE(closeFaintWalls(loops.lumen, {.lumps = 1, .dense = dense}, loops.tissue, loops.lumen).empty());
 }
 
 TEST(FaintWalls, NeverCutTheOnlyWay)
 {
     Loops loops(100, false);
     loops.tear(0.4);
-    EXPECT_TRUE(closeFaintWalls({}, loops.tissue, loops.lumen).empty());
+    EXPECT_TRUE(closeFaintWalls(loops.lumen, {}, loops.tissue, loops.lumen).empty());
     EXPECT_FALSE(loops.isWhole());
 }
 

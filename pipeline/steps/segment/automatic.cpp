@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "segment/body.h"
 #include "segment/constants.h"
@@ -18,6 +19,7 @@
 #include "segment/pieces/ordering.h"
 #include "segment/points.h"
 #include "segment/verdict.h"
+#include "segment/wall/leaks.h"
 #include "segment/wall/settle_wall.h"
 #include "segment/wall/thin_folds.h"
 #include "vicon/steps/noise.h"
@@ -87,11 +89,22 @@ public:
             findEndBeforeIleum();
         else
             cutOffIlea();
+        if (!chooseAndJudge())
+            return organAbsent(given_ ? "no piece of the given lumen is as large and wide as a rectum"
+                                      : "there is no gas in the body that is wide enough for a rectum");
+        if (!given_ && result_.confidence < 1)
+            chooseWithoutLeaks();
+        return std::move(result_);
+    }
+
+private:
+    /// @return false where there is no rectum
+    bool chooseAndJudge()
+    {
         leaveOutDropped();
         rectum_ = findRectum(candidates_, body_, options_.catheter_radius_mm, progress_);
         if (rectum_ < 0)
-            return organAbsent(given_ ? "no piece of the given lumen is as large and wide as a rectum"
-                                      : "there is no gas in the body that is wide enough for a rectum");
+            return false;
         progress_.report(0.8, "order of the pieces");
         orderThePieces();
         keepOrdered();
@@ -99,10 +112,28 @@ public:
             refineWall();
         followCords(volume_, result_.inside, options_, result_.plan, progress_);
         judge();
-        return std::move(result_);
+        return true;
     }
 
-private:
+    /// Loops with a thin wall between them may hang together by a hole alone, and a collapsed stretch is passed by.
+    /// Only what is likelier to be a colon counts: a narrow passage looks like such a hole.
+    void chooseWithoutLeaks()
+    {
+        progress_.report(0.9, "leaks");
+        const std::vector<Point3> leaks = closeLeaks(volume_, options_.densities, labels_);
+        if (leaks.empty())
+            return;
+        Segmentation with_leaks = std::exchange(result_, Segmentation());
+        lumen_ = labelLumen(labels_, Neighbours::faces);
+        findAllCandidates();
+        if (!chooseAndJudge() || result_.confidence <= with_leaks.confidence) {
+            result_ = std::move(with_leaks);
+            return;
+        }
+        for (const Point3 leak : leaks)
+            note(result_, "a hole in a thin wall was closed at " + textOf(leak));
+    }
+
     void takeGiven()
     {
         progress_.report(0.1, "the given lumen");

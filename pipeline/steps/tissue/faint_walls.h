@@ -8,14 +8,13 @@
 
 namespace vicon::steps {
 
-/// Closes the holes of thin walls and folds: where both sides of a hole hang together by the open lumen, but not near
-/// it. Blur leaves a wall less than half a voxel of tissue there; what is left of it is a ridge of the fraction that
-/// every way through the hole must cross. A hole without such a ridge is none that the fraction could tell from a
-/// passage, and stays; so does the only way between two parts.
+/// Closes the holes of thin walls and folds (findThinHoles), but not the only way between two parts.
+/// @param labels of the segmentation, on the lumen's grid: an only way that it closed is closed
 /// @param stool beside which gas and tagging in one voxel look like tissue: no holes are sought there
 /// @param tissue raised above one half where a hole is closed
 /// @param lumen there no lumen any more
 /// @return in the order of their voxels
-std::vector<FaintWall> closeFaintWalls(const Stool& stool, TissueVolume& tissue, InsideVolume& lumen);
+std::vector<FaintWall> closeFaintWalls(const InsideVolume& labels, const Stool& stool, TissueVolume& tissue,
+                                       InsideVolume& lumen);
 
 }  // namespace vicon::steps
