@@ -69,6 +69,9 @@ TEST_F(Mr, WhatNeedsDensitiesIsRefusedAndSaysWhy)
     const auto peel = runVicon(snapshot + " --view endo --peel fat");
     EXPECT_EQ(peel.exit_code, 2) << peel.output;
     EXPECT_THAT(peel.output, HasSubstr("MR has none"));
+    const auto acquired = runVicon(snapshot + " --view cube --as-acquired");
+    EXPECT_EQ(acquired.exit_code, 2) << acquired.output;
+    EXPECT_THAT(acquired.output, HasSubstr("MR has none"));
     const auto window = runVicon(snapshot + " --view slices --window bone");
     EXPECT_EQ(window.exit_code, 2) << window.output;
     EXPECT_THAT(window.output, HasSubstr("use one of whole, wall, tissue"));

@@ -28,11 +28,14 @@ SnapshotRequest completed(const PreparedScan& scan, SnapshotRequest request)
                     std::to_string(request.view_angle_deg));
     if (!request.window.empty())
         scan.window(request.window);
-    if (!request.peel.preset.empty()) {
+    if (!request.peel.preset.empty())
         transferFunction(request.peel.preset);
-        if (scan.quantity() == Quantity::signal)
-            throw Error(ErrorCode::wrong_use, "translucency shows densities, and MR has none", "--peel");
-    }
+    const bool casts = request.wall.acquired || !request.peel.preset.empty();
+    if (casts && scan.quantity() == Quantity::signal)
+        throw Error(ErrorCode::wrong_use,
+                    request.wall.acquired ? "the wall as acquired is one of densities, and MR has none"
+                                          : "translucency shows densities, and MR has none",
+                    request.wall.acquired ? "--as-acquired" : "--peel");
     return request;
 }
 
