@@ -1,6 +1,7 @@
 #include "segment/automatic.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -259,6 +260,10 @@ private:
         else
             judgeSegmentation(result_, options_, body_, lumenCut_mm2(volume_, result_.inside));
         describeIlea(ilea_, result_);
+        if (fluid_.runaway_ml > 0)
+            note(result_,
+                 std::to_string(std::lround(fluid_.runaway_ml)) +
+                     " ml as dense as tagging ran out of the scan, as bone beside a pool does, and were cut off");
         for (const Point3 p : options_.add)
             if (componentsAt(lumen_, labels_.grid, {p}).empty())
                 note(result_, "there is no gas or fluid at the added point " + textOf(p));

@@ -7,6 +7,7 @@
 #include "grid/neighbours.h"
 #include "segment/fluid/layer.h"
 #include "segment/fluid/levels.h"
+#include "segment/fluid/runaway.h"
 #include "segment/fluid/specks.h"
 #include "vicon/steps/noise.h"
 
@@ -65,6 +66,7 @@ FluidResult addTaggedFluid(const HuVolume& volume, Vector3 gravity, const FluidD
         result.levels.push_back(level);
         progress.check();
     }
+    result.runaway_ml = cutRunaways(volume, down, patches, labels);
     closeFluidLayer(volume, down, patches, densities.wall.tissue_hu, labels);
     // Where noise cannot have made them, holes are what is left of a wall between two pools, and keep them apart.
     if (std::any_of(patches.begin(), patches.end(), [](const ContactPatch& patch) { return patch.noisy; }))

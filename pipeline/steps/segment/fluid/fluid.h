@@ -25,7 +25,8 @@ struct FluidLevel {
 struct FluidResult {
     std::vector<FluidLevel> levels;
     std::size_t voxels = 0;
-    double noise_hu = 0;  ///< of softTissueNoise()
+    double noise_hu = 0;    ///< of softTissueNoise()
+    double runaway_ml = 0;  ///< flooded from a pool out of the scan, and cut off
 };
 
 /// Adds tagged fluid to `labels` (kGas where gas is, 0 elsewhere), which has the grid of `volume`: what lies under gas
