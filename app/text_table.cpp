@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string_view>
 
 namespace vicon::app {
 namespace {
@@ -42,7 +43,8 @@ std::string formatNumber(double value, int decimals)
 {
     char text[64];
     std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    return text;
+    const bool is_zero = std::string_view(text).find_first_not_of("-0.") == std::string_view::npos;
+    return text + (is_zero && text[0] == '-' ? 1 : 0);  // nobody means minus nothing
 }
 
 }  // namespace vicon::app
