@@ -16,6 +16,7 @@ constexpr int kWall_j = 14;   // layers of the wall between the channels: this o
 struct Loops {
     TissueVolume tissue;
     InsideVolume lumen;
+    DownAxis down{lumen.grid, {0, 1, 0}};
 
     explicit Loops(int length_voxels, bool joined = true)
         : tissue(gridOf(length_voxels), 255), lumen(tissue.grid, kOutside)
@@ -66,7 +67,7 @@ TEST(FaintWalls, AreClosedBetweenLoopsAndToldWithTheirPlace)
         Loops loops(100);
         loops.tear(fraction);
         const Loops before = loops;
-        const auto walls = closeFaintWalls(loops.lumen, {}, loops.tissue, loops.lumen);
+        const auto walls = closeFaintWalls(loops.lumen, {}, loops.down, loops.tissue, loops.lumen);
         ASSERT_EQ(walls.size(), 1U) << fraction;
         EXPECT_TRUE(loops.isWhole());
         EXPECT_NEAR(walls[0].area_mm2, 9 * kVoxel_mm * kVoxel_mm, 0.6 * 9 * kVoxel_mm * kVoxel_mm);
@@ -85,7 +86,7 @@ TEST(FaintWalls, AreNoneWhereTheWallIsWhole)
 {
     Loops loops(100);
     const Loops before = loops;
-    EXPECT_TRUE(closeFaintWalls(loops.lumen, {}, loops.tissue, loops.lumen).empty());
+    EXPECT_TRUE(closeFaintWalls(loops.lumen, {}, loops.down, loops.tissue, loops.lumen).empty());
     EXPECT_EQ(loops.lumen.voxels, before.lumen.voxels);
     EXPECT_EQ(loops.tissue.voxels, before.tissue.voxels);
 }
@@ -94,7 +95,7 @@ TEST(FaintWalls, AreNoneInAnOpenPassage)
 {
     Loops loops(100);
     loops.tear(0.1);
-    EXPECT_TRUE(closeFaintWalls(loops.lumen, {}, loops.tissue, loops.lumen).empty());
+    EXPECT_TRUE(closeFaintWalls(loops.lumen, {}, loops.down, loops.tissue, loops.lumen).empty());
     EXPECT_FALSE(loops.isWhole());
 }
 
@@ -106,7 +107,7 @@ TEST(FaintWalls, AreClosedInFoldsAwayFromTheirEdge)
             for (int i = 0; i < 3; ++i)
                 for (int j = kWall_j; j < kWall_j + 2; ++j)
                     fold.open({2 + kChannel + from_edge + i, j, k}, 0.4);
-        EXPECT_EQ(closeFaintWalls(fold.lumen, {}, fold.tissue, fold.lumen).size(), from_edge == 10 ? 1U : 0U)
+        EXPECT_EQ(closeFaintWalls(fold.lumen, {}, fold.down, fold.tissue, fold.lumen).size(), from_edge == 10 ? 1U : 0U)
             << from_edge;
         EXPECT_EQ(fold.isWhole(), from_edge == 10);
     }
@@ -125,7 +126,7 @@ TEST(FaintWalls, AreNoneInANarrowPassage)
         for (int i = 93; i < 96; ++i)
             for (int j = kWall_j - 6; j < kWall_j + 8; ++j)
                 loops.open({i, j, k}, 0.4);
-    EXPECT_TRUE(closeFaintWalls(loops.lumen, {}, loops.tissue, loops.lumen).empty());
+    EXPECT_TRUE(closeFaintWalls(loops.lumen, {}, loops.down, loops.tissue, loops.lumen).empty());
     EXPECT_FALSE(loops.isWhole());
 }
 
@@ -134,14 +135,28 @@ TEST(FaintWalls, AreNoneBesideStool)
     Loops loops(100);
     loops.tear(0.4);
     const std::vector<std::size_t> dense{loops.lumen.grid.offset({95, kWall_j - 1, 7})};
-    EXPECT_TRUE(closeFaintWalls(loops.lumen, {.lumps = 1, .dense = dense}, loops.tissue, loops.lumen).empty());
+    EXPECT_TRUE(
+        closeFaintWalls(loops.lumen, {.lumps = 1, .dense = dense}, loops.down, loops.tissue, loops.lumen).empty());
+}
+
+TEST(FaintWalls, AreNoLevelsOfFluid)
+{
+    for (const bool fluid_below : {true, false}) {
+        Loops loops(100);
+        loops.tear(0.4);
+        for (std::size_t n = 0; n < loops.lumen.voxels.size(); ++n)
+            if (const Index3 v = loops.lumen.grid.indexOf(n); loops.lumen.voxels[n] && (v.j > kWall_j) == fluid_below)
+                loops.lumen.voxels[n] = kFluid;
+        EXPECT_EQ(closeFaintWalls(loops.lumen, {}, loops.down, loops.tissue, loops.lumen).size(), fluid_below ? 0U : 1U)
+            << "a pool in the loop above is none";
+    }
 }
 
 TEST(FaintWalls, NeverCutTheOnlyWay)
 {
     Loops loops(100, false);
     loops.tear(0.4);
-    EXPECT_TRUE(closeFaintWalls(loops.lumen, {}, loops.tissue, loops.lumen).empty());
+    EXPECT_TRUE(closeFaintWalls(loops.lumen, {}, loops.down, loops.tissue, loops.lumen).empty());
     EXPECT_FALSE(loops.isWhole());
 }
 

@@ -24,7 +24,7 @@ namespace {
 // (tissue_faint_walls_test.cpp) are open. On ten phantom scans, one of them with low dose and one with stool, none is.
 /// Up to this fraction the lumen is open.
 constexpr float kOpen = 0.2F;
-/// Sides that are not joined within a cube of this half width are the sides of a wall.
+/// Sides that are not joined within a cube of this half width, which holds where their ways begin, are those of a wall.
 constexpr double kNear_mm = 4;
 /// So far behind a crest a thin wall's lumen is open: what is longer is a narrow passage.
 constexpr std::uint8_t kThin_voxels = 5;
@@ -48,7 +48,8 @@ public:
         });
         parts_ = labelLumen(open_, Neighbours::faces);
         for (int axis = 0; axis < 3; ++axis)
-            reach_[std::size_t(axis)] = int(std::lround(kNear_mm / lumen.grid.spacing_mm[std::size_t(axis)]));
+            reach_[std::size_t(axis)] =
+                std::max(kThin_voxels + 1, int(std::lround(kNear_mm / lumen.grid.spacing_mm[std::size_t(axis)])));
     }
 
     const Grid& grid() const { return open_.grid; }

@@ -180,7 +180,7 @@ TissueResult findTissue(const HuVolume& hu, const InsideVolume& labels, Vector3 
         options.leave_out_other_bowel ? otherBowel(result.tissue, inside, pieces) : std::vector<std::size_t>{};
     result.lumen = lumenOf(result.tissue, inside, pieces, other_bowel);
     result.untrusted.mottled = findMottled(mixture, stool, noise_hu);
-    result.untrusted.faint = closeFaintWalls(labels, stool, result.tissue, result.lumen);
+    result.untrusted.faint = closeFaintWalls(labels, stool, down, result.tissue, result.lumen);
     result.cleansed = cleanse(mixture, near_fluid, result.tissue);
     result.blur_mm = blur_mm;
     result.found = {{"level_columns", levels.columns.size()},
