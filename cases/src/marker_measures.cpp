@@ -86,7 +86,7 @@ DensitySample densitySampleFromJson(const json& json)
     sample.sd_hu = json.at("sd_hu").get<double>();
     sample.fat_fraction = json.at("fat_fraction").get<double>();
     sample.from_hu = wholeNumber(histogram.at("from_hu"));
-    for (const auto& count : histogram.at("counts"))
+    for (const auto& count : histogram.at("counts").get_ref<const nlohmann::json::array_t&>())
         sample.counts.push_back(wholeCount(count));
     return sample;
 }
