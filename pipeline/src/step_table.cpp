@@ -182,7 +182,7 @@ std::vector<Step> stepsOfLumen()
          runResample},
         {"segment", 17, 0.3, 0.55, {"resample"}, Densities::whole, segmentFiles, segmentParameters, runSegment},
         {"tissue",
-         12,
+         13,
          0.55,
          0.6,
          {"resample", "segment"},
