@@ -56,7 +56,7 @@ void MeasuringTool::startOutline()
         return;
     reading_.navigator()->fly(0);
     shown_.reset();
-    reading_.begin(OutlinePolyp{}, tr("Outline: click on a polyp, on its wall"));
+    reading_.begin(OutlinePolyp{}, tr("Outline: click on a polyp, on the wall or in a slice; or arrows and Return"));
 }
 
 bool MeasuringTool::act(const ClickMeaning& meaning, const ClickedPoint& point)
