@@ -51,7 +51,7 @@ void BiopsyTool::circled(Pixel centre, double radius_px)
     const ShownPicture& shown = reading_.shown();
     if (!reading_.navigator() || !shown.isOf(reading_.sharedScan()))
         return;
-    const auto point = wallAt(*reading_.scan(), shown.place.pose, shown.lens, centre);
+    const auto point = shown.wallAt(centre);
     if (!point) {
         reading_.say(tr("There is no wall in the middle of the circle."));
         return;
@@ -76,7 +76,7 @@ double BiopsyTool::raisedOver(Point3 middle, Vector3 inwards, Pixel centre, doub
     for (int n = 0; n < kPlaces; ++n) {
         const double angle = radians(360.0 * n / kPlaces);
         const Pixel at{centre.x + radius_px * std::cos(angle), centre.y + radius_px * std::sin(angle)};
-        if (const auto wall = wallAt(*reading_.scan(), shown.place.pose, shown.lens, at))
+        if (const auto wall = shown.wallAt(at))
             behind_mm.push_back(dot(*wall - middle, inwards));
     }
     if (behind_mm.empty())

@@ -30,8 +30,11 @@ void MeasuringTool::addTo(ReadingLayout& layout)
     connect(reading_.views().endoscopic(), &PictureView::endDragged, this, [this](int end, Pixel at, bool released) {
         const ShownPicture& picture = reading_.shown();
         if (reading_.scan() && picture.isOf(reading_.sharedScan()))
-            if (const auto wall = wallAt(*reading_.scan(), picture.place.pose, picture.lens, at))
+            if (const auto wall = picture.wallAt(at)) {
+                if (shown_ && picture.acquired)
+                    shown_->size.along_mm.reset();  // it may lie on fluid
                 drag(end, *wall, released);
+            }
     });
     for (SliceView* slice : reading_.views().slices())
         connect(slice, &SliceView::lineDragged, this, [this](int end, Point3 to, bool released) {
@@ -255,7 +258,7 @@ std::optional<Calliper> MeasuringTool::seenByEye(const MeasuredLine& line) const
         return std::nullopt;
     const Pose& pose = picture.place.pose;
     const auto hidden = [&](Point3 end) {
-        const auto wall = wallAt(*reading_.scan(), pose, picture.lens, project(pose, picture.lens, end).at);
+        const auto wall = picture.wallAt(project(pose, picture.lens, end).at);
         return wall && distance(pose.eye_mm, *wall) + kBehind_mm < distance(pose.eye_mm, end);
     };
     auto calliper = inEndoscopy(line, pose, picture.lens);
