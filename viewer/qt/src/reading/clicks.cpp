@@ -18,6 +18,8 @@ void Reading::toolChanged()
 {
     const bool circling = interaction_.inUse<CircleFinding>();
     views_.endoscopic()->setCircling(circling);
+    for (SliceView* slice : views_.slices())
+        slice->setCircling(circling);
     views_.setPicking(interaction_.awaitsClick());
     emit awaitingClick(interaction_.awaitsClick());
 }
