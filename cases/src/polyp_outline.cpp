@@ -6,13 +6,11 @@
 #include <numbers>
 
 #include "polyp_profile.h"
-#include "surface_patch.h"
 
 namespace vicon {
 namespace {
 
-constexpr double kReach_mm = 40;  // from the point asked for to the end of any section
-constexpr int kSections = 48;     // half planes around the axis
+constexpr int kSections = 48;  // half planes around the axis
 
 Vector3 anyAcross(Vector3 axis)
 {
@@ -66,10 +64,12 @@ Outline outlineAround(const SurfacePatch& patch, Point3 top, Vector3 axis)
 {
     Outline outline{top, axis, {}, {}, 0, 0};
     const Vector3 across = anyAcross(axis), aside = cross(axis, across);
+    const auto start = patch.onAxis(top, axis);
     for (int n = 0; n < kSections; ++n) {
         const double angle = 2 * std::numbers::pi * n / kSections;
         const Vector3 out = across * std::cos(angle) + aside * std::sin(angle);
-        outline.profiles.push_back(polypProfileOf(patch.section(top, axis, out, kReach_mm), top, axis, out));
+        outline.profiles.push_back(polypProfileOf(
+            start ? patch.section(*start, axis, out, kPolypSection_mm) : std::vector<Point3>(), top, axis, out));
         outline.rims.push_back(rimOf(outline.profiles.back()));
         outline.lost += outline.rims.back() ? 0 : 1;
     }
@@ -246,10 +246,9 @@ bool holds(const Outline& outline, Point3 middle, Point3 place)
 
 }  // namespace
 
-PolypOutline outlineFrom(const CellSurface& surface, Point3 from, Point3 place, double blur_mm, const Progress* wanted)
+PolypOutline outlineFrom(const SurfacePatch& patch, Point3 from, Point3 place, double blur_mm, const Progress* wanted)
 {
-    const SurfacePatch patch(surface, from, kReach_mm, kPolypCatch_mm);
-    Point3 top = patch.nearest_mm();
+    Point3 top = from;
     Outline outline = outlineAround(patch, top, patch.normalNear(top, kAroundClick_mm));
     Point3 middle;
     for (int round = 0;; ++round) {

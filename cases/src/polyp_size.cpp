@@ -1,8 +1,7 @@
 #include "vicon/cases/polyp_size.h"
 
-#include <algorithm>
+#include <optional>
 #include <utility>
-#include <vector>
 
 #include "polyp_outline.h"
 #include "surface_around.h"
@@ -12,20 +11,21 @@
 
 namespace vicon {
 namespace {
-/// A polyp that does not come out from the nearest of the surface around the point comes out from none. Chosen on the
-/// clicks into 108 synthetic polyps.
-constexpr std::size_t kMostTries = 6;
-}  // namespace
+constexpr double kSamePatch_mm = 5;  // so much of a patch may be missing on the other side: a polyp's reach is far less
+}
 
 PolypOutline outlinePolyp(const CellSurface& surface, Point3 at, double blur_mm, const Progress* wanted)
 {
     PolypOutline nearest{std::nullopt, "no wall lies near enough"};
-    const std::vector<Point3> around = surfaceAround(surface, at, kPolypReach_mm, kPolypCatch_mm);
-    for (std::size_t n = 0; n < std::min(around.size(), kMostTries); ++n) {
-        PolypOutline outline = outlineFrom(surface, around[n], at, blur_mm, wanted);
+    std::optional<SurfacePatch> patch;
+    for (const Point3 from : surfaceAround(surface, at, kPolypReach_mm, kPolypCatch_mm)) {
+        const bool first = !patch;
+        if (first || distance(patch->nearest_mm(), from) > kSamePatch_mm || !patch->holds(from))
+            patch.emplace(surface, from, kPolypSection_mm, kPolypCatch_mm);
+        PolypOutline outline = outlineFrom(*patch, from, at, blur_mm, wanted);
         if (outline.size)
             return outline;
-        if (n == 0)
+        if (first)
             nearest = std::move(outline);
     }
     return nearest;
