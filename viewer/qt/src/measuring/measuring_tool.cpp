@@ -1,6 +1,7 @@
 #include "measuring/measuring_tool.h"
 
 #include <QMessageBox>
+#include <QPushButton>
 
 #include "reading/reading.h"
 #include "widgets/length_text.h"
