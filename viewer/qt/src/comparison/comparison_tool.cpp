@@ -260,8 +260,8 @@ void ComparisonTool::clicked(Pixel at, Qt::KeyboardModifiers modifiers)
     const auto scan = reading_.session().sharedBeside();
     if (!scan || !shown_.isOf(scan) || !markableScan())
         return;
-    if (const auto point = wallAt(*scan, shown_.place.pose, shown_.lens, at);
-        point && reading_.click({*scan, shown_.place, *point, modifiers, true}))
+    if (const auto point = shown_.wallAt(at);
+        point && reading_.click({*scan, shown_.place, *point, modifiers, !shown_.acquired}))
         return;
     ScanRequest request;
     request.scan_id = scan->record.id;

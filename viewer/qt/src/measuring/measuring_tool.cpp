@@ -1,6 +1,7 @@
 #include "measuring/measuring_tool.h"
 
 #include <QMessageBox>
+#include <QPushButton>
 
 #include "reading/reading.h"
 #include "widgets/length_text.h"
@@ -30,8 +31,11 @@ void MeasuringTool::addTo(ReadingLayout& layout)
     connect(reading_.views().endoscopic(), &PictureView::endDragged, this, [this](int end, Pixel at, bool released) {
         const ShownPicture& picture = reading_.shown();
         if (reading_.scan() && picture.isOf(reading_.sharedScan()))
-            if (const auto wall = wallAt(*reading_.scan(), picture.place.pose, picture.lens, at))
+            if (const auto wall = picture.wallAt(at)) {
+                if (shown_ && picture.acquired)
+                    shown_->size.along_mm.reset();  // it may lie on fluid
                 drag(end, *wall, released);
+            }
     });
     for (SliceView* slice : reading_.views().slices())
         connect(slice, &SliceView::lineDragged, this, [this](int end, Point3 to, bool released) {
@@ -56,7 +60,7 @@ void MeasuringTool::startOutline()
         return;
     reading_.navigator()->fly(0);
     shown_.reset();
-    reading_.begin(OutlinePolyp{}, tr("Outline: click on a polyp, on its wall"));
+    reading_.begin(OutlinePolyp{}, tr("Outline: click on a polyp, on the wall or in a slice; or arrows and Return"));
 }
 
 bool MeasuringTool::act(const ClickMeaning& meaning, const ClickedPoint& point)
@@ -255,7 +259,7 @@ std::optional<Calliper> MeasuringTool::seenByEye(const MeasuredLine& line) const
         return std::nullopt;
     const Pose& pose = picture.place.pose;
     const auto hidden = [&](Point3 end) {
-        const auto wall = wallAt(*reading_.scan(), pose, picture.lens, project(pose, picture.lens, end).at);
+        const auto wall = picture.wallAt(project(pose, picture.lens, end).at);
         return wall && distance(pose.eye_mm, *wall) + kBehind_mm < distance(pose.eye_mm, end);
     };
     auto calliper = inEndoscopy(line, pose, picture.lens);

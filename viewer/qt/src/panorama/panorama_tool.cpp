@@ -183,10 +183,12 @@ void PanoramaTool::clickedCube(Pixel at, Qt::KeyboardModifiers modifiers)
     const auto face = layout.faceAt(at);
     if (!face)
         return;
-    const SnapshotResult from = faceOf(*face, shown_cube_.place);
+    ShownPicture of_face = shown_cube_;
+    of_face.place = faceOf(*face, shown_cube_.place);
+    of_face.lens = layout.lens();
     const Pixel corner = layout.cornerOf(*face);
-    if (const auto point = wallAt(*scan, from.pose, layout.lens(), {at.x - corner.x, at.y - corner.y}))
-        clickedWall(from, *point, modifiers);
+    if (const auto point = of_face.wallAt({at.x - corner.x, at.y - corner.y}))
+        clickedWall(of_face.place, *point, modifiers, !of_face.acquired);
 }
 
 void PanoramaTool::clickedBand(Point3 point, Qt::KeyboardModifiers modifiers)
@@ -199,14 +201,14 @@ void PanoramaTool::clickedBand(Point3 point, Qt::KeyboardModifiers modifiers)
     }
     const OpenScan& scan = *reading_.scan();
     const ViewPose view = poseForPoint(scan.files.skeleton(), scan.files.frames(), scan.lumen, point);
-    clickedWall({view.pose, view.station_mm, view.clearance_mm, view.sees_target}, point, modifiers);
+    clickedWall({view.pose, view.station_mm, view.clearance_mm, view.sees_target}, point, modifiers, true);
 }
 
-void PanoramaTool::clickedWall(const SnapshotResult& from, Point3 point, Qt::KeyboardModifiers modifiers)
+void PanoramaTool::clickedWall(const SnapshotResult& from, Point3 point, Qt::KeyboardModifiers modifiers, bool on_cells)
 {
     const bool measuring = reading_.interaction().inUse<Measure>();
     reading_.rememberPlace();
-    if (!reading_.click({*reading_.scan(), from, point, modifiers, true}) && !measuring)
+    if (!reading_.click({*reading_.scan(), from, point, modifiers, on_cells}) && !measuring)
         reading_.lookAt(point);
 }
 

@@ -21,7 +21,7 @@ struct ClickedPoint {
     SnapshotResult from;  ///< the view in which it was chosen
     Point3 at_mm;
     Qt::KeyboardModifiers modifiers;
-    bool on_wall = false;  ///< chosen in an endoscopic picture
+    bool on_wall = false;  ///< chosen in an endoscopic picture, and not as acquired
 };
 
 /// One thing that a reader can do: its controls, its actions, what a click means to it, and what it adds to the

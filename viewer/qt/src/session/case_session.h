@@ -90,10 +90,11 @@ public:
     void log(const std::string& event, const std::string& scan_id, const QString& words);
     /// Between two points of the open scan's wall, seen from `eye`; measured() follows, or warned().
     void measure(Point3 from, Point3 to, Point3 eye);
-    /// The polyp of the open scan's wall under a point; outlined() follows, or warned().
+    /// The polyp of the open scan under a point of the wall or around one in its tissue; outlined() follows.
     void outlinePolyp(Point3 at);
-    /// Of the open scan's tissue around a point below a circled wall; biopsied() follows, or warned().
-    void takeBiopsy(Point3 centre, double radius_mm, const CircledWall& wall);
+    /// Of the open scan's tissue around a point, below a circled wall where there is one; biopsied() follows, or
+    /// warned().
+    void takeBiopsy(Point3 centre, double radius_mm, const std::optional<CircledWall>& wall);
     /// What was measured of a marker of a scan that is open, as a picture; measuresDrawn() follows where there is any.
     void drawMeasures(const Marker& marker, int side_px);
     /// Keeps a picture in the case's folder, "pictures/1.png" and on.

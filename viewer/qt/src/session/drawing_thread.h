@@ -38,7 +38,10 @@ struct ShownPicture {
     Lens lens;
     std::string peel = {};  ///< the look below the wall; empty: none
     bool shaded = false;    ///< with the ambient occlusion that was asked for; it comes a little later than the first
+    bool acquired = false;  ///< the wall as acquired: fluid and stool stand
 
+    /// The place on the wall that a pixel shows: on the one that the picture was made of. Nothing where it shows none.
+    std::optional<Point3> wallAt(Pixel at) const;
     bool isOf(const std::shared_ptr<OpenScan>& which) const { return which && scan.lock() == which; }
 };
 

@@ -9,8 +9,6 @@
 namespace vicon::viewer {
 namespace {
 
-constexpr double kReach_mm = 500;  // of a click into the endoscopic view
-
 /// The saved one, unless the path was made anew meanwhile and runs elsewhere there.
 double stationOf(const OpenScan& scan, const SavedView& view)
 {
@@ -69,13 +67,6 @@ ViewPose viewOfMarker(const OpenScan& scan, const Marker& marker)
     if (const auto saved = savedView(marker); saved && scan.lumen.inside(saved->pose.eye_mm))
         return {saved->pose, stationOf(scan, *saved), scan.lumen.clearance_mm(saved->pose.eye_mm), true};
     return poseForPoint(scan.files.skeleton(), scan.files.frames(), scan.lumen, marker.position_mm);
-}
-
-std::optional<Point3> wallAt(const OpenScan& scan, const Pose& from, const Lens& lens, Pixel at)
-{
-    const Vector3 ray = rayThrough(from, lens, at);
-    const auto far = distanceToWall_mm(scan.lumen, from.eye_mm, ray, kReach_mm);
-    return far ? std::optional(from.eye_mm + ray * *far) : std::nullopt;
 }
 
 }  // namespace vicon::viewer

@@ -40,8 +40,4 @@ Point3 placeInSlices(const OpenScan& scan, const NavigationState& state);
 /// shows its place.
 ViewPose viewOfMarker(const OpenScan& scan, const Marker& marker);
 
-/// The place on the wall that a pixel of an endoscopic picture shows.
-/// @param from where the picture was made from
-std::optional<Point3> wallAt(const OpenScan& scan, const Pose& from, const Lens& lens, Pixel at);
-
 }  // namespace vicon::viewer

@@ -42,13 +42,7 @@ void SliceTool::addTo(ReadingLayout& layout)
         for (SliceView* slice : reading_.views().slices())
             slice->setPixelForPixel();
     });
-    // Off whenever a case is opened: what is read first is what was acquired.
-    const QAction* cleansed =
-        layout.addSwitch(ReadingMenu::slices, tr("Without tagging (cleansed)"), QKeySequence("K"));
-    connect(cleansed, &QAction::toggled, this, [this](bool on) {
-        for (SliceView* slice : reading_.views().slices())
-            slice->setCleansed(on);
-    });
+    addCleansed(layout);
     addKeys(layout);
     connect(window_, &QComboBox::currentTextChanged, this, [this](const QString& name) {
         if (name != kByHand)
@@ -56,6 +50,46 @@ void SliceTool::addTo(ReadingLayout& layout)
     });
     connect(&reading_, &Reading::windowDragged, this, &SliceTool::dragWindow);
     connect(&reading_, &Reading::trackWanted, this, &SliceTool::track);
+}
+
+// Off whenever a case is opened: what is read first is what was acquired.
+void SliceTool::addCleansed(ReadingLayout& layout)
+{
+    cleansed_ = layout.addSwitch(ReadingMenu::slices, tr("Without tagging (cleansed)"), QKeySequence("K"));
+    cleansed_->setObjectName("cleansed");
+    connect(cleansed_, &QAction::toggled, this, [this](bool on) {
+        if (on && measures()) {
+            showAcquired();
+            return;
+        }
+        for (SliceView* slice : reading_.views().slices())
+            slice->setCleansed(on);
+    });
+    for (SliceView* slice : reading_.views().slices())
+        connect(slice, &SliceView::lineDragged, this, &SliceTool::showAcquired);
+}
+
+bool SliceTool::measures() const
+{
+    const Interaction& next = reading_.interaction();
+    return next.inUse<Measure>() || next.inUse<OutlinePolyp>() || next.inUse<CircleFinding>();
+}
+
+void SliceTool::nextClickChanged()
+{
+    if (measures())
+        showAcquired();
+}
+
+void SliceTool::showAcquired()
+{
+    if (!cleansed_->isChecked())
+        return;
+    cleansed_->setChecked(false);
+    if (reading_.scan() && reading_.scan()->files.canBeCleansed())
+        reading_.warn(
+            tr("The slices show the densities as acquired again: these are measured. K shows them cleansed, "
+               "after measuring."));
 }
 
 void SliceTool::addKeys(ReadingLayout& layout)
