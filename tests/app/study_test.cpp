@@ -132,6 +132,47 @@ TEST_F(Study, WorkingAgainChangesNothingAndOtherParametersRedoWhatDependsOnThem)
     EXPECT_TRUE(filesOf(store()) == before) << "and back";
 }
 
+TEST_F(Study, TheTableOfSubdivisionsHasARowForEveryMeasureOfSizeAndPortalsAndIsWhatTheStepMakes)
+{
+    const auto lines = [](const std::string& options) {
+        std::vector<std::string> rows;
+        for (const std::string& line :
+             linesWithoutProgress(viconOn(store(), "show " + scan_.case_id + " --subdivision-table" + options)))
+            if (line.starts_with(scan_.scan_id))
+                rows.push_back(line);
+        return rows;
+    };
+    /// As the table has it: "12 / 13 ... 1234 ... 2345 / 321 ... 456.78".
+    const auto stored = [] {
+        const auto s = nlohmann::json::parse(std::ifstream(scan_.folder / "subdivision.json"))["statistics"];
+        const auto number = [&](const char* key, const char* pattern) {
+            char text[40];
+            std::snprintf(text, sizeof text, pattern, s[key].get<double>());
+            return std::string(text);
+        };
+        return number("segments", "%.0f") + " / " + number("specified_segments", "%.0f") + " +" +
+               number("triangles_average", "%.0f") + " +" + number("triangles_largest", "%.0f") + " / " +
+               number("triangles_smallest", "%.0f") + " +" + number("triangles_standard_deviation", "%.2f");
+    };
+    const auto before = filesOf(store());
+    const auto rows = lines("");
+    ASSERT_EQ(rows.size(), 10u) << "flood, then three measures of size by three of portals";
+    EXPECT_THAT(rows[0], testing::ContainsRegex("flood +- +- +" + stored()));
+    int row = 1;
+    for (const std::string size : {"surface", "inside", "triangles"})
+        for (const std::string portals : {"tangent", "portal_size", "gate_ratio"})
+            EXPECT_THAT(rows[std::size_t(row++)],
+                        testing::ContainsRegex("thesis +" + size + " +" + portals + " +[0-9]"));
+    EXPECT_TRUE(filesOf(store()) == before) << "it only looks";
+
+    viconOn(store(),
+            "work --until-idle --redo-outdated --set subdivide.method=thesis --set subdivide.size=inside"
+            " --set subdivide.effectiveness=tangent");
+    EXPECT_THAT(rows[4], testing::ContainsRegex("thesis +inside +tangent +" + stored()));
+    viconOn(store(), "work --until-idle --redo-outdated");
+    EXPECT_TRUE(filesOf(store()) == before) << "and back";
+}
+
 TEST_F(Study, ACorrectionIsKeptWithTheScanAndRedoesWhatDependsOnIt)
 {
     const auto before = filesOf(store());
