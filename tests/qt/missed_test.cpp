@@ -42,6 +42,18 @@ protected:
             }
         return double(count) * 4 / (image.width() * image.height());
     }
+    /// Of a picture: wall tinted as reviewed, as a share.
+    static double green(const char* view)
+    {
+        const QImage image = pictureOf(view);
+        int count = 0;
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x) {
+                const QColor c = image.pixelColor(x, y);
+                count += c.green() > 50 && c.green() * 10 > c.red() * 12;
+            }
+        return double(count) / (image.width() * image.height());
+    }
     static QString said() { return window()->statusBar()->currentMessage(); }
 };
 
@@ -105,6 +117,15 @@ TEST_F(Missing, TheListThatIsGoneThroughStaysWhileRegionsAreReviewed)
     EXPECT_EQ(list()->rowCount(), 2);
     EXPECT_TRUE(ticked(0));
     EXPECT_FALSE(ticked(1));
+}
+
+TEST_F(Missing, TheProjectionIsPaintedFromTheFrontAndWhatIsForgottenIsNot)
+{
+    EXPECT_GT(green("overview"), 0.03);
+    screenshot("reviewed_projection");
+    showList(1);
+    press(window(), "forgetSeen");
+    EXPECT_TRUE(eventually([] { return green("overview") < 0.015; })) << green("overview") << ": what is in view now";
 }
 
 TEST_F(Missing, AThumbnailIsNoLookAtARegion)

@@ -102,6 +102,7 @@ void CoverageTool::connectPanel()
             return;
         reading_.scan()->coverage.forget();
         reading_.drawEndoscopic(true);
+        reading_.drawOverview(true);
         showSeen();
         listMissed();
     });
@@ -248,6 +249,7 @@ void CoverageTool::countStill()
         return;
     reading_.scan()->coverage.stillShown(now_s(), ReviewRule().least_s);
     showSeen();
+    reading_.drawOverview(true);
 }
 
 void CoverageTool::showSeen()
