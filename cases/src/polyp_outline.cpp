@@ -12,12 +12,6 @@ namespace {
 
 constexpr int kSections = 48;  // half planes around the axis
 
-Vector3 anyAcross(Vector3 axis)
-{
-    const Vector3 other = std::abs(axis.x) < 0.7 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
-    return normalized(cross(axis, other));
-}
-
 /// A polyp as its sections show it.
 struct Outline {
     Point3 top;

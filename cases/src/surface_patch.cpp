@@ -19,6 +19,12 @@ Vector3 normalOf(const CellSurface& surface, std::size_t n)
 
 }  // namespace
 
+Vector3 anyAcross(Vector3 axis)
+{
+    const Vector3 other = std::abs(axis.x) < 0.7 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
+    return normalized(cross(axis, other));
+}
+
 SurfacePatch::SurfacePatch(const CellSurface& surface, Point3 at, double radius_mm, double catch_mm)
 {
     std::unordered_map<std::uint32_t, std::uint32_t> own;  // numbers of the surface's points here

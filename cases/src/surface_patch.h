@@ -9,6 +9,9 @@
 
 namespace vicon {
 
+/// A unit vector across a unit vector; always the same one.
+Vector3 anyAcross(Vector3 axis);
+
 /// The part of a surface around a point that hangs together with what is nearest to it, and sections through it.
 class SurfacePatch {
 public:

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 
+#include "part_of_progress.h"
 #include "segment_step.h"
 #include "step_parameters.h"
 #include "tissue_step.h"
@@ -37,21 +38,6 @@ std::function<std::vector<std::string>(const json&)> always(std::vector<std::str
 {
     return [files = std::move(files)](const json&) { return files; };
 }
-
-/// Tells a part of a step's progress as a part of the whole.
-class PartOfProgress : public Progress {
-public:
-    PartOfProgress(Progress& whole, double from, double to) : whole_(whole), from_(from), to_(to) {}
-    void report(double fraction, std::string_view what) override
-    {
-        whole_.report(from_ + (to_ - from_) * fraction, what);
-    }
-    bool cancelled() const override { return whole_.cancelled(); }
-
-private:
-    Progress& whole_;
-    double from_, to_;
-};
 
 json runResample(const StepInputs& inputs, ScanResults& results, const StepRecords&, Progress& progress)
 {

@@ -256,8 +256,8 @@ OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& r
     OverviewGround ground;
     ground.caption = captionSize(scan, request);
     ground.view = viewOfAll(projection, request.width, request.height, ground.caption, 2.2 * text_px);
-    ground.picture = drawn(projection, ground.view);
-    Overlay overlay;
+    ground.wall = drawn(projection, ground.view);
+    Overlay& overlay = ground.written;
     const bool tree = !scan.tree().empty();
     const double words_px = wordsHeight(request);
     addSkeleton(overlay, tree ? scan.tree().allBranches() : scan.skeleton(), ground.view, std::max(1.5, words_px / 9));
@@ -265,6 +265,7 @@ OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& r
     addParts(overlay, scan.parts(), scan.skeleton(), ground.view, words_px);
     for (const OverlayText& name : overlay.texts)
         ground.names.push_back(textArea(name));
+    ground.picture = ground.wall;
     paint(ground.picture, overlay);
     return ground;
 }

@@ -233,7 +233,7 @@ void ComparisonTool::drawBeside(bool still)
     overview.width = size.width();
     overview.height = size.height();
     if (view_->overview()->height() > 0)
-        reading_.drawing().drawBesideOverview(scan, overview, request.place);
+        reading_.drawing().drawBesideOverview(scan, overview, request.place, still);
     sayPlace(same);
 }
 

@@ -94,6 +94,12 @@ std::optional<CaseSession::ScanFiles> CaseSession::filesOf(const std::string& sc
     return std::nullopt;
 }
 
+std::filesystem::path CaseSession::folderOf(const std::string& scan_id) const
+{
+    const auto files = filesOf(scan_id);
+    return files ? files->folder : std::filesystem::path();
+}
+
 /// While the first pictures are drawn, not before them. What cannot be read is said where it is looked at.
 void CaseSession::readOn(const PreparedScan& files)
 {

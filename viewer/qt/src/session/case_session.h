@@ -35,6 +35,8 @@ public:
     const CaseRecord& record() const { return row_.record; }
     /// Those that can be shown: their jobs are done and found a colon.
     const std::vector<ScanRecord>& scans() const { return scans_; }
+    /// Where the files of one of them lie.
+    std::filesystem::path folderOf(const std::string& scan_id) const;
     /// As the worklist shows the case by now. Returns the scans that can be shown since.
     std::vector<ScanRecord> renew(const WorklistCase& row);
     const std::vector<Marker>& markers() const { return markers_; }

@@ -184,22 +184,23 @@ void DrawingThread::film(std::shared_ptr<OpenScan> scan, const EndoscopicRequest
 }
 
 void DrawingThread::drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
-                                 const SnapshotResult& place)
+                                 const SnapshotResult& place, bool still)
 {
-    drawOverview("overview", std::move(scan), request, place);
+    drawOverview("overview", std::move(scan), request, place, still);
 }
 
 void DrawingThread::drawBesideOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
-                                       const SnapshotResult& place)
+                                       const SnapshotResult& place, bool still)
 {
-    drawOverview("overview beside", std::move(scan), request, place);
+    drawOverview("overview beside", std::move(scan), request, place, still);
 }
 
 void DrawingThread::drawOverview(const std::string& work, std::shared_ptr<OpenScan> scan,
-                                 const SnapshotRequest& request, const SnapshotResult& place)
+                                 const SnapshotRequest& request, const SnapshotResult& place, bool still)
 {
-    worker_.post(work, [this, scan = std::move(scan), request, place](AllPictures& all) -> Worker::Work {
-        auto drawn = std::make_shared<ReadingPictures::Overview>(picturesOf(all, scan).overview(request, place));
+    worker_.post(work, [this, scan = std::move(scan), request, place, still](AllPictures& all) -> Worker::Work {
+        auto drawn = std::make_shared<ReadingPictures::Overview>(
+            picturesOf(all, scan).overview(request, place, &scan->coverage, still));
         return [this, drawn, scan] { emit overviewDrawn(drawn->picture, drawn->view, scan); };
     });
 }

@@ -61,10 +61,12 @@ public:
     void drawEndoscopic(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
     /// The same of the other scan; besideDrawn() follows.
     void drawBeside(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
-    void drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place);
+    /// @param still what was reviewed is painted as it is now
+    void drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place,
+                      bool still);
     /// The same of the other scan; overviewDrawn() follows, of it.
-    void drawBesideOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
-                            const SnapshotResult& place);
+    void drawBesideOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place,
+                            bool still);
     /// All around the eye, face by face, so that the other pictures do not wait for all six; cubeDrawn() follows unless
     /// another cube is asked for meanwhile.
     void drawCube(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
@@ -113,7 +115,7 @@ private:
     Worker::Work finished(const std::shared_ptr<Cube>& cube);
     void draw(Which which, std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
     void drawOverview(const std::string& work, std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
-                      const SnapshotResult& place);
+                      const SnapshotResult& place, bool still);
     ReadingPictures& picturesOf(AllPictures& all, const std::shared_ptr<OpenScan>& scan);
     /// In the picture drawn last; while moving not in every one.
     /// False where that was done a moment ago.
