@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "vicon/viewer/qt/reading_room.h"
 
@@ -13,6 +14,9 @@ inline constexpr const char* kFailedCase = "c2";
 
 /// A store with one case of two scans that can be read, a colon of closed form, and one case without any.
 void makeStore(const std::filesystem::path& folder);
+
+/// Says in a scan's folder which organ it shows.
+void sayOrgan(const std::filesystem::path& scan_folder, const std::string& organ);
 
 /// What `app` gives, on such a store: the second case counts as failed until it is retried.
 ReadingServices servicesFor(const std::filesystem::path& folder);

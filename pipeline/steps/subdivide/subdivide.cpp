@@ -41,7 +41,32 @@ nlohmann::json statisticsOf(const Subdivided& result, int specified)
             {"inside_voxels_smallest", fewest}};
 }
 
+/// Portals, description and statistics of numbered segments.
+Subdivided describe(NumberedSegments numbered, std::string method, const SubdivideOptions& options, int specified)
+{
+    Subdivided result;
+    result.description.method = std::move(method);
+    result.description.parameters = toJson(options);
+    result.description.portals = findPortals(numbered);
+    result.description.segments = std::move(numbered.infos);
+    result.segments = std::move(numbered.segments);
+    result.description.statistics = statisticsOf(result, specified);
+    return result;
+}
+
 }  // namespace
+
+Subdivided undivided(const InsideVolume& inside, const SubdivideOptions& options, Progress& progress)
+{
+    std::vector<std::uint16_t> label(inside.voxels.size());
+    std::transform(inside.voxels.begin(), inside.voxels.end(), label.begin(),
+                   [](std::uint8_t voxel) { return std::uint16_t(voxel != kOutside); });
+    if (std::find(label.begin(), label.end(), 1) == label.end())
+        throw Error(ErrorCode::bad_input, "nothing is inside");
+    Subdivided result = describe(numberSegments(inside, label, {LabelledPiece{}}, {}), "none", options, 1);
+    progress.report(1, "subdividing");
+    return result;
+}
 
 Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const SkeletonVoxels& voxels,
                      const SubdivideOptions& options, Progress& progress, std::optional<PathFlood> flood)
@@ -68,13 +93,8 @@ Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const
     progress.check();
     progress.report(0.8, "subdividing");
 
-    Subdivided result;
-    result.description.method = nameIn(kSubdivideMethodNames, options.method);
-    result.description.parameters = toJson(options);
-    result.description.portals = findPortals(numbered);
-    result.description.segments = std::move(numbered.infos);
-    result.segments = std::move(numbered.segments);
-    result.description.statistics = statisticsOf(result, specified);
+    Subdivided result =
+        describe(std::move(numbered), nameIn(kSubdivideMethodNames, options.method), options, specified);
     progress.report(1, "subdividing");
     return result;
 }
