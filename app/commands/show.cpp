@@ -118,12 +118,14 @@ int printSubdivisionTable(CaseStore& store, const WorklistCase& c, const std::st
         const auto subdivision = scan_files::readSubdivision(file);
         const auto& s = subdivision.statistics;
         const auto number = [&](const char* key, int decimals) { return formatNumber(s.value(key, 0.0), decimals); };
+        const auto cost = [&](const char* key) { return s.contains(key) ? number(key, 2) : std::string("-"); };
         rows.push_back({scan.record.id, subdivision.method, number("specified_segments", 0), number("segments", 0),
                         number("triangles_average", 0), number("triangles_largest", 0), number("triangles_smallest", 0),
-                        number("triangles_standard_deviation", 2)});
+                        number("triangles_standard_deviation", 2), cost("choice_cost"), cost("choice_cost_at_least"),
+                        cost("choice_cost_neighbours_only")});
     }
     std::printf("%s", formatTable({"SCAN", "METHOD", "SPECIFIED", "SEGMENTS", "AVERAGE TRIANGLES", "LARGEST",
-                                   "SMALLEST", "STANDARD DEVIATION"},
+                                   "SMALLEST", "STANDARD DEVIATION", "COST", "LEAST COST", "NEIGHBOURS ONLY"},
                                   rows)
                           .c_str());
     return 0;

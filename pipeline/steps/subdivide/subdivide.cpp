@@ -79,9 +79,9 @@ Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const
     const int specified = options.segments > 0 ? options.segments : std::max(1, int(std::lround(total_mm / length_mm)));
 
     const std::vector<Path> paths = pathsOf(inside, skeleton, voxels);
-    const Labelling labelling = options.method == SubdivideMethod::thesis
+    const ThesisPieces pieces = options.method == SubdivideMethod::thesis
                                     ? thesisPieces(inside, skeleton, paths, options, specified, progress)
-                                    : floodPieces(inside, skeleton, paths, length_mm, std::move(flood));
+                                    : ThesisPieces{floodPieces(inside, skeleton, paths, length_mm, std::move(flood))};
     progress.check();
     progress.report(0.6, "subdividing");
 
@@ -89,12 +89,13 @@ Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const
     for (const Path& path : paths)
         for (const PathVoxel& v : path.voxels)
             anchors.push_back(v.voxel);
-    NumberedSegments numbered = numberSegments(inside, labelling.label, labelling.pieces, anchors);
+    NumberedSegments numbered = numberSegments(inside, pieces.labelling.label, pieces.labelling.pieces, anchors);
     progress.check();
     progress.report(0.8, "subdividing");
 
     Subdivided result =
         describe(std::move(numbered), nameIn(kSubdivideMethodNames, options.method), options, specified);
+    result.description.statistics.update(pieces.measures);
     progress.report(1, "subdividing");
     return result;
 }
