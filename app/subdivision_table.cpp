@@ -16,6 +16,7 @@ std::vector<std::string> cellsOf(const std::string& scan, const pipeline::Subdiv
     const auto number = [&](const char* key, int decimals) {
         return formatNumber(row.statistics.value(key, 0.0), decimals);
     };
+    const auto cost = [&](const char* key) { return row.statistics.contains(key) ? number(key, 2) : std::string("-"); };
     const bool thesis = row.options.method == steps::SubdivideMethod::thesis;
     return {scan,
             nameIn(steps::kSubdivideMethodNames, row.options.method),
@@ -24,7 +25,10 @@ std::vector<std::string> cellsOf(const std::string& scan, const pipeline::Subdiv
             number("segments", 0) + " / " + number("specified_segments", 0),
             number("triangles_average", 0),
             number("triangles_largest", 0) + " / " + number("triangles_smallest", 0),
-            number("triangles_standard_deviation", 2)};
+            number("triangles_standard_deviation", 2),
+            cost("choice_cost"),
+            cost("choice_cost_at_least"),
+            cost("choice_cost_neighbours_only")};
 }
 
 }  // namespace
@@ -41,10 +45,11 @@ int printSubdivisionTable(CaseStore& store, const Config& config, const Worklist
              pipeline::subdivisionTable(folder, config, quantityOf(scan.record.series), progress))
             rows.push_back(cellsOf(scan.record.id, row));
     }
-    std::printf("%s", formatTable({"SCAN", "METHOD", "SIZE BY", "PORTALS BY", "SEGMENTS / SPECIFIED",
-                                   "AVERAGE TRIANGLES", "LARGEST / SMALLEST", "STANDARD DEVIATION"},
-                                  rows)
-                          .c_str());
+    std::printf("%s",
+                formatTable({"SCAN", "METHOD", "SIZE BY", "PORTALS BY", "SEGMENTS / SPECIFIED", "AVERAGE TRIANGLES",
+                             "LARGEST / SMALLEST", "STANDARD DEVIATION", "COST", "LEAST COST", "NEIGHBOURS ONLY"},
+                            rows)
+                    .c_str());
     return 0;
 }
 

@@ -81,9 +81,8 @@ Subcommand phantomCommand()
             auto arguments = std::make_shared<PhantomArguments>();
             phantom::PhantomOptions& options = arguments->options;
             command.option("OUT", arguments->out, "Folder to write to; made, and must be empty").required();
-            command
-                .option("--organ", arguments->organ, "Which organ; an airway and an aorta take --seed and --size alone")
-                .check(oneOf({"colon", "airway", "aorta"}))
+            command.option("--organ", arguments->organ, "Which organ; those but the colon take --seed and --size alone")
+                .check(oneOf({"colon", "airway", "aorta", "stomach"}))
                 .captureDefault();
             command.flag("--supine", arguments->supine, "Make the supine scan (default: supine and prone)");
             command.flag("--prone", arguments->prone, "Make the prone scan");

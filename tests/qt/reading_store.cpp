@@ -82,6 +82,17 @@ SeenWall reviewAllBut(const fs::path& store, const char* scan, const std::vector
     return {coverage.seenArea_mm2(), coverage.coverage().wholeArea_mm2()};
 }
 
+void sayOrgan(const fs::path& scan_folder, const std::string& organ)
+{
+    const auto file = scan_folder / "scan.json";
+    auto scan = nlohmann::json::parse(readFile(file));
+    scan["organ"] = organ;
+    scan["steps"]["segment"] = {
+        {"version", 1}, {"digest", ""},  {"parameters", nlohmann::json::object()}, {"result", {{"organ", organ}}},
+        {"seconds", 0}, {"finished", ""}};
+    replaceFile(file, scan.dump());
+}
+
 namespace {
 
 /// The way without what a cut took of its caecal end.
@@ -119,6 +130,8 @@ void addBridges(ReadingServices& services, const std::shared_ptr<Said>& state)
 {
     services.bridges = [state](CaseStore& store, const ScanRecord& scan) {
         const Skeleton path = scan_files::readSkeleton(store.scanFolder(scan.case_id, scan.id) / "skeleton.vtp");
+        if (path.empty())
+            return std::vector<ReviewedBridge>{};
         const std::lock_guard lock(state->mutex);
         const Bridge bridge{path.at(180).position_mm, path.at(200).position_mm, {}, 20, 0.7, "a short gap", true};
         return std::vector<ReviewedBridge>{{bridge, state->review}};
@@ -239,11 +252,11 @@ ReadingServices servicesFor(const fs::path& folder)
         const Skeleton path = scan_files::readSkeleton(store.scanFolder(case_id, marker.scan_id) / "skeleton.vtp");
         const SkeletonFoot foot = path.nearest(marker.position_mm);
         constexpr double kFar_mm = 60;
-        if (foot.distance_mm > kFar_mm)
+        if (!path.empty() && foot.distance_mm > kFar_mm)
             throw Error(ErrorCode::bad_input, "the point is not in the colon");
         marker.station_mm = foot.station_mm;
         marker.from_caecum_mm = path.length_mm() - foot.station_mm;
-        marker.fraction = foot.station_mm / path.length_mm();
+        marker.fraction = path.empty() ? 0 : foot.station_mm / path.length_mm();
         return marker;
     };
     services.report = [](CaseStore& store, const std::string& case_id) {

@@ -240,6 +240,8 @@ void addMarkerNames(Overlay& overlay, const std::vector<Marker>& markers, const 
 
 void addTips(Overlay& overlay, const Skeleton& skeleton, const OrganWords& words, const PlaneView& view, double text_px)
 {
+    if (skeleton.empty())
+        return;
     const Pixel first = view.toPixel(skeleton.at(0).position_mm);
     const Pixel last = view.toPixel(skeleton.at(skeleton.length_mm()).position_mm);
     for (const auto& [at, name] : {std::pair{first, words.first_end}, std::pair{last, words.last_end}}) {

@@ -96,6 +96,7 @@ void CoveragePanel::connectAll()
 void CoveragePanel::setStationTip(const QString& tip)
 {
     table_->horizontalHeaderItem(kMissedStation)->setToolTip(tip);
+    table_->setColumnHidden(kMissedStation, tip.isEmpty());
 }
 
 void CoveragePanel::setSeen(double fraction)

@@ -125,7 +125,7 @@ void PanoramaTool::scanOpened(const Arrival&)
     cube_->clearPicture(words);
     cube_->setNote({});
     band_->leave(words);
-    const bool one_way = reading_.scan()->files.tree().empty();
+    const bool one_way = reading_.scan()->files.tree().empty() && reading_.scan()->files.hasPath();
     band_on_->setEnabled(one_way);
     if (!one_way)
         band_on_->setChecked(false);

@@ -81,7 +81,9 @@ void Reading::showEndoscopic(const Picture& picture, const ShownPicture& shown)
     sayWhatIsDrawn();
     views_.endoscopic()->setProperty("shaded", shown.shaded);
     views_.endoscopic()->setAccessibleDescription(
-        tr("%1 mm from the %2").arg(shown.place.station_mm, 0, 'f', 0).arg(organWords().first_end.c_str()));
+        organWords().has_path
+            ? tr("%1 mm from the %2").arg(shown.place.station_mm, 0, 'f', 0).arg(organWords().first_end.c_str())
+            : tr("%1 mm from the wall").arg(shown.place.clearance_mm, 0, 'f', 0));
     emit endoscopicShown();
 }
 

@@ -83,9 +83,11 @@ public:
     virtual void stop() {}
 
 protected:
-    /// What a list's column of stations means.
+    /// What a list's column of stations means; empty where there are none.
     static QString stationTip(const OrganWords& words)
     {
+        if (!words.has_path)
+            return {};
         return tr("Distance from the %1 along the %2")
             .arg(QString::fromStdString(words.first_end), QString::fromStdString(words.organ.name()));
     }

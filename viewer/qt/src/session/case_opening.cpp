@@ -142,7 +142,7 @@ void CaseSession::load(const std::string& work, const ScanFiles& files, int bran
             CoverageKeeper::restore(made->coverage, folder);
             readOn(files);
             for (const auto& other : others)
-                if (other && other->record.id != made->record.id && (!stop || !*stop))
+                if (other && other->record.id != made->record.id && haveSamePlaces(*other, *made) && (!stop || !*stop))
                     maps_.between(*other, *made);
             return [made, then, stop] {
                 if (!stop || !*stop)

@@ -61,6 +61,7 @@ public:
     OpenScan* beside() const { return beside_.get(); }
     std::shared_ptr<OpenScan> sharedBeside() const { return beside_; }
     /// The stations of one open scan in another of the same patient.
+    /// Only where haveSamePlaces().
     StationMap mapBetween(const OpenScan& from, const OpenScan& to) { return maps_.between(from, to); }
     OpenScan* scan() const { return scan_.get(); }
     std::shared_ptr<OpenScan> sharedScan() const { return scan_; }

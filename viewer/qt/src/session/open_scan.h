@@ -29,6 +29,9 @@ struct OpenScan {
     QString inWords() const;
 };
 
+/// Whether a place of the one scan has a corresponding place in the other: a path leads through both.
+bool haveSamePlaces(const OpenScan& a, const OpenScan& b);
+
 /// When the files of a scan were made; what is open may be older.
 std::filesystem::file_time_type madeAt(const std::filesystem::path& folder);
 

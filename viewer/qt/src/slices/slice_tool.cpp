@@ -204,9 +204,14 @@ void SliceTool::track(Vector3 across, int slices)
     Navigator* navigator = reading_.navigator();
     if (!navigator)
         return;
-    navigator->setMode(NavigationMode::planned);
     const auto& spacing = reading_.scan()->files.volume().grid.spacing_mm;
     const double slice_mm = *std::min_element(spacing.begin(), spacing.end());
+    if (!navigator->hasPath()) {  // straight on, as far as the wall lets it
+        navigator->moveBy(across * (slice_mm * slices));
+        reading_.flewOn();
+        return;
+    }
+    navigator->setMode(NavigationMode::planned);
     const int sign = navigator->heading() == Heading::caecum ? 1 : -1;
     const double here = navigator->state().station_mm;
     const double there = stationSlicesOn(reading_.scan()->files.frames(), here, across, slice_mm, slices * sign);
