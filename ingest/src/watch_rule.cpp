@@ -1,17 +1,11 @@
-#include <fnmatch.h>
-
 #include <algorithm>
 
 #include "dates.h"
+#include "pattern.h"
 #include "vicon/ingest/watch.h"
 
 namespace vicon::ingest {
 namespace {
-
-bool isLike(const std::string& text, const std::string& pattern)
-{
-    return ::fnmatch(pattern.c_str(), text.c_str(), FNM_CASEFOLD) == 0;
-}
 
 bool isOneOf(const std::string& text, const std::vector<std::string>& patterns)
 {

@@ -33,6 +33,7 @@ protected:
             sent.insert(fingerprint(readFile(file)));
         for (const fs::path& file : writeSeries(folder / "other", other))
             files.push_back(file);
+        describe(folder / "other");
         ASSERT_TRUE(ingest::storeFiles(orthanc.peer(), files, "VICON", quiet).complete());
     }
     std::vector<std::string> uidsOf(const ingest::StudyQuery& query)
@@ -59,6 +60,10 @@ TEST_F(Retrieve, FindsStudiesByWhatTheyAreAskedFor)
         EXPECT_THROW(uidsOf({.dates = none}), Error) << none;
     EXPECT_EQ(uidsOf({.study_uid = wanted.study_uid}), Uids{wanted.study_uid});
     EXPECT_EQ(uidsOf({.modality = "MR"}), Uids{});
+    EXPECT_EQ(uidsOf({.description = "*COLONOGRAPHY"}), Uids{other.study_uid});
+    EXPECT_EQ(uidsOf({.description = "*prone*"}), Uids{}) << "that is the series'";
+    EXPECT_EQ(uidsOf({.series_description = "PRONE*"}), Uids{other.study_uid});
+    EXPECT_EQ(uidsOf({.description = "CT*", .series_description = "supine*"}), Uids{});
     const auto study = ingest::findStudies(orthanc.peer(), {.patient_id = "P1"}, "VICON", quiet).at(0);
     EXPECT_EQ(study.patient_name, "Doe^Jane");
     EXPECT_EQ(study.date, "20260102");

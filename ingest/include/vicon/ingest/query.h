@@ -19,6 +19,9 @@ struct StudyQuery {
     std::string accession_number;
     std::string study_uid;
     std::string modality = "CT";  ///< that some series of the study has
+    std::string description;      ///< of the study; in any case or not, as the peer matches
+    std::string
+        series_description;  ///< that some series of the study has, in any case; each study is asked for its own
 };
 
 /// A study as the peer describes it; UTF-8, empty where the peer says nothing.
