@@ -6,6 +6,7 @@
 
 #include "dicom_writer.h"
 #include "orthanc.h"
+#include "running_receiver.h"
 #include "store_fixture.h"
 #include "vicon/ingest/query.h"
 #include "vicon/ingest/receiver.h"
@@ -135,6 +136,20 @@ TEST_F(Retrieve, HasASeriesMovedToTheReceiver)
     thread.join();
     EXPECT_EQ(result.completed, wanted.slices);
     EXPECT_EQ(got, sent);
+}
+
+TEST_F(Retrieve, MovesOnlyWhatIsMissing)
+{
+    const RunningReceiver receiver(store.folder() / "incoming", {.port = port});
+    const auto move = [&](const std::set<std::string>& have) {
+        return ingest::moveSeries(orthanc.peer(), wanted.study_uid, {wanted.series_uid}, "VICON", "VICON", quiet, have)
+            .completed;
+    };
+    std::set<std::string> have{wanted.sopUid(0), wanted.sopUid(7)};
+    EXPECT_EQ(move(have), wanted.slices - 2);
+    for (int n = 0; n < wanted.slices; ++n)
+        have.insert(wanted.sopUid(n));
+    EXPECT_EQ(move(have), 0);
 }
 
 TEST_F(Retrieve, SaysWhatThePeerRefuses)

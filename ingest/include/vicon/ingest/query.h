@@ -73,8 +73,10 @@ RetrieveResult getSeries(const Peer& peer, const std::string& study_uid, const s
                          const std::set<std::string>& have = {});
 
 /// Has a peer send series to the listener `destination_ae_title` (C-MOVE, study root), which the peer must know and
-/// which must be listening: see Receiver. Throws Error{peer}, Error{cancelled}.
+/// which must be listening: see Receiver. Objects of `have` (SOP Instance UIDs) are not asked for, so that a retrieval
+/// that failed half-way goes on with what is missing. Throws Error{peer}, Error{cancelled}.
 RetrieveResult moveSeries(const Peer& peer, const std::string& study_uid, const std::vector<std::string>& series_uids,
-                          const std::string& destination_ae_title, const std::string& our_ae_title, Progress& progress);
+                          const std::string& destination_ae_title, const std::string& our_ae_title, Progress& progress,
+                          const std::set<std::string>& have = {});
 
 }  // namespace vicon::ingest
