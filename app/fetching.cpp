@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -171,6 +172,17 @@ Fetched fetchByMove(Context& context, const std::string& study_uid, const ingest
     return fetched;
 }
 
+/// The objects below a folder; nothing where the listener removed a folder while it was read.
+std::optional<std::vector<fs::path>> objectsIn(const fs::path& folder)
+{
+    std::vector<fs::path> objects;
+    std::error_code gone;
+    for (fs::recursive_directory_iterator at(folder, gone), end; !gone && at != end; at.increment(gone))
+        if (at->path().extension() == ".dcm")
+            objects.push_back(at->path());
+    return gone ? std::nullopt : std::optional(objects);
+}
+
 }  // namespace
 
 Fetched fetchSeries(Context& context, const std::string& study_uid, const ingest::Peer& peer,
@@ -183,12 +195,14 @@ Fetched fetchSeries(Context& context, const std::string& study_uid, const ingest
 void waitForListener(Context& context, Progress& progress)
 {
     constexpr auto kLook = std::chrono::milliseconds(200);
-    std::vector<fs::path> waiting;  // what others send meanwhile is not waited for
-    std::error_code gone;
-    for (const auto& entry : fs::recursive_directory_iterator(incomingOf(context.store()), gone))
-        if (entry.path().extension() == ".dcm")
-            waiting.push_back(entry.path());
-    while (std::any_of(waiting.begin(), waiting.end(), [](const fs::path& file) { return fs::exists(file); })) {
+    const fs::path incoming = incomingOf(context.store());
+    auto waiting = objectsIn(incoming);  // what others send meanwhile is not waited for
+    while (!waiting && fs::exists(incoming)) {
+        progress.check();
+        waiting = objectsIn(incoming);
+    }
+    while (waiting &&
+           std::any_of(waiting->begin(), waiting->end(), [](const fs::path& file) { return fs::exists(file); })) {
         progress.check();
         progress.report(1, "the listener imports");
         std::this_thread::sleep_for(kLook);

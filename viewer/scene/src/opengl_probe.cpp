@@ -113,7 +113,7 @@ bool drawsWithOpenGl(::Display* display)
 std::string openGlRenderer(const Display& display)
 {
     ::Display* connection = XOpenDisplay(display.name().c_str());
-    const std::string renderer = connection ? rendererOn(connection) : "";
+    std::string renderer = connection ? rendererOn(connection) : "";
     if (connection)
         XCloseDisplay(connection);
     if (renderer.empty())
