@@ -37,18 +37,21 @@ try {
 bool hasMarkers(CaseStore& store, const ScanRecord& scan)
 {
     int markers = 0;
-    store.database().session() << "SELECT COUNT(*) FROM markers WHERE case_id = :c AND scan_id = :s",
-        soci::use(scan.case_id), soci::use(scan.id), soci::into(markers);
+    store.database().read([&](soci::session& sql) {
+        sql << "SELECT COUNT(*) FROM markers WHERE case_id = :c AND scan_id = :s", soci::use(scan.case_id),
+            soci::use(scan.id), soci::into(markers);
+    });
     return markers > 0;
 }
 
 bool hasReport(CaseStore& store, const std::string& case_id)
 {
     int reports = 0, versions = 0;
-    store.database().session() << "SELECT COUNT(*) FROM audit WHERE event = 'report written' AND case_id = :c",
-        soci::use(case_id), soci::into(reports);
-    store.database().session() << "SELECT COUNT(*) FROM report_versions WHERE case_id = :c", soci::use(case_id),
-        soci::into(versions);
+    store.database().read([&](soci::session& sql) {
+        sql << "SELECT COUNT(*) FROM audit WHERE event = 'report written' AND case_id = :c", soci::use(case_id),
+            soci::into(reports);
+        sql << "SELECT COUNT(*) FROM report_versions WHERE case_id = :c", soci::use(case_id), soci::into(versions);
+    });
     return reports + versions > 0;
 }
 
