@@ -7,6 +7,7 @@
 #include "../command.h"
 #include "../peers.h"
 #include "vicon/cases/purge.h"
+#include "vicon/cases/store_figures.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/ingest/receiver.h"
@@ -62,6 +63,16 @@ std::string checkDatabase(Context& context)
     return "whole";
 }
 
+/// No fault, but nobody else says that it waits for a person.
+std::string checkQuarantine(Context& context)
+{
+    const Quarantine found = quarantineOf(context.store());
+    if (found.objects == 0)
+        return "empty";
+    return std::to_string(found.objects) + " objects since " + found.since + ", in " +
+           (context.store().folder() / "quarantine").string() + "; the log says of each why";
+}
+
 std::string checkPeer(const Config& config, const std::string& name)
 {
     const ingest::Peer peer = requirePeer(config, name);
@@ -112,6 +123,7 @@ int doctor(Context& context)
         checked("configuration", [&] { return std::to_string(context.config().specs().size()) + " options"; }),
         checked("store", [&] { return checkStore(context); }),
         checked("database", [&] { return checkDatabase(context); }),
+        checked("quarantine", [&] { return checkQuarantine(context); }),
         checked("disk space", [&] { return checkSpace(context); }),
         checked("memory", [] { return checkMemory(); }),
         checked("display", [] { return checkDisplay(); }),

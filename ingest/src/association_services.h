@@ -2,8 +2,6 @@
 
 #include <dcmtk/config/osconfig.h>
 
-#include <dcmtk/dcmnet/scpthrd.h>
-
 #include <string>
 
 #include "storage_association.h"
@@ -14,6 +12,6 @@ namespace vicon::ingest {
 std::string printableTitle(std::string title);
 
 /// What is taken of what the association offers, by what this peer may do. @param peer null: everything
-DcmSCPConfig configFor(const StorageService& service, const Peer* peer, const T_ASC_Association& association);
+Services servicesFor(const StorageService& service, const Peer* peer, const T_ASC_Association& association);
 
 }  // namespace vicon::ingest
