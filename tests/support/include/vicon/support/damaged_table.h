@@ -1,9 +1,6 @@
 #pragma once
 
-#include <sqlite3.h>
-
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 namespace vicon::support {
@@ -11,37 +8,12 @@ namespace vicon::support {
 /// Overwrites the page at which a table of a store's SQLite database begins.
 class DamagedTable {
 public:
-    DamagedTable(const std::filesystem::path& store, const std::string& table) : file_(store / "vicon.db")
-    {
-        sqlite3* database = nullptr;
-        sqlite3_open(file_.c_str(), &database);
-        numberSaid(database, "PRAGMA wal_checkpoint(TRUNCATE)");
-        page_.resize(std::size_t(numberSaid(database, "PRAGMA page_size")));
-        const long page = numberSaid(database, "SELECT rootpage FROM sqlite_master WHERE name = '" + table + "'");
-        sqlite3_close(database);
-        at_ = (page - 1) * long(page_.size());
-        std::ifstream(file_, std::ios::binary).seekg(at_).read(page_.data(), std::streamsize(page_.size()));
-        write(std::string(page_.size(), '\xa5'));
-    }
-    void mend() const { write(page_); }
+    DamagedTable(const std::filesystem::path& store, const std::string& table);
+    /// Puts the page back. Who has read it meanwhile may not see that.
+    void mend() const;
 
 private:
-    static long numberSaid(sqlite3* database, const std::string& sql)
-    {
-        long number = 0;
-        const auto first = [](void* to, int, char** values, char**) {
-            *static_cast<long*>(to) = std::stol(values[0]);
-            return 0;
-        };
-        sqlite3_exec(database, sql.c_str(), first, &number, nullptr);
-        return number;
-    }
-    void write(const std::string& page) const
-    {
-        std::fstream(file_, std::ios::binary | std::ios::in | std::ios::out)
-            .seekp(at_)
-            .write(page.data(), std::streamsize(page.size()));
-    }
+    void write(const std::string& page) const;
 
     std::filesystem::path file_;
     std::string page_;
