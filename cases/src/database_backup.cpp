@@ -105,9 +105,11 @@ void requireUndamagedCopy(const std::filesystem::path& file)
         return 0;
     };
     bool is_ok = false;
-    const int result = sqlite_api::sqlite3_exec(copy.get(), "PRAGMA integrity_check(1)", says_ok, &is_ok, nullptr);
+    // Alone with it: no room is needed for what several share.
+    const int result = sqlite_api::sqlite3_exec(
+        copy.get(), "PRAGMA locking_mode = EXCLUSIVE; PRAGMA integrity_check(1)", says_ok, &is_ok, nullptr);
     if (result != SQLITE_OK || !is_ok)
-        throw failure("it is damaged", file);
+        throw failure(result == SQLITE_OK ? "it is damaged" : sqlite_api::sqlite3_errstr(result), file);
 }
 
 void backUpDatabase(Database& database, const std::filesystem::path& file)
