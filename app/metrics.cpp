@@ -25,6 +25,13 @@ ClientMetric gauge(double value)
     return metric;
 }
 
+ClientMetric counter(long long value)
+{
+    ClientMetric metric;
+    metric.counter.value = double(value);
+    return metric;
+}
+
 ClientMetric labelled(ClientMetric metric, const std::string& name, const std::string& value)
 {
     metric.label = {{name, value}};
@@ -68,6 +75,8 @@ std::vector<MetricFamily> familiesOf(const StoreFigures& figures)
         family("vicon_cases", "Cases in the store.", {gauge(double(figures.cases))}),
         family("vicon_scans", "Scans in the store.", {gauge(double(figures.scans))}),
         family("vicon_instances", "DICOM instances in the store.", {gauge(double(figures.instances))}),
+        family("vicon_quarantine_objects", "Objects in quarantine, for a person to look at.",
+               {gauge(double(figures.quarantined))}),
         family("vicon_store_free_bytes", "Free space on the store's disk.", {gauge(figures.free_bytes)}),
         family("vicon_step_seconds", "Time that steps took, over all scans on which they are done.", std::move(steps),
                MetricType::Summary),
@@ -99,10 +108,35 @@ private:
     mutable std::optional<CaseStore> store_;
 };
 
+class ReceiverCollectable : public prometheus::Collectable {
+public:
+    explicit ReceiverCollectable(std::shared_ptr<const ingest::ReceiverCounts> counts) : counts_(std::move(counts)) {}
+
+    std::vector<MetricFamily> Collect() const override
+    {
+        const auto served = [](const std::string& name, const std::string& help, long long yes, long long no) {
+            return family(name, help,
+                          {labelled(counter(yes), "answer", "accepted"), labelled(counter(no), "answer", "refused")},
+                          MetricType::Counter);
+        };
+        return {
+            served("vicon_received_associations_total", "Associations that peers asked for.", counts_->associations,
+                   counts_->refused_associations),
+            served("vicon_received_objects_total", "Objects that peers sent.", counts_->objects,
+                   counts_->refused_objects),
+            family("vicon_received_last_object_timestamp_seconds", "When the last object was accepted; 0: none was.",
+                   {gauge(counts_->last_object_s)}),
+        };
+    }
+
+private:
+    std::shared_ptr<const ingest::ReceiverCounts> counts_;
+};
+
 }  // namespace
 
 struct MetricsServer::Parts {
-    std::shared_ptr<prometheus::Collectable> figures;
+    std::shared_ptr<prometheus::Collectable> figures, received;
     prometheus::Exposer exposer;  // ends first
 
     Parts(const StorePlace& place, const std::string& address)
@@ -129,5 +163,13 @@ MetricsServer::MetricsServer(const StorePlace& place, const Config& config)
 }
 
 MetricsServer::~MetricsServer() = default;
+
+void MetricsServer::add(std::shared_ptr<const ingest::ReceiverCounts> counts)
+{
+    if (!parts_)
+        return;
+    parts_->received = std::make_shared<ReceiverCollectable>(std::move(counts));
+    parts_->exposer.RegisterCollectable(parts_->received);
+}
 
 }  // namespace vicon::app

@@ -5,6 +5,7 @@
 
 #include "vicon/cases/case_store.h"
 #include "vicon/core/options.h"
+#include "vicon/ingest/receiver.h"
 
 namespace vicon::app {
 
@@ -29,6 +30,9 @@ public:
     ~MetricsServer();
     MetricsServer(const MetricsServer&) = delete;
     MetricsServer& operator=(const MetricsServer&) = delete;
+
+    /// Gives what a receiver has done as well.
+    void add(std::shared_ptr<const ingest::ReceiverCounts> counts);
 
 private:
     struct Parts;

@@ -8,6 +8,7 @@
 #include "../peers.h"
 #include "../store_disk.h"
 #include "vicon/cases/purge.h"
+#include "vicon/cases/store_figures.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/ingest/receiver.h"
@@ -68,6 +69,16 @@ std::string checkDatabase(Context& context)
         throw Error(ErrorCode::database, "the database is damaged (" + damage.substr(0, damage.find('\n')) + ")",
                     database.where(), "restore it from a backup");
     return "whole, schema version " + std::to_string(Database::kSchemaVersion);
+}
+
+/// No fault, but nobody else says that it waits for a person.
+std::string checkQuarantine(Context& context)
+{
+    const Quarantine found = quarantineOf(context.store());
+    if (found.objects == 0)
+        return "empty";
+    return std::to_string(found.objects) + " objects since " + found.since + ", in " +
+           (context.store().folder() / "quarantine").string() + "; the log says of each why";
 }
 
 std::string checkPeer(const Config& config, const std::string& name)
@@ -144,6 +155,7 @@ int doctor(Context& context)
         checked("configuration", [&] { return std::to_string(context.config().specs().size()) + " options"; }),
         checked("store", [&] { return checkFolder(place.folder, !place.database.empty()); }),
         checked("database", [&] { return checkDatabase(context); }),
+        checked("quarantine", [&] { return checkQuarantine(context); }),
         checked("disk space", [&] { return checkSpace(place.folder); }),
         checked("memory", [] { return checkMemory(); }),
         checked("fonts", [&] { return checkFonts(report.font_folder); }),

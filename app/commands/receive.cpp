@@ -78,7 +78,7 @@ int receive(Context& context, bool no_work)
 {
     const Config& config = context.config();
     const ingest::ReceiverOptions options = config.get<ingest::ReceiverOptions>();
-    const MetricsServer metrics(context.storePlace(), config);
+    MetricsServer metrics(context.storePlace(), config);
     CaseStore store(context.storePlace());  // one of its own: the receiver imports on its own thread
     std::optional<ingest::Completeness> completeness;
     if (!options.count_at.empty())
@@ -97,6 +97,7 @@ int receive(Context& context, bool no_work)
          .on_demand = [&](const ingest::CommitmentDemand& demand) { return giveCommitment(store.place(), demand); },
          .on_quiet = missing},
         networkOf(config));
+    metrics.add(receiver.counts());
     std::printf("listening on port %d of %s\n", receiver.port(), options.address.c_str());
     std::fflush(stdout);
     std::thread worker;

@@ -8,6 +8,7 @@
 #include "vicon/cases/orders.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/cases/worklist.h"
+#include "vicon/core/error.h"
 
 namespace vicon::app {
 namespace {
@@ -16,6 +17,7 @@ struct ShowArguments {
     std::string case_id;
     std::string scan_id;
     bool subdivision_table = false;
+    int settle = 0;  ///< which of the case's flags, counted from 1; 0: none
 };
 
 /// Parts of the colon and how well the scan shows them.
@@ -120,9 +122,23 @@ void printOrder(const CaseRecord& record, const std::optional<Order>& order)
                     order->reason.empty() ? "" : ": ", order->reason.c_str(), order->peer.c_str());
 }
 
+void settle(CaseStore& store, const CaseRecord& record, int number)
+{
+    if (std::size_t(number) > record.flags.size())
+        throw Error(ErrorCode::wrong_use, "the case has " + std::to_string(record.flags.size()) + " flags",
+                    "--settle " + std::to_string(number), "'vicon show " + record.id + "' lists them, marked by '!'");
+    const std::string flag = record.flags[std::size_t(number) - 1];
+    store.settleFlag(record.id, flag);
+    std::printf("settled: %s\n", flag.c_str());
+}
+
 int show(Context& context, const ShowArguments& arguments)
 {
     CaseStore& store = context.existingStore();
+    if (arguments.settle > 0) {
+        settle(store, store.requireCase(arguments.case_id), arguments.settle);
+        return 0;
+    }
     const CaseRecord record = store.requireCase(arguments.case_id);
     const WorklistCase c = makeWorklistCase(store, context.config().get<QueueOptions>(), record);
     if (arguments.subdivision_table)
@@ -157,6 +173,9 @@ Subcommand showCommand()
                 auto arguments = std::make_shared<ShowArguments>();
                 command.option("CASE", arguments->case_id, "The case's id").required();
                 command.option("--scan", arguments->scan_id, "Only this scan").typeName("SCAN");
+                command.option("--settle", arguments->settle, "Take the Nth line marked by '!' away: it is decided")
+                    .typeName("N")
+                    .check(range(1, 1000));
                 command.flag(
                     "--subdivision-table", arguments->subdivision_table,
                     "Divide the lumen in every way, and show segments and triangles a cell, as the thesis' Table 2");

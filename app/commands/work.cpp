@@ -82,6 +82,7 @@ int work(Context& context, const WorkArguments& arguments)
     if (arguments.jobs == 1)
         keepMemory();
     CaseStore& store = context.existingStore();
+    store.database().requireReadable();  // an empty queue is no news of a store whose cases are lost
     const auto queue_options = context.config().get<QueueOptions>();
     if (arguments.retry)
         retryFailed(store, queue_options);

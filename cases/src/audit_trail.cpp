@@ -42,30 +42,33 @@ json toJson(const AuditLine& line)
 
 std::vector<AuditLine> auditTrail(CaseStore& store, const std::string& case_id)
 {
-    const soci::rowset<soci::row> rows =
-        (store.database().session().prepare << "SELECT * FROM audit WHERE case_id = :c ORDER BY rowid",
-         soci::use(case_id));
-    return collect(rows, lineFrom);
+    return store.database().read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT * FROM audit WHERE case_id = :c ORDER BY rowid", soci::use(case_id));
+        return collect(rows, lineFrom);
+    });
 }
 
 std::vector<NumberedAuditLine> auditAfter(CaseStore& store, long long number, int most)
 {
-    std::vector<NumberedAuditLine> out;
-    const soci::rowset<soci::row> rows =
-        (store.database().session().prepare
-             << "SELECT rowid AS number, audit.* FROM audit WHERE rowid > :n ORDER BY rowid LIMIT :most",
-         soci::use(number), soci::use(most));
-    for (const soci::row& row : rows)
-        out.push_back({numberIn(row), row.get<std::string>("case_id"), lineFrom(row)});
-    return out;
+    return store.database().read([&](soci::session& sql) {
+        std::vector<NumberedAuditLine> out;
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT rowid AS number, audit.* FROM audit WHERE rowid > :n ORDER BY rowid LIMIT :most",
+             soci::use(number), soci::use(most));
+        for (const soci::row& row : rows)
+            out.push_back({numberIn(row), row.get<std::string>("case_id"), lineFrom(row)});
+        return out;
+    });
 }
 
 long long lastToldAudit(CaseStore& store)
 {
     const std::string name = kTold;
     long long number = 0;
-    store.database().session() << "SELECT COALESCE(MAX(value), 0) FROM counters WHERE name = :n", soci::use(name),
-        soci::into(number);
+    store.database().read([&](soci::session& sql) {
+        sql << "SELECT COALESCE(MAX(value), 0) FROM counters WHERE name = :n", soci::use(name), soci::into(number);
+    });
     return number;
 }
 

@@ -151,6 +151,7 @@ Copied backUp(CaseStore& store, const fs::path& given, Progress& progress)
 {
     const fs::path to = wholeNameOf(given);
     requirePlace(to, store.folder());
+    requireUndamaged(store.database());  // before anything of an earlier backup changes
     makePrivateFolder(to);
     writeAbout(to, false, 0);
     Copied sum;
@@ -171,6 +172,7 @@ Copied backUp(CaseStore& store, const fs::path& given, Progress& progress)
             mirror(store.folder() / scan, to / scan, sum, progress);
         }
     });
+    requireUndamagedCopy(to / backupNameOf(store.place().database));  // its folders took long to copy
     flushDiskOf(to);
     writeAbout(to, true, sum.cases);
     return sum;
@@ -196,7 +198,7 @@ Copied restore(const fs::path& backup, const StorePlace& given, Progress& progre
         {
             CaseStore store({making, given.database});
             requireWhole(store, progress);
-            copied.cases = countCases(store.database().session());
+            copied.cases = store.database().read(countCases);
         }
         flushDiskOf(making);
         fs::remove(to, none);

@@ -46,8 +46,10 @@ std::vector<std::pair<fs::path, fs::path>> placesOf(const CaseStore& store, cons
 int countIn(CaseStore& store, const char* table, const std::string& case_id)
 {
     int count = 0;
-    store.database().session() << std::string("SELECT COUNT(*) FROM ") + table + " WHERE case_id = :c",
-        soci::use(case_id), soci::into(count);
+    store.database().read([&](soci::session& sql) {
+        sql << std::string("SELECT COUNT(*) FROM ") + table + " WHERE case_id = :c", soci::use(case_id),
+            soci::into(count);
+    });
     return count;
 }
 
@@ -180,8 +182,9 @@ std::vector<std::string> deleteKeptReports(CaseStore& store, soci::session& sql,
 bool holds(CaseStore& store, const Deletion& deletion)
 {
     int count = 0;
-    store.database().session() << "SELECT COUNT(*) FROM deletions WHERE mark = :m", soci::use(deletion.mark),
-        soci::into(count);
+    store.database().read([&](soci::session& sql) {
+        sql << "SELECT COUNT(*) FROM deletions WHERE mark = :m", soci::use(deletion.mark), soci::into(count);
+    });
     return count > 0;
 }
 

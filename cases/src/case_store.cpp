@@ -88,7 +88,7 @@ void CaseStore::makeSearchWords()
 {
     constexpr const char* kIsMade = "SELECT COUNT(*) FROM counters WHERE name = 'search words'";
     int made = 0;
-    database_.session() << kIsMade, soci::into(made);
+    database_.read([&](soci::session& sql) { sql << kIsMade, soci::into(made); });
     if (made > 0)
         return;
     database_.write([&](soci::session& sql) {
@@ -123,32 +123,38 @@ std::string CaseStore::scanIdFor(const std::string& scan_key)
 
 std::vector<CaseRecord> CaseStore::cases()
 {
-    const soci::rowset<soci::row> rows = (database_.session().prepare << "SELECT * FROM cases ORDER BY created, id");
-    return collect(rows, caseFrom);
+    return database_.read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows = (sql.prepare << "SELECT * FROM cases ORDER BY created, id");
+        return collect(rows, caseFrom);
+    });
 }
 
 std::optional<CaseRecord> CaseStore::findCase(const std::string& case_id)
 {
-    const soci::rowset<soci::row> rows =
-        (database_.session().prepare << "SELECT * FROM cases WHERE id = :id", soci::use(case_id));
-    const auto found = collect(rows, caseFrom);
+    const auto found = database_.read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows = (sql.prepare << "SELECT * FROM cases WHERE id = :id", soci::use(case_id));
+        return collect(rows, caseFrom);
+    });
     return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 std::optional<CaseRecord> CaseStore::findCaseByStudy(const std::string& study_uid)
 {
-    const soci::rowset<soci::row> rows =
-        (database_.session().prepare << "SELECT * FROM cases WHERE study_uid = :uid", soci::use(study_uid));
-    const auto found = collect(rows, caseFrom);
+    const auto found = database_.read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT * FROM cases WHERE study_uid = :uid", soci::use(study_uid));
+        return collect(rows, caseFrom);
+    });
     return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 std::vector<CaseRecord> CaseStore::findCasesByPatient(const std::string& patient_id)
 {
-    const soci::rowset<soci::row> rows =
-        (database_.session().prepare << "SELECT * FROM cases WHERE patient_id = :id ORDER BY id",
-         soci::use(patient_id));
-    return collect(rows, caseFrom);
+    return database_.read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT * FROM cases WHERE patient_id = :id ORDER BY id", soci::use(patient_id));
+        return collect(rows, caseFrom);
+    });
 }
 
 CaseRecord CaseStore::requireCase(const std::string& case_id)
@@ -167,17 +173,20 @@ CaseRecord CaseStore::requireCase(const std::string& case_id)
 
 std::vector<ScanRecord> CaseStore::scans(const std::string& case_id)
 {
-    const soci::rowset<soci::row> rows =
-        (database_.session().prepare << "SELECT * FROM scans WHERE case_id = :id ORDER BY role DESC, id",
-         soci::use(case_id));
-    return inOrder(collect(rows, scanFrom));
+    return inOrder(database_.read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT * FROM scans WHERE case_id = :id ORDER BY role DESC, id", soci::use(case_id));
+        return collect(rows, scanFrom);
+    }));
 }
 
 std::vector<ScanRecord> CaseStore::scans(const std::vector<CaseRecord>& cases)
 {
-    const soci::rowset<soci::row> rows = (database_.session().prepare << "SELECT * FROM scans WHERE case_id IN " +
-                                                                             inList(cases) + " ORDER BY role DESC, id");
-    return inOrder(collect(rows, scanFrom));
+    return inOrder(database_.read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT * FROM scans WHERE case_id IN " + inList(cases) + " ORDER BY role DESC, id");
+        return collect(rows, scanFrom);
+    }));
 }
 
 ScanRecord CaseStore::requireScan(const std::string& case_id, const std::string& scan_id)
@@ -197,18 +206,22 @@ ScanRecord CaseStore::requireScan(const std::string& case_id, const std::string&
 
 std::optional<InstanceRecord> CaseStore::findInstance(const std::string& sop_uid)
 {
-    const soci::rowset<soci::row> rows =
-        (database_.session().prepare << "SELECT * FROM instances WHERE sop_uid = :uid", soci::use(sop_uid));
-    const auto found = collect(rows, instanceFrom);
+    const auto found = database_.read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT * FROM instances WHERE sop_uid = :uid", soci::use(sop_uid));
+        return collect(rows, instanceFrom);
+    });
     return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 std::vector<InstanceRecord> CaseStore::instances(const std::string& case_id, const std::string& scan_id)
 {
-    const soci::rowset<soci::row> rows =
-        (database_.session().prepare << "SELECT * FROM instances WHERE case_id = :c AND scan_id = :s ORDER BY file",
-         soci::use(case_id), soci::use(scan_id));
-    return collect(rows, instanceFrom);
+    return database_.read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT * FROM instances WHERE case_id = :c AND scan_id = :s ORDER BY file",
+             soci::use(case_id), soci::use(scan_id));
+        return collect(rows, instanceFrom);
+    });
 }
 
 void CaseStore::addScan(const CaseRecord& a_case, const ScanRecord& scan, const std::vector<InstanceRecord>& instances,
@@ -249,33 +262,14 @@ void CaseStore::removeScan(const std::string& case_id, const std::string& scan_i
         fs::remove_all(scanFolder(case_id, scan_id), ignored);
 }
 
-void CaseStore::flag(const std::string& case_id, const std::string& line)
-{
-    auto flags = requireCase(case_id).flags;
-    if (std::find(flags.begin(), flags.end(), line) != flags.end())
-        return;
-    flags.push_back(line);
-    const std::string text = json(flags).dump();
-    database_.write([&](soci::session& sql) {
-        sql << "UPDATE cases SET flags = :flags WHERE id = :id", soci::use(text), soci::use(case_id);
-        putAudit(sql, "flagged", case_id, "", line);
-    });
-}
-
-bool CaseStore::wasFlagged(const std::string& case_id, const std::string& line)
-{
-    int count = 0;
-    database_.session() << "SELECT COUNT(*) FROM audit WHERE event = 'flagged' AND case_id = :c AND detail = :line",
-        soci::use(case_id), soci::use(line), soci::into(count);
-    return count > 0;
-}
-
 std::vector<StepRecord> CaseStore::steps(const std::string& case_id, const std::string& scan_id)
 {
-    const soci::rowset<soci::row> rows =
-        (database_.session().prepare << "SELECT * FROM steps WHERE case_id = :c AND scan_id = :s ORDER BY rowid",
-         soci::use(case_id), soci::use(scan_id));
-    return collect(rows, stepFrom);
+    return database_.read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT * FROM steps WHERE case_id = :c AND scan_id = :s ORDER BY rowid",
+             soci::use(case_id), soci::use(scan_id));
+        return collect(rows, stepFrom);
+    });
 }
 
 scan_files::ScanDescription CaseStore::describeScan(const std::string& case_id, const std::string& scan_id)

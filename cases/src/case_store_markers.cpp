@@ -146,12 +146,12 @@ void requireAsSeen(const MarkerRows& rows, const MarkerEdit& edit)
 
 std::vector<Marker> CaseStore::markers(const std::string& case_id)
 {
-    return MarkerRows(database_.session(), case_id).all();
+    return database_.read([&](soci::session& sql) { return MarkerRows(sql, case_id).all(); });
 }
 
 Marker CaseStore::requireMarker(const std::string& case_id, const std::string& marker_id)
 {
-    if (auto found = MarkerRows(database_.session(), case_id).find(marker_id))
+    if (auto found = database_.read([&](soci::session& sql) { return MarkerRows(sql, case_id).find(marker_id); }))
         return *found;
     throw Error(ErrorCode::not_found, "no marker '" + marker_id + "'", case_id,
                 "'vicon markers " + case_id + "' lists them");
@@ -210,13 +210,14 @@ std::vector<MarkerEdit> CaseStore::editMarkers(const std::string& case_id, std::
 void CaseStore::renewMarkerFiles()
 {
     const std::string pattern = kFileIsOld + "%";
-    std::vector<std::string> old;
-    {  // read to its end before the first of them is written
+    const auto old = database_.read([&](soci::session& sql) {  // to its end before the first of them is written
+        std::vector<std::string> cases;
         const soci::rowset<std::string> rows =
-            (database_.session().prepare << "SELECT name FROM counters WHERE name LIKE :pattern", soci::use(pattern));
+            (sql.prepare << "SELECT name FROM counters WHERE name LIKE :pattern", soci::use(pattern));
         for (const std::string& name : rows)
-            old.push_back(name.substr(kFileIsOld.size()));
-    }
+            cases.push_back(name.substr(kFileIsOld.size()));
+        return cases;
+    });
     for (const std::string& case_id : old)
         renewMarkerFiles(case_id);
 }

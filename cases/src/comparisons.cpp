@@ -155,7 +155,7 @@ std::vector<Comparison> comparisonsIn(soci::session& sql, const std::string& cas
 
 std::vector<Comparison> comparisons(CaseStore& store, const std::string& case_id)
 {
-    return comparisonsIn(store.database().session(), case_id);
+    return store.database().read([&](soci::session& sql) { return comparisonsIn(sql, case_id); });
 }
 
 std::optional<Comparison> findComparison(CaseStore& store, const std::string& case_id, const std::string& finding_id,

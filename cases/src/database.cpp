@@ -1,7 +1,9 @@
 #include "vicon/cases/database.h"
 
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <thread>
+#include <typeinfo>
 #include <utility>
 
 #include "database_engine.h"
@@ -198,7 +200,7 @@ soci::session& Database::session()
     return *session_;
 }
 
-void Database::read(const std::function<void(soci::session&)>& work)
+void Database::readAgain(const std::function<void(soci::session&)>& work)
 {
     for (int run = 1;; ++run) {
         try {
@@ -208,6 +210,10 @@ void Database::read(const std::function<void(soci::session&)>& work)
                 throw;
             if (run == kMostRuns || !engine_->isLost(*session_))
                 throw engine_->refusal(e, session_.get());
+        } catch (const nlohmann::json::exception&) {  // its words would hold the row's
+            throw engine_->damaged();
+        } catch (const std::bad_cast&) {
+            throw engine_->damaged();
         }
     }
 }
@@ -228,12 +234,17 @@ void Database::reconnect()
     }
 }
 
+void Database::requireReadable()
+{
+    read([&](soci::session& sql) { engine_->readBeginnings(sql); });
+}
+
 std::string Database::damage()
 {
     try {
         return engine_->damage(session());
     } catch (const soci::soci_error& e) {
-        return inOneLine(e.what());
+        return engine_->reasonOf(e);
     }
 }
 

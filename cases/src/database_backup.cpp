@@ -45,12 +45,14 @@ void copyAll(const std::string& from, const std::filesystem::path& to)
         throw failure(sqlite_api::sqlite3_errstr(copied == SQLITE_DONE ? finished : copied), to);
 }
 
-/// One line of what a program said.
+/// What a program said first; the lines after it quote rows.
 std::string reasonOf(const ProgramEnd& end, const std::string& program)
 {
     if (end.exit_code == kNoSuchProgram)
         return program + " is not here; install postgresql-client";
-    return program + ": " + inOneLine(end.said);
+    const std::size_t begin = std::min(end.said.find("error: "), end.said.size());
+    const std::string line = end.said.substr(begin, end.said.find('\n', begin) - begin);
+    return program + ": " + (line.empty() ? "exit code " + std::to_string(end.exit_code) : line);
 }
 
 void dumpServersDatabase(const std::string& address, const std::filesystem::path& file)
@@ -85,6 +87,29 @@ void restoreServersDatabase(const std::string& address, const std::filesystem::p
     if (end.exit_code != 0)
         throw Error(ErrorCode::database, "the database cannot be restored (" + reasonOf(end, "pg_restore") + ")",
                     "store.database", "see whether it is empty, and as new as the one that was backed up");
+}
+
+void requireUndamaged(Database& database)
+{
+    if (!isServerAddress(database.where()) && !database.damage().empty())
+        throw makeSqlite(database.where())->damaged();
+}
+
+void requireUndamagedCopy(const std::filesystem::path& file)
+{
+    if (file.filename() != backupNameOf({}))
+        return;
+    const Handle copy = open(file);
+    const auto says_ok = [](void* is_ok, int, char** values, char**) {
+        *static_cast<bool*>(is_ok) = values[0] == std::string("ok");
+        return 0;
+    };
+    bool is_ok = false;
+    // Alone with it: no room is needed for what several share.
+    const int result = sqlite_api::sqlite3_exec(
+        copy.get(), "PRAGMA locking_mode = EXCLUSIVE; PRAGMA integrity_check(1)", says_ok, &is_ok, nullptr);
+    if (result != SQLITE_OK || !is_ok)
+        throw failure(result == SQLITE_OK ? "it is damaged" : sqlite_api::sqlite3_errstr(result), file);
 }
 
 void backUpDatabase(Database& database, const std::filesystem::path& file)

@@ -17,6 +17,12 @@ std::string backupNameOf(const std::string& address);
 /// work on it meanwhile. Also within a write transaction of this connection. Throws Error{database}.
 void backUpDatabase(Database& database, const std::filesystem::path& file);
 
+/// Throws Error{database} for a damaged one of SQLite: its backup would be worth nothing. A server's is read by its
+/// pg_dump, which says itself what it cannot read.
+void requireUndamaged(Database& database);
+/// The same of a file that backUpDatabase() made.
+void requireUndamagedCopy(const std::filesystem::path& file);
+
 /// Fills an empty database of a server with what a file of backUpDatabase() holds, by pg_restore. Throws
 /// Error{database}; the database is as empty as before then. Throws Error{wrong_use} where it is not empty.
 void restoreServersDatabase(const std::string& address, const std::filesystem::path& file);

@@ -40,12 +40,17 @@ public:
     /// Whether the transaction gave way to another, and may be run again.
     virtual bool gaveWay(const soci::soci_error& e) = 0;
 
+    /// The database's own words in one line, without the statement and its values: those are patients'.
+    virtual std::string reasonOf(const soci::soci_error& e) = 0;
     /// In the reader's words where one can do something about it.
     virtual Error refusal(const soci::soci_error& e, soci::session* sql) = 0;
     virtual Error connectionBroke() = 0;
+    /// What is told where a page or a row is not as it was written.
+    virtual Error damaged() = 0;
     virtual Error cannotBeOpened(const soci::soci_error& e) = 0;
 
-    /// As Database::version() and damage().
+    /// As Database::requireReadable(), version() and damage().
+    virtual void readBeginnings(soci::session& sql) = 0;
     virtual std::string version(soci::session& sql) = 0;
     virtual std::string damage(soci::session& sql) = 0;
 };

@@ -52,7 +52,7 @@ void requireMarkers(CaseStore& store, const std::string& case_id, const FindingE
         const bool had = edit.before && std::count(edit.before->markers.begin(), edit.before->markers.end(), marker);
         if (!had)
             store.requireMarker(case_id, marker);
-        for (const Finding& other : allFindings(store.database().session(), case_id))
+        for (const Finding& other : findings(store, case_id))
             if (other.id != edit.after->id && std::count(other.markers.begin(), other.markers.end(), marker))
                 throw Error(ErrorCode::bad_input, "marker " + marker + " belongs to finding " + other.id + " already",
                             case_id, "take it out there first, or add its other markers to that finding");
@@ -93,13 +93,13 @@ std::string storedAssessment(soci::session& sql, const std::string& case_id)
 
 std::vector<Finding> findings(CaseStore& store, const std::string& case_id)
 {
-    return allFindings(store.database().session(), case_id);
+    return store.database().read([&](soci::session& sql) { return allFindings(sql, case_id); });
 }
 
 Finding requireFinding(CaseStore& store, const std::string& case_id, const std::string& finding_id)
 {
     for (const std::string& id : {finding_id, "f" + finding_id})
-        if (auto found = findFinding(store.database().session(), case_id, id))
+        if (auto found = store.database().read([&](soci::session& sql) { return findFinding(sql, case_id, id); }))
             return *found;
     throw Error(ErrorCode::not_found, "no finding '" + finding_id + "'", case_id,
                 "'vicon finding " + case_id + "' lists them");
@@ -146,7 +146,8 @@ std::vector<std::string> withPartners(CaseStore& store, const std::string& case_
 
 Assessment assessmentOf(CaseStore& store, const std::string& case_id)
 {
-    const std::string content = storedAssessment(store.database().session(), case_id);
+    const std::string content =
+        store.database().read([&](soci::session& sql) { return storedAssessment(sql, case_id); });
     return content.empty() ? Assessment{} : assessmentFromJson(json::parse(content));
 }
 

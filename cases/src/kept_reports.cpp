@@ -30,19 +30,22 @@ std::filesystem::path keptReportsFolder(const CaseStore& store)
 
 std::optional<KeptReport> findKeptReport(CaseStore& store, const std::string& sop_uid)
 {
-    const soci::rowset<soci::row> rows =
-        (store.database().session().prepare << "SELECT * FROM kept_reports WHERE sop_uid = :uid", soci::use(sop_uid));
-    const auto found = collect(rows, reportFrom);
+    const auto found = store.database().read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT * FROM kept_reports WHERE sop_uid = :uid", soci::use(sop_uid));
+        return collect(rows, reportFrom);
+    });
     return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 std::vector<KeptReport> keptReportsOf(CaseStore& store, const std::string& patient_id)
 {
-    const soci::rowset<soci::row> rows =
-        (store.database().session().prepare << "SELECT * FROM kept_reports WHERE patient_id = :id"
-                                               " ORDER BY study_date, sop_uid",
-         soci::use(patient_id));
-    return collect(rows, reportFrom);
+    return store.database().read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT * FROM kept_reports WHERE patient_id = :id ORDER BY study_date, sop_uid",
+             soci::use(patient_id));
+        return collect(rows, reportFrom);
+    });
 }
 
 void keepReport(CaseStore& store, const KeptReport& report)

@@ -41,9 +41,11 @@ void from_json(const json& in, Order& to)
 std::optional<Order> orderOf(CaseStore& store, const std::string& case_id)
 {
     std::string content;
-    soci::session& sql = store.database().session();
-    sql << "SELECT content FROM orders WHERE case_id = :c", soci::use(case_id), soci::into(content);
-    return sql.got_data() ? std::optional(json::parse(content).get<Order>()) : std::nullopt;
+    const bool found = store.database().read([&](soci::session& sql) {
+        sql << "SELECT content FROM orders WHERE case_id = :c", soci::use(case_id), soci::into(content);
+        return sql.got_data();
+    });
+    return found ? std::optional(json::parse(content).get<Order>()) : std::nullopt;
 }
 
 void keepOrder(CaseStore& store, const CaseRecord& with, Order order, const std::function<void()>& require)
@@ -67,12 +69,13 @@ void keepOrder(CaseStore& store, const CaseRecord& with, Order order, const std:
 
 std::vector<CaseRecord> casesWithoutOrder(CaseStore& store, const std::string& study_date, const std::string& created)
 {
-    const soci::rowset<soci::row> rows =
-        (store.database().session().prepare << "SELECT * FROM cases WHERE created >= :at AND NOT EXISTS (SELECT 1 FROM "
-                                               "orders WHERE case_id = cases.id)"
-                                               " ORDER BY created, id",
-         soci::use(created));
-    std::vector<CaseRecord> cases = collect(rows, caseFrom);
+    auto cases = store.database().read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT * FROM cases WHERE created >= :at AND NOT EXISTS"
+                            " (SELECT 1 FROM orders WHERE case_id = cases.id) ORDER BY created, id",
+             soci::use(created));
+        return collect(rows, caseFrom);
+    });
     std::erase_if(cases, [&](const CaseRecord& c) { return c.study.date < study_date; });
     return cases;
 }

@@ -42,7 +42,7 @@ double Outbox::nowIn(soci::session& sql) const
 
 double Outbox::now()
 {
-    return nowIn(database_.session());
+    return database_.read([&](soci::session& sql) { return nowIn(sql); });
 }
 
 void Outbox::settle(soci::session& sql, const OutboxItem& item)
@@ -246,15 +246,17 @@ int Outbox::report(const std::string& transaction_uid, const std::vector<std::st
 
 std::vector<OutboxItem> Outbox::items(const std::string& case_id)
 {
-    const soci::rowset<soci::row> rows =
-        (database_.session().prepare << "SELECT * FROM outbox WHERE :c = '' OR case_id = :c2 ORDER BY id",
-         soci::use(case_id), soci::use(case_id));
-    return collect(rows, outboxItemFrom);
+    return database_.read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT * FROM outbox WHERE :c = '' OR case_id = :c2 ORDER BY id", soci::use(case_id),
+             soci::use(case_id));
+        return collect(rows, outboxItemFrom);
+    });
 }
 
 std::optional<OutboxItem> Outbox::find(int id)
 {
-    return findOutboxItem(database_.session(), id);
+    return database_.read([&](soci::session& sql) { return findOutboxItem(sql, id); });
 }
 
 void Outbox::retry(int id)
@@ -285,18 +287,19 @@ void Outbox::drop(int id)
 
 std::optional<double> Outbox::nextDue()
 {
-    soci::session& sql = database_.session();
-    std::optional<double> due;
-    for (const char* earliest : {"SELECT MIN(not_before) FROM outbox WHERE state = 'queued'",
-                                 "SELECT MIN(not_before) FROM outbox WHERE state = 'sent'",
-                                 "SELECT MIN(lease_until) FROM outbox WHERE state = 'sending'"}) {
-        double at = 0;
-        soci::indicator there = soci::i_null;
-        sql << earliest, soci::into(at, there);
-        if (there == soci::i_ok)
-            due = std::min(due.value_or(at), at);
-    }
-    return due;
+    return database_.read([](soci::session& sql) {
+        std::optional<double> due;
+        for (const char* earliest : {"SELECT MIN(not_before) FROM outbox WHERE state = 'queued'",
+                                     "SELECT MIN(not_before) FROM outbox WHERE state = 'sent'",
+                                     "SELECT MIN(lease_until) FROM outbox WHERE state = 'sending'"}) {
+            double at = 0;
+            soci::indicator there = soci::i_null;
+            sql << earliest, soci::into(at, there);
+            if (there == soci::i_ok)
+                due = std::min(due.value_or(at), at);
+        }
+        return due;
+    });
 }
 
 }  // namespace vicon

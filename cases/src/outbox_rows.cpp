@@ -64,12 +64,14 @@ nlohmann::json toJson(const OutboxItem& item)
 
 std::map<DeliveryState, int> countDeliveries(CaseStore& store, const std::string& case_id)
 {
-    const soci::rowset<std::string> states =
-        (store.database().session().prepare << "SELECT state FROM outbox WHERE case_id = :c", soci::use(case_id));
-    std::map<DeliveryState, int> counts;
-    for (const std::string& state : states)
-        ++counts[valueIn(kDeliveryNames, state, "a state of the outbox")];
-    return counts;
+    return store.database().read([&](soci::session& sql) {
+        const soci::rowset<std::string> states =
+            (sql.prepare << "SELECT state FROM outbox WHERE case_id = :c", soci::use(case_id));
+        std::map<DeliveryState, int> counts;
+        for (const std::string& state : states)
+            ++counts[valueIn(kDeliveryNames, state, "a state of the outbox")];
+        return counts;
+    });
 }
 
 std::string deliveryInBrief(const std::map<DeliveryState, int>& counts)

@@ -26,6 +26,8 @@ constexpr const char* kDiskFull = "53100";
 constexpr const char* kLockNotAvailable = "55P03";
 constexpr const char* kDeadlock = "40P01";
 constexpr const char* kNotSerializable = "40001";
+constexpr const char *kDataCorrupted = "XX001", *kIndexCorrupted = "XX002";
+constexpr const char* kDataException = "22";  // begins the state
 constexpr const char* kAddressRemedy = "give it as postgresql://USER@HOST:PORT/NAME";
 
 /// What libpq reads in an address, by keyword.
@@ -164,7 +166,13 @@ public:
         return state == kDeadlock || state == kNotSerializable;
     }
 
+    std::string reasonOf(const soci::soci_error& e) override;
     Error refusal(const soci::soci_error& e, soci::session* sql) override;
+    Error damaged() override
+    {
+        return {ErrorCode::database, "the database is damaged", name_,
+                "stop VICON, and restore the last backup into an empty database by 'vicon restore'"};
+    }
     Error connectionBroke() override
     {
         return {ErrorCode::database, "the connection to the database broke; nothing was saved", name_,
@@ -172,10 +180,11 @@ public:
     }
     Error cannotBeOpened(const soci::soci_error& e) override
     {
-        return {ErrorCode::database, "the database cannot be reached (" + inOneLine(e.what()) + ")", name_,
+        return {ErrorCode::database, "the database cannot be reached (" + reasonOf(e) + ")", name_,
                 "see whether the server runs and lets this account in"};
     }
 
+    void readBeginnings(soci::session&) override {}
     std::string version(soci::session& sql) override
     {
         std::string snapshot;
@@ -220,6 +229,16 @@ bool Postgresql::wasCommitted(soci::session& sql, const std::string& name)
     return !is_new;
 }
 
+/// What a server says of a statement holds values from its second line on, of data that it cannot take (class 22) in
+/// the first as well. Without a state it is of the connection.
+std::string Postgresql::reasonOf(const soci::soci_error& e)
+{
+    const std::string state = stateOf(e), text = e.get_error_message();
+    if (state.starts_with(kDataException))
+        return "data that it cannot take, SQLSTATE " + state;
+    return inOneLine(state.empty() ? text : text.substr(0, text.find('\n')));
+}
+
 Error Postgresql::refusal(const soci::soci_error& e, soci::session* sql)
 {
     const std::string state = stateOf(e);
@@ -229,9 +248,11 @@ Error Postgresql::refusal(const soci::soci_error& e, soci::session* sql)
     if (state == kLockNotAvailable)
         return {ErrorCode::database, "another program keeps the database busy; nothing was saved", name_,
                 "try again in a moment"};
+    if (state == kDataCorrupted || state == kIndexCorrupted)
+        return damaged();
     if (sql && isLost(*sql))
         return connectionBroke();
-    return {ErrorCode::database, "the database refused (" + inOneLine(e.what()) + ")", name_,
+    return {ErrorCode::database, "the database refused (" + reasonOf(e) + ")", name_,
             "see the server's log, then try again"};
 }
 

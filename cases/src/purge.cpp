@@ -26,11 +26,12 @@ Touched touchedFrom(const soci::row& row)
 /// All cases, the longest untouched first: nothing happens to a case that its audit trail does not tell.
 std::vector<Touched> byLastEvent(CaseStore& store)
 {
-    const soci::rowset<soci::row> rows =
-        (store.database().session().prepare
-         << "SELECT c.id AS id, COALESCE(MAX(a.at), MAX(c.created)) AS last_event FROM cases c"
-            " LEFT JOIN audit a ON a.case_id = c.id GROUP BY c.id ORDER BY last_event, id");
-    return collect(rows, touchedFrom);
+    return store.database().read([&](soci::session& sql) {
+        const soci::rowset<soci::row> rows =
+            (sql.prepare << "SELECT c.id AS id, COALESCE(MAX(a.at), MAX(c.created)) AS last_event FROM cases c"
+                            " LEFT JOIN audit a ON a.case_id = c.id GROUP BY c.id ORDER BY last_event, id");
+        return collect(rows, touchedFrom);
+    });
 }
 
 /// A time as nowUtc() gives it, so many days earlier; such texts are in order as the times are.

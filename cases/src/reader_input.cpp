@@ -38,8 +38,10 @@ try {
 bool hasMarkers(CaseStore& store, const ScanRecord& scan)
 {
     int markers = 0;
-    store.database().session() << "SELECT COUNT(*) FROM markers WHERE case_id = :c AND scan_id = :s",
-        soci::use(scan.case_id), soci::use(scan.id), soci::into(markers);
+    store.database().read([&](soci::session& sql) {
+        sql << "SELECT COUNT(*) FROM markers WHERE case_id = :c AND scan_id = :s", soci::use(scan.case_id),
+            soci::use(scan.id), soci::into(markers);
+    });
     return markers > 0;
 }
 

@@ -64,23 +64,27 @@ std::map<std::string, int> countReports(CaseStore& store, const std::vector<Case
     std::map<std::string, int> counts;
     if (cases.empty())
         return counts;
-    soci::session& sql = store.database().session();
     const std::string these = inList(cases);
-    const soci::rowset<soci::row> drafts =
-        (sql.prepare << "SELECT c.id AS case_id, n.value AS number FROM cases c JOIN counters n ON n.name = '" +
-                            draftCounter("") + "' || c.id WHERE c.id IN " + these);
-    for (const soci::row& row : drafts)
-        counts[row.get<std::string>("case_id")] += row.get<int>("number");
-    const soci::rowset<std::string> versions =
-        (sql.prepare << "SELECT case_id FROM report_versions WHERE case_id IN " + these);
-    for (const std::string& case_id : versions)
-        ++counts[case_id];
+    store.database().read([&](soci::session& sql) {
+        counts.clear();
+        const soci::rowset<soci::row> drafts =
+            (sql.prepare << "SELECT c.id AS case_id, n.value AS number FROM cases c JOIN counters n ON n.name = '" +
+                                draftCounter("") + "' || c.id WHERE c.id IN " + these);
+        for (const soci::row& row : drafts)
+            counts[row.get<std::string>("case_id")] += row.get<int>("number");
+        const soci::rowset<std::string> versions =
+            (sql.prepare << "SELECT case_id FROM report_versions WHERE case_id IN " + these);
+        for (const std::string& case_id : versions)
+            ++counts[case_id];
+    });
     return counts;
 }
 
 int nextDraftNumber(CaseStore& store, const std::string& case_id)
 {
-    return draftsIn(store.database().session(), case_id) + 1;
+    int drafts = 0;
+    store.database().read([&](soci::session& sql) { drafts = draftsIn(sql, case_id); });
+    return drafts + 1;
 }
 
 WrittenDraft writeDraft(CaseStore& store, const std::string& case_id, const fs::path& out,

@@ -67,7 +67,7 @@ void removeUnnamedFile(CaseStore& store, const std::string& case_id)
     const auto next = [&](soci::session& sql) {
         return reportFolder(store, case_id) / versionName(int(versionsIn(sql, case_id).size()) + 1);
     };
-    if (!fs::exists(next(store.database().session())))
+    if (!fs::exists(store.database().read(next)))
         return;
     store.database().write([&](soci::session& sql) {  // nobody is just writing it
         std::error_code ignored;
@@ -183,7 +183,7 @@ void requireOpenReport(soci::session& sql, const std::string& case_id)
 std::vector<ReportVersion> reportVersions(CaseStore& store, const std::string& case_id)
 {
     removeUnnamedFile(store, case_id);
-    auto versions = versionsIn(store.database().session(), case_id);
+    auto versions = store.database().read([&](soci::session& sql) { return versionsIn(sql, case_id); });
     for (ReportVersion& v : versions)
         v.file = reportFolder(store, case_id) / v.file;
     return versions;
@@ -202,7 +202,7 @@ std::string faultOf(const ReportVersion& version)
 
 ReportStatus reportStatus(CaseStore& store, const std::string& case_id)
 {
-    return statusIn(store.database().session(), case_id);
+    return store.database().read([&](soci::session& sql) { return statusIn(sql, case_id); });
 }
 
 std::string textOf(const ReportStatus& status)

@@ -14,6 +14,7 @@ namespace vicon {
 namespace {
 
 constexpr int kBusyTimeoutSeconds = 60;
+constexpr std::size_t kMostTables = 100;
 
 std::filesystem::path folderOf(const std::filesystem::path& file)
 {
@@ -54,6 +55,17 @@ void createPrivately(const std::filesystem::path& file)
     ::chmod(file.c_str(), mode);
 }
 
+int resultOf(const soci::soci_error& e)
+{
+    const auto* sqlite = dynamic_cast<const soci::sqlite3_soci_error*>(&e);
+    return sqlite ? sqlite->result() & 0xff : SQLITE_OK;  // the rest of it tells kinds of the same trouble apart
+}
+
+bool isDamage(const soci::soci_error& e)
+{
+    return resultOf(e) == SQLITE_CORRUPT || resultOf(e) == SQLITE_NOTADB;
+}
+
 class Sqlite : public DatabaseEngine {
 public:
     explicit Sqlite(std::string file) : file_(std::move(file)) {}
@@ -92,17 +104,35 @@ public:
     bool wasCommitted(soci::session&, const std::string&) override { return false; }
     bool gaveWay(const soci::soci_error&) override { return false; }
 
+    std::string reasonOf(const soci::soci_error& e) override;
     Error refusal(const soci::soci_error& e, soci::session*) override;
     Error connectionBroke() override { return {ErrorCode::internal, "a file has no connection"}; }
+    Error damaged() override
+    {
+        return {
+            ErrorCode::database, "the database is damaged", file_,
+            "stop VICON, move the store's folder away, put the last backup in its place by 'vicon restore', and import"
+            " what came since from the old incoming and cases folders"};
+    }
     Error cannotBeOpened(const soci::soci_error& e) override
     {
+        if (isDamage(e))
+            return damaged();
         // SQLite has one word for all that the system may say.
         const bool may_write = ::access(folderOf(file_).c_str(), W_OK | X_OK) == 0;
-        const std::string why = may_write ? e.what() : std::strerror(errno);
+        const std::string why = may_write ? reasonOf(e) : std::strerror(errno);
         return {ErrorCode::database, "database cannot be opened (" + why + ")", file_,
                 "check that the folder is yours, on a local disk, and not full"};
     }
 
+    void readBeginnings(soci::session& sql) override
+    {
+        std::vector<std::string> tables(kMostTables);
+        sql << "SELECT name FROM sqlite_master WHERE type = 'table'", soci::into(tables);
+        int row = 0;
+        for (const std::string& table : tables)
+            sql << "SELECT 1 FROM \"" + table + "\" NOT INDEXED LIMIT 1", soci::into(row);
+    }
     std::string version(soci::session& sql) override
     {
         long long by_others = 0, by_this = 0;
@@ -121,11 +151,17 @@ private:
     std::string file_;
 };
 
+/// SOCI begins with its own function's name.
+std::string Sqlite::reasonOf(const soci::soci_error& e)
+{
+    const std::string text = inOneLine(e.get_error_message()), function_ends = ": ";
+    const std::size_t end = text.starts_with("sqlite3_") ? text.find(function_ends) : std::string::npos;
+    return end == std::string::npos ? text : text.substr(end + function_ends.size());
+}
+
 Error Sqlite::refusal(const soci::soci_error& e, soci::session*)
 {
-    constexpr const char* kRemedy = "check the disk, then run again";
-    const auto* sqlite = dynamic_cast<const soci::sqlite3_soci_error*>(&e);
-    switch (sqlite ? sqlite->result() & 0xff : SQLITE_OK) {  // the rest of it tells kinds of the same trouble apart
+    switch (resultOf(e)) {
         case SQLITE_FULL:
             return {ErrorCode::database,
                     "the store's disk is full; nothing was saved",
@@ -141,8 +177,19 @@ Error Sqlite::refusal(const soci::soci_error& e, soci::session*)
                     "another program keeps the database busy; nothing was saved",
                     {},
                     "try again in a moment"};
+        case SQLITE_READONLY:
+            return {ErrorCode::database,
+                    "the store's disk is read-only; nothing was saved",
+                    {},
+                    "see why it is, and try again when it can be written"};
+        case SQLITE_CORRUPT:
+        case SQLITE_NOTADB:
+            return damaged();
         default:
-            return {ErrorCode::database, std::string("the database refused (") + e.what() + ")", {}, kRemedy};
+            return {ErrorCode::database,
+                    "the database refused (" + reasonOf(e) + ")",
+                    {},
+                    "check the disk, then run again"};
     }
 }
 

@@ -76,11 +76,8 @@ std::string casesWith(soci::session& sql, const std::optional<WorkState>& state)
     return "cases c WHERE EXISTS (SELECT 1 FROM " + jobs + " AND jobs.case_id = c.id)";
 }
 
-}  // namespace
-
-std::vector<CaseRecord> casesOfPage(CaseStore& store, const WorklistPageWanted& wanted, int most)
+std::vector<CaseRecord> pageOf(CaseStore& store, soci::session& sql, const WorklistPageWanted& wanted, int most)
 {
-    soci::session& sql = store.database().session();
     if (const auto words = wordsIn(wanted.words); !words.empty())
         return found(sql, words, most);
     const std::string from = casesWith(sql, wanted.state), order = " ORDER BY c.created DESC, c.id DESC LIMIT :most";
@@ -94,17 +91,11 @@ std::vector<CaseRecord> casesOfPage(CaseStore& store, const WorklistPageWanted& 
     return collect(rows, caseFrom);
 }
 
-WorklistRows worklistRows(CaseStore& store, const QueueOptions& options, const std::vector<CaseRecord>& cases)
+void readRows(soci::session& sql, const std::string& these, WorklistRows& out)
 {
-    WorklistRows out;
-    if (cases.empty())
-        return out;
-    soci::session& sql = store.database().session();
-    const std::string these = inList(cases);
-    for (ScanRecord& scan : store.scans(cases))
-        out.scans[scan.case_id].push_back(std::move(scan));
-    for (Job& job : JobQueue(store.database(), options).jobs(cases))
-        out.jobs[{job.case_id, job.scan_id}] = std::move(job);
+    out.steps.clear();  // of a first try, over a connection that broke
+    out.markers.clear();
+    out.deliveries.clear();
     const Rows steps = (sql.prepare << "SELECT * FROM steps WHERE step IN ('segment', 'quality') AND case_id IN " +
                                            these + " ORDER BY rowid");
     for (const soci::row& row : steps)
@@ -112,10 +103,29 @@ WorklistRows worklistRows(CaseStore& store, const QueueOptions& options, const s
     const soci::rowset<std::string> markers = (sql.prepare << "SELECT case_id FROM markers WHERE case_id IN " + these);
     for (const std::string& case_id : markers)
         ++out.markers[case_id];
-    out.reports = countReports(store, cases);
     const Rows deliveries = (sql.prepare << "SELECT case_id, state FROM outbox WHERE case_id IN " + these);
     for (const soci::row& row : deliveries)
         ++out.deliveries[row.get<std::string>("case_id")][deliveryStateFrom(row.get<std::string>("state"))];
+}
+
+}  // namespace
+
+std::vector<CaseRecord> casesOfPage(CaseStore& store, const WorklistPageWanted& wanted, int most)
+{
+    return store.database().read([&](soci::session& sql) { return pageOf(store, sql, wanted, most); });
+}
+
+WorklistRows worklistRows(CaseStore& store, const QueueOptions& options, const std::vector<CaseRecord>& cases)
+{
+    WorklistRows out;
+    if (cases.empty())
+        return out;
+    for (ScanRecord& scan : store.scans(cases))
+        out.scans[scan.case_id].push_back(std::move(scan));
+    for (Job& job : JobQueue(store.database(), options).jobs(cases))
+        out.jobs[{job.case_id, job.scan_id}] = std::move(job);
+    out.reports = countReports(store, cases);
+    store.database().read([&](soci::session& sql) { readRows(sql, inList(cases), out); });
     return out;
 }
 

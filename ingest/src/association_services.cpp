@@ -40,11 +40,12 @@ std::string printableTitle(std::string title)
 }
 
 // DCMTK holds at most 128 contexts, and there are more storage classes.
-DcmSCPConfig configFor(const StorageService& service, const Peer* peer, const T_ASC_Association& association)
+Services servicesFor(const StorageService& service, const Peer* peer, const T_ASC_Association& association)
 {
     const ReceiverOptions& options = service.options;
     const bool stores = !peer || peer->stores, is_sent = !peer || peer->is_sent;
-    DcmSCPConfig config;
+    Services out;
+    DcmSCPConfig& config = out.config;
     config.setAETitle(options.ae_title.c_str());
     config.setMaxReceivePDULength(kPduBytes);
     config.setHostLookupEnabled(OFFalse);
@@ -55,16 +56,17 @@ DcmSCPConfig configFor(const StorageService& service, const Peer* peer, const T_
     for (const char* syntax : kTransferSyntaxes)
         syntaxes.push_back(syntax);
     std::set<std::string> offered;
-    bool some = false;
+    bool would_store = false;
     for (int n = 0; n < ASC_countPresentationContexts(association.params); ++n) {
         T_ASC_PresentationContext context;
         if (ASC_getPresentationContext(association.params, n, &context).bad() ||
             !offered.insert(context.abstractSyntax).second)
             continue;
         const std::string_view service_class = context.abstractSyntax;
+        would_store = would_store || isStorage(service_class);
         if (service_class == UID_VerificationSOPClass || (stores && isStorage(service_class))) {
             config.addPresentationContext(context.abstractSyntax, syntaxes);
-            some = true;
+            out.none = false;
         }
         if (service_class != UID_StorageCommitmentPushModelSOPClass)
             continue;
@@ -73,12 +75,14 @@ DcmSCPConfig configFor(const StorageService& service, const Peer* peer, const T_
         if (reports ? is_sent : stores && service.desk.isOpen()) {
             config.addPresentationContext(context.abstractSyntax, syntaxes,
                                           reports ? context.proposedRole : ASC_SC_ROLE_DEFAULT);
-            some = true;
+            out.none = false;
         }
     }
-    if (!some)  // without any, DCMTK would not answer at all
+    if (out.none)  // without any, DCMTK would not answer at all
         config.addPresentationContext(UID_VerificationSOPClass, syntaxes);
-    return config;
+    if (would_store && !stores)
+        out.why_not_stored = "the roles of peer " + peer->name + " do not let it store";
+    return out;
 }
 
 std::string servicesNotGranted(const T_ASC_Association& association)

@@ -2,8 +2,6 @@
 
 #include <dcmtk/config/osconfig.h>
 
-#include <dcmtk/dcmnet/scpthrd.h>
-
 #include <string>
 
 #include "storage_association.h"
@@ -14,7 +12,7 @@ namespace vicon::ingest {
 std::string printableTitle(std::string title);
 
 /// What is taken of what the association offers, by what this peer may do. @param peer null: everything
-DcmSCPConfig configFor(const StorageService& service, const Peer* peer, const T_ASC_Association& association);
+Services servicesFor(const StorageService& service, const Peer* peer, const T_ASC_Association& association);
 
 /// What the peer asked for and was not granted in any context, by name, the first few; for a log.
 std::string servicesNotGranted(const T_ASC_Association& association);

@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <mutex>
+#include <new>
+#include <set>
 
 #include "helper.h"
 #include "import_reporter.h"
@@ -41,6 +43,13 @@ void hashImage(Found& found)
         found.inspection = {Inspection::Verdict::refused, e.what(), {}};
     }
 }
+
+/// A file whose study could not be taken.
+struct Refused {
+    std::string shown;
+    fs::path file;
+    bool unpacked = false;
+};
 
 /// Inspects and hashes all files, in parallel.
 std::vector<Found> inspectAll(const std::vector<InputFile>& files, const ImportOptions& options, Progress& progress)
@@ -136,7 +145,7 @@ private:
             auto& study = studies_[object.study.uid];
             if (study.empty())
                 order_.push_back(object.study.uid);
-            study.push_back({std::move(object), found.file.shown});
+            study.push_back({std::move(object), found.file.shown, found.file.unpacked});
             return;
         }
         if (inspection.verdict == Verdict::report) {
@@ -170,28 +179,39 @@ private:
         progress_.report(1, "imported");
     }
 
-    /// What is wrong with the store or with VICON ends the import; what is wrong with a study costs that study.
+    /// What is wrong with the store, its database or memory ends the import, so that it can be done again; what is
+    /// wrong with a study costs that study.
     void importStudy(std::vector<Arrival>& arrivals)
     {
-        std::vector<std::string> shown;
+        std::vector<Refused> all;
         for (const Arrival& arrival : arrivals)
-            shown.push_back(arrival.shown);
+            all.push_back({arrival.shown, arrival.object.file, arrival.unpacked});
         const std::string series = arrivals.front().object.series.uid;
         try {
             StudyImport(context_).run(std::move(arrivals), notes_);
         } catch (const Error& e) {
-            if (e.code() != ErrorCode::bad_input && e.code() != ErrorCode::no_memory)
+            if (e.code() != ErrorCode::bad_input)
                 throw;
-            refuseAll(shown, series, e.what());
-        } catch (const std::exception& e) {
-            refuseAll(shown, series, std::string("its study cannot be taken (") + e.what() + ")");
+            refuseAll(all, series, e.what());
+        } catch (const std::bad_alloc&) {
+            throw Error(ErrorCode::no_memory, "not enough memory for a study", series, "close other programs");
+        } catch (const fs::filesystem_error& e) {
+            throw Error(ErrorCode::store, "a file cannot be used (" + e.code().message() + ")", e.path1().string(),
+                        "check that the store is yours, and its disk not full");
+        } catch (const std::exception&) {  // a library's words may hold what came from outside
+            refuseAll(all, series, "its study cannot be taken");
         }
     }
 
-    void refuseAll(const std::vector<std::string>& shown, const std::string& series, const std::string& why)
+    /// Some of them may be in the store already: what is kept twice is not lost.
+    void refuseAll(const std::vector<Refused>& all, const std::string& series, const std::string& why)
     {
-        for (const std::string& file : shown)
-            reporter_.object(ImportLine::Kind::refused, file, series, why);
+        const std::set<fs::path> refused_before(report_.not_stored.begin(), report_.not_stored.end());
+        for (const Refused& one : all) {
+            reporter_.object(ImportLine::Kind::refused, one.shown, series, why);
+            if (!one.unpacked && !refused_before.contains(one.file))
+                report_.not_stored.push_back(one.file);
+        }
     }
 
     CaseStore& store_;

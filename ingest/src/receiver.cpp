@@ -100,6 +100,7 @@ public:
     }
 
     int port() const { return listening_.port(); }
+    std::shared_ptr<const ReceiverCounts> counts() const { return counts_; }
 
 private:
     void waitForNews() const
@@ -129,6 +130,7 @@ private:
         const bool secure = caller.tls != nullptr, crowded = !makeRoomFor(host);
         if (crowded && refusing() >= kMostRefusing) {
             ::close(caller.socket);
+            ++counts_->refused_associations;
             return;
         }
         const int socket = ::dup(caller.socket);
@@ -148,7 +150,7 @@ private:
         Pace* const pace = peer ? &paces_.try_emplace(peer, peer->mb_per_s).first->second : nullptr;
         served.thread = std::thread([this, &served, pace, secure, association] {
             try {
-                const StorageService service{options_, rules_, incoming_, desk_, pace_, handlers_};
+                const StorageService service{options_, rules_, incoming_, desk_, pace_, handlers_, *counts_};
                 StorageAssociation scp(service, {served.host, served.socket, secure, served.peer, pace});
                 scp.serve(association, served.crowded);
             } catch (const std::exception& e) {
@@ -245,6 +247,7 @@ private:
     const ReceiverOptions options_;
     CallerRules rules_;
     const Handlers handlers_;
+    const std::shared_ptr<ReceiverCounts> counts_ = std::make_shared<ReceiverCounts>();
     Pace pace_;                          ///< of all
     std::map<const Peer*, Pace> paces_;  ///< of each
     CommitmentDesk desk_;
@@ -277,6 +280,11 @@ void Receiver::run(const std::atomic<bool>& stop)
 int Receiver::port() const
 {
     return implementation_->port();
+}
+
+std::shared_ptr<const ReceiverCounts> Receiver::counts() const
+{
+    return implementation_->counts();
 }
 
 }  // namespace vicon::ingest

@@ -61,6 +61,7 @@ void StorageAssociation::serve(T_ASC_Association* association, bool crowded)
 {
     calling_ = association->params->DULparams.callingAPTitle;
     if (crowded) {
+        ++service_.counts.refused_associations;
         service_.incoming.trouble("refused " + sender() + ": too many associations are open");
         refuseCrowded(association);
         return;
@@ -68,14 +69,24 @@ void StorageAssociation::serve(T_ASC_Association* association, bool crowded)
     const auto begin = std::chrono::steady_clock::now();
     association_ = association;
     folder_ = service_.incoming.open(sender());
-    setSharedConfig(DcmSharedSCPConfig(configFor(service_, from_.peer, *association)));
+    services_ = servicesFor(service_, from_.peer, *association);
+    setSharedConfig(DcmSharedSCPConfig(services_.config));
     run(association);
     service_.incoming.close(folder_);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    tellOfEnd(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+}
+
+void StorageAssociation::tellOfEnd(double took_s)
+{
     char seconds[32];
-    std::snprintf(seconds, sizeof seconds, "%.1f s", took.count());
-    if (!refused_.empty())
-        service_.incoming.trouble("refused " + sender() + ": " + refused_);
+    std::snprintf(seconds, sizeof seconds, "%.1f s", took_s);
+    const std::string why = !refused_.empty()                   ? refused_
+                            : !services_.why_not_stored.empty() ? services_.why_not_stored
+                            : services_.none                    ? "it asks for nothing that it may have here"
+                                                                : "";
+    ++(why.empty() ? service_.counts.associations : service_.counts.refused_associations);
+    if (!why.empty())
+        service_.incoming.trouble("refused " + sender() + ": " + why);
     else if (service_.handlers.on_note)
         service_.handlers.on_note("association of " + sender() + ": " + std::to_string(count_) + " objects in " +
                                   seconds + (not_granted_.empty() ? "" : "; not served: " + not_granted_));
@@ -94,6 +105,8 @@ OFBool StorageAssociation::checkCallingAETitleAccepted(const OFString& calling)
     refused_ = service_.rules.whyRefused(calling.c_str(), from_.host);
     if (refused_.empty() && from_.peer && from_.peer->tls && !from_.secure)
         refused_ = "it is configured to speak TLS, and does not";
+    if (refused_.empty() && services_.none)  // without this, DCMTK would give no reason
+        refused_ = services_.why_not_stored;
     return refused_.empty();
 }
 
@@ -166,6 +179,7 @@ OFCondition StorageAssociation::receive(T_DIMSE_C_StoreRQ& request, T_ASC_Presen
     OFCondition received = EC_Normal;
     if (const std::string why = whyNoPlace(); !why.empty()) {
         status = kOutOfResources;
+        ++service_.counts.refused_objects;
         service_.incoming.trouble("an object of " + sender() + " was refused: " + why);
         return receiveSTORERequest(request, context, "/dev/null");
     }
@@ -194,8 +208,12 @@ OFCondition StorageAssociation::receive(T_DIMSE_C_StoreRQ& request, T_ASC_Presen
     status = fault.status;
     if (fault.why.empty()) {
         ++count_;
+        ++service_.counts.objects;
+        service_.counts.last_object_s =
+            std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
         return received;
     }
+    ++service_.counts.refused_objects;
     std::error_code ignored;
     fs::remove(temporary, ignored);
     service_.incoming.trouble("an object of " + sender() + " " + fault.why);

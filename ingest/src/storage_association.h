@@ -25,6 +25,14 @@ struct StorageService {
     CommitmentDesk& desk;
     Pace& pace;
     const Receiver::Handlers& handlers;
+    ReceiverCounts& counts;
+};
+
+/// What a peer may have of what it asks for.
+struct Services {
+    DcmSCPConfig config;
+    bool none = true;
+    std::string why_not_stored;  ///< it asks to, and its roles do not let it; else empty
 };
 
 /// Serves one association: C-ECHO, C-STORE, and storage commitment, asked for or reported.
@@ -65,10 +73,12 @@ private:
     std::string whyNoPlace() const;
     OFCondition receive(T_DIMSE_C_StoreRQ& request, T_ASC_PresentationContextID context, Uint16& status);
     std::string sender() const;
+    void tellOfEnd(double took_s);
 
     const StorageService& service_;
     const From from_;
     std::string calling_, refused_, not_granted_;
+    Services services_;
     T_ASC_Association* association_ = nullptr;
     unsigned long bytes_ = 0;  ///< of the message that is being received
     bool storing_ = false;

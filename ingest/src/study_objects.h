@@ -13,6 +13,7 @@ namespace vicon::ingest {
 struct Arrival {
     ImageObject object;
     std::string shown;
+    bool unpacked = false;  ///< out of a zip file: nobody else has it
 };
 
 /// The objects of a study: those that the store has, and the arrivals that are taken.

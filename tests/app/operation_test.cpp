@@ -1,9 +1,11 @@
 // What whoever runs VICON does and sees: deleting, backing up, figures and the log, by the command.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <fstream>
 
 #include "delivering_listener.h"
+#include "dicom_writer.h"
 #include "study.h"
 #include "vicon/core/file.h"
 
@@ -92,6 +94,10 @@ TEST_F(Operation, GivesFiguresToPrometheusOnLoopback)
     EXPECT_THAT(figures, HasSubstr("vicon_jobs{state=\"queued\"} 1"));
     EXPECT_THAT(figures, HasSubstr("vicon_instances 134"));
     EXPECT_THAT(figures, HasSubstr("vicon_outbox_objects{state=\"refused\"} 0"));
+    EXPECT_THAT(figures, HasSubstr("vicon_quarantine_objects 0"));
+    EXPECT_THAT(figures, HasSubstr("vicon_received_associations_total{answer=\"refused\"} 0"));
+    EXPECT_THAT(figures, HasSubstr("vicon_received_objects_total{answer=\"accepted\"} 0"));
+    EXPECT_THAT(figures, HasSubstr("vicon_received_last_object_timestamp_seconds 0"));
     const auto dashboard = nlohmann::json::parse(readFile(VICON_DEPLOY "/prometheus/dashboard.json"));
     for (const auto& panel : dashboard["panels"])
         for (const auto& target : panel["targets"]) {
@@ -106,6 +112,35 @@ TEST_F(Operation, GivesFiguresToPrometheusOnLoopback)
                          store_.string())
                     .output,
                 HasSubstr("the port is taken"));
+}
+
+TEST_F(Operation, CountsWhatLiesInQuarantineAndSinceWhen)
+{
+    EXPECT_THAT(vicon("doctor", store_).output, HasSubstr("quarantine     empty"));
+    for (const char* name : {"received/20260102/a.dcm", "c1/somebody/b.dcm"}) {
+        fs::create_directories((store_ / "quarantine" / name).parent_path());
+        replaceFile(store_ / "quarantine" / name, "an object");
+    }
+    fs::last_write_time(store_ / "quarantine/c1/somebody/b.dcm",
+                        std::chrono::file_clock::from_sys(
+                            std::chrono::sys_seconds(std::chrono::sys_days(std::chrono::year(2026) / 1 / 2))));
+    EXPECT_THAT(vicon("doctor", store_).output, HasSubstr("quarantine     2 objects since 2026-01-02, in "));
+}
+
+TEST_F(Operation, TakesAFlagAwayThatAPersonHasDecided)
+{
+    test::SeriesSpec other;  // another person of the same patient ID
+    other.patient_id = viconJson(store_, "cases")["cases"][0]["patient"]["id"];
+    test::writeSeries(folder_ / "other", other);
+    viconOn(store_, "import " + (folder_ / "other").string());
+    const std::string flag = viconJson(store_, "show " + case_id_)["flags"].at(0);
+    EXPECT_THAT(viconOn(store_, "show " + case_id_), HasSubstr("\n! " + flag + "\n"));
+    EXPECT_EQ(vicon("show " + case_id_ + " --settle 2", store_).exit_code, 2);
+    EXPECT_THAT(viconOn(store_, "show " + case_id_ + " --settle 1"), HasSubstr("settled: " + flag));
+    EXPECT_TRUE(viconJson(store_, "show " + case_id_)["flags"].empty());
+    EXPECT_EQ(viconJson(store_, "audit " + case_id_)["trail"].back()["event"], "flag settled");
+    viconOn(store_, "import " + (folder_ / "other").string());
+    EXPECT_TRUE(viconJson(store_, "show " + case_id_)["flags"].empty()) << "it does not come back";
 }
 
 TEST_F(Operation, LogsOneLineOfJsonAnEventWithoutThePatient)

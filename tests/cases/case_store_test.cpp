@@ -5,6 +5,7 @@
 
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/support/message_of.h"
 #include "vicon/support/store_place.h"
 #include "vicon/support/support.h"
 
@@ -13,7 +14,10 @@ namespace fs = std::filesystem;
 namespace vicon {
 namespace {
 
+using support::messageOf;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class Store : public testing::Test {
 protected:
@@ -49,6 +53,34 @@ TEST_F(Store, SaysWhetherAnybodyChangedAnything)
     const std::string third = store_.database().version();
     EXPECT_NE(third, second) << "changed over another one";
     EXPECT_EQ(store_.database().version(), third);
+}
+
+TEST_F(Store, TellsARefusedStatementWithoutItsWordsAndValues)
+{
+    const std::string name = "Mustermann^Erika";
+    const auto toldOf = [&](const std::string& statement) {
+        const auto run = [&](soci::session& sql) { sql << statement, soci::use(name); };
+        const std::string told = messageOf([&] { store_.database().write(run); });
+        EXPECT_EQ(messageOf([&] { store_.database().read(run); }), told);
+        EXPECT_THAT(told, AllOf(HasSubstr("the database refused ("), Not(HasSubstr("Mustermann")),
+                                Not(HasSubstr("M-77")), Not(HasSubstr(":name")), Not(HasSubstr("VALUES"))));
+        return told;
+    };
+    EXPECT_THAT(toldOf("INSERT INTO cases (id, study_uid, patient_id, patient_name, birth_date, sex, study, flags,"
+                       " created) VALUES ('c9', NULL, 'M-77', :name, '', '', '{}', '[]', '')"),
+                HasSubstr("study_uid"));
+    EXPECT_THAT(toldOf("SELECT nothing FROM cases WHERE patient_name = :name"), HasSubstr("nothing"));
+    if (support::usesPostgresql()) {
+        EXPECT_THAT(toldOf("SELECT CAST(:name AS integer)"), HasSubstr("22P02"));
+    }
+}
+
+TEST_F(Store, TellsARowThatCannotBeUnderstoodWithoutItsContent)
+{
+    addScan("s1");
+    store_.database().write([](soci::session& sql) { sql << "UPDATE cases SET study = 'Mustermann'"; });
+    EXPECT_THAT(messageOf([&] { store_.cases(); }),
+                AllOf(HasSubstr("the database is damaged"), HasSubstr("vicon restore"), Not(HasSubstr("Muster"))));
 }
 
 TEST_F(Store, KeepsACaseItsScansAndTheirInstances)

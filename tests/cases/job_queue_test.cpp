@@ -241,6 +241,19 @@ TEST_F(Queue, AWorkerWhoseClockIsAheadHidesNoJob)
     EXPECT_TRUE(queue_.claim("b"));
 }
 
+TEST_F(Queue, AClockThatIsSetBackAnHourHidesNoJob)
+{
+    fake_.addJobs(2);
+    ASSERT_TRUE(queue_.claim("a"));
+    queue_.fail(*queue_.claim("a"), "busy", false);
+    now_ -= 3600;
+    EXPECT_FALSE(queue_.claim("b"));
+    now_ += queue_.options().lease_s + 1;
+    EXPECT_TRUE(queue_.claim("b"));
+    now_ += queue_.options().longest_backoff_s;
+    EXPECT_TRUE(queue_.claim("b"));
+}
+
 TEST_F(Queue, TheDatabasesClockCounts)
 {
     JobQueue queue(fake_.store.database(), queue_.options());

@@ -14,6 +14,7 @@
 #include "vicon/core/error.h"
 #include "vicon/ingest/receiver.h"
 #include "vicon/ingest/sender.h"
+#include "vicon/support/damaged_table.h"
 
 namespace fs = std::filesystem;
 using namespace vicon;
@@ -124,6 +125,30 @@ TEST_F(Network, WhatCouldNotBeTakenIsTriedAgainWhileTheReceiverRuns)
     EXPECT_EQ(receiver.waitFor(12).size(), 12u);
     receiver.stop();
     EXPECT_EQ(filesIn(incoming), 0u);
+}
+
+TEST_F(Network, WhatADamagedDatabaseDoesNotTakeWaitsUntilItIsMended)
+{
+    const auto files = writeSeries(folder / "in", {});
+    const support::DamagedTable damaged(store.folder(), "cases");
+    RunningReceiver receiver(incoming, {}, [&](const auto& received) {
+        CaseStore own(store.folder());
+        EXPECT_TRUE(ingest::importPaths(own, received, options, quiet).not_stored.empty());
+    });
+    ASSERT_TRUE(ingest::storeFiles(receiver.peer(), files, "SENDER", quiet).complete());
+    EXPECT_TRUE(receiver.tells("12 received objects could not be taken and wait in incoming: "));
+    EXPECT_TRUE(receiver.tells("the database is damaged; stop VICON"));
+    for (const std::string& trouble : receiver.troubles())
+        for (const char* patients : {"Doe", "P1", "19600101", "SELECT"})
+            EXPECT_EQ(trouble.find(patients), std::string::npos) << trouble;
+    EXPECT_EQ(filesIn(incoming), 12u);
+    damaged.mend();
+    EXPECT_EQ(receiver.waitFor(12).size(), 12u);
+    receiver.stop();
+    EXPECT_EQ(filesIn(incoming), 0u);
+    CaseStore mended(store.folder());
+    const ScanRecord scan = mended.scans(mended.cases().at(0).id).at(0);
+    EXPECT_EQ(mended.instances(scan.case_id, scan.id).size(), 12u);
 }
 
 TEST_F(Network, OneBadObjectDoesNotStrandItsCompanions)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <set>
 
 #include "import_fixture.h"
 #include "vicon/cases/report_files.h"
@@ -189,6 +190,19 @@ TEST_F(MarkedScan, AnotherAcquisitionIsAScanOfItsOwnBesideIt)
     EXPECT_EQ(others().at(0).role, ScanRole::scan);
     EXPECT_EQ(jobs(), 1);
     EXPECT_TRUE(says(report, Kind::flagged, "came after this case was marked")) << lines(report);
+}
+
+TEST_F(MarkedScan, WhatAStudyThatCannotBeTakenBringsIsSaidNotToBeStored)
+{
+    mark();
+    store.database().session() << "UPDATE scans SET ingest = '[]'";  // as VICON never writes it: a defect
+    SeriesSpec late = secondSeries(spec, "2");
+    const auto files = writeSeries(folder / "late", late);
+    const auto report = import({folder / "late"});
+    EXPECT_TRUE(says(report, Kind::refused, "its study cannot be taken")) << lines(report);
+    const std::set<fs::path> told(report.not_stored.begin(), report.not_stored.end());
+    EXPECT_EQ(told, std::set<fs::path>(files.begin(), files.end())) << "whoever acknowledged them keeps them";
+    EXPECT_EQ(report.not_stored.size(), files.size());
 }
 
 }  // namespace

@@ -122,6 +122,29 @@ TEST_F(Network, ATitleThatIsNotOursIsRefusedWhenAskedFor)
     EXPECT_THROW(ingest::echo(wrong, "SENDER"), Error);
 }
 
+TEST_F(Network, APeerWhoseRolesDoNotLetItStoreIsRefusedByItsTitleAndTheLogSaysWhy)
+{
+    const auto files = writeSeries(folder / "in", {});
+    ingest::Peer archive{"archive", "127.0.0.1", "ARCHIVE"};
+    archive.stores = false;
+    RunningReceiver receiver(incoming, {}, {}, {}, {.peers = {archive}});
+    const auto send = [&](const std::string& title) {
+        return support::runCommand("storescu -v -aet " + title + " 127.0.0.1 " + std::to_string(receiver.port()) + " " +
+                                   files.at(0).string() + " 2>&1");
+    };
+    const auto refused = send("ARCHIVE");
+    EXPECT_NE(refused.exit_code, 0);
+    EXPECT_NE(refused.output.find("Calling AE Title Not Recognized"), std::string::npos) << refused.output;
+    EXPECT_TRUE(receiver.tells("refused 'ARCHIVE' at 127.0.0.1: the roles of peer archive do not let it store"));
+    EXPECT_NO_THROW(ingest::echo(receiver.peer(), "ARCHIVE"));
+    EXPECT_EQ(send("CT1").exit_code, 0) << "others may";
+    const auto counts = receiver.counts();
+    EXPECT_TRUE(support::waitUntil([&] { return counts->associations == 2; }));
+    EXPECT_EQ(counts->refused_associations, 1);
+    EXPECT_EQ(counts->objects, 1);
+    EXPECT_GT(counts->last_object_s, 0);
+}
+
 TEST_F(Network, SilentPartialAndTricklingRequestsKeepNobodyWaiting)
 {
     ingest::ReceiverOptions options;

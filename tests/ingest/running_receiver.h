@@ -58,6 +58,7 @@ public:
         return contents_;
     }
     int port() const { return receiver_.port(); }
+    std::shared_ptr<const ingest::ReceiverCounts> counts() const { return receiver_.counts(); }
     ingest::Peer peer() const { return {"receiver", "127.0.0.1", "VICON", port()}; }
     std::vector<std::string> troubles()
     {

@@ -7,12 +7,14 @@
 #include <QScreen>
 #include <QScrollBar>
 #include <QTabWidget>
+#include <QTableWidget>
 #include <QTextBlock>
 #include <QTextBrowser>
 
 #include "guide/guide.h"
 #include "guide/guide_tool.h"
 #include "reading.h"
+#include "vicon/cases/case_store.h"
 #include "widgets/picture_view.h"
 
 namespace vicon::viewer {
@@ -59,6 +61,39 @@ TEST_F(Reading, OneBannerNamesPatientAndScanAndPicturesThatLeaveTheWindowSayItTh
     key(Qt::Key_X);
     waitForScan();
     EXPECT_TRUE(banner->text().contains("prone")) << banner->text().toStdString();
+}
+
+TEST_F(Reading, WhatAPersonMustDecideStandsInTheWorklistAndTheBannerUntilItIsSettled)
+{
+    const std::string first = "series 9 came after scan s1 was marked or reported",
+                      second = "the patient ID is also that of case c2, with another name or birth date";
+    CaseStore store(store_);
+    store.flag(test::kCase, first);
+    const auto line = [&] {
+        for (int row = 0; row < cases()->rowCount(); ++row)
+            if (cases()->item(row, 1)->text() == "PH-1")
+                return row;
+        return -1;
+    };
+    constexpr int kState = 4;
+    ASSERT_TRUE(eventually([&] { return line() >= 0 && cases()->item(line(), kState)->text() == "done !"; }));
+    EXPECT_EQ(cases()->item(line(), kState)->toolTip().toStdString(), "! " + first);
+    clickRow(cases(), line());
+    EXPECT_TRUE(room_->findChild<QLabel*>("reason")->text().contains(QString::fromStdString(first)));
+    openCase();
+    const auto* banner = the<QLabel>("banner");
+    EXPECT_TRUE(banner->text().contains("! 1 to decide")) << banner->text().toStdString();
+    EXPECT_TRUE(banner->toolTip().contains(QString::fromStdString(first)));
+    store.flag(test::kCase, second);
+    EXPECT_TRUE(eventually([&] { return banner->text().contains("! 2 to decide"); })) << "it came while one reads";
+    EXPECT_TRUE(the<QLabel>("warning")->text().contains(QString::fromStdString(second)));
+    waitUntilQuiet();
+    screenshot("flags");
+    store.settleFlag(test::kCase, first);
+    store.settleFlag(test::kCase, second);
+    EXPECT_TRUE(eventually([&] { return !banner->text().contains("!"); }));
+    EXPECT_TRUE(banner->toolTip().isEmpty());
+    EXPECT_TRUE(eventually([&] { return cases()->item(line(), kState)->text() == "done"; }));
 }
 
 TEST_F(Reading, TheWindowFitsTheScreenAtFirstAndThenOpensAsTheReaderLeftIt)

@@ -80,4 +80,10 @@ void SmallDisk::resize(int megabytes) const
         throw std::runtime_error("the disk cannot be made larger");
 }
 
+void SmallDisk::setReadOnly(bool read_only) const
+{
+    if (::mount("vicon-test", folder_.c_str(), "tmpfs", MS_REMOUNT | (read_only ? MS_RDONLY : 0), nullptr) != 0)
+        throw std::runtime_error("the disk cannot be made read-only");
+}
+
 }  // namespace vicon::support

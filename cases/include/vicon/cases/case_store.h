@@ -89,6 +89,8 @@ public:
     void removeScan(const std::string& case_id, const std::string& scan_id);
     /// Adds a line for a person to the case; the same line is kept once.
     void flag(const std::string& case_id, const std::string& line);
+    /// Takes a line away that a person has decided; it does not come back. Throws Error{not_found} where there is none.
+    void settleFlag(const std::string& case_id, const std::string& line);
     /// Whether the case ever had this line, also where a person took it away.
     bool wasFlagged(const std::string& case_id, const std::string& line);
 

@@ -2,7 +2,10 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 namespace soci {
 class session;
@@ -28,16 +31,33 @@ public:
 
     const std::string& where() const { return where_; }
 
-    /// For reading; within write() and writeRows() a part of their transaction.
+    /// The connection itself, made anew when it broke. Its errors name the statement and its values: whoever reads for
+    /// VICON takes read().
     soci::session& session();
 
-    /// For reading by what runs for months: `work` is run again when the connection broke meanwhile. Database errors
-    /// become Error{database}.
-    void read(const std::function<void(soci::session&)>& work);
+    /// For reading: returns what `work` returns. It is run again when the connection broke meanwhile; within write()
+    /// and writeRows() it is a part of their transaction. Database errors, and rows that cannot be understood, become
+    /// Error{database}.
+    template <class Work>
+    auto read(const Work& work)
+    {
+        using Result = std::invoke_result_t<const Work&, soci::session&>;
+        if constexpr (std::is_void_v<Result>) {
+            readAgain(work);
+        } else {
+            std::optional<Result> result;
+            readAgain([&](soci::session& sql) { result.emplace(work(sql)); });
+            return std::move(*result);
+        }
+    }
 
     /// The same again as long as nobody changed anything, over this connection or another; to be compared with what
     /// this object said before.
     std::string version();
+
+    /// Throws Error{database} where a table cannot be read at its beginning: in milliseconds, and so not all of the
+    /// damage that damage() finds. A server says so by itself.
+    void requireReadable();
 
     /// Reads all of it: what is damaged, in the database's words; empty where nothing is.
     std::string damage();
@@ -54,6 +74,7 @@ public:
 private:
     enum class Beside { nobody, others };
     void migrate();
+    void readAgain(const std::function<void(soci::session&)>& work);
     void reconnect();
     void transact(const std::function<void(soci::session&)>& work, Beside beside);
     void begin(Beside beside);

@@ -79,7 +79,8 @@ struct ImportReport {
     int reports = 0;          ///< measurement reports that were stored, or were there already
     int set_aside = 0;        ///< objects
     int refused = 0;          ///< objects, quarantined ones among them
-    /// Files that were read and of which the store now holds no copy. Files out of zip files are not among them.
+    /// Files that were read and of which the store holds no copy, or may hold none: whoever has to keep them keeps
+    /// these. Files out of zip files are not among them.
     std::vector<std::filesystem::path> not_stored;
     /// Whether at least one scan, image or report was stored or was there already: exit code 0.
     bool anythingStored() const { return scans_stored + scans_unchanged + images_kept + reports > 0; }
@@ -89,8 +90,8 @@ struct ImportReport {
 /// rest of the import. Killed at any moment and started again, it ends in the same state; so it does when a study or a
 /// series arrives in parts. One import works on a store at a time: a second one waits.
 /// @param paths as the user gave them
-/// @throws Error{not_found} when a path does not exist, Error{store} or Error{database} when the store cannot be
-///         written, Error{cancelled}
+/// @throws Error{not_found} when a path does not exist, Error{store} or Error{database} when the store cannot be read
+///         or written, Error{no_memory}, Error{cancelled}; the same again may then succeed
 ImportReport importPaths(CaseStore& store, const std::vector<std::filesystem::path>& paths,
                          const ImportOptions& options, Progress& progress);
 

@@ -74,6 +74,15 @@ struct ReceiverOptions {
     }
 };
 
+/// What a receiver has done since it began; written by its threads, to be read by any.
+struct ReceiverCounts {
+    std::atomic<long long> associations = 0;          ///< that were served
+    std::atomic<long long> refused_associations = 0;  ///< for who calls, what it asks for, or how many there are
+    std::atomic<long long> objects = 0;               ///< answered with success
+    std::atomic<long long> refused_objects = 0;       ///< answered with a failure, or not received completely
+    std::atomic<double> last_object_s = 0;            ///< when the last was answered with success, Unix time; 0: none
+};
+
 /// A storage SCP: C-ECHO, C-STORE of every storage class and transfer syntax as it comes, storage commitment to what it
 /// keeps, and other archives' reports on theirs.
 /// An image lies durably in the incoming folder before its C-STORE is answered with success, and stays in the store,
@@ -131,6 +140,7 @@ public:
 
     /// The port that is listened on.
     int port() const;
+    std::shared_ptr<const ReceiverCounts> counts() const;
 
 private:
     class Implementation;

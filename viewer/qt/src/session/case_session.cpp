@@ -1,6 +1,7 @@
 #include "session/case_session.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
@@ -218,9 +219,12 @@ void CaseSession::placeAnew(const QString& what)
 void CaseSession::refresh()
 {
     books_.post("refresh", [this](Books& books) -> Worker::Work {
-        if (!books.store().findCase(row_.record.id))
+        const auto record = books.store().findCase(row_.record.id);
+        if (!record)
             return [this] { emit warned(caseIsGone()); };
-        return [this, markers = books.store().markers(row_.record.id)] {
+        return [this, flags = record->flags, markers = books.store().markers(row_.record.id)] {
+            if (std::exchange(row_.record.flags, flags) != flags)
+                emit flagsChanged();
             if (markers_known_ && toJson(markers) == toJson(markers_))
                 return;
             const bool by_other = markers_known_ && withoutPlaces(markers) != withoutPlaces(markers_);

@@ -113,6 +113,8 @@ signals:
     void besideOpened();
     void besideClosed();
     void markersChanged();
+    /// A person must decide something else about the case than before.
+    void flagsChanged();
     void busyChanged(bool busy);
     void saved(const QString& what);
     void warned(const QString& message);

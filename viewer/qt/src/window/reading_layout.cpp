@@ -68,6 +68,12 @@ QWidget* ReadingLayout::buildTop()
     return top;
 }
 
+void ReadingLayout::showBanner(const QString& words, const QString& more)
+{
+    banner_->setText(words);
+    banner_->setToolTip(more);
+}
+
 QWidget* ReadingLayout::buildControls()
 {
     lists_ = new QTabWidget;

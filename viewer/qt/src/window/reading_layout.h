@@ -34,7 +34,8 @@ public:
     /// Above the views.
     void addChoice(QWidget* choice);
     /// Beside the choices: whose the pictures are.
-    void showBanner(const QString& words) { banner_->setText(words); }
+    /// @param more what there is no room for: the banner's tooltip
+    void showBanner(const QString& words, const QString& more);
     /// Among the controls.
     void addPanel(QWidget* panel, PanelPlace place);
     /// It has one table, which Return and the arrow keys act on.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "vicon/cases/printed.h"
+#include "widgets/case_flags.h"
 
 namespace vicon::viewer {
 namespace {
@@ -71,7 +72,9 @@ const WorklistColumn kWorklistColumns[] = {
     {QT_TRANSLATE_NOOP("WorklistWindow", "Study date"),
      [](const WorklistCase& row) { return cellText(printedDate(row.record.study.date)); }},
     {QT_TRANSLATE_NOOP("WorklistWindow", "Scans"), scansOf},
-    {QT_TRANSLATE_NOOP("WorklistWindow", "State"), [](const WorklistCase& row) { return cellText(nameOf(row.state)); }},
+    {QT_TRANSLATE_NOOP("WorklistWindow", "State"),
+     [](const WorklistCase& row) { return cellText(nameOf(row.state) + (row.record.flags.empty() ? "" : " !")); },
+     [](const WorklistCase& row) { return flagsOf(row.record); }},
     {QT_TRANSLATE_NOOP("WorklistWindow", "Progress"), progressOf},
     {QT_TRANSLATE_NOOP("WorklistWindow", "Quality"), qualityOf,
      [](const WorklistCase& row) { return wordsOf(row, false); }},
@@ -128,6 +131,8 @@ void fitColumns(QTableWidget& table)
 QString wordsOf(const WorklistCase& row, bool with_reasons)
 {
     QStringList lines;
+    if (with_reasons && !row.record.flags.empty())
+        lines << flagsOf(row.record);
     for (const WorklistScan& scan : row.scans) {
         const std::string& words = with_reasons && !scan.reason.empty() ? scan.reason : scan.quality;
         if (!words.empty())

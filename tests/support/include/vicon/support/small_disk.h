@@ -25,6 +25,8 @@ public:
     /// Gives back what fill() took.
     void clear() const;
     void resize(int megabytes) const;
+    /// While no program has a file open there to write.
+    void setReadOnly(bool read_only) const;
 
 private:
     std::filesystem::path folder_, filling_;
