@@ -32,8 +32,6 @@ namespace {
 /// Tagging changes the densities this far from its fluid: three sigma of the point spread.
 constexpr int kTagged_voxels = 4;
 /// Of the cleansed densities, as the field has them, whatever the options say of the wall: gas and tissue.
-constexpr double kCleanGas_hu = -1000;
-constexpr double kCleanTissue_hu = WallDensities().tissue_hu;
 
 /// @param near_fluid what is near fluid
 std::vector<std::uint8_t> nearGasToo(const InsideVolume& inside, const std::vector<std::uint8_t>& near_fluid)
@@ -66,7 +64,7 @@ HuVolume cleanse(const Mixture& mixture, const std::vector<std::uint8_t>& tagged
                 if (hu == kPaddingHu)
                     continue;
                 const double clean_hu =
-                    kCleanGas_hu + (kCleanTissue_hu - kCleanGas_hu) * double(tissue.voxels[n]) / double(kWhole);
+                    kUsualAir_hu + (kUsualTissue_hu - kUsualAir_hu) * double(tissue.voxels[n]) / double(kWhole);
                 // Fat and what else is darker than tissue stays: only fluid makes brighter.
                 if (mixture.inside.voxels[n] == kFluid || hu > clean_hu)
                     cleansed.voxels[n] = std::int16_t(std::lround(clean_hu));

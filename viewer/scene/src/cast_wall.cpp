@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "vicon/core/usual_densities.h"
 #include "vicon/viewer/scene/surface_scene.h"
 
 namespace vicon::viewer {
@@ -9,7 +10,7 @@ namespace {
 
 // Half-way between gas and soft tissue, as the cells' surface. Opacity rises over the width that the scanner's blur
 // gives an edge: where it rose at once, the steps of the rays would be seen as rings.
-constexpr double kGasEnds_hu = -480, kFirstSeen_hu = -650, kOpaque_hu = -380;
+constexpr double kGasEnds_hu = kUsualWall_hu, kFirstSeen_hu = -650, kOpaque_hu = -380;
 constexpr double kStepOfOpaque = 0.5;  // of the usual one: a wall that stops a ray at once shows how far apart they are
 constexpr double kBelowOpaque_mm = 5;
 
