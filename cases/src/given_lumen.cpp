@@ -68,7 +68,7 @@ std::optional<GivenLumen> readGivenLumen(const fs::path& scan_folder)
     try {
         const json said = parsedJson(readFile(file));
         const fs::path mask = said.at("mask").get<std::string>();
-        if (!mask.has_parent_path())
+        if (mask.has_filename() && mask == mask.filename() && mask != "." && mask != "..")
             return GivenLumen{lumenOriginFromJson(said), scan_folder / mask, said.at("mask_sha256").get<std::string>()};
     } catch (const json::exception&) {
     }

@@ -16,6 +16,7 @@
 #include "descriptor_stream.h"
 #include "encoding.h"
 #include "gdcm_codec.h"
+#include "header_cost.h"
 #include "helper_protocol.h"
 #include "jpeg_codec.h"
 #include "vicon/core/error.h"
@@ -84,6 +85,26 @@ std::vector<char> decode(const HelperRequest& request, const std::string& stream
                                                     : decodeWithDcmtk(stream, format, request.transfer_syntax);
 }
 
+/// Adds what an item or sequence holds, not deeper than the parser went. In which order it was written is no longer
+/// seen: the worst is assumed.
+void count(DcmObject& container, HeaderCost& cost)
+{
+    ItemTally tally;
+    for (DcmObject* next = container.nextInContainer(nullptr); next; next = container.nextInContainer(next)) {
+        const DcmTagKey tag = next->getTag();
+        const auto* const element = dynamic_cast<DcmElement*>(next);  // left in the file, a value costs nothing
+        const bool own = next->isLeaf() && tag != DCM_PixelData && element && element->valueLoaded();
+        constexpr Uint16 kItemGroup = 0xfffe;
+        const std::string too_much = tag.getGroup() == kItemGroup
+                                         ? cost.addPart()
+                                         : cost.addElement(tally, {}, own ? next->getLengthField() : 0);
+        if (!too_much.empty())
+            throw Error(ErrorCode::bad_input, too_much);
+        if (!next->isLeaf())
+            count(*next, cost);
+    }
+}
+
 /// Whether it is DICOM does not matter, only that reading it and giving it up again ends, in the memory there is.
 void read(int descriptor)
 {
@@ -95,6 +116,8 @@ void read(int descriptor)
     format.transferEnd();
     if (loaded == EC_MemoryExhausted)
         throw std::bad_alloc();
+    HeaderCost cost;
+    count(*format.getDataset(), cost);
 }
 
 void serve(const Asked& asked)

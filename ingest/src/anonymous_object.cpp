@@ -37,8 +37,8 @@ public:
     {
         moveTimes(item);
         std::vector<DcmTagKey> tags;
-        for (unsigned long n = 0; n < item.card(); ++n)
-            tags.push_back(item.getElement(n)->getTag().getXTag());
+        for (DcmObject* next = item.nextInContainer(nullptr); next; next = item.nextInContainer(next))
+            tags.push_back(next->getTag().getXTag());
         for (const DcmTagKey& tag : tags)
             cleanElement(item, tag);
     }
@@ -63,9 +63,8 @@ private:
         } else if (*fate == AnonymousFate::dummy) {
             setText(item, tag, "anonymous");
         } else if (element->ident() == EVR_SQ) {
-            auto& sequence = static_cast<DcmSequenceOfItems&>(*element);
-            for (unsigned long n = 0; n < sequence.card(); ++n)
-                clean(*sequence.getItem(n));
+            for (DcmObject* next = element->nextInContainer(nullptr); next; next = element->nextInContainer(next))
+                clean(static_cast<DcmItem&>(*next));
         }
     }
 
@@ -98,11 +97,12 @@ void blankStreams(DcmDataset& dataset)
             ->getEncapsulatedRepresentation(dataset.getOriginalXfer(), nullptr, sequence)
             .bad())
         return;
-    for (unsigned long n = 1; n < sequence->card(); ++n) {  // the first item is the table of offsets
-        DcmPixelItem* fragment = nullptr;
+    DcmObject* next = sequence->nextInContainer(nullptr);  // the table of offsets
+    while (next && (next = sequence->nextInContainer(next))) {
+        auto& fragment = static_cast<DcmPixelItem&>(*next);
         Uint8* bytes = nullptr;
-        if (sequence->getItem(fragment, n).good() && fragment->getUint8Array(bytes).good() && bytes)
-            blankComments({bytes, fragment->getLength()});
+        if (fragment.getUint8Array(bytes).good() && bytes)
+            blankComments({bytes, fragment.getLength()});
     }
 }
 

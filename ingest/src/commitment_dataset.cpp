@@ -25,8 +25,8 @@ void forEachItem(DcmDataset& dataset, const DcmTagKey& tag, Use use)
     DcmSequenceOfItems* sequence = nullptr;
     if (dataset.findAndGetSequence(tag, sequence).bad() || !sequence)
         return;
-    for (unsigned long n = 0; n < sequence->card(); ++n)
-        use(*sequence->getItem(n));
+    for (DcmObject* next = sequence->nextInContainer(nullptr); next; next = sequence->nextInContainer(next))
+        use(static_cast<DcmItem&>(*next));
 }
 
 DcmItem& append(DcmDataset& dataset, const DcmTagKey& sequence, const ObjectName& object)

@@ -16,28 +16,30 @@ namespace {
     throw Error(ErrorCode::bad_input, why);
 }
 
-std::string bytesOf(DcmPixelSequence& sequence, unsigned long n)
+std::string bytesOf(DcmPixelItem& fragment)
 {
-    DcmPixelItem* item = nullptr;
     Uint8* bytes = nullptr;
-    if (sequence.getItem(item, n).bad() || !item)
-        failed("its compressed pixels cannot be read");
-    const Uint32 length = item->getLength();
+    const Uint32 length = fragment.getLength();
     if (length == 0)
         return {};
-    if (item->getUint8Array(bytes).bad() || !bytes)
+    if (fragment.getUint8Array(bytes).bad() || !bytes)
         failed("its compressed pixels cannot be read");
     std::string out(reinterpret_cast<const char*>(bytes), length);
-    item->compact();
+    fragment.compact();
     return out;
 }
 
-std::uint32_t lengthOf(DcmPixelSequence& sequence, unsigned long n)
+/// In one pass: the library counts from the first for each that is asked for by its number.
+std::vector<DcmPixelItem*> fragmentsOf(DcmPixelSequence& sequence)
 {
-    DcmPixelItem* item = nullptr;
-    if (sequence.getItem(item, n).bad() || !item)
-        failed("its compressed pixels cannot be read");
-    return item->getLength();
+    std::vector<DcmPixelItem*> fragments;
+    for (DcmObject* next = sequence.nextInContainer(nullptr); next; next = sequence.nextInContainer(next)) {
+        auto* const fragment = dynamic_cast<DcmPixelItem*>(next);
+        if (!fragment)
+            failed("its compressed pixels cannot be read");
+        fragments.push_back(fragment);
+    }
+    return fragments;
 }
 
 }  // namespace
@@ -45,23 +47,25 @@ std::uint32_t lengthOf(DcmPixelSequence& sequence, unsigned long n)
 CompressedFrames::CompressedFrames(DcmPixelData& pixels, const std::string& transfer_syntax, int frames)
 {
     const DcmXfer xfer(transfer_syntax.c_str());
-    if (pixels.getEncapsulatedRepresentation(xfer.getXfer(), nullptr, sequence_).bad() || !sequence_)
+    DcmPixelSequence* sequence = nullptr;
+    if (pixels.getEncapsulatedRepresentation(xfer.getXfer(), nullptr, sequence).bad() || !sequence)
         failed("its compressed pixels cannot be read");
-    if (sequence_->card() < std::size_t(frames) + 1)
+    fragments_ = fragmentsOf(*sequence);
+    if (fragments_.size() < std::size_t(frames) + 1)
         failed("its compressed pixels are cut off");
-    for (unsigned long n = 1; n < sequence_->card(); ++n)
-        if (lengthOf(*sequence_, n) == 0)
+    for (std::size_t n = 1; n < fragments_.size(); ++n)
+        if (fragments_[n]->getLength() == 0)
             failed("a part of its compressed pixels is empty");
     divide(frames);
 }
 
 void CompressedFrames::divide(int frames)
 {
-    const unsigned long end = sequence_->card();
+    const std::size_t end = fragments_.size();
     if (frames == 1) {
         ranges_ = {{1, end}};
     } else if (end == std::size_t(frames) + 1) {
-        for (unsigned long n = 1; n < end; ++n)
+        for (std::size_t n = 1; n < end; ++n)
             ranges_.push_back({n, n + 1});
     } else {
         divideByOffsets(std::size_t(frames));
@@ -72,7 +76,7 @@ void CompressedFrames::divide(int frames)
 void CompressedFrames::divideByOffsets(std::size_t frames)
 {
     constexpr std::uint64_t kItemHeaderBytes = 8;
-    const std::string table = bytesOf(*sequence_, 0);
+    const std::string table = bytesOf(*fragments_[0]);
     if (table.size() != frames * 4)
         failed("its frames are split into parts, and no offset table says which part belongs to which frame");
     const auto offset = [&](std::size_t frame) {
@@ -82,13 +86,13 @@ void CompressedFrames::divideByOffsets(std::size_t frames)
         return value;
     };
     std::uint64_t at = 0;
-    for (unsigned long n = 1; n < sequence_->card(); ++n) {
+    for (std::size_t n = 1; n < fragments_.size(); ++n) {
         if (ranges_.size() < frames && at == offset(ranges_.size())) {
             if (!ranges_.empty())
                 ranges_.back().last = n;
-            ranges_.push_back({n, sequence_->card()});
+            ranges_.push_back({n, fragments_.size()});
         }
-        at += kItemHeaderBytes + lengthOf(*sequence_, n);
+        at += kItemHeaderBytes + fragments_[n]->getLength();
     }
     if (ranges_.size() != frames || ranges_.front().first != 1)
         failed("its offset table does not fit its compressed pixels");
@@ -98,8 +102,8 @@ std::string CompressedFrames::stream(int frame) const
 {
     const Range& range = ranges_.at(std::size_t(frame));
     std::string out;
-    for (unsigned long n = range.first; n < range.last; ++n)
-        out += bytesOf(*sequence_, n);
+    for (std::size_t n = range.first; n < range.last; ++n)
+        out += bytesOf(*fragments_[n]);
     return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <dcmtk/config/osconfig.h>
 
+#include <dcmtk/dcmdata/dcpxitem.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <string>
@@ -20,12 +21,12 @@ public:
 
 private:
     struct Range {
-        unsigned long first = 0, last = 0;  ///< indices into the sequence, `last` behind the last
+        std::size_t first = 0, last = 0;  ///< of the fragments, `last` behind the last
     };
     void divide(int frames);
     void divideByOffsets(std::size_t frames);
 
-    DcmPixelSequence* sequence_ = nullptr;
+    std::vector<DcmPixelItem*> fragments_;  ///< the first is the offset table
     std::vector<Range> ranges_;
 };
 

@@ -63,10 +63,8 @@ void readDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::
     if (loadFile(format, dicomdir).bad())
         return addRefusal(lines, dicomdir.string(), "the DICOMDIR is damaged; import its folder instead");
     const Dataset dataset(*format.getDataset());
-    const unsigned long count = dataset.itemCount(DCM_DirectoryRecordSequence);
-    for (unsigned long n = 0; n < count; ++n) {
-        const auto record = dataset.item(DCM_DirectoryRecordSequence, long(n));
-        const auto components = record ? record->values(DCM_ReferencedFileID) : std::vector<std::string>{};
+    for (const Dataset& record : dataset.items(DCM_DirectoryRecordSequence)) {
+        const auto components = record.values(DCM_ReferencedFileID);
         if (components.empty())
             continue;
         const fs::path file = referencedFile(dicomdir.parent_path(), components);

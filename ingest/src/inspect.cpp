@@ -179,11 +179,14 @@ OFCondition load(const fs::path& file, const Structure& structure, DcmFileFormat
 /// where it is read. Compressed pixels claim none.
 void removeBrokenOff(DcmItem& item, std::uintmax_t file_bytes)
 {
-    for (unsigned long n = item.card(); n-- > 0;)
-        if (const DcmElement* element = item.getElement(n); !element->valueLoaded() &&
-                                                            element->getLengthField() != DCM_UndefinedLength &&
-                                                            element->getLengthField() > file_bytes)
-            delete item.remove(n);
+    std::vector<DcmObject*> broken_off;
+    for (DcmObject* next = item.nextInContainer(nullptr); next; next = item.nextInContainer(next))
+        if (const auto* element = dynamic_cast<DcmElement*>(next); element && !element->valueLoaded() &&
+                                                                   element->getLengthField() != DCM_UndefinedLength &&
+                                                                   element->getLengthField() > file_bytes)
+            broken_off.push_back(next);
+    for (DcmObject* element : broken_off)
+        delete item.remove(element);
 }
 
 /// Reads a file whose structure a library may see.

@@ -16,15 +16,16 @@ constexpr double kSmallestPixel_mm = 0.01, kLargestPixel_mm = 20;
 /// Beyond these a stored value of 1 would be denser than any metal.
 constexpr double kLargestSlope = 1000, kLargestIntercept_hu = 100000;
 
+/// The longest of perfusion and of the heart have a third.
+constexpr int kMostFrames = 20000;
+
 /// Where a frame's attributes stand: in the functional groups of a multi-frame object, or in the data set itself.
 class Groups {
 public:
-    Groups(const Dataset& dataset, int frame, bool multi_frame) : dataset_(dataset)
+    /// @param own the frame's functional groups; nothing for a plain image
+    Groups(const Dataset& dataset, std::optional<Dataset> shared, std::optional<Dataset> own)
+        : dataset_(dataset), shared_(std::move(shared)), own_(std::move(own))
     {
-        if (!multi_frame)
-            return;
-        shared_ = dataset.item(DCM_SharedFunctionalGroupsSequence);
-        own_ = dataset.item(DCM_PerFrameFunctionalGroupsSequence, frame);
     }
 
     /// The item of a functional group: the frame's own, else the shared one, else (plain image) the data set.
@@ -212,12 +213,18 @@ Planes readPlanes(const Dataset& dataset, int frames, Quantity quantity)
         planes.why = "it has another number of frames than of frame descriptions";
         return planes;
     }
+    if (frames > kMostFrames) {
+        planes.why = "it has more than " + std::to_string(kMostFrames) + " frames";
+        return planes;
+    }
     if (!multi_frame && frames != 1) {
         planes.why = "it has several frames, but does not say where each lies";
         return planes;
     }
+    const auto shared = dataset.item(DCM_SharedFunctionalGroupsSequence);
+    const std::vector<Dataset> own = dataset.items(DCM_PerFrameFunctionalGroupsSequence);
     for (int frame = 0; frame < frames; ++frame) {
-        const Groups groups(dataset, frame, multi_frame);
+        const Groups groups(dataset, shared, multi_frame ? std::optional(own.at(std::size_t(frame))) : std::nullopt);
         Slice slice;
         slice.frame = frame;
         planes.why = readGeometry(groups, slice, planes.without_geometry);

@@ -16,7 +16,7 @@ AssembledScan fixedScan(const ImportContext& context, const ScanRecord& record, 
     context.progress.check();
     AssembledScan scan;
     scan.fixed = true;
-    scan.stack = splitSeries(members, haveSamePixels).front();
+    scan.stack = splitSeries(members, comparePixels()).front();
     scan.plan = planStack(scan.stack, context.options);
     scan.objects = members;
     scan.record = record;
@@ -42,18 +42,30 @@ std::string freeScanId(const StoredStudy& stored, const std::string& series_uid,
     return id;
 }
 
+/// Says that a series was split, and what tells this part from the others.
+void saySplit(AssembledScan& scan, std::size_t stacks)
+{
+    if (stacks < 2)
+        return;
+    std::string traits;
+    for (const std::string& trait : scan.stack.told_apart)
+        traits += (traits.empty() ? "" : ", ") + trait;
+    scan.plan.repairs.push_back("one series holds " + std::to_string(stacks) + " acquisitions; this one: " + traits);
+}
+
 void addScansOfSeries(const ImportContext& context, const StoredStudy& stored, const std::string& series_uid,
                       const Members& members, std::vector<AssembledScan>& scans)
 {
     std::set<const ImageObject*> taken;
-    for (Stack& stack : splitSeries(members, haveSamePixels)) {
+    std::map<std::size_t, std::size_t> unused;  // frames, by scan
+    std::vector<Stack> stacks = splitSeries(members, comparePixels());
+    for (Stack& stack : stacks) {
         context.progress.check();
         const std::set<const ImageObject*> of_stack = objectsOf(stack);
         const bool shared = std::any_of(of_stack.begin(), of_stack.end(),
                                         [&](const ImageObject* object) { return taken.contains(object); });
         if (shared) {  // several stacks in one multi-frame object: the largest is used
-            scans.back().plan.repairs.push_back(std::to_string(stack.slices.size()) +
-                                                " frames that belong to another stack are not used");
+            unused[scans.size() - 1] += stack.slices.size();
             continue;
         }
         taken.insert(of_stack.begin(), of_stack.end());
@@ -65,8 +77,12 @@ void addScansOfSeries(const ImportContext& context, const StoredStudy& stored, c
         scan.record.case_id = stored.record.id;
         scan.record.id = freeScanId(stored, series_uid, stack);
         scan.stack = std::move(stack);
+        saySplit(scan, stacks.size());
         scans.push_back(std::move(scan));
     }
+    for (const auto& [scan, frames] : unused)
+        scans[scan].plan.repairs.push_back(std::to_string(frames) +
+                                           " frames that belong to another stack are not used");
 }
 
 bool isUsable(const AssembledScan& scan)

@@ -19,6 +19,24 @@ namespace {
 constexpr std::size_t kPlanesAtATime = 8;
 
 /// Opens the object of a slice, and keeps it open while the slices come from the same one.
+class OpenObject {
+public:
+    FrameDecoder& of(const SliceRef& ref)
+    {
+        if (object_ != ref.object) {
+            object_ = nullptr;  // stays so when the next line throws
+            decoder_ = std::make_shared<FrameDecoder>(*ref.object);
+            object_ = ref.object;
+        }
+        return *decoder_;
+    }
+
+private:
+    const ImageObject* object_ = nullptr;
+    std::shared_ptr<FrameDecoder> decoder_;
+};
+
+/// Decodes the slices of a stack.
 class SliceDecoder {
 public:
     /// @param scale of the values, see signalScale()
@@ -38,22 +56,30 @@ private:
     std::vector<std::int16_t> decode(std::size_t slice)
     {
         const SliceRef& ref = stack_.slices[slice];
-        if (object_ != ref.object) {
-            object_ = nullptr;  // stays so when the next line throws
-            decoder_ = std::make_unique<FrameDecoder>(*ref.object);
-            object_ = ref.object;
-        }
         Slice scaled = *ref.slice;
         scaled.slope *= scale_;
         scaled.intercept *= scale_;
-        return decoder_->densities(scaled);
+        return open_.of(ref).densities(scaled);
     }
 
     const Stack& stack_;
     double scale_;
-    const ImageObject* object_ = nullptr;
-    std::unique_ptr<FrameDecoder> decoder_;
+    OpenObject open_;
 };
+
+bool haveSamePixels(const SliceRef& a, const SliceRef& b, OpenObject& first, OpenObject& second)
+{
+    const Slice &s = *a.slice, &t = *b.slice;
+    if (!(a.object->pixels == b.object->pixels) || s.slope != t.slope || s.intercept != t.intercept)
+        return false;
+    try {
+        return first.of(a).storedPixels(s.frame) == second.of(b).storedPixels(t.frame);
+    } catch (const Error& e) {
+        if (e.code() != ErrorCode::bad_input)
+            throw;
+        return false;
+    }
+}
 
 constexpr double kHighestKept = 32767;
 
@@ -129,18 +155,11 @@ HuVolume readVolume(const Stack& stack, const StackPlan& plan, Progress& progres
     return writer.take();
 }
 
-bool haveSamePixels(const SliceRef& a, const SliceRef& b)
+SamePixels comparePixels()
 {
-    const Slice &s = *a.slice, &t = *b.slice;
-    if (!(a.object->pixels == b.object->pixels) || s.slope != t.slope || s.intercept != t.intercept)
-        return false;
-    try {
-        return FrameDecoder(*a.object).storedPixels(s.frame) == FrameDecoder(*b.object).storedPixels(t.frame);
-    } catch (const Error& e) {
-        if (e.code() != ErrorCode::bad_input)
-            throw;
-        return false;
-    }
+    return [first = OpenObject(), second = OpenObject()](const SliceRef& a, const SliceRef& b) mutable {
+        return haveSamePixels(a, b, first, second);
+    };
 }
 
 }  // namespace vicon::ingest

@@ -10,7 +10,8 @@ namespace vicon::ingest {
 /// Throws Error{bad_input} naming the file that cannot be decoded, Error{no_memory}, Error{cancelled}.
 HuVolume readVolume(const Stack& stack, const StackPlan& plan, Progress& progress);
 
-/// Whether two images hold the same stored pixels; false when one cannot be decoded.
-bool haveSamePixels(const SliceRef& a, const SliceRef& b);
+/// Tells whether two images hold the same stored pixels; not, when one cannot be decoded. It keeps the objects that it
+/// compared last open. Not for several threads at once.
+SamePixels comparePixels();
 
 }  // namespace vicon::ingest

@@ -17,6 +17,9 @@ constexpr double kSameSpacing = 1e-3;
 /// apart.
 constexpr double kSamePlace_mm = 0.01;
 
+/// An image was sent two or three times. More at one place are no copies, and comparing each with each takes long.
+constexpr std::size_t kMostCopies = 8;
+
 bool sameGrid(const SliceRef& a, const SliceRef& b)
 {
     const PixelFormat &p = a.object->pixels, &q = b.object->pixels;
@@ -75,25 +78,28 @@ std::size_t mostAtOnePlace(const Stack& stack)
 /// What may tell images at one place apart. Of different takes there are as many as images at a place; where there
 /// are more, it is a scan taken in steps and not several scans.
 struct Distinction {
-    const char* name;
+    const char* name;   ///< part of a scan's id: it stays as it is
+    const char* words;  ///< for people
     std::string (*of)(const SliceRef&);
     bool different_takes;
     /// When images that share no place are told apart too: never, when they alternate, or always.
     enum class Apart { never, alternating, always } apart = Apart::never;
 };
 const std::array kDistinctions{
-    Distinction{"lossy", [](const SliceRef& r) { return r.object->series.lossy ? r.object->transfer_syntax : ""; },
-                false, Distinction::Apart::never},
-    Distinction{"position", [](const SliceRef& r) { return r.object->series.patient_position; }, false,
+    Distinction{"lossy", "lossy compression",
+                [](const SliceRef& r) { return r.object->series.lossy ? r.object->transfer_syntax : ""; }, false,
+                Distinction::Apart::never},
+    Distinction{"position", "patient position", [](const SliceRef& r) { return r.object->series.patient_position; },
+                false, Distinction::Apart::always},
+    Distinction{"image type", "image type", [](const SliceRef& r) { return r.slice->image_type; }, false,
+                Distinction::Apart::alternating},
+    Distinction{"kernel", "kernel", [](const SliceRef& r) { return r.slice->kernel; }, true,
                 Distinction::Apart::always},
-    Distinction{"image type", [](const SliceRef& r) { return r.slice->image_type; }, false,
+    Distinction{"acquisition", "acquisition number", [](const SliceRef& r) { return r.slice->acquisition; }, true,
                 Distinction::Apart::alternating},
-    Distinction{"kernel", [](const SliceRef& r) { return r.slice->kernel; }, true, Distinction::Apart::always},
-    Distinction{"acquisition", [](const SliceRef& r) { return r.slice->acquisition; }, true,
+    Distinction{"time", "acquisition time", [](const SliceRef& r) { return r.object->acquisition_time; }, true,
                 Distinction::Apart::alternating},
-    Distinction{"time", [](const SliceRef& r) { return r.object->acquisition_time; }, true,
-                Distinction::Apart::alternating},
-    Distinction{"phase", [](const SliceRef& r) { return r.slice->phase; }, true},
+    Distinction{"phase", "phase", [](const SliceRef& r) { return r.slice->phase; }, true},
 };
 
 std::map<std::string, Stack> partition(const Stack& stack, const Distinction& distinction)
@@ -103,14 +109,21 @@ std::map<std::string, Stack> partition(const Stack& stack, const Distinction& di
         Stack& part = parts[distinction.of(ref)];
         part.slices.push_back(ref);
     }
-    for (auto& [value, part] : parts)
+    for (auto& [value, part] : parts) {
         part.key = stack.key + "|" + distinction.name + " " + value;
+        part.told_apart = stack.told_apart;
+        part.told_apart.push_back(std::string(distinction.words) + " " + (value.empty() ? "none" : value));
+    }
     return parts;
 }
 
 /// Drops images that repeat another one at their place; refuses the stack when different ones remain.
-void dropCopies(Stack& stack, const SamePixels& same_pixels)
+void dropCopies(Stack& stack, std::size_t most_at_one_place, const SamePixels& same_pixels)
 {
+    if (most_at_one_place > kMostCopies) {
+        stack.refused = "no volume: up to " + std::to_string(most_at_one_place) + " images at one place";
+        return;
+    }
     std::vector<SliceRef> kept, copies;
     std::size_t crowded = 0, most = 0;
     double first_crowded_mm = 0;
@@ -179,7 +192,7 @@ void resolve(Stack stack, std::size_t level, const SamePixels& same_pixels, std:
         return;
     }
     if (most > 1)
-        dropCopies(stack, same_pixels);
+        dropCopies(stack, most, same_pixels);
     out.push_back(std::move(stack));
 }
 
@@ -204,9 +217,12 @@ std::vector<Stack> splitSeries(const std::vector<const ImageObject*>& objects, c
         if (same != grids.end())
             same->slices.push_back(ref);
         else
-            grids.push_back({gridName(ref), {ref}, {}, {}, {}});
+            grids.push_back({gridName(ref), {}, {ref}, {}, {}, {}});
     }
     std::vector<Stack> stacks;
+    if (grids.size() > 1)
+        for (Stack& grid : grids)
+            grid.told_apart.push_back("matrix, pixel size and orientation " + grid.key);
     for (Stack& grid : grids)
         resolve(std::move(grid), 0, same_pixels, stacks);
     std::sort(stacks.begin(), stacks.end(), [](const Stack& a, const Stack& b) {

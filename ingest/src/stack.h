@@ -19,6 +19,8 @@ struct SliceRef {
 struct Stack {
     /// What tells it from the series' other stacks; empty for the largest one.
     std::string key;
+    /// In words what tells it from all of the series' other stacks: "kernel B30f". Empty for the only one.
+    std::vector<std::string> told_apart;
     std::vector<SliceRef> slices;  ///< in order along the normal
     std::vector<SliceRef> copies;  ///< images that repeat one of `slices`; stored, not used
     std::vector<std::string> repairs;

@@ -9,6 +9,7 @@
 
 #include "deflated_size.h"
 #include "element_source.h"
+#include "header_cost.h"
 
 namespace vicon::ingest {
 namespace {
@@ -53,6 +54,7 @@ struct Open {
     std::uint64_t end = kOpenEnd;
     bool sequence = false;
     Coding coding;
+    ItemTally tally{};
 };
 
 /// Ends the walk with what it found.
@@ -148,19 +150,20 @@ private:
         return e;
     }
 
-    void count()
+    static void stayWithin(const std::string& too_much)
     {
-        if (++elements_ > kMostElements)
-            refuse("it has more than " + std::to_string(kMostElements) + " elements");
+        if (!too_much.empty())
+            refuse(too_much);
     }
 
     void readMeta()
     {
+        ItemTally meta;
         while (number(at_, 2, false) == 0x0002) {
-            count();
             const auto e = element({});
             if (!e)
                 refuse("truncated or damaged (its meta header breaks off at " + tagName(tagAt(at_, false)) + ")");
+            stayWithin(cost_.addElement(meta, e->tag, e->length));
             mustFit(*e);
             constexpr std::size_t kLongestUid = 64;
             if (e->tag == kTransferSyntax && e->length <= kLongestUid && e->length > 0) {
@@ -190,7 +193,6 @@ private:
             open_.pop_back();
             return;
         }
-        count();
         if (top.sequence)
             stepInSequence();
         else
@@ -200,6 +202,7 @@ private:
     void stepInSequence()
     {
         const Open top = open_.back();
+        stayWithin(cost_.addPart());
         const auto e = element(top.coding);
         if (!e)
             refuse("truncated or damaged (a sequence breaks off)");
@@ -235,12 +238,24 @@ private:
         if (e->tag >> 16 == 0xfffe)
             odd();
         in_pixels_ = outermost && e->tag == kPixelData;
+        stayWithin(cost_.addElement(open_.back().tally, e->tag, ownBytes(*e)));
         take(*e, top.coding);
         in_pixels_ = false;
         after_pixels_ = after_pixels_ || (outermost && e->tag == kPixelData);
     }
 
     bool fits(const Element& e) const { return e.length <= source_.size() - e.value_at; }
+
+    /// Those of the header that are not elements of items again.
+    std::uint64_t ownBytes(const Element& e)
+    {
+        return in_pixels_ || e.length == kUndefined || isSequence(e, open_.back().coding) ? 0 : e.length;
+    }
+
+    bool isSequence(const Element& e, const Coding& coding)
+    {
+        return e.vr == "SQ" || (e.vr.empty() && e.length >= 8 && tagAt(e.value_at, coding.big_endian) == kItem);
+    }
 
     void take(const Element& e, const Coding& coding)
     {
@@ -257,8 +272,7 @@ private:
         if (e.tag == kRecordType && e.length > kLongestCode)  // DCMTK's parser throws there, and loses what it has read
             refuse("truncated or damaged (" + tagName(e.tag) + " has " + std::to_string(e.length) + " bytes, " +
                    std::to_string(kLongestCode) + " at most are allowed)");
-        const bool items = e.vr == "SQ" || (e.vr.empty() && e.length >= 8 && tagAt(at_, coding.big_endian) == kItem);
-        if (items && e.length > 0)
+        if (isSequence(e, coding) && e.length > 0)
             openSequence(at_ + e.length, coding);
         else
             at_ += e.length;
@@ -276,7 +290,7 @@ private:
     {
         at_ = pixels.value_at;
         for (;;) {
-            count();
+            stayWithin(cost_.addPart());
             if (!source_.at(at_, 8))
                 refuse("truncated or damaged (its compressed pixels are cut off)", in_pixels_);
             const Element e{tagAt(at_, coding.big_endian), number(at_ + 4, 4, coding.big_endian), {}, at_ + 8};
@@ -293,7 +307,7 @@ private:
 
     ElementSource& source_;
     std::uint64_t at_ = 0;
-    std::size_t elements_ = 0;
+    HeaderCost cost_;
     std::string syntax_;
     std::vector<Open> open_;
     bool in_pixels_ = false;  ///< those of the data set itself

@@ -22,13 +22,13 @@ struct Structure {
 };
 
 /// Follows the elements of a file without recursion and without memory for their values. Refused are sequences nested
-/// deeper than kDeepestSequence, more than kMostElements elements, elements longer than the file, types of directory
-/// records longer than a code may be, deflated data larger than kLargestDeflated, and what does not begin as DICOM.
+/// deeper than kDeepestSequence, headers that cost too much (header_cost.h), elements longer than the file, types of
+/// directory records longer than a code may be, deflated data larger than kLargestDeflated, and what does not begin as
+/// DICOM.
 Structure scanStructure(const std::filesystem::path& file);
 
 /// Structured reports, which nest deepest, stay well below.
 inline constexpr int kDeepestSequence = 64;
-inline constexpr std::size_t kMostElements = 1000000;
 inline constexpr std::uint64_t kLargestDeflated = 128'000'000;
 
 }  // namespace vicon::ingest

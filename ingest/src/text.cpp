@@ -133,8 +133,10 @@ private:
     {
         flush();
         const CodeElement* element = elementByEscape(rest.substr(1));
-        if (!element)
+        if (!element) {
+            out_ += kEscape;  // shown by printable()
             return 1;
+        }
         (element->upper ? upper_ : lower_) = element;
         return 1 + std::string_view(element->escape).size();
     }

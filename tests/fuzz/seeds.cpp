@@ -118,7 +118,15 @@ void writeJson(const fs::path& out)
     subdivision.segments.push_back({1, 0, 30, 1000, 100, 50, 200, {0, 0, 0}, {9, 9, 9}});
     subdivision.portals.emplace_back();
     scan_files::writeSubdivision(out / "scan_json" / "subdivision", subdivision);
-    save(out / "scan_json" / "corrections", R"({"add":[[1,2,3]],"cut":[],"drop":[[4,5,6.5]]})");
+    for (const char* harness : {"scan_json", "corrections"})
+        save(out / harness / "corrections", R"({"add":[[1,2,3]],"cut":[],"drop":[[4,5,6.5]]})");
+    save(
+        out / "bridge_reviews" / "two",
+        R"({"bridges":[{"from_mm":[0,0,0],"to_mm":[0,0,9.5],"verdict":"confirmed","by":"a","at":"2026-01-02T03:04:05Z"},)"
+        R"({"from_mm":[1,2,3],"to_mm":[4,5,6],"verdict":"rejected","by":"b","at":""}]})");
+    save(out / "given_lumen" / "one",
+         R"({"form":"NIfTI","sha256":"0123456789abcdef","label":2,"gas_or_fluid":0.91,"by":"a","at":"2026-01-02",)"
+         R"("mask":"lumen-0123456789ab.mha","mask_sha256":"fedcba9876543210"})");
     save(out / "web" / "parts", "?--b\r\nContent-Type: application/dicom\r\n\r\none\r\n--b\r\n\r\ntwo\r\n--b--");
     save(out / "web" / "matches",
          R"(?[{"0020000D":{"vr":"UI","Value":["1.2","1.3"]},"00100010":{"vr":"PN","Value":[{"Alphabetic":"A^B"}]}}])");

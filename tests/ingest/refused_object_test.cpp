@@ -80,14 +80,20 @@ TEST_F(RefusedObject, ThatCannotBeUnderstoodIsRefusedAsThat)
         item = inner;
     }
     ASSERT_TRUE(deep.saveFile(files[3].c_str(), EXS_LittleEndianExplicit).good());
+    DcmFileFormat rich;
+    ASSERT_TRUE(rich.loadFile(files[5].c_str()).good());
+    for (int n = 0; n < 20000; ++n)
+        rich.getDataset()->insert(new DcmLongString(DcmTag(0x29, Uint16(0x1010 + n), EVR_LO)));
+    ASSERT_TRUE(rich.saveFile(files[5].c_str(), EXS_LittleEndianExplicit).good());
     RunningReceiver receiver(incoming, {});
     const auto result = ingest::storeFiles(receiver.peer(), files, "SENDER", quiet);
-    EXPECT_EQ(result.sent, 11);
-    ASSERT_EQ(result.failures.size(), 1u);
+    EXPECT_EQ(result.sent, 10);
+    ASSERT_EQ(result.failures.size(), 2u);
     EXPECT_NE(result.failures[0].reason.find("c000"), std::string::npos) << result.failures[0].reason;
     EXPECT_TRUE(result.failures[0].for_good);
     EXPECT_TRUE(receiver.tells("its sequences are nested deeper than 64"));
-    EXPECT_EQ(receiver.waitFor(11).size(), 11u);
+    EXPECT_TRUE(receiver.tells("has more than 10000 elements"));
+    EXPECT_EQ(receiver.waitFor(10).size(), 10u);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TEST(Text, OddAndBrokenTextsAreReadAsFarAsTheyGo)
         {"JIS X 0212", "\x1b$(D\x30\x21\x1b(B", {"", "ISO 2022 IR 159"}, "丂"},
         {"simplified Chinese with escapes", "\x1b$)A\xcd\xf5", {"", "ISO 2022 IR 58"}, "王"},
         {"yen sign of JIS X 0201", "\x1b(J~", {"ISO 2022 IR 13"}, "‾"},
-        {"an unknown escape", "a\x1b%b", {"", "ISO 2022 IR 87"}, "a%b"},
+        {"an unknown escape", "a\x1b%b", {"", "ISO 2022 IR 87"}, "a\x1b%b"},
         {"half a character at the end", "\x1b$B\x3b\x33\x45", {"", "ISO 2022 IR 87"}, "山"},
     };
     for (const TextCase& c : cases)

@@ -50,7 +50,7 @@ struct Wall {
     }
 
     /// Of points all over the wall.
-    std::vector<float> tagging(double noise_hu = 0) const
+    std::vector<float> tagging(double noise_hu = 0, const TagDensities& densities = {}) const
     {
         std::vector<float> points_mm, normals;
         for (double y = 2; y < 15; y += 0.5)
@@ -58,7 +58,7 @@ struct Wall {
                 points_mm.insert(points_mm.end(), {0.F, float(y), float(z)});
                 normals.insert(normals.end(), {1.F, 0.F, 0.F});
             }
-        return taggingOf(points_mm, normals, volume, inside, noise_hu);
+        return taggingOf(points_mm, normals, volume, inside, noise_hu, densities);
     }
 
     HuVolume volume;
@@ -98,6 +98,19 @@ TEST(WallTagging, IsNotTheBoneBehindTheWallNorThePoolBehindTheNextOne)
 TEST(WallTagging, IsNotMucosaWithContrastMedium)
 {
     expectAll(Wall({{-3, kTissue_hu}, {0, 140}, {kEnd_mm, kGas_hu}}).tagging(), 0, 0);
+}
+
+TEST(WallTagging, BeginsWhereTheScansOptionsHadIt)
+{
+    const std::vector<StepRecord> steps{
+        {.step = "segment", .parameters = {{"segment.tissue_hu", 60.0}}, .result = {}, .finished = {}},
+        {.step = "tissue",
+         .parameters = {{"segment.tissue_hu", 60.0}, {"tissue.tag_contrast_hu", 700.0}},
+         .result = {},
+         .finished = {}}};
+    const Wall pool({{0, kTissue_hu}, {kEnd_mm, kTagged_hu}});
+    expectAll(pool.tagging(0, tagDensitiesOf(steps)), 0, 0);
+    expectAll(pool.tagging(0, tagDensitiesOf({})), 1, 1);
 }
 
 TEST(WallTagging, IsNotMadeOfNoise)

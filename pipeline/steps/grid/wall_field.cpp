@@ -96,7 +96,7 @@ double WallField::valueBeside(Index3 labelled, std::uint8_t label, double densit
 float WallField::fromDensities(Index3 v) const
 {
     if (const std::uint8_t own = inside_.valueOr(v, kOutside)) {
-        double density = hu(v, own == kGas ? -1000 : pool_hu_[pools_.at(v)]);
+        double density = hu(v, own == kGas ? kUsualAir_hu : pool_hu_[pools_.at(v)]);
         if (own == kFluid && besideThinFold(v))
             density = asThickFold(v, v, density);
         return std::clamp(float(valueBeside(v, own, density)), -1.0F, -kLeast);

@@ -12,7 +12,7 @@ namespace vicon::steps {
 // of kAir_hu, kBody_hu, kFat_hu or kBone_hu keeps the lumen of the three cases (CONTRIBUTING.md) to Dice 0.9997.
 
 /// Gas, in HU, as scanners give it.
-inline constexpr double kAir_hu = -1000;
+inline constexpr double kAir_hu = kUsualAir_hu;
 /// Half-way between air and fat: what lies below is gas or lung, what lies above is body.
 inline constexpr double kBody_hu = -400;
 /// Fat around the bowel.

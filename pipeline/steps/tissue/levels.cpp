@@ -23,14 +23,14 @@ namespace {
 constexpr double kPure_mm = 1.8, kRead_mm = 3.2;
 /// What pure contents may differ from what they should be: a part of the step between them.
 constexpr double kImpure = 0.12;
-/// A level's blur is the median over the columns of three cells of this edge, side by side: 24 mm.
-constexpr double kCell_mm = 8;
+/// A level's blur is the median over the columns of three bins of this edge, side by side: 24 mm.
+constexpr double kBin_mm = 8;
 /// A column's level differs from that of the column it was reached from by at most this, in voxels: fluid rises along a
 /// wall by a millimetre or two.
 constexpr double kSteepest = 0.5;
 /// How much the density must rise over two voxels to tell a level in a column that is mostly wall.
 constexpr double kLeastRise_hu = 250;
-/// Cells with fewer columns tell nothing.
+/// Bins with fewer columns tell nothing.
 constexpr std::size_t kFewest = 6;
 /// The plane goes on so far into the wall around: at a beach of 20 degrees the fluid is 2.5 mm deep by then.
 constexpr double kBeyond_mm = 6.8;
@@ -103,18 +103,18 @@ public:
         levels.fitted = sigmas.size();
         levels.sigma_voxels = sigmas.size() < kFewest ? usual_blur_mm_ / spacing_mm_ : medianOf(sigmas);
         sigma_ = levels.sigma_voxels;
-        gatherCells();
+        gatherBins();
         levels.columns = columns();
         return levels;
     }
 
 private:
-    struct CellKey {
+    struct BinKey {
         std::uint32_t patch;
         int a, b;
-        auto operator<=>(const CellKey&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs here
+        auto operator<=>(const BinKey&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs here
     };
-    struct Cell {
+    struct ContactBin {
         std::vector<float> sigmas;
         double sigma = 0;
         bool known = false;
@@ -216,38 +216,39 @@ private:
             contacts_[n].patch = sets.rootOf(std::uint32_t(n));
     }
 
-    CellKey keyOf(const Contact& contact) const
+    BinKey keyOf(const Contact& contact) const
     {
-        const auto cell = [&](int axis) {
+        const auto bin = [&](int axis) {
             return int(std::floor(coordinate(contact.gas, axis) * mixture_.inside.grid.spacing_mm[std::size_t(axis)] /
-                                  kCell_mm));
+                                  kBin_mm));
         };
-        return {contact.patch, cell(sides()[0]), cell(sides()[1])};
+        return {contact.patch, bin(sides()[0]), bin(sides()[1])};
     }
 
     template <class Use>
-    void forCellsAround(const CellKey& key, Use use) const
+    void forBinsAround(const BinKey& key, Use use) const
     {
         for (int a = -1; a <= 1; ++a)
             for (int b = -1; b <= 1; ++b)
-                if (const auto found = cells_.find({key.patch, key.a + a, key.b + b}); found != cells_.end())
+                if (const auto found = bins_.find({key.patch, key.a + a, key.b + b}); found != bins_.end())
                     use(found->second);
     }
 
-    void gatherCells()
+    void gatherBins()
     {
         for (const Contact& contact : contacts_) {
-            Cell& cell = cells_[keyOf(contact)];
+            ContactBin& bin = bins_[keyOf(contact)];
             if (contact.fitted)
-                cell.sigmas.push_back(contact.sigma);
+                bin.sigmas.push_back(contact.sigma);
         }
-        for (auto& [key, cell] : cells_) {
+        for (auto& [key, bin] : bins_) {
             std::vector<float> sigmas;
-            forCellsAround(
-                key, [&](const Cell& other) { sigmas.insert(sigmas.end(), other.sigmas.begin(), other.sigmas.end()); });
-            cell.known = sigmas.size() >= kFewest;
-            if (cell.known)
-                cell.sigma = medianOf(sigmas);
+            forBinsAround(key, [&](const ContactBin& other) {
+                sigmas.insert(sigmas.end(), other.sigmas.begin(), other.sigmas.end());
+            });
+            bin.known = sigmas.size() >= kFewest;
+            if (bin.known)
+                bin.sigma = medianOf(sigmas);
         }
     }
 
@@ -262,8 +263,8 @@ private:
         for (const Contact& contact : contacts_) {
             const auto crossing = crossingAround(contact);
             LevelColumn column{contact.gas, 0, float(sigma_), 0};
-            if (const Cell& cell = cells_.at(keyOf(contact)); cell.known)
-                column.sigma = float(cell.sigma);
+            if (const ContactBin& bin = bins_.at(keyOf(contact)); bin.known)
+                column.sigma = float(bin.sigma);
             column.fluid_hu = float(fluid_.at(down_.moved(contact.gas, pure_ + 1)));
             if (!crossing || column.fluid_hu <= 0)
                 continue;
@@ -306,7 +307,7 @@ private:
     int pure_, read_;  ///< voxels
     std::vector<Contact> contacts_;
     std::unordered_map<std::size_t, std::uint32_t> at_;  ///< contacts by their gas voxels
-    std::map<CellKey, Cell> cells_;
+    std::map<BinKey, ContactBin> bins_;
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ constexpr int kApart_voxels = 2;
 /// How near to stool a bubble of it lies.
 constexpr int kBesideStool_voxels = 2;
 /// Darker than fat by more than noise: air. It is seen this near to what it mixes with.
-constexpr double kAir_hu = -200;
+constexpr double kAirInStool_hu = -200;
 constexpr int kNearAir_voxels = 2;
 
 class StoolFinder {
@@ -146,7 +146,7 @@ private:
         return false;
     }
 
-    bool isAir(Index3 v) const { return mixture_.hu(v) < kAir_hu; }
+    bool isAir(Index3 v) const { return mixture_.hu(v) < kAirInStool_hu; }
 
     /// The share of a lump's faces from which gas is reached without a wall.
     double openShare(const std::vector<std::size_t>& lump) const

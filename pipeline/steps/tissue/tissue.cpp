@@ -35,8 +35,6 @@ constexpr int kTagged_voxels = 4;
 /// Two sigma beyond the lumen a fiftieth of its contrast is left.
 constexpr int kShining_voxels = 2;
 /// Of the cleansed densities, as the field has them, whatever the options say of the wall: gas and tissue.
-constexpr double kCleanGas_hu = -1000;
-constexpr double kCleanTissue_hu = WallDensities().tissue_hu;
 
 /// @param near_fluid what is near fluid
 std::vector<std::uint8_t> nearGasToo(const InsideVolume& inside, const std::vector<std::uint8_t>& near_fluid)
@@ -73,7 +71,7 @@ HuVolume cleanse(const Mixture& mixture, const InsideVolume& lumen, double brigh
                 if (hu == kPaddingHu || (is_beyond && hu > bright_hu))
                     continue;
                 const double clean_hu =
-                    kCleanGas_hu + (kCleanTissue_hu - kCleanGas_hu) * double(tissue.voxels[n]) / double(kWhole);
+                    kUsualAir_hu + (kUsualTissue_hu - kUsualAir_hu) * double(tissue.voxels[n]) / double(kWhole);
                 // Fat and what else is darker than tissue stays: only fluid makes brighter.
                 if (lumen.voxels[n] == kFluid || hu > clean_hu)
                     cleansed.voxels[n] = std::int16_t(std::lround(clean_hu));

@@ -14,8 +14,6 @@
 namespace vicon::viewer {
 namespace {
 
-// Soft tissue, and contrast medium in the mucosa, end some 120 HU above 40 HU, as tissue.tag_contrast_hu has it.
-constexpr float kTissue_hu = 40, kLeastContrast_hu = 120;
 constexpr float kTagNoises = 3;     // a density between voxels has less noise than a voxel: five of its own
 constexpr float kTagRise_hu = 100;  // from where tagging begins to where it is sure
 // A film on a flat polyp is 1.5 mm thick in the mean (PMC3996850); farther in stands what does not touch the wall.
@@ -25,9 +23,10 @@ constexpr float kTagReach_mm = 2.5F, kTagStep_mm = 0.5F;
 constexpr double kBesideMottled = 1.75, kInMottled = 1;
 
 /// The highest density on the way into the lumen, from the wall to where the lumen ends or is wide.
-float highestBefore(Point3 point, Vector3 normal, const DensitySampler& densities, const InsideView& inside)
+float highestBefore(Point3 point, Vector3 normal, const DensitySampler& densities, const InsideView& inside,
+                    float tissue_hu)
 {
-    float highest = kTissue_hu;
+    float highest = tissue_hu;
     bool entered = false;
     for (float away = 0; away <= kTagReach_mm; away += kTagStep_mm) {
         const Point3 at = point + normal * double(away);
@@ -109,18 +108,36 @@ void addFaint(std::vector<float>& tagging, const std::vector<float>& points_mm, 
 
 }  // namespace
 
-std::vector<float> taggingOf(const std::vector<float>& points_mm, const std::vector<float>& normals,
-                             const HuView& volume, const InsideView& inside, double noise_hu, const Progress* wanted)
+TagDensities tagDensitiesOf(const std::vector<StepRecord>& steps)
 {
-    const DensitySampler densities(volume);
-    const float from_hu = kTissue_hu + std::max(kLeastContrast_hu, kTagNoises * float(noise_hu));
+    TagDensities densities;
+    for (const StepRecord& step : steps) {
+        const auto take = [&](const char* option, double& value) {
+            if (const auto said = step.parameters.find(option); said != step.parameters.end() && said->is_number())
+                value = said->get<double>();
+        };
+        if (!step.parameters.is_object())
+            continue;
+        take("segment.tissue_hu", densities.tissue_hu);
+        take("tissue.tag_contrast_hu", densities.contrast_hu);
+    }
+    return densities;
+}
+
+std::vector<float> taggingOf(const std::vector<float>& points_mm, const std::vector<float>& normals,
+                             const HuView& volume, const InsideView& inside, double noise_hu,
+                             const TagDensities& densities, const Progress* wanted)
+{
+    const DensitySampler sampler(volume);
+    const auto tissue_hu = float(densities.tissue_hu);
+    const float from_hu = tissue_hu + std::max(float(densities.contrast_hu), kTagNoises * float(noise_hu));
     std::vector<float> tagging(std::min(points_mm.size(), normals.size()) / 3);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tagging.size(), 4096), [&](const auto& some) {
         if (wanted)
             wanted->check();
         for (std::size_t n = some.begin(); n < some.end(); ++n) {
             const float *p = &points_mm[3 * n], *v = &normals[3 * n];
-            const float hu = highestBefore({p[0], p[1], p[2]}, {v[0], v[1], v[2]}, densities, inside);
+            const float hu = highestBefore({p[0], p[1], p[2]}, {v[0], v[1], v[2]}, sampler, inside, tissue_hu);
             tagging[n] = std::clamp((hu - from_hu) / kTagRise_hu, 0.F, 1.F);
         }
     });

@@ -316,7 +316,8 @@ std::vector<float> PreparedScan::taggingOf(const CellSurface& surface, const Pro
 {
     if (quantity() != Quantity::density)
         return {};
-    auto tagging = viewer::taggingOf(surface.points_mm, surface.normals, volume(), inside(), noise_hu(), wanted);
+    auto tagging = viewer::taggingOf(surface.points_mm, surface.normals, volume(), inside(), noise_hu(),
+                                     tagDensitiesOf(scan_files::readDescription(files_->folder).steps), wanted);
     if (const StepResults& results = files_->stepResults(); results.tissue)
         addUntrusted(tagging, surface.points_mm, results.tissue->untrusted);
     constexpr float kSure = 0.5F;

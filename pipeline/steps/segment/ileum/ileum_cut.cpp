@@ -139,7 +139,7 @@ std::string doubtAbout(const LumenGraph& graph, const Neck& neck, const Branch& 
 }
 
 /// A place on the way through a neck, and the way's direction there.
-struct Gate {
+struct CutPlane {
     Point3 at_mm;
     Vector3 outward;
     double radius_mm = 0;
@@ -147,7 +147,8 @@ struct Gate {
 
 /// The places of the way from where the passage begins, as narrow as the neck from there on, to a little behind the
 /// neck.
-std::vector<Gate> passageThrough(const LumenGraph& graph, const LumenTree& tree, const Neck& neck, const Branch& branch)
+std::vector<CutPlane> passageThrough(const LumenGraph& graph, const LumenTree& tree, const Neck& neck,
+                                     const Branch& branch)
 {
     const double narrow = graph.node(neck.node).wall_mm + 0.6 * graph.grid.spacing_mm[0];
     const std::vector<std::int32_t> way = tree.pathTo(branch.farthest);
@@ -155,28 +156,28 @@ std::vector<Gate> passageThrough(const LumenGraph& graph, const LumenTree& tree,
     std::size_t first = at;
     while (first > 0 && graph.node(way[first - 1]).wall_mm <= narrow)
         --first;
-    std::vector<Gate> gates;
+    std::vector<CutPlane> planes;
     for (std::size_t n = first; n <= at + kBehindNeck && n + 1 < way.size(); ++n) {
         const Point3 here = graph.point(way[n]), ahead = graph.point(way[std::min(n + 3, way.size() - 1)]);
-        gates.push_back({here, normalized(ahead - here), double(graph.node(way[n]).wall_mm)});
+        planes.push_back({here, normalized(ahead - here), double(graph.node(way[n]).wall_mm)});
     }
-    return gates;
+    return planes;
 }
 
 /// Takes out what lies behind a plane across the way to the branch, as far as it hangs together there. Returns the
 /// volume, or 0 and leaves the lumen as it is where that is more than the branch or holds a place to keep.
-double takeOut(InsideVolume& inside, Index3 offset, const LumenGraph& graph, const Gate& gate, const Branch& branch,
-               const std::vector<Point3>& keep, double most_ml)
+double takeOut(InsideVolume& inside, Index3 offset, const LumenGraph& graph, const CutPlane& plane,
+               const Branch& branch, const std::vector<Point3>& keep, double most_ml)
 {
-    const double radius = 2 * gate.radius_mm + kNeckMargin_mm;
+    const double radius = 2 * plane.radius_mm + kNeckMargin_mm;
     const double voxel_ml = inside.grid.voxelVolume_mm3() / 1000;
     const auto most = std::size_t(most_ml / voxel_ml);
     std::vector<std::pair<std::size_t, std::uint8_t>> taken;  // with the labels they had
     const auto take = [&](std::size_t n) {
         if (!isLumen(inside.voxels[n]))
             return;
-        const Vector3 d = inside.grid.pointAt(inside.grid.indexOf(n)) - gate.at_mm;
-        if (dot(d, gate.outward) < 0 && length(d) <= radius)
+        const Vector3 d = inside.grid.pointAt(inside.grid.indexOf(n)) - plane.at_mm;
+        if (dot(d, plane.outward) < 0 && length(d) <= radius)
             return;  // the colon's side of the mouth
         taken.emplace_back(n, std::exchange(inside.voxels[n], std::uint8_t(kOutside)));
     };
@@ -268,19 +269,19 @@ IleumCut cutAtEnd(InsideVolume& labels, Point3 end_mm, const Surroundings& aroun
         std::optional<Branch> branch = branchAt(graph, tree, neck);
         if (!branch || !looksLikeBowel(graph, neck, *branch))
             continue;
-        const std::vector<Gate> gates = passageThrough(graph, tree, neck, *branch);
-        if (gates.empty())
+        const std::vector<CutPlane> planes = passageThrough(graph, tree, neck, *branch);
+        if (planes.empty())
             continue;
         findColonBeside(*branch, graph, tree, neck, progress);
-        result.valve_mm = gates.front().at_mm;
+        result.valve_mm = planes.front().at_mm;
         result.neck_mm = graph.node(neck.node).wall_mm;
         const std::string where = " behind a passage of " + std::to_string(std::lround(2 * result.neck_mm)) +
                                   " mm at " + textOf(result.valve_mm);
         std::string doubt = doubtAbout(graph, neck, *branch, body);
         if (doubt.empty()) {
             // Where the passage opens into a fold's corner a plane right at its mouth would cut the colon too.
-            for (std::size_t n = 0; n < gates.size() && result.removed_ml == 0; ++n)
-                result.removed_ml = takeOut(labels, offset, graph, gates[n], *branch, keep, 1.3 * neck.behind_ml + 2);
+            for (std::size_t n = 0; n < planes.size() && result.removed_ml == 0; ++n)
+                result.removed_ml = takeOut(labels, offset, graph, planes[n], *branch, keep, 1.3 * neck.behind_ml + 2);
             if (result.removed_ml == 0)
                 doubt = "it comes round to the colon again, or holds an added point";
         }

@@ -32,7 +32,7 @@ constexpr double kCordSeen = 0.5;
 constexpr double kSmoothing_mm = 3;   // of the chain of voxels
 constexpr std::ptrdiff_t kLead = 15;  // mm of the chain in the lumen on either side, centred with what joins them
 
-enum Cell : std::uint8_t { kFat = 0, kSoft = 1, kBarred = 2, kBefore = 3, kAfter = 4 };
+enum CordVoxel : std::uint8_t { kFat = 0, kSoft = 1, kBarred = 2, kBefore = 3, kAfter = 4 };
 
 struct Cord {
     Grid grid;
@@ -80,7 +80,7 @@ double meanIn(const HuVolume& volume, const Grid& grid, Index3 cell)
 }
 
 /// The lumen about a tip: connected, and near enough to it to lead into the collapsed part.
-void markLumen(Cord& cord, const std::vector<std::uint8_t>& lumen, Point3 tip, Cell as)
+void markLumen(Cord& cord, const std::vector<std::uint8_t>& lumen, Point3 tip, CordVoxel as)
 {
     const Grid& grid = cord.grid;
     const auto nearest = nearestVoxel(grid, tip, kAnyDistance_mm, [&](Index3 v) { return lumen[grid.offset(v)] != 0; });

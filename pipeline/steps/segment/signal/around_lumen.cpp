@@ -14,9 +14,7 @@ namespace {
 /// How far from the lumen its wall is the brightest there is. Chosen on the phantom of seed 3, dark, whose walls are
 /// 2 to 3 mm thick at voxels of 1.5 mm.
 constexpr int kWallReach_voxels = 3;
-constexpr std::int16_t kLeastBeyond = 40;
-
-constexpr std::array<Index3, 6> kSixWays{Index3{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+constexpr std::int16_t kLeastBeyond = kUsualTissue_hu;
 
 /// The lumen as a part of the scan that begins at `low`.
 struct LumenInScan {
@@ -44,7 +42,7 @@ void measureLevels(const HuVolume& signal, const LumenInScan& place, SignalLevel
     std::vector<std::int16_t> within, wall;
     forEachOfLumen(place, [&](Index3 v) {
         bool rim = false;
-        for (const Index3 way : kSixWays) {
+        for (const Index3 way : kFaces) {
             rim = rim || !place.isLumen(along(v, way, 2));
             if (place.isLumen(along(v, way, 1)))
                 continue;
@@ -78,7 +76,7 @@ HuVolume onLumenScaleAround(const HuVolume& signal, const HuVolume& scaled, cons
     constexpr int kNear_voxels = 2;
     forEachOfLumen(place, [&](Index3 v) {
         out.at(v) = own.at(v);
-        for (const Index3 way : kSixWays)
+        for (const Index3 way : kFaces)
             for (int step = 1; step <= kNear_voxels && signal.grid.contains(along(v, way, step)); ++step)
                 out.at(along(v, way, step)) = own.at(along(v, way, step));
     });

@@ -11,7 +11,6 @@
 namespace vicon::steps {
 namespace {
 
-constexpr double kWallOfScale = 40;   // as WallDensities has the wall
 constexpr double kLowest_hu = -1600;  // noise below the lumen: cut off nearer, its mean would rise
 /// What is brighter than tissue, or darker where the lumen is bright: below tagged fluid, above the noise of tissue.
 constexpr double kAnythingElse_hu = 110;
@@ -72,7 +71,7 @@ void clearAirAround(const HuVolume& signal, double air_below, HuVolume& scaled)
 
 HuVolume onLumenScale(const HuVolume& signal, const SignalLevels& levels)
 {
-    const double slope = (kWallOfScale - kAir_hu) / (levels.tissue - levels.lumen);
+    const double slope = (kUsualTissue_hu - kAir_hu) / (levels.tissue - levels.lumen);
     auto scaled = makeVolume<std::int16_t>(signal.grid);
     tbb::parallel_for(0, signal.grid.size[2], [&](int k) {
         const std::size_t begin = signal.grid.offset({0, 0, k}), end = signal.grid.offset({0, 0, k + 1});

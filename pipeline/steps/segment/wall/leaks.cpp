@@ -6,19 +6,19 @@
 #include <cmath>
 
 #include "grid/thin_holes.h"
+#include "segment/constants.h"
 
 namespace vicon::steps {
 
 std::vector<Point3> closeLeaks(const HuVolume& volume, const WallDensities& densities, InsideVolume& labels)
 {
-    constexpr double kGas_hu = -1000;
     const auto slice = std::size_t(labels.grid.size[0]) * std::size_t(labels.grid.size[1]);
     InsideVolume gas(labels.grid, kOutside);
     Volume<std::uint8_t> fraction(labels.grid, UINT8_MAX);
     tbb::parallel_for(std::size_t(0), std::size_t(labels.grid.size[2]), [&](std::size_t k) {
         for (std::size_t n = k * slice; n < (k + 1) * slice; ++n)
             if (labels.voxels[n] == kGas) {
-                const double part = (volume.voxels[n] - kGas_hu) / (densities.tissue_hu - kGas_hu);
+                const double part = (volume.voxels[n] - kAir_hu) / (densities.tissue_hu - kAir_hu);
                 gas.voxels[n] = kGas;
                 fraction.voxels[n] = std::uint8_t(std::lround(std::clamp(part, 0.0, 1.0) * UINT8_MAX));
             }

@@ -70,7 +70,7 @@ SignalLevels levelsOf(const HuVolume& signal, LumenContrast contrast, const Sign
 SignalLevels levelsWithin(const HuVolume& signal, const InsideVolume& lumen, const SignalOptions& options);
 
 /// From what fills the lumen to tissue on the lumen's scale.
-inline constexpr double kLumenToTissue = 1040;
+inline constexpr double kLumenToTissue = kUsualTissue_hu - kUsualAir_hu;
 
 /// The signal on the scale on which a lumen is found and its wall placed: what fills the lumen is -1000, tissue 40, as
 /// gas and tissue are in CT, half-way in between. Not densities, and never shown as such. What is brighter than tissue

@@ -7,6 +7,7 @@
 #include "vicon/core/progress.h"
 #include "vicon/core/scanner_blur.h"
 #include "vicon/core/untrusted_wall.h"
+#include "vicon/core/usual_densities.h"
 #include "vicon/core/volume.h"
 #include "vicon/steps/wall_densities.h"
 
@@ -17,7 +18,7 @@ using TissueVolume = Volume<std::uint8_t>;
 
 struct TissueOptions {
     double usual_blur_mm = kUsualBlur_mm;
-    double tag_contrast_hu = 120;
+    double tag_contrast_hu = kUsualTagContrast_hu;
     bool leave_out_other_bowel = true;  ///< no option: false for a lumen of which a person says that all is colon
     bool find_stool = true;             ///< no option: false where voxels hold no density, which tells tagging
 

@@ -1,13 +1,14 @@
 #pragma once
 
 #include "vicon/core/options.h"
+#include "vicon/core/usual_densities.h"
 
 namespace vicon::steps {
 
 /// The densities between which the wall lies: of the mask, of the surface and of the distances alike.
 struct WallDensities {
-    double wall_hu = -480;
-    double tissue_hu = 40;
+    double wall_hu = kUsualWall_hu;
+    double tissue_hu = kUsualTissue_hu;
 
     template <class Visitor>
     void visit(Visitor&& v)

@@ -2,13 +2,14 @@
 
 #include <optional>
 
+#include "vicon/core/usual_densities.h"
 #include "vicon/core/volume_view.h"
 #include "vicon/viewer/model/lumen.h"
 
 namespace vicon::viewer {
 
 /// Half-way between gas and soft tissue, as the cells' surface: there the wall as acquired stands.
-inline constexpr double kGasEnds_hu = -480;
+inline constexpr double kGasEnds_hu = kUsualWall_hu;
 /// How far behind the lumen's wall the wall as acquired is looked for.
 inline constexpr double kBehindWall_mm = 5;
 
