@@ -23,8 +23,8 @@ namespace {
 constexpr std::size_t kRecess_voxels = 30;
 /// The largest pocket, 1 ml at the usual voxels: more is bowel.
 constexpr std::size_t kPocket_voxels = 3000;
-/// The share of a pocket's surface where its own density goes on although the fraction ends: .12 and .13 of two pockets,
-/// .3 and .59 of small bowel and of tagging within a fold.
+/// The share of a pocket's surface where its own density goes on although the fraction ends: .12 and .13 of two
+/// pockets, .3 and .59 of small bowel and of tagging within a fold.
 constexpr double kMostOpen = 0.2;
 /// Of the step from tissue to its own density: half of it is the wall.
 constexpr double kGoesOn = 0.75;
