@@ -84,6 +84,12 @@ Statement categoryStatement(const char* label, const Proposal<Category>& proposa
     return {label, text};
 }
 
+/// Whether no reader has marked, found or stated anything.
+bool isUnread(const ReadCase& read)
+{
+    return read.markers.empty() && read.findings.empty() && toJson(read.assessment) == toJson(Assessment());
+}
+
 /// The parts that are not well distended, scan by scan.
 std::string distensionWords(const ReadCase& read)
 {
@@ -197,6 +203,10 @@ std::string looseMarkersSaid(const std::vector<std::string>& ids)
 
 std::vector<Statement> categoryStatements(const ReadCase& read)
 {
+    // What nobody has looked at is not normal: without a word of a reader no category stands on paper.
+    if (isUnread(read))
+        return {{"C-RADS colon", "not chosen; this case was not read yet"},
+                {"C-RADS outside", "not chosen; this case was not read yet"}};
     return {categoryStatement("C-RADS colon", read.colon_proposal, read.assessment.colon_category),
             categoryStatement("C-RADS outside", read.extracolonic_proposal, read.assessment.extracolonic_category)};
 }

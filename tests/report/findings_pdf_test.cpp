@@ -51,6 +51,19 @@ TEST_F(PdfOfFindings, SaysOnPageOneWhatAReferringPhysicianNeeds)
     EXPECT_LT(first.find("C3: polyp"), first.find("Findings in the colon"));
 }
 
+TEST_F(PdfOfFindings, ProposesNoCategoryOfACaseThatNobodyRead)
+{
+    content_.read.markers.clear();
+    content_.read.assessment = {};
+    content_.read.colon_proposal = {ColonCategory::c1, "no polyp of 6 mm or more"};
+    expectWellMade(write());
+    EXPECT_THAT(samples::pageTexts(pdf_).at(0), HasSubstr("this case was not read yet"));
+    EXPECT_THAT(samples::pageTexts(pdf_).at(0), testing::Not(HasSubstr("C1")));
+    content_.read.assessment.impression = "Normal colon.";
+    expectWellMade(write());
+    EXPECT_THAT(samples::pageTexts(pdf_).at(0), HasSubstr("proposed: C1 (no polyp of 6 mm or more)"));
+}
+
 TEST_F(PdfOfFindings, ImpressionTellsOfTheGravestFirstAndWhyAStudyIsNoAnswer)
 {
     addFindings(3);
