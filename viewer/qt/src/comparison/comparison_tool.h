@@ -31,6 +31,8 @@ private:
         Point3 at_mm;
     };
     void connectView();
+    void connectLine();
+    void drawLine();
     /// Not where it lies in a scan that is not beside, until that comes.
     void showPartner();
     /// The key: the other scan; of several the next one; after the last none.
@@ -49,8 +51,8 @@ private:
     void clicked(Pixel at, Qt::KeyboardModifiers modifiers);
     /// To what corresponds to the place of the other scan's way that is nearest in its projection.
     void clickedOverview(Pixel at);
-    /// What is beside; nothing, which is said, where it is of an earlier examination.
-    const OpenScan* markableScan();
+    /// What is beside; nothing, which is said, where it is of an earlier examination and the click measures nothing.
+    const OpenScan* clickableScan();
 
     BesideView* view_;
     QAction* on_ = nullptr;

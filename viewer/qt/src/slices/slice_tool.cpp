@@ -48,6 +48,7 @@ void SliceTool::addTo(ReadingLayout& layout)
     connect(cleansed, &QAction::toggled, this, [this](bool on) {
         for (SliceView* slice : reading_.views().slices())
             slice->setCleansed(on);
+        emit reading_.cleansedChanged(on);
     });
     addKeys(layout);
     connect(window_, &QComboBox::currentTextChanged, this, [this](const QString& name) {

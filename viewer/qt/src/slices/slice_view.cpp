@@ -237,7 +237,7 @@ void SliceView::setLine(const std::optional<MeasuredLine>& line)
 
 void SliceView::drawLine()
 {
-    const bool there = line_ && scan_ && !image().isNull();
+    const bool there = line_ && scan_ && line_->scan_id == scan_->record.id && !image().isNull();
     setCalliper(there ? inSlice(*line_, shown_, scan_->files.volume().grid) : std::nullopt);
 }
 
