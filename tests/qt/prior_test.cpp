@@ -110,6 +110,7 @@ TEST_F(Priors, AreListedShownInTheirPlaceAndFlownTo)
     clickRow(table(), 0);
     ASSERT_TRUE(eventually([&] { return std::abs(station() - length_mm_ / 2) < 5; })) << station();
     ASSERT_TRUE(eventually([] { return violet("axial") > 5; })) << "a diamond in the slice";
+    EXPECT_TRUE(eventually([] { return violet("endoscopic") > 5; })) << "a ring where its stretch ends";
     screenshot("priors");
 }
 

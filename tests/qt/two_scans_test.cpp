@@ -3,6 +3,7 @@
 
 #include <QComboBox>
 #include <QLabel>
+#include <QMouseEvent>
 #include <QPushButton>
 #include <QTableWidget>
 
@@ -77,6 +78,44 @@ TEST_F(TwoScans, TheSamePlaceIsABandInTheOtherScansViewsAndMovesWithTheEye)
     key(Qt::Key_Period);
     EXPECT_TRUE(eventually([&] { return the<QLabel>("besidePlace")->text() != before; }));
     EXPECT_TRUE(eventually([&] { return pictureOf("besideOverview") != first; }));
+}
+
+TEST_F(TwoScans, TheSamePlaceStaysInTheProjectionThatTurnsInTheBandAndInTheCube)
+{
+    for (int n = 0; n < 6; ++n)
+        key(Qt::Key_Period);
+    waitUntilQuiet();
+    constexpr int kShown = 60;
+    const int without = green("overview");  // some of the way's line is about as green
+    openOther();
+    waitForScan();
+    ASSERT_TRUE(eventually([&] { return green("overview") > without + kShown; })) << without;
+    waitUntilQuiet();
+    auto* overview = the<QWidget>("overview");
+    const QImage front = pictureOf("overview");
+    const QPoint from = overview->rect().center();
+    QTest::mousePress(overview, Qt::LeftButton, {}, from);
+    for (int n = 1; n <= 4; ++n) {
+        QMouseEvent move(QEvent::MouseMove, from + QPoint(20, 5) * n, Qt::LeftButton, Qt::LeftButton, {});
+        QApplication::sendEvent(overview, &move);
+    }
+    QTest::mouseRelease(overview, Qt::LeftButton, {}, from + QPoint(80, 20));
+    ASSERT_TRUE(eventually([&] { return pictureOf("overview") != front; }));
+    waitUntilQuiet();
+    screenshot("same_place_turned");
+    const int turned = green("overview");
+    EXPECT_GT(turned, kShown) << "turned";
+    key(Qt::Key_B, Qt::ShiftModifier);
+    key(Qt::Key_U);
+    for (const char* view : {"band", "cube"})
+        EXPECT_TRUE(eventually([&] { return green(view) > 20; })) << view;
+    waitUntilQuiet();
+    screenshot("same_place_all_views");
+    key(Qt::Key_U);
+    key(Qt::Key_Period);
+    waitUntilQuiet();
+    EXPECT_LT(green("band"), 5) << "of the place that was come to alone";
+    EXPECT_LT(green("overview"), turned - kShown) << turned;
 }
 
 TEST_F(TwoScans, ThePictureBesideSaysWhileItIsOfAnotherPlace)

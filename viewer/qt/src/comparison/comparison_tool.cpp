@@ -209,10 +209,10 @@ void ComparisonTool::drawBeside(bool still)
     if (shown_.isOf(scan))
         view_->endoscopic()->noteWhereElsewhere(shown_.place.pose.eye_mm, eye_mm_);
     EndoscopicRequest request = reading_.requestFor(*scan, at, view_->endoscopic()->pictureSize(), still);
-    reading_.drawing().drawBeside(scan, request);
     const std::string label = tr("same place, 80 %").toStdString();
+    request.snapshot.priors.push_back(samePlace(label, scan->files.skeleton(), same));
+    reading_.drawing().drawBeside(scan, request);
     SnapshotRequest overview = request.snapshot;
-    overview.priors.push_back(samePlace(label, scan->files.skeleton(), same));
     view_->slice()->look(scan, partner_ ? partner_->at_mm : at.pose.eye_mm, at.pose, overview.markers, overview.priors);
     const QSize size = view_->overview()->pictureSize();
     overview.width = size.width();

@@ -176,7 +176,7 @@ void PanoramaTool::drawBand(bool still)
         reading_.requestFor(*reading_.scan(), reading_.navigator()->state(), band_->pictureSize(), still);
     band_->look(reading_.sharedScan(),
                 {request.place, reading_.navigator()->heading() == Heading::rectum, request.snapshot.markers,
-                 request.paint_seen},
+                 request.snapshot.priors, request.paint_seen},
                 still);
 }
 
