@@ -36,7 +36,7 @@ void ComparisonTool::addTo(ReadingLayout& layout)
     });
     connect(&reading_.session(), &CaseSession::besideClosed, this, &ComparisonTool::arrange);
     connect(&reading_, &Reading::partnerWanted, this, [this](const Marker& partner) {
-        partner_marker_ = partner;
+        partner_markers_ = {partner};
         showPartner();
         draw(true);
     });
@@ -234,13 +234,16 @@ void ComparisonTool::sayPlace(const StationInterval& place)
 
 void ComparisonTool::markerShown(const Marker& marker)
 {
-    partner_marker_ = reading_.session().marker(marker.pair);
+    partner_markers_.clear();
+    for (const std::string& id : marker.partners)
+        if (const auto partner = reading_.session().marker(id))
+            partner_markers_.push_back(*partner);
     showPartner();
 }
 
 void ComparisonTool::pointLeft()
 {
-    partner_marker_.reset();
+    partner_markers_.clear();
     partner_.reset();
 }
 
@@ -248,8 +251,9 @@ void ComparisonTool::showPartner()
 {
     const OpenScan* scan = reading_.session().beside();
     partner_.reset();
-    if (scan && partner_marker_ && partner_marker_->scan_id == scan->record.id)
-        partner_ = Partner{viewOfMarker(*scan, *partner_marker_), partner_marker_->position_mm};
+    for (const Marker& marker : partner_markers_)
+        if (scan && marker.scan_id == scan->record.id)
+            partner_ = Partner{viewOfMarker(*scan, marker), marker.position_mm};
 }
 
 }  // namespace vicon::viewer

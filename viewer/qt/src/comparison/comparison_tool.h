@@ -25,7 +25,7 @@ public:
     void annotate(SnapshotRequest& request, const OpenScan& scan) const override;
 
 private:
-    /// The partner of the marker that is shown.
+    /// The partner of the marker that is shown, in the scan beside.
     struct Partner {
         ViewPose view;
         Point3 at_mm;
@@ -56,8 +56,8 @@ private:
 
     BesideView* view_;
     QAction* on_ = nullptr;
-    bool by_layout_ = false;  // the reader did not ask for the other scan alone
-    std::optional<Marker> partner_marker_;
+    bool by_layout_ = false;               // the reader did not ask for the other scan alone
+    std::vector<Marker> partner_markers_;  // in whatever scans
     std::optional<Partner> partner_;
     std::optional<StationMap> map_;  // from the scan that is read to the one beside
     std::shared_ptr<OpenScan> left_;

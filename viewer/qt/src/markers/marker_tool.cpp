@@ -99,8 +99,8 @@ void MarkerTool::startMoving(const Marker& marker)
 
 void MarkerTool::pair(const Marker& marker)
 {
-    if (marker.pair.empty())
-        reading_.begin(PairMarker{marker.id, marker.scan_id}, tr("Choose the same finding in the other scan"));
+    if (marker.partners.empty())
+        reading_.begin(PairMarker{marker.id, marker.scan_id}, tr("Choose the same finding in another scan"));
     else
         reading_.session().partMarkers(marker);
 }

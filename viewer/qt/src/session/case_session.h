@@ -70,7 +70,7 @@ public:
     void changeMarker(const Marker& before, const Marker& after, bool moved, const QString& what = {});
     void removeMarker(const Marker& marker);
     void pairMarkers(const Marker& a, const Marker& b);
-    /// Ends a pair, on both sides.
+    /// Takes it from those that it is paired with, on both sides.
     void partMarkers(const Marker& marker);
     /// The markers of a file join those of the case: all in one step, or none.
     void loadMarkers(const std::filesystem::path& file);
