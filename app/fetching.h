@@ -17,9 +17,13 @@ struct Fetched {
     bool whole = false;        ///< everything was there before
 };
 
-/// Fetches series of a study by C-GET and imports them; goes on where an earlier try stopped. Throws as
-/// ingest::getSeries() and ingest::importPaths().
-Fetched fetchByGet(Context& context, const std::string& study_uid, const ingest::Peer& peer,
-                   const std::vector<std::string>& series, Progress& progress);
+/// Fetches series of a study as the peer is to be asked (Peer::retrieve) and imports them; goes on where an earlier try
+/// stopped. What is moved is taken on receive.port, by the store's running listener where there is one.
+/// Throws as ingest::getSeries(), ingest::moveSeries(), ingest::Receiver and ingest::importPaths().
+Fetched fetchSeries(Context& context, const std::string& study_uid, const ingest::Peer& peer,
+                    const std::vector<std::string>& series, Progress& progress);
+
+/// Waits until the store's running listener has taken what lies in its folder now. Throws Error{cancelled}.
+void waitForListener(Context& context, Progress& progress);
 
 }  // namespace vicon::app

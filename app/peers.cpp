@@ -60,6 +60,9 @@ void takeField(ingest::Peer& peer, const std::string& field, const nlohmann::jso
         peer.port = value;
     else if (field == "roles" && value.is_array())
         takeRoles(peer, value);
+    else if (field == "retrieve" && value.is_string())
+        peer.retrieve =
+            valueIn(ingest::kRetrieveMethodNames, value.get<std::string>(), "[peers] " + peer.name + ": retrieve");
     else if (field == "max_associations" && is_within(0, kMostAssociations))
         peer.max_associations = value;
     else if (field == "mb_per_s" && value.is_number() && value >= 0)
@@ -70,8 +73,8 @@ void takeField(ingest::Peer& peer, const std::string& field, const nlohmann::jso
         peer.certificate_name = value;
     else if (!takeWebField(peer, field, value))
         wrong(peer.name, "'" + field + " = " + value.dump() + "' is not understood",
-              "a peer has host, port, ae_title (1 to 16 characters), roles, max_associations, mb_per_s, tls, "
-              "certificate_name, url, user and password_file");
+              "a peer has host, port, ae_title (1 to 16 characters), roles, retrieve, max_associations, mb_per_s, "
+              "tls, certificate_name, url, user and password_file");
 }
 
 ingest::Peer peerFrom(const std::string& name, const nlohmann::json& about, const ingest::TlsOptions& tls)

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "priors.h"
-#include "report_folder.h"
 #include "report_known.h"
 #include "report_pictures.h"
 #include "report_writing.h"
@@ -73,9 +72,8 @@ std::string pdfOfReport(CaseStore& store, const Config& config, const std::strin
     const std::vector<ReportVersion> versions = reportVersions(store, case_id);
     if (!versions.empty() && !reportStatus(store, case_id).open())
         return readFile(versions.back().file);
-    const ReportFolder folder;
     NoProgress progress;
-    return readFile(writeReport(store, config, case_id, folder / "preview.pdf", progress).file);
+    return previewReport(store, config, case_id, progress);
 }
 
 void addReportServices(viewer::ReportServices& services, const Config& config)

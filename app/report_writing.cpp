@@ -41,25 +41,64 @@ void drawPictures(
 
 }  // namespace
 
-WrittenReport writeReport(CaseStore& store, const Config& config, const std::string& case_id, fs::path out,
-                          Progress& progress)
+namespace {
+
+report::ReportContent contentOfDraft(CaseStore& store, const std::string& case_id)
 {
     report::ReportContent content;
     content.read = readCase(store, case_id);
-    const CaseRecord& record = content.read.record;
-    requireReportable(store, record);
+    requireReportable(store, content.read.record);
     content.created = nowUtc();
     content.software_version = VICON_VERSION;
-    content.number = store.nextNumber("report " + record.id);
-    if (out.empty())
-        out = reportFile(store, record.id, content.number);
-    const viewer::Display display;  // one for all pictures
-    ReportScans scans(store, content.read);
-    report::PrintPictures printed;
-    drawPictures(store, content, scans, printed, progress);
-    const report::PdfResult written = report::writePdf(content, out, config.get<report::ReportOptions>(), &printed);
-    store.audit("report written", record.id, "", "number " + std::to_string(content.number));
-    return {out, content.number, written.pages, content.markers.size(), written.warnings};
+    return content;
+}
+
+/// Draws the pictures of a draft once, then its PDF under the number that it shall have.
+class DraftDrawing {
+public:
+    DraftDrawing(CaseStore& store, const Config& config, const std::string& case_id, Progress& progress)
+        : options_(config.get<report::ReportOptions>()),
+          content_(contentOfDraft(store, case_id)),
+          scans_(store, content_.read)
+    {
+        drawPictures(store, content_, scans_, printed_, progress);
+    }
+
+    std::string pdfNumbered(int number)
+    {
+        content_.number = number;
+        std::string pdf;
+        drawn_ = report::drawPdf(content_, pdf, options_, &printed_);
+        return pdf;
+    }
+    const report::ReportContent& content() const { return content_; }
+    const report::PdfResult& drawn() const { return drawn_; }  ///< of the last PDF
+
+private:
+    report::ReportOptions options_;
+    report::ReportContent content_;
+    viewer::Display display_;  // one for all pictures
+    ReportScans scans_;
+    report::PrintPictures printed_;
+    report::PdfResult drawn_;
+};
+
+}  // namespace
+
+WrittenReport writeReport(CaseStore& store, const Config& config, const std::string& case_id, const fs::path& out,
+                          Progress& progress)
+{
+    DraftDrawing drawing(store, config, case_id, progress);
+    const WrittenDraft written = writeDraft(store, drawing.content().read.record.id, out,
+                                            [&](int number) { return drawing.pdfNumbered(number); });
+    return {written.file, written.number, drawing.drawn().pages, drawing.content().markers.size(),
+            drawing.drawn().warnings};
+}
+
+std::string previewReport(CaseStore& store, const Config& config, const std::string& case_id, Progress& progress)
+{
+    DraftDrawing drawing(store, config, case_id, progress);
+    return drawing.pdfNumbered(nextDraftNumber(store, drawing.content().read.record.id));
 }
 
 namespace {

@@ -20,8 +20,10 @@ struct WrittenReport {
 };
 
 /// Draws and writes a case's report as PDF; `out` empty: into the case's folder, under its number.
-WrittenReport writeReport(CaseStore& store, const Config& config, const std::string& case_id, std::filesystem::path out,
-                          Progress& progress);
+WrittenReport writeReport(CaseStore& store, const Config& config, const std::string& case_id,
+                          const std::filesystem::path& out, Progress& progress);
+/// The PDF that writeReport() would write now: it takes no number and counts as no report.
+std::string previewReport(CaseStore& store, const Config& config, const std::string& case_id, Progress& progress);
 
 struct GivenReport {
     ReportVersion version;

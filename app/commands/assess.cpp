@@ -172,7 +172,7 @@ Subcommand assessCommand()
                     .typeName("SCAN:PART=GRADE");
                 command.option("--dose", a->dose, "Dose length product, mGy cm").typeName("NUMBER");
                 command.option("--minutes", a->minutes, "How long the reading took").typeName("NUMBER");
-                command.option("--coverage", a->coverage, "How much of the wall was seen").typeName("PERCENT");
+                command.option("--coverage", a->coverage, "How much of the wall was reviewed").typeName("PERCENT");
                 return [=](Context& context) {
                     for (std::size_t n = 0; n < texts.size(); ++n)
                         a->text_given[n] = texts[n].given();

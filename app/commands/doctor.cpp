@@ -6,13 +6,17 @@
 
 #include "../command.h"
 #include "../peers.h"
+#include "../store_disk.h"
 #include "vicon/cases/purge.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/ingest/receiver.h"
 #include "vicon/ingest/sender.h"
 #include "vicon/ingest/tls.h"
+#include "vicon/report/options.h"
+#include "vicon/text/font_set.h"
 #include "vicon/viewer/scene/display.h"
+#include "vicon/viewer/scene/opengl_renderer.h"
 
 namespace fs = std::filesystem;
 
@@ -45,37 +49,61 @@ std::string formatGb(double gb)
     return text;
 }
 
-std::string checkStore(Context& context)
+/// The folder alone: the database has its own line.
+std::string checkFolder(const fs::path& folder, bool on_server)
 {
-    CaseStore& store = context.store();
-    const fs::path probe = store.folder() / ".doctor";
-    replaceFile(probe, "probe");
-    fs::remove(probe);
-    return store.folder().string() + ", schema version " + std::to_string(Database::kSchemaVersion);
+    makePrivateFolder(folder);
+    tryFolder(folder);
+    const FileSystem disk = fileSystemOf(folder);
+    if (const std::string why = whyNoStoreOn(disk, on_server); !why.empty())
+        throw Error(ErrorCode::store, why, folder.string(), "see 'Several machines' in docs/admin/operate.md");
+    return folder.string() + ", " + disk.name + ", flush and hard links work" +
+           (disk.kind == FileSystem::Kind::memory ? "; in memory: gone when the machine stops" : "");
 }
 
 std::string checkDatabase(Context& context)
 {
-    if (const std::string damage = context.store().database().damage(); !damage.empty())
+    Database& database = context.store().database();
+    if (const std::string damage = database.damage(); !damage.empty())
         throw Error(ErrorCode::database, "the database is damaged (" + damage.substr(0, damage.find('\n')) + ")",
-                    context.store().database().where(), "restore it from a backup");
-    return "whole";
+                    database.where(), "restore it from a backup");
+    return "whole, schema version " + std::to_string(Database::kSchemaVersion);
 }
 
 std::string checkPeer(const Config& config, const std::string& name)
 {
     const ingest::Peer peer = requirePeer(config, name);
+    if (!peer.is_queried && !peer.is_sent)
+        return ingest::whereIs(peer) + " only stores here, and is not called";
     ingest::echo(peer, config.get<ingest::ReceiverOptions>().ae_title);
     return ingest::whereIs(peer) + " answers";
 }
 
-std::string checkSpace(Context& context)
+std::string checkSpace(const fs::path& folder)
 {
-    const double gb = freeGb(context.store());
+    const double gb = freeGb(folder);
     if (gb < kLeastFreeGb)
-        throw Error(ErrorCode::store, "only " + formatGb(gb) + " free", context.storeFolder().string(),
+        throw Error(ErrorCode::store, "only " + formatGb(gb) + " free", folder.string(),
                     "a case takes about 2.5 GB; make room");
     return formatGb(gb) + " free";
+}
+
+/// Names are written in every script whose fonts are installed.
+std::string checkFonts(const std::string& folder)
+{
+    constexpr std::pair<char32_t, const char*> kScripts[] = {
+        {U'A', "Latin"},    {U'Ω', "Greek"},     {U'Ж', "Cyrillic"}, {U'א', "Hebrew"}, {U'ع', "Arabic"},
+        {U'中', "Chinese"}, {U'あ', "Japanese"}, {U'한', "Korean"},  {U'ก', "Thai"},   {U'अ', "Devanagari"}};
+    text::FontSet fonts({folder}, text::FontSet::Medium::paper);
+    std::string found, missing;
+    for (const auto& [letter, script] : kScripts) {
+        std::string& list = fonts.find(letter) ? found : missing;
+        list += (list.empty() ? "" : ", ") + std::string(script);
+    }
+    if (!fonts.find(kScripts[0].first))
+        throw Error(ErrorCode::bad_input, "no font has Latin letters", folder,
+                    "install the Debian package 'fonts-dejavu', or set report.font_folder");
+    return found + (missing.empty() ? "" : "; none for " + missing);
 }
 
 std::string checkMemory()
@@ -89,7 +117,9 @@ std::string checkMemory()
 std::string checkDisplay()
 {
     const viewer::Display display;
-    return display.isPrivate() ? "private Xvfb " + display.name() : display.name();
+    const std::string renderer = viewer::openGlRenderer(display);
+    return (display.isPrivate() ? "private Xvfb " : "") + display.name() + ", drawn " +
+           (viewer::drawsInSoftware(renderer) ? "in software by " : "by ") + renderer;
 }
 
 std::string checkCertificates(const ingest::TlsOptions& tls)
@@ -108,12 +138,15 @@ std::string checkCertificates(const ingest::TlsOptions& tls)
 
 int doctor(Context& context)
 {
+    const StorePlace place = context.storePlace();
+    const auto report = context.config().get<report::ReportOptions>();
     std::vector<Check> checks = {
         checked("configuration", [&] { return std::to_string(context.config().specs().size()) + " options"; }),
-        checked("store", [&] { return checkStore(context); }),
+        checked("store", [&] { return checkFolder(place.folder, !place.database.empty()); }),
         checked("database", [&] { return checkDatabase(context); }),
-        checked("disk space", [&] { return checkSpace(context); }),
+        checked("disk space", [&] { return checkSpace(place.folder); }),
         checked("memory", [] { return checkMemory(); }),
+        checked("fonts", [&] { return checkFonts(report.font_folder); }),
         checked("display", [] { return checkDisplay(); }),
     };
     for (const auto& [name, about] : context.config().peers().items())

@@ -33,17 +33,18 @@ viewer::FlightRequest::Direction directionFrom(const std::string& name)
 
 constexpr std::size_t kMostListed = 10;
 
-void printUnseen(const viewer::FlightReport& report, double least_mm2)
+void printNotShown(const viewer::FlightReport& report, double least_mm2)
 {
     if (report.whole_mm2 <= 0)
         return;
-    std::printf("unseen: %.0f of %.0f mm2; patches of %g mm2 and more: %zu\n", report.whole_mm2 - report.seen_mm2,
+    std::printf("not shown: %.0f of %.0f mm2; regions of %g mm2 and more: %zu\n", report.whole_mm2 - report.seen_mm2,
                 report.whole_mm2, least_mm2, report.unseen.size());
     for (std::size_t n = 0; n < std::min(report.unseen.size(), kMostListed); ++n) {
         const viewer::UnseenPatch& patch = report.unseen[n];
-        const std::string part = partNameAt(report.parts, patch.station_mm);
+        const std::string segment = partNameAt(report.parts, patch.station_mm);
         std::printf("  %6.0f mm2 at station %.0f mm%s%s, LPS %.1f %.1f %.1f mm\n", patch.area_mm2, patch.station_mm,
-                    part.empty() ? "" : ", ", part.c_str(), patch.centre_mm.x, patch.centre_mm.y, patch.centre_mm.z);
+                    segment.empty() ? "" : ", ", segment.c_str(), patch.centre_mm.x, patch.centre_mm.y,
+                    patch.centre_mm.z);
     }
     if (report.unseen.size() > kMostListed)
         std::printf("  ... (all with --json or in flight.json)\n");
@@ -89,7 +90,7 @@ int fly(Context& context, const FlyArguments& arguments)
     }
     std::printf("%zu frames over %.0f mm", report.frames.size(), report.length_mm);
     if (request.measure_coverage)
-        std::printf("; %.1f %% of the surface seen", report.coverage * 100);
+        std::printf("; %.1f %% of the wall shown, %.1f %% reviewed", report.coverage * 100, report.reviewed * 100);
     std::printf("\n");
     std::printf("cells drawn %.1f of %zu, triangles drawn %.0f of %zu on average", report.average_cells, report.cells,
                 report.average_triangles, report.triangles);
@@ -97,7 +98,7 @@ int fly(Context& context, const FlyArguments& arguments)
         std::printf("; frame %.1f ms median", report.median_seconds * 1e3);
     std::printf("\n");
     printViews(report);
-    printUnseen(report, request.least_unseen_mm2);
+    printNotShown(report, request.least_unseen_mm2);
     if (!arguments.out.empty())
         std::printf("%s\n", arguments.out.c_str());
     return 0;
@@ -128,12 +129,15 @@ Subcommand flyCommand()
                 .check(range(2, 100000));
             command.option("--width", request.width, "Pixels of a frame").check(range(200, 4096));
             command.option("--height", request.height, "Pixels of a frame").check(range(200, 4096));
-            command.option("--angle", request.view_angle_deg, "Viewing angle, degrees")
+            command.option("--angle", request.view_angle_deg, "Field of view, degrees")
                 .check(range(20.0, 150.0))
                 .captureDefault();
             arguments->wall.addTo(command);
-            command.flag("!--no-coverage", request.measure_coverage, "Do not measure what is seen (faster)");
-            command.option("--unseen", request.least_unseen_mm2, "Least area of an unseen patch to be listed, mm2")
+            command.flag("!--no-coverage", request.measure_coverage,
+                         "Do not measure what of the wall is shown (faster)");
+            command
+                .option("--unseen", request.least_unseen_mm2,
+                        "Least area of a region that was not shown to be listed, mm2")
                 .check(range(0.0, 1e6))
                 .captureDefault();
             command.flag("!--no-culling", request.cull, "Draw every cell in every frame");

@@ -51,6 +51,27 @@ int makePhantom(const PhantomArguments& arguments)
     return 0;
 }
 
+/// What scanner and protocol make of the same patient.
+void addScannerOptions(CommandLine& command, phantom::PhantomOptions& options)
+{
+    phantom::Protocol& protocol = options.protocol;
+    command.option("--noise", options.noise_hu, "Noise in HU (default: drawn from 15 to 40)").check(range(0.0, 500.0));
+    command.option("--kernel", protocol.kernel, "Point spread; with a sharp one edges overshoot")
+        .check(oneOf({"smooth", "usual", "sharp"}))
+        .captureDefault();
+    command.option("--slice", protocol.thickness_mm, "Thickness of the slices in mm (default: 1)")
+        .check(range(0.5, 5.0));
+    command.option("--tagging", protocol.tagging_hu, "Density of the pools in HU (default: drawn from 300 to 900)")
+        .check(range(100.0, 2000.0));
+    command.option("--bubbles", protocol.bubbles, "Bubbles in the pools; without a number: 40")
+        .valueIfBare("40")
+        .check(range(0, 200));
+    command.flag("--contrast", protocol.contrast, "Contrast medium in wall, vessels and organs");
+    command.option("--hips", protocol.hips, "Streaks from hip to hip, or the right one of metal")
+        .check(oneOf({"quiet", "streaks", "metal"}))
+        .captureDefault();
+}
+
 }  // namespace
 
 Subcommand phantomCommand()
@@ -60,9 +81,8 @@ Subcommand phantomCommand()
             auto arguments = std::make_shared<PhantomArguments>();
             phantom::PhantomOptions& options = arguments->options;
             command.option("OUT", arguments->out, "Folder to write to; made, and must be empty").required();
-            command
-                .option("--organ", arguments->organ, "Which organ; an airway and an aorta take --seed and --size alone")
-                .check(oneOf({"colon", "airway", "aorta"}))
+            command.option("--organ", arguments->organ, "Which organ; those but the colon take --seed and --size alone")
+                .check(oneOf({"colon", "airway", "aorta", "stomach"}))
                 .captureDefault();
             command.flag("--supine", arguments->supine, "Make the supine scan (default: supine and prone)");
             command.flag("--prone", arguments->prone, "Make the prone scan");
@@ -91,6 +111,7 @@ Subcommand phantomCommand()
             command.option("--mr", options.mr, "MR images in place of CT, the lumen dark or bright in them")
                 .check(oneOf({"none", "dark", "bright"}));
             command.flag("--low-dose", options.low_dose, "Noise of 50 to 80 HU");
+            addScannerOptions(command, options);
             command.option("--seed", options.seed, "Number that the study is drawn from").captureDefault();
             command.option("--size", arguments->size, "Voxels (default: 512x512x430)").typeName("COLUMNSxROWSxSLICES");
             return [arguments](Context&) { return makePhantom(*arguments); };

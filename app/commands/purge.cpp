@@ -53,7 +53,7 @@ int purge(Context& context, bool yes)
     if (options.after_days <= 0 && options.least_free_gb <= 0)
         throw Error(ErrorCode::wrong_use, "no rule says what to delete", "purge",
                     "set purge.after_days or purge.least_free_gb");
-    std::vector<PurgeCandidate> plan = planPurge(store, options, freeGb(store), nowUtc());
+    std::vector<PurgeCandidate> plan = planPurge(store, options, freeGb(store.folder()), nowUtc());
     if (yes)
         for (PurgeCandidate& candidate : plan)
             if (candidate.kept.empty())

@@ -107,8 +107,15 @@ Subcommand queryCommand()
                 command.option("--accession", wanted->accession_number, "Accession number");
                 command.option("--study", wanted->study_uid, "Study Instance UID");
                 command.option("--modality", wanted->modality, "That some series has; empty: any").captureDefault();
-                command.flag("--worklist", *scheduled,
-                             "What is scheduled, by the peer's modality worklist; --date is that of the step");
+                auto description = command.option("--description", wanted->description,
+                                                  "Description of the study; * and ? match anything");
+                auto series = command.option("--series-description", wanted->series_description,
+                                             "Of one of its series, as above; asked of each study that fits the rest");
+                command
+                    .flag("--worklist", *scheduled,
+                          "What is scheduled, by the peer's modality worklist; --date is that of the step")
+                    .excludes(description)
+                    .excludes(series);
                 return [peer, wanted, scheduled](Context& context) {
                     return *scheduled ? queryWorklist(context, *peer, *wanted) : query(context, *peer, *wanted);
                 };

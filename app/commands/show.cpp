@@ -2,12 +2,12 @@
 
 #include "../command.h"
 #include "../organs.h"
+#include "../subdivision_table.h"
 #include "../text_table.h"
 #include "vicon/cases/corrections.h"
 #include "vicon/cases/orders.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/cases/worklist.h"
-#include "vicon/scan_files/subdivision_file.h"
 
 namespace vicon::app {
 namespace {
@@ -39,7 +39,7 @@ void printQuality(const QualityFound& found)
                formatNumber(found.parts[n].from_mm, 0) + " - " + formatNumber(found.parts[n].to_mm, 0),
                quality.parts[n]);
     addRow("whole colon", "", quality.whole);
-    std::printf("%s", formatTable({"  PART", "STATIONS MM", "MEDIAN RADIUS MM", "COLLAPSED MM", "SHARE", "VOLUME ML",
+    std::printf("%s", formatTable({"  SEGMENT", "STATION MM", "MEDIAN RADIUS MM", "COLLAPSED MM", "SHARE", "VOLUME ML",
                                    "FLUID ML", "SHARE", "ADEQUATE"},
                                   rows)
                           .c_str());
@@ -107,28 +107,6 @@ void printScan(CaseStore& store, const WorklistScan& scan)
             std::printf("  %s: %s\n", list, inWords(line).c_str());
 }
 
-/// The thesis' Table 2 for every scan that has been divided.
-int printSubdivisionTable(CaseStore& store, const WorklistCase& c, const std::string& scan_id)
-{
-    std::vector<std::vector<std::string>> rows;
-    for (const WorklistScan& scan : c.scans) {
-        const auto file = store.scanFolder(c.record.id, scan.record.id) / "subdivision.json";
-        if (!scan.record.id.starts_with(scan_id) || !std::filesystem::exists(file))
-            continue;
-        const auto subdivision = scan_files::readSubdivision(file);
-        const auto& s = subdivision.statistics;
-        const auto number = [&](const char* key, int decimals) { return formatNumber(s.value(key, 0.0), decimals); };
-        rows.push_back({scan.record.id, subdivision.method, number("specified_segments", 0), number("segments", 0),
-                        number("triangles_average", 0), number("triangles_largest", 0), number("triangles_smallest", 0),
-                        number("triangles_standard_deviation", 2)});
-    }
-    std::printf("%s", formatTable({"SCAN", "METHOD", "SPECIFIED", "SEGMENTS", "AVERAGE TRIANGLES", "LARGEST",
-                                   "SMALLEST", "STANDARD DEVIATION"},
-                                  rows)
-                          .c_str());
-    return 0;
-}
-
 /// What the study was asked for by whom, and what a modality worklist says of it.
 void printOrder(const CaseRecord& record, const std::optional<Order>& order)
 {
@@ -148,7 +126,7 @@ int show(Context& context, const ShowArguments& arguments)
     const CaseRecord record = store.requireCase(arguments.case_id);
     const WorklistCase c = makeWorklistCase(store, context.config().get<QueueOptions>(), record);
     if (arguments.subdivision_table)
-        return printSubdivisionTable(store, c, arguments.scan_id);
+        return printSubdivisionTable(store, context.config(), c, arguments.scan_id);
     if (context.json) {
         nlohmann::json out = toJson(std::vector{c})["cases"][0];
         if (const auto order = orderOf(store, record.id))
@@ -179,8 +157,9 @@ Subcommand showCommand()
                 auto arguments = std::make_shared<ShowArguments>();
                 command.option("CASE", arguments->case_id, "The case's id").required();
                 command.option("--scan", arguments->scan_id, "Only this scan").typeName("SCAN");
-                command.flag("--subdivision-table", arguments->subdivision_table,
-                             "Segments and triangles a cell, as in the thesis' Table 2");
+                command.flag(
+                    "--subdivision-table", arguments->subdivision_table,
+                    "Divide the lumen in every way, and show segments and triangles a cell, as the thesis' Table 2");
                 return [arguments](Context& context) { return show(context, *arguments); };
             }};
 }

@@ -113,7 +113,7 @@ Subcommand snapshotCommand()
             command.option("--out", arguments->out, "The PNG file").required().typeName("FILE");
             command.option("--width", arguments->width, "Pixels").check(range(200, 4096));
             command.option("--height", arguments->height, "Pixels").check(range(200, 4096));
-            command.option("--angle", arguments->angle_deg, "Viewing angle of the endoscopic view, degrees")
+            command.option("--angle", arguments->angle_deg, "Field of view of the endoscopic view, degrees")
                 .check(range(20.0, 150.0))
                 .captureDefault();
             arguments->wall.addTo(command);

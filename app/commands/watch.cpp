@@ -36,13 +36,11 @@ public:
     {
         const std::string since = ingest::watchedSince(rule_, today(), watched_.newestDate());
         bool all = true;
-        for (const ingest::FoundStudy& study :
-             ingest::findStudies(peer_, {.dates = since + "-", .modality = rule_.modality}, title_, progress_)) {
+        for (const ingest::FoundStudy& study : ingest::findStudies(
+                 peer_, {.dates = since + "-", .modality = ingest::modalityAsked(rule_)}, title_, progress_)) {
             if (stopRequested())
                 return all;
-            const auto series = ingest::describeSeries(peer_, study.study_uid, title_, progress_);
-            if (ingest::fits(rule_, study, series))
-                all = take(study, series) && all;
+            all = unlessItFails(study.study_uid, [&] { return take(study); }) && all;
         }
         return all;
     }
@@ -63,61 +61,94 @@ private:
         return images;
     }
 
-    bool take(const ingest::FoundStudy& study, const std::vector<ingest::FoundSeries>& series)
+    /// What fails with one study is said, and keeps nobody from the others.
+    template <class Act>
+    static bool unlessItFails(const std::string& study_uid, Act act)
     {
-        const int images = imagesIn(series);
-        if (!watched_.note(study.study_uid, study.date, images))
-            return true;
-        if (!fetch(study.study_uid, series))
-            return false;
-        watched_.markFetched(study.study_uid, images);
-        return takePriors(study);
-    }
-
-    bool fetch(const std::string& study_uid, const std::vector<ingest::FoundSeries>& series)
-    {
-        const std::string case_id = CaseStore::caseIdFor(study_uid);
         try {
-            std::vector<std::string> uids;
-            for (const ingest::FoundSeries& one : series)
-                if (one.modality == rule_.modality)
-                    uids.push_back(one.uid);
-            const Fetched fetched = fetchByGet(context_, study_uid, peer_, uids, progress_);
-            for (const ingest::ImportLine& line : fetched.report.lines)
-                spdlog::info("{} {}: {}", ingest::nameOf(line.kind), line.subject, line.text);
-            for (const std::string& reason : fetched.result.reasons)
-                spdlog::warn("case {}: {}", case_id, reason);
-            spdlog::info("case {}: {} objects fetched, {} failed", case_id, fetched.result.completed,
-                         fetched.result.failed);
-            return fetched.result.failed == 0;
+            return act();
         } catch (const Error& e) {
-            if (e.code() == ErrorCode::cancelled)
+            if (e.code() == ErrorCode::cancelled || e.code() == ErrorCode::wrong_use)
                 throw;
-            spdlog::warn("case {} is fetched again later: {}", case_id, e.what());
+            spdlog::warn("case {} is fetched again later: {}", CaseStore::caseIdFor(study_uid), e.what());
             return false;
         }
     }
 
-    /// The newest ones before the study.
+    bool take(const ingest::FoundStudy& study)
+    {
+        const auto series = ingest::describeSeries(peer_, study.study_uid, title_, progress_);
+        if (!ingest::fits(rule_, study, series))
+            return true;
+        const int images = imagesIn(series);
+        if (watched_.note(study.study_uid, study.date, images)) {
+            if (!fetch(study.study_uid, ingest::imageSeries(rule_, series)))
+                return false;
+            watched_.markFetched(study.study_uid, images);
+        }
+        if (!watched_.awaitsPriors(study.study_uid))
+            return true;
+        if (!takePriors(study))
+            return false;
+        watched_.markPriorsFetched(study.study_uid);
+        return true;
+    }
+
+    bool fetch(const std::string& study_uid, const std::vector<std::string>& series)
+    {
+        const std::string case_id = CaseStore::caseIdFor(study_uid);
+        const Fetched fetched = fetchSeries(context_, study_uid, peer_, series, progress_);
+        for (const ingest::ImportLine& line : fetched.report.lines)
+            spdlog::info("{} {}: {}", ingest::nameOf(line.kind), line.subject, line.text);
+        for (const std::string& reason : fetched.result.reasons)
+            spdlog::warn("case {}: {}", case_id, reason);
+        spdlog::info("case {}: {} objects fetched, {} failed", case_id, fetched.result.completed,
+                     fetched.result.failed);
+        return fetched.result.failed == 0;
+    }
+
+    /// The newest ones before the study, each with its reports. One that fails leaves the others.
     bool takePriors(const ingest::FoundStudy& study)
     {
-        if (rule_.priors == 0 || study.patient_id.empty())
+        if (rule_.priors == 0 || study.patient_id.empty() || study.date.empty())
             return true;
         auto priors = ingest::findStudies(
-            peer_, {.patient_id = study.patient_id, .dates = "-" + study.date, .modality = rule_.modality}, title_,
-            progress_);
+            peer_,
+            {.patient_id = study.patient_id, .dates = "-" + study.date, .modality = ingest::modalityAsked(rule_)},
+            title_, progress_);
         std::reverse(priors.begin(), priors.end());
         int left = rule_.priors;
+        bool all = true;
         for (const ingest::FoundStudy& prior : priors) {
             if (left == 0 || prior.study_uid == study.study_uid || prior.patient_id != study.patient_id)
                 continue;
-            const auto series = ingest::describeSeries(peer_, prior.study_uid, title_, progress_);
-            if (!ingest::fits(rule_, prior, series))
-                continue;
-            --left;
-            if (!context_.store().findCaseByStudy(prior.study_uid) && !fetch(prior.study_uid, series))
-                return false;
+            all = unlessItFails(prior.study_uid, [&] { return takePrior(prior, left); }) && all;
         }
+        return all;
+    }
+
+    bool takePrior(const ingest::FoundStudy& prior, int& left)
+    {
+        const auto series = ingest::describeSeries(peer_, prior.study_uid, title_, progress_);
+        if (!ingest::fits(rule_, prior, series))
+            return true;
+        --left;
+        const int images = imagesIn(series);
+        std::vector<std::string> wanted = ingest::reportSeries(series);
+        // A case that the store has otherwise stays as it is.
+        const bool with_images =
+            watched_.awaitsFetch(prior.study_uid) || !context_.store().findCaseByStudy(prior.study_uid);
+        if (with_images) {
+            watched_.note(prior.study_uid, prior.date, images);
+            for (std::string& uid : ingest::imageSeries(rule_, series))
+                wanted.push_back(std::move(uid));
+        }
+        if (wanted.empty())
+            return true;
+        if (!fetch(prior.study_uid, wanted))
+            return false;
+        if (with_images)
+            watched_.markFetched(prior.study_uid, images);
         return true;
     }
 
@@ -157,7 +188,7 @@ int watch(Context& context, const std::string& peer, bool once)
 
 Subcommand watchCommand()
 {
-    return {"watch", "Ask a PACS again and again for new studies that fit [watch], and fetch each once (C-FIND, C-GET)",
+    return {"watch", "Ask a PACS again and again for new studies that fit [watch], and fetch each once",
             [](CommandLine& command) {
                 auto peer = std::make_shared<std::string>();
                 auto once = std::make_shared<bool>(false);

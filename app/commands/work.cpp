@@ -154,8 +154,8 @@ Subcommand workCommand()
                              "into the queue first; with --case those of one case");
                 command
                     .option("--organ", arguments->organ,
-                            "What the scans of --case show, without it all that no step was done on: colon, airway or "
-                            "aorta")
+                            "What the scans of --case show, without it all that no step was done on: colon, airway, "
+                            "aorta or stomach")
                     .typeName("NAME");
                 command
                     .option("--case", arguments->case_id,

@@ -127,13 +127,14 @@ void addDensity(CaseStore& store, const std::string& case_id, Marker& marker, do
     const fs::path folder = store.scanFolder(case_id, marker.scan_id);
     const auto volume = scan_files::readVolume<std::int16_t>(folder / "volume.mha");
     const auto inside = scan_files::readVolume<std::uint8_t>(folder / "inside.mha");
-    const DensitySample sample = sampleDensity(volume, inside, marker.position_mm, radius_mm);
+    const CircledWall wall = circleWall(scan_files::readCells(folder / "cells.vtp"), marker.position_mm, radius_mm);
+    const DensitySample sample = sampleDensity(volume, inside, marker.position_mm, radius_mm, wall);
     if (sample.voxels == 0)
         throw Error(ErrorCode::wrong_use,
-                    textOf("too little tissue lies within %.1f mm of the point and far enough from gas and fluid to "
-                           "measure its density",
+                    textOf("within %.1f mm of the point there is too little tissue between its surface and its far "
+                           "side to measure its density; nothing was taken",
                            radius_mm),
-                    case_id, "mark a point on the wall or within the finding, or choose a larger ball");
+                    case_id, "mark the middle of the finding at half its height, or choose a larger ball");
     marker.density = sample;
 }
 

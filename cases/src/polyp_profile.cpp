@@ -1,6 +1,7 @@
 #include "polyp_profile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -81,6 +82,26 @@ std::optional<std::size_t> rimOf(const PolypProfile& profile)
         }
     }
     return rim;
+}
+
+bool headHolds(const PolypProfile& profile, std::size_t rim, double base_mm, double out_mm, double up_mm,
+               double beside_mm)
+{
+    std::vector<std::array<double, 2>> edge{{0, base_mm}, {0, profile.up_mm.front()}};
+    for (std::size_t n = 0; n <= rim; ++n)
+        edge.push_back({profile.out_mm[n], profile.up_mm[n]});
+    bool inside = false;
+    double nearest_mm = std::hypot(out_mm - edge.front()[0], up_mm - edge.front()[1]);
+    for (std::size_t n = 0; n < edge.size(); ++n) {
+        const auto [x0, y0] = edge[n];
+        const auto [x1, y1] = edge[(n + 1) % edge.size()];
+        const double x = x1 - x0, y = y1 - y0, squared = x * x + y * y;
+        const double along = squared > 0 ? std::clamp(((out_mm - x0) * x + (up_mm - y0) * y) / squared, 0.0, 1.0) : 0.0;
+        nearest_mm = std::min(nearest_mm, std::hypot(out_mm - x0 - along * x, up_mm - y0 - along * y));
+        if ((y0 > up_mm) != (y1 > up_mm) && out_mm < x0 + (up_mm - y0) / y * x)
+            inside = !inside;
+    }
+    return inside || nearest_mm <= beside_mm;
 }
 
 }  // namespace vicon

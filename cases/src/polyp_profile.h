@@ -25,4 +25,9 @@ PolypProfile polypProfileOf(const std::vector<Point3>& line, Point3 top, Vector3
 /// it never does.
 std::optional<std::size_t> rimOf(const PolypProfile& profile);
 
+/// Whether a place in the section's plane lies in the head, or within `beside_mm` of it: between the section up to the
+/// rim, the axis and the line from the rim to `base_mm` on the axis.
+bool headHolds(const PolypProfile& profile, std::size_t rim, double base_mm, double out_mm, double up_mm,
+               double beside_mm);
+
 }  // namespace vicon

@@ -81,13 +81,12 @@ std::vector<PurgeCandidate> planPurge(CaseStore& store, const PurgeOptions& opti
     return plan;
 }
 
-double freeGb(const CaseStore& store)
+double freeGb(const std::filesystem::path& folder)
 {
     std::error_code failed;
-    const auto space = std::filesystem::space(store.folder(), failed);
+    const auto space = std::filesystem::space(folder, failed);
     if (failed)
-        throw Error(ErrorCode::store, "free space cannot be found out (" + failed.message() + ")",
-                    store.folder().string());
+        throw Error(ErrorCode::store, "free space cannot be found out (" + failed.message() + ")", folder.string());
     return double(space.available) / kBytesAGb;
 }
 

@@ -5,6 +5,7 @@
 #include "bridge_reviews_file.h"
 #include "vicon/cases/corrections.h"
 #include "vicon/cases/given_lumen.h"
+#include "vicon/cases/report_files.h"
 #include "vicon/core/error.h"
 
 namespace fs = std::filesystem;
@@ -44,12 +45,7 @@ bool hasMarkers(CaseStore& store, const ScanRecord& scan)
 
 bool hasReport(CaseStore& store, const std::string& case_id)
 {
-    int reports = 0, versions = 0;
-    store.database().session() << "SELECT COUNT(*) FROM audit WHERE event = 'report written' AND case_id = :c",
-        soci::use(case_id), soci::into(reports);
-    store.database().session() << "SELECT COUNT(*) FROM report_versions WHERE case_id = :c", soci::use(case_id),
-        soci::into(versions);
-    return reports + versions > 0;
+    return !countReports(store, {CaseRecord{.id = case_id}}).empty();
 }
 
 }  // namespace

@@ -1,5 +1,10 @@
 #include "vicon/cases/report_files.h"
 
+#include <soci/soci.h>
+
+#include <algorithm>
+
+#include "case_rows.h"
 #include "vicon/cases/organs.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
@@ -7,6 +12,23 @@
 namespace fs = std::filesystem;
 
 namespace vicon {
+namespace {
+
+/// Counts the drafts of a case; one of kCaseCounters.
+std::string draftCounter(const std::string& case_id)
+{
+    return "report " + case_id;
+}
+
+int draftsIn(soci::session& sql, const std::string& case_id)
+{
+    const std::string name = draftCounter(case_id);
+    int drafts = 0;
+    sql << "SELECT COALESCE(MAX(value), 0) FROM counters WHERE name = :name", soci::use(name), soci::into(drafts);
+    return drafts;
+}
+
+}  // namespace
 
 fs::path reportFolder(const CaseStore& store, const std::string& case_id)
 {
@@ -37,13 +59,53 @@ fs::path reportFile(CaseStore& store, const std::string& case_id, int number)
     return folder / (std::to_string(number) + ".pdf");
 }
 
-int countReports(const CaseStore& store, const std::string& case_id)
+std::map<std::string, int> countReports(CaseStore& store, const std::vector<CaseRecord>& cases)
 {
-    std::error_code none;
-    int count = 0;
-    for (const auto& entry : fs::directory_iterator(reportFolder(store, case_id), none))
-        count += entry.path().extension() == ".pdf" ? 1 : 0;
-    return count;
+    std::map<std::string, int> counts;
+    if (cases.empty())
+        return counts;
+    soci::session& sql = store.database().session();
+    const std::string these = inList(cases);
+    const soci::rowset<soci::row> drafts =
+        (sql.prepare << "SELECT c.id AS case_id, n.value AS number FROM cases c JOIN counters n ON n.name = '" +
+                            draftCounter("") + "' || c.id WHERE c.id IN " + these);
+    for (const soci::row& row : drafts)
+        counts[row.get<std::string>("case_id")] += row.get<int>("number");
+    const soci::rowset<std::string> versions =
+        (sql.prepare << "SELECT case_id FROM report_versions WHERE case_id IN " + these);
+    for (const std::string& case_id : versions)
+        ++counts[case_id];
+    return counts;
+}
+
+int nextDraftNumber(CaseStore& store, const std::string& case_id)
+{
+    return draftsIn(store.database().session(), case_id) + 1;
+}
+
+WrittenDraft writeDraft(CaseStore& store, const std::string& case_id, const fs::path& out,
+                        const std::function<std::string(int number)>& draw)
+{
+    while (true) {
+        const int number = nextDraftNumber(store, case_id);
+        const fs::path file = out.empty() ? reportFile(store, case_id, number) : out;
+        const std::string pdf = draw(number);
+        if (!out.empty())
+            replaceFile(out, pdf);  // a slow disk elsewhere must hold up nobody who writes to the database
+        bool is_next = false;
+        store.database().write([&](soci::session& sql) {
+            is_next = draftsIn(sql, case_id) + 1 == number;
+            if (!is_next)
+                return;
+            takeNumber(sql, draftCounter(case_id));
+            putAudit(sql, "report written", case_id, "", "number " + std::to_string(number));
+            // Last: a kill before the commit leaves a file that the report that takes its number replaces.
+            if (out.empty())
+                replaceFile(file, pdf);
+        });
+        if (is_next)
+            return {number, file};
+    }
 }
 
 void requireReportable(CaseStore& store, const CaseRecord& record)

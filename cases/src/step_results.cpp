@@ -228,13 +228,18 @@ SubdivideFound subdivideFoundFromJson(const json& json)
 
 json toJson(const PotentialFound& found)
 {
-    return {{"largest_wall_distance_mm", found.largest_wall_distance_mm},
-            {"largest_exit_distance_mm", found.largest_exit_distance_mm}};
+    json out = {{"largest_wall_distance_mm", found.largest_wall_distance_mm}};
+    if (found.largest_exit_distance_mm)
+        out["largest_exit_distance_mm"] = *found.largest_exit_distance_mm;
+    return out;
 }
 
 PotentialFound potentialFoundFromJson(const json& json)
 {
-    return {json.value("largest_wall_distance_mm", 0.0), json.value("largest_exit_distance_mm", 0.0)};
+    PotentialFound found{json.value("largest_wall_distance_mm", 0.0), {}};
+    if (json.contains("largest_exit_distance_mm"))
+        found.largest_exit_distance_mm = json["largest_exit_distance_mm"].get<double>();
+    return found;
 }
 
 std::string StepResults::warning() const

@@ -19,6 +19,12 @@ Vector3 normalOf(const CellSurface& surface, std::size_t n)
 
 }  // namespace
 
+Vector3 anyAcross(Vector3 axis)
+{
+    const Vector3 other = std::abs(axis.x) < 0.7 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
+    return normalized(cross(axis, other));
+}
+
 SurfacePatch::SurfacePatch(const CellSurface& surface, Point3 at, double radius_mm, double catch_mm)
 {
     std::unordered_map<std::uint32_t, std::uint32_t> own;  // numbers of the surface's points here
@@ -121,7 +127,16 @@ Point3 SurfacePatch::highest(Point3 on_line, Vector3 up, double radius_mm) const
     return top;
 }
 
-std::optional<std::size_t> SurfacePatch::onAxis(Point3 origin, Vector3 axis) const
+bool SurfacePatch::holds(Point3 of_surface) const
+{
+    for (const Triangle& triangle : triangles_)
+        for (const std::uint32_t p : triangle)
+            if (points_[p] == of_surface)
+                return true;
+    return false;
+}
+
+std::optional<std::size_t> SurfacePatch::onAxis(Point3 near, Vector3 axis) const
 {
     double nearest = std::numeric_limits<double>::infinity();
     std::optional<std::size_t> found;
@@ -131,8 +146,8 @@ std::optional<std::size_t> SurfacePatch::onAxis(Point3 origin, Vector3 axis) con
         const double facing = dot(across, axis);
         if (std::abs(facing) < 1e-12)
             continue;
-        const double along = dot(a - origin, across) / facing;
-        const Point3 hit = origin + axis * along;
+        const double along = dot(a - near, across) / facing;
+        const Point3 hit = near + axis * along;
         const auto inside = [&](Point3 from, Point3 to) { return dot(cross(to - from, hit - from), across) >= -1e-9; };
         if (inside(a, b) && inside(b, c) && inside(c, a) && std::abs(along) < nearest) {
             nearest = std::abs(along);
@@ -142,18 +157,15 @@ std::optional<std::size_t> SurfacePatch::onAxis(Point3 origin, Vector3 axis) con
     return found;
 }
 
-std::vector<Point3> SurfacePatch::section(Point3 near, Vector3 axis, Vector3 out, double length_mm) const
+std::vector<Point3> SurfacePatch::section(std::size_t from_triangle, Vector3 axis, Vector3 out, double length_mm) const
 {
-    const auto start = onAxis(near, axis);
-    if (!start)
-        return {};
     // Inside the triangle, where the half plane leaves it by one edge.
-    const auto [a, b, c] = triangles_[*start];
+    const auto [a, b, c] = triangles_[from_triangle];
     const Point3 origin = points_[a] + (points_[b] - points_[a] + (points_[c] - points_[a])) / 3;
     const Vector3 aside = cross(axis, out);
     const auto off = [&](std::uint32_t p) { return dot(points_[p] - origin, aside); };
     std::vector<Point3> line;
-    std::uint32_t t = std::uint32_t(*start), came_from = kNone;
+    std::uint32_t t = std::uint32_t(from_triangle), came_from = kNone;
     double gone_mm = 0;
     while (t != kNone && gone_mm < length_mm) {
         std::optional<std::size_t> way;

@@ -9,6 +9,9 @@
 
 namespace vicon {
 
+/// A unit vector across a unit vector; always the same one.
+Vector3 anyAcross(Vector3 axis);
+
 /// The part of a surface around a point that hangs together with what is nearest to it, and sections through it.
 class SurfacePatch {
 public:
@@ -17,13 +20,16 @@ public:
 
     /// The surface's point nearest to what was asked for.
     Point3 nearest_mm() const { return nearest_mm_; }
+    /// Whether a point of the surface is one of these.
+    bool holds(Point3 of_surface) const;
     /// The mean normal of the points within a distance, a unit vector.
     Vector3 normalNear(Point3 at, double radius_mm) const;
     /// The highest point along a direction within a distance of a line.
     Point3 highest(Point3 on_line, Vector3 up, double radius_mm) const;
-    /// The section with the half plane that leaves the axis in a direction, from the triangle that the axis meets
-    /// nearest to a point; empty where it meets none.
-    std::vector<Point3> section(Point3 near, Vector3 axis, Vector3 out, double length_mm) const;
+    /// The triangle that an axis meets nearest to a point; nothing where it meets none.
+    std::optional<std::size_t> onAxis(Point3 near, Vector3 axis) const;
+    /// The section with the half plane that leaves the axis in a direction, from the triangle that the axis meets.
+    std::vector<Point3> section(std::size_t from_triangle, Vector3 axis, Vector3 out, double length_mm) const;
 
 private:
     static constexpr std::uint32_t kNone = ~std::uint32_t(0);
@@ -31,7 +37,6 @@ private:
 
     void joinTriangles();
     void keepWhatHangsTogether(std::size_t with);
-    std::optional<std::size_t> onAxis(Point3 origin, Vector3 axis) const;
 
     std::vector<Point3> points_;
     std::vector<Vector3> normals_;

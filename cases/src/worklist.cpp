@@ -106,7 +106,7 @@ std::vector<WorklistCase> makeWorklistCases(CaseStore& store, const QueueOptions
             a_case.scans.push_back(makeScan(store, rows, scan));
         sumUp(a_case);
         a_case.markers = of(rows.markers, record.id);
-        a_case.reports = countReports(store, record.id);
+        a_case.reports = of(rows.reports, record.id);
         a_case.delivery = deliveryInBrief(of(rows.deliveries, record.id));
         out.push_back(std::move(a_case));
     }

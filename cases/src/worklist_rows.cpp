@@ -6,6 +6,7 @@
 
 #include "case_rows.h"
 #include "search_words.h"
+#include "vicon/cases/report_files.h"
 #include "vicon/core/error.h"
 
 namespace vicon {
@@ -111,6 +112,7 @@ WorklistRows worklistRows(CaseStore& store, const QueueOptions& options, const s
     const soci::rowset<std::string> markers = (sql.prepare << "SELECT case_id FROM markers WHERE case_id IN " + these);
     for (const std::string& case_id : markers)
         ++out.markers[case_id];
+    out.reports = countReports(store, cases);
     const Rows deliveries = (sql.prepare << "SELECT case_id, state FROM outbox WHERE case_id IN " + these);
     for (const soci::row& row : deliveries)
         ++out.deliveries[row.get<std::string>("case_id")][deliveryStateFrom(row.get<std::string>("state"))];

@@ -18,6 +18,7 @@ struct WorklistRows {
     std::map<ScanKey, Job> jobs;
     std::map<ScanKey, std::vector<StepRecord>> steps;  ///< those whose results are shown
     std::map<std::string, int> markers;
+    std::map<std::string, int> reports;
     std::map<std::string, std::map<DeliveryState, int>> deliveries;
 };
 WorklistRows worklistRows(CaseStore& store, const QueueOptions& options, const std::vector<CaseRecord>& cases);

@@ -81,4 +81,22 @@ DcmSCPConfig configFor(const StorageService& service, const Peer* peer, const T_
     return config;
 }
 
+std::string servicesNotGranted(const T_ASC_Association& association)
+{
+    constexpr std::size_t kMostNamed = 3;
+    std::set<std::string> granted, asked;
+    for (int n = 0; n < ASC_countPresentationContexts(association.params); ++n) {
+        T_ASC_PresentationContext context;
+        if (ASC_getPresentationContext(association.params, n, &context).good())
+            (context.resultReason == ASC_P_ACCEPTANCE ? granted : asked).insert(context.abstractSyntax);
+    }
+    std::erase_if(asked, [&](const std::string& service) { return granted.contains(service); });
+    std::string names;
+    std::size_t count = 0;
+    for (const std::string& service : asked)
+        if (++count <= kMostNamed)
+            names += (count == 1 ? "" : ", ") + printableTitle(dcmFindNameOfUID(service.c_str(), service.c_str()));
+    return names + (count > kMostNamed ? " and " + std::to_string(count - kMostNamed) + " more" : "");
+}
+
 }  // namespace vicon::ingest

@@ -16,4 +16,7 @@ std::string printableTitle(std::string title);
 /// What is taken of what the association offers, by what this peer may do. @param peer null: everything
 DcmSCPConfig configFor(const StorageService& service, const Peer* peer, const T_ASC_Association& association);
 
+/// What the peer asked for and was not granted in any context, by name, the first few; for a log.
+std::string servicesNotGranted(const T_ASC_Association& association);
+
 }  // namespace vicon::ingest

@@ -24,16 +24,8 @@ bool isThisMachineAlone(const std::string& address)
 
 }  // namespace
 
-bool CallerRules::Rule::allows(const std::string& other_title, const std::string& other_address) const
+CallerRules::CallerRules(const ReceiverOptions& options, const std::vector<Peer>& peers) : peers_(peers)
 {
-    return (title.empty() || title == other_title) && (address.empty() || address == other_address);
-}
-
-CallerRules::CallerRules(const ReceiverOptions& options, const std::vector<Peer>& peers)
-{
-    // A peer whose host is not known today is refused, and keeps nobody else waiting.
-    for (const Peer& peer : peers)
-        known_.push_back({peer, addressOf(peer.host)});
     std::istringstream entries(options.allow);
     for (std::string entry; std::getline(entries, entry, ',');)
         allow(withoutSpaces(entry));
@@ -41,16 +33,33 @@ CallerRules::CallerRules(const ReceiverOptions& options, const std::vector<Peer>
         rules_.push_back({});
     else if (rules_.empty())
         allowPeers();
+    addresses_ = std::make_unique<HostAddresses>(hosts(), addressesOf, HostAddresses::Intervals{});
+}
+
+std::vector<std::string> CallerRules::hosts() const
+{
+    std::vector<std::string> all;
+    for (const Peer& peer : peers_)
+        all.push_back(peer.host);
+    for (const Rule& rule : rules_)
+        if (!rule.host.empty())
+            all.push_back(rule.host);
+    return all;
+}
+
+bool CallerRules::allows(const Rule& rule, const std::string& title, const std::string& address) const
+{
+    return (rule.title.empty() || rule.title == title) && (rule.host.empty() || addresses_->has(rule.host, address));
 }
 
 void CallerRules::allowPeers()
 {
-    if (known_.empty())
+    if (peers_.empty())
         throw Error(ErrorCode::wrong_use, "peers may call, and there are none", "receive.allow",
                     "add [peers] to the configuration, or set receive.allow to who may call");
-    for (const Known& one : known_)
-        if (!one.address.empty())
-            rules_.push_back({one.peer.ae_title, one.address});
+    for (const Peer& peer : peers_)
+        if (!peer.host.empty())
+            rules_.push_back({peer.ae_title, peer.host});
 }
 
 void CallerRules::allow(const std::string& entry)
@@ -63,9 +72,10 @@ void CallerRules::allow(const std::string& entry)
     }
     const std::size_t at = entry.find('@');
     Rule rule{withoutSpaces(entry.substr(0, at)), {}};
-    if (at != std::string::npos && (rule.address = addressOf(withoutSpaces(entry.substr(at + 1)))).empty())
-        throw Error(ErrorCode::wrong_use, "no such host", entry, "set receive.allow");
-    if (rule.title.size() > kLongestTitle || (rule.title.empty() && rule.address.empty()))
+    if (at != std::string::npos)
+        rule.host = withoutSpaces(entry.substr(at + 1));
+    const bool no_host = at != std::string::npos && rule.host.empty();
+    if (rule.title.size() > kLongestTitle || (rule.title.empty() && rule.host.empty()) || no_host)
         throw Error(ErrorCode::wrong_use, "who may call is TITLE, TITLE@HOST, @HOST, peers or anybody",
                     "'" + entry + "'", "set receive.allow");
     rules_.push_back(std::move(rule));
@@ -73,29 +83,32 @@ void CallerRules::allow(const std::string& entry)
 
 std::string CallerRules::whyRefused(const std::string& title, const std::string& address) const
 {
-    const auto allows = [&](const Rule& rule) { return rule.allows(title, address); };
-    if (std::any_of(rules_.begin(), rules_.end(), allows))
+    if (std::any_of(rules_.begin(), rules_.end(), [&](const Rule& rule) { return allows(rule, title, address); }))
         return "";
-    const auto of_title = [&](const Rule& rule) { return rule.allows(title, rule.address); };
+    const auto of_title = [&](const Rule& rule) { return !rule.title.empty() && rule.title == title; };
     return std::any_of(rules_.begin(), rules_.end(), of_title) ? "receive.allow names this title at another host"
                                                                : "receive.allow does not name it";
 }
 
 const Peer* CallerRules::peerOf(const std::string& title, const std::string& address) const
 {
-    const auto found = std::find_if(known_.begin(), known_.end(), [&](const Known& one) {
-        return one.peer.ae_title == title && one.address == address;
+    const auto found = std::find_if(peers_.begin(), peers_.end(), [&](const Peer& peer) {
+        return peer.ae_title == title && addresses_->has(peer.host, address);
     });
-    return found == known_.end() ? nullptr : &found->peer;
+    return found == peers_.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> CallerRules::unreachablePeers() const
+std::vector<std::string> CallerRules::news()
 {
-    std::vector<std::string> names;
-    for (const Known& one : known_)
-        if (one.address.empty())
-            names.push_back(one.peer.name);
-    return names;
+    std::vector<std::string> lines;
+    for (const std::string& host : hosts()) {
+        const bool is_known = addresses_->isKnown(host);
+        if (is_known && without_.erase(host) > 0)
+            lines.push_back("host '" + host + "' has an address now");
+        else if (!is_known && without_.insert(host).second)
+            lines.push_back("host '" + host + "' has no address: who calls from it is refused until it has one");
+    }
+    return lines;
 }
 
 }  // namespace vicon::ingest

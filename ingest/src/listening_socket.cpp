@@ -38,16 +38,24 @@ sockaddr_in endpointFor(const std::string& address, int port)
 
 }  // namespace
 
-std::string addressOf(const std::string& host)
+std::vector<std::string> addressesOf(const std::string& host)
 {
     addrinfo wanted{}, *found = nullptr;
     wanted.ai_family = AF_INET;
     wanted.ai_socktype = SOCK_STREAM;
     if (::getaddrinfo(host.c_str(), nullptr, &wanted, &found) != 0)
         return {};
-    std::string digits = digitsOf(reinterpret_cast<const sockaddr_in*>(found->ai_addr)->sin_addr);
+    std::vector<std::string> all;
+    for (const addrinfo* one = found; one; one = one->ai_next)
+        all.push_back(digitsOf(reinterpret_cast<const sockaddr_in*>(one->ai_addr)->sin_addr));
     ::freeaddrinfo(found);
-    return digits;
+    return all;
+}
+
+std::string addressOf(const std::string& host)
+{
+    const std::vector<std::string> all = addressesOf(host);
+    return all.empty() ? "" : all.front();
 }
 
 ListeningSocket::ListeningSocket(const std::string& address, int port)

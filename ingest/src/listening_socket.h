@@ -26,7 +26,9 @@ private:
     int descriptor_ = -1;
 };
 
-/// The IPv4 address of a host, as digits; empty when it has none.
+/// The IPv4 addresses of a host, as digits. Asks a name server, which may take as long as the system lets it.
+std::vector<std::string> addressesOf(const std::string& host);
+/// The first of them; empty when it has none.
 std::string addressOf(const std::string& host);
 
 /// Bytes that a connection has brought so far; tells a slow sender from a silent one.

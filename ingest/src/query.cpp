@@ -5,6 +5,7 @@
 
 #include "dataset.h"
 #include "find.h"
+#include "pattern.h"
 #include "web_peer.h"
 
 namespace vicon::ingest {
@@ -31,13 +32,9 @@ FoundStudy studyFrom(DcmDataset& match)
     return study;
 }
 
-}  // namespace
-
-std::vector<FoundStudy> findStudies(const Peer& peer, const StudyQuery& query, const std::string& our_ae_title,
+std::vector<FoundStudy> findByDimse(const Peer& peer, const StudyQuery& query, const std::string& our_ae_title,
                                     Progress& progress)
 {
-    if (peer.web)
-        return web::findStudies(peer, query, progress);
     DcmDataset keys;
     put(keys, DCM_SpecificCharacterSet, "ISO_IR 192");
     put(keys, DCM_QueryRetrieveLevel, "STUDY");
@@ -47,13 +44,32 @@ std::vector<FoundStudy> findStudies(const Peer& peer, const StudyQuery& query, c
     put(keys, DCM_AccessionNumber, query.accession_number);
     put(keys, DCM_StudyInstanceUID, query.study_uid);
     put(keys, DCM_ModalitiesInStudy, query.modality);
-    askFor(keys, {DCM_PatientBirthDate, DCM_StudyTime, DCM_StudyDescription, DCM_NumberOfStudyRelatedSeries,
-                  DCM_NumberOfStudyRelatedInstances});
+    put(keys, DCM_StudyDescription, query.description);
+    askFor(keys,
+           {DCM_PatientBirthDate, DCM_StudyTime, DCM_NumberOfStudyRelatedSeries, DCM_NumberOfStudyRelatedInstances});
     std::vector<FoundStudy> studies;
     find(peer, kStudyRoot, keys, our_ae_title, progress,
          [&](DcmDataset& match) { studies.push_back(studyFrom(match)); });
     std::sort(studies.begin(), studies.end(), [](const FoundStudy& a, const FoundStudy& b) {
         return std::tie(a.date, a.time, a.study_uid) < std::tie(b.date, b.time, b.study_uid);
+    });
+    return studies;
+}
+
+}  // namespace
+
+std::vector<FoundStudy> findStudies(const Peer& peer, const StudyQuery& query, const std::string& our_ae_title,
+                                    Progress& progress)
+{
+    std::vector<FoundStudy> studies =
+        peer.web ? web::findStudies(peer, query, progress) : findByDimse(peer, query, our_ae_title, progress);
+    if (query.series_description.empty())
+        return studies;
+    // No peer has to match it where studies are asked for.
+    std::erase_if(studies, [&](const FoundStudy& study) {
+        const auto series = describeSeries(peer, study.study_uid, our_ae_title, progress);
+        return std::none_of(series.begin(), series.end(),
+                            [&](const FoundSeries& one) { return isLike(one.description, query.series_description); });
     });
     return studies;
 }

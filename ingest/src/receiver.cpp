@@ -81,9 +81,9 @@ public:
     {
         incoming_.start();
         desk_.start();
-        for (const std::string& peer : rules_.unreachablePeers())
-            incoming_.trouble("the host of peer " + peer + " has no address: it is refused");
         while (!stop) {
+            for (const std::string& line : rules_.news())
+                incoming_.trouble(line);
             joinFinished();
             waitForNews();
             acceptCallers();
@@ -243,7 +243,7 @@ private:
     }
 
     const ReceiverOptions options_;
-    const CallerRules rules_;
+    CallerRules rules_;
     const Handlers handlers_;
     Pace pace_;                          ///< of all
     std::map<const Peer*, Pace> paces_;  ///< of each

@@ -224,22 +224,23 @@ RetrieveResult getSeries(const Peer& peer, const std::string& study_uid, const s
 }
 
 RetrieveResult moveSeries(const Peer& peer, const std::string& study_uid, const std::vector<std::string>& series_uids,
-                          const std::string& destination_ae_title, const std::string& our_ae_title, Progress& progress)
+                          const std::string& destination_ae_title, const std::string& our_ae_title, Progress& progress,
+                          const std::set<std::string>& have)
 {
     setUpDicom();
     if (peer.web)
         throw Error(ErrorCode::wrong_use, "by DICOMweb nothing is moved", nameOf(peer), "retrieve with --method get");
     RetrieveResult all;
     for (std::size_t n = 0; n < series_uids.size(); ++n) {
-        Retrieving scu(progress, n, series_uids.size());
-        DcmDataset keys;
-        fillKeys(keys, study_uid, series_uids[n]);
-        const RetrieveResult one = retrieveOne(
-            scu, peer, UID_MOVEStudyRootQueryRetrieveInformationModel, our_ae_title, progress, [] {},
-            [&](T_ASC_PresentationContextID context) {
-                return scu.sendMOVERequest(context, destination_ae_title.c_str(), &keys, nullptr);
-            });
-        add(all, one);
+        for (DcmDataset& keys : requestsFor(peer, study_uid, series_uids[n], have, our_ae_title, progress)) {
+            Retrieving scu(progress, n, series_uids.size());
+            const RetrieveResult one = retrieveOne(
+                scu, peer, UID_MOVEStudyRootQueryRetrieveInformationModel, our_ae_title, progress, [] {},
+                [&](T_ASC_PresentationContextID context) {
+                    return scu.sendMOVERequest(context, destination_ae_title.c_str(), &keys, nullptr);
+                });
+            add(all, one);
+        }
     }
     return all;
 }

@@ -78,7 +78,7 @@ void StorageAssociation::serve(T_ASC_Association* association, bool crowded)
         service_.incoming.trouble("refused " + sender() + ": " + refused_);
     else if (service_.handlers.on_note)
         service_.handlers.on_note("association of " + sender() + ": " + std::to_string(count_) + " objects in " +
-                                  seconds);
+                                  seconds + (not_granted_.empty() ? "" : "; not served: " + not_granted_));
 }
 
 OFBool StorageAssociation::checkCalledAETitleAccepted(const OFString& called)
@@ -95,6 +95,22 @@ OFBool StorageAssociation::checkCallingAETitleAccepted(const OFString& calling)
     if (refused_.empty() && from_.peer && from_.peer->tls && !from_.secure)
         refused_ = "it is configured to speak TLS, and does not";
     return refused_.empty();
+}
+
+/// Who asks for nothing that it may have is told so context by context, and takes its leave. A rejection would give no
+/// reason.
+void StorageAssociation::refuseAssociation(const DcmRefuseReasonType reason)
+{
+    if (reason != DCMSCP_NO_PRESENTATION_CONTEXTS)
+        return DcmThreadSCP::refuseAssociation(reason);
+    refused_ = "it asks for nothing that it may have here: " + servicesNotGranted(*association_);
+    if (ASC_acknowledgeAssociation(association_).good())
+        handleAssociation();
+}
+
+void StorageAssociation::notifyAssociationAcknowledge()
+{
+    not_granted_ = servicesNotGranted(*association_);
 }
 
 /// Called for every block of a data set.

@@ -45,6 +45,8 @@ public:
 protected:
     OFBool checkCalledAETitleAccepted(const OFString& called) override;
     OFBool checkCallingAETitleAccepted(const OFString& calling) override;
+    void refuseAssociation(DcmRefuseReasonType reason) override;
+    void notifyAssociationAcknowledge() override;
     void notifyRECEIVEProgress(unsigned long bytes) override;
     OFCondition handleIncomingCommand(T_DIMSE_Message* message, const DcmPresentationContextInfo& context) override;
 
@@ -66,7 +68,7 @@ private:
 
     const StorageService& service_;
     const From from_;
-    std::string calling_, refused_;
+    std::string calling_, refused_, not_granted_;
     T_ASC_Association* association_ = nullptr;
     unsigned long bytes_ = 0;  ///< of the message that is being received
     bool storing_ = false;

@@ -42,7 +42,8 @@ void WatchedStudies::read()
     try {
         const auto all = nlohmann::json::parse(readFile(file_));
         for (const auto& [uid, seen] : all.items())
-            seen_[uid] = {seen.at("date"), seen.at("images"), seen.at("fetched")};
+            seen_[uid] = {seen.at("date"), seen.at("images"), seen.at("fetched"),
+                          seen.value("priors", seen.at("fetched") >= 0)};  // lists did not always say so
     } catch (const nlohmann::json::exception&) {
         ::close(lock_);
         throw Error(ErrorCode::store, "the list of studies that were seen is damaged", file_.string(),
@@ -54,7 +55,7 @@ void WatchedStudies::write() const
 {
     nlohmann::json all = nlohmann::json::object();
     for (const auto& [uid, seen] : seen_)
-        all[uid] = {{"date", seen.date}, {"images", seen.images}, {"fetched", seen.fetched}};
+        all[uid] = {{"date", seen.date}, {"images", seen.images}, {"fetched", seen.fetched}, {"priors", seen.priors}};
     replaceFile(file_, all.dump());
 }
 
@@ -72,6 +73,24 @@ bool WatchedStudies::note(const std::string& study_uid, const std::string& date,
 void WatchedStudies::markFetched(const std::string& study_uid, int images)
 {
     seen_[study_uid].fetched = images;
+    write();
+}
+
+bool WatchedStudies::awaitsFetch(const std::string& study_uid) const
+{
+    const auto found = seen_.find(study_uid);
+    return found != seen_.end() && found->second.fetched < 0;
+}
+
+bool WatchedStudies::awaitsPriors(const std::string& study_uid) const
+{
+    const auto found = seen_.find(study_uid);
+    return found != seen_.end() && found->second.fetched >= 0 && !found->second.priors;
+}
+
+void WatchedStudies::markPriorsFetched(const std::string& study_uid)
+{
+    seen_[study_uid].priors = true;
     write();
 }
 

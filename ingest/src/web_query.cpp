@@ -72,10 +72,10 @@ std::string studyPath(const std::string& study_uid)
 
 std::vector<FoundStudy> findStudies(const Peer& peer, const StudyQuery& query, Progress& progress)
 {
-    const std::vector<Key> keys = {{"PatientID", query.patient_id},        {"PatientName", query.patient_name},
-                                   {"StudyDate", dicomDates(query.dates)}, {"AccessionNumber", query.accession_number},
-                                   {"StudyInstanceUID", query.study_uid},  {"ModalitiesInStudy", query.modality},
-                                   {"includefield", "StudyDescription"}};
+    const std::vector<Key> keys = {{"PatientID", query.patient_id},         {"PatientName", query.patient_name},
+                                   {"StudyDate", dicomDates(query.dates)},  {"AccessionNumber", query.accession_number},
+                                   {"StudyInstanceUID", query.study_uid},   {"ModalitiesInStudy", query.modality},
+                                   {"StudyDescription", query.description}, {"includefield", "StudyDescription"}};
     std::vector<FoundStudy> studies;
     search(peer, "/studies", keys, "0020000D", progress, [&](const WebItem& item) {
         studies.push_back({item.text("0020000D"), item.text("00100020"), item.personName("00100010"),

@@ -35,6 +35,19 @@ std::vector<float> gaussian(double sigma_voxels)
     return out;
 }
 
+/// The same, and what a Gaussian of twice the width would blur away so many times more: edges overshoot.
+std::vector<float> pointSpread(double sigma_voxels, double overshoot)
+{
+    std::vector<float> sharp = gaussian(sigma_voxels);
+    if (overshoot <= 0)
+        return sharp;
+    const std::vector<float> soft = gaussian(2 * sigma_voxels);
+    sharp.resize(std::max(sharp.size(), soft.size()), 0.0F);
+    for (std::size_t n = 0; n < sharp.size(); ++n)
+        sharp[n] = float((1 + overshoot) * sharp[n] - overshoot * (n < soft.size() ? soft[n] : 0.0F));
+    return sharp;
+}
+
 /// Standard deviation of white noise after the filter.
 double gain(const std::vector<float>& half)
 {
@@ -67,8 +80,9 @@ public:
     {
         const auto& spacing = scene.grid.spacing_mm;
         for (std::size_t a = 0; a < 3; ++a) {
-            kernel_[a] = gaussian(options.blur_mm / spacing[a]);
-            noise_kernel_[a] = gaussian(std::max(options.blur_mm / spacing[a], kLeastFilter));
+            const double overshoot = a < 2 ? options.overshoot : 0;
+            kernel_[a] = pointSpread(options.blur_mm / spacing[a], overshoot);
+            noise_kernel_[a] = pointSpread(std::max(options.blur_mm / spacing[a], kLeastFilter), overshoot);
         }
         one_pass_ = kernel_ == noise_kernel_ || options.noise_hu <= 0;
         const double filtered = one_pass_ ? gain(kernel_[0]) * gain(kernel_[1]) * gain(kernel_[2])

@@ -24,6 +24,10 @@ double LumenContent::density_hu(Point3 p, std::uint8_t pool, double voxel_mm) co
         const FluidPool& fluid = truth_.pools[pool];
         cover(hu, fluid.density_hu, fluid.level_mm - dot(p - Point3{}, up_), voxel_mm);
     }
+    if (pool != LumenField::kNoPool)
+        for (const GasBubble& bubble : truth_.bubbles)
+            if (const double off_mm = distance(p, bubble.position_mm) - bubble.diameter_mm / 2; off_mm < voxel_mm)
+                cover(hu, kGas_hu, -off_mm, voxel_mm);
     for (const StoolLump& lump : truth_.stool) {
         if (distance(p, lump.position_mm) > lump.diameter_mm / 2 + voxel_mm)
             continue;

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "dicom_writer.h"
 #include "imaging.h"
+#include "stomach.h"
 #include "tubes.h"
 #include "uid.h"
 #include "vicon/core/error.h"
@@ -16,22 +18,35 @@ namespace fs = std::filesystem;
 namespace vicon::phantom {
 namespace {
 
-constexpr double kWidth_mm = 300, kChest_mm = 280, kTrunk_mm = 400;
+constexpr double kWidth_mm = 300;
 constexpr double kLumenBlur_mm = 0.65;
 constexpr double kThinnestWall_mm = 1.2, kWallShare = 0.2;  // of the radius
+constexpr double kStomachWall_mm = 4;
 constexpr double kOrganWall_hu = 30, kAir_hu = -1000, kContrast_hu = 320;
 
-bool isAirway(const OrganPhantomOptions& options)
+/// What there is a phantom of.
+struct Kind {
+    const char* organ;
+    double height_mm;
+    double content_hu;
+    const char *description, *body_part;
+};
+constexpr Kind kKinds[] = {{"airway", 280, kAir_hu, "CT CHEST", "CHEST"},
+                           {"aorta", 400, kContrast_hu, "CT ANGIOGRAPHY", "AORTA"},
+                           {"stomach", 280, kAir_hu, "CT ABDOMEN", "ABDOMEN"}};
+
+const Kind& kindOf(const OrganPhantomOptions& options)
 {
-    if (options.organ != "airway" && options.organ != "aorta")
-        throw Error(ErrorCode::wrong_use, "there is no phantom of '" + options.organ + "'", "--organ",
-                    "name airway or aorta");
-    return options.organ == "airway";
+    for (const Kind& kind : kKinds)
+        if (options.organ == kind.organ)
+            return kind;
+    throw Error(ErrorCode::wrong_use, "there is no phantom of '" + options.organ + "'", "--organ",
+                "name airway, aorta or stomach");
 }
 
 Grid gridFor(const OrganPhantomOptions& options)
 {
-    const std::array<double, 3> extent_mm{kWidth_mm, kWidth_mm, isAirway(options) ? kChest_mm : kTrunk_mm};
+    const std::array<double, 3> extent_mm{kWidth_mm, kWidth_mm, kindOf(options).height_mm};
     Grid grid;
     grid.size = options.size;
     grid.origin_mm = {};
@@ -57,6 +72,34 @@ double share(double distance_mm, double voxel_mm)
     return std::clamp(0.5 - distance_mm / voxel_mm, 0.0, 1.0);
 }
 
+/// Distances to what is filled and to the outside of its wall, and what lies around.
+struct OrganScene {
+    FieldVolume organ_mm;   ///< of the organ alone
+    FieldVolume filled_mm;  ///< of all that is filled as it is
+    FieldVolume wall_mm;
+    std::function<double(Point3 p, double filled_mm)> around_hu;
+};
+
+OrganScene sceneOfTubes(const Grid& grid, const SkeletonTree& tree, bool airway)
+{
+    FieldVolume lumen_mm = tubesField(grid, tree, 8);
+    return {lumen_mm, lumen_mm, tubesField(grid, withWall(tree), 8),
+            [airway](Point3 p, double inside_mm) { return airway ? chestHu(p) : trunkHu(p, inside_mm); }};
+}
+
+OrganScene sceneOfStomach(const Grid& grid, std::uint64_t seed)
+{
+    StomachGas gas = drawStomach(grid, seed);
+    FieldVolume filled_mm = gas.stomach_mm;
+    for (std::size_t n = 0; n < filled_mm.voxels.size(); ++n)
+        filled_mm.voxels[n] = std::min(filled_mm.voxels[n], gas.other_mm.voxels[n]);
+    FieldVolume wall_mm = filled_mm;
+    for (float& mm : wall_mm.voxels)
+        mm -= float(kStomachWall_mm);
+    return {std::move(gas.stomach_mm), std::move(filled_mm), std::move(wall_mm),
+            [](Point3 p, double) { return abdomenHu(p); }};
+}
+
 nlohmann::json describe(const OrganTruth& truth)
 {
     nlohmann::json branches = nlohmann::json::array();
@@ -79,13 +122,14 @@ nlohmann::json describe(const OrganTruth& truth)
 
 OrganScan makeOrganScan(const OrganPhantomOptions& options, Progress& progress)
 {
-    const bool airway = isAirway(options);
+    const Kind& kind = kindOf(options);
     const Grid grid = gridFor(options);
+    const bool airway = options.organ == "airway", stomach = options.organ == "stomach";
     OrganScan scan;
-    scan.truth.tree = airway ? drawAirway(options.seed) : drawAorta(options.seed);
-    progress.report(0, "tubes");
-    const FieldVolume lumen_mm = tubesField(grid, scan.truth.tree, 8),
-                      wall_mm = tubesField(grid, withWall(scan.truth.tree), 8);
+    if (!stomach)
+        scan.truth.tree = airway ? drawAirway(options.seed) : drawAorta(options.seed);
+    progress.report(0, "organ");
+    const OrganScene organ = stomach ? sceneOfStomach(grid, options.seed) : sceneOfTubes(grid, scan.truth.tree, airway);
     progress.report(0.4, "body");
     const double voxel_mm = std::cbrt(grid.voxelVolume_mm3());
     scan.truth.inside = InsideVolume(grid);
@@ -93,13 +137,12 @@ OrganScan makeOrganScan(const OrganPhantomOptions& options, Progress& progress)
     for (std::size_t n = 0; n < scene.voxels.size(); ++n) {
         if (n % (1U << 20) == 0)
             progress.check();
-        const Point3 p = grid.pointAt(grid.indexOf(n));
-        const double inside_mm = double(lumen_mm.voxels[n]);
-        double hu = airway ? chestHu(p) : trunkHu(p, inside_mm);
-        hu += (kOrganWall_hu - hu) * share(double(wall_mm.voxels[n]), voxel_mm);
-        hu += ((airway ? kAir_hu : kContrast_hu) - hu) * share(inside_mm, voxel_mm);
+        const double filled_mm = double(organ.filled_mm.voxels[n]);
+        double hu = organ.around_hu(grid.pointAt(grid.indexOf(n)), filled_mm);
+        hu += (kOrganWall_hu - hu) * share(double(organ.wall_mm.voxels[n]), voxel_mm);
+        hu += (kind.content_hu - hu) * share(filled_mm, voxel_mm);
         scene.voxels[n] = std::int16_t(std::lround(hu));
-        scan.truth.inside.voxels[n] = inside_mm < 0 ? kGas : kOutside;
+        scan.truth.inside.voxels[n] = organ.organ_mm.voxels[n] < 0 ? kGas : kOutside;
     }
     progress.report(0.7, "blur and noise");
     scan.hu = imageScene(scene, {options.seed, kLumenBlur_mm, options.noise_hu}, progress);
@@ -129,10 +172,10 @@ void writeOrganStudy(const fs::path& out, const OrganPhantomOptions& options, Pr
     study.date = "20240115";
     study.accession_number = "P" + seed;
     study.study_id = seed.substr(0, 16);
-    const bool airway = isAirway(options);
-    study.description = airway ? "CT CHEST" : "CT ANGIOGRAPHY";
-    study.body_part = airway ? "CHEST" : "AORTA";
-    study.protocol = airway ? "CHEST" : "AORTA";
+    const Kind& kind = kindOf(options);
+    study.description = kind.description;
+    study.body_part = kind.body_part;
+    study.protocol = kind.body_part;
     const SeriesHeader series{2, uidFor(study.key, options.organ), options.organ + " soft", "HFS"};
     writeSeries(out / ("series-2-" + options.organ), study, series, scan.hu, progress);
     scan_files::writeVolume(out / ("truth-" + options.organ + "-inside.mha"), scan.truth.inside,

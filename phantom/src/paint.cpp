@@ -131,7 +131,7 @@ private:
                 const double wall = std::clamp(0.5 - mm(field_.outside[at]) / voxel_mm_, 0.0, 1.0);
                 const double lumen = std::clamp(0.5 - mm(field_.lumen[at]) / voxel_mm_, 0.0, 1.0);
                 double hu = v + rim * (kFat_hu - v);
-                hu += wall * (kWall_hu - hu);
+                hu += wall * (scene_.wall_hu - hu);
                 if (lumen > 0)
                     hu +=
                         lumen * (content_.density_hu(grid_.pointAt(Index3{i, j, k}), field_.pool[at], voxel_mm_) - hu);

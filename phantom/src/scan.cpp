@@ -2,7 +2,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "bubbles.h"
 #include "grid.h"
+#include "hips.h"
 #include "ileum.h"
 #include "imaging.h"
 #include "lumen_field.h"
@@ -10,6 +12,7 @@
 #include "paint.h"
 #include "pools.h"
 #include "scene.h"
+#include "slices.h"
 #include "stool.h"
 #include "topology.h"
 #include "vicon/core/error.h"
@@ -20,6 +23,7 @@ namespace {
 
 constexpr double kThinWall_mm = 1, kThinWallVoxels = 1.5;  // of tissue where loops almost touch
 constexpr double kSeparation_mm = 5;  // between the lumens of two loops; more where voxels are coarse
+constexpr double kOvershoot = 1.5;    // of a sharp kernel: an edge's eighth
 
 Vector3 turned(Vector3 v, double angle)
 {
@@ -41,6 +45,15 @@ void checkOptions(const PhantomOptions& options)
 double drawn(const PhantomOptions& options, const char* what, double low, double high)
 {
     return Random(options.seed, what).uniform(low, high);
+}
+
+double blurOf(const PhantomOptions& options)
+{
+    if (options.blur_mm > 0)
+        return options.blur_mm;
+    return options.protocol.kernel == "smooth"  ? drawn(options, "blur", 0.8, 1.1)
+           : options.protocol.kernel == "sharp" ? drawn(options, "blur", 0.45, 0.6)
+                                                : drawn(options, "blur", 0.5, 0.8);
 }
 
 double noiseOf(const PhantomOptions& options)
@@ -130,6 +143,64 @@ bool hasTopology(const InsideVolume& inside, const LumenField& field, int euler_
            eulerNumber6(inside, field.low, field.size) == euler_number;
 }
 
+/// What fills the lumen of a CT.
+void drawContents(const PhantomOptions& options, const Course& course, const Wall& wall, Position position,
+                  PhantomTruth& truth)
+{
+    if (options.mr != "none")  // in MR all of the lumen is filled alike
+        return;
+    if (options.fluid)
+        truth.pools = drawPools(options.seed, course, wall, position);
+    if (options.protocol.tagging_hu > 0)
+        for (FluidPool& pool : truth.pools)
+            pool.density_hu = options.protocol.tagging_hu;
+    truth.bubbles = drawBubbles(options, course, wall, truth.pools, position);
+    truth.stool = drawStool(options, course, wall, position);
+    truth.films = drawFilms(options, wall, position);
+}
+
+Scene surroundings(const PhantomOptions& options, const DrawnCourse& course, const Wall& wall, Position position,
+                   PhantomTruth& truth)
+{
+    Scene scene = drawScene(options.seed, course, position,
+                            {options.catheter, options.protocol.contrast, options.protocol.hips == "metal"});
+    if (!options.ileum)
+        return scene;
+    Ileum ileum = drawIleum(options.seed, course, wall, truth.pools, position);
+    for (Solid& solid : ileum.wall)
+        solid.density_hu = scene.wall_hu;
+    scene.ileum_wall = std::move(ileum.wall);
+    scene.ileum_lumen = std::move(ileum.lumen);
+    truth.ileum = ileum.truth;
+    return scene;
+}
+
+/// What the scanner makes of a painted scene, whose slices it averages.
+HuVolume scanned(HuVolume painted, const PhantomOptions& options, std::uint64_t seed, int thin_slices,
+                 PhantomTruth& truth, Progress& progress)
+{
+    if (options.mr != "none") {
+        truth.noise_hu = 0;
+        HuVolume hu =
+            imageScene(signalScene(painted, truth.inside, options.mr == "bright"), {seed, truth.blur_mm, 0}, progress);
+        receive(hu, options.seed, seed);
+        return averagedSlices(std::move(hu), thin_slices);
+    }
+    ImagingOptions imaging{seed, truth.blur_mm, truth.noise_hu, options.protocol.kernel == "sharp" ? kOvershoot : 0};
+    HuVolume hu;
+    if (thin_slices == 1) {
+        hu = imageScene(painted, imaging, progress);
+    } else {
+        imaging.noise_hu = 0;
+        hu = averagedSlices(imageScene(painted, imaging, progress), thin_slices);
+        imaging.noise_hu = truth.noise_hu;
+        addTo(hu, imageScene(HuVolume(hu.grid, 0), imaging, progress));
+    }
+    if (options.protocol.hips != "quiet")
+        addHipArtefacts(hu, seed, progress);
+    return hu;
+}
+
 /// The lumen's voxels, rounded off until they have the lumen's own topology.
 InsideVolume soundLumen(const Grid& grid, const Scene& scene, LumenField& field, const PhantomTruth& truth,
                         Progress& progress)
@@ -179,7 +250,8 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
 {
     checkOptions(options);
     const Placement placement = placementFrom(patient_position);
-    const Grid grid = scanGrid(options, placement);
+    const auto [thin, thin_slices] = withThinSlices(options);
+    const Grid grid = scanGrid(thin, placement);
     const double coarsest_mm = *std::max_element(grid.spacing_mm.begin(), grid.spacing_mm.end());
 
     progress.report(0, "course of the colon");
@@ -197,21 +269,10 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
     scan.patient_position = patient_position;
     scan.truth = describe(course, wall);
     scan.truth.gravity = gravityOf(placement.position);
-    if (options.fluid && options.mr == "none")  // in MR all of the lumen is filled alike
-        scan.truth.pools = drawPools(options.seed, course.course, wall, placement.position);
-    if (options.mr == "none") {
-        scan.truth.stool = drawStool(options, course.course, wall, placement.position);
-        scan.truth.films = drawFilms(options, wall, placement.position);
-    }
+    drawContents(options, course.course, wall, placement.position, scan.truth);
 
     progress.report(0.1, "lumen");
-    Scene scene = drawScene(options.seed, course, placement.position, options.catheter);
-    if (options.ileum) {
-        Ileum ileum = drawIleum(options.seed, course, wall, scan.truth.pools, placement.position);
-        scene.ileum_wall = std::move(ileum.wall);
-        scene.ileum_lumen = std::move(ileum.lumen);
-        scan.truth.ileum = ileum.truth;
-    }
+    const Scene scene = surroundings(options, course, wall, placement.position, scan.truth);
     LumenField field = rasterise(grid, course.course, wall, scan.truth.pools, progress);
     scan.truth.euler_number = int(wall.gaps.size()) + 1 - (options.self_contact ? 1 : 0);
     scan.truth.inside = soundLumen(grid, scene, field, scan.truth, progress);
@@ -220,19 +281,12 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
         scan.truth.euler_number = eulerNumber26(scan.truth.inside, field.low, field.size);
 
     progress.report(0.5, "body");
-    scan.truth.blur_mm = options.blur_mm > 0 ? options.blur_mm : drawn(options, "blur", 0.5, 0.8);
+    scan.truth.blur_mm = blurOf(options);
     scan.truth.noise_hu = noiseOf(options);
-    scan.hu = paintScene(grid, scene, field, scan.truth, progress);
+    HuVolume painted = paintScene(grid, scene, field, scan.truth, progress);
     progress.report(0.7, "blur and noise");
-    const std::uint64_t seed = options.seed * 8 + std::uint64_t(placement.position);
-    if (options.mr == "none") {
-        scan.hu = imageScene(scan.hu, {seed, scan.truth.blur_mm, scan.truth.noise_hu}, progress);
-    } else {
-        scan.truth.noise_hu = 0;
-        scan.hu = imageScene(signalScene(scan.hu, scan.truth.inside, options.mr == "bright"),
-                             {seed, scan.truth.blur_mm, 0}, progress);
-        receive(scan.hu, options.seed, seed);
-    }
+    scan.hu = scanned(std::move(painted), options, options.seed * 8 + std::uint64_t(placement.position), thin_slices,
+                      scan.truth, progress);
     progress.report(1, "scan");
     return scan;
 }

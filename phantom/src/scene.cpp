@@ -9,7 +9,7 @@
 namespace vicon::phantom {
 namespace {
 
-constexpr double kSoft_hu = 45, kCortex_hu = 550, kMarrow_hu = 190;
+constexpr double kSoft_hu = 45, kCortex_hu = 550, kMarrow_hu = 190, kMetal_hu = 9000;
 
 Solid ellipsoid(Point3 centre, Vector3 radii, double hu)
 {
@@ -30,24 +30,33 @@ void addBone(std::vector<Solid>& out, Solid bone, double cortex_mm)
     out.push_back(bone);
 }
 
-void addOrgans(std::vector<Solid>& out, Vector3 up)
+/// Densities without contrast medium and in the portal venous phase.
+struct Densities {
+    explicit Densities(bool contrast) : medium(contrast) {}
+    bool medium;
+    double wall_hu = medium ? 120 : kWall_hu;
+    double kidney_hu = medium ? 190 : 36, liver_hu = medium ? 115 : 60, spleen_hu = medium ? 125 : 50;
+    double aorta_hu = medium ? 165 : 42, cava_hu = medium ? 150 : 40, vessel_hu = medium ? 160 : 40;
+};
+
+void addOrgans(std::vector<Solid>& out, Vector3 up, const Densities& densities)
 {
     for (const double side : {-1.0, 1.0}) {
-        out.push_back(capsule({side * 40, 70, 280}, {side * 58, 38, 112}, 19, 55));             // psoas
-        out.push_back(capsule({side * 32, 98, 100}, {side * 32, 98, 430}, 14, 50));             // back muscles
-        out.push_back(ellipsoid({side * 88, 70, 60}, {62, 36, 75}, 52));                        // gluteal muscles
-        out.push_back(ellipsoid({side * 63, 54, side > 0 ? 285.0 : 270.0}, {27, 23, 48}, 36));  // kidneys
+        out.push_back(capsule({side * 40, 70, 280}, {side * 58, 38, 112}, 19, 55));  // psoas
+        out.push_back(capsule({side * 32, 98, 100}, {side * 32, 98, 430}, 14, 50));  // back muscles
+        out.push_back(ellipsoid({side * 88, 70, 60}, {62, 36, 75}, 52));             // gluteal muscles
+        out.push_back(ellipsoid({side * 63, 54, side > 0 ? 285.0 : 270.0}, {27, 23, 48}, densities.kidney_hu));
         out.push_back(ellipsoid({side * 58, 50, side > 0 ? 285.0 : 270.0}, {12, 10, 24}, -80));
     }
-    out.push_back(ellipsoid({-72, -14, 352}, {86, 80, 60}, 60));     // liver
-    out.push_back(ellipsoid({106, 46, 358}, {28, 34, 32}, 50));      // spleen
-    out.push_back(ellipsoid({15, 22, 315}, {55, 12, 14}, 42));       // pancreas
-    out.push_back(ellipsoid({20, -20, 432}, {58, 48, 34}, 42));      // heart
-    out.push_back(ellipsoid({0, -30, 60}, {36, 27, 27}, 8));         // bladder
-    out.push_back(ellipsoid({0, 4, 40}, {21, 17, 15}, 45));          // prostate
-    out.push_back(capsule({0, 44, 0}, {0, 44, 40}, 13, 50));         // anal canal
-    out.push_back(capsule({9, 46, 140}, {7, 50, 430}, 10, 42));      // aorta
-    out.push_back(capsule({-18, 46, 140}, {-18, 44, 430}, 10, 40));  // vena cava
+    out.push_back(ellipsoid({-72, -14, 352}, {86, 80, 60}, densities.liver_hu));
+    out.push_back(ellipsoid({106, 46, 358}, {28, 34, 32}, densities.spleen_hu));
+    out.push_back(ellipsoid({15, 22, 315}, {55, 12, 14}, 42));   // pancreas
+    out.push_back(ellipsoid({20, -20, 432}, {58, 48, 34}, 42));  // heart
+    out.push_back(ellipsoid({0, -30, 60}, {36, 27, 27}, 8));     // bladder
+    out.push_back(ellipsoid({0, 4, 40}, {21, 17, 15}, 45));      // prostate
+    out.push_back(capsule({0, 44, 0}, {0, 44, 40}, 13, 50));     // anal canal
+    out.push_back(capsule({9, 46, 140}, {7, 50, 430}, 10, densities.aorta_hu));
+    out.push_back(capsule({-18, 46, 140}, {-18, 44, 430}, 10, densities.cava_hu));
     const Point3 stomach{46, -22, 350};
     out.push_back(ellipsoid(stomach, {40, 36, 25}, kSoft_hu));
     Solid content = ellipsoid(stomach, {36.5, 32.5, 21.5}, 25);
@@ -77,6 +86,13 @@ void addBones(std::vector<Solid>& out)
         addBone(out, capsule({side * 62, 44, 20}, {side * 70, 24, 60}, 12, 0), 2);
         addBone(out, capsule({side * 10, -72, 42}, {side * 62, -46, 58}, 8, 0), 2);
     }
+}
+
+/// Head and stem of cobalt and chromium, on the patient's right.
+void addMetalHip(std::vector<Solid>& out)
+{
+    out.push_back(ellipsoid({-96, 4, 46}, {16, 16, 16}, kMetal_hu));
+    out.push_back(capsule({-96, 4, 46}, {-124, 0, 12}, 8, kMetal_hu));
 }
 
 void addRibs(std::vector<Solid>& out, const Trunk& trunk)
@@ -119,7 +135,8 @@ Point3 anywhereInBelly(Random& random)
 }
 
 /// Loops of small bowel between those of the colon; some hold gas, all of it narrower than 8 mm in radius.
-void addSmallBowel(std::vector<Solid>& out, const Course& course, const Trunk& trunk, Random& random, Vector3 up)
+void addSmallBowel(std::vector<Solid>& out, const Course& course, const Trunk& trunk, Random& random, Vector3 up,
+                   double wall_hu)
 {
     int with_gas = 0;
     for (int tries = 0; tries < 600; ++tries) {
@@ -139,7 +156,7 @@ void addSmallBowel(std::vector<Solid>& out, const Course& course, const Trunk& t
             continue;
         with_gas += gas;
         for (std::size_t n = 1; n < way.size(); ++n)
-            out.push_back(capsule(way[n - 1], way[n], radius, 42));
+            out.push_back(capsule(way[n - 1], way[n], radius, wall_hu));
         const double content_hu = random.uniform(5, 35);
         for (std::size_t n = 1; n < way.size(); ++n) {
             Solid content = capsule(way[n - 1], way[n], gas ? std::min(radius - 2.5, 6.5) : radius - 2.2, content_hu);
@@ -150,14 +167,14 @@ void addSmallBowel(std::vector<Solid>& out, const Course& course, const Trunk& t
     }
 }
 
-void addVessels(std::vector<Solid>& out, const Trunk& trunk, Random& random)
+void addVessels(std::vector<Solid>& out, const Trunk& trunk, Random& random, double density_hu)
 {
     for (int n = 0; n < 160; ++n) {
         const Point3 at = anywhereInBelly(random);
         const Point3 end = at + anyDirection(random) * random.uniform(10, 35);
         const double radius = random.uniform(0.8, 2.2);
         if (inBelly(trunk, at, radius) && inBelly(trunk, end, radius))
-            out.push_back(capsule(at, end, radius, 40));
+            out.push_back(capsule(at, end, radius, density_hu));
     }
     for (int n = 0; n < 400; ++n) {
         const Point3 at{random.uniform(-140, 140), random.uniform(-90, 90), random.uniform(350, 440)};
@@ -215,11 +232,13 @@ double distanceTo(const Solid& solid, Point3 p)
     return f < 1e-6 ? -std::min({r.x, r.y, r.z}) : (f - 1) * f / length(slope);
 }
 
-Scene drawScene(std::uint64_t seed, const DrawnCourse& drawn, Position position, bool catheter)
+Scene drawScene(std::uint64_t seed, const DrawnCourse& drawn, Position position, const SceneOptions& options)
 {
     Scene scene;
     scene.trunk = drawn.trunk;
     scene.down = gravityOf(position);
+    const Densities densities(options.contrast);
+    scene.wall_hu = densities.wall_hu;
     const Vector3 up = -scene.down;
     for (double z = 0; z <= kHeightMm; z += 10) {
         const Oval skin = scene.trunk.skin(z);
@@ -229,12 +248,14 @@ Scene drawScene(std::uint64_t seed, const DrawnCourse& drawn, Position position,
     }
     scene.table_mm += 3;
     Random random(seed, "gut");
-    addOrgans(scene.organs, up);
-    addSmallBowel(scene.organs, drawn.course, scene.trunk, random, up);
-    addVessels(scene.bones, scene.trunk, random);
+    addOrgans(scene.organs, up, densities);
+    addSmallBowel(scene.organs, drawn.course, scene.trunk, random, up, densities.wall_hu);
+    addVessels(scene.bones, scene.trunk, random, densities.vessel_hu);
     addBones(scene.bones);
     addRibs(scene.bones, scene.trunk);
-    if (catheter)
+    if (options.metal_hip)
+        addMetalHip(scene.bones);
+    if (options.catheter)
         scene.tube = rectalTube(drawn.course);
     return scene;
 }

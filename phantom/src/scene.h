@@ -33,6 +33,7 @@ struct Scene {
     Trunk trunk;
     Vector3 down;                    ///< gravity
     double table_mm = 0;             ///< depth of the table's top in the middle
+    double wall_hu = 0;              ///< of the colon
     std::vector<Solid> organs;       ///< painted in this order, before the lungs
     std::vector<Solid> bones;        ///< painted after the lungs, with vessels and gut
     std::vector<Solid> ileum_wall;   ///< terminal ileum, painted before the colon; empty without
@@ -40,6 +41,13 @@ struct Scene {
     std::vector<Solid> tube;         ///< rectal catheter; empty without. Its hollow follows its wall
 };
 
-Scene drawScene(std::uint64_t seed, const DrawnCourse& drawn, Position position, bool catheter);
+/// What of the patient is no matter of chance.
+struct SceneOptions {
+    bool catheter = true;
+    bool contrast = false;   ///< medium in the veins
+    bool metal_hip = false;  ///< the right one
+};
+
+Scene drawScene(std::uint64_t seed, const DrawnCourse& drawn, Position position, const SceneOptions& options);
 
 }  // namespace vicon::phantom

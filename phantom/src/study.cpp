@@ -35,13 +35,18 @@ StudyHeader headerFor(const PhantomOptions& options)
 {
     StudyHeader study;
     nlohmann::json shaping = toJson(options);
-    // Studies keep the identifiers that they had before there was MR, stool and film.
+    // Studies keep the identifiers that they had before there was MR, stool, film and what follows.
     if (options.mr == "none")
         shaping.erase("phantom.mr");
     if (options.stool == 0)
         shaping.erase("phantom.stool");
     if (!options.film)
         shaping.erase("phantom.film");
+    const nlohmann::json usual = toJson(PhantomOptions());
+    for (const char* later : {"phantom.kernel", "phantom.thickness_mm", "phantom.tagging_hu", "phantom.bubbles",
+                              "phantom.contrast", "phantom.hips"})
+        if (shaping.at(later) == usual.at(later))
+            shaping.erase(later);
     study.key = Random(options.seed, shaping.dump()).bits();
     study.study_uid = uidFor(study.key, "study");
     const std::string seed = std::to_string(options.seed);
@@ -80,7 +85,7 @@ nlohmann::json describeTruth(const PhantomTruth& truth)
                         {"neck_radius_mm", truth.ileum.neck_radius_mm}, {"radius_mm", truth.ileum.radius_mm},
                         {"length_mm", truth.ileum.length_mm},           {"through_fluid", truth.ileum.through_fluid}};
     for (const char* list :
-         {"curve_mm", "station_mm", "wall_mm", "radius_mm", "polyps", "gaps", "pools", "stool", "films"})
+         {"curve_mm", "station_mm", "wall_mm", "radius_mm", "polyps", "gaps", "pools", "stool", "films", "bubbles"})
         out[list] = nlohmann::json::array();
     for (const SkeletonPoint& point : truth.curve) {
         out["curve_mm"].push_back(triple(point.position_mm));
@@ -106,6 +111,8 @@ nlohmann::json describeTruth(const PhantomTruth& truth)
                                 {"diameter_mm", lump.diameter_mm},
                                 {"density_hu", lump.density_hu},
                                 {"airy", lump.airy}});
+    for (const GasBubble& bubble : truth.bubbles)
+        out["bubbles"].push_back({{"position_mm", triple(bubble.position_mm)}, {"diameter_mm", bubble.diameter_mm}});
     for (const TaggingFilm& film : truth.films)
         out["films"].push_back(
             {{"polyp", film.polyp}, {"thickness_mm", film.thickness_mm}, {"density_hu", film.density_hu}});

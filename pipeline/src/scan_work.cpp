@@ -179,8 +179,19 @@ private:
         record.result["files"] = sizesOf(results_, files);
         record.seconds = seconds;
         record.finished = nowUtc();
-        context_.commitStep(record, [&] { results_.publish(files); });
+        context_.commitStep(record, [&] {
+            results_.publish(files);
+            removeFilesBut(step, files);
+        });
         store_.writeScanFile(scan_.case_id, scan_.id);
+    }
+
+    /// What the step had made of another organ.
+    void removeFilesBut(const Step& step, const std::vector<std::string>& kept)
+    {
+        for (const std::string& file : step.outputs(json::object()))
+            if (std::find(kept.begin(), kept.end(), file) == kept.end())
+                fs::remove(folder_ / file);
     }
 
     /// What an earlier run, with other parameters, had made of a scan whose organ is not found now.

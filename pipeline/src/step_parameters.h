@@ -21,6 +21,12 @@ inline bool isColon(const Config& config)
     return config.get<steps::OrganOptions>().isColon();
 }
 
+/// Whether a path leads through the organ.
+inline bool hasPath(const Config& config)
+{
+    return config.get<steps::OrganOptions>().hasPath();
+}
+
 /// Parameters of a step that other organs go through too; the colon's do not depend on options of other organs.
 template <class OfColon, class OfOthers>
 nlohmann::json parametersByOrgan(const Config& config)

@@ -6,7 +6,9 @@
 #include <iterator>
 #include <optional>
 
+#include "part_of_progress.h"
 #include "segment_step.h"
+#include "skeleton_step.h"
 #include "step_parameters.h"
 #include "tissue_step.h"
 #include "vicon/cases/step_results.h"
@@ -38,21 +40,6 @@ std::function<std::vector<std::string>(const json&)> always(std::vector<std::str
     return [files = std::move(files)](const json&) { return files; };
 }
 
-/// Tells a part of a step's progress as a part of the whole.
-class PartOfProgress : public Progress {
-public:
-    PartOfProgress(Progress& whole, double from, double to) : whole_(whole), from_(from), to_(to) {}
-    void report(double fraction, std::string_view what) override
-    {
-        whole_.report(from_ + (to_ - from_) * fraction, what);
-    }
-    bool cancelled() const override { return whole_.cancelled(); }
-
-private:
-    Progress& whole_;
-    double from_, to_;
-};
-
 json runResample(const StepInputs& inputs, ScanResults& results, const StepRecords&, Progress& progress)
 {
     PartOfProgress decode(progress, 0, 0.5), rest(progress, 0.5, 1);
@@ -62,50 +49,6 @@ json runResample(const StepInputs& inputs, ScanResults& results, const StepRecor
     found.size = results.volume().grid.size;
     found.spacing_mm = results.volume().grid.spacing_mm[0];
     return toJson(found);
-}
-
-/// The skeleton of an organ that branches.
-json runTree(const steps::LumenPlan& plan, const StepInputs& inputs, ScanResults& results, Progress& progress)
-{
-    steps::TreeResult found = steps::findTree(results.inside(), plan.pieces.at(0).rectal_end_mm,
-                                              inputs.config.get<steps::OrganOptions>().branch_mm,
-                                              inputs.config.get<steps::SkeletonOptions>(), progress);
-    const std::vector<int> tips = found.tree.tips();
-    const SkeletonFound result{found.tree.pathTo(tips.front()).length_mm(),
-                               {{"branches", found.tree.branches.size()},
-                                {"tips", tips.size()},
-                                {"total_length_mm", found.tree.totalLength_mm()}}};
-    scan_files::writeSkeletonVoxels(results.target("skeleton_voxels.vtp"), found.voxels);
-    scan_files::writeSkeletonTree(results.target("skeleton.vtp"), found.tree);
-    return toJson(result);
-}
-
-json runSkeleton(const StepInputs& inputs, ScanResults& results, const StepRecords& records, Progress& progress)
-{
-    const steps::LumenPlan plan = steps::lumenPlanFromJson(records.at("segment").result.at("plan"));
-    if (!isColon(inputs.config))
-        return runTree(plan, inputs, results, progress);
-    // Two thirds of dividing the lumen need no curve, distances from the wall none at all, and cores are free here.
-    const steps::SkeletonHooks hooks{
-        .core_free =
-            [&] {
-                if (!wallFromTissue(inputs.config))
-                    results.beginSurface(inputs.config.get<steps::WallDensities>());
-                results.beginWallDistance();
-            },
-        .paths_found =
-            [&](const std::vector<std::vector<Index3>>& paths) {
-                if (inputs.config.get<steps::SubdivideOptions>().method == steps::SubdivideMethod::flood)
-                    results.keepFlood(std::async(std::launch::async, [&inside = results.inside(), paths] {
-                        return steps::floodFromPaths(inside, paths);
-                    }));
-            }};
-    steps::SkeletonResult found =
-        steps::findSkeleton(results.inside(), plan, inputs.config.get<steps::SkeletonOptions>(), progress, hooks);
-    const SkeletonFound result{found.curve.length_mm(), found.measures};
-    scan_files::writeSkeletonVoxels(results.target("skeleton_voxels.vtp"), found.voxels);
-    results.put(std::move(found.curve));
-    return toJson(result);
 }
 
 json runQuality(const StepInputs& inputs, ScanResults& results, const StepRecords& records, Progress& progress)
@@ -123,18 +66,24 @@ json runQuality(const StepInputs& inputs, ScanResults& results, const StepRecord
     return toJson(found);
 }
 
-json runSubdivide(const StepInputs& inputs, ScanResults& results, const StepRecords&, Progress& progress)
+steps::Subdivided divide(const StepInputs& inputs, ScanResults& results, Progress& progress)
 {
-    PartOfProgress divide(progress, 0, 0.6), tell(progress, 0.6, 0.9), project(progress, 0.9, 1);
-    const InsideVolume& inside = results.inside();
-    const auto contour = surfaceOf(inputs.config, results);
     auto options = inputs.config.get<steps::SubdivideOptions>();
+    if (!hasPath(inputs.config))
+        return steps::undivided(results.inside(), options, progress);
     const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));
     if (!tree.empty())
         options.method = steps::SubdivideMethod::flood;  // planes across one path do not part branches
-    steps::Subdivided divided = steps::subdivide(inside, tree.empty() ? results.skeleton() : tree.allBranches(),
-                                                 scan_files::readSkeletonVoxels(results.source("skeleton_voxels.vtp")),
-                                                 options, divide, results.takeFlood());
+    return steps::subdivide(results.inside(), tree.empty() ? results.skeleton() : tree.allBranches(),
+                            scan_files::readSkeletonVoxels(results.source("skeleton_voxels.vtp")), options, progress,
+                            results.takeFlood());
+}
+
+json runSubdivide(const StepInputs& inputs, ScanResults& results, const StepRecords&, Progress& progress)
+{
+    PartOfProgress dividing(progress, 0, 0.6), tell(progress, 0.6, 0.9), project(progress, 0.9, 1);
+    const auto contour = surfaceOf(inputs.config, results);
+    steps::Subdivided divided = divide(inputs, results, dividing);
     results.put(std::move(divided.segments));
     const CellSurface surface = contour.get().cellsOf(results.segments(), tell);
     steps::countTriangles(surface, divided.description);
@@ -158,12 +107,22 @@ json runPotential(const StepInputs& inputs, ScanResults& results, const StepReco
         from_wall_mm = steps::wallDistance(results.inside(), surfaceOf(inputs.config, results).get().nearWall(), wall);
     found.largest_wall_distance_mm = largest(*from_wall_mm);
     results.write("wall_distance.mha", *std::move(from_wall_mm));
+    if (!hasPath(inputs.config))
+        return toJson(found);
     const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));
     FieldVolume from_exit_mm = tree.empty() ? steps::exitDistance(results.inside(), results.skeleton(), exit)
                                             : steps::exitDistance(results.inside(), tree, exit);
     found.largest_exit_distance_mm = largest(from_exit_mm);
     results.write("exit_distance.mha", std::move(from_exit_mm));
     return toJson(found);
+}
+
+std::vector<std::string> potentialFiles(const json& result)
+{
+    const PotentialFound found = potentialFoundFromJson(result);
+    if (found.largest_wall_distance_mm > 0 && !found.largest_exit_distance_mm)
+        return {"wall_distance.mha"};
+    return {"exit_distance.mha", "wall_distance.mha"};
 }
 
 /// What lies where: volume, lumen, tissue, centreline.
@@ -182,7 +141,7 @@ std::vector<Step> stepsOfLumen()
          runResample},
         {"segment", 17, 0.3, 0.55, {"resample"}, Densities::whole, segmentFiles, segmentParameters, runSegment},
         {"tissue",
-         12,
+         13,
          0.55,
          0.6,
          {"resample", "segment"},
@@ -196,7 +155,7 @@ std::vector<Step> stepsOfLumen()
          0.65,
          {"segment", "tissue"},
          Densities::around_lumen,
-         always({"skeleton.vtp", "skeleton_voxels.vtp"}),
+         skeletonFiles,
          parametersByOrgan<SkeletonOptions, SkeletonOptions>,
          runSkeleton},
     };
@@ -232,7 +191,7 @@ std::vector<Step> stepsOfResults()
          1,
          {"resample", "segment", "tissue", "skeleton"},
          Densities::around_lumen,
-         always({"exit_distance.mha", "wall_distance.mha"}),
+         potentialFiles,
          parametersFrom<WallOptions, WallDensities>,
          runPotential},
     };

@@ -233,7 +233,7 @@ std::vector<Statement> techniqueStatements(const ReadCase& read)
     if (said.dose_mgy_cm)
         out.push_back({"Dose", oneDigit(*said.dose_mgy_cm, "mGy cm") + " (dose length product)"});
     if (said.coverage_percent)
-        out.push_back({"Wall seen", oneDigit(*said.coverage_percent, "%")});
+        out.push_back({"Wall reviewed", oneDigit(*said.coverage_percent, "%")});
     if (said.reading_minutes)
         out.push_back({"Reading time", oneDigit(*said.reading_minutes, "min")});
     return out;

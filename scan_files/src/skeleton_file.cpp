@@ -19,6 +19,9 @@ namespace fs = std::filesystem;
 namespace vicon::scan_files {
 namespace {
 
+/// Array of a file without lines that is of an organ without a path; any other is damaged.
+constexpr const char* kNoPath = "no_path";
+
 vtkNew<vtkPoints> doublePoints()
 {
     vtkNew<vtkPoints> points;
@@ -89,6 +92,8 @@ struct ReadLines {
 ReadLines readLines(const fs::path& file)
 {
     const auto data = readPolyData(file);
+    if (data->GetNumberOfLines() == 0 && data->GetPointData()->GetArray(kNoPath))
+        return {};
     auto* station = data->GetPointData()->GetArray("station_mm");
     auto* radius = data->GetPointData()->GetArray("radius_mm");
     auto* bridge = data->GetCellData()->GetArray("bridge");
@@ -130,6 +135,23 @@ void writeSkeleton(const fs::path& file, const Skeleton& skeleton)
 void writeSkeletonTree(const fs::path& file, const SkeletonTree& tree)
 {
     writeLines(file, tree.allBranches(), tree);
+}
+
+void writeNoPath(const fs::path& file, const SkeletonPoint& widest)
+{
+    const auto points = doublePoints();
+    points->InsertNextPoint(widest.position_mm.x, widest.position_mm.y, widest.position_mm.z);
+    vtkNew<vtkDoubleArray> radius;
+    radius->SetName("radius_mm");
+    radius->InsertNextValue(widest.radius_mm);
+    vtkNew<vtkIntArray> none;
+    none->SetName(kNoPath);
+    none->InsertNextValue(1);
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    data->GetPointData()->AddArray(radius);
+    data->GetPointData()->AddArray(none);
+    writePolyData(file, data);
 }
 
 Skeleton readSkeleton(const fs::path& file)

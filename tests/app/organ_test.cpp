@@ -82,6 +82,44 @@ TEST(OrganOfTheCommand, AnAortaIsMarkedOnTheBranchWhereTheMarkerLies)
         runVicon("work --until-idle --case " + scan.case_id + " --drop 0,0,0 --store " + store.string()).exit_code, 2);
 }
 
+TEST(OrganOfTheCommand, AStomachGoesThroughTheStepsWithoutAPathAndWhatNeedsOneSaysSo)
+{
+    const TemporaryFolder folder;
+    const auto store = folder / "store";
+    prepare(folder, "stomach", "112x112x104");
+    const ListedScan scan = listedScans(store).at(0);
+    for (const char* file : {"inside.mha", "skeleton.vtp", "segments.mha", "cells.vtp", "wall_distance.mha"})
+        EXPECT_TRUE(std::filesystem::exists(scan.folder / file)) << file;
+    for (const char* file : {"exit_distance.mha", "skeleton_voxels.vtp"})
+        EXPECT_FALSE(std::filesystem::exists(scan.folder / file)) << file;
+    EXPECT_EQ(schemaFaults("scan", {scan.folder / "scan.json"}), "");
+    EXPECT_EQ(schemaFaults("subdivision", {scan.folder / "subdivision.json"}), "");
+    const std::string shown = viconOn(store, "show " + scan.case_id);
+    EXPECT_THAT(shown, HasSubstr("organ: stomach"));
+    EXPECT_THAT(shown, Not(HasSubstr("GENERATION")));
+    EXPECT_THAT(viconOn(store, "cases"), Not(HasSubstr("unsure")));
+    for (const char* view : {"endo", "slices", "overview", "cube"})
+        viconOn(store, "snapshot " + scan.case_id + " --view " + view + " --out " + (folder / "view.png").string());
+    const auto marker = viconJson(store, "mark " + scan.case_id + " --at=45,-5,35");
+    EXPECT_EQ(marker["station_mm"], 0);
+    viconOn(store, "snapshot " + scan.case_id + " --view endo --marker " + marker["id"].get<std::string>() + " --out " +
+                       (folder / "marker.png").string());
+    for (const std::string& needs_path :
+         {"fly " + scan.case_id + " --frames 3 --width 200 --height 200",
+          "snapshot " + scan.case_id + " --view band --out " + (folder / "band.png").string()}) {
+        const auto refused = runVicon(needs_path + " --store " + store.string());
+        EXPECT_EQ(refused.exit_code, 2) << refused.output;
+        EXPECT_THAT(refused.output, HasSubstr("path")) << needs_path;
+        EXPECT_EQ(std::count(refused.output.begin(), refused.output.end(), '\n'), 1) << refused.output;
+    }
+    // Taken for an organ with a path, and for what it is again: what was made of the path is gone.
+    viconOn(store, "work --until-idle --redo-outdated --set organ.root=far_from_feet --set 'organ.seed=[[45,-5,35]]'");
+    EXPECT_TRUE(std::filesystem::exists(scan.folder / "exit_distance.mha"));
+    viconOn(store, "work --until-idle --redo-outdated");
+    for (const char* file : {"exit_distance.mha", "skeleton_voxels.vtp"})
+        EXPECT_FALSE(std::filesystem::exists(scan.folder / file)) << file;
+}
+
 TEST(OrganOfTheCommand, ARealChestOfCoarseVoxelsEndsInAVerdict)
 {
     VICON_NEEDS_DATA("dicom/ct64");

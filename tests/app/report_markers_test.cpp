@@ -13,6 +13,7 @@
 #include "report_pictures.h"
 #include "report_writing.h"
 #include "study.h"
+#include "vicon/cases/report_files.h"
 #include "vicon/core/file.h"
 #include "vicon/core/progress.h"
 
@@ -37,8 +38,11 @@ TEST_P(ReportOfAMarkedCase, NeverDeniesTheMarker)
     store.saveMarker(case_id, {.scan_id = scan.id, .position_mm = {1, 2, 3}, .note = "polyp in the sigmoid"});
     store.database().session() << GetParam();
     NoProgress quiet;
+    EXPECT_TRUE(app::previewReport(store, app::declaredConfig(), case_id, quiet).starts_with("%PDF"));
+    EXPECT_TRUE(countReports(store, store.cases()).empty()) << "what was looked at was not written";
     const auto written = app::writeReport(store, app::declaredConfig(), case_id, folder / "report.pdf", quiet);
     EXPECT_EQ(written.markers, 1u);
+    EXPECT_EQ(written.number, 1);
     const std::string text = runCommand("pdftotext " + (folder / "report.pdf").string() + " -").output;
     EXPECT_NE(text.find("Marker m1"), std::string::npos) << text;
     EXPECT_NE(text.find("polyp in the sigmoid"), std::string::npos) << text;

@@ -13,17 +13,19 @@
 
 namespace vicon::support {
 
-/// 'vicon receive --no-work' on a port that it chooses, from outside.
+/// 'vicon receive --no-work' from outside.
 class RunningListener {
 public:
     /// @param more arguments, as "--set receive.quiet_s=0"
-    explicit RunningListener(const std::filesystem::path& store, const std::string& more = "")
+    /// @param port 0: one that it chooses
+    explicit RunningListener(const std::filesystem::path& store, const std::string& more = "", int port = 0)
         : log_(store.parent_path() / "listener.log"), said_(store.parent_path() / "listener.out")
     {
         std::filesystem::create_directories(store.parent_path());
         std::filesystem::remove(said_);  // what an earlier one said
-        const std::string line = "exec " + viconBinary() + " receive --no-work --port 0 --store " + store.string() +
-                                 " " + more + " >" + said_.string() + " 2>>" + log_.string();
+        const std::string line = "exec " + viconBinary() + " receive --no-work --port " + std::to_string(port) +
+                                 " --store " + store.string() + " " + more + " >" + said_.string() + " 2>>" +
+                                 log_.string();
         process_ = ::fork();
         if (process_ == 0) {
             ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);

@@ -36,6 +36,26 @@ protected:
                std::to_string(p[2].get<double>());
     }
 
+    /// At a polyp, as a reader of a finer scan measured its density. Returns its id.
+    static std::string addMeasuredMarker()
+    {
+        const auto& place = truth_["polyps"][0]["position_mm"];
+        const nlohmann::json density = {
+            {"position_mm", place}, {"radius_mm", 4},
+            {"margin_mm", 2},       {"voxels", 30},
+            {"mean_hu", 41.5},      {"sd_hu", 12.25},
+            {"fat_fraction", 0},    {"histogram", {{"from_hu", 25}, {"bin_hu", 25}, {"counts", {30}}}}};
+        const fs::path file = folder_->path() / "measured.json";
+        std::ofstream(file) << nlohmann::json{{"markers",
+                                               {{{"id", "m90"},
+                                                 {"scan", scan_.scan_id},
+                                                 {"position_mm", place},
+                                                 {"color", "red"},
+                                                 {"density", density}}}}};
+        viconOn(store(), "markers " + scan_.case_id + " --import " + file.string());
+        return "m90";
+    }
+
     static TemporaryFolder* folder_;
     static std::string work_output_;
     static ListedScan scan_;
@@ -108,6 +128,47 @@ TEST_F(Study, WorkingAgainChangesNothingAndOtherParametersRedoWhatDependsOnThem)
     for (const char* kept : {"resample", "segment", "tissue", "skeleton", "potential"})
         EXPECT_EQ(second.at(kept), first.at(kept)) << kept;
     EXPECT_NE(second.at("subdivide"), first.at("subdivide"));
+    viconOn(store(), "work --until-idle --redo-outdated");
+    EXPECT_TRUE(filesOf(store()) == before) << "and back";
+}
+
+TEST_F(Study, TheTableOfSubdivisionsHasARowForEveryMeasureOfSizeAndPortalsAndIsWhatTheStepMakes)
+{
+    const auto lines = [](const std::string& options) {
+        std::vector<std::string> rows;
+        for (const std::string& line :
+             linesWithoutProgress(viconOn(store(), "show " + scan_.case_id + " --subdivision-table" + options)))
+            if (line.starts_with(scan_.scan_id))
+                rows.push_back(line);
+        return rows;
+    };
+    /// As the table has it: "12 / 13 ... 1234 ... 2345 / 321 ... 456.78".
+    const auto stored = [] {
+        const auto s = nlohmann::json::parse(std::ifstream(scan_.folder / "subdivision.json"))["statistics"];
+        const auto number = [&](const char* key, const char* pattern) {
+            char text[40];
+            std::snprintf(text, sizeof text, pattern, s[key].get<double>());
+            return std::string(text);
+        };
+        return number("segments", "%.0f") + " / " + number("specified_segments", "%.0f") + " +" +
+               number("triangles_average", "%.0f") + " +" + number("triangles_largest", "%.0f") + " / " +
+               number("triangles_smallest", "%.0f") + " +" + number("triangles_standard_deviation", "%.2f");
+    };
+    const auto before = filesOf(store());
+    const auto rows = lines("");
+    ASSERT_EQ(rows.size(), 10u) << "flood, then three measures of size by three of portals";
+    EXPECT_THAT(rows[0], testing::ContainsRegex("flood +- +- +" + stored()));
+    int row = 1;
+    for (const std::string size : {"surface", "inside", "triangles"})
+        for (const std::string portals : {"tangent", "portal_size", "gate_ratio"})
+            EXPECT_THAT(rows[std::size_t(row++)],
+                        testing::ContainsRegex("thesis +" + size + " +" + portals + " +[0-9]"));
+    EXPECT_TRUE(filesOf(store()) == before) << "it only looks";
+
+    viconOn(store(),
+            "work --until-idle --redo-outdated --set subdivide.method=thesis --set subdivide.size=inside"
+            " --set subdivide.effectiveness=tangent");
+    EXPECT_THAT(rows[4], testing::ContainsRegex("thesis +inside +tangent +" + stored()));
     viconOn(store(), "work --until-idle --redo-outdated");
     EXPECT_TRUE(filesOf(store()) == before) << "and back";
 }
@@ -196,23 +257,22 @@ TEST_F(Study, PutsMarkersAtTheStationOfTheTruthAndRefusesPointsOutside)
     EXPECT_TRUE(nlohmann::json::parse(std::ifstream(scan_.folder / "markers.json"))["markers"] == back);
 }
 
+TEST_F(Study, RefusesABiopsyOfAWallThatIsTooThinForTheVoxelsWithItsReason)
+{
+    // Polyps of 5 to 8 mm on a thin wall, in voxels of 2.4 mm; behind them is fat, which is nobody's density here.
+    const std::string place = at(truth_["polyps"][0]["position_mm"]);
+    for (const std::string radius_mm : {"2", "12"}) {
+        const auto thin =
+            runVicon("mark " + scan_.case_id + place + " --biopsy " + radius_mm + " --store " + store().string());
+        EXPECT_EQ(thin.exit_code, 2) << radius_mm;
+        EXPECT_THAT(thin.output, HasSubstr("too little tissue between its surface and its far side")) << radius_mm;
+    }
+    EXPECT_EQ(runVicon("mark " + scan_.case_id + place + " --biopsy 0 --store " + store().string()).exit_code, 2);
+}
+
 TEST_F(Study, KeepsTheDensityOfAVirtualBiopsyWithTheMarkerUntilItIsMovedAway)
 {
-    // Polyps of 5 to 8 mm are too thin for voxels of 2.4 mm, which is said; around them are wall and fat.
-    const std::string place = at(truth_["polyps"][0]["position_mm"]);
-    const auto thin = runVicon("mark " + scan_.case_id + place + " --biopsy 2 --store " + store().string());
-    EXPECT_EQ(thin.exit_code, 2);
-    EXPECT_THAT(thin.output, HasSubstr("too little tissue"));
-    const auto marker = viconJson(store(), "mark " + scan_.case_id + place + " --biopsy 12");
-    const auto& density = marker["density"];
-    EXPECT_GT(density["mean_hu"].get<double>(), -115) << "of fat -98 HU, of soft tissue 40: no gas is in it";
-    EXPECT_LT(density["mean_hu"].get<double>(), 60);
-    EXPECT_GE(density["voxels"].get<int>(), 20);
-    std::size_t counted = 0;
-    for (const auto& count : density["histogram"]["counts"])
-        counted += count.get<std::size_t>();
-    EXPECT_EQ(counted, density["voxels"].get<std::size_t>());
-    const std::string id = marker["id"];
+    const std::string id = addMeasuredMarker();
     const auto kept = [&] {
         const auto markers = viconJson(store(), "markers " + scan_.case_id)["markers"];
         for (const auto& m : markers)
@@ -220,12 +280,12 @@ TEST_F(Study, KeepsTheDensityOfAVirtualBiopsyWithTheMarkerUntilItIsMovedAway)
                 return m.contains("density");
         return false;
     };
+    EXPECT_TRUE(kept());
     viconOn(store(), "markers " + scan_.case_id + " --change " + id + " --note changed");
     EXPECT_TRUE(kept());
     viconOn(store(), "markers " + scan_.case_id + " --change " + id + at(truth_["polyps"][1]["position_mm"]));
     EXPECT_FALSE(kept()) << "it was another place's";
     viconOn(store(), "markers " + scan_.case_id + " --remove " + id);
-    EXPECT_EQ(runVicon("mark " + scan_.case_id + place + " --biopsy 0 --store " + store().string()).exit_code, 2);
 }
 
 TEST_F(Study, NamesThePartOfTheColonInShowMarkersAndReport)
@@ -307,8 +367,7 @@ TEST_F(Study, FliesTheWholeColon)
 
 TEST_F(Study, WritesJsonAsItsSchemasSay)
 {
-    const std::string id =
-        viconJson(store(), "mark " + scan_.case_id + at(truth_["polyps"][0]["position_mm"]) + " --biopsy 12")["id"];
+    const std::string id = addMeasuredMarker();
     EXPECT_EQ(schemaFaults("scan", {scan_.folder / "scan.json"}), "");
     EXPECT_EQ(schemaFaults("subdivision", {scan_.folder / "subdivision.json"}), "");
     EXPECT_EQ(schemaFaults("projections", {scan_.folder / "projections/projections.json"}), "");

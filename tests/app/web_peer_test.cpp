@@ -70,6 +70,8 @@ TEST_F(WebPeer, ThatIsWrittenWronglyIsSaid)
         return result.output;
     };
     EXPECT_THAT(told("url = \"pacs\""), HasSubstr("no URL of a DICOMweb service"));
+    EXPECT_THAT(told("url = \"https://pacs.example.org\", retrieve = \"push\""),
+                HasSubstr("retrieve cannot be 'push'"));
     EXPECT_THAT(told("url = 5"), HasSubstr("'url = 5' is not understood"));
     EXPECT_THAT(told("url = \"http://pacs.example.org\", user = \"a\", password_file = \"b\""),
                 HasSubstr("unencrypted"));

@@ -129,7 +129,30 @@ TEST(Doctor, FindsNothingWrongHere)
     const TemporaryFolder folder;
     const CommandResult result = runVicon("doctor --store " + folder.path().string());
     EXPECT_EQ(result.exit_code, 0) << result.output;
-    EXPECT_THAT(result.output, HasSubstr("display"));
+    EXPECT_THAT(result.output, testing::ContainsRegex("ok   store +.*flush and hard links work"));
+    EXPECT_THAT(result.output, testing::ContainsRegex("ok   fonts +Latin, Greek"));
+    EXPECT_THAT(result.output, testing::ContainsRegex("ok   display +.*, drawn (in software )?by [A-Za-z]"));
+}
+
+TEST(Doctor, DoesNotCallAPeerThatOnlyStoresHere)
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "c.toml") << "[peers]\nct1 = { host = \"127.0.0.1\", port = 9, roles = [\"store\"] }\n";
+    const CommandResult result =
+        runVicon("doctor --store " + (folder / "store").string() + " --config " + (folder / "c.toml").string());
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_THAT(result.output, testing::ContainsRegex("ok   peer ct1 +ct1 at 127.0.0.1:9 only stores here"));
+}
+
+TEST(Doctor, ADatabaseThatIsDownIsOneLineAndLeavesTheRest)
+{
+    const TemporaryFolder folder;
+    const CommandResult result = runVicon("doctor --store " + (folder / "store").string() +
+                                          " --set store.database=postgresql://127.0.0.1:9/none");
+    EXPECT_EQ(result.exit_code, 1) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("BAD  database"));
+    EXPECT_EQ(result.output.find("BAD"), result.output.rfind("BAD")) << result.output;
+    EXPECT_THAT(result.output, testing::ContainsRegex("ok   disk space +.*GB free"));
 }
 
 TEST(Doctor, FindsADamagedDatabaseAndAPeerThatDoesNotAnswer)

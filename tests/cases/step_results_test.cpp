@@ -37,6 +37,8 @@ TEST(StepResults, HaveOneJsonFormThatIsReadBack)
     EXPECT_EQ(toJson(subdivideFoundFromJson(subdivide)), subdivide);
     const json potential = {{"largest_wall_distance_mm", 31.5}, {"largest_exit_distance_mm", 1700.5}};
     EXPECT_EQ(toJson(potentialFoundFromJson(potential)), potential);
+    const json of_cavity = {{"largest_wall_distance_mm", 41.5}};
+    EXPECT_EQ(toJson(potentialFoundFromJson(of_cavity)), of_cavity);
     json recorded = potential;
     recorded["files"] = {{"wall_distance.mha", 12}};
     EXPECT_EQ(toJson(potentialFoundFromJson(recorded)), potential) << "the record's files are not the step's";

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "polyp_profile.h"
+
 namespace vicon {
 namespace {
 
@@ -51,7 +53,7 @@ TEST(SurfacePatch, ASectionLeavesTheTriangleThatTheAxisMeets)
         for (int n = 0; n < 8; ++n) {
             const double angle = 0.1 + n * std::numbers::pi / 4;
             const Vector3 out{std::cos(angle), std::sin(angle), 0};
-            const std::vector<Point3> section = patch.section(near, {0, 0, 1}, out, 4);
+            const std::vector<Point3> section = patch.section(patch.onAxis(near, {0, 0, 1}).value(), {0, 0, 1}, out, 4);
             const Point3 middle = middleOfTriangle(near);
             ASSERT_GE(section.size(), 2U);
             EXPECT_LT(std::hypot(section.front().x - middle.x, section.front().y - middle.y), kEdge_mm);
@@ -65,6 +67,37 @@ TEST(SurfacePatch, ASectionLeavesTheTriangleThatTheAxisMeets)
             }
             EXPECT_GE(length_mm, 4);
         }
+}
+
+TEST(SurfacePatch, HoldsThePointsOfItsPartOfTheSurfaceAlone)
+{
+    CellSurface two = bowl();
+    const auto count = std::uint32_t(two.pointCount());
+    const CellSurface above = bowl();
+    for (std::size_t n = 0; n < above.points_mm.size(); ++n)
+        two.points_mm.push_back(above.points_mm[n] + (n % 3 == 2 ? 5.F : 0.F));
+    two.normals.insert(two.normals.end(), above.normals.begin(), above.normals.end());
+    for (const std::uint32_t corner : above.triangles)
+        two.triangles.push_back(corner + count);
+    two.segment.assign(two.triangles.size() / 3, 1);
+    const SurfacePatch patch(two, {0, 0, 0}, 20, 3);
+    EXPECT_TRUE(patch.holds(two.point(kAcross + 1)));
+    EXPECT_FALSE(patch.holds(two.point(count + kAcross + 1)));
+}
+
+TEST(PolypProfile, AHeadHoldsWhatLiesBelowItAndALittleBesideIt)
+{
+    PolypProfile half_ball;
+    constexpr int kPoints = 30;
+    for (int n = 0; n <= kPoints; ++n) {
+        const double angle = n * std::numbers::pi / 2 / kPoints;
+        half_ball.out_mm.push_back(5 * std::sin(angle));
+        half_ball.up_mm.push_back(5 * std::cos(angle) - 5);
+    }
+    const auto holds = [&](double out_mm, double up_mm) { return headHolds(half_ball, kPoints, -5, out_mm, up_mm, 1); };
+    EXPECT_TRUE(holds(0, -3) && holds(3, -3) && holds(4.5, -4.9));
+    EXPECT_TRUE(holds(0, 0.8) && holds(5.9, -5) && holds(2, -5.9)) << "within a millimetre of it";
+    EXPECT_FALSE(holds(0, 1.2) || holds(6.2, -5) || holds(2, -6.1) || holds(5, -1));
 }
 
 }  // namespace

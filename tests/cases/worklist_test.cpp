@@ -5,6 +5,7 @@
 #include "case_fixture.h"
 #include "vicon/cases/corrections.h"
 #include "vicon/cases/report_files.h"
+#include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/scan_quality.h"
 
@@ -77,12 +78,51 @@ TEST_F(Worklist, ShowsQualityReportsAndMarkers)
     quality.whole = {.median_radius_mm = 18.4, .volume_ml = 100, .fluid_ml = 7};
     quality.reason = "sigmoid collapsed over 38 mm";
     one_.record("quality", {{"parts", nlohmann::json::array()}, {"quality", toJson(quality)}});
-    replaceFile(reportFile(one_.store, "c1", 1), "a report");
     one_.store.saveMarker("c1", {.scan_id = "s1"});
     EXPECT_EQ(listed().scans[0].quality, "radius 18 mm, fluid 7 %, sigmoid collapsed over 38 mm");
     EXPECT_FALSE(listed().scans[0].adequate);
-    EXPECT_EQ(listed().reports, 1);
+    EXPECT_EQ(listed().reports, 0);
     EXPECT_EQ(listed().markers, 1);
+}
+
+TEST_F(Worklist, CountsEveryReportOnceWhereverItWasWritten)
+{
+    const support::TemporaryFolder elsewhere;
+    const auto as = [](int number) { return "a report, " + std::to_string(number); };
+    EXPECT_EQ(writeDraft(one_.store, "c1", elsewhere / "x.pdf", as).number, 1);
+    EXPECT_EQ(readFile(elsewhere / "x.pdf"), "a report, 1");
+    EXPECT_EQ(listed().reports, 1);
+    const WrittenDraft second = writeDraft(one_.store, "c1", {}, as);
+    EXPECT_EQ(second.file, reportFile(one_.store, "c1", 2));
+    EXPECT_EQ(readFile(second.file), "a report, 2");
+    EXPECT_EQ(listed().reports, second.number);
+    std::filesystem::remove(second.file);
+    EXPECT_EQ(listed().reports, 2) << "it was written";
+}
+
+TEST_F(Worklist, AReportThatCouldNotBeWrittenUsesUpNoNumber)
+{
+    const auto as = [](int number) { return std::to_string(number); };
+    EXPECT_THROW(writeDraft(one_.store, "c1", one_.store.folder() / "nowhere" / "x.pdf", as), Error);
+    const auto failing = [](int) -> std::string { throw Error(ErrorCode::store, "the disk is full"); };
+    EXPECT_THROW(writeDraft(one_.store, "c1", {}, failing), Error);
+    EXPECT_EQ(listed().reports, 0);
+    EXPECT_EQ(writeDraft(one_.store, "c1", {}, as).number, 1);
+}
+
+TEST_F(Worklist, OfTwoReportsDrawnAtOnceEachHasItsNumber)
+{
+    bool other_came = false;
+    const WrittenDraft slow = writeDraft(one_.store, "c1", {}, [&](int number) {
+        if (!std::exchange(other_came, true)) {
+            EXPECT_EQ(writeDraft(one_.store, "c1", {}, [](int) { return std::string("quick"); }).number, 1);
+        }
+        return "slow, " + std::to_string(number);
+    });
+    EXPECT_EQ(slow.number, 2);
+    EXPECT_EQ(readFile(slow.file), "slow, 2");
+    EXPECT_EQ(readFile(reportFile(one_.store, "c1", 1)), "quick");
+    EXPECT_EQ(listed().reports, 2);
 }
 
 TEST_F(Worklist, IsWrittenWithTheKeysThatOthersRelyOn)

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "curve_errors.h"
 #include "lumen_errors.h"
 #include "vicon/phantom/phantom.h"
 #include "vicon/steps/resample.h"
@@ -26,8 +27,9 @@ struct Figures {
     std::uint64_t seed = 0;
     std::string position, variant;
     LumenErrors lumen;
-    double curve_mean_mm = 0, curve_95_mm = 0, length_fraction = 0, polyp_mm = 0;
-    bool ordered = false, directed = false;
+    CurveErrors curve;
+    double polyp_mm = 0;
+    bool ordered = false;
 };
 
 /// Each position, each number of gaps up to two, and now and then a low dose: all come with each other in twelve seeds.
@@ -45,52 +47,6 @@ std::string positionFor(std::uint64_t seed)
 {
     constexpr const char* kPositions[] = {"HFS", "HFP", "FFS", "FFP"};
     return kPositions[seed % 4];
-}
-
-/// Whether each true gap lies between the same two found pieces, and nothing else does.
-bool piecesInOrder(const Skeleton& found, const phantom::PhantomTruth& truth)
-{
-    Skeleton curve;
-    curve.pieces.push_back({false, truth.curve});
-    std::vector<std::pair<double, double>> bridges;
-    for (const SkeletonPiece& piece : found.pieces)
-        if (piece.bridge)
-            bridges.emplace_back(curve.nearest(piece.points.front().position_mm).station_mm,
-                                 curve.nearest(piece.points.back().position_mm).station_mm);
-    if (bridges.size() != truth.gaps.size())
-        return false;
-    for (std::size_t n = 0; n < bridges.size(); ++n)
-        if (bridges[n].first > truth.gaps[n].from_mm + 10 || bridges[n].second < truth.gaps[n].to_mm - 10 ||
-            bridges[n].second - bridges[n].first > truth.gaps[n].to_mm - truth.gaps[n].from_mm + 30)
-            return false;
-    return true;
-}
-
-void measureCurve(const Skeleton& found, const phantom::PhantomTruth& truth, Figures& figures)
-{
-    Skeleton curve;
-    curve.pieces.push_back({false, truth.curve});
-    std::vector<double> away_mm;
-    std::vector<double> stations;
-    for (const SkeletonPiece& piece : found.pieces)
-        for (const SkeletonPoint& p : piece.points) {
-            const auto nearest = curve.nearest(p.position_mm);
-            away_mm.push_back(nearest.distance_mm);
-            stations.push_back(nearest.station_mm);
-        }
-    if (away_mm.empty()) {
-        figures.curve_mean_mm = figures.curve_95_mm = figures.polyp_mm = 1e9;
-        return;
-    }
-    std::sort(away_mm.begin(), away_mm.end());
-    for (const double d : away_mm)
-        figures.curve_mean_mm += d / double(away_mm.size());
-    figures.curve_95_mm = away_mm[away_mm.size() * 95 / 100];
-    figures.length_fraction = found.length_mm() / truth.length_mm - 1;
-    // From the rectum to the caecum, and never back by more than the curve's own error.
-    figures.directed = stations.front() < truth.length_mm * 0.02 && stations.back() > truth.length_mm * 0.98;
-    for (std::size_t n = 0; n + 20 < stations.size(); ++n)
-        figures.directed = figures.directed && stations[n + 20] > stations[n];
 }
 
 /// The segment of the inside voxel nearest to a point.
@@ -148,8 +104,8 @@ void print(const Figures& f)
         "surface 95 %% %.2f mm; pieces %s, curve mean %.2f, 95 %% %.2f mm, length %+.2f %%, polyp station %.1f mm, "
         "direction %s\n",
         int(f.seed), f.position.c_str(), f.variant.c_str(), f.lumen.dice, f.lumen.outside_ml, f.lumen.far_outside_ml,
-        f.lumen.missed_ml, f.lumen.far_missed_ml, f.lumen.surface_95_mm, f.ordered ? "right" : "WRONG", f.curve_mean_mm,
-        f.curve_95_mm, 100 * f.length_fraction, f.polyp_mm, f.directed ? "right" : "WRONG");
+        f.lumen.missed_ml, f.lumen.far_missed_ml, f.lumen.surface_95_mm, f.ordered ? "right" : "WRONG", f.curve.mean_mm,
+        f.curve.p95_mm, 100 * f.curve.length_fraction, f.polyp_mm, f.curve.directed ? "right" : "WRONG");
     std::fflush(stdout);
 }
 
@@ -177,9 +133,9 @@ protected:
         tell("missed, nearest voxel, ml", true, [](const Figures& f) { return f.lumen.missed_ml; });
         tell("missed by half a diagonal, ml", true, [](const Figures& f) { return f.lumen.far_missed_ml; });
         tell("surface distance 95 %, mm", true, [](const Figures& f) { return f.lumen.surface_95_mm; });
-        tell("curve mean, mm", true, [](const Figures& f) { return f.curve_mean_mm; });
-        tell("curve 95 %, mm", true, [](const Figures& f) { return f.curve_95_mm; });
-        tell("length, share", true, [](const Figures& f) { return std::abs(f.length_fraction); });
+        tell("curve mean, mm", true, [](const Figures& f) { return f.curve.mean_mm; });
+        tell("curve 95 %, mm", true, [](const Figures& f) { return f.curve.p95_mm; });
+        tell("length, share", true, [](const Figures& f) { return std::abs(f.curve.length_fraction); });
         tell("polyp station, mm", true, [](const Figures& f) { return f.polyp_mm; });
     }
 };
@@ -201,7 +157,7 @@ TEST_P(Family, UnseenPhantomIsSegmentedAndFollowed)
     const Skeleton& curve = skeleton.curve;
     figures.lumen = lumenErrors(volume, found.inside, scan.truth.inside);
     figures.ordered = piecesInOrder(curve, scan.truth);
-    measureCurve(curve, scan.truth, figures);
+    figures.curve = curveErrors(curve, scan.truth);
     measurePolyps(found, skeleton, scan.truth, figures);
     print(figures);
     allFigures().push_back(figures);
@@ -209,10 +165,10 @@ TEST_P(Family, UnseenPhantomIsSegmentedAndFollowed)
     EXPECT_LT(figures.lumen.far_outside_ml, 2);
     EXPECT_LT(figures.lumen.surface_95_mm, 0.7);
     EXPECT_TRUE(figures.ordered);
-    EXPECT_TRUE(figures.directed);
-    EXPECT_LE(figures.curve_mean_mm, 0.4);
-    EXPECT_LE(figures.curve_95_mm, 1.0);
-    EXPECT_LE(std::abs(figures.length_fraction), 0.01);
+    EXPECT_TRUE(figures.curve.directed);
+    EXPECT_LE(figures.curve.mean_mm, 0.4);
+    EXPECT_LE(figures.curve.p95_mm, 1.0);
+    EXPECT_LE(std::abs(figures.curve.length_fraction), 0.01);
     EXPECT_LE(figures.polyp_mm, 2);
 }
 

@@ -34,6 +34,14 @@ public:
         return 0;
     }
     bool isTissue(Point3 p) const { return isWall(p) || isPolyp(p); }
+    Point3 placeInHead(std::mt19937& random) const
+    {
+        const double lowest_mm = base_mm() + (scene_.shape == PolypShape::stalked ? stalk_mm() : 0);
+        std::uniform_real_distribution<double> aside(-radius_mm_, radius_mm_), up(lowest_mm, top_mm());
+        for (;;)
+            if (const Point3 p{aside(random), aside(random), up(random)}; isPolyp(p))
+                return p;
+    }
 
 private:
     static constexpr double kTubeRadius_mm = 18, kFoldHeight_mm = 8, kFoldHalf_mm = 1.5, kStalk_mm = 5;
@@ -173,6 +181,9 @@ PolypOnWall wallOf(const PolypScene& scene)
             nearest = d;
             wall.click_mm = wall.surface.point(n);
         }
+    constexpr int kPlaces = 2;
+    for (int n = 0; n < kPlaces; ++n)
+        wall.in_head_mm.push_back(place.toScan(solid.placeInHead(random)));
     return wall;
 }
 

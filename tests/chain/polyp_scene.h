@@ -23,8 +23,9 @@ struct PolypScene {
 };
 
 struct PolypOnWall {
-    CellSurface surface;  ///< of the wall, by the tissue step
-    Point3 click_mm;      ///< near the polyp's top, on the wall
+    CellSurface surface;             ///< of the wall, by the tissue step
+    Point3 click_mm;                 ///< near the polyp's top, on the wall
+    std::vector<Point3> in_head_mm;  ///< places in the polyp's head, anywhere
 };
 
 /// Draws, blurs and segments the scene. Voxels of 0.7 mm.

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "import_fixture.h"
+#include "vicon/cases/report_files.h"
 
 namespace fs = std::filesystem;
 using namespace vicon;
@@ -129,7 +130,7 @@ TEST_F(MarkedScan, AReviewedBridgeHoldsIt)
 
 TEST_F(MarkedScan, AReportHoldsIt)
 {
-    store.audit("report written", scan.case_id, "", "number 1");
+    writeDraft(store, scan.case_id, folder / "r.pdf", [](int) { return std::string("a report"); });
     expectUntouched(importThinner());
 }
 

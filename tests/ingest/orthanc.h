@@ -65,6 +65,14 @@ inline std::string fingerprint(const std::string& file)
     return std::string(DcmXfer(syntax).getXferID()) + " " + sha256(datasetBytes(readFile(folder / "out.dcm")));
 }
 
+/// Gives the objects of a folder the descriptions of a colonography, prone.
+inline void describe(const fs::path& folder)
+{
+    const auto done = support::runCommand("dcmodify -nb -i \"StudyDescription=CT COLONOGRAPHY\" -i " +
+                                          ("\"SeriesDescription=prone 1.0\" " + folder.string()) + "/*.dcm");
+    EXPECT_EQ(done.exit_code, 0) << done.output;
+}
+
 /// For servers that cannot be told to choose a port and say which (Orthanc, DCMTK's tools), and where two servers must
 /// know each other's before either runs; VICON's own listener chooses by itself. Below those that the system gives to
 /// connections: a test that opens thousands of them takes ports at any moment.

@@ -2,7 +2,9 @@
 #include <arpa/inet.h>
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmnet/scu.h>
+#include <gmock/gmock.h>
 #include <netinet/in.h>
+#include <sys/mount.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -13,9 +15,11 @@
 #include "vicon/core/error.h"
 #include "vicon/ingest/receiver.h"
 #include "vicon/ingest/sender.h"
+#include "vicon/support/small_disk.h"
 
 using namespace vicon;
 using namespace vicon::test;
+using testing::HasSubstr;
 
 namespace {
 
@@ -188,8 +192,58 @@ TEST_F(Network, OnlyWhoIsAllowedMayCallAndTheRefusalNamesTheSender)
         EXPECT_TRUE(receiver.tells("refused '" + std::string(title) + "' at 127.0.0.1: receive.allow"));
     }
     EXPECT_TRUE(receiver.tells("association of 'SCANNER' at 127.0.0.1"));
-    options.allow = "SCANNER@nowhere.invalid";
+    options.allow = "SCANNER@";
     EXPECT_THROW(ingest::Receiver(options, folder / "other", {nothingLeft}), Error);
+}
+
+TEST_F(Network, WhoAsksForWhatIsNotServedIsToldSoAndLogged)
+{
+    ingest::ReceiverOptions options;
+    options.any_called_title = false;
+    options.allow = "FINDSCU@localhost, MOVESCU@localhost, GETSCU@localhost";
+    RunningReceiver receiver(incoming, options);
+    const auto ask = [&](const std::string& tool) {
+        const auto asked =
+            support::runCommand(tool + " -v -S -k QueryRetrieveLevel=STUDY -k StudyInstanceUID=1.2 127.0.0.1 " +
+                                std::to_string(receiver.port()) + " 2>&1");
+        EXPECT_NE(asked.exit_code, 0) << asked.output;
+        return asked.output;
+    };
+    EXPECT_THAT(ask("findscu -aec VICON"), HasSubstr("No Acceptable Presentation Contexts"));
+    EXPECT_TRUE(
+        receiver.tells("refused 'FINDSCU' at 127.0.0.1: it asks for nothing that it may have here: "
+                       "FINDStudyRootQueryRetrieveInformationModel"));
+    EXPECT_THAT(ask("movescu -aec VICON"), HasSubstr("No Acceptable Presentation Contexts"));
+    EXPECT_TRUE(receiver.tells("MOVEStudyRootQueryRetrieveInformationModel"));
+    ask("getscu -aec VICON");  // it offers to take images, in the role that VICON has not
+    EXPECT_TRUE(receiver.tells("GETStudyRootQueryRetrieveInformationModel"));
+    EXPECT_THAT(ask("findscu -aec SOMEBODY"), HasSubstr("Called AE Title Not Recognized"));
+    EXPECT_TRUE(receiver.tells("refused 'FINDSCU' at 127.0.0.1: it calls 'SOMEBODY', not us"));
+    EXPECT_THAT(ask("findscu -aet STRANGER -aec VICON"), HasSubstr("Calling AE Title Not Recognized"));
+    EXPECT_TRUE(receiver.tells("refused 'STRANGER' at 127.0.0.1: receive.allow does not name it"));
+    EXPECT_NO_THROW(ingest::echo(receiver.peer(), "FINDSCU"));
+}
+
+/// As when the name server is off while the machine starts.
+TEST_F(Network, AHostThatHasNoAddressYetMayCallOnceItHasOne)
+{
+    const support::SmallDisk mounts(folder / "disk", 1);
+    VICON_NEEDS_DISK(mounts);
+    const fs::path hosts = folder / "hosts";
+    std::ofstream(hosts) << "127.0.0.1 localhost\n";
+    ASSERT_EQ(::mount(hosts.c_str(), "/etc/hosts", nullptr, MS_BIND, nullptr), 0);
+    ingest::ReceiverOptions options;
+    options.allow = "SCANNER@scanner.invalid, PACS@localhost";
+    {
+        RunningReceiver receiver(incoming, options);
+        EXPECT_TRUE(receiver.tells("'scanner.invalid' has no address"));
+        EXPECT_THROW(ingest::echo(receiver.peer(), "SCANNER"), Error);
+        EXPECT_NO_THROW(ingest::echo(receiver.peer(), "PACS")) << "nobody else waits for it";
+        std::ofstream(hosts) << "127.0.0.1 localhost scanner.invalid\n";
+        EXPECT_TRUE(receiver.tells("'scanner.invalid' has an address now"));
+        EXPECT_NO_THROW(ingest::echo(receiver.peer(), "SCANNER"));
+    }
+    ::umount2("/etc/hosts", MNT_DETACH);
 }
 
 TEST_F(Network, ListensOnThisMachineAloneUnlessAnAddressIsConfigured)

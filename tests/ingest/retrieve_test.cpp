@@ -6,6 +6,7 @@
 
 #include "dicom_writer.h"
 #include "orthanc.h"
+#include "running_receiver.h"
 #include "store_fixture.h"
 #include "vicon/ingest/query.h"
 #include "vicon/ingest/receiver.h"
@@ -33,6 +34,7 @@ protected:
             sent.insert(fingerprint(readFile(file)));
         for (const fs::path& file : writeSeries(folder / "other", other))
             files.push_back(file);
+        describe(folder / "other");
         ASSERT_TRUE(ingest::storeFiles(orthanc.peer(), files, "VICON", quiet).complete());
     }
     std::vector<std::string> uidsOf(const ingest::StudyQuery& query)
@@ -59,6 +61,10 @@ TEST_F(Retrieve, FindsStudiesByWhatTheyAreAskedFor)
         EXPECT_THROW(uidsOf({.dates = none}), Error) << none;
     EXPECT_EQ(uidsOf({.study_uid = wanted.study_uid}), Uids{wanted.study_uid});
     EXPECT_EQ(uidsOf({.modality = "MR"}), Uids{});
+    EXPECT_EQ(uidsOf({.description = "*COLONOGRAPHY"}), Uids{other.study_uid});
+    EXPECT_EQ(uidsOf({.description = "*prone*"}), Uids{}) << "that is the series'";
+    EXPECT_EQ(uidsOf({.series_description = "PRONE*"}), Uids{other.study_uid});
+    EXPECT_EQ(uidsOf({.description = "CT*", .series_description = "supine*"}), Uids{});
     const auto study = ingest::findStudies(orthanc.peer(), {.patient_id = "P1"}, "VICON", quiet).at(0);
     EXPECT_EQ(study.patient_name, "Doe^Jane");
     EXPECT_EQ(study.date, "20260102");
@@ -130,6 +136,20 @@ TEST_F(Retrieve, HasASeriesMovedToTheReceiver)
     thread.join();
     EXPECT_EQ(result.completed, wanted.slices);
     EXPECT_EQ(got, sent);
+}
+
+TEST_F(Retrieve, MovesOnlyWhatIsMissing)
+{
+    const RunningReceiver receiver(store.folder() / "incoming", {.port = port});
+    const auto move = [&](const std::set<std::string>& have) {
+        return ingest::moveSeries(orthanc.peer(), wanted.study_uid, {wanted.series_uid}, "VICON", "VICON", quiet, have)
+            .completed;
+    };
+    std::set<std::string> have{wanted.sopUid(0), wanted.sopUid(7)};
+    EXPECT_EQ(move(have), wanted.slices - 2);
+    for (int n = 0; n < wanted.slices; ++n)
+        have.insert(wanted.sopUid(n));
+    EXPECT_EQ(move(have), 0);
 }
 
 TEST_F(Retrieve, SaysWhatThePeerRefuses)

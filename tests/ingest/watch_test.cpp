@@ -33,6 +33,12 @@ TEST(WatchRule, AStudyFitsByOneSeriesThatFitsAllOfIt)
     rule.least_slices = 431;
     EXPECT_FALSE(ingest::fits(rule, study, series));
     EXPECT_TRUE(ingest::fits(rule, study, {{"1", "CT", "", "COLON", -1}})) << "the archive does not say how many";
+    rule = {.modality = ingest::WatchModality::any};
+    EXPECT_TRUE(ingest::fits(rule, study, {{"1", "MR", "", "", 100}}));
+    EXPECT_FALSE(ingest::fits(rule, study, {{"1", "US", "", "", 100}})) << "that VICON does not read";
+    using Uids = std::vector<std::string>;
+    EXPECT_EQ(ingest::imageSeries({}, series), (Uids{"1", "2"}));
+    EXPECT_EQ(ingest::reportSeries(series), Uids{"3"});
 }
 
 TEST(WatchRule, LooksBackFromTheNewestStudyOrTodayWhicheverIsEarlier)
@@ -54,7 +60,10 @@ TEST(WatchedStudies, AreDueOnceAndAgainWhenTheyHaveGrown)
         EXPECT_FALSE(watched.note("1.2", "20260102", 12)) << "it did";
         EXPECT_TRUE(watched.note("1.2", "20260102", 12));
         EXPECT_TRUE(watched.note("1.2", "20260102", 12)) << "it was not fetched";
+        EXPECT_TRUE(watched.awaitsFetch("1.2"));
+        EXPECT_FALSE(watched.awaitsPriors("1.2")) << "the study comes first";
         watched.markFetched("1.2", 12);
+        EXPECT_FALSE(watched.awaitsFetch("1.2"));
         EXPECT_THROW(ingest::WatchedStudies(store.path(), "a/peer"), Error) << "one at a time";
         EXPECT_EQ(ingest::WatchedStudies(store.path(), "another").newestDate(), "");
     }
@@ -62,6 +71,9 @@ TEST(WatchedStudies, AreDueOnceAndAgainWhenTheyHaveGrown)
     ingest::WatchedStudies watched(store.path(), "a/peer");
     EXPECT_EQ(watched.newestDate(), "20260102");
     EXPECT_FALSE(watched.note("1.2", "20260102", 12)) << "also after a restart";
+    EXPECT_TRUE(watched.awaitsPriors("1.2")) << "what ended before them has them still to fetch";
+    watched.markPriorsFetched("1.2");
+    EXPECT_FALSE(watched.awaitsPriors("1.2"));
     EXPECT_FALSE(watched.note("1.2", "20260102", 13));
     EXPECT_TRUE(watched.note("1.2", "20260102", 13));
 }

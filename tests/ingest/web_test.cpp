@@ -73,7 +73,9 @@ protected:
 TEST_F(Web, FindsWhatItIsAskedFor)
 {
     ASSERT_TRUE(store_at_peer(files).complete());
-    ASSERT_TRUE(store_at_peer(writeSeries(folder / "other", other)).complete());
+    const auto others = writeSeries(folder / "other", other);
+    describe(folder / "other");
+    ASSERT_TRUE(store_at_peer(others).complete());
     const auto uidsOf = [&](const ingest::StudyQuery& query) {
         Uids uids;
         for (const auto& study : ingest::findStudies(peer, query, "VICON", quiet))
@@ -87,6 +89,8 @@ TEST_F(Web, FindsWhatItIsAskedFor)
     EXPECT_EQ(uidsOf({.dates = "2026-01-03-"}), Uids{});
     EXPECT_EQ(uidsOf({.study_uid = wanted.study_uid}), Uids{wanted.study_uid});
     EXPECT_EQ(uidsOf({.modality = "MR"}), Uids{});
+    EXPECT_EQ(uidsOf({.description = "*COLONOGRAPHY"}), Uids{other.study_uid});
+    EXPECT_EQ(uidsOf({.series_description = "prone*"}), Uids{other.study_uid});
     const auto study = ingest::findStudies(peer, {.patient_id = "P1"}, "VICON", quiet).at(0);
     EXPECT_EQ(study.patient_name, "Doe^Jane");
     EXPECT_EQ(study.date, "20260102");

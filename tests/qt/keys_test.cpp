@@ -8,7 +8,6 @@
 #include <QTableWidget>
 
 #include "reading.h"
-#include "vicon/core/file.h"
 #include "vicon/scan_files/skeleton_file.h"
 
 namespace vicon::viewer {
@@ -77,21 +76,9 @@ TEST_F(Reading, TheListOfKeysFitsOnALowScreen)
     box->close();
 }
 
-/// Says in a scan's folder that it shows an airway.
-void makeAirway(const std::filesystem::path& folder)
-{
-    const auto file = folder / "scan.json";
-    auto scan = nlohmann::json::parse(readFile(file));
-    scan["organ"] = "airway";
-    scan["steps"]["segment"] = {
-        {"version", 1}, {"digest", ""},  {"parameters", nlohmann::json::object()}, {"result", {{"organ", "airway"}}},
-        {"seconds", 0}, {"finished", ""}};
-    replaceFile(file, scan.dump());
-}
-
 TEST_F(Reading, AnotherOrganAndItsEndsAreCalledByTheirNames)
 {
-    makeAirway(store_ / "cases" / test::kCase / test::kSupine);
+    test::sayOrgan(store_ / "cases" / test::kCase / test::kSupine, "airway");
     openCase();
     EXPECT_TRUE(the<QLabel>("where")->text().contains("mm from the root (0 %)"))
         << the<QLabel>("where")->text().toStdString();
@@ -131,7 +118,7 @@ void makeTree(const std::filesystem::path& folder)
     for (std::size_t n = 1; n < tree.branches[2].points.size(); ++n)
         tree.branches[2].points[n].position_mm.y += 2;
     scan_files::writeSkeletonTree(folder / "skeleton.vtp", tree);
-    makeAirway(folder);
+    test::sayOrgan(folder, "airway");
 }
 
 TEST_F(Reading, TheWayToAnotherTipIsChosenInTheListOrInTheProjectionAndKept)

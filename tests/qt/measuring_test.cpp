@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "reading.h"
+#include "slices/slice_view.h"
 #include "test_colon.h"
 #include "vicon/cases/case_store.h"
 #include "vicon/cases/finding_facts.h"
@@ -339,6 +340,13 @@ protected:
     }
     std::optional<PolypSize> outlined() const { return stored()[0].size ? stored()[0].size->polyp : std::nullopt; }
 
+    /// Where a slice shows a point of the scan, or what lies before or behind it.
+    static QPoint placeIn(const char* view, Point3 p)
+    {
+        const Pixel at = the<SliceView>(view)->shown().toPixel(p);
+        return {int(at.x), int(at.y)};
+    }
+
     static constexpr double kVoxel_mm = 1;
     const test::TestColon colon_{test::storages().front(), kVoxel_mm};
     const Skeleton& path_ = colon_.skeleton;
@@ -356,6 +364,51 @@ TEST_F(Outlining, OneClickMeasuresAPolypAndAnEndThatIsDraggedMakesItTheReadersOw
     EXPECT_EQ(cell(0, 5), QString::number(polyp.diameter_mm, 'f', 1));
     key(Qt::Key_Z, Qt::ControlModifier);
     EXPECT_TRUE(eventually([&] { return !stored()[0].size && settled(); }));
+}
+
+TEST_F(Outlining, AClickIntoAPolypInASliceOutlinesItInEveryLayout)
+{
+    const auto outlinesIn = [&](const char* layout) {
+        SCOPED_TRACE(layout);
+        ASSERT_TRUE(eventually([] { return drawn("coronal"); }));
+        waitUntilQuiet();
+        key(Qt::Key_M, Qt::ShiftModifier);
+        click("coronal", placeIn("coronal", colon_.polyp_mm));
+        ASSERT_TRUE(eventually([&] { return outlined().has_value() && settled(); }))
+            << said().toStdString() << warning();
+        screenshot((std::string("outlined_in_slice_") + layout).c_str());
+        EXPECT_NEAR(outlined().value().diameter_mm, 2 * colon_.polyp_radius_mm, kVoxel_mm);
+        EXPECT_EQ(warning(), "");
+        key(Qt::Key_Z, Qt::ControlModifier);
+        ASSERT_TRUE(eventually([&] { return !stored()[0].size && settled(); }));
+    };
+    zoom("coronal", 4);
+    outlinesIn("beside");
+    QTest::mouseDClick(the<QWidget>("coronal"), Qt::LeftButton, {}, middle("coronal"));
+    ASSERT_TRUE(eventually([] { return !the<QWidget>("endoscopic")->isVisible(); }));
+    outlinesIn("enlarged");
+    QTest::mouseDClick(the<QWidget>("coronal"), Qt::LeftButton, {}, middle("coronal"));
+    key(Qt::Key_F8);
+    outlinesIn("planes");
+}
+
+TEST_F(Outlining, WhereAClickInASliceHitsNoPolypTheTwoEndsAreAskedFor)
+{
+    const auto asksFor = [](QPoint at) {
+        key(Qt::Key_Escape);
+        key(Qt::Key_M, Qt::ShiftModifier);
+        click("coronal", at);
+        EXPECT_TRUE(eventually([] { return QString::fromStdString(warning()).contains("Click on its two ends"); }))
+            << warning();
+    };
+    const Vector3 outwards = normalized(colon_.polyp_mm - path_.at(colon_.polyp_station_mm).position_mm);
+    asksFor(placeIn("coronal", path_.at(colon_.polyp_station_mm).position_mm));  // in the lumen's middle
+    asksFor(placeIn("coronal", colon_.polyp_mm + outwards * 9));                 // in the fat behind it
+    EXPECT_FALSE(stored()[0].size);
+    const QPoint first = placeIn("coronal", colon_.polyp_mm);
+    click("coronal", first);
+    click("coronal", first + QPoint(20, 0));
+    EXPECT_TRUE(eventually([] { return said().contains("straight"); })) << said().toStdString();
 }
 
 TEST_F(Outlining, WhereThereIsNoPolypTheTwoEndsAreAskedFor)

@@ -1,6 +1,4 @@
 // What was missed is gone through by a key, highlighted, ticked off, and the time of reading is kept.
-#include <unistd.h>
-
 #include <QLabel>
 #include <QStatusBar>
 #include <QTabWidget>
@@ -8,10 +6,6 @@
 
 #include "reading.h"
 #include "vicon/cases/audit_trail.h"
-#include "vicon/core/file.h"
-#include "vicon/scan_files/cells_file.h"
-#include "vicon/scan_files/skeleton_file.h"
-#include "vicon/viewer/model/scan_coverage.h"
 
 namespace vicon::viewer {
 namespace {
@@ -24,32 +18,7 @@ protected:
     void SetUp() override
     {
         Reading::SetUp();
-        const auto folder = CaseStore(store_).scanFolder(test::kCase, test::kSupine);
-        const CellSurface cells = scan_files::readCells(folder / "cells.vtp");
-        const Skeleton path = scan_files::readSkeleton(folder / "skeleton.vtp");
-        const auto corner = [&](std::size_t triangle) {
-            const float* p = &cells.points_mm[3 * std::size_t(cells.triangles[3 * triangle])];
-            return Point3{p[0], p[1], p[2]};
-        };
-        std::vector<Point3> missed;
-        for (const double station : {120.0, 240.0}) {
-            std::size_t nearest = 0;
-            for (std::size_t t = 0; t < cells.triangleCount(); ++t)
-                if (distance(corner(t), path.at(station).position_mm) <
-                    distance(corner(nearest), path.at(station).position_mm))
-                    nearest = t;
-            missed.push_back(corner(nearest));
-        }
-        std::vector<std::uint32_t> seen;
-        for (std::size_t t = 0; t < cells.triangleCount(); ++t)
-            if (distance(corner(t), missed[0]) > 12 && distance(corner(t), missed[1]) > 12)
-                seen.push_back(std::uint32_t(t));
-        ScanCoverage coverage(triangleAreas_mm2(cells.points_mm, cells.triangles));
-        coverage.see(seen);
-        const auto file = folder.parent_path() / "reading" /
-                          (folder.filename().string() + "-user" + std::to_string(getuid()) + ".seen");
-        std::filesystem::create_directories(file.parent_path());
-        replaceFile(file, coverage.packed());
+        test::reviewAllBut(store_, test::kSupine, {120, 240});
         openCase();
         window()->resize(1600, 1000);
         waitUntilQuiet();
@@ -72,6 +41,18 @@ protected:
                 count += c.red() > 90 && c.green() * 10 < c.red() * 7 && c.blue() * 5 < c.red() * 2;
             }
         return double(count) * 4 / (image.width() * image.height());
+    }
+    /// Of a picture: wall tinted as reviewed, as a share.
+    static double green(const char* view)
+    {
+        const QImage image = pictureOf(view);
+        int count = 0;
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x) {
+                const QColor c = image.pixelColor(x, y);
+                count += c.green() > 50 && c.green() * 10 > c.red() * 12;
+            }
+        return double(count) / (image.width() * image.height());
     }
     static QString said() { return window()->statusBar()->currentMessage(); }
 };
@@ -136,6 +117,15 @@ TEST_F(Missing, TheListThatIsGoneThroughStaysWhileRegionsAreReviewed)
     EXPECT_EQ(list()->rowCount(), 2);
     EXPECT_TRUE(ticked(0));
     EXPECT_FALSE(ticked(1));
+}
+
+TEST_F(Missing, TheProjectionIsPaintedFromTheFrontAndWhatIsForgottenIsNot)
+{
+    EXPECT_GT(green("overview"), 0.03);
+    screenshot("reviewed_projection");
+    showList(1);
+    press(window(), "forgetSeen");
+    EXPECT_TRUE(eventually([] { return green("overview") < 0.015; })) << green("overview") << ": what is in view now";
 }
 
 TEST_F(Missing, AThumbnailIsNoLookAtARegion)

@@ -1,5 +1,8 @@
 #include "reading_store.h"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -8,8 +11,10 @@
 #include "test_colon.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/scan_files/cells_file.h"
 #include "vicon/scan_files/skeleton_file.h"
 #include "vicon/support/support.h"
+#include "vicon/viewer/model/scan_coverage.h"
 
 namespace fs = std::filesystem;
 
@@ -45,6 +50,47 @@ void makeStore(const fs::path& folder)
         colon.write(store.scanFolder(kCase, id));
         store.writeScanFile(kCase, id);
     }
+}
+
+SeenWall reviewAllBut(const fs::path& store, const char* scan, const std::vector<double>& stations_mm)
+{
+    constexpr double kMissed_mm = 12;
+    const fs::path folder = CaseStore(store).scanFolder(kCase, scan);
+    const CellSurface cells = scan_files::readCells(folder / "cells.vtp");
+    const Skeleton path = scan_files::readSkeleton(folder / "skeleton.vtp");
+    const auto corner = [&](std::size_t triangle) { return cells.point(cells.triangles[3 * triangle]); };
+    std::vector<Point3> missed;
+    for (const double station_mm : stations_mm) {
+        const Point3 on_path = path.at(station_mm).position_mm;
+        std::size_t nearest = 0;
+        for (std::size_t t = 0; t < cells.triangleCount(); ++t)
+            if (distance(corner(t), on_path) < distance(corner(nearest), on_path))
+                nearest = t;
+        missed.push_back(corner(nearest));
+    }
+    std::vector<std::uint32_t> seen;
+    for (std::size_t t = 0; t < cells.triangleCount(); ++t)
+        if (std::all_of(missed.begin(), missed.end(),
+                        [&](Point3 place) { return distance(corner(t), place) > kMissed_mm; }))
+            seen.push_back(std::uint32_t(t));
+    ScanCoverage coverage(triangleAreas_mm2(cells.points_mm, cells.triangles));
+    coverage.see(seen);
+    const fs::path file =
+        folder.parent_path() / "reading" / (folder.filename().string() + "-user" + std::to_string(getuid()) + ".seen");
+    fs::create_directories(file.parent_path());
+    replaceFile(file, coverage.packed());
+    return {coverage.seenArea_mm2(), coverage.coverage().wholeArea_mm2()};
+}
+
+void sayOrgan(const fs::path& scan_folder, const std::string& organ)
+{
+    const auto file = scan_folder / "scan.json";
+    auto scan = nlohmann::json::parse(readFile(file));
+    scan["organ"] = organ;
+    scan["steps"]["segment"] = {
+        {"version", 1}, {"digest", ""},  {"parameters", nlohmann::json::object()}, {"result", {{"organ", organ}}},
+        {"seconds", 0}, {"finished", ""}};
+    replaceFile(file, scan.dump());
 }
 
 namespace {
@@ -84,6 +130,8 @@ void addBridges(ReadingServices& services, const std::shared_ptr<Said>& state)
 {
     services.bridges = [state](CaseStore& store, const ScanRecord& scan) {
         const Skeleton path = scan_files::readSkeleton(store.scanFolder(scan.case_id, scan.id) / "skeleton.vtp");
+        if (path.empty())
+            return std::vector<ReviewedBridge>{};
         const std::lock_guard lock(state->mutex);
         const Bridge bridge{path.at(180).position_mm, path.at(200).position_mm, {}, 20, 0.7, "a short gap", true};
         return std::vector<ReviewedBridge>{{bridge, state->review}};
@@ -204,11 +252,11 @@ ReadingServices servicesFor(const fs::path& folder)
         const Skeleton path = scan_files::readSkeleton(store.scanFolder(case_id, marker.scan_id) / "skeleton.vtp");
         const SkeletonFoot foot = path.nearest(marker.position_mm);
         constexpr double kFar_mm = 60;
-        if (foot.distance_mm > kFar_mm)
+        if (!path.empty() && foot.distance_mm > kFar_mm)
             throw Error(ErrorCode::bad_input, "the point is not in the colon");
         marker.station_mm = foot.station_mm;
         marker.from_caecum_mm = path.length_mm() - foot.station_mm;
-        marker.fraction = foot.station_mm / path.length_mm();
+        marker.fraction = path.empty() ? 0 : foot.station_mm / path.length_mm();
         return marker;
     };
     services.report = [](CaseStore& store, const std::string& case_id) {

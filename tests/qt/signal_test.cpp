@@ -1,7 +1,9 @@
 // MR: the window shows a signal in its own unit, and says why it lacks what needs densities.
 #include <QComboBox>
+#include <QMouseEvent>
 
 #include "reading.h"
+#include "slices/slice_view.h"
 #include "vicon/scan_files/description_file.h"
 
 namespace vicon::viewer {
@@ -53,6 +55,11 @@ TEST_F(ReadingOfMr, LacksWhatNeedsDensitiesAndSaysWhy)
     key(Qt::Key_T);
     EXPECT_NE(warning().find("MR has none"), std::string::npos) << warning();
     EXPECT_FALSE(the<QComboBox>("peel")->isEnabled());
+    auto* axial = the<SliceView>("axial");
+    QMouseEvent move(QEvent::MouseMove, middle("axial"), axial->mapToGlobal(middle("axial")), Qt::NoButton,
+                     Qt::NoButton, {});
+    QApplication::sendEvent(axial, &move);
+    EXPECT_EQ(axial->readout(), "") << "a signal is no density";
 }
 
 TEST_F(Reading, OfCtHasTheWindowsOfCt)

@@ -6,6 +6,7 @@
 #include <QLineEdit>
 #include <QScreen>
 #include <QScrollBar>
+#include <QTabWidget>
 #include <QTextBlock>
 #include <QTextBrowser>
 
@@ -24,6 +25,16 @@ std::string guideAt(QWidget* window)
 {
     auto* text = window->findChild<QTextBrowser*>("guideText");
     return text ? text->textCursor().block().text().toStdString() : "";
+}
+
+int listNamed(const char* title)
+{
+    for (QWidget* window : QApplication::topLevelWidgets())
+        if (auto* lists = window->findChild<QTabWidget*>("lists"))
+            for (int n = 0; n < lists->count(); ++n)
+                if (lists->tabText(n).remove('&') == title)
+                    return n;
+    return -1;
 }
 
 TEST_F(Reading, OneBannerNamesPatientAndScanAndPicturesThatLeaveTheWindowSayItThemselves)
@@ -118,6 +129,28 @@ TEST_F(Reading, F1OpensTheGuideAtWhatTheReaderDoesOrLooksAt)
     EXPECT_TRUE(leads("Hangings, and slices first")) << guideAt(window());
     EXPECT_GT(the<QTextBrowser>("guideText")->verticalScrollBar()->value(), 0);
     the<QDialog>("guide")->grab().save(VICON_SCREENSHOTS "/guide.png");
+}
+
+TEST_F(Reading, F1OpensTheGuideForPairsAndForTheSliceAcrossTheLumen)
+{
+    openCase();
+    showList(listNamed("Pairs"));
+    the<QWidget>("pairs")->setFocus(Qt::TabFocusReason);
+    key(Qt::Key_F1);
+    EXPECT_TRUE(eventually([] { return guideAt(window()) == "Supine and prone together"; })) << guideAt(window());
+    the<QDialog>("guide")->close();
+    window()->activateWindow();
+    key(Qt::Key_F6);
+    waitUntilQuiet();
+    auto* across = the<QWidget>("across");
+    for (int n = 0; n < 3 && !across->isVisible(); ++n) {
+        key(Qt::Key_H);
+        waitUntilQuiet();
+    }
+    ASSERT_TRUE(across->isVisible());
+    QTest::mouseMove(across, middle("across"));
+    key(Qt::Key_F1);
+    EXPECT_TRUE(eventually([] { return guideAt(window()) == "Hangings, and slices first"; })) << guideAt(window());
 }
 
 TEST(Guide, HasEveryHeadingThatF1Leads)

@@ -232,7 +232,7 @@ TEST(Organ, WhatIsNotThereIsNotFound)
 
 TEST(Organ, PresetsAreKnownByNameAndYieldToWhatAPersonSets)
 {
-    EXPECT_THAT(pipeline::organNames(), testing::UnorderedElementsAre("airway", "aorta", "colon"));
+    EXPECT_THAT(pipeline::organNames(), testing::UnorderedElementsAre("airway", "aorta", "colon", "stomach"));
     Config config;
     config.declare(pipeline::stepOptionSpecs());
     config.set("organ.branch_mm=21");
@@ -245,7 +245,7 @@ TEST(Organ, PresetsAreKnownByNameAndYieldToWhatAPersonSets)
         FAIL() << "there is no such preset";
     } catch (const Error& e) {
         EXPECT_EQ(e.code(), ErrorCode::wrong_use);
-        EXPECT_THAT(e.what(), HasSubstr("airway, aorta, colon"));
+        EXPECT_THAT(e.what(), HasSubstr("airway, aorta, colon, stomach"));
     }
 }
 

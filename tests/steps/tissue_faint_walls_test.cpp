@@ -139,14 +139,40 @@ TEST(FaintWalls, AreNoneBesideStool)
         closeFaintWalls(loops.lumen, {.lumps = 1, .dense = dense}, loops.down, loops.tissue, loops.lumen).empty());
 }
 
-TEST(FaintWalls, AreNoLevelsOfFluid)
+/// Fluid on one side of the wall.
+void pour(Loops& loops, bool below)
+{
+    for (std::size_t n = 0; n < loops.lumen.voxels.size(); ++n)
+        if (const Index3 v = loops.lumen.grid.indexOf(n); loops.lumen.voxels[n] && (v.j > kWall_j) == below)
+            loops.lumen.voxels[n] = kFluid;
+}
+
+TEST(FaintWalls, AreClosedInAFoldAtALevelToo)
 {
     for (const bool fluid_below : {true, false}) {
         Loops loops(100);
         loops.tear(0.4);
-        for (std::size_t n = 0; n < loops.lumen.voxels.size(); ++n)
-            if (const Index3 v = loops.lumen.grid.indexOf(n); loops.lumen.voxels[n] && (v.j > kWall_j) == fluid_below)
-                loops.lumen.voxels[n] = kFluid;
+        pour(loops, fluid_below);
+        EXPECT_EQ(closeFaintWalls(loops.lumen, {}, loops.down, loops.tissue, loops.lumen).size(), 1U) << fluid_below;
+    }
+}
+
+TEST(FaintWalls, AreNoLevelsOfFluid)
+{
+    // A chimney of 3 x 3 voxels stands on the hole, and nothing else above it.
+    for (const bool fluid_below : {true, false}) {
+        Loops loops(100);
+        loops.tear(0.4);
+        const int last = loops.lumen.grid.size[0] - 2;
+        for (std::size_t n = 0; n < loops.lumen.voxels.size(); ++n) {
+            const Index3 v = loops.lumen.grid.indexOf(n);
+            const bool in_chimney = v.k >= 6 && v.k < 9 && v.i >= last - 6 && v.i < last - 3;
+            if (v.j > 5 && v.j < kWall_j && v.i > 2 + kChannel && !in_chimney) {
+                loops.lumen.voxels[n] = kOutside;
+                loops.tissue.voxels[n] = 255;
+            }
+        }
+        pour(loops, fluid_below);
         EXPECT_EQ(closeFaintWalls(loops.lumen, {}, loops.down, loops.tissue, loops.lumen).size(), fluid_below ? 0U : 1U)
             << "a pool in the loop above is none";
     }

@@ -1,6 +1,8 @@
 // The wall as acquired: tagged fluid stands where it stood.
+#include "vicon/viewer/model/acquired_wall.h"
 #include "snapshot_fixture.h"
 #include "vicon/viewer/model/camera.h"
+#include "vicon/viewer/model/peeling.h"
 #include "vicon/viewer/scene/surface_scene.h"
 
 namespace vicon::viewer {
@@ -66,6 +68,27 @@ TEST_F(AcquiredWall, ShowsFluidThatTheCleansedSurfaceLooksThrough)
         EXPECT_NEAR(acquired.at(150, 150).red, std::min(255.0, 255 * color[0] * light), 20);
         EXPECT_NEAR(acquired.at(150, 150).blue, std::min(255.0, 255 * color[2] * light), 20);
     }
+}
+
+TEST_F(AcquiredWall, IsMetByARayWhereThePictureShowsIt)
+{
+    constexpr double kAhead_mm = 12, kReach_mm = 500;
+    const Pose eye = place().pose;
+    fillAhead(eye, kAhead_mm);
+    const PreparedScan filled = scan(colon, "filled");
+    const Lumen lumen = filled.lumen();
+    const auto alongRay = [&](Vector3 way) {
+        return distanceToAcquiredWall_mm(filled.volume(), lumen, eye.eye_mm, way, kReach_mm).value_or(0);
+    };
+    const double voxel_mm = lumen.voxel_mm();
+    EXPECT_NEAR(alongRay(eye.forward), kAhead_mm, voxel_mm);
+    EXPECT_GT(distanceToWall_mm(lumen, eye.eye_mm, eye.forward, kReach_mm).value_or(0), kAhead_mm + 2 * voxel_mm);
+    const double to_side_mm = distanceToWall_mm(lumen, eye.eye_mm, eye.right(), kReach_mm).value_or(0);
+    EXPECT_NEAR(alongRay(eye.right()), to_side_mm, voxel_mm) << "where there is no fluid, the wall";
+    fillAhead(eye, -20);
+    EXPECT_EQ(distanceToAcquiredWall_mm(scan(colon, "under").volume(), lumen, eye.eye_mm, eye.forward, kReach_mm),
+              std::nullopt)
+        << "from under fluid nothing is seen";
 }
 
 TEST_F(AcquiredWall, SaysWhereTheEyeIsUnderFluid)

@@ -4,6 +4,7 @@
 
 #include "grid/lumen_graph.h"
 #include "grid/neighbours.h"
+#include "organ/cavity_seed.h"
 #include "organ/tube_seed.h"
 #include "segment/body.h"
 #include "segment/constants.h"
@@ -175,16 +176,48 @@ LumenPiece endsOf(const InsideVolume& mask, const OrganOptions& options, Point3 
     return piece;
 }
 
+/// A cavity has no ends: both are its widest place.
+LumenPiece widestOf(const InsideVolume& mask, Progress& progress)
+{
+    const FieldVolume wall_mm = wallDistance(mask, progress);
+    const auto widest = std::max_element(wall_mm.voxels.begin(), wall_mm.voxels.end());
+    const Point3 middle = mask.grid.pointAt(mask.grid.indexOf(std::size_t(widest - wall_mm.voxels.begin())));
+    LumenPiece piece{.rectal_end_mm = middle, .caecal_end_mm = middle};
+    piece.max_radius_mm = double(*widest);
+    return piece;
+}
+
 std::string whole(double value)
 {
     return std::to_string(std::lround(value));
 }
 
-std::string noTube(const OrganOptions& options)
+/// Where the organ's inside is grown from.
+struct Seeds {
+    std::vector<Point3> points_mm;
+    std::string none_because;  ///< where there are no points
+    std::string doubt;         ///< empty: none
+};
+
+Seeds findSeeds(const HuVolume& volume, const Body& body, const OrganOptions& options, Progress& progress)
 {
-    return "there is no round tube of " + whole(options.seed_from_radius_mm) + " to " +
-           whole(options.seed_to_radius_mm) + " mm radius and " + whole(options.seed_length_mm) +
-           " mm length near the body's midline";
+    const std::string radii =
+        whole(options.seed_from_radius_mm) + " to " + whole(options.seed_to_radius_mm) + " mm radius";
+    if (!options.seed.empty())
+        return {options.seed, {}, {}};
+    if (options.hasPath())
+        return {findSeedTube(volume, body, options, progress).middle_mm,
+                "there is no round tube of " + radii + " and " + whole(options.seed_length_mm) +
+                    " mm length near the body's midline",
+                {}};
+    const auto ball = findSeedBall(body, options, progress);
+    if (!ball)
+        return {{}, "there is no cavity of " + radii + " near the body's midline", {}};
+    Seeds seeds{{ball->middle_mm}, {}, {}};
+    if (ball->other_mm)
+        seeds.doubt = "another cavity, at " + textOf(*ball->other_mm) +
+                      " mm, is nearly as wide: name a point of the right one by organ.seed";
+    return seeds;
 }
 
 /// What was grown, freed of what hangs on by narrow necks, up to the wall.
@@ -194,22 +227,31 @@ InsideVolume trimmed(InsideVolume mask, const HuVolume& volume, const OrganOptio
     if (options.neck_mm > 0)
         openNecks(mask, options.neck_mm, seeds, progress);
     growToWall(volume, options, mask);
+    if (!options.hasPath())
+        keepLargestPart(mask);
     return mask;
 }
 
 /// Verdict, notes and measures of what was found.
 void judge(Segmentation& result, const LumenPiece& piece, const HuVolume& volume, const OrganOptions& options,
-           const Growth& growth)
+           const Growth& growth, const std::string& doubt)
 {
     const double ml = piece.volume_ml;
     result.confidence = 1;
     result.verdict = Verdict::found;
+    if (!doubt.empty()) {
+        result.confidence = 0.5;
+        result.verdict = Verdict::unsure;
+        note(result, doubt);
+    }
     if (ml > options.largest_ml) {
         result.confidence = 0.3;
         result.verdict = Verdict::unsure;
         note(result, "what was found holds " + whole(ml) + " ml: a leak");
     }
-    note(result, whole(ml) + " ml, up to " + whole(piece.length_mm) + " mm from the root");
+    note(result, whole(ml) + " ml, " +
+                     (options.hasPath() ? "up to " + whole(piece.length_mm) + " mm from the root"
+                                        : "up to " + whole(piece.max_radius_mm) + " mm from the wall"));
     if (const double cut_mm2 = lumenCut_mm2(volume, result.inside); cut_mm2 > kLargestCut_mm2)
         note(result, "the lumen goes on beyond the end of the scan, over " + whole(cut_mm2) + " mm2");
     result.measures["organ"] = options.name;
@@ -223,17 +265,14 @@ void judge(Segmentation& result, const LumenPiece& piece, const HuVolume& volume
 
 Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, Progress& progress)
 {
-    std::vector<Point3> seeds = options.seed;
     progress.report(0, "body");
     const Body body = findBody(volume, progress);
     if (body.empty())
         return organAbsent("there is no body in the scan");
-    if (seeds.empty()) {
-        progress.report(0.2, "seed");
-        seeds = findSeedTube(volume, body, options, progress).middle_mm;
-        if (seeds.empty())
-            return organAbsent(noTube(options));
-    }
+    progress.report(0.2, "seed");
+    const auto [seeds, none_because, doubt] = findSeeds(volume, body, options, progress);
+    if (seeds.empty())
+        return organAbsent(none_because);
     progress.report(0.4, "lumen");
     Growth growth = grow(volume, body, options, seeds, progress);
     if (growth.region.voxels == 0)
@@ -245,13 +284,14 @@ Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, P
                       result.inside.grid.voxelVolume_mm3() / 1000;
     if (ml < options.smallest_ml)
         return organAbsent("what was found holds " + std::to_string(ml).substr(0, 4) + " ml: too little");
-    LumenPiece piece = endsOf(result.inside, options, seeds.front(), progress);
+    LumenPiece piece =
+        options.hasPath() ? endsOf(result.inside, options, seeds.front(), progress) : widestOf(result.inside, progress);
     piece.volume_ml = ml;
     result.plan.pieces = {piece};
     if (isBright(options))  // the surface then lies half-way between tissue and the contrast's own density
         std::replace(result.inside.voxels.begin(), result.inside.voxels.end(), std::uint8_t(kGas),
                      std::uint8_t(kFluid));
-    judge(result, piece, volume, options, growth);
+    judge(result, piece, volume, options, growth, doubt);
     progress.report(1, "segmented");
     return result;
 }

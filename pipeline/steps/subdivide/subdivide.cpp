@@ -41,7 +41,32 @@ nlohmann::json statisticsOf(const Subdivided& result, int specified)
             {"inside_voxels_smallest", fewest}};
 }
 
+/// Portals, description and statistics of numbered segments.
+Subdivided describe(NumberedSegments numbered, std::string method, const SubdivideOptions& options, int specified)
+{
+    Subdivided result;
+    result.description.method = std::move(method);
+    result.description.parameters = toJson(options);
+    result.description.portals = findPortals(numbered);
+    result.description.segments = std::move(numbered.infos);
+    result.segments = std::move(numbered.segments);
+    result.description.statistics = statisticsOf(result, specified);
+    return result;
+}
+
 }  // namespace
+
+Subdivided undivided(const InsideVolume& inside, const SubdivideOptions& options, Progress& progress)
+{
+    std::vector<std::uint16_t> label(inside.voxels.size());
+    std::transform(inside.voxels.begin(), inside.voxels.end(), label.begin(),
+                   [](std::uint8_t voxel) { return std::uint16_t(voxel != kOutside); });
+    if (std::find(label.begin(), label.end(), 1) == label.end())
+        throw Error(ErrorCode::bad_input, "nothing is inside");
+    Subdivided result = describe(numberSegments(inside, label, {LabelledPiece{}}, {}), "none", options, 1);
+    progress.report(1, "subdividing");
+    return result;
+}
 
 Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const SkeletonVoxels& voxels,
                      const SubdivideOptions& options, Progress& progress, std::optional<PathFlood> flood)
@@ -54,9 +79,9 @@ Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const
     const int specified = options.segments > 0 ? options.segments : std::max(1, int(std::lround(total_mm / length_mm)));
 
     const std::vector<Path> paths = pathsOf(inside, skeleton, voxels);
-    const Labelling labelling = options.method == SubdivideMethod::thesis
+    const ThesisPieces pieces = options.method == SubdivideMethod::thesis
                                     ? thesisPieces(inside, skeleton, paths, options, specified, progress)
-                                    : floodPieces(inside, skeleton, paths, length_mm, std::move(flood));
+                                    : ThesisPieces{floodPieces(inside, skeleton, paths, length_mm, std::move(flood))};
     progress.check();
     progress.report(0.6, "subdividing");
 
@@ -64,17 +89,13 @@ Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const
     for (const Path& path : paths)
         for (const PathVoxel& v : path.voxels)
             anchors.push_back(v.voxel);
-    NumberedSegments numbered = numberSegments(inside, labelling.label, labelling.pieces, anchors);
+    NumberedSegments numbered = numberSegments(inside, pieces.labelling.label, pieces.labelling.pieces, anchors);
     progress.check();
     progress.report(0.8, "subdividing");
 
-    Subdivided result;
-    result.description.method = nameIn(kSubdivideMethodNames, options.method);
-    result.description.parameters = toJson(options);
-    result.description.portals = findPortals(numbered);
-    result.description.segments = std::move(numbered.infos);
-    result.segments = std::move(numbered.segments);
-    result.description.statistics = statisticsOf(result, specified);
+    Subdivided result =
+        describe(std::move(numbered), nameIn(kSubdivideMethodNames, options.method), options, specified);
+    result.description.statistics.update(pieces.measures);
     progress.report(1, "subdividing");
     return result;
 }

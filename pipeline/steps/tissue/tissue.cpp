@@ -17,6 +17,7 @@
 #include "tissue/lumen_of_tissue.h"
 #include "tissue/mottled.h"
 #include "tissue/near_mask.h"
+#include "tissue/openings.h"
 #include "tissue/other_bowel.h"
 #include "tissue/sheets.h"
 #include "tissue/smooth_along_wall.h"
@@ -31,6 +32,8 @@ namespace {
 // double of kTagged_voxels move the wall of ctc-prone by 0.0004 mm in the mean; the others move none.
 /// Tagging changes the densities this far from its fluid: three sigma of the point spread.
 constexpr int kTagged_voxels = 4;
+/// Two sigma beyond the lumen a fiftieth of its contrast is left.
+constexpr int kShining_voxels = 2;
 /// Of the cleansed densities, as the field has them, whatever the options say of the wall: gas and tissue.
 constexpr double kCleanGas_hu = -1000;
 constexpr double kCleanTissue_hu = WallDensities().tissue_hu;
@@ -46,9 +49,12 @@ std::vector<std::uint8_t> nearGasToo(const InsideVolume& inside, const std::vect
     return near;
 }
 
-/// The densities, and those of the fraction where they are tagged.
-HuVolume cleanse(const Mixture& mixture, const std::vector<std::uint8_t>& tagged, const TissueVolume& tissue)
+/// The densities, and those of the fraction where the lumen's tagging is or shines: as far as that is from the lumen
+/// nothing is bright by itself but other bowel and bone.
+/// @param bright_hu denser things are bright
+HuVolume cleanse(const Mixture& mixture, const InsideVolume& lumen, double bright_hu, const TissueVolume& tissue)
 {
+    const auto tagged = nearMask(lumen, kFluid, kTagged_voxels), beside = nearMask(lumen, kFluid, kShining_voxels);
     const auto [nx, ny, nz] = tissue.grid.size;
     auto cleansed = makeVolume<std::int16_t>(tissue.grid);
     tbb::parallel_for(0, nz, [&, nx = nx, ny = ny](int k) {
@@ -63,12 +69,13 @@ HuVolume cleanse(const Mixture& mixture, const std::vector<std::uint8_t>& tagged
             for (int i = firstOther(row, 0, nx, 0); i < nx; i = firstOther(row, i + 1, nx, 0)) {
                 const std::size_t n = begin + std::size_t(i);
                 const std::int16_t hu = cleansed.voxels[n];
-                if (hu == kPaddingHu)
+                const bool is_beyond = lumen.voxels[n] == kOutside && (tissue.voxels[n] < kHalfTissue || !beside[n]);
+                if (hu == kPaddingHu || (is_beyond && hu > bright_hu))
                     continue;
                 const double clean_hu =
                     kCleanGas_hu + (kCleanTissue_hu - kCleanGas_hu) * double(tissue.voxels[n]) / double(kWhole);
                 // Fat and what else is darker than tissue stays: only fluid makes brighter.
-                if (mixture.inside.voxels[n] == kFluid || hu > clean_hu)
+                if (lumen.voxels[n] == kFluid || hu > clean_hu)
                     cleansed.voxels[n] = std::int16_t(std::lround(clean_hu));
             }
         }
@@ -180,8 +187,11 @@ TissueResult findTissue(const HuVolume& hu, const InsideVolume& labels, Vector3 
         options.leave_out_other_bowel ? otherBowel(result.tissue, inside, pieces) : std::vector<std::size_t>{};
     result.lumen = lumenOf(result.tissue, inside, pieces, other_bowel);
     result.untrusted.mottled = findMottled(mixture, stool, noise_hu);
-    result.untrusted.faint = closeFaintWalls(labels, stool, down, result.tissue, result.lumen);
-    result.cleansed = cleanse(mixture, near_fluid, result.tissue);
+    result.untrusted.faint = settleOpenings(mixture, other_bowel, result.tissue, result.lumen);
+    const auto holes = closeFaintWalls(labels, stool, down, result.tissue, result.lumen);
+    result.untrusted.faint.insert(result.untrusted.faint.end(), holes.begin(), holes.end());
+    result.cleansed =
+        cleanse(mixture, result.lumen, brightOfStool_hu(mixture.tissue_hu, noise_hu, options), result.tissue);
     result.blur_mm = blur_mm;
     result.found = {{"level_columns", levels.columns.size()},
                     {"level_columns_fitted", levels.fitted},

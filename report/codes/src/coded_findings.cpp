@@ -154,7 +154,7 @@ CodedFacts factsOfStudy(const Assessment& said)
     f.wordIf(said.extracolonic_limited, limit,
              ours("EXTRACOLONIC_LIMITED", "What lies outside the colon cannot be judged"));
     f.number(dcm("113838", "CT Dose Length Product Total"), said.dose_mgy_cm, ucum("mGy.cm", "mGy.cm"));
-    f.number(ours("COVERAGE", "Wall that was seen"), said.coverage_percent, ucum("%", "percent"));
+    f.number(ours("COVERAGE", "Wall that was reviewed"), said.coverage_percent, ucum("%", "percent"));
     f.number(ours("READING_TIME", "Reading time"), said.reading_minutes, ucum("min", "minute"));
     return f.out;
 }

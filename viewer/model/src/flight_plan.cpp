@@ -14,6 +14,9 @@ constexpr double kSame_mm = 1e-6;
 std::vector<ViewPose> planFlight(const PathFrames& path, const Lumen& lumen, double step_mm, Heading heading,
                                  const ViewPoseOptions& options)
 {
+    if (!path.isPath())
+        throw Error(ErrorCode::wrong_use, "no path leads through the organ: it is flown freely", {},
+                    "fly in the window, 'vicon read'");
     if (!(step_mm > 0))
         throw Error(ErrorCode::wrong_use, "a flight's step must be above 0 mm");
     const double length = path.length_mm();

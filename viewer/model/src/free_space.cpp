@@ -75,6 +75,21 @@ bool FreeSpace::straightWay(Point3 from, Point3 to) const
     return holds(to);
 }
 
+Point3 FreeSpace::moved(Point3 from, Vector3& velocity_mm_s, double seconds) const
+{
+    Vector3 move = velocity_mm_s * seconds;
+    if (length(move) > kMostStep_mm)
+        move = normalized(move) * kMostStep_mm;
+    if (holds(from + move))
+        return from + move;
+    const Vector3 off_wall = normalized(lumen_.clearanceGradient(from));
+    const auto slid = [&](Vector3 v) { return v - off_wall * std::min(0.0, dot(v, off_wall)); };
+    Point3 next = from + slid(move);
+    next += off_wall * std::max(0.0, least_mm() + 1e-3 - lumen_.clearance_mm(next));
+    velocity_mm_s = slid(velocity_mm_s);
+    return holds(next) && distance(next, from) <= 2 * kMostStep_mm ? next : from;
+}
+
 FreeSpace::Way FreeSpace::wayTo(const std::vector<Point3>& goals, Point3 from, double reach_mm) const
 {
     Lattice lattice(from, lumen_.voxel_mm(), reach_mm);

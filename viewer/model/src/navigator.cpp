@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rotation.h"
-
 namespace vicon::viewer {
 namespace {
 
@@ -15,20 +13,20 @@ Heading opposite(Heading heading)
 
 }  // namespace
 
-Navigator::Navigator(const PathFrames& path, const Lumen& lumen, const FieldView& exit_distance,
+Navigator::Navigator(const PathFrames& path, const Lumen& lumen, const std::optional<FieldView>& exit_distance,
                      const SubmarineOptions& options)
-    : path_(&path),
-      lumen_(lumen),
-      ahead_(path, lumen),
-      options_(options),
-      submarine_(path, lumen_, exit_distance, options)
+    : path_(&path), lumen_(lumen), ahead_(path, lumen), options_(options), free_flight_(lumen_, options)
 {
+    if (path.isPath())
+        submarine_.emplace(path, lumen_, exit_distance.value(), options);
+    else
+        mode_ = NavigationMode::free;
     jumpTo(0);
 }
 
 void Navigator::setMode(NavigationMode mode)
 {
-    if (mode == mode_)
+    if (mode == mode_ || !hasPath())
         return;
     const NavigationState now = state();
     station_mm_ = now.station_mm;
@@ -37,13 +35,14 @@ void Navigator::setMode(NavigationMode mode)
     direction_ = 0;
     mode_ = mode;
     if (mode == NavigationMode::guided)
-        submarine_.placeAt(station_mm_, heading_);
+        submarine_->placeAt(station_mm_, heading_);
 }
 
 void Navigator::setHeading(Heading heading)
 {
     heading_ = heading;
-    submarine_.setHeading(heading);
+    if (submarine_)
+        submarine_->setHeading(heading);
 }
 
 void Navigator::setSpeed(double mm_s)
@@ -55,19 +54,31 @@ void Navigator::jumpTo(double station_mm)
 {
     direction_ = 0;
     station_mm_ = std::clamp(station_mm, 0.0, path_->length_mm());
-    submarine_.placeAt(station_mm_, heading_);
+    free_flight_.stop();
+    if (submarine_)
+        submarine_->placeAt(station_mm_, heading_);
     if (mode_ == NavigationMode::free)
         free_ = poseHere();
 }
 
 void Navigator::step(double mm)
 {
-    jumpTo(state().station_mm + sign() * mm);
+    if (hasPath())
+        jumpTo(state().station_mm + sign() * mm);
+    else
+        moveBy(free_.forward * mm);
+}
+
+void Navigator::moveBy(Vector3 way_mm)
+{
+    if (!hasPath())
+        free_flight_.moveBy(free_, way_mm);
 }
 
 void Navigator::lookFrom(const Pose& pose, double station_mm)
 {
     direction_ = 0;
+    free_flight_.stop();
     station_mm_ = std::clamp(station_mm, 0.0, path_->length_mm());
     mode_ = NavigationMode::free;
     free_ = lumen_.inside(pose.eye_mm) ? pose : poseHere();
@@ -78,13 +89,14 @@ void Navigator::goBackTo(const Place& place)
 {
     direction_ = 0;
     owed_s_ = 0;
+    free_flight_.stop();
     mode_ = place.mode;
     station_mm_ = place.station_mm;
     look_back_ = place.looks_back;
     free_ = place.free;
     constexpr double kElsewhere_mm = 1;
-    if (mode_ == NavigationMode::guided && std::abs(submarine_.state().station_mm - station_mm_) > kElsewhere_mm)
-        submarine_.placeAt(station_mm_, heading_);  // the click was a jump
+    if (mode_ == NavigationMode::guided && std::abs(submarine_->state().station_mm - station_mm_) > kElsewhere_mm)
+        submarine_->placeAt(station_mm_, heading_);  // the click was a jump
 }
 
 void Navigator::advance(double seconds)
@@ -96,14 +108,17 @@ void Navigator::advance(double seconds)
         case NavigationMode::guided: {
             Steering steering = steering_;
             steering.drift = direction_;
-            submarine_.steer(steering);
-            submarine_.advance(seconds);
+            submarine_->steer(steering);
+            submarine_->advance(seconds);
             break;
         }
         case NavigationMode::free:
             owed_s_ += seconds;
             for (; owed_s_ >= Submarine::kTick_s; owed_s_ -= Submarine::kTick_s)
-                tickFree();
+                if (hasPath())
+                    tickFree();
+                else
+                    free_flight_.tick(free_, steering_, speed_mm_s_);
             break;
     }
 }
@@ -135,13 +150,8 @@ void Navigator::advancePlanned(double seconds)
 
 void Navigator::tickFree()
 {
-    const double turn = radians(options_.turning_deg_s) * Submarine::kTick_s;
-    if (steering_.turns()) {
-        const Vector3 right = free_.right();
-        free_.forward = rotated(free_.forward, free_.up * (-steering_.turn_right * turn));
-        free_.forward = normalized(rotated(free_.forward, right * (steering_.turn_up * turn)));
-        free_.up = uprightOn(free_.forward, free_.up);
-    }
+    if (steering_.turns())
+        free_ = withViewTurned(free_, steering_, radians(options_.turning_deg_s) * Submarine::kTick_s);
     if (!steering_.thrusts())
         return;
     Vector3 way = (free_.forward * steering_.thrust_forward + free_.right() * steering_.thrust_right +
@@ -168,7 +178,7 @@ Pose Navigator::poseHere() const
 NavigationState Navigator::state() const
 {
     if (mode_ == NavigationMode::guided) {
-        const SubmarineState s = submarine_.state();
+        const SubmarineState s = submarine_->state();
         return {s.pose, s.station_mm, s.clearance_mm, s.carried, s.at_end};
     }
     if (mode_ == NavigationMode::free)

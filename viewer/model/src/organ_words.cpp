@@ -2,8 +2,10 @@
 
 namespace vicon::viewer {
 
-OrganWords wordsFor(const Organ& organ)
+OrganWords wordsFor(const Organ& organ, bool has_path)
 {
+    if (!has_path)
+        return {organ, "middle", "middle", false};
     if (organ.isColon())
         return {organ, "rectum", "caecum"};
     return {organ, "root", "tip"};

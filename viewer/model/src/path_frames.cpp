@@ -46,6 +46,13 @@ PathFrames::PathFrames(const Skeleton& skeleton, double step_mm, double window_m
     }
 }
 
+PathFrames PathFrames::withoutPath(const PathFrame& home)
+{
+    PathFrames frames;
+    frames.frames_ = {home, home};
+    return frames;
+}
+
 PathFrame PathFrames::at(double station_mm) const
 {
     const double place = std::clamp(station_mm, 0.0, length_mm_) / step_mm_;
@@ -62,6 +69,8 @@ PathFrame PathFrames::at(double station_mm) const
 
 double PathFrames::nearestStation(Point3 p, double around_mm, double reach_mm) const
 {
+    if (!isPath())
+        return 0;
     const auto indexOf = [&](double station) { return std::size_t(std::clamp(station, 0.0, length_mm_) / step_mm_); };
     const std::size_t last = frames_.size() - 2;
     double best = std::clamp(around_mm, 0.0, length_mm_), best_distance = 1e300;

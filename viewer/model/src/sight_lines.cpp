@@ -25,7 +25,7 @@ constexpr float kLeastStep = 1;  // voxel: no step in the wall crosses two plane
 constexpr float kOpenSteps = 2;  // at once, where the lumen is open: there no end is looked for
 /// Steps that a bundle goes on in the wall before it is split.
 constexpr int kMostInWall = 8;
-constexpr float kReach_mm = 2000;  // as far as pictures are drawn
+constexpr float kSightReach_mm = 2000;  // as far as pictures are drawn
 
 /// A square of the plane at depth 1 from the eye.
 struct Square {
@@ -88,7 +88,7 @@ public:
         const float step = kLeastStep / speed;
         std::array<float, kMostInWall + 1> in_wall{};  // depths of steps that are not told yet
         int waiting = 0;
-        for (float depth = square.from; depth < kReach_mm;) {
+        for (float depth = square.from; depth < kSightReach_mm;) {
             const SightField::Clear clear = field_.at(along(way, depth));
             const bool open = clear.kind == SightField::Kind::open;
             const float free = clear.voxels - depth * spread - kSlackVoxels;

@@ -258,25 +258,10 @@ void Submarine::move()
     now_.station_mm = path_->nearestStation(now_.position_mm, now_.station_mm, kFootReach_mm);
 }
 
-// The camera stays where it fits. Where a step would leave, it slides along the wall; where that would, it stays.
+// The camera stays where it fits.
 void Submarine::step()
 {
-    constexpr double kMostStep_mm = 0.5;
-    const FreeSpace free = space();
-    Vector3 move = now_.velocity_mm_s * kDt;
-    if (length(move) > kMostStep_mm)
-        move = normalized(move) * kMostStep_mm;
-    if (free.holds(now_.position_mm + move)) {
-        now_.position_mm += move;
-        return;
-    }
-    const Vector3 off_wall = normalized(lumen_.clearanceGradient(now_.position_mm));
-    const auto slid = [&](Vector3 v) { return v - off_wall * std::min(0.0, dot(v, off_wall)); };
-    Point3 next = now_.position_mm + slid(move);
-    next += off_wall * std::max(0.0, free.least_mm() + 1e-3 - lumen_.clearance_mm(next));
-    if (free.holds(next) && distance(next, now_.position_mm) <= 2 * kMostStep_mm)
-        now_.position_mm = next;
-    now_.velocity_mm_s = slid(now_.velocity_mm_s);
+    now_.position_mm = space().moved(now_.position_mm, now_.velocity_mm_s, kDt);
 }
 
 void Submarine::turn()

@@ -88,6 +88,8 @@ double stationSlicesOn(const PathFrames& path, double station_mm, Vector3 across
 
 SliceAxes axesAcross(const PathFrames& way, Point3 point, const Pose& eye)
 {
+    if (!way.isPath())  // across the view
+        return {eye.right(), eye.up * -1};
     const auto nearest = [&](Point3 p) {
         const double middle = way.length_mm() / 2;
         return way.at(way.nearestStation(p, middle, middle));

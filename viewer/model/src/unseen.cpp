@@ -74,15 +74,33 @@ double stationOf(const UnseenPatch& patch, const Skeleton& skeleton)
     return skeleton.nearest(patch.centre_mm, eye_mm - reach_mm, eye_mm + reach_mm).station_mm;
 }
 
+void requireSameSurface(const std::vector<std::uint32_t>& triangles, const Coverage& coverage)
+{
+    if (coverage.triangleCount() != triangles.size() / 3)
+        throw Error(ErrorCode::bad_input, "the coverage belongs to a surface of another number of triangles",
+                    std::to_string(coverage.triangleCount()));
+}
+
 }  // namespace
+
+std::vector<double> unseenAreas_mm2(const std::vector<std::uint32_t>& triangles, const Coverage& coverage)
+{
+    requireSameSurface(triangles, coverage);
+    std::vector<double> areas_mm2;
+    for (const std::vector<std::uint32_t>& piece : piecesOf(triangles, coverage)) {
+        double area_mm2 = 0;
+        for (const std::uint32_t t : piece)
+            area_mm2 += coverage.area_mm2(t);
+        areas_mm2.push_back(area_mm2);
+    }
+    return areas_mm2;
+}
 
 std::vector<UnseenPatch> unseenPatches(const std::vector<float>& points_mm, const std::vector<std::uint32_t>& triangles,
                                        const Coverage& coverage, const Skeleton& skeleton, const PathFrames& path,
                                        const Lumen& lumen, const UnseenOptions& options, const Progress* wanted)
 {
-    if (coverage.triangleCount() != triangles.size() / 3)
-        throw Error(ErrorCode::bad_input, "the coverage belongs to a surface of another number of triangles",
-                    std::to_string(coverage.triangleCount()));
+    requireSameSurface(triangles, coverage);
     std::vector<UnseenPatch> patches;
     for (std::vector<std::uint32_t>& piece : piecesOf(triangles, coverage)) {
         UnseenPatch patch;

@@ -230,6 +230,9 @@ BandMap bandOf(const PreparedScan& scan, Progress& progress)
     if (!scan.tree().empty())
         throw Error(ErrorCode::wrong_use, "an organ that branches cannot be opened into one band",
                     scan.words().organ.name(), "choose another view");
+    if (!scan.hasPath())
+        throw Error(ErrorCode::wrong_use, "an organ without a path cannot be opened into a band",
+                    scan.words().organ.name(), "choose another view");
     return {scan.cells(), scan.frames(), scan.exitDistance(), progress};
 }
 

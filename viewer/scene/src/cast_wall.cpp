@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
+#include "vicon/viewer/model/acquired_wall.h"
 #include "vicon/viewer/scene/surface_scene.h"
 
 namespace vicon::viewer {
 namespace {
 
-// Half-way between gas and soft tissue, as the cells' surface. Opacity rises over the width that the scanner's blur
-// gives an edge: where it rose at once, the steps of the rays would be seen as rings.
-constexpr double kGasEnds_hu = -480, kFirstSeen_hu = -650, kOpaque_hu = -380;
+// Opacity rises over the width that the scanner's blur gives an edge: where it rose at once, the steps of the rays
+// would be seen as rings.
+constexpr double kFirstSeen_hu = -650, kOpaque_hu = -380;
 constexpr double kStepOfOpaque = 0.5;  // of the usual one: a wall that stops a ray at once shows how far apart they are
-constexpr double kBelowOpaque_mm = 5;
 
 /// Nothing of gas, all of what is denser.
 TransferFunction solid(WallColors colors)
@@ -87,18 +87,12 @@ void castWall(Picture& picture, const PreparedScan& scan, const SnapshotRequest&
         castOver(picture, scan, all, place, transferFunction("soft-tissue"), options, 1, wanted);
         return;
     }
-    if (!startsInGas(scan, place.pose.eye_mm))
+    if (!startsInGas(scan.volume(), place.pose.eye_mm))
         return;
     options.begin = PeelingOptions::Begin::eye;
-    options.reach_mm = kBelowOpaque_mm;
+    options.reach_mm = kBehindWall_mm;
     options.step_mm *= kStepOfOpaque;
     castOver(picture, scan, all, place, solid(request.wall.colors), options, 1, wanted);
-}
-
-bool startsInGas(const PreparedScan& scan, Point3 eye_mm)
-{
-    const HuView& volume = scan.volume();
-    return volume.valueOr(volume.grid.indexAt(eye_mm), kPaddingHu) < kGasEnds_hu;
 }
 
 }  // namespace vicon::viewer

@@ -22,7 +22,4 @@ void layPeelingOver(Picture& picture, const PreparedScan& scan, const SnapshotRe
 void castWall(Picture& picture, const PreparedScan& scan, const SnapshotRequest& request, const SnapshotResult& place,
               const Progress* wanted = nullptr);
 
-/// Whether the acquired density there is that of gas: from elsewhere nothing is seen as acquired.
-bool startsInGas(const PreparedScan& scan, Point3 eye_mm);
-
 }  // namespace vicon::viewer

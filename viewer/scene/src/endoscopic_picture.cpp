@@ -4,6 +4,7 @@
 #include "cast_wall.h"
 #include "pictures.h"
 #include "vicon/core/error.h"
+#include "vicon/viewer/model/acquired_wall.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/orientation.h"
 #include "vicon/viewer/scene/cube_picture.h"
@@ -79,7 +80,7 @@ std::vector<OverlayText> linesOfWall(const PreparedScan& scan, const WallLook& l
         line.color = kTextColor;
         lines.push_back(line);
     }
-    if (look.acquired && !startsInGas(scan, place.pose.eye_mm)) {
+    if (look.acquired && !startsInGas(scan.volume(), place.pose.eye_mm)) {
         line.text = "the eye is not in gas: as acquired there is nothing to see";
         line.color = kWarningColor;
         lines.push_back(line);

@@ -240,6 +240,8 @@ void addMarkerNames(Overlay& overlay, const std::vector<Marker>& markers, const 
 
 void addTips(Overlay& overlay, const Skeleton& skeleton, const OrganWords& words, const PlaneView& view, double text_px)
 {
+    if (skeleton.empty())
+        return;
     const Pixel first = view.toPixel(skeleton.at(0).position_mm);
     const Pixel last = view.toPixel(skeleton.at(skeleton.length_mm()).position_mm);
     for (const auto& [at, name] : {std::pair{first, words.first_end}, std::pair{last, words.last_end}}) {
@@ -256,8 +258,8 @@ OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& r
     OverviewGround ground;
     ground.caption = captionSize(scan, request);
     ground.view = viewOfAll(projection, request.width, request.height, ground.caption, 2.2 * text_px);
-    ground.picture = drawn(projection, ground.view);
-    Overlay overlay;
+    ground.wall = drawn(projection, ground.view);
+    Overlay& overlay = ground.written;
     const bool tree = !scan.tree().empty();
     const double words_px = wordsHeight(request);
     addSkeleton(overlay, tree ? scan.tree().allBranches() : scan.skeleton(), ground.view, std::max(1.5, words_px / 9));
@@ -265,6 +267,7 @@ OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& r
     addParts(overlay, scan.parts(), scan.skeleton(), ground.view, words_px);
     for (const OverlayText& name : overlay.texts)
         ground.names.push_back(textArea(name));
+    ground.picture = ground.wall;
     paint(ground.picture, overlay);
     return ground;
 }

@@ -77,7 +77,9 @@ void addTips(Overlay& overlay, const Skeleton& skeleton, const OrganWords& words
              double text_px);
 /// The overview's part that does not change while the eye moves.
 struct OverviewGround {
-    Picture picture;
+    Picture picture;  ///< the wall, perhaps tinted, with what is written over it
+    Picture wall;     ///< alone
+    Overlay written;
     PlaneView view;
     TextSize caption;         ///< what the caption takes
     std::vector<Area> names;  ///< what the names of the colon's parts take

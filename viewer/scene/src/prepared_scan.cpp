@@ -16,6 +16,7 @@
 #include "vicon/scan_files/skeleton_file.h"
 #include "vicon/scan_files/stored_volume.h"
 #include "vicon/scan_files/subdivision_file.h"
+#include "vicon/viewer/model/home_place.h"
 #include "vicon/viewer/model/openness.h"
 #include "vicon/viewer/model/wall_tagging.h"
 
@@ -133,7 +134,8 @@ void PreparedScan::readForFlight() const
                          [&] {
                              subdivision();
                              wallDistance();
-                             exitDistance();
+                             if (hasPath())
+                                 exitDistance();
                              volume();
                          });
     bringInLumen(files_->storedWallDistance(), inside());
@@ -142,7 +144,8 @@ void PreparedScan::readForFlight() const
 void PreparedScan::readOn(const Progress& wanted) const
 {
     constexpr std::size_t kAtOnce = std::size_t(1) << 22;  // voxels: some milliseconds of a slow disk
-    bringInLumen(files_->storedExitDistance(), inside());
+    if (hasPath())
+        bringInLumen(files_->storedExitDistance(), inside());
     const auto& stored = files_->storedVolume();
     const std::size_t all = stored.view().voxels.size();
     for (std::size_t n = 0; n < all; n += kAtOnce) {
@@ -202,6 +205,11 @@ const Skeleton& PreparedScan::skeleton() const
     });
 }
 
+bool PreparedScan::hasPath() const
+{
+    return !skeleton().empty();
+}
+
 const SkeletonTree& PreparedScan::tree() const
 {
     return files_->tree.get([&] { return scan_files::readSkeletonTree(files_->at("skeleton.vtp")); });
@@ -225,6 +233,8 @@ const Projection& PreparedScan::coronalProjection() const
 const PathFrames& PreparedScan::frames() const
 {
     return files_->frames.get([&] {
+        if (!hasPath())
+            return PathFrames::withoutPath(homePlace(lumen(), wallDistance()));
         PathFrames frames(skeleton());
         frames.setTapers(!tree().empty());
         return frames;
@@ -246,7 +256,7 @@ const LumenAlong& PreparedScan::along() const
 
 const OrganWords& PreparedScan::words() const
 {
-    return files_->words.get([&] { return wordsFor(files_->stepResults().organ()); });
+    return files_->words.get([&] { return wordsFor(files_->stepResults().organ(), hasPath()); });
 }
 
 Quantity PreparedScan::quantity() const

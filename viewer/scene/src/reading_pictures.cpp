@@ -6,6 +6,7 @@
 
 #include "cast_wall.h"
 #include "pictures.h"
+#include "reviewed_wall.h"
 #include "vicon/core/error.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/peeling_pace.h"
@@ -21,6 +22,13 @@ struct ReadingPictures::Parts {
     SurfaceScene scene;
     std::optional<Offscreen> offscreen;  // nothing: there is no OpenGL
     OverviewGround ground;
+    /// What of the wall is painted on it.
+    struct Painted {
+        ReviewedWall wall;
+        double area_mm2 = 0;
+        std::chrono::steady_clock::time_point at{};
+    };
+    std::optional<Painted> painted;
     /// What the last endoscopic picture showed.
     struct Shown {
         VisibleParts parts;
@@ -35,6 +43,21 @@ struct ReadingPictures::Parts {
     bool cells_colored = false;
     double lamp_reach_mm = kUsualLampReach_mm;
     std::optional<PictureCoverage> picture_coverage;  // made when it is first asked for
+
+    void paintOverview(const ScanCoverage& reviewed, bool still)
+    {
+        constexpr std::chrono::milliseconds kAgain(500);
+        const auto now = std::chrono::steady_clock::now();
+        const double area_mm2 = reviewed.seenArea_mm2();
+        if (!painted)
+            painted.emplace(Painted{ReviewedWall(scan.cells(), ground.view)});
+        if (area_mm2 == painted->area_mm2 || (!still && now - painted->at < kAgain))
+            return;
+        painted->wall.see(reviewed.seenTriangles());
+        painted->area_mm2 = area_mm2;
+        painted->at = now;
+        paintReviewed(ground, painted->wall);
+    }
 
     PictureCoverage& pictureCoverage()
     {
@@ -246,11 +269,16 @@ void ReadingPictures::countSeen(ScanCoverage& seen, double now_s, const ReviewRu
               now_s, rule.least_s);
 }
 
-ReadingPictures::Overview ReadingPictures::overview(const SnapshotRequest& request, const SnapshotResult& place)
+ReadingPictures::Overview ReadingPictures::overview(const SnapshotRequest& request, const SnapshotResult& place,
+                                                    const ScanCoverage* reviewed, bool still)
 {
     Parts& p = *parts_;
-    if (p.ground.picture.width != request.width || p.ground.picture.height != request.height)
+    if (p.ground.picture.width != request.width || p.ground.picture.height != request.height) {
         p.ground = overviewGround(p.scan, request);
+        p.painted.reset();
+    }
+    if (reviewed)
+        p.paintOverview(*reviewed, still);
     return {overviewOver(p.ground, p.scan, request, place), p.ground.view};
 }
 

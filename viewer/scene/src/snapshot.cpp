@@ -124,8 +124,9 @@ std::vector<OverlayText> captionLines(const Caption& caption, double station_mm,
                                       const OrganWords& words)
 {
     std::vector<OverlayText> lines = patientLines(caption);
-    for (const std::string& text : stationTexts(station_mm, length_mm, words))
-        lines.push_back(lineOf(text, kTextColor));
+    if (words.has_path)
+        for (const std::string& text : stationTexts(station_mm, length_mm, words))
+            lines.push_back(lineOf(text, kTextColor));
     if (caption.lossy)
         lines.push_back(lineOf("LOSSY COMPRESSION", kWarningColor));
     return lines;

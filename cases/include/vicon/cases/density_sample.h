@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "vicon/cases/marker_measures.h"
+#include "vicon/core/cell_surface.h"
 #include "vicon/core/volume_view.h"
 
 namespace vicon {
@@ -13,6 +14,11 @@ struct CircledWall {
     Vector3 inwards;       ///< unit vector into the tissue
     double raised_mm = 0;  ///< of the surface over the wall around the circle; 0: nothing stands there
 };
+
+/// The wall that a ball around a point on it, or of a finding on it, encloses, as it is circled straight from the
+/// lumen. Throws Error{bad_input} where no wall lies within the ball.
+/// @param surface the wall, with normals into the lumen
+CircledWall circleWall(const CellSurface& surface, Point3 at, double radius_mm);
 
 /// Takes the voxels whose middles lie within `radius_mm` of `centre`, in tissue alone. A voxel beside the lumen has a
 /// density between that of the tissue and that of the gas or tagged fluid, so a margin of 2 mm and at least 1.5 voxels

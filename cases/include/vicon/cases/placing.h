@@ -51,8 +51,9 @@ std::vector<MarkerEdit> importOf(CaseStore& store, const MarkOptions& options, c
 /// somebody changes at the same time, stays as it is.
 void renewPlaces(CaseStore& store, const MarkOptions& options, const std::string& case_id, const std::string& scan_id);
 
-/// Takes a sample of the tissue around a placed marker and keeps it with the marker. Throws Error{wrong_use} where the
-/// radius is out of range or the ball holds no tissue.
+/// Takes a sample of the tissue around a placed marker, of what circleWall() encloses, and keeps it with the marker.
+/// Throws Error{wrong_use} where the radius is out of range or the ball holds too little tissue, Error{bad_input} where
+/// it holds no wall.
 void addDensity(CaseStore& store, const std::string& case_id, Marker& marker, double radius_mm);
 
 /// Outlines the polyp under a placed marker and keeps its size with the marker. Throws Error{wrong_use} where it has no

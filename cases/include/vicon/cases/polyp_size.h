@@ -16,11 +16,17 @@ struct PolypOutline {
     std::string trouble;  ///< for a reader: "it has no edge all around"; empty with a size
 };
 
-/// Outlines the polyp under a point of the wall: along sections of the surface through its axis, to where each turns
-/// concave the most, at the wall or at its stalk. After the rings of curvature of Summers et al., Radiology 2000.
-/// On a fold there is no outline: its edge is not the polyp's. Figures: docs/evaluation/measuring.md.
+/// From the surface to the middle of a polyp of 30 mm.
+inline constexpr double kPolypReach_mm = 15;
+
+/// Outlines the polyp under a point of the wall, or around a point in its tissue, as one clicks in a slice: along
+/// sections of the surface through its axis, to where each turns concave the most, at the wall or at its stalk. After
+/// the rings of curvature of Summers et al., Radiology 2000. On a fold there is no outline: its edge is not the
+/// polyp's. Figures: docs/evaluation/measuring.md.
 /// @param surface the wall, with normals into the lumen
-/// @param at on the polyp, within 2 mm of the wall; else Error{bad_input}
+/// Begins at the surface nearest to the point; where that gives no outline that holds the point, at the surface in
+/// other directions from it.
+/// @param at in the polyp, within kPolypReach_mm of its surface, or 2 mm beside it
 /// @param blur_mm standard deviation of the scan's blur
 /// Throws Error{cancelled} where `wanted`, if there is one, says so.
 PolypOutline outlinePolyp(const CellSurface& surface, Point3 at, double blur_mm, const Progress* wanted = nullptr);

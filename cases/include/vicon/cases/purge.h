@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ struct PurgeCandidate {
 std::vector<PurgeCandidate> planPurge(CaseStore& store, const PurgeOptions& options, double free_gb,
                                       const std::string& now_utc);
 
-/// What is free on a store's disk.
-double freeGb(const CaseStore& store);
+/// What is free on the disk of a store's folder. Throws Error{store}.
+double freeGb(const std::filesystem::path& folder);
 
 }  // namespace vicon

@@ -83,7 +83,7 @@ SubdivideFound subdivideFoundFromJson(const nlohmann::json& json);
 
 struct PotentialFound {
     double largest_wall_distance_mm = 0;
-    double largest_exit_distance_mm = 0;
+    std::optional<double> largest_exit_distance_mm;  ///< nothing where no path leads to an exit
 };
 nlohmann::json toJson(const PotentialFound& found);
 PotentialFound potentialFoundFromJson(const nlohmann::json& json);

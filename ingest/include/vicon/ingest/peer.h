@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "vicon/core/enum_names.h"
 #include "vicon/ingest/tls.h"
 
 namespace vicon::ingest {
@@ -13,17 +14,23 @@ struct WebAccess {
     std::string user, password_file;  ///< empty: as nobody in particular
 };
 
+/// How objects are fetched from a peer: over the association that asks (C-GET), or sent to our listener (C-MOVE).
+enum class RetrieveMethod { get, move };
+inline constexpr EnumNames<RetrieveMethod, 2> kRetrieveMethodNames{
+    {{RetrieveMethod::get, "get"}, {RetrieveMethod::move, "move"}}};
+
 /// A DICOM application on the network, and what it may do here.
 struct Peer {
     std::string name;  ///< as the configuration calls it
     std::string host;
     std::string ae_title;
     int port = 104;
-    bool stores = true;        ///< it may store objects here, and ask for a commitment to them
-    bool is_queried = true;    ///< it is asked for studies, and they are fetched from it
-    bool is_sent = true;       ///< objects are sent to it, and it may report its commitment to them
-    int max_associations = 0;  ///< that it may have open here at a time; 0: as many as its host
-    double mb_per_s = 0;       ///< that are taken of it; 0: as many as come
+    bool stores = true;      ///< it may store objects here, and ask for a commitment to them
+    bool is_queried = true;  ///< it is asked for studies, and they are fetched from it
+    bool is_sent = true;     ///< objects are sent to it, and it may report its commitment to them
+    RetrieveMethod retrieve = RetrieveMethod::get;  ///< by DICOMweb there is no other
+    int max_associations = 0;                       ///< that it may have open here at a time; 0: as many as its host
+    double mb_per_s = 0;                            ///< that are taken of it; 0: as many as come
     /// With which files TLS is spoken; none: it is not. A peer that is called by TLS must call by it.
     std::optional<TlsOptions> tls = {};
     /// What its certificate must name; none: its host; empty: whatever leads to a trusted one.

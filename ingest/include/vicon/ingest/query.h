@@ -19,6 +19,9 @@ struct StudyQuery {
     std::string accession_number;
     std::string study_uid;
     std::string modality = "CT";  ///< that some series of the study has
+    std::string description;      ///< of the study; in any case or not, as the peer matches
+    std::string
+        series_description;  ///< that some series of the study has, in any case; each study is asked for its own
 };
 
 /// A study as the peer describes it; UTF-8, empty where the peer says nothing.
@@ -70,8 +73,10 @@ RetrieveResult getSeries(const Peer& peer, const std::string& study_uid, const s
                          const std::set<std::string>& have = {});
 
 /// Has a peer send series to the listener `destination_ae_title` (C-MOVE, study root), which the peer must know and
-/// which must be listening: see Receiver. Throws Error{peer}, Error{cancelled}.
+/// which must be listening: see Receiver. Objects of `have` (SOP Instance UIDs) are not asked for, so that a retrieval
+/// that failed half-way goes on with what is missing. Throws Error{peer}, Error{cancelled}.
 RetrieveResult moveSeries(const Peer& peer, const std::string& study_uid, const std::vector<std::string>& series_uids,
-                          const std::string& destination_ae_title, const std::string& our_ae_title, Progress& progress);
+                          const std::string& destination_ae_title, const std::string& our_ae_title, Progress& progress,
+                          const std::set<std::string>& have = {});
 
 }  // namespace vicon::ingest

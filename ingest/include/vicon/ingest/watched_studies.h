@@ -20,6 +20,11 @@ public:
     /// with as many, and not growing, as it has as many as when it was last noted.
     bool note(const std::string& study_uid, const std::string& date, int images);
     void markFetched(const std::string& study_uid, int images);
+    /// Whether the study was noted and not fetched since.
+    bool awaitsFetch(const std::string& study_uid) const;
+    /// Whether the study was fetched, and its earlier studies not yet.
+    bool awaitsPriors(const std::string& study_uid) const;
+    void markPriorsFetched(const std::string& study_uid);
     /// The date of the newest study that was noted, YYYYMMDD; empty when none was.
     std::string newestDate() const;
 
@@ -27,7 +32,8 @@ private:
     struct Seen {
         std::string date;
         int images = 0;
-        int fetched = -1;  ///< with so many images; -1: not yet
+        int fetched = -1;     ///< with so many images; -1: not yet
+        bool priors = false;  ///< its earlier studies were fetched
     };
     void read();
     void write() const;

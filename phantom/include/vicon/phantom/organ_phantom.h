@@ -11,9 +11,10 @@
 
 namespace vicon::phantom {
 
-/// A chest with an airway tree, or a trunk with an aorta; see docs/dev/organs.md. The same options give the same study.
+/// A chest with an airway tree, a trunk with an aorta or an upper abdomen with a stomach full of gas; see
+/// docs/dev/organs.md. The same options give the same study.
 struct OrganPhantomOptions {
-    std::string organ = "airway";  ///< "airway" or "aorta"
+    std::string organ = "airway";  ///< "airway", "aorta" or "stomach"
     std::uint64_t seed = 1;
     std::array<int, 3> size{256, 256, 256};  ///< columns, rows, slices, over 300 x 300 x 280 mm (aorta: 400 high)
     double noise_hu = 20;
@@ -21,7 +22,8 @@ struct OrganPhantomOptions {
 
 /// What an organ's scan shows, exactly.
 struct OrganTruth {
-    SkeletonTree tree;    ///< axes as straight stretches with the tube's radius; a child begins at its parent's end
+    SkeletonTree tree;  ///< of a stomach none; axes as straight stretches with the tube's radius; a child begins at its
+                        ///< parent's end
     InsideVolume inside;  ///< on the grid of the scan
 };
 

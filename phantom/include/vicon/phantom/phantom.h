@@ -15,6 +15,16 @@
 
 namespace vicon::phantom {
 
+/// What scanner and protocol make of the same patient.
+struct Protocol {
+    std::string kernel = "usual";  ///< "smooth": sigma of 0.8 to 1.1 mm; "sharp": 0.45 to 0.6, and edges overshoot
+    double thickness_mm = 0;       ///< of the slices, side by side; 0: thin ones of slice_spacing_mm
+    double tagging_hu = 0;         ///< of every pool; 0: drawn from 300 to 900
+    int bubbles = 0;               ///< of gas in the pools, 2 to 6 mm, right below their levels
+    bool contrast = false;         ///< medium in the veins: wall of 120 HU, vessels of 160, organs too
+    std::string hips = "quiet";    ///< "streaks": too few photons pass both hips; "metal": the right one replaced too
+};
+
 /// What to synthesise. The same options give the same study, bit for bit, on any number of threads.
 struct PhantomOptions {
     std::uint64_t seed = 1;
@@ -38,9 +48,10 @@ struct PhantomOptions {
     bool ileum = false;         ///< a valve of 3 to 5 mm that gas or fluid has gone through into the terminal ileum
     double noise_hu = -1;       ///< standard deviation in soft tissue; below 0: drawn from 15 to 40
     bool low_dose = false;      ///< noise drawn from 50 to 80 HU when noise_hu is below 0
-    double blur_mm = 0;         ///< sigma of the point spread; 0: drawn from 0.5 to 0.8
+    double blur_mm = 0;         ///< sigma of the point spread; 0: drawn, "usual" from 0.5 to 0.8
     std::string mr =
-        "none";          ///< "none": CT; "dark", "bright": MR colonography with such a lumen, all of it filled alike
+        "none";  ///< "none": CT; "dark", "bright": MR colonography with such a lumen, all of it filled alike
+    Protocol protocol;
     bool extras = true;  ///< a localizer and a dose sheet beside the scans (writeStudy)
 
     template <class Visitor>
@@ -74,7 +85,17 @@ struct PhantomOptions {
         v("phantom.ileum", ileum, "", "A terminal ileum that is filled through the ileocaecal valve.");
         v("phantom.noise_hu", noise_hu, "HU", "Noise; below 0: drawn from 15 to 40 HU.", {-1, 500});
         v("phantom.low_dose", low_dose, "", "Noise drawn from 50 to 80 HU.");
-        v("phantom.blur_mm", blur_mm, "mm", "Sigma of the point spread; 0: drawn from 0.5 to 0.8 mm.", {0, 3});
+        v("phantom.blur_mm", blur_mm, "mm", "Sigma of the point spread; 0: drawn as the kernel has it.", {0, 3});
+        v("phantom.kernel", protocol.kernel, "", "Smooth, usual, or sharp with edges that overshoot.",
+          {.choices = {"smooth", "usual", "sharp"}});
+        v("phantom.thickness_mm", protocol.thickness_mm, "mm", "Thickness of the slices, side by side; 0: thin ones.",
+          {0, 5});
+        v("phantom.tagging_hu", protocol.tagging_hu, "HU", "Density of the pools; 0: drawn from 300 to 900 HU.",
+          {0, 2000});
+        v("phantom.bubbles", protocol.bubbles, "", "Bubbles of 2 to 6 mm below the levels of the pools.", {0, 200});
+        v("phantom.contrast", protocol.contrast, "", "Contrast medium in wall, vessels and organs.");
+        v("phantom.hips", protocol.hips, "", "What the hips do to the slices through them.",
+          {.choices = {"quiet", "streaks", "metal"}});
         v("phantom.mr", mr, "", "Make MR images in place of CT, with a lumen like this.",
           {.choices = {"none", "dark", "bright"}});
         v("phantom.extras", extras, "", "Write a localizer and a dose sheet too.");
@@ -114,6 +135,12 @@ struct StoolLump {
     std::uint64_t seed = 0;        ///< of its bubbles
 };
 
+/// A bubble of gas in a pool.
+struct GasBubble {
+    Point3 position_mm;  ///< its middle
+    double diameter_mm = 0;
+};
+
 /// Tagging that clings to a polyp.
 struct TaggingFilm {
     std::size_t polyp = 0;  ///< which of the truth's polyps
@@ -142,6 +169,7 @@ struct PhantomTruth {
     std::vector<FluidPool> pools;    ///< in order of station
     std::vector<StoolLump> stool;    ///< in order of station
     std::vector<TaggingFilm> films;
+    std::vector<GasBubble> bubbles;
     TerminalIleum ileum;
     ColonPartRanges parts;  ///< all eight, by where they are fixed, not by the shape of the curve
     Vector3 gravity;        ///< unit vector
@@ -151,7 +179,7 @@ struct PhantomTruth {
     double noise_hu = 0;
     double blur_mm = 0;
     int euler_number = 1;  ///< of the lumen: its pieces less its loops; as counted where the field cuts the colon off
-    InsideVolume inside;   ///< on the grid of the scan
+    InsideVolume inside;   ///< on the grid of the scan; of thick slices on thinner ones, up to 1 mm
 };
 
 struct PhantomScan {

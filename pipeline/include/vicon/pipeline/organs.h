@@ -9,7 +9,7 @@
 
 namespace vicon::pipeline {
 
-/// The organs that presets exist for, files of config/organs: "airway", "aorta", "colon".
+/// The organs that presets exist for, files of config/organs: "airway", "aorta", "colon", "stomach".
 std::vector<std::string> organNames();
 
 /// The configuration with the preset of an organ; nothing: of organ.name. Only options that neither a file nor the

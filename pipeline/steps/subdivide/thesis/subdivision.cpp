@@ -9,6 +9,7 @@
 
 #include "grid/lumen_front.h"
 #include "grid/mask.h"
+#include "subdivide/thesis/choice.h"
 #include "subdivide/thesis/walk.h"
 #include "vicon/core/error.h"
 
@@ -198,21 +199,33 @@ void labelSeparateParts(const InsideVolume& inside, const Skeleton& skeleton, La
 
 }  // namespace
 
-Labelling thesisPieces(const InsideVolume& inside, const Skeleton& skeleton, const std::vector<Path>& paths,
-                       const SubdivideOptions& options, int segments, Progress& progress)
+ThesisPieces thesisPieces(const InsideVolume& inside, const Skeleton& skeleton, const std::vector<Path>& paths,
+                          const SubdivideOptions& options, int segments, Progress& progress)
 {
     const auto sizes = sizesAlong(inside, paths, options.size, segments);
     std::vector<std::vector<CutPlane>> portals;
+    PortalChoice costs;
     for (std::size_t p = 0; p < paths.size(); ++p) {
         const CutPlanes cuts(inside, skeleton, paths[p], options);
         const PlanesAt planes = [&cuts](std::size_t n) { return cuts.at(n); };
-        portals.push_back(options.approach == SubdivideApproach::global ? choosePortals(planes, sizes[p], progress)
-                                                                        : walkLocally(planes, sizes[p], progress));
+        if (options.approach == SubdivideApproach::global) {
+            PortalChoice choice = choosePortals(planes, sizes[p], progress);
+            costs.cost += choice.cost;
+            costs.at_least += choice.at_least;
+            costs.neighbours_only += choice.neighbours_only;
+            portals.push_back(std::move(choice.planes));
+        } else {
+            portals.push_back(walkLocally(planes, sizes[p], progress));
+        }
         progress.report(0.5 * double(p + 1) / double(paths.size()), "subdividing");
     }
-    Labelling labelling = cutAt(inside, skeleton, paths, portals);
-    labelSeparateParts(inside, skeleton, labelling);
-    return labelling;
+    ThesisPieces pieces{cutAt(inside, skeleton, paths, portals)};
+    labelSeparateParts(inside, skeleton, pieces.labelling);
+    if (options.approach == SubdivideApproach::global)
+        pieces.measures = {{"choice_cost", costs.cost},
+                           {"choice_cost_at_least", costs.at_least},
+                           {"choice_cost_neighbours_only", costs.neighbours_only}};
+    return pieces;
 }
 
 }  // namespace vicon::steps

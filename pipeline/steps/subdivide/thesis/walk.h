@@ -22,8 +22,4 @@ using PlanesAt = std::function<std::vector<CutPlane>(std::size_t n)>;
 /// when the segment grows too large goes back to the best one passed, and when there is none takes the next.
 std::vector<CutPlane> walkLocally(const PlanesAt& planes, const PathSizes& sizes, Progress& progress);
 
-/// The selection of portals, no two that follow each other intersecting, with the least sum of badness and squared
-/// logarithmic deviation of the segments' sizes.
-std::vector<CutPlane> choosePortals(const PlanesAt& planes, const PathSizes& sizes, Progress& progress);
-
 }  // namespace vicon::steps

@@ -10,7 +10,9 @@ namespace vicon::scan_files {
 
 /// Writes `skeleton.vtp`: one polyline per piece, in order; point arrays station_mm, radius_mm; cell array bridge.
 void writeSkeleton(const std::filesystem::path& file, const Skeleton& skeleton);
-/// Reads it back; of a tree the way from its root to the tip that lies farthest from it.
+/// Writes the `skeleton.vtp` of a cavity, which no path leads through: no line, and the widest place as a point.
+void writeNoPath(const std::filesystem::path& file, const SkeletonPoint& widest);
+/// Reads it back; of a tree the way from its root to the tip that lies farthest from it, of a cavity an empty one.
 /// Throws Error{not_found} or Error{bad_input}.
 Skeleton readSkeleton(const std::filesystem::path& file);
 

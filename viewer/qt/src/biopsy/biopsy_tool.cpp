@@ -5,6 +5,7 @@
 
 #include "peeling/peeling_panel.h"
 #include "reading/reading.h"
+#include "vicon/viewer/model/circled_wall.h"
 #include "window/reading_layout.h"
 
 namespace vicon::viewer {
@@ -20,6 +21,9 @@ void BiopsyTool::addTo(ReadingLayout& layout)
 {
     layout.addAction(ReadingMenu::edit, tr("Virtual biopsy: circle a finding"), QKeySequence("T"), [this] { start(); });
     connect(reading_.views().endoscopic(), &PictureView::circled, this, &BiopsyTool::circled);
+    for (SliceView* slice : reading_.views().slices())
+        connect(slice, &PictureView::circled, this,
+                [this, slice](Pixel centre, double radius_px) { circledSlice(slice->shown(), centre, radius_px); });
     connect(&reading_.session(), &CaseSession::biopsied, this, &BiopsyTool::show);
 }
 
@@ -32,7 +36,14 @@ void BiopsyTool::start()
         return;
     }
     reading_.begin(CircleFinding{},
-                   tr("Virtual biopsy: drag from the middle of the finding to its edge; or arrows and Return at both"));
+                   tr("Virtual biopsy, from inside or in a slice: drag from the middle of the finding to its edge; or "
+                      "arrows and Return at both"));
+}
+
+void BiopsyTool::scanOpened(const Arrival&)
+{
+    circle_.reset();
+    drawSampled({});
 }
 
 void BiopsyTool::nextClickChanged()
@@ -40,6 +51,7 @@ void BiopsyTool::nextClickChanged()
     if (!circle_)
         return;
     circle_.reset();
+    drawSampled({});
     panel_.showHistogram({});
     reading_.drawEndoscopic(true);
 }
@@ -51,7 +63,7 @@ void BiopsyTool::circled(Pixel centre, double radius_px)
     const ShownPicture& shown = reading_.shown();
     if (!reading_.navigator() || !shown.isOf(reading_.sharedScan()))
         return;
-    const auto point = wallAt(*reading_.scan(), shown.place.pose, shown.lens, centre);
+    const auto point = shown.wallAt(centre);
     if (!point) {
         reading_.say(tr("There is no wall in the middle of the circle."));
         return;
@@ -64,7 +76,35 @@ void BiopsyTool::circled(Pixel centre, double radius_px)
     // Half of a finding's height below its top, which is as far as half of its radius where it stands as half a ball.
     const Vector3 inwards = rayThrough(shown.place.pose, shown.lens, centre);
     const double raised_mm = std::min(raisedOver(*point, inwards, centre, radius_px), radius_mm);
-    reading_.session().takeBiopsy(*point + inwards * (radius_mm / 2), radius_mm, {*point, inwards, raised_mm});
+    reading_.session().takeBiopsy(*point + inwards * (radius_mm / 2), radius_mm,
+                                  CircledWall{*point, inwards, raised_mm});
+}
+
+/// A ball of tissue; where it reaches the wall, what lies behind that is left out as from inside.
+void BiopsyTool::circledSlice(const PlaneView& view, Pixel centre, double radius_px)
+{
+    reading_.interaction().finish();
+    reading_.toolChanged();
+    if (!reading_.navigator())
+        return;
+    const Lumen& lumen = reading_.scan()->lumen;
+    const Point3 middle = view.pointAt(centre);
+    if (lumen.inside(middle)) {
+        reading_.warn(tr("The middle of the circle lies in the lumen: nothing was taken. Circle tissue."));
+        return;
+    }
+    const double radius_mm = std::clamp(radius_px * view.mm_per_pixel, kLeast_mm, kMost_mm);
+    const auto wall = circledWall(lumen, middle, radius_mm);
+    circle_ = Circle{middle, radius_mm, wall.has_value()};
+    reading_.drawEndoscopic(true);
+    reading_.say(tr("Taking the biopsy ..."));
+    reading_.session().takeBiopsy(middle, radius_mm, wall);
+}
+
+void BiopsyTool::drawSampled(const std::optional<SampledBall>& ball)
+{
+    for (SliceView* slice : reading_.views().slices())
+        slice->setSampled(ball);
 }
 
 /// How far the wall along the circle lies behind its middle, in the middle of all its places.
@@ -76,7 +116,7 @@ double BiopsyTool::raisedOver(Point3 middle, Vector3 inwards, Pixel centre, doub
     for (int n = 0; n < kPlaces; ++n) {
         const double angle = radians(360.0 * n / kPlaces);
         const Pixel at{centre.x + radius_px * std::cos(angle), centre.y + radius_px * std::sin(angle)};
-        if (const auto wall = wallAt(*reading_.scan(), shown.place.pose, shown.lens, at))
+        if (const auto wall = shown.wallAt(at))
             behind_mm.push_back(dot(*wall - middle, inwards));
     }
     if (behind_mm.empty())
@@ -97,6 +137,7 @@ void BiopsyTool::show(const DensitySample& biopsy)
         return;
     }
     panel_.showHistogram(biopsy);
+    drawSampled(SampledBall{biopsy.centre_mm, biopsy.radius_mm});
     QString text = tr("%1 \u00b1 %2 HU within %3 mm")
                        .arg(biopsy.mean_hu, 0, 'f', 0)
                        .arg(biopsy.sd_hu, 0, 'f', 0)
@@ -117,7 +158,7 @@ void BiopsyTool::show(const DensitySample& biopsy)
 
 void BiopsyTool::complete(EndoscopicRequest& request) const
 {
-    if (!circle_)
+    if (!circle_ || !circle_->on_wall)
         return;
     SnapshotRequest& picture = request.snapshot;
     const Lens lens{picture.view_angle_deg, picture.width, picture.height};

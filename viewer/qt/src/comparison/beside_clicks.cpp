@@ -42,10 +42,10 @@ void ComparisonTool::connectLine()
     connect(&reading_, &Reading::lineChanged, this, &ComparisonTool::drawLine);
     connect(view_->endoscopic(), &PictureView::endDragged, this, [this, drag](int end, Pixel at, bool released) {
         const auto scan = reading_.session().sharedBeside();
-        const auto wall =
-            shown_.isOf(scan) ? wallAt(*scan, shown_.place.pose, shown_.lens, at) : std::optional<Point3>();
-        if (wall)
-            drag(end, *wall, true, released);
+        if (!shown_.isOf(scan))
+            return;
+        if (const auto wall = shown_.wallAt(at))
+            drag(end, *wall, !shown_.acquired, released);
     });
     connect(view_->slice(), &SliceView::lineDragged, this,
             [drag](int end, Point3 to, bool released) { drag(end, to, false, released); });
@@ -73,8 +73,8 @@ void ComparisonTool::clicked(Pixel at, Qt::KeyboardModifiers modifiers)
     if (!scan || !shown_.isOf(scan) || !clickableScan())
         return;
     const bool awaited = reading_.interaction().awaitsClick();
-    const auto point = wallAt(*scan, shown_.place.pose, shown_.lens, at);
-    if ((point && reading_.click({*scan, shown_.place, *point, modifiers, true})) || awaited)
+    const auto point = shown_.wallAt(at);
+    if ((point && reading_.click({*scan, shown_.place, *point, modifiers, !shown_.acquired})) || awaited)
         return;
     ScanRequest request;
     request.scan_id = scan->record.id;

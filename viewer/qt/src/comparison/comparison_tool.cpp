@@ -84,7 +84,8 @@ void ComparisonTool::scanOpened(const Arrival& arrival)
     map_.reset();
     came_to_.reset();
     const auto left = std::exchange(left_, {});
-    if (const auto* from = std::get_if<CorrespondingPlace>(&arrival.place); from && left) {
+    if (const auto* from = std::get_if<CorrespondingPlace>(&arrival.place);
+        from && left && haveSamePlaces(*left, *reading_.scan())) {
         const StationInterval place = reading_.session().mapBetween(*left, *reading_.scan()).at(from->station_mm);
         came_to_mm_ = place.station_mm;
         came_to_ = samePlace(tr("same place as %1").arg(left->caption.position.c_str()).toStdString(),
@@ -201,6 +202,14 @@ void ComparisonTool::draw(bool still)
 void ComparisonTool::drawBeside(bool still)
 {
     const auto scan = reading_.session().sharedBeside();
+    if (!haveSamePlaces(*reading_.scan(), *scan)) {
+        compare(false);
+        reading_.warn(
+            tr("No path leads through the %1: the same place of another scan cannot be told.")
+                .arg(QString::fromStdString(
+                    (reading_.scan()->files.hasPath() ? *scan : *reading_.scan()).files.words().organ.name())));
+        return;
+    }
     if (!map_)
         map_ = reading_.session().mapBetween(*reading_.scan(), *scan);
     const StationInterval same = corresponding();
@@ -218,7 +227,7 @@ void ComparisonTool::drawBeside(bool still)
     overview.width = size.width();
     overview.height = size.height();
     if (view_->overview()->height() > 0)
-        reading_.drawing().drawBesideOverview(scan, overview, request.place);
+        reading_.drawing().drawBesideOverview(scan, overview, request.place, still);
     sayPlace(same);
 }
 

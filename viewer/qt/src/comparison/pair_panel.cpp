@@ -18,6 +18,7 @@ constexpr int kLeastPairs = 3;
 
 PairPanel::PairPanel(QWidget* parent) : QWidget(parent)
 {
+    setObjectName("pairPanel");
     table_ = new QTableWidget(0, kPairColumns, this);
     table_->setObjectName("pairs");
     table_->setAccessibleName(tr("Proposed pairs"));

@@ -2,18 +2,42 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "vicon/core/file.h"
+#include "vicon/scan_files/cells_file.h"
 
 namespace vicon::viewer {
 namespace {
 
-constexpr const char* kSearch = "unseen";
+constexpr const char *kSearch = "unseen", *kSum = "reviewed";
 
 /// Two readers of one case each have their own eyes.
 std::filesystem::path fileFor(const std::filesystem::path& scan_folder)
 {
     const std::string name = scan_folder.filename().string() + "-user" + std::to_string(getuid()) + ".seen";
     return scan_folder.parent_path() / "reading" / name;
+}
+
+ReviewedScan reviewedOf(const ScanRecord& scan, const std::vector<std::uint32_t>& triangles, const Coverage& coverage)
+{
+    const std::vector<double> areas_mm2 = unseenAreas_mm2(triangles, coverage);
+    const auto missed =
+        std::count_if(areas_mm2.begin(), areas_mm2.end(), [](double area) { return area >= kMissedRegion_mm2; });
+    return {scan, coverage.seenArea_mm2(), coverage.wholeArea_mm2(), int(missed)};
+}
+
+/// A scan that cannot be read says so; the others are told all the same.
+ReviewedScan reviewedOf(const ScanToReview& which)
+try {
+    if (which.open)
+        return reviewedOf(which.scan, which.open->files.cells().triangles, which.open->coverage.coverage());
+    const CellSurface cells = scan_files::readCells(which.folder / "cells.vtp");
+    ScanCoverage kept(triangleAreas_mm2(cells.points_mm, cells.triangles));
+    CoverageKeeper::restore(kept, which.folder);
+    return reviewedOf(which.scan, cells.triangles, kept.coverage());
+} catch (const std::exception&) {
+    return {which.scan};
 }
 
 }  // namespace
@@ -45,6 +69,19 @@ void CoverageKeeper::findUnseen(std::shared_ptr<OpenScan> scan, double least_mm2
                     emit found(patches, scan);
             };
         });
+}
+
+void CoverageKeeper::sumUp(std::vector<ScanToReview> scans)
+{
+    worker_.giveUp(kSum);
+    worker_.post(kSum, [this, scans = std::move(scans)](Written&, const Progress& wanted) -> Worker::Work {
+        std::vector<ReviewedScan> reviewed;
+        for (const ScanToReview& scan : scans) {
+            wanted.check();
+            reviewed.push_back(reviewedOf(scan));
+        }
+        return [this, reviewed] { emit summedUp(reviewed); };
+    });
 }
 
 void CoverageKeeper::save(std::shared_ptr<OpenScan> scan)

@@ -19,8 +19,6 @@ namespace {
 enum MissedColumn { kMissedPicture, kMissedStation, kMissedSegment, kMissedArea, kMissedColumns };
 constexpr int kLeastRegions = 2, kPicture_px = 56;  // of 96 to the inch
 constexpr double kMostArea_mm2 = 5000;
-// One way of reading ends with the list of what is this large (97.9 % of the wall after 21 s more).
-constexpr double kUsualLeast_mm2 = 300;
 
 }  // namespace
 
@@ -55,7 +53,7 @@ CoveragePanel::CoveragePanel(QWidget* parent) : QWidget(parent)
     least_->setRange(1, kMostArea_mm2);
     least_->setDecimals(0);
     least_->setSuffix(tr(" mm²"));
-    least_->setValue(kUsualLeast_mm2);
+    least_->setValue(kMissedRegion_mm2);
     next_ = named(new QPushButton(tr("Next"), this), "nextMissed", tr("Next missed region"),
                   tr("Fly to the next region that is not reviewed (F3)"));
     list_ = named(new QPushButton(tr("List anew"), this), "listUnseen", tr("List the missed regions"),
@@ -98,6 +96,7 @@ void CoveragePanel::connectAll()
 void CoveragePanel::setStationTip(const QString& tip)
 {
     table_->horizontalHeaderItem(kMissedStation)->setToolTip(tip);
+    table_->setColumnHidden(kMissedStation, tip.isEmpty());
 }
 
 void CoveragePanel::setSeen(double fraction)

@@ -20,7 +20,7 @@ class CoveragePanel : public QWidget {
 public:
     explicit CoveragePanel(QWidget* parent = nullptr);
 
-    /// What the column of distances means.
+    /// What the column of distances means; empty: there are none.
     void setStationTip(const QString& tip);
     void setSeen(double fraction);
     /// Anew, without pictures.

@@ -81,6 +81,7 @@ void CoverageTool::connectDrawing()
                 drawPicture(row.region + 1);
             });
     connect(&keeper_, &CoverageKeeper::failed, &reading_, &Reading::warn);
+    connect(&keeper_, &CoverageKeeper::summedUp, this, &CoverageTool::summedUp);
     connect(&keeper_, &CoverageKeeper::found, this,
             [this](const std::vector<UnseenPatch>& patches, const std::shared_ptr<OpenScan>& scan) {
                 if (scan == reading_.sharedScan())
@@ -101,6 +102,7 @@ void CoverageTool::connectPanel()
             return;
         reading_.scan()->coverage.forget();
         reading_.drawEndoscopic(true);
+        reading_.drawOverview(true);
         showSeen();
         listMissed();
     });
@@ -248,6 +250,7 @@ void CoverageTool::countStill()
         return;
     reading_.scan()->coverage.stillShown(now_s(), ReviewRule().least_s);
     showSeen();
+    reading_.drawOverview(true);
 }
 
 void CoverageTool::showSeen()
@@ -260,6 +263,20 @@ void CoverageTool::showSeen()
     seen_text_->setText(tr("%1 % reviewed").arg(int(fraction * 1000) / 10.0, 0, 'f', 1));
     if (missed_.next() && missed_.tick(seen.coverage()))
         panel_->mark(missed_);
+}
+
+void CoverageTool::sumUp()
+{
+    const CaseSession& session = reading_.session();
+    std::vector<ScanToReview> scans;
+    for (const ScanRecord& scan : session.scans()) {
+        ScanToReview which{scan, session.folderOf(scan.id), {}};
+        for (const auto& open : {reading_.sharedScan(), session.sharedBeside()})
+            if (open && open->record.case_id == scan.case_id && open->record.id == scan.id)
+                which.open = open;
+        scans.push_back(std::move(which));
+    }
+    keeper_.sumUp(std::move(scans));
 }
 
 QString CoverageTool::visitsInWords() const

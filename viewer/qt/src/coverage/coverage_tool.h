@@ -35,8 +35,14 @@ public:
     void complete(EndoscopicRequest& request) const override;
     void stop() override;
 
+    /// What this reader has reviewed of the case's scans, also of those that are not open; summedUp() follows.
+    void sumUp();
+
     /// For the log of the reading: how many regions were listed and looked at.
     QString visitsInWords() const;
+
+signals:
+    void summedUp(const std::vector<vicon::viewer::ReviewedScan>& scans);
 
 private:
     void addActions(ReadingLayout& layout);

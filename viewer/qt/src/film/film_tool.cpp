@@ -29,6 +29,11 @@ void FilmTool::startOrCancel()
         maker_->cancel();
         return;
     }
+    if (!reading_.navigator()->hasPath()) {
+        reading_.say(tr("No path leads through the %1: there is no way to film.")
+                         .arg(QString::fromStdString(reading_.organWords().organ.name())));
+        return;
+    }
     reading_.say(tr("Filming the way from here to the end; you can read on meanwhile"));
     reading_.session().nameFilm();
 }

@@ -1,10 +1,12 @@
 // What the controls, the keys and the mouse do to the flight.
 #include <QAction>
 #include <QKeyEvent>
+#include <cmath>
 
 #include "flight/flight_tool.h"
 #include "flight/navigation_panel.h"
 #include "reading/reading.h"
+#include "vicon/viewer/model/home_place.h"
 #include "window/reading_layout.h"
 
 namespace vicon::viewer {
@@ -27,7 +29,10 @@ void FlightTool::addActions(ReadingLayout& layout)
     });
     add(tr("A centimetre on"), ".", [this] { step(kStep_mm); });
     add(tr("A centimetre back"), ",", [this] { step(-kStep_mm); });
-    add(tr("Jump to a distance"), "J", [this] { panel_->askStation(); });
+    add(tr("Jump to a distance"), "J", [this] {
+        if (!navigator() || hasPath())
+            panel_->askStation();
+    });
     to_first_end_ = add({}, "Home", [this] { goToEnd(Heading::rectum); });
     to_last_end_ = add({}, "End", [this] { goToEnd(Heading::caecum); });
     const auto faster = [this](double by_mm_s) {
@@ -85,6 +90,51 @@ void FlightTool::connectViews()
         keys_.releaseAll();  // a key that is let go elsewhere would steer for ever
         steer();
     });
+}
+
+/// To the place of the way that is nearest in the picture. Where the organ branches, another tool chooses the way.
+void FlightTool::clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers)
+{
+    if (!navigator() || !reading_.shownOverview() || !reading_.scan()->files.tree().empty())
+        return;
+    if (reading_.interaction().inUse<Measure>()) {
+        reading_.warn(tr("The projection has no depth: measure on the wall or in a slice."));
+        return;
+    }
+    if (!navigator()->hasPath()) {
+        clickedCavity(at, modifiers);
+        return;
+    }
+    const PathFrames& path = reading_.scan()->files.frames();
+    double station = 0, least = 1e300;
+    for (double s = 0; s <= path.length_mm(); s += 1) {
+        const Pixel p = reading_.shownOverview()->toPixel(path.at(s).position_mm);
+        if (const double d = std::hypot(p.x - at.x, p.y - at.y); d < least) {
+            least = d;
+            station = s;
+        }
+    }
+    reading_.rememberPlace();
+    if (!reading_.click({*reading_.scan(), reading_.place(), path.at(station).position_mm, modifiers, false}))
+        jumpTo(station);
+}
+
+/// To the place farthest from the wall behind that of the picture, looking as before.
+void FlightTool::clickedCavity(Pixel at, Qt::KeyboardModifiers modifiers)
+{
+    const PlaneView& view = *reading_.shownOverview();
+    const auto place = roomiestAlong(reading_.scan()->lumen, view.pointAt(at), view.forward());
+    if (!place) {
+        reading_.say(tr("The lumen is not there."));
+        return;
+    }
+    reading_.rememberPlace();
+    if (reading_.click({*reading_.scan(), reading_.place(), *place, modifiers, false}))
+        return;
+    const Pose now = navigator()->state().pose;
+    navigator()->lookFrom({*place, now.forward, now.up}, 0);
+    reading_.flewOn();
+    reading_.beginPass();
 }
 
 }  // namespace vicon::viewer

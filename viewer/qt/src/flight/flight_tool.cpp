@@ -82,6 +82,13 @@ void FlightTool::takePlace(const Arrival& arrival, const OpenScan& left)
     const OpenScan& scan = *reading_.scan();
     navigator()->setHeading(left.navigator.heading());
     navigator()->setSpeed(left.navigator.speed_mm_s());
+    if (!haveSamePlaces(left, scan)) {
+        if (std::holds_alternative<SamePlace>(arrival.place))
+            navigator()->lookFrom(left.navigator.state().pose, 0);
+        else
+            takeKeptPlace();
+        return;
+    }
     if (const auto* other = std::get_if<CorrespondingPlace>(&arrival.place))
         navigator()->jumpTo(reading_.session().mapBetween(left, scan).at(other->station_mm).station_mm);
     else if (const auto* same = std::get_if<SamePlace>(&arrival.place))
@@ -115,7 +122,8 @@ QString FlightTool::noticeHere() const
     if (state.carried)
         return tr("collapsed segment: carried along the centreline");
     if (navigator()->mode() == NavigationMode::free && state.clearance_mm < kAtWall_mm)
-        return tr("free, close to the wall: S backs off, P goes back to the centreline");
+        return navigator()->hasPath() ? tr("free, close to the wall: S backs off, P goes back to the centreline")
+                                      : tr("free, close to the wall: let go, and it pushes back");
     return {};
 }
 
@@ -158,9 +166,18 @@ bool FlightTool::waitsForPicture() const
            distance(shown.place.pose.eye_mm, navigator()->state().pose.eye_mm) > kMostAhead_mm;
 }
 
+bool FlightTool::hasPath()
+{
+    if (navigator()->hasPath())
+        return true;
+    reading_.say(tr("No path leads through the %1: it is flown freely; Home shows it from its middle.")
+                     .arg(QString::fromStdString(reading_.organWords().organ.name())));
+    return false;
+}
+
 void FlightTool::setMode(NavigationMode mode)
 {
-    if (!navigator())
+    if (!navigator() || (mode != NavigationMode::free && !hasPath()))
         return;
     navigator()->setMode(mode);
     steer();
@@ -169,7 +186,7 @@ void FlightTool::setMode(NavigationMode mode)
 
 void FlightTool::fly(int direction)
 {
-    if (!navigator())
+    if (!navigator() || !hasPath())
         return;
     if (direction != 0 && navigator()->mode() == NavigationMode::free)
         navigator()->setMode(NavigationMode::planned);  // on along the path from where the eye is
@@ -185,7 +202,7 @@ void FlightTool::fly(int direction)
 
 void FlightTool::turnAbout()
 {
-    if (!navigator())
+    if (!navigator() || !hasPath())
         return;
     reading_.beginPass();
     navigator()->setHeading(navigator()->heading() == Heading::caecum ? Heading::rectum : Heading::caecum);
@@ -217,7 +234,7 @@ void FlightTool::jumpTo(double station_mm)
 
 void FlightTool::lookBack(bool on)
 {
-    if (!navigator())
+    if (!navigator() || !hasPath())
         return;
     if (on && navigator()->mode() != NavigationMode::planned) {
         navigator()->setMode(NavigationMode::planned);
@@ -256,29 +273,6 @@ void FlightTool::steer()
 {
     if (navigator())
         navigator()->steer(keys_.steering(navigator()->mode()));
-}
-
-/// To the place of the way that is nearest in the picture. Where the organ branches, another tool chooses the way.
-void FlightTool::clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers)
-{
-    if (!navigator() || !reading_.shownOverview() || !reading_.scan()->files.tree().empty())
-        return;
-    const PathFrames& path = reading_.scan()->files.frames();
-    double station = 0, least = 1e300;
-    for (double s = 0; s <= path.length_mm(); s += 1) {
-        const Pixel p = reading_.shownOverview()->toPixel(path.at(s).position_mm);
-        if (const double d = std::hypot(p.x - at.x, p.y - at.y); d < least) {
-            least = d;
-            station = s;
-        }
-    }
-    if (reading_.interaction().inUse<Measure>()) {
-        reading_.warn(tr("The projection has no depth: measure on the wall or in a slice."));
-        return;
-    }
-    reading_.rememberPlace();
-    if (!reading_.click({*reading_.scan(), reading_.place(), path.at(station).position_mm, modifiers, false}))
-        jumpTo(station);
 }
 
 }  // namespace vicon::viewer

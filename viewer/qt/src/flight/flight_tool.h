@@ -37,6 +37,8 @@ private:
     void addActions(ReadingLayout& layout);
     void connectPanel();
     void connectViews();
+    void clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers);
+    void clickedCavity(Pixel at, Qt::KeyboardModifiers modifiers);
 
     void takePlace(const Arrival& arrival, const OpenScan& left);
     void takeKeptPlace();
@@ -44,6 +46,8 @@ private:
     bool waitsForPicture() const;
     /// What the reader should know of the eye's place; empty: nothing.
     QString noticeHere() const;
+    /// Where there is none says so.
+    bool hasPath();
     void setMode(NavigationMode mode);
     void fly(int direction);
     void turnAbout();
@@ -55,7 +59,6 @@ private:
     void setSpeed(double mm_s);
     void setAngle(double angle_deg);
     void steer();
-    void clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers);
     Navigator* navigator() const;
 
     ReadingLayout* layout_ = nullptr;

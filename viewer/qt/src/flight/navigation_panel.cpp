@@ -34,6 +34,8 @@ int roomForPlace_px(const QFontMetrics& letters)
 QString wayOfFlight(Heading heading, const OrganWords& words)
 {
     const bool to_last = heading == Heading::caecum;
+    if (!words.has_path)
+        return QObject::tr("No path");
     if (words.organ.isColon())
         return to_last ? QObject::tr("Retrograde") : QObject::tr("Antegrade");
     return QObject::tr("Heading: %1").arg(QString::fromStdString(to_last ? words.last_end : words.first_end));
@@ -172,6 +174,9 @@ void NavigationPanel::show(const Navigator& navigator, double length_mm, const O
     const NavigationState state = navigator.state();
     const bool planned = navigator.mode() == NavigationMode::planned;
     mode_->setCurrentIndex(int(navigator.mode()));
+    for (QWidget* of_path :
+         std::initializer_list<QWidget*>{mode_, back_, stop_, forward_, about_, look_back_, station_, go_})
+        of_path->setEnabled(words.has_path);
     look_back_->setChecked(planned && navigator.looksBack());
     const QString first = QString::fromStdString(words.first_end);
     about_->setText(wayOfFlight(navigator.heading(), words));
@@ -189,7 +194,8 @@ void NavigationPanel::show(const Navigator& navigator, double length_mm, const O
         station_->setValue(state.station_mm);
         shown_station_mm_ = station_->value();
     }
-    where_->setText(placeText(state.station_mm, length_mm, words));
+    where_->setText(words.has_path ? placeText(state.station_mm, length_mm, words)
+                                   : tr("%1 mm from the wall").arg(state.clearance_mm, 0, 'f', 0));
 }
 
 }  // namespace vicon::viewer

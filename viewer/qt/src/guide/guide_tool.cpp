@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char *kWindow = "The window", *kMeasuring = "Measuring", *kMarking = "Markers",
                      *kColon = "Is it the colon?", *kSlices = "Hangings, and slices first", *kFlying = "Fly-through",
-                     *kPanorama = "All of the wall at once";
+                     *kPanorama = "All of the wall at once", *kTogether = "Supine and prone together";
 
 struct Page {
     const char* part;  // the name of a widget, or of one around it
@@ -32,7 +32,9 @@ constexpr std::array kPages{Page{"markerTable", kMarking},
                             Page{"axial", kSlices},
                             Page{"coronal", kSlices},
                             Page{"sagittal", kSlices},
-                            Page{"beside", kWindow},
+                            Page{"across", kSlices},
+                            Page{"pairPanel", kTogether},
+                            Page{"beside", kTogether},
                             Page{"endoscopic", kFlying},
                             Page{"navigation", kFlying}};
 

@@ -47,11 +47,13 @@ QString densityWords(const Marker& marker)
 QString informationOf(const Marker& marker, const QString& scan, const OrganWords& organ)
 {
     const Point3 p = marker.position_mm;
+    const auto from = [&organ](const std::string& end, double mm) {
+        return row(QObject::tr("From the %1").arg(words(end)), organ.has_path ? lengthText(mm) : QString());
+    };
     return "<table>" + row(QObject::tr("Marker"), words(marker.id + ", " + nameOf(marker.color))) +
            row(QObject::tr("Scan"), scan) +
            row(QObject::tr("Segment"), marker.part ? words(nameOf(*marker.part)) : QString()) +
-           row(QObject::tr("From the %1").arg(words(organ.first_end)), lengthText(marker.station_mm)) +
-           row(QObject::tr("From the %1").arg(words(organ.last_end)), lengthText(marker.from_caecum_mm)) +
+           from(organ.first_end, marker.station_mm) + from(organ.last_end, marker.from_caecum_mm) +
            row(QObject::tr("LPS"),
                QObject::tr("%1, %2, %3 mm").arg(p.x, 0, 'f', 1).arg(p.y, 0, 'f', 1).arg(p.z, 0, 'f', 1)) +
            row(QObject::tr("Size"), sizeWords(marker)) + row(QObject::tr("Density"), densityWords(marker)) +

@@ -168,6 +168,7 @@ void MarkerTable::show(const std::vector<Marker>& markers, const std::map<std::s
 void MarkerTable::setStationTip(const QString& tip)
 {
     table_->horizontalHeaderItem(kStation)->setToolTip(tip);
+    table_->setColumnHidden(kStation, tip.isEmpty());
 }
 
 void MarkerTable::setUndo(bool can_undo, bool can_redo)

@@ -23,7 +23,7 @@ public:
 
     /// @param positions of the scans by id: "supine", "prone"
     void show(const std::vector<Marker>& markers, const std::map<std::string, std::string>& positions);
-    /// What the column of distances means.
+    /// What the column of distances means; empty: there are none.
     void setStationTip(const QString& tip);
     void setUndo(bool can_undo, bool can_redo);
     /// Nothing can be changed meanwhile; who had the keyboard gets it back.

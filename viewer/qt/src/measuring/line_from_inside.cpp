@@ -3,20 +3,22 @@
 namespace vicon::viewer {
 namespace {
 
-bool isHidden(const OpenScan& scan, Point3 eye_mm, Point3 end)
+bool isHidden(const ShownPicture& shown, Point3 end)
 {
     constexpr double kBehind_mm = 3;  // of the wall: an end in a slice need not lie on it
+    const Point3 eye_mm = shown.place.pose.eye_mm;
     const double far_mm = distance(eye_mm, end);
-    return far_mm > kBehind_mm &&
-           distanceToWall_mm(scan.lumen, eye_mm, normalized(end - eye_mm), far_mm - kBehind_mm).has_value();
+    if (far_mm <= kBehind_mm)
+        return false;
+    const auto wall_mm = shown.distanceToWall_mm(normalized(end - eye_mm));
+    return wall_mm && *wall_mm + kBehind_mm < far_mm;
 }
 
 bool isSeen(const std::optional<MeasuredLine>& line, const std::shared_ptr<OpenScan>& scan, const ShownPicture& shown)
 {
     if (!line || line->way_mm.empty() || !shown.isOf(scan) || line->scan_id != scan->record.id)
         return false;
-    const Point3 eye_mm = shown.place.pose.eye_mm;
-    return !isHidden(*scan, eye_mm, line->way_mm.front()) || !isHidden(*scan, eye_mm, line->way_mm.back());
+    return !isHidden(shown, line->way_mm.front()) || !isHidden(shown, line->way_mm.back());
 }
 
 }  // namespace

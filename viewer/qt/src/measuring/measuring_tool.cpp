@@ -1,6 +1,7 @@
 #include "measuring/measuring_tool.h"
 
 #include <QMessageBox>
+#include <QPushButton>
 
 #include "measuring/line_from_inside.h"
 #include "reading/reading.h"
@@ -45,8 +46,9 @@ void MeasuringTool::connectViews()
     connect(endoscopic, &PictureView::endDragged, this, [this](int end, Pixel at, bool released) {
         const ShownPicture& picture = reading_.shown();
         if (reading_.scan() && picture.isOf(reading_.sharedScan()))
-            if (const auto wall = wallAt(*reading_.scan(), picture.place.pose, picture.lens, at))
-                emit reading_.lineDragged(end, {*reading_.scan(), picture.place, *wall, {}, true}, released);
+            if (const auto wall = picture.wallAt(at))
+                emit reading_.lineDragged(end, {*reading_.scan(), picture.place, *wall, {}, !picture.acquired},
+                                          released);
     });
     for (SliceView* slice : reading_.views().slices()) {
         connect(&reading_, &Reading::lineChanged, slice, [this, slice] { slice->setLine(reading_.line()); });
@@ -91,7 +93,7 @@ void MeasuringTool::startOutline()
         return;
     reading_.navigator()->fly(0);
     shown_.reset();
-    reading_.begin(OutlinePolyp{}, tr("Outline: click on a polyp, on its wall"));
+    reading_.begin(OutlinePolyp{}, tr("Outline: click on a polyp, on the wall or in a slice; or arrows and Return"));
 }
 
 bool MeasuringTool::act(const ClickMeaning& meaning, const ClickedPoint& point)
@@ -233,7 +235,7 @@ void MeasuringTool::drag(int end, const ClickedPoint& to, bool released)
     if (!shown_ || shown_->way_mm.empty() || shown_->scan_id != to.scan.record.id)
         return;
     if (!to.on_wall)
-        shown_->size.along_mm.reset();  // an end that was dragged in a slice need not lie on the wall
+        shown_->size.along_mm.reset();  // in a slice, or where fluid stands as acquired, an end need not lie on it
     const Point3 other = end == 0 ? shown_->way_mm.back() : shown_->way_mm.front();
     const bool on_wall = shown_->size.along_mm.has_value();
     const Point3 from = end == 0 ? to.at_mm : other, last = end == 0 ? other : to.at_mm;

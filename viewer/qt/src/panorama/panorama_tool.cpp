@@ -132,7 +132,7 @@ void PanoramaTool::scanOpened(const Arrival&)
     cube_->clearPicture(words);
     cube_->setNote({});
     band_->leave(words);
-    const bool one_way = reading_.scan()->files.tree().empty();
+    const bool one_way = reading_.scan()->files.tree().empty() && reading_.scan()->files.hasPath();
     band_on_->setEnabled(one_way);
     if (!one_way)
         band_on_->setChecked(false);
@@ -192,10 +192,13 @@ std::optional<ClickedPoint> PanoramaTool::cubePointAt(Pixel at, Qt::KeyboardModi
     const auto face = layout.faceAt(at);
     if (!shown_cube_.isOf(scan) || !face)
         return std::nullopt;
-    const SnapshotResult from = faceOf(*face, shown_cube_.place);
+    ShownPicture of_face = shown_cube_;
+    of_face.place = faceOf(*face, shown_cube_.place);
+    of_face.lens = layout.lens();
     const Pixel corner = layout.cornerOf(*face);
-    const auto point = wallAt(*scan, from.pose, layout.lens(), {at.x - corner.x, at.y - corner.y});
-    return point ? std::optional(ClickedPoint{*scan, from, *point, modifiers, true}) : std::nullopt;
+    const auto point = of_face.wallAt({at.x - corner.x, at.y - corner.y});
+    return point ? std::optional(ClickedPoint{*scan, of_face.place, *point, modifiers, !of_face.acquired})
+                 : std::nullopt;
 }
 
 void PanoramaTool::clickedCube(Pixel at, Qt::KeyboardModifiers modifiers)
@@ -204,7 +207,7 @@ void PanoramaTool::clickedCube(Pixel at, Qt::KeyboardModifiers modifiers)
         return;
     reading_.rememberPlace();
     if (const auto point = cubePointAt(at, modifiers))
-        clickedWall(point->from, point->at_mm, modifiers);
+        clickedWall(point->from, point->at_mm, modifiers, point->on_wall);
 }
 
 void PanoramaTool::clickedBand(Point3 point, Qt::KeyboardModifiers modifiers)
@@ -217,14 +220,14 @@ void PanoramaTool::clickedBand(Point3 point, Qt::KeyboardModifiers modifiers)
     }
     const OpenScan& scan = *reading_.scan();
     const ViewPose view = poseForPoint(scan.files.skeleton(), scan.files.frames(), scan.lumen, point);
-    clickedWall({view.pose, view.station_mm, view.clearance_mm, view.sees_target}, point, modifiers);
+    clickedWall({view.pose, view.station_mm, view.clearance_mm, view.sees_target}, point, modifiers, true);
 }
 
-void PanoramaTool::clickedWall(const SnapshotResult& from, Point3 point, Qt::KeyboardModifiers modifiers)
+void PanoramaTool::clickedWall(const SnapshotResult& from, Point3 point, Qt::KeyboardModifiers modifiers, bool on_cells)
 {
     const bool measuring = reading_.interaction().inUse<Measure>();
     reading_.rememberPlace();
-    if (!reading_.click({*reading_.scan(), from, point, modifiers, true}) && !measuring)
+    if (!reading_.click({*reading_.scan(), from, point, modifiers, on_cells}) && !measuring)
         reading_.lookAt(point);
 }
 

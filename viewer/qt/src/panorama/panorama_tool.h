@@ -38,7 +38,8 @@ private:
     void clickedCube(Pixel at, Qt::KeyboardModifiers modifiers);
     void clickedBand(Point3 point, Qt::KeyboardModifiers modifiers);
     /// What a click on the wall does, in either view.
-    void clickedWall(const SnapshotResult& from, Point3 point, Qt::KeyboardModifiers modifiers);
+    /// @param on_cells not on the wall as acquired
+    void clickedWall(const SnapshotResult& from, Point3 point, Qt::KeyboardModifiers modifiers, bool on_cells);
 
     PictureView* cube_;
     BandView* band_;

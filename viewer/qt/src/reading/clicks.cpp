@@ -18,6 +18,8 @@ void Reading::toolChanged()
 {
     const bool circling = interaction_.inUse<CircleFinding>();
     views_.endoscopic()->setCircling(circling);
+    for (SliceView* slice : views_.slices())
+        slice->setCircling(circling);
     views_.setPicking(interaction_.awaitsClick());
     emit awaitingClick(interaction_.awaitsClick());
 }
@@ -51,12 +53,15 @@ void Reading::clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers)
         say(tr("The picture of this scan is still to come; click again when it is there."));
         return;
     }
-    const auto point = wallAt(*scan(), shown_.place.pose, shown_.lens, at);
-    if (!point)
+    const auto point = shown_.wallAt(at);
+    if (!point) {
+        if (shown_.acquired)
+            say(tr("As acquired, no wall is seen there; Ctrl+K shows it without fluid and stool."));
         return;
+    }
     const bool measuring = interaction_.inUse<Measure>();
     rememberPlace();
-    click({*scan(), shown_.place, *point, modifiers, true});
+    click({*scan(), shown_.place, *point, modifiers, !shown_.acquired});
     if (measuring)
         return;  // no view moves while a length is measured in it
     looked_at_mm_ = point;

@@ -41,7 +41,7 @@ void Reading::connectSession()
     connect(&drawing_, &DrawingThread::withoutOpenGl, this, [this] {
         warn(
             tr("OpenGL does not work here (its driver in Debian: libgl1-mesa-dri). The view from inside is cast "
-               "through the densities: slower, and what it shows is not counted as seen."));
+               "through the densities: slower, and what it shows does not count as reviewed."));
     });
     connect(&drawing_, &DrawingThread::endoscopicDrawn, this, &Reading::showEndoscopic);
     connect(&drawing_, &DrawingThread::wallShaded, this, [this] { moved(true); });
@@ -59,7 +59,7 @@ void Reading::connectViews()
     connect(views_.endoscopic(), &PictureView::resized, this, [this] { drawEndoscopic(true); });
     connect(views_.endoscopic(), &PictureView::clicked, this, &Reading::clickedEndoscopic);
     connect(views_.endoscopic(), &PictureView::enlargeWanted, this, &Reading::takeBackClick);
-    connect(views_.overview(), &PictureView::resized, this, &Reading::drawOverview);
+    connect(views_.overview(), &PictureView::resized, this, [this] { drawOverview(true); });
     connect(views_.overview(), &PictureView::enlargeWanted, this, &Reading::takeBackClick);
     for (SliceView* slice : views_.slices()) {
         connect(slice, &SliceView::pointClicked, this, &Reading::clickedSlice);
@@ -81,7 +81,9 @@ void Reading::showEndoscopic(const Picture& picture, const ShownPicture& shown)
     sayWhatIsDrawn();
     views_.endoscopic()->setProperty("shaded", shown.shaded);
     views_.endoscopic()->setAccessibleDescription(
-        tr("%1 mm from the %2").arg(shown.place.station_mm, 0, 'f', 0).arg(organWords().first_end.c_str()));
+        organWords().has_path
+            ? tr("%1 mm from the %2").arg(shown.place.station_mm, 0, 'f', 0).arg(organWords().first_end.c_str())
+            : tr("%1 mm from the wall").arg(shown.place.clearance_mm, 0, 'f', 0));
     emit endoscopicShown();
 }
 
@@ -100,7 +102,7 @@ void Reading::moved(bool still)
         tool->draw(still);
     if (!still)
         still_.start();
-    drawOverview();
+    drawOverview(still);
     showPlace();
 }
 
@@ -253,13 +255,13 @@ void Reading::setOverviewTurned(bool on)
         return;
     overview_turned_ = on;
     shown_overview_.reset();
-    drawOverview();
+    drawOverview(true);
 }
 
-void Reading::drawOverview()
+void Reading::drawOverview(bool still)
 {
     if (scan() && !overview_turned_)
-        drawing_.drawOverview(sharedScan(), snapshotOf(*scan(), views_.overview()->pictureSize()), place());
+        drawing_.drawOverview(sharedScan(), snapshotOf(*scan(), views_.overview()->pictureSize()), place(), still);
 }
 
 void Reading::showPlace()

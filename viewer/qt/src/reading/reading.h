@@ -67,6 +67,8 @@ public:
     void drawEndoscopic(bool still);
     /// The projection is drawn by a tool; else from the front.
     void setOverviewTurned(bool on);
+    /// The projection, unless a tool draws it. @param still what was reviewed is painted on it as it is now
+    void drawOverview(bool still);
     /// As soon as nothing has moved for a while everything is drawn smoothly.
     void drawSmoothlySoon() { still_.start(); }
 
@@ -145,7 +147,6 @@ private:
     void centreSlices();
     /// Those of the scan that was read.
     void clearPictures();
-    void drawOverview();
     void sayWhatIsDrawn();
     void showPlace();
     SnapshotRequest snapshotOf(const OpenScan& scan, const QSize& size) const;

@@ -21,7 +21,7 @@ struct ClickedPoint {
     SnapshotResult from;  ///< the view in which it was chosen
     Point3 at_mm;
     Qt::KeyboardModifiers modifiers;
-    bool on_wall = false;  ///< chosen in an endoscopic picture
+    bool on_wall = false;  ///< chosen in an endoscopic picture, and not as acquired
 };
 
 /// One thing that a reader can do: its controls, its actions, what a click means to it, and what it adds to the
@@ -83,9 +83,11 @@ public:
     virtual void stop() {}
 
 protected:
-    /// What a list's column of stations means.
+    /// What a list's column of stations means; empty where there are none.
     static QString stationTip(const OrganWords& words)
     {
+        if (!words.has_path)
+            return {};
         return tr("Distance from the %1 along the %2")
             .arg(QString::fromStdString(words.first_end), QString::fromStdString(words.organ.name()));
     }

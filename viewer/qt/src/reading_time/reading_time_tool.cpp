@@ -52,7 +52,7 @@ bool ReadingTimeTool::eventFilter(QObject*, QEvent* event)
 void ReadingTimeTool::scanOpened(const Arrival&)
 {
     writeLeft();
-    read_s_ = slices_first_s_ = 0;
+    clock_.beginScan();
     active_.start();
     since_tick_.start();
     timer_.start();
@@ -67,11 +67,9 @@ void ReadingTimeTool::stop()
 void ReadingTimeTool::tick()
 {
     const double passed_s = double(since_tick_.restart()) / 1000;
-    if (!QApplication::activeWindow() || active_.hasExpired(kAway_ms))
-        return;
-    read_s_ += passed_s;
-    slices_first_s_ += reading_.views().firstSlice() ? passed_s : 0;
-    text_->setText(minutes(read_s_));
+    const bool reading = QApplication::activeWindow() && !active_.hasExpired(kAway_ms);
+    clock_.pass(passed_s, reading, reading_.views().firstSlice() != nullptr);
+    text_->setText(minutes(clock_.scan_s()));
 }
 
 void ReadingTimeTool::scanLeft()
@@ -79,9 +77,9 @@ void ReadingTimeTool::scanLeft()
     if (!reading_.scan() || !timer_.isActive())
         return;
     tick();
-    if (read_s_ >= kLeastLogged_s)
+    if (clock_.scan_s() >= kLeastLogged_s)
         left_ = Read{reading_.scan()->record.id, tr("%1 min, %2 of it slices first; %3 % of the wall reviewed; %4")
-                                                     .arg(minutes(read_s_), minutes(slices_first_s_))
+                                                     .arg(minutes(clock_.scan_s()), minutes(clock_.slicesFirst_s()))
                                                      .arg(100 * reading_.scan()->coverage.fraction(), 0, 'f', 1)
                                                      .arg(coverage_.visitsInWords())};
 }

@@ -4,6 +4,7 @@
 #include <QTimer>
 
 #include "reading/reading_tool.h"
+#include "vicon/viewer/model/reading_clock.h"
 
 class QLabel;
 
@@ -26,6 +27,9 @@ public:
     void placeShown() override { active_.start(); }
     void stop() override;
 
+    /// How long all scans of the case have been read since its window was opened.
+    double caseRead_s() const { return clock_.case_s(); }
+
 protected:
     bool eventFilter(QObject* object, QEvent* event) override;
 
@@ -43,7 +47,7 @@ private:
     QTimer timer_;
     QElapsedTimer active_, since_tick_;
     std::optional<Read> left_;
-    double read_s_ = 0, slices_first_s_ = 0;
+    ReadingClock clock_;
 };
 
 }  // namespace vicon::viewer

@@ -78,6 +78,12 @@ void ReportForm::build()
     state_->setWordWrap(true);
     all->addWidget(state_);
     all->addWidget(buildScrolled(), 1);
+    missed_ = new QLabel(this);
+    missed_->setObjectName("reportMissed");
+    missed_->setWordWrap(true);
+    missed_->setToolTip(tr("Regions of the wall that you did not review; F3 leads from one to the next"));
+    missed_->hide();
+    all->addWidget(missed_);
     missing_ = new QLabel(this);
     missing_->setObjectName("reportMissing");
     missing_->setWordWrap(true);
@@ -161,8 +167,8 @@ void ReportForm::connectParts()
                         a.extracolonic_category = {extracolonicCategoryFrom(*name), why, proposed};
                 });
             });
-    connect(fill_, &QPushButton::clicked, this, &ReportForm::fillKnown);
-    connect(normal_, &QPushButton::clicked, this, &ReportForm::fillNormal);
+    connect(fill_, &QPushButton::clicked, this, &ReportForm::knownWanted);
+    connect(normal_, &QPushButton::clicked, this, &ReportForm::normalWanted);
     connect(accept_, &QPushButton::clicked, this,
             [this] { emit said([this, read = page_.read](Assessment& a) { acceptCategories(a, read); }); });
     connect(preview_, &QPushButton::clicked, this, &ReportForm::previewWanted);
@@ -178,22 +184,22 @@ void ReportForm::acceptCategories(Assessment& said, const ReadCase& read) const
     accept(said.extracolonic_category, read.extracolonic_proposal);
 }
 
-KnownStudy ReportForm::known() const
+KnownStudy ReportForm::knownWith(const ReaderWork& work) const
 {
     KnownStudy known = page_.known;
-    if (seen_)
-        seen_(known);
+    known.reading_minutes = work.minutes;
+    known.coverage_percent = work.coverage_percent;
     return known;
 }
 
-void ReportForm::fillKnown()
+void ReportForm::fillKnown(const ReaderWork& work)
 {
-    emit said([known = known()](Assessment& a) { fillIn(a, known); });
+    emit said([known = knownWith(work)](Assessment& a) { fillIn(a, known); });
 }
 
-void ReportForm::fillNormal()
+void ReportForm::fillNormal(const ReaderWork& work)
 {
-    emit said([this, read = page_.read, known = known()](Assessment& a) {
+    emit said([this, read = page_.read, known = knownWith(work)](Assessment& a) {
         fillAsNormal(a, texts_);  // the site's words go before those of the images
         fillIn(a, known);
         acceptCategories(a, read);
@@ -259,6 +265,12 @@ void ReportForm::setBusy(bool busy)
         showState(page_);
 }
 
+void ReportForm::setMissed(const QString& words)
+{
+    missed_->setText(words);
+    missed_->setVisible(!words.isEmpty());
+}
+
 void ReportForm::setDelivery(const QString& brief)
 {
     if (page_.read.record.id.empty() || brief.toStdString() == page_.delivery)
@@ -289,6 +301,8 @@ QString ReportForm::summary() const
         loose << QString::fromStdString(marker);
     if (!loose.isEmpty())
         lines << tr("Markers not assigned to a finding: %1.").arg(loose.join(", "));
+    if (!missed_->text().isEmpty())
+        lines << QString() << missed_->text();
     lines << QString() << tr("After this it can only be amended.");
     return lines.join("\n");
 }

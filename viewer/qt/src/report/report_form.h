@@ -3,6 +3,7 @@
 #include <QWidget>
 #include <functional>
 
+#include "report/reader_work.h"
 #include "report/report_books.h"
 #include "vicon/cases/report_texts.h"
 
@@ -34,13 +35,19 @@ public:
     void commit();
     /// What would be signed, in words.
     QString summary() const;
-    /// What this reader's work adds to what is known: how long it took, what of the wall was seen.
-    void setSeen(std::function<void(KnownStudy&)> seen) { seen_ = std::move(seen); }
+    /// What of the wall was missed, a line each scan; it is said before a signature, too.
+    void setMissed(const QString& words);
+    /// What is known of the study and of this reader's work, where nothing was said yet.
+    void fillKnown(const ReaderWork& work);
+    /// The same, what the site says of a study without findings, and the categories as proposed.
+    void fillNormal(const ReaderWork& work);
     /// The keyboard goes to the first control.
     void takeKeyboard();
 
 signals:
     void said(const std::function<void(vicon::Assessment&)>& change);
+    void knownWanted();
+    void normalWanted();
     void previewWanted();
     void textWanted();
     void signWanted();
@@ -58,17 +65,14 @@ private:
     void buildButtons(QVBoxLayout* below);
     void connectParts();
     void acceptCategories(Assessment& said, const ReadCase& read) const;
-    KnownStudy known() const;
-    void fillKnown();
-    void fillNormal();
+    KnownStudy knownWith(const ReaderWork& work) const;
     void orderTabs();
     void showState(const ReportPage& page);
 
     const ReportTexts texts_;
     ReportPage page_;
-    std::function<void(KnownStudy&)> seen_;
     bool busy_ = false;
-    QLabel *state_, *missing_;
+    QLabel *state_, *missed_, *missing_;
     FindingsPart* findings_;
     ExtracolonicPart* extracolonic_;
     CategoryPart *colon_, *outside_;

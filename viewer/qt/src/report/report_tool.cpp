@@ -6,9 +6,11 @@
 #include <QInputDialog>
 #include <QMessageBox>
 #include <QPushButton>
-#include <cmath>
+#include <utility>
 
+#include "coverage/coverage_tool.h"
 #include "reading/reading.h"
+#include "reading_time/reading_time_tool.h"
 #include "report/findings_part.h"
 #include "report/report_form.h"
 #include "report/report_preview.h"
@@ -17,32 +19,35 @@
 
 namespace vicon::viewer {
 
-ReportTool::ReportTool(Reading& reading, const ReadingServices& services, const std::string& case_id)
-    : ReadingTool(reading), books_(services, case_id, this), form_(new ReportForm(services.reporting.texts))
+ReportTool::ReportTool(Reading& reading, const ReadingServices& services, const std::string& case_id,
+                       CoverageTool& coverage, const ReadingTimeTool& time)
+    : ReadingTool(reading),
+      coverage_(coverage),
+      time_(time),
+      books_(services, case_id, this),
+      form_(new ReportForm(services.reporting.texts))
 {
-    reading_time_.start();
     constexpr int kLookAtDelivery_ms = 1000;
     delivery_.setInterval(kLookAtDelivery_ms);
     connect(&delivery_, &QTimer::timeout, this, [this] {
         if (dock_->isVisible())
             books_.lookAtDelivery();
     });
-    form_->setSeen([this](KnownStudy& known) { addSeen(known); });
+    connect(&coverage_, &CoverageTool::summedUp, this, &ReportTool::workKnown);
 }
 
-void ReportTool::addSeen(KnownStudy& known) const
+void ReportTool::whenWorkIsKnown(UseWork use)
 {
-    constexpr double kMillisecondsPerMinute = 60'000;
-    const auto tenths = [](double value) { return std::round(value * 10) / 10; };
-    known.reading_minutes = std::max(0.1, tenths(double(reading_time_.elapsed()) / kMillisecondsPerMinute));
-    double seen_mm2 = 0, whole_mm2 = 0;
-    for (const auto& scan : {reading_.session().sharedScan(), reading_.session().sharedBeside()})
-        if (scan && scan->coverage.fraction() > 0) {
-            seen_mm2 += scan->coverage.seenArea_mm2();
-            whole_mm2 += scan->coverage.seenArea_mm2() / scan->coverage.fraction();
-        }
-    if (whole_mm2 > 0)
-        known.coverage_percent = std::max(0.1, tenths(100 * seen_mm2 / whole_mm2));
+    waiting_.push_back(std::move(use));
+    coverage_.sumUp();
+}
+
+void ReportTool::workKnown(const std::vector<ReviewedScan>& scans)
+{
+    const ReaderWork work = readerWork(scans, time_.caseRead_s());
+    form_->setMissed(work.missed);
+    for (const UseWork& use : std::exchange(waiting_, {}))
+        use(work);
 }
 
 void ReportTool::addTo(ReadingLayout& layout)
@@ -83,7 +88,14 @@ void ReportTool::connectForm()
         reading_.say(tr("Drawing the pages ..."));
         books_.makePdf();
     });
-    connect(form_, &ReportForm::signWanted, this, &ReportTool::confirmSigning);
+    connect(form_, &ReportForm::knownWanted, this,
+            [this] { whenWorkIsKnown([this](const ReaderWork& work) { form_->fillKnown(work); }); });
+    connect(form_, &ReportForm::normalWanted, this,
+            [this] { whenWorkIsKnown([this](const ReaderWork& work) { form_->fillNormal(work); }); });
+    connect(form_, &ReportForm::signWanted, this, [this] {
+        form_->commit();
+        whenWorkIsKnown([this](const ReaderWork& work) { confirmSigning(work); });
+    });
     connect(form_, &ReportForm::amendWanted, this, &ReportTool::askWhyAmend);
     connect(form_, &ReportForm::cancelWanted, &books_, &ReportBooks::cancelAmendment);
     connect(form_, &ReportForm::leaveWanted, this, &ReportTool::leave);
@@ -152,6 +164,7 @@ void ReportTool::toggle()
     }
     dock_->show();
     books_.refresh();
+    coverage_.sumUp();
     form_->takeKeyboard();
 }
 
@@ -185,12 +198,15 @@ void ReportTool::drawFinding(const QString& finding, const QStringList& markers)
         }
 }
 
-void ReportTool::confirmSigning()
+void ReportTool::confirmSigning(const ReaderWork& work)
 {
-    form_->commit();
-    auto* box = new QMessageBox(QMessageBox::Question, tr("Sign the report"), form_->summary(), QMessageBox::Cancel,
-                                form_->window());
-    box->setObjectName("confirmSigning");
+    constexpr const char* kName = "confirmSigning";
+    if (form_->window()->findChild<QMessageBox*>(kName))
+        return;  // it was pressed twice
+    const QString question = work.complete ? form_->summary() : form_->summary() + tr("\nSign it all the same?");
+    auto* box =
+        new QMessageBox(QMessageBox::Question, tr("Sign the report"), question, QMessageBox::Cancel, form_->window());
+    box->setObjectName(kName);
     box->setAttribute(Qt::WA_DeleteOnClose);
     QPushButton* sign = box->addButton(tr("Sign"), QMessageBox::AcceptRole);
     sign->setObjectName("confirmSign");

@@ -1,22 +1,26 @@
 #pragma once
 
-#include <QElapsedTimer>
 #include <QTimer>
 
 #include "reading/reading_tool.h"
+#include "report/reader_work.h"
 #include "report/report_books.h"
 
 class QDockWidget;
 
 namespace vicon::viewer {
 
+class CoverageTool;
+class ReadingTimeTool;
 class ReportForm;
 
 /// The case's report: its form beside the views, its pages, its signature.
 class ReportTool : public ReadingTool {
     Q_OBJECT
 public:
-    ReportTool(Reading& reading, const ReadingServices& services, const std::string& case_id);
+    /// @param coverage, time what this reader's work says; must outlive it
+    ReportTool(Reading& reading, const ReadingServices& services, const std::string& case_id, CoverageTool& coverage,
+               const ReadingTimeTool& time);
 
     void addTo(ReadingLayout& layout) override;
     void useWords(const OrganWords& words) override;
@@ -32,19 +36,23 @@ private:
     void leave();
     /// Of the first of these markers whose scan is open.
     void drawFinding(const QString& finding, const QStringList& markers);
-    /// Adds what this reader's work says.
-    void addSeen(KnownStudy& known) const;
-    void confirmSigning();
+    /// What this reader's work says is counted first: of scans that are not open, too.
+    using UseWork = std::function<void(const ReaderWork&)>;
+    void whenWorkIsKnown(UseWork use);
+    void workKnown(const std::vector<ReviewedScan>& scans);
+    void confirmSigning(const ReaderWork& work);
     void askWhyAmend();
     void preview(const QByteArray& pdf);
 
+    CoverageTool& coverage_;
+    const ReadingTimeTool& time_;
     ReportBooks books_;
     ReportForm* form_;
     QDockWidget* dock_ = nullptr;
     bool has_report_ = true;
-    QElapsedTimer reading_time_;  ///< since the case was opened
-    QTimer delivery_;             ///< while the form is there: what the PACS has
-    std::string shown_marker_;    ///< the one that was gone to last
+    std::vector<UseWork> waiting_;  ///< until it is known
+    QTimer delivery_;               ///< while the form is there: what the PACS has
+    std::string shown_marker_;      ///< the one that was gone to last
 };
 
 }  // namespace vicon::viewer

@@ -75,7 +75,7 @@ void StudyPart::addFigures()
         });
     };
     add("dose", tr("Dose"), 100'000, tr(" mGy cm"), &Assessment::dose_mgy_cm);
-    add("coverage", tr("Wall seen"), 100, tr(" %"), &Assessment::coverage_percent);
+    add("coverage", tr("Wall reviewed"), 100, tr(" %"), &Assessment::coverage_percent);
     add("minutes", tr("Reading time"), 1000, tr(" min"), &Assessment::reading_minutes);
 }
 

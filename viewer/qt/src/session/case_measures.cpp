@@ -57,7 +57,7 @@ void CaseSession::outlinePolyp(const std::string& scan_id, Point3 at)
     });
 }
 
-void CaseSession::takeBiopsy(Point3 centre, double radius_mm, const CircledWall& wall)
+void CaseSession::takeBiopsy(Point3 centre, double radius_mm, const std::optional<CircledWall>& wall)
 {
     loader_.post(kBiopsy, [this, scan = scan_, centre, radius_mm, wall]() -> Worker::Work {
         const DensitySample biopsy = sampleDensity(scan->files.volume(), scan->files.inside(), centre, radius_mm, wall);

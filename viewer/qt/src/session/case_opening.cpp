@@ -94,6 +94,12 @@ std::optional<CaseSession::ScanFiles> CaseSession::filesOf(const std::string& sc
     return std::nullopt;
 }
 
+std::filesystem::path CaseSession::folderOf(const std::string& scan_id) const
+{
+    const auto files = filesOf(scan_id);
+    return files ? files->folder : std::filesystem::path();
+}
+
 /// While the first pictures are drawn, not before them. What cannot be read is said where it is looked at.
 void CaseSession::readOn(const PreparedScan& files)
 {
@@ -136,7 +142,7 @@ void CaseSession::load(const std::string& work, const ScanFiles& files, int bran
             CoverageKeeper::restore(made->coverage, folder);
             readOn(files);
             for (const auto& other : others)
-                if (other && other->record.id != made->record.id && (!stop || !*stop))
+                if (other && other->record.id != made->record.id && haveSamePlaces(*other, *made) && (!stop || !*stop))
                     maps_.between(*other, *made);
             return [made, then, stop] {
                 if (!stop || !*stop)

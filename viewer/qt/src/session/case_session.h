@@ -35,6 +35,8 @@ public:
     const CaseRecord& record() const { return row_.record; }
     /// Those that can be shown: their jobs are done and found a colon.
     const std::vector<ScanRecord>& scans() const { return scans_; }
+    /// Where the files of one of them lie.
+    std::filesystem::path folderOf(const std::string& scan_id) const;
     /// As the worklist shows the case by now. Returns the scans that can be shown since.
     std::vector<ScanRecord> renew(const WorklistCase& row);
     const std::vector<Marker>& markers() const { return markers_; }
@@ -59,6 +61,7 @@ public:
     OpenScan* beside() const { return beside_.get(); }
     std::shared_ptr<OpenScan> sharedBeside() const { return beside_; }
     /// The stations of one open scan in another of the same patient.
+    /// Only where haveSamePlaces().
     StationMap mapBetween(const OpenScan& from, const OpenScan& to) { return maps_.between(from, to); }
     OpenScan* scan() const { return scan_.get(); }
     std::shared_ptr<OpenScan> sharedScan() const { return scan_; }
@@ -92,10 +95,11 @@ public:
     void log(const std::string& event, const std::string& scan_id, const QString& words);
     /// Between two points of the wall of a scan that is open, seen from `eye`; measured() follows, or warned().
     void measure(const std::string& scan_id, Point3 from, Point3 to, Point3 eye);
-    /// The polyp of the wall of a scan that is open under a point; outlined() follows, or warned().
+    /// The polyp of a scan that is open under a point of the wall or around one in its tissue; outlined() follows.
     void outlinePolyp(const std::string& scan_id, Point3 at);
-    /// Of the open scan's tissue around a point below a circled wall; biopsied() follows, or warned().
-    void takeBiopsy(Point3 centre, double radius_mm, const CircledWall& wall);
+    /// Of the open scan's tissue around a point, below a circled wall where there is one; biopsied() follows, or
+    /// warned().
+    void takeBiopsy(Point3 centre, double radius_mm, const std::optional<CircledWall>& wall);
     /// What was measured of a marker of a scan that is open, as a picture; measuresDrawn() follows where there is any.
     void drawMeasures(const Marker& marker, int side_px);
     /// Keeps a picture in the case's folder, "pictures/1.png" and on.

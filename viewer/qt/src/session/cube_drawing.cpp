@@ -67,11 +67,12 @@ Worker::Work DrawingThread::finished(const std::shared_ptr<Cube>& cube)
     const SnapshotRequest& snapshot = cube->request.snapshot;
     paint(cube->picture, cubeOverlay(cube->scan->files, snapshot, cube->request.place));
     const Lens lens{snapshot.view_angle_deg, snapshot.width, snapshot.height};
-    return [this, cube, shown = ShownPicture{cube->scan, cube->request.place, lens}] {
-        if (cube->request.count_seen)
-            emit seenChanged();
-        emit cubeDrawn(cube->picture, shown);
-    };
+    return
+        [this, cube, shown = ShownPicture{cube->scan, cube->request.place, lens, {}, false, snapshot.wall.acquired}] {
+            if (cube->request.count_seen)
+                emit seenChanged();
+            emit cubeDrawn(cube->picture, shown);
+        };
 }
 
 }  // namespace vicon::viewer

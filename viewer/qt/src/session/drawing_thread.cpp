@@ -3,12 +3,32 @@
 #include <thread>
 #include <utility>
 
+#include "vicon/viewer/model/acquired_wall.h"
+
 namespace vicon::viewer {
 namespace {
 // Counting costs as much as drawing; at the fastest flight of 100 mm/s the eye moves a centimetre meanwhile.
 constexpr std::chrono::milliseconds kBetweenCounts(100);
 constexpr std::chrono::milliseconds kBetweenLooks(1);
+constexpr double kReach_mm = 500;  // of a click into the endoscopic view
 }  // namespace
+
+std::optional<Point3> ShownPicture::wallAt(Pixel at) const
+{
+    const Vector3 ray = rayThrough(place.pose, lens, at);
+    const auto far_mm = distanceToWall_mm(ray);
+    return far_mm ? std::optional(place.pose.eye_mm + ray * *far_mm) : std::nullopt;
+}
+
+std::optional<double> ShownPicture::distanceToWall_mm(Vector3 ray) const
+{
+    const auto of = scan.lock();
+    if (!of)
+        return std::nullopt;
+    const Point3 eye_mm = place.pose.eye_mm;
+    return acquired ? distanceToAcquiredWall_mm(of->files.volume(), of->lumen, eye_mm, ray, kReach_mm)
+                    : viewer::distanceToWall_mm(of->lumen, eye_mm, ray, kReach_mm);
+}
 
 DrawingThread::DrawingThread(QObject* parent) : QObject(parent)
 {
@@ -109,9 +129,8 @@ void DrawingThread::draw(Which which, std::shared_ptr<OpenScan> scan, const Endo
             const Lens lens{snapshot.view_angle_deg, snapshot.width, snapshot.height};
             const auto signal = which == Which::leading ? &DrawingThread::endoscopicDrawn : &DrawingThread::besideDrawn;
             return [this, picture, signal,
-                    shown = ShownPicture{scan, request.place, lens, request.snapshot.peel.preset, shaded}] {
-                emit(this->*signal)(*picture, shown);
-            };
+                    shown = ShownPicture{scan, request.place, lens, request.snapshot.peel.preset, shaded,
+                                         request.snapshot.wall.acquired}] { emit(this->*signal)(*picture, shown); };
         });
 }
 
@@ -170,22 +189,23 @@ void DrawingThread::film(std::shared_ptr<OpenScan> scan, const EndoscopicRequest
 }
 
 void DrawingThread::drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
-                                 const SnapshotResult& place)
+                                 const SnapshotResult& place, bool still)
 {
-    drawOverview("overview", std::move(scan), request, place);
+    drawOverview("overview", std::move(scan), request, place, still);
 }
 
 void DrawingThread::drawBesideOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
-                                       const SnapshotResult& place)
+                                       const SnapshotResult& place, bool still)
 {
-    drawOverview("overview beside", std::move(scan), request, place);
+    drawOverview("overview beside", std::move(scan), request, place, still);
 }
 
 void DrawingThread::drawOverview(const std::string& work, std::shared_ptr<OpenScan> scan,
-                                 const SnapshotRequest& request, const SnapshotResult& place)
+                                 const SnapshotRequest& request, const SnapshotResult& place, bool still)
 {
-    worker_.post(work, [this, scan = std::move(scan), request, place](AllPictures& all) -> Worker::Work {
-        auto drawn = std::make_shared<ReadingPictures::Overview>(picturesOf(all, scan).overview(request, place));
+    worker_.post(work, [this, scan = std::move(scan), request, place, still](AllPictures& all) -> Worker::Work {
+        auto drawn = std::make_shared<ReadingPictures::Overview>(
+            picturesOf(all, scan).overview(request, place, &scan->coverage, still));
         return [this, drawn, scan] { emit overviewDrawn(drawn->picture, drawn->view, scan); };
     });
 }

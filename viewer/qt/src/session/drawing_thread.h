@@ -38,7 +38,12 @@ struct ShownPicture {
     Lens lens;
     std::string peel = {};  ///< the look below the wall; empty: none
     bool shaded = false;    ///< with the ambient occlusion that was asked for; it comes a little later than the first
+    bool acquired = false;  ///< the wall as acquired: fluid and stool stand
 
+    /// The place on the wall that a pixel shows: on the one that the picture was made of. Nothing where it shows none.
+    std::optional<Point3> wallAt(Pixel at) const;
+    /// The same from the picture's eye along a ray, as a distance.
+    std::optional<double> distanceToWall_mm(Vector3 ray) const;
     bool isOf(const std::shared_ptr<OpenScan>& which) const { return which && scan.lock() == which; }
 };
 
@@ -58,10 +63,12 @@ public:
     void drawEndoscopic(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
     /// The same of the other scan; besideDrawn() follows.
     void drawBeside(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
-    void drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place);
+    /// @param still what was reviewed is painted as it is now
+    void drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place,
+                      bool still);
     /// The same of the other scan; overviewDrawn() follows, of it.
-    void drawBesideOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
-                            const SnapshotResult& place);
+    void drawBesideOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request, const SnapshotResult& place,
+                            bool still);
     /// All around the eye, face by face, so that the other pictures do not wait for all six; cubeDrawn() follows unless
     /// another cube is asked for meanwhile.
     void drawCube(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
@@ -110,7 +117,7 @@ private:
     Worker::Work finished(const std::shared_ptr<Cube>& cube);
     void draw(Which which, std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
     void drawOverview(const std::string& work, std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
-                      const SnapshotResult& place);
+                      const SnapshotResult& place, bool still);
     ReadingPictures& picturesOf(AllPictures& all, const std::shared_ptr<OpenScan>& scan);
     /// In the picture drawn last; while moving not in every one.
     /// False where that was done a moment ago.

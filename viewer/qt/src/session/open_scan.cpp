@@ -9,11 +9,11 @@
 namespace vicon::viewer {
 namespace {
 
-constexpr double kReach_mm = 500;  // of a click into the endoscopic view
-
 /// The saved one, unless the path was made anew meanwhile and runs elsewhere there.
 double stationOf(const OpenScan& scan, const SavedView& view)
 {
+    if (!scan.files.hasPath())
+        return 0;
     constexpr double kOtherPath_mm = 20;  // a colon's radius; a piece of it that was added or dropped is longer
     const SkeletonFoot nearest = scan.files.skeleton().nearest(view.pose.eye_mm);
     const double off_mm = distance(scan.files.frames().at(view.station_mm).position_mm, view.pose.eye_mm);
@@ -48,9 +48,14 @@ OpenScan::OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseReco
       caption(unnamed(captionFor(a_case, scan))),
       saved_caption(captionFor(a_case, scan)),
       lumen(files.lumen()),
-      navigator(files.frames(), lumen, files.exitDistance()),
+      navigator(files.frames(), lumen, files.hasPath() ? std::optional(files.exitDistance()) : std::nullopt),
       coverage(triangleAreas_mm2(files.cells().points_mm, files.cells().triangles))
 {
+}
+
+bool haveSamePlaces(const OpenScan& a, const OpenScan& b)
+{
+    return a.navigator.hasPath() && b.navigator.hasPath();
 }
 
 std::filesystem::file_time_type madeAt(const std::filesystem::path& folder)
@@ -69,13 +74,6 @@ ViewPose viewOfMarker(const OpenScan& scan, const Marker& marker)
     if (const auto saved = savedView(marker); saved && scan.lumen.inside(saved->pose.eye_mm))
         return {saved->pose, stationOf(scan, *saved), scan.lumen.clearance_mm(saved->pose.eye_mm), true};
     return poseForPoint(scan.files.skeleton(), scan.files.frames(), scan.lumen, marker.position_mm);
-}
-
-std::optional<Point3> wallAt(const OpenScan& scan, const Pose& from, const Lens& lens, Pixel at)
-{
-    const Vector3 ray = rayThrough(from, lens, at);
-    const auto far = distanceToWall_mm(scan.lumen, from.eye_mm, ray, kReach_mm);
-    return far ? std::optional(from.eye_mm + ray * *far) : std::nullopt;
 }
 
 }  // namespace vicon::viewer

@@ -29,6 +29,9 @@ struct OpenScan {
     QString inWords() const;
 };
 
+/// Whether a place of the one scan has a corresponding place in the other: a path leads through both.
+bool haveSamePlaces(const OpenScan& a, const OpenScan& b);
+
 /// When the files of a scan were made; what is open may be older.
 std::filesystem::file_time_type madeAt(const std::filesystem::path& folder);
 
@@ -39,9 +42,5 @@ Point3 placeInSlices(const OpenScan& scan, const NavigationState& state);
 /// The view that was saved with a marker of this scan; where there is none or the eye would be in the wall: one that
 /// shows its place.
 ViewPose viewOfMarker(const OpenScan& scan, const Marker& marker);
-
-/// The place on the wall that a pixel of an endoscopic picture shows.
-/// @param from where the picture was made from
-std::optional<Point3> wallAt(const OpenScan& scan, const Pose& from, const Lens& lens, Pixel at);
 
 }  // namespace vicon::viewer

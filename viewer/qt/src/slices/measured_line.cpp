@@ -29,6 +29,15 @@ void addRim(Calliper& calliper, const std::vector<Point3>& rim_mm, ToPicture toP
 
 }  // namespace
 
+std::optional<PictureCircle> inSlice(const SampledBall& ball, const PlaneView& view)
+{
+    const double depth_mm = view.depth_mm(ball.centre_mm),
+                 squared = ball.radius_mm * ball.radius_mm - depth_mm * depth_mm;
+    if (squared <= 0)
+        return std::nullopt;
+    return PictureCircle{view.toPixel(ball.centre_mm), std::sqrt(squared) / view.mm_per_pixel};
+}
+
 std::optional<Calliper> inSlice(const MeasuredLine& line, const PlaneView& view, const Grid& grid)
 {
     if (line.way_mm.empty())

@@ -8,6 +8,7 @@
 #include "vicon/core/volume.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/cube.h"
+#include "vicon/viewer/model/peeling.h"
 #include "widgets/calliper.h"
 
 namespace vicon::viewer {
@@ -19,6 +20,15 @@ struct MeasuredLine {
     QString text;
     std::vector<Point3> rim_mm;  ///< of an outlined polyp, around it
 };
+
+/// Where a density was taken.
+struct SampledBall {
+    Point3 centre_mm;
+    double radius_mm = 0;
+};
+
+/// The circle in which a slice cuts the ball; nothing where it does not.
+std::optional<PictureCircle> inSlice(const SampledBall& ball, const PlaneView& view);
 
 /// The line where a slice passes within 5 mm of one of its ends or between them. An end is drawn as such, and can be
 /// dragged, where it lies within half a voxel of the slice; a line that leaves the slice is dashed, from end to end.

@@ -42,14 +42,7 @@ void SliceTool::addTo(ReadingLayout& layout)
         for (SliceView* slice : reading_.views().slices())
             slice->setPixelForPixel();
     });
-    // Off whenever a case is opened: what is read first is what was acquired.
-    const QAction* cleansed =
-        layout.addSwitch(ReadingMenu::slices, tr("Without tagging (cleansed)"), QKeySequence("K"));
-    connect(cleansed, &QAction::toggled, this, [this](bool on) {
-        for (SliceView* slice : reading_.views().slices())
-            slice->setCleansed(on);
-        emit reading_.cleansedChanged(on);
-    });
+    addCleansed(layout);
     addKeys(layout);
     connect(window_, &QComboBox::currentTextChanged, this, [this](const QString& name) {
         if (name != kByHand)
@@ -57,6 +50,50 @@ void SliceTool::addTo(ReadingLayout& layout)
     });
     connect(&reading_, &Reading::windowDragged, this, &SliceTool::dragWindow);
     connect(&reading_, &Reading::trackWanted, this, &SliceTool::track);
+}
+
+// Off whenever a case is opened: what is read first is what was acquired.
+void SliceTool::addCleansed(ReadingLayout& layout)
+{
+    cleansed_ = layout.addSwitch(ReadingMenu::slices, tr("Without tagging (cleansed)"), QKeySequence("K"));
+    cleansed_->setObjectName("cleansed");
+    connect(cleansed_, &QAction::toggled, this, [this](bool on) {
+        if (on && measures()) {
+            showAcquired();
+            return;
+        }
+        for (SliceView* slice : reading_.views().slices())
+            slice->setCleansed(on);
+        emit reading_.cleansedChanged(on);
+    });
+    connect(&reading_, &Reading::lineDragged, this, [this](int, const ClickedPoint& to) {
+        if (!to.on_wall)
+            showAcquired();
+    });
+}
+
+bool SliceTool::measures() const
+{
+    const Interaction& next = reading_.interaction();
+    return next.inUse<Measure>() || next.inUse<OutlinePolyp>() || next.inUse<CircleFinding>();
+}
+
+void SliceTool::nextClickChanged()
+{
+    if (measures())
+        showAcquired();
+}
+
+void SliceTool::showAcquired()
+{
+    if (!cleansed_->isChecked())
+        return;
+    cleansed_->setChecked(false);
+    const auto was = [](const OpenScan* scan) { return scan && scan->files.canBeCleansed(); };
+    if (was(reading_.scan()) || was(reading_.session().beside()))
+        reading_.warn(
+            tr("The slices show the densities as acquired again: these are measured. K shows them cleansed, "
+               "after measuring."));
 }
 
 void SliceTool::addKeys(ReadingLayout& layout)
@@ -171,9 +208,14 @@ void SliceTool::track(Vector3 across, int slices)
     Navigator* navigator = reading_.navigator();
     if (!navigator)
         return;
-    navigator->setMode(NavigationMode::planned);
     const auto& spacing = reading_.scan()->files.volume().grid.spacing_mm;
     const double slice_mm = *std::min_element(spacing.begin(), spacing.end());
+    if (!navigator->hasPath()) {  // straight on, as far as the wall lets it
+        navigator->moveBy(across * (slice_mm * slices));
+        reading_.flewOn();
+        return;
+    }
+    navigator->setMode(NavigationMode::planned);
     const int sign = navigator->heading() == Heading::caecum ? 1 : -1;
     const double here = navigator->state().station_mm;
     const double there = stationSlicesOn(reading_.scan()->files.frames(), here, across, slice_mm, slices * sign);

@@ -19,6 +19,8 @@ public:
 
     void addTo(ReadingLayout& layout) override;
     void useWords(const OrganWords& words) override;
+    /// What is measured is measured as acquired.
+    void nextClickChanged() override;
 
     /// As the reader chose it. The organ may lack the window's name: its default is shown then, or, of a window set by
     /// hand, its numbers.
@@ -29,6 +31,9 @@ private:
     static constexpr int kFirstKey = 4, kLastKey = 9;  // 1 to 3 are markers
 
     void addKeys(ReadingLayout& layout);
+    void addCleansed(ReadingLayout& layout);
+    bool measures() const;
+    void showAcquired();
     void choose(const WindowLevel& window);
     void dragWindow(QPointF by);
     void nextThickness();
@@ -38,7 +43,7 @@ private:
     WindowLevel presetOf(const QString& name) const;
 
     QComboBox* window_;  // and level
-    QAction* tracks_ = nullptr;
+    QAction *tracks_ = nullptr, *cleansed_ = nullptr;
     std::array<QAction*, kLastKey - kFirstKey + 1> keys_{};  // of the windows in their order
     std::vector<WindowLevel> presets_;
     SliceLook wanted_;

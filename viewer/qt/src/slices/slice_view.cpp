@@ -1,9 +1,11 @@
 #include "slices/slice_view.h"
 
+#include <QMouseEvent>
 #include <algorithm>
 #include <cmath>
 
 #include "vicon/viewer/model/slice_image.h"
+#include "vicon/viewer/model/thick_slice.h"
 #include "vicon/viewer/model/tracked_lumen.h"
 
 namespace vicon::viewer {
@@ -21,6 +23,8 @@ SliceView::SliceView(SlicePlane plane, const QString& name, QWidget* parent) : P
 {
     request_.plane = plane;
     zoom_ = usualZoom(plane);
+    setMouseTracking(true);
+    connect(this, &PictureView::hovered, this, &SliceView::readAt);
     setToolTip(
         tr("Click: look there. Wheel: scroll, or along the lumen (Q). Control and wheel: zoom. Drag: window. Right "
            "button: pan. Double click: enlarge. Shift and click: marker."));
@@ -220,12 +224,50 @@ void SliceView::show(const Picture& picture, const SliceRequest& of)
     noteWhereElsewhere(shown_point_mm_, request_.point_mm);
     showPicture(picture);
     drawLine();
+    readAt(pointer_);
+}
+
+void SliceView::readAt(std::optional<Pixel> pointer)
+{
+    pointer_ = pointer;
+    setReadout(pointer && scan_ && !image().isNull() ? densityAt(*pointer) : QString());
+}
+
+/// As acquired, also where the picture is cleansed; of a slab what it takes together. MR has no densities.
+QString SliceView::densityAt(Pixel at) const
+{
+    const PreparedScan& files = scan_->files;
+    if (files.quantity() != Quantity::density)
+        return {};
+    PlaneView pixel = shown_;
+    pixel.centre_mm = shown_.pointAt(at);
+    pixel.width = pixel.height = 1;
+    const float density_hu = thickSliceDensities(files.volume(), nullptr, pixel, request_.thick).front();
+    if (density_hu == kPaddingHu)
+        return {};
+    const QString text = tr("%1 HU").arg(std::lround(density_hu));
+    return request_.cleansed && files.canBeCleansed() ? tr("%1 as acquired").arg(text) : text;
+}
+
+/// While the mouse drags, what is under it is not read.
+void SliceView::mouseMoveEvent(QMouseEvent* event)
+{
+    if (event->buttons() != Qt::NoButton)
+        readAt(std::nullopt);
+    PictureView::mouseMoveEvent(event);
+}
+
+void SliceView::leaveEvent(QEvent* event)
+{
+    readAt(std::nullopt);
+    PictureView::leaveEvent(event);
 }
 
 void SliceView::leave(const QString& words)
 {
     scan_.reset();
     line_.reset();
+    ball_.reset();
     clearPicture(words);
 }
 
@@ -235,8 +277,15 @@ void SliceView::setLine(const std::optional<MeasuredLine>& line)
     drawLine();
 }
 
+void SliceView::setSampled(const std::optional<SampledBall>& ball)
+{
+    ball_ = ball;
+    drawLine();
+}
+
 void SliceView::drawLine()
 {
+    setRing(ball_ && scan_ && !image().isNull() ? inSlice(*ball_, shown_) : std::nullopt);
     const bool there = line_ && scan_ && line_->scan_id == scan_->record.id && !image().isNull();
     setCalliper(there ? inSlice(*line_, shown_, scan_->files.volume().grid) : std::nullopt);
 }

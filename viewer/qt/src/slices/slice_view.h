@@ -42,6 +42,8 @@ public:
     Point3 point_mm() const { return request_.point_mm; }
     /// A measured line, drawn where the slice passes it; not where it lies in another scan.
     void setLine(const std::optional<MeasuredLine>& line);
+    /// Where a density was taken, drawn where the slice cuts it.
+    void setSampled(const std::optional<SampledBall>& ball);
     /// The scan is no longer read.
     void leave(const QString& words);
 
@@ -58,6 +60,8 @@ protected:
     /// Where the lines cross in the picture that is shown, which may still be that of an earlier place.
     QPoint home() const override;
     void showEvent(QShowEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void leaveEvent(QEvent* event) override;
 
 private:
     SliceAxes axes() const;
@@ -66,6 +70,8 @@ private:
     void zoom(int notches);
     void show(const Picture& picture, const SliceRequest& of);
     void drawLine();
+    void readAt(std::optional<Pixel> pointer);
+    QString densityAt(Pixel at) const;
     void scroll(int steps, Qt::KeyboardModifiers modifiers);
 
     std::shared_ptr<OpenScan> scan_;
@@ -77,6 +83,8 @@ private:
     PlaneView shown_;  // that of the picture; request_.view is the one asked for
     Point3 shown_point_mm_;
     std::optional<MeasuredLine> line_;
+    std::optional<SampledBall> ball_;
+    std::optional<Pixel> pointer_;  // where a density is read
     WorkerWith<SlicePictures> worker_{this};
 };
 

@@ -35,6 +35,25 @@ void PictureView::setCalliper(const std::optional<Calliper>& calliper)
     update();
 }
 
+void PictureView::setRing(const std::optional<PictureCircle>& ring)
+{
+    ring_ = ring;
+    update();
+}
+
+void PictureView::drawRing(QPainter& painter) const
+{
+    if (!ring_)
+        return;
+    const double radius = ring_->radius_px / devicePixelRatioF();
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setBrush(Qt::NoBrush);
+    for (const auto& [color, width] : {std::pair(QColor(Qt::black), 3.0), std::pair(kCalliperColor, 1.2)}) {
+        painter.setPen(QPen(color, width));
+        painter.drawEllipse(toWidget(ring_->centre), radius, radius);
+    }
+}
+
 std::optional<int> PictureView::gripAt(QPoint at) const
 {
     if (!calliper_ || picking_ || circling_)

@@ -43,36 +43,13 @@ double PictureView::circleRadius() const
     return std::hypot(by.x(), by.y());
 }
 
-void PictureView::setNote(const QString& note)
-{
-    if (note == note_)
-        return;
-    note_ = note;
-    update();
-}
-
-void PictureView::noteWhereElsewhere(const Point3& shown_mm, const Point3& wanted_mm)
-{
-    setNote(distance(shown_mm, wanted_mm) > kElsewhere_mm ? notThisPlaceYet() : QString());
-}
-
-void PictureView::drawNote(QPainter& painter) const
-{
-    if (note_.isEmpty())
-        return;
-    constexpr int kAbove_px = 40, kSpare_px = 4;
-    QRect words = painter.fontMetrics().boundingRect(note_).adjusted(-kSpare_px, -kSpare_px, kSpare_px, kSpare_px);
-    words.moveCenter({width() / 2, height() - kAbove_px});
-    painter.fillRect(words, QColor(0, 0, 0, 190));
-    painter.setPen(Qt::white);
-    painter.drawText(words, Qt::AlignCenter, note_);
-}
-
 void PictureView::clearPicture(const QString& words)
 {
     image_ = {};
     waiting_ = words;
     setCalliper({});
+    setRing({});
+    setReadout({});
 }
 
 QSize PictureView::pictureSize() const
@@ -109,6 +86,7 @@ void PictureView::paintEvent(QPaintEvent*)
     }
     if (QSizeF(pictureSize()) / devicePixelRatioF() == drawn || image_.isNull()) {
         painter.drawImage(0, 0, image_);
+        drawRing(painter);
         drawCalliper(painter);
         if (circling_ && dragging_) {
             painter.resetTransform();
@@ -116,6 +94,7 @@ void PictureView::paintEvent(QPaintEvent*)
             painter.drawEllipse(QPointF(pressed_), circleRadius(), circleRadius());
         }
         painter.resetTransform();
+        drawReadout(painter);
         drawNote(painter);
         drawFocus(painter);
         return;
@@ -144,10 +123,12 @@ void PictureView::mousePressEvent(QMouseEvent* event)
 void PictureView::mouseMoveEvent(QMouseEvent* event)
 {
     if (button_ == Qt::NoButton) {
-        if (!mouse_moved_last_)
-            update();
-        cross_ = event->pos();
-        mouse_moved_last_ = true;
+        if (steered_ || picking_ || circling_) {  // else Return clicks where the view says, wherever the mouse is
+            if (!mouse_moved_last_)
+                update();
+            cross_ = event->pos();
+            mouse_moved_last_ = true;
+        }
         emit hovered(toPicture(event->pos()));
         return;
     }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "vicon/viewer/model/camera.h"
+#include "vicon/viewer/model/peeling.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "widgets/calliper.h"
 
@@ -32,6 +33,12 @@ public:
     /// Said at the bottom of the picture; empty: nothing.
     void setNote(const QString& note);
     const QString& note() const { return note_; }
+    /// In the lower left corner, small: what is read at the pointer; empty: nothing.
+    void setReadout(const QString& text);
+    const QString& readout() const { return readout_; }
+    /// A circle over the picture, in its pixels.
+    void setRing(const std::optional<PictureCircle>& ring);
+    const std::optional<PictureCircle>& ring() const { return ring_; }
     /// A picture this far from what is looked at by now says so; a flight is never so far ahead of its picture.
     static constexpr double kElsewhere_mm = 25;
     /// Says so where the picture is of another place than the one that is looked at by now.
@@ -88,7 +95,11 @@ private:
     void dragGrip(QPoint to, bool released);
     void drawCalliper(QPainter& painter) const;
     void drawCalliperText(QPainter& painter) const;
+    void drawRing(QPainter& painter) const;
+
+    // picture_words.cpp
     void drawNote(QPainter& painter) const;
+    void drawReadout(QPainter& painter) const;
 
     Pixel toPicture(QPoint at) const;
     /// Of the circle that is being drawn, in widget pixels.
@@ -96,7 +107,8 @@ private:
 
     QImage image_;
     QString waiting_;  // instead of a picture
-    QString note_;
+    QString note_, readout_;
+    std::optional<PictureCircle> ring_;
     std::optional<Calliper> calliper_;
     std::optional<int> grip_;  // the end that is held
     QPoint pressed_, last_;

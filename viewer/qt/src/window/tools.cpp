@@ -45,12 +45,12 @@ ReadingTools makeReadingTools(Reading& reading, const ReadingServices& services,
     add(std::make_unique<PictureTool>(reading));
     add(std::make_unique<FilmTool>(reading));
     add(std::make_unique<MarkerTool>(reading));
-    add(std::make_unique<ReportTool>(reading, services, case_row.record.id));
     add(std::make_unique<MeasuringTool>(reading));
     const auto* peeling = add(std::make_unique<PeelingTool>(reading));
     add(std::make_unique<BiopsyTool>(reading, peeling->panel()));
-    const auto* coverage = add(std::make_unique<CoverageTool>(reading));
-    add(std::make_unique<ReadingTimeTool>(reading, *coverage));
+    auto* coverage = add(std::make_unique<CoverageTool>(reading));
+    const auto* time = add(std::make_unique<ReadingTimeTool>(reading, *coverage));
+    add(std::make_unique<ReportTool>(reading, services, case_row.record.id, *coverage, *time));
     add(std::make_unique<CorrectionTool>(reading, services, case_row.record.id));
     add(std::make_unique<ComparisonTool>(reading));
     add(std::make_unique<PriorTool>(reading, services, case_row.record.id));

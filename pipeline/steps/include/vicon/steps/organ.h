@@ -14,11 +14,12 @@
 
 namespace vicon::steps {
 
-/// Where the distances of an organ that branches begin.
-enum class TreeRoot { head, far_from_feet };
-inline constexpr EnumNames<TreeRoot, 2> kTreeRootNames{{
+/// Where the distances of an organ that branches begin; none: a cavity that no path leads through.
+enum class TreeRoot { head, far_from_feet, none };
+inline constexpr EnumNames<TreeRoot, 3> kTreeRootNames{{
     {TreeRoot::head, "head"},
     {TreeRoot::far_from_feet, "far_from_feet"},
+    {TreeRoot::none, "none"},
 }};
 constexpr const auto& optionNames(TreeRoot /*value*/)
 {
@@ -26,7 +27,7 @@ constexpr const auto& optionNames(TreeRoot /*value*/)
 }
 
 /// What a hollow organ looks like that is no colon: a tube or a tree of tubes around a tube that runs from head to
-/// feet. The presets of config/organs set them; docs/dev/organs.md tells how to add one.
+/// feet, or a cavity. The presets of config/organs set them; docs/dev/organs.md tells how to add one.
 struct OrganOptions {
     std::string name = "colon";
     std::string title = "colon";
@@ -63,30 +64,33 @@ struct OrganOptions {
         v("organ.smallest_ml", smallest_ml, "ml", "A smaller volume is not the organ.", OptionLimits{0, 1000});
         v("organ.neck_mm", neck_mm, "mm", "Passages of a smaller radius than this are leaks; 0: none are.",
           OptionLimits{0, 20});
-        v("organ.seed", seed, "mm", "Points (LPS) inside the organ; none: a round tube is sought.");
-        v("organ.seed_from_radius_mm", seed_from_radius_mm, "mm", "Least radius of the tube that is sought.",
+        v("organ.seed", seed, "mm", "Points (LPS) inside the organ; none: it is sought.");
+        v("organ.seed_from_radius_mm", seed_from_radius_mm, "mm", "Least radius of the tube or cavity that is sought.",
           OptionLimits{0.5, 100});
-        v("organ.seed_to_radius_mm", seed_to_radius_mm, "mm", "Largest radius of the tube that is sought.",
+        v("organ.seed_to_radius_mm", seed_to_radius_mm, "mm", "Largest radius of the tube or cavity that is sought.",
           OptionLimits{0.5, 100});
         v("organ.seed_length_mm", seed_length_mm, "mm", "Least length of the tube that is sought, along the body.",
           OptionLimits{1, 1000});
         v("organ.seed_off_midline", seed_off_midline, "",
-          "How far from the body's middle the tube may lie, as a share of the body's width.", OptionLimits{0, 1});
+          "How far from the body's middle it may lie, as a share of the body's width.", OptionLimits{0, 1});
         v("organ.root", root, "",
-          "Where distances begin: at the head end of the tube, or at what lies farthest, inside, from the feet.",
+          "Where distances begin: at the tube's head end, or at what lies farthest, inside, from the feet; none: no "
+          "path.",
           choicesOf(root));
         v("organ.branch_mm", branch_mm, "mm",
           "Branches that reach less far beyond their parent's wall are no branches.", OptionLimits{0, 100});
     }
     bool isColon() const { return Organ(name).isColon(); }
+    /// False: a cavity, which is flown freely.
+    bool hasPath() const { return isColon() || root != TreeRoot::none; }
 };
 
 /// Finds the lumen of an organ that is no colon, labelled kGas. The plan has one piece: from the root, as its rectal
-/// end, to the point that is farthest from it. Where the organ is absent, `inside` is empty
-/// (size 0). Throws Error{cancelled}.
-/// Method: a tube is sought whose sections in axial slices are round; all that hangs together with it between
-/// `low_hu` and `high_hu` is grown from it; leaks show as a sudden growth when the limit is raised (explosion control:
-/// Mori et al., ICPR 1996), or are cut at their necks by an opening.
+/// end, to the point that is farthest from it; of a cavity both are its widest place. Where the organ is absent,
+/// `inside` is empty (size 0). Throws Error{cancelled}.
+/// Method: a tube is sought whose sections in axial slices are round, or the widest ball of a cavity; all that hangs
+/// together with it between `low_hu` and `high_hu` is grown from it; leaks show as a sudden growth when the limit is
+/// raised (explosion control: Mori et al., ICPR 1996), or are cut at their necks by an opening.
 /// @param volume as segmentColon() wants it
 Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, Progress& progress);
 

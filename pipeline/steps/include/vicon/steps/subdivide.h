@@ -135,4 +135,8 @@ PathFlood floodFromPaths(const InsideVolume& inside, const std::vector<std::vect
 Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const SkeletonVoxels& voxels,
                      const SubdivideOptions& options, Progress& progress, std::optional<PathFlood> flood = {});
 
+/// A cavity without a path: one segment, and one of its own for every part that is not 26-connected to the largest;
+/// method "none", stations 0. Throws Error{bad_input} when nothing is inside.
+Subdivided undivided(const InsideVolume& inside, const SubdivideOptions& options, Progress& progress);
+
 }  // namespace vicon::steps

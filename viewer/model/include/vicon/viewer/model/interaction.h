@@ -44,7 +44,7 @@ using ToolInUse =
 struct PickedPoint {
     Point3 at_mm;
     std::string scan_id;
-    bool on_wall = false;  ///< chosen on the wall, in an endoscopic picture
+    bool on_wall = false;  ///< chosen on the surface of the cells, in an endoscopic picture
     bool wants_marker = false;
 };
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "vicon/viewer/model/free_flight.h"
 #include "vicon/viewer/model/submarine.h"
 
 namespace vicon::viewer {
@@ -15,18 +18,22 @@ struct NavigationState {
     bool at_end = false;   ///< of the path, in the direction of flight
 };
 
-/// Where the reading room's eye is, and how it moves. Time is given by the caller in steps of any length: what is
+/// Where the reading room's eye is, and how it moves. In a cavity, which has no path, it is free, pushed off the wall,
+/// and no other mode is taken. Time is given by the caller in steps of any length: what is
 /// reached after a time does not depend on them.
 class Navigator {
 public:
     static constexpr double kLeastSpeed_mm_s = 5, kMostSpeed_mm_s = 100;
 
     /// Everything must outlive it. Throws Error{unusable_scan} when no station of the path is wide enough.
-    Navigator(const PathFrames& path, const Lumen& lumen, const FieldView& exit_distance,
+    /// @param exit_distance nothing where `path` is none
+    Navigator(const PathFrames& path, const Lumen& lumen, const std::optional<FieldView>& exit_distance,
               const SubmarineOptions& options = {});
 
+    /// Whether a path leads through the organ.
+    bool hasPath() const { return path_->isPath(); }
     NavigationMode mode() const { return mode_; }
-    /// Stays at the station where the eye is; free begins with the eye as it is.
+    /// Stays at the station where the eye is; free begins with the eye as it is. Without a path: does nothing.
     void setMode(NavigationMode mode);
     Heading heading() const { return heading_; }
     void setHeading(Heading heading);
@@ -43,9 +50,12 @@ public:
     /// Guided and free; stays in force until the next call.
     void steer(const Steering& steering) { steering_ = steering; }
 
-    /// Goes to a station at once and stops there.
+    /// Goes to a station at once and stops there; without a path to the home place.
     void jumpTo(double station_mm);
+    /// Along the path, or without one the way it looks, as far as the wall lets it.
     void step(double mm);
+    /// Without a path: moves the eye, as far as the wall lets it.
+    void moveBy(Vector3 way_mm);
     /// Shows a view: free, at that pose. Where its eye is outside the lumen, the station's own view is shown instead.
     /// @param station_mm of the view; the eye alone does not tell between loops that touch
     void lookFrom(const Pose& pose, double station_mm);
@@ -75,7 +85,8 @@ private:
     Lumen lumen_;
     LookAhead ahead_;
     SubmarineOptions options_;
-    Submarine submarine_;
+    std::optional<Submarine> submarine_;  ///< nothing without a path
+    FreeFlight free_flight_;
     NavigationMode mode_ = NavigationMode::planned;
     Heading heading_ = Heading::caecum;
     Steering steering_;

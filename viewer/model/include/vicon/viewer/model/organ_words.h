@@ -10,9 +10,10 @@ namespace vicon::viewer {
 struct OrganWords {
     Organ organ;
     std::string first_end, last_end;
+    bool has_path = true;  ///< false: a cavity; both ends are its middle, from which it is looked at first
 };
 
-/// Every organ other than the colon branches, from a root to its tips.
-OrganWords wordsFor(const Organ& organ);
+/// Every organ other than the colon branches, from a root to its tips, unless no path leads through it.
+OrganWords wordsFor(const Organ& organ, bool has_path = true);
 
 }  // namespace vicon::viewer

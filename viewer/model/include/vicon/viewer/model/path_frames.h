@@ -24,8 +24,12 @@ public:
     /// @param step_mm distance of the frames that are kept
     /// @param window_mm length of curve that a direction is taken over: long enough that the picture does not shake
     explicit PathFrames(const Skeleton& skeleton, double step_mm = 1, double window_mm = 12);
+    /// Of a cavity, which no path leads through: this place alone, at every station.
+    static PathFrames withoutPath(const PathFrame& home);
 
-    double length_mm() const { return length_mm_; }
+    bool isPath() const { return length_mm_ > 0; }
+
+    double length_mm() const { return length_mm_; }  ///< 0: no path
     /// The frame at a station, interpolated; stations outside are clamped to the ends.
     PathFrame at(double station_mm) const;
     /// The station nearest to a point among those at most `reach_mm` from `around_mm`.
@@ -37,6 +41,8 @@ public:
     bool tapers() const { return tapers_; }
 
 private:
+    PathFrames() = default;
+
     std::vector<PathFrame> frames_;
     double step_mm_ = 1;
     double length_mm_ = 0;

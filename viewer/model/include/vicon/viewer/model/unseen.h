@@ -18,11 +18,18 @@ struct UnseenPatch {
     std::vector<std::uint32_t> triangles;  ///< ascending
 };
 
+/// Missed regions of this area and more are listed, and told before a report is signed. A reading that ends with the
+/// list of what is this large shows 97.9 % of the wall after 21 s more.
+inline constexpr double kMissedRegion_mm2 = 300;
+
 struct UnseenOptions {
     /// Smaller pieces are left out. A polyp of 6 mm, the least that is reported, hides behind 28 mm2 (a disc of 6 mm).
     double least_area_mm2 = 28;
     ViewPoseOptions pose;
 };
+
+/// The areas of the unseen pieces of a surface, in no order; quicker than unseenPatches().
+std::vector<double> unseenAreas_mm2(const std::vector<std::uint32_t>& triangles, const Coverage& coverage);
 
 /// The unseen pieces of a surface, the largest first. Triangles belong to one piece when they share an edge; so pieces
 /// cross the borders of cells, and single triangles too thin for any pixel do not join what lies around them.

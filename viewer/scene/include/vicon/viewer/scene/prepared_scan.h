@@ -46,14 +46,15 @@ public:
     const HuView* cleansed() const;               ///< cleansed.mha; nothing where no tagging was sought
     const InsideView& inside() const;             ///< inside.mha
     const FieldView& wallDistance() const;        ///< wall_distance.mha
-    const FieldView& exitDistance() const;        ///< exit_distance.mha
+    const FieldView& exitDistance() const;        ///< exit_distance.mha; only where there is a path
     const SegmentView& segments() const;          ///< segments.mha
+    bool hasPath() const;                         ///< false: a cavity, skeleton() is empty
     const Skeleton& skeleton() const;             ///< skeleton.vtp; of a tree one way from the root
     const SkeletonTree& tree() const;             ///< skeleton.vtp; no branches where the organ is one path
     const CellSurface& cells() const;             ///< cells.vtp
     const Subdivision& subdivision() const;       ///< subdivision.json
     const Projection& coronalProjection() const;  ///< of projections/
-    const PathFrames& frames() const;             ///< of the skeleton
+    const PathFrames& frames() const;             ///< of the skeleton; of a cavity its widest place
     const ColonPartRanges& parts() const;         ///< of scan.json; empty where it knows none
     const LumenAlong& along() const;              ///< of scan.json's quality; empty where it has none
     const OrganWords& words() const;              ///< for the organ that scan.json names

@@ -81,7 +81,10 @@ public:
         Picture picture;
         PlaneView view;
     };
-    Overview overview(const SnapshotRequest& request, const SnapshotResult& place);
+    /// @param reviewed is painted; nothing: none is
+    /// @param still it is painted as it is now; else at most twice a second anew
+    Overview overview(const SnapshotRequest& request, const SnapshotResult& place,
+                      const ScanCoverage* reviewed = nullptr, bool still = true);
 
 private:
     struct Parts;

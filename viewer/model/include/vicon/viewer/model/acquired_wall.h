@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include "vicon/core/volume_view.h"
+#include "vicon/viewer/model/lumen.h"
+
+namespace vicon::viewer {
+
+/// Half-way between gas and soft tissue, as the cells' surface: there the wall as acquired stands.
+inline constexpr double kGasEnds_hu = -480;
+/// How far behind the lumen's wall the wall as acquired is looked for.
+inline constexpr double kBehindWall_mm = 5;
+
+/// Whether the acquired density there is that of gas: from elsewhere nothing is seen as acquired.
+bool startsInGas(const HuView& volume, Point3 eye_mm);
+
+/// Distance along a ray to the wall as acquired: to where trilinear densities leave gas, be it at tissue, tagged fluid
+/// or stool. Nothing where the ray does not start in gas, and where gas does not end within `reach_mm` and
+/// kBehindWall_mm of the lumen's wall.
+std::optional<double> distanceToAcquiredWall_mm(const HuView& volume, const Lumen& lumen, Point3 from,
+                                                Vector3 direction, double reach_mm);
+
+}  // namespace vicon::viewer

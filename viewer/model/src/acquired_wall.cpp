@@ -1,0 +1,39 @@
+#include "vicon/viewer/model/acquired_wall.h"
+
+#include "density_sampler.h"
+#include "vicon/viewer/model/peeling.h"
+
+namespace vicon::viewer {
+namespace {
+constexpr double kStepOfVoxel = 0.25;  // of its smallest side: no film of fluid that the picture shows is leapt over
+}
+
+bool startsInGas(const HuView& volume, Point3 eye_mm)
+{
+    return volume.valueOr(volume.grid.indexAt(eye_mm), kPaddingHu) < kGasEnds_hu;
+}
+
+std::optional<double> distanceToAcquiredWall_mm(const HuView& volume, const Lumen& lumen, Point3 from,
+                                                Vector3 direction, double reach_mm)
+{
+    const auto wall_mm = distanceToWall_mm(lumen, from, direction, reach_mm);
+    if (!wall_mm || !startsInGas(volume, from))
+        return std::nullopt;
+    const DensitySampler densities(volume);
+    const double step_mm = kStepOfVoxel * lumen.voxel_mm();
+    float before_hu = 0, here_hu = 0;
+    bool sampled = false;
+    for (double at_mm = 0; at_mm <= *wall_mm + kBehindWall_mm; at_mm += step_mm, before_hu = here_hu) {
+        const DensitySampler::Place place = densities.indexAt(from + direction * at_mm);
+        if (!densities.holds(place) || !densities.sample(place, true, here_hu)) {
+            sampled = false;
+            continue;
+        }
+        if (here_hu >= kGasEnds_hu)
+            return sampled ? at_mm - step_mm * (here_hu - kGasEnds_hu) / double(here_hu - before_hu) : at_mm;
+        sampled = true;
+    }
+    return std::nullopt;
+}
+
+}  // namespace vicon::viewer
