@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "../command.h"
 #include "../text_table.h"
+#include "vicon/cases/marker_groups.h"
 #include "vicon/cases/pair_proposals.h"
 #include "vicon/cases/prior_match.h"
 #include "vicon/core/error.h"
@@ -84,9 +86,6 @@ std::pair<Marker, Marker> markersFrom(CaseStore& store, const std::string& case_
         throw Error(ErrorCode::wrong_use, "not two markers", "'" + text + "'", "write m1=m4");
     const Marker first = store.requireMarker(case_id, text.substr(0, equals));
     const Marker second = store.requireMarker(case_id, text.substr(equals + 1));
-    if (first.scan_id == second.scan_id)
-        throw Error(ErrorCode::wrong_use, "a pair is one finding in two scans; both markers lie in the same one",
-                    "'" + text + "'");
     return {first, second};
 }
 
@@ -94,12 +93,15 @@ void setPair(CaseStore& store, const std::string& case_id, const MatchArguments&
 {
     const bool confirm = !arguments.confirm.empty();
     const auto [first, second] = markersFrom(store, case_id, confirm ? arguments.confirm : arguments.take_back);
-    if (!confirm && first.pair != second.id)
+    if (confirm) {
+        store.editMarkers(case_id, pairingEdits(store.markers(case_id), first, second));
+        return;
+    }
+    if (std::count(first.partners.begin(), first.partners.end(), second.id) == 0)
         throw Error(ErrorCode::wrong_use, "these two are no pair", "'" + arguments.take_back + "'");
-    Marker a = first, b = second;
-    a.pair = confirm ? second.id : "";
-    b.pair = confirm ? first.id : "";
-    store.editMarkers(case_id, {{first, a}, {second, b}});
+    Marker parted = second;  // of more than two the others stay together
+    parted.partners.clear();
+    store.editMarkers(case_id, {{second, parted}});
 }
 
 int match(Context& context, const MatchArguments& arguments)

@@ -105,17 +105,23 @@ public:
             remove(*edit.before);
     }
 
-    /// Parts the markers that name this one although it no longer names them; these edits follow at the end.
+    /// Takes this marker from those that name it although it no longer names them; these edits follow at the end.
     void partFormer(const MarkerEdit& edit, std::vector<MarkerEdit>& done)
     {
-        const std::string partner = edit.after ? edit.after->pair : "";
-        if (!edit.before || (edit.after && partner == edit.before->pair))
+        if (!edit.before)
             return;
+        const auto now = find(edit.before->id);  // a later edit may have changed it once more
+        const std::vector<std::string> partners = now ? now->partners : std::vector<std::string>();
+        if (partners == edit.before->partners && now)
+            return;
+        const auto names = [](const std::vector<std::string>& ids, const std::string& id) {
+            return std::find(ids.begin(), ids.end(), id) != ids.end();
+        };
         for (const Marker& other : all()) {
-            if (other.pair != edit.before->id || other.id == partner)
+            if (!names(other.partners, edit.before->id) || names(partners, other.id))
                 continue;
             MarkerEdit parting{other, other};
-            parting.after->pair.clear();
+            std::erase(parting.after->partners, edit.before->id);
             put(*parting.after);
             done.push_back(parting);
         }

@@ -139,7 +139,8 @@ std::vector<std::string> withPartners(CaseStore& store, const std::string& case_
     for (const std::string& id : marker_ids) {
         const Marker marker = store.requireMarker(case_id, id);
         add(marker.id);
-        add(marker.pair);
+        for (const std::string& partner : marker.partners)
+            add(partner);
     }
     return out;
 }

@@ -31,6 +31,14 @@ auto takeKnown(json& extra, const char* key, Read read) -> std::optional<decltyp
     }
 }
 
+/// One as a text, several as a list.
+std::vector<std::string> partnersFrom(const json& value)
+{
+    auto ids = value.is_string() ? std::vector{value.get<std::string>()} : value.get<std::vector<std::string>>();
+    std::erase(ids, std::string());
+    return ids;
+}
+
 template <class Known>
 void put(json& out, const char* key, const std::optional<Known>& known)
 {
@@ -61,6 +69,14 @@ MarkerColor markerColorFrom(const std::string& name)
     throw Error(ErrorCode::wrong_use, "a marker's color must be red, yellow or green", "'" + name + "'");
 }
 
+std::string partnerNames(const Marker& marker)
+{
+    std::string names;
+    for (const std::string& id : marker.partners)
+        names += (names.empty() ? "" : ", ") + id;
+    return names;
+}
+
 json toJson(const Marker& m)
 {
     json out = m.extra.is_object() ? m.extra : json::object();
@@ -76,8 +92,10 @@ json toJson(const Marker& m)
     out["changed"] = m.changed;
     if (m.part)
         out["part"] = nameOf(*m.part);
-    if (!m.pair.empty())
-        out["pair"] = m.pair;
+    if (m.partners.size() == 1)
+        out["pair"] = m.partners.front();
+    else if (!m.partners.empty())
+        out["pair"] = m.partners;
     put(out, "size", m.size);
     put(out, "density", m.density);
     put(out, "view", m.view);
@@ -103,7 +121,7 @@ Marker markerFromJson(const json& json)
             m.extra.erase(key);
         const auto text = [](const nlohmann::json& value) { return value.get<std::string>(); };
         m.part = takeKnown(m.extra, "part", [&](const nlohmann::json& value) { return colonPartFrom(text(value)); });
-        m.pair = takeKnown(m.extra, "pair", text).value_or("");
+        m.partners = takeKnown(m.extra, "pair", partnersFrom).value_or(std::vector<std::string>());
         m.size = takeKnown(m.extra, "size", markerSizeFromJson);
         m.density = takeKnown(m.extra, "density", densitySampleFromJson);
         m.view = takeKnown(m.extra, "view", markerViewFromJson);

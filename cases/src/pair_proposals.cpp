@@ -8,6 +8,7 @@
 
 #include "vicon/cases/case_store.h"
 #include "vicon/cases/finding_facts.h"
+#include "vicon/cases/marker_groups.h"
 #include "vicon/cases/step_results.h"
 #include "vicon/scan_files/stored_volume.h"
 
@@ -29,9 +30,10 @@ std::optional<double> sizeOf(const Marker& marker)
     return size_mm > 0 ? std::optional(size_mm) : std::nullopt;
 }
 
-std::string worded(const PairProposal& proposal, const StationInterval& place, const std::optional<double>& a,
-                   const std::optional<double>& b)
+std::string worded(const PairProposal& proposal, const StationInterval& place, const Marker& first,
+                   const Marker& second)
 {
+    const std::optional<double> a = sizeOf(first), b = sizeOf(second);
     char text[160];
     std::snprintf(text, sizeof text, "%.0f mm from the same place, %s the interval of %.0f mm",
                   std::abs(proposal.off_mm), proposal.within ? "within" : "outside", place.most_mm - place.least_mm);
@@ -40,6 +42,9 @@ std::string worded(const PairProposal& proposal, const StationInterval& place, c
         std::snprintf(text, sizeof text, "; %.1f and %.1f mm", *a, *b);
         words += text;
     }
+    for (const Marker* marker : {&first, &second})
+        if (!marker->partners.empty())
+            words += "; " + marker->id + " is paired with " + partnerNames(*marker);
     if (proposal.rivals > 0)
         words += proposal.rivals == 1 ? "; one other fits about as well"
                                       : "; " + std::to_string(proposal.rivals) + " others fit about as well";
@@ -49,7 +54,7 @@ std::string worded(const PairProposal& proposal, const StationInterval& place, c
 struct Candidate {
     PairProposal proposal;
     StationInterval place;
-    std::optional<double> first_mm, second_mm;
+    Marker first, second;
 };
 
 /// Where a marker of the same finding lies.
@@ -62,15 +67,16 @@ StationInterval markerAt(StationInterval place)
 
 std::optional<Candidate> candidateOf(const Marker& first, const Marker& second, const StationMap& map)
 {
-    Candidate c{{first.id, second.id}, markerAt(map.at(first.station_mm)), sizeOf(first), sizeOf(second)};
+    Candidate c{{first.id, second.id}, markerAt(map.at(first.station_mm)), first, second};
+    const std::optional<double> first_mm = sizeOf(first), second_mm = sizeOf(second);
     PairProposal& p = c.proposal;
     p.off_mm = second.station_mm - c.place.station_mm;
     p.within = second.station_mm >= c.place.least_mm && second.station_mm <= c.place.most_mm;
     const double side_mm = p.off_mm < 0 ? c.place.station_mm - c.place.least_mm : c.place.most_mm - c.place.station_mm;
     p.cost = std::min(std::pow(p.off_mm / std::hypot(side_mm / kWithin, kLeastDeviation_mm), 2),
                       kSlip + std::pow(p.off_mm / kSlip_mm, 2));
-    if (c.first_mm && c.second_mm)
-        p.cost += std::pow(std::log(*c.second_mm / *c.first_mm) / kSizeDeviation, 2);
+    if (first_mm && second_mm)
+        p.cost += std::pow(std::log(*second_mm / *first_mm) / kSizeDeviation, 2);
     return p.cost <= kMostCost ? std::optional(c) : std::nullopt;
 }
 
@@ -95,7 +101,7 @@ void rank(std::vector<Candidate>& candidates)
         for (const Candidate& other : candidates)
             p.rivals += &other != &c && (other.proposal.first == p.first || other.proposal.second == p.second) &&
                         other.proposal.cost < p.cost + kAboutAsWell;
-        p.reason = worded(p, c.place, c.first_mm, c.second_mm);
+        p.reason = worded(p, c.place, c.first, c.second);
     }
 }
 
@@ -145,11 +151,11 @@ nlohmann::json toJson(const ScanMatch& match)
 
 bool mayBePaired(const std::vector<Marker>& markers)
 {
-    std::set<std::string> scans;
-    for (const Marker& marker : markers)
-        if (marker.pair.empty())
-            scans.insert(marker.scan_id);
-    return scans.size() > 1;
+    for (auto first = markers.begin(); first != markers.end(); ++first)
+        for (auto second = first + 1; second != markers.end(); ++second)
+            if (mayBeOneFinding(markers, *first, *second))
+                return true;
+    return false;
 }
 
 std::vector<PairProposal> proposePairs(const std::vector<Marker>& markers, const std::vector<ScanMatch>& matches)
@@ -159,8 +165,8 @@ std::vector<PairProposal> proposePairs(const std::vector<Marker>& markers, const
         std::vector<Candidate> candidates;
         for (const Marker& first : markers)
             for (const Marker& second : markers)
-                if (first.pair.empty() && second.pair.empty() && first.scan_id == match.from_scan &&
-                    second.scan_id == match.to_scan)
+                if (first.scan_id == match.from_scan && second.scan_id == match.to_scan &&
+                    mayBeOneFinding(markers, first, second))
                     if (const auto candidate = candidateOf(first, second, match.map))
                         candidates.push_back(*candidate);
         rank(candidates);

@@ -211,7 +211,7 @@ std::vector<Statement> markerStatements(const MarkerEntry& entry)
         out.push_back({"Size", sizeWords(*marker.size)});
     if (marker.density)
         out.push_back({"Density", densityWords(*marker.density)});
-    addGiven(out, "Same finding", marker.pair);
+    addGiven(out, "Same finding", partnerNames(marker));
     out.push_back({"By endoscope", "estimated: " + endoscopeEstimate(marker.station_mm, entry.part_name)});
     return out;
 }

@@ -39,7 +39,8 @@ private:
     void mark(const std::string& pair, double size_mm)
     {
         Marker marker{.scan_id = "s1"};
-        marker.pair = pair;
+        if (!pair.empty())
+            marker.partners = {pair};
         marker.station_mm = 300;
         marker.from_caecum_mm = 1200;
         marker.fraction = 0.2;

@@ -37,13 +37,28 @@ TEST(Marker, KeepsAllThatWasMeasuredOfIt)
     const Marker m = test::markerWithEverything(), back = markerFromJson(toJson(m));
     EXPECT_EQ(toJson(back), toJson(m));
     EXPECT_EQ(back.part, ColonPart::splenic_flexure);
-    EXPECT_EQ(back.pair, "m2");
+    EXPECT_EQ(back.partners, std::vector<std::string>{"m2"});
     ASSERT_TRUE(back.size && back.size->plane && back.density && back.view);
     EXPECT_EQ(back.size->along_mm, 8);
     EXPECT_EQ(back.size->plane->along, Vector3(1, 0, 0));
     EXPECT_EQ(back.density->counts, (std::vector<std::size_t>{1, 30}));
     EXPECT_EQ(back.view->station_mm, 412.5);
     EXPECT_TRUE(back.extra.empty());
+}
+
+TEST(Marker, IsPairedInSeveralScansAndFilesOfOnePartnerReadAsBefore)
+{
+    Marker m = test::markerWithEverything();
+    EXPECT_EQ(toJson(m)["pair"], "m2") << "as other programs know it";
+    m.partners = {"m2", "m5"};
+    EXPECT_EQ(toJson(m)["pair"], nlohmann::json({"m2", "m5"}));
+    EXPECT_EQ(markerFromJson(toJson(m)).partners, m.partners);
+    EXPECT_EQ(partnerNames(m), "m2, m5");
+    for (const auto& [written, read] : {std::pair<nlohmann::json, std::string>{"m7", "m7"}, {"", ""}}) {
+        nlohmann::json json = toJson(m);
+        json["pair"] = written;
+        EXPECT_EQ(partnerNames(markerFromJson(json)), read);
+    }
 }
 
 TEST(Marker, LeavesWhatOthersWroteUnderItsKeysAsItIs)

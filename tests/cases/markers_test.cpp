@@ -40,7 +40,7 @@ protected:
     {
         Marker marker{.scan_id = scan_id, .note = note};
         if (!pair.empty())
-            marker.pair = pair;
+            marker.partners = {pair};
         return store_.saveMarker("c1", marker);
     }
     static Marker with(Marker marker, const std::string& note)
@@ -50,7 +50,7 @@ protected:
     }
     static Marker paired(Marker marker, const std::string& partner)
     {
-        marker.pair = partner;
+        marker.partners = {partner};
         return marker;
     }
     /// "id note pair" of every marker.
@@ -58,7 +58,7 @@ protected:
     {
         std::vector<std::string> out;
         for (const Marker& m : store_.markers("c1"))
-            out.push_back(m.id + " " + m.note + " " + m.pair);
+            out.push_back(m.id + " " + m.note + " " + partnerNames(m));
         return out;
     }
     std::size_t inFile() const
@@ -122,7 +122,7 @@ TEST_F(Markers, ArePartedOnBothSidesByWhateverEndsAPair)
         {"parted",
          [](CaseStore& s, const Marker& a, const Marker&) {
              Marker after = a;
-             after.pair.clear();
+             after.partners.clear();
              s.editMarkers("c1", {{a, after}});
          },
          {"m1 a ", "m2 b ", "m3 c "}},
@@ -154,7 +154,7 @@ TEST_F(Markers, WhosePairIsNotTextHaveNone)
     Marker marker{.scan_id = "s1"};
     marker.extra["pair"] = 7;
     const Marker saved = store_.saveMarker("c1", marker);
-    EXPECT_EQ(store_.requireMarker("c1", saved.id).pair, "");
+    EXPECT_TRUE(store_.requireMarker("c1", saved.id).partners.empty());
     EXPECT_EQ(store_.requireMarker("c1", saved.id).extra["pair"], 7);
 }
 

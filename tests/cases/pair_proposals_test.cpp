@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "vicon/cases/marker_groups.h"
+#include "vicon/core/error.h"
+
 namespace vicon {
 namespace {
 
@@ -73,10 +76,11 @@ TEST(PairProposals, OtherSizesSpeakAgainst)
 
 TEST(PairProposals, NeedMarkersOfNoPairInTwoScans)
 {
-    Marker paired = marker("m2", "s2", 552);
-    paired.pair = "m9";
+    Marker paired = marker("m2", "s2", 552), partner = marker("m9", "s1", 900);
+    paired.partners = {"m9"};
+    partner.partners = {"m2"};
     EXPECT_TRUE(mayBePaired({marker("m1", "s1", 500), marker("m2", "s2", 552)}));
-    EXPECT_FALSE(mayBePaired({marker("m1", "s1", 500), paired}));
+    EXPECT_FALSE(mayBePaired({marker("m1", "s1", 500), paired, partner}));
     EXPECT_FALSE(mayBePaired({marker("m1", "s1", 500), marker("m2", "s1", 552)}));
     EXPECT_FALSE(mayBePaired({}));
 }
@@ -94,9 +98,70 @@ TEST(PairProposals, AMarkerInAnIntervalNarrowerThanItselfIsWithin)
 
 TEST(PairProposals, PairedMarkersAndThoseOfOneScanAreLeftAlone)
 {
-    Marker paired = marker("m2", "s2", 550);
-    paired.pair = "m9";
-    EXPECT_TRUE(proposePairs({marker("m1", "s1", 500), paired, marker("m3", "s1", 500)}, {match()}).empty());
+    Marker paired = marker("m2", "s2", 550), partner = marker("m9", "s1", 900);
+    paired.partners = {"m9"};
+    partner.partners = {"m2"};
+    EXPECT_TRUE(proposePairs({marker("m1", "s1", 500), paired, marker("m3", "s1", 500), partner}, {match()}).empty());
+}
+
+/// Three scans of one colon: each lies 50 mm on from the one before.
+std::vector<ScanMatch> matchesOfThree()
+{
+    ScanMatch first = match(), second = match(), across = match();
+    second.from_scan = "s2";
+    second.to_scan = across.to_scan = "s3";
+    for (StationInterval& place : across.map.to) {
+        place.station_mm += 50;
+        place.least_mm += 50;
+        place.most_mm += 50;
+    }
+    return {first, across, second};
+}
+
+TEST(PairProposals, APairIsProposedWithTheThirdScansSightOfItAndTheThreeAreOneGroup)
+{
+    std::vector<Marker> markers{marker("m1", "s1", 500), marker("m2", "s2", 550), marker("m3", "s3", 600)};
+    EXPECT_EQ(proposePairs(markers, matchesOfThree()).size(), 3U);
+    const auto take = [&](const std::vector<MarkerEdit>& edits) {
+        for (const MarkerEdit& edit : edits)
+            for (Marker& marker : markers)
+                if (marker.id == edit.after->id)
+                    marker = *edit.after;
+    };
+    take(pairingEdits(markers, markers[0], markers[1]));
+    EXPECT_EQ(partnerNames(markers[0]), "m2");
+    const auto proposals = proposePairs(markers, matchesOfThree());
+    ASSERT_EQ(proposals.size(), 2U) << "the third, with either";
+    for (const PairProposal& proposal : proposals) {
+        EXPECT_EQ(proposal.second, "m3");
+        EXPECT_EQ(proposal.rank, 1);
+        EXPECT_THAT(proposal.reason, HasSubstr(proposal.first == "m1" ? "m1 is paired with m2" : "m2 is pai"));
+    }
+    EXPECT_TRUE(mayBePaired(markers));
+    take(pairingEdits(markers, markers[2], markers[1]));
+    EXPECT_EQ(partnerNames(markers[0]), "m2, m3") << "each names all others, whichever was confirmed";
+    EXPECT_EQ(partnerNames(markers[1]), "m1, m3");
+    EXPECT_EQ(partnerNames(markers[2]), "m1, m2");
+    EXPECT_FALSE(mayBePaired(markers));
+    EXPECT_TRUE(proposePairs(markers, matchesOfThree()).empty());
+}
+
+TEST(PairProposals, NeverHaveTwoMarkersOfOneScanInAGroup)
+{
+    std::vector<Marker> markers{marker("m1", "s1", 500), marker("m2", "s2", 550), marker("m3", "s3", 600),
+                                marker("m4", "s2", 552)};
+    markers[0].partners = {"m2"};
+    markers[1].partners = {"m1"};
+    markers[2].partners = {"m4"};
+    markers[3].partners = {"m3"};
+    EXPECT_FALSE(mayBeOneFinding(markers, markers[0], markers[2])) << "m2 and m4 lie in one scan";
+    EXPECT_TRUE(proposePairs(markers, matchesOfThree()).empty());
+    EXPECT_THROW(pairingEdits(markers, markers[0], markers[2]), Error);
+    EXPECT_THROW(pairingEdits(markers, markers[1], markers[3]), Error);
+    // Said by the reader all the same: the former partner gives way.
+    const auto edits = pairingEdits(markers, markers[0], markers[3]);
+    ASSERT_EQ(edits.size(), 3U);
+    EXPECT_EQ(partnerNames(*edits[0].after), "m3, m4");
 }
 
 }  // namespace

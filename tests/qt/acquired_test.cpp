@@ -21,19 +21,24 @@ protected:
     void SetUp() override
     {
         Reading::SetUp();
+        fill(test::kSupine);
+        fill(test::kProne);
+        openCase();
+        window()->resize(1600, 1000);
+        key(Qt::Key_Home);
+        ASSERT_TRUE(eventually([] { return station() < 2 && pictureIsThere(); }));
+        waitUntilQuiet();
+    }
+    void fill(const char* scan) const
+    {
         test::TestColon colon;
-        const auto folder = CaseStore(store_).scanFolder(test::kCase, test::kSupine);
+        const auto folder = CaseStore(store_).scanFolder(test::kCase, scan);
         scan_files::writeVolume(folder / "cleansed.mha", colon.volume, scan_files::Packing::raw);
         for (std::size_t n = 0; n < colon.volume.voxels.size(); ++n)
             if (colon.inside.voxels[n] != kOutside &&
                 stationOf(colon.volume.grid.pointAt(colon.volume.grid.indexOf(n))) > kPool_mm)
                 colon.volume.voxels[n] = 500;
         scan_files::writeVolume(folder / "volume.mha", colon.volume, scan_files::Packing::raw);
-        openCase();
-        window()->resize(1600, 1000);
-        key(Qt::Key_Home);
-        ASSERT_TRUE(eventually([] { return station() < 2 && pictureIsThere(); }));
-        waitUntilQuiet();
     }
     double stationOf(Point3 p) const { return path_.nearest(p).station_mm; }
     static void showAcquired(bool on)
@@ -43,10 +48,10 @@ protected:
         waitUntilQuiet();
     }
     /// The station of a marker that is set there.
-    double marked(QPoint at)
+    double marked(QPoint at, const char* view = "endoscopic")
     {
         const int before = markers()->rowCount();
-        click("endoscopic", at, Qt::ShiftModifier);
+        click(view, at, Qt::ShiftModifier);
         EXPECT_TRUE(eventually([&] { return markers()->rowCount() == before + 1 && settled(); })) << warning();
         return stationOf(stored().back().position_mm);
     }
@@ -134,6 +139,55 @@ TEST_F(AsAcquired, AnEndIsDraggedOnSlicesAsAcquired)
     ASSERT_TRUE(cleansed());
     waitUntilQuiet();
     drag("axial", second, second + QPoint(20, 0));
+    EXPECT_FALSE(cleansed());
+    EXPECT_NE(warning().find("as acquired"), std::string::npos) << warning();
+}
+
+/// With the other scan beside.
+class AsAcquiredBeside : public AsAcquired {
+protected:
+    void SetUp() override
+    {
+        AsAcquired::SetUp();
+        key(Qt::Key_C);
+        ASSERT_TRUE(eventually([] { return drawn("besideAxial") && drawn("besideEndoscopic"); }));
+        waitUntilQuiet();
+    }
+};
+
+TEST_F(AsAcquiredBeside, ClicksFromInsideLandOnTheWallThatIsShownThere)
+{
+    showAcquired(true);
+    EXPECT_NEAR(marked(middle("besideEndoscopic"), "besideEndoscopic"), kPool_mm, kVoxel_mm) << "on the fluid";
+    EXPECT_EQ(stored().back().scan_id, test::kProne);
+    key(Qt::Key_M);
+    click("besideEndoscopic", middle("besideEndoscopic") - QPoint(40, 0));
+    click("besideEndoscopic", middle("besideEndoscopic") + QPoint(40, 0));
+    ASSERT_TRUE(eventually([&] { return stored()[0].size.has_value() && settled(); })) << said().toStdString();
+    EXPECT_NEAR(stationOf(stored()[0].size.value().from_mm), kPool_mm, kVoxel_mm);
+    EXPECT_FALSE(stored()[0].size.value().along_mm) << "no way over a surface that is not shown";
+    showAcquired(false);
+    EXPECT_GT(marked(middle("besideEndoscopic"), "besideEndoscopic"), kPool_mm + 5) << "on the wall behind it";
+}
+
+TEST_F(AsAcquiredBeside, MeasuringShowsBothScansSlicesAsAcquiredAgain)
+{
+    const QPoint first = middle("besideAxial") + QPoint(-30, 30), second = first + QPoint(60, 0);
+    const QImage acquired = pictureOf("axial"), acquired_beside = pictureOf("besideAxial");
+    key(Qt::Key_K);
+    ASSERT_TRUE(eventually([&] { return pictureOf("besideAxial") != acquired_beside; }));
+    key(Qt::Key_M);
+    EXPECT_FALSE(cleansed());
+    EXPECT_NE(warning().find("as acquired"), std::string::npos) << "said: " << warning();
+    EXPECT_TRUE(eventually([&] { return pictureOf("besideAxial") == acquired_beside; }));
+    EXPECT_TRUE(eventually([&] { return pictureOf("axial") == acquired; }));
+    click("besideAxial", first);
+    click("besideAxial", second);
+    ASSERT_TRUE(eventually([] { return said().contains("straight"); })) << said().toStdString();
+    key(Qt::Key_K);
+    ASSERT_TRUE(cleansed());
+    waitUntilQuiet();
+    drag("besideAxial", second, second + QPoint(20, 0));
     EXPECT_FALSE(cleansed());
     EXPECT_NE(warning().find("as acquired"), std::string::npos) << warning();
 }

@@ -48,7 +48,7 @@ protected:
     bool paired(bool both) const
     {
         const auto all = stored();
-        return settled() && (all[0].pair == all[1].id) == both && (all[1].pair == all[0].id) == both;
+        return settled() && (partnerNames(all[0]) == all[1].id) == both && (partnerNames(all[1]) == all[0].id) == both;
     }
     void undo(const char* button) const
     {

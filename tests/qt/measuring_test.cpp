@@ -13,6 +13,7 @@
 #include "test_colon.h"
 #include "vicon/cases/case_store.h"
 #include "vicon/cases/finding_facts.h"
+#include "widgets/picture_view.h"
 
 namespace vicon::viewer {
 namespace {
@@ -211,6 +212,109 @@ TEST_F(Measuring, AnEndThatIsDraggedMeasuresAnewAndIsUndone)
     clickRow(markers(), 0);
     EXPECT_TRUE(eventually([&] { return calliperBetween("coronal", first, second) > 0.9; }))
         << "the marker that is chosen shows its size";
+}
+
+/// With the other scan beside. Both show the same colon in the same place: what is drawn in the wrong one is seen.
+class MeasuringBeside : public Measuring {
+protected:
+    void SetUp() override
+    {
+        Measuring::SetUp();
+        key(Qt::Key_C);
+        ASSERT_TRUE(eventually([] { return drawn("besideAxial") && drawn("besideEndoscopic"); }));
+        waitUntilQuiet();
+    }
+};
+
+TEST_F(MeasuringBeside, ALengthInTheOtherScansSliceIsDrawnDraggedAndKeptThereAlone)
+{
+    // Below the middle, where the cross is: a marker of the other scan, and a length beside it.
+    const QPoint first = middle("besideAxial") + QPoint(-30, 30), second = first + QPoint(60, 0);
+    click("besideAxial", first, Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    ASSERT_EQ(stored()[0].scan_id, test::kProne);
+    zoom("besideAxial", 2);
+    const QImage axial = pictureOf("axial");
+    key(Qt::Key_M);
+    click("besideAxial", first);
+    click("besideAxial", second);
+    ASSERT_TRUE(eventually([&] { return stored()[0].size.has_value() && settled(); })) << said().toStdString();
+    waitUntilQuiet();
+    screenshot("measured_beside");
+    EXPECT_GE(calliperBetween("besideAxial", first, second), 0.9);
+    EXPECT_EQ(pictureOf("axial"), axial) << "nothing of it in the scan that is read";
+    const double before = straight();
+    drag("besideAxial", second, second + QPoint(60, 0));
+    ASSERT_TRUE(eventually([&] { return straight() > before && settled(); })) << said().toStdString() << warning();
+    EXPECT_NEAR(straight(), 2 * before, 0.05 * before);
+    EXPECT_GE(calliperBetween("besideAxial", first, second + QPoint(60, 0)), 0.9);
+    EXPECT_EQ(stored()[0].scan_id, test::kProne);
+}
+
+TEST_F(MeasuringBeside, TheOtherScansWallIsMeasuredFromInside)
+{
+    const QImage inside = pictureOf("endoscopic");
+    const QPoint middle_of_it = middle("besideEndoscopic");
+    key(Qt::Key_M);
+    click("besideEndoscopic", middle_of_it + QPoint(40, 50));
+    click("besideEndoscopic", middle_of_it + QPoint(70, 50));
+    ASSERT_TRUE(eventually([] { return said().contains("along"); })) << said().toStdString() << warning();
+    waitUntilQuiet();
+    screenshot("measured_beside_inside");
+    const auto* view = the<PictureView>("besideEndoscopic");
+    const auto end = [&](std::size_t which) {
+        const QPointF at = view->calliper().value().grips[which].value();
+        return view->toWidget({at.x(), at.y()}).toPoint();
+    };
+    ASSERT_TRUE(view->calliper());
+    const QPoint first = end(0), second = end(1);  // of the wall the nearest corners
+    EXPECT_GE(calliperBetween("besideEndoscopic", first, first), 0.9);
+    EXPECT_LT((second - middle_of_it - QPoint(70, 50)).manhattanLength(), 16);
+    EXPECT_EQ(pictureOf("endoscopic"), inside);
+    const double before = firstLength(said());
+    drag("besideEndoscopic", second, second + QPoint(40, 0));
+    EXPECT_TRUE(eventually([&] { return firstLength(said()) > 1.2 * before; })) << said().toStdString();
+    key(Qt::Key_Escape);
+    EXPECT_TRUE(eventually([&] { return !view->calliper(); }));
+}
+
+TEST_F(MeasuringBeside, NoLengthReachesFromOneScanToTheOtherWhicheverWasClickedFirst)
+{
+    for (const auto& [one, other] : {std::pair("besideAxial", "axial"), std::pair("axial", "besideAxial")}) {
+        SCOPED_TRACE(one);
+        const QPoint first = middle(one) + QPoint(-30, 30);
+        key(Qt::Key_M);
+        click(one, first);
+        click(other, middle(other) + QPoint(30, 30));
+        ASSERT_TRUE(eventually([] { return warning().find("in one scan") != std::string::npos; })) << warning();
+        EXPECT_FALSE(said().contains("straight")) << said().toStdString();
+        click(one, first + QPoint(40, 0));
+        EXPECT_TRUE(eventually([] { return said().contains("straight"); })) << said().toStdString();
+        EXPECT_GE(calliperBetween(one, first, first + QPoint(40, 0)), 0.9);
+        key(Qt::Key_Escape);
+    }
+}
+
+TEST_F(MeasuringBeside, AnEndInTheScanBesideIsForgottenWhenThatIsClosed)
+{
+    const QPoint first = middle("axial") + QPoint(-30, 30);
+    key(Qt::Key_M);
+    click("besideAxial", middle("besideAxial"));
+    key(Qt::Key_C);
+    ASSERT_TRUE(eventually([] { return !the<QWidget>("beside")->isVisible(); }));
+    click("axial", first);
+    click("axial", first + QPoint(40, 0));
+    EXPECT_TRUE(eventually([] { return said().contains("straight"); })) << said().toStdString() << warning();
+}
+
+TEST_F(MeasuringBeside, ALineGoesAlongWithItsScanWhenTheTwoChangePlaces)
+{
+    const QPoint first = middle("besideAxial") + QPoint(-30, 30);
+    measuredBetween("besideAxial", first, first + QPoint(60, 0));
+    openOther();
+    waitUntilQuiet();
+    EXPECT_FALSE(the<PictureView>("besideAxial")->calliper()) << "that scan is read now";
+    EXPECT_TRUE(the<PictureView>("axial")->calliper());
 }
 
 /// A marker on the polyp of the colon is there from the beginning.

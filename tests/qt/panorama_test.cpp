@@ -2,10 +2,12 @@
 #include <QAction>
 #include <QDockWidget>
 #include <QLabel>
+#include <QStatusBar>
 #include <QWheelEvent>
 #include <cmath>
 
 #include "reading.h"
+#include "widgets/picture_view.h"
 
 namespace vicon::viewer {
 namespace {
@@ -71,6 +73,44 @@ TEST_F(Panoramas, TheCubeIsAKeyAwayFollowsTheEyeAndAClickLooksThere)
     screenshot("cube_clicked");
     key(Qt::Key_U);
     EXPECT_TRUE(eventually([] { return !the<QWidget>("cube")->isVisible(); }));
+}
+
+TEST_F(Panoramas, ALengthIsMeasuredOnTheCubeAndItsEndsAreDraggedThere)
+{
+    key(Qt::Key_U);
+    ASSERT_TRUE(isShown("cube"));
+    waitUntilQuiet();
+    auto* cube = the<PictureView>("cube");
+    const QImage inside = pictureOf("endoscopic"), plain = pictureOf("cube");
+    const QPoint front(cube->width() * 3 / 8, cube->height() / 2);  // the middle of its face
+    const QPoint first = front + QPoint(20, 30), second = front + QPoint(45, 30);
+    key(Qt::Key_M);
+    click("cube", first);
+    EXPECT_TRUE(cube->calliper()) << "the first end is shown";
+    click("cube", second);
+    const auto said = [] { return window()->statusBar()->currentMessage(); };
+    ASSERT_TRUE(eventually([&] { return said().contains("along"); })) << said().toStdString() << warning();
+    waitUntilQuiet();
+    screenshot("measured_on_cube");
+    ASSERT_TRUE(cube->calliper() && cube->calliper()->grips[0] && cube->calliper()->grips[1]);
+    const auto end = [&](std::size_t which) {
+        const QPointF at = cube->calliper().value().grips[which].value();
+        return cube->toWidget({at.x(), at.y()}).toPoint();
+    };
+    constexpr int kCorner_px = 16;  // to the nearest corner of this coarse wall
+    EXPECT_LT((end(0) - first).manhattanLength(), kCorner_px);
+    EXPECT_LT((end(1) - second).manhattanLength(), kCorner_px);
+    EXPECT_NE(pictureOf("cube"), plain);
+    EXPECT_NE(pictureOf("endoscopic"), inside) << "the same line in the other view of this scan";
+    const double before = said().section(' ', 0, 0).toDouble();
+    const QPoint to = end(1) + QPoint(30, 0);
+    drag(cube, end(1), QPoint(30, 0));
+    EXPECT_TRUE(eventually([&] { return said().section(' ', 0, 0).toDouble() > 1.3 * before; }))
+        << said().toStdString();
+    waitUntilQuiet();
+    EXPECT_LT((end(1) - to).manhattanLength(), kCorner_px);
+    key(Qt::Key_Escape);
+    EXPECT_TRUE(eventually([&] { return !cube->calliper(); }));
 }
 
 TEST_F(Panoramas, TheBandGoesWhereItIsClickedAndScrollsAndIsWholeOnADoubleClick)

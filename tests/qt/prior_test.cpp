@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QPushButton>
+#include <QStatusBar>
 #include <QTableWidget>
 
 #include "reading.h"
@@ -109,6 +110,7 @@ TEST_F(Priors, AreListedShownInTheirPlaceAndFlownTo)
     clickRow(table(), 0);
     ASSERT_TRUE(eventually([&] { return std::abs(station() - length_mm_ / 2) < 5; })) << station();
     ASSERT_TRUE(eventually([] { return violet("axial") > 5; })) << "a diamond in the slice";
+    EXPECT_TRUE(eventually([] { return violet("endoscopic") > 5; })) << "a ring where its stretch ends";
     screenshot("priors");
 }
 
@@ -154,6 +156,14 @@ TEST_F(Priors, ShowTheEarlierImagesAtTheSamePlaceWithoutAMarker)
     click("besideAxial", middle("besideAxial"), Qt::ShiftModifier);
     ASSERT_TRUE(eventually([] { return settled(); }));
     EXPECT_EQ(stored().size(), before.size()) << "an earlier examination is not marked";
+    const auto words = [] { return window()->statusBar()->currentMessage(); };
+    key(Qt::Key_M);
+    click("besideAxial", middle("besideAxial"));
+    click("besideAxial", middle("besideAxial") + QPoint(40, 20));
+    EXPECT_TRUE(eventually([&] { return words().contains("straight") && words().contains("not kept"); }))
+        << words().toStdString() << warning();
+    screenshot("prior-measured");
+    EXPECT_EQ(stored().size(), before.size());
     key(Qt::Key_C, Qt::ShiftModifier);
     ASSERT_TRUE(eventually([] { return !the<QWidget>("beside")->isVisible(); }));
 }

@@ -153,7 +153,7 @@ protected:
         clickRow(markers(), 0);
         ASSERT_TRUE(eventually([&] {
             const auto all = stored(case_id_.c_str());
-            return settled() && all[0].pair == all[1].id && all[1].pair == all[0].id;
+            return settled() && partnerNames(all[0]) == all[1].id && partnerNames(all[1]) == all[0].id;
         }));
         screenshot("paired");
     }

@@ -3,6 +3,7 @@
 
 #include <QComboBox>
 #include <QLabel>
+#include <QMouseEvent>
 #include <QPushButton>
 #include <QTableWidget>
 
@@ -79,6 +80,44 @@ TEST_F(TwoScans, TheSamePlaceIsABandInTheOtherScansViewsAndMovesWithTheEye)
     EXPECT_TRUE(eventually([&] { return pictureOf("besideOverview") != first; }));
 }
 
+TEST_F(TwoScans, TheSamePlaceStaysInTheProjectionThatTurnsInTheBandAndInTheCube)
+{
+    for (int n = 0; n < 6; ++n)
+        key(Qt::Key_Period);
+    waitUntilQuiet();
+    constexpr int kShown = 60;
+    const int without = green("overview");  // some of the way's line is about as green
+    openOther();
+    waitForScan();
+    ASSERT_TRUE(eventually([&] { return green("overview") > without + kShown; })) << without;
+    waitUntilQuiet();
+    auto* overview = the<QWidget>("overview");
+    const QImage front = pictureOf("overview");
+    const QPoint from = overview->rect().center();
+    QTest::mousePress(overview, Qt::LeftButton, {}, from);
+    for (int n = 1; n <= 4; ++n) {
+        QMouseEvent move(QEvent::MouseMove, from + QPoint(20, 5) * n, Qt::LeftButton, Qt::LeftButton, {});
+        QApplication::sendEvent(overview, &move);
+    }
+    QTest::mouseRelease(overview, Qt::LeftButton, {}, from + QPoint(80, 20));
+    ASSERT_TRUE(eventually([&] { return pictureOf("overview") != front; }));
+    waitUntilQuiet();
+    screenshot("same_place_turned");
+    const int turned = green("overview");
+    EXPECT_GT(turned, kShown) << "turned";
+    key(Qt::Key_B, Qt::ShiftModifier);
+    key(Qt::Key_U);
+    for (const char* view : {"band", "cube"})
+        EXPECT_TRUE(eventually([&] { return green(view) > 20; })) << view;
+    waitUntilQuiet();
+    screenshot("same_place_all_views");
+    key(Qt::Key_U);
+    key(Qt::Key_Period);
+    waitUntilQuiet();
+    EXPECT_LT(green("band"), 5) << "of the place that was come to alone";
+    EXPECT_LT(green("overview"), turned - kShown) << turned;
+}
+
 TEST_F(TwoScans, ThePictureBesideSaysWhileItIsOfAnotherPlace)
 {
     const auto note = [] { return the<PictureView>("besideEndoscopic")->note(); };
@@ -124,7 +163,7 @@ TEST_F(TwoScans, MarkersOfOneFindingAreProposedAndPairedByTheReaderAlone)
     EXPECT_EQ(table->item(0, 1)->text(), "1");
     EXPECT_THAT(table->item(0, 2)->text().toStdString(), testing::HasSubstr("from the same place, within"));
     for (const Marker& marker : stored())
-        EXPECT_EQ(marker.pair, "") << "nothing is paired by itself";
+        EXPECT_EQ(partnerNames(marker), "") << "nothing is paired by itself";
     EXPECT_FALSE(the<QPushButton>("pairConfirm")->isEnabled());
     clickRow(table, 0);
     ASSERT_TRUE(eventually([] { return the<QPushButton>("pairConfirm")->isEnabled(); }));
@@ -133,7 +172,7 @@ TEST_F(TwoScans, MarkersOfOneFindingAreProposedAndPairedByTheReaderAlone)
     const auto pairOf = [&](const std::string& id) {
         for (const Marker& marker : stored())
             if (marker.id == id)
-                return marker.pair;
+                return partnerNames(marker);
         return std::string("no such marker");
     };
     ASSERT_TRUE(eventually([&] { return pairOf(first) == second && pairOf(second) == first; }));
@@ -171,6 +210,56 @@ TEST_F(TwoScans, BothMarkersOfAProposedPairAreSeenSideBySide)
     ASSERT_TRUE(eventually([&] { return the<QComboBox>("scan")->currentText() != read; })) << "the other scan is read";
     EXPECT_TRUE(eventually([&] { return circleIn("endoscopic") > 100; }));
     EXPECT_TRUE(eventually([&] { return circleIn("besideEndoscopic") > 100; }));
+}
+
+/// With the patient on the side as well.
+class ThreeScans : public TwoScans {
+protected:
+    static constexpr const char* kDecubitus = "s4";
+
+    void SetUp() override
+    {
+        Reading::SetUp();
+        CaseStore store(store_);
+        ScanRecord scan{.id = kDecubitus, .case_id = test::kCase};
+        scan.series.uid = "1.2.3.3";
+        scan.series.number = 3;
+        scan.series.patient_position = "HFDL";
+        std::filesystem::create_directories(store.scanFolder(test::kCase, kDecubitus));
+        store.addScan(store.requireCase(test::kCase), scan, {}, false);
+        test::TestColon().write(store.scanFolder(test::kCase, kDecubitus));
+        store.writeScanFile(test::kCase, kDecubitus);
+    }
+};
+
+TEST_F(ThreeScans, APairIsProposedWithTheThirdSightAndConfirmedToOneFinding)
+{
+    const std::string ids[] = {mark(test::kSupine), mark(test::kProne), mark(kDecubitus)};
+    openCase();
+    showList(kPairList);
+    auto* table = the<QTableWidget>("pairs");
+    ASSERT_TRUE(eventually([&] { return table->rowCount() == 3; })) << table->rowCount();
+    const auto confirm = [&] {
+        clickRow(table, 0);
+        ASSERT_TRUE(eventually([] { return the<QPushButton>("pairConfirm")->isEnabled(); }));
+        press(window(), "pairConfirm");
+    };
+    ASSERT_NO_FATAL_FAILURE(confirm());
+    ASSERT_TRUE(eventually([&] { return table->rowCount() == 2 && settled(); })) << table->rowCount();
+    screenshot("third_sight");
+    EXPECT_THAT(table->item(0, 2)->text().toStdString(), testing::HasSubstr("is paired with"));
+    ASSERT_NO_FATAL_FAILURE(confirm());
+    ASSERT_TRUE(eventually([&] { return table->rowCount() == 0 && settled(); })) << table->rowCount();
+    const auto partners = [&](std::size_t n) { return partnerNames(stored()[n]); };
+    EXPECT_EQ(partners(0), ids[1] + ", " + ids[2]);
+    EXPECT_EQ(partners(1), ids[0] + ", " + ids[2]);
+    EXPECT_EQ(partners(2), ids[0] + ", " + ids[1]);
+    showList(0);
+    EXPECT_EQ(cell(0, 4).toStdString(), ids[1] + ", " + ids[2]);
+    screenshot("group_of_three");
+    key(Qt::Key_Z, Qt::ControlModifier);
+    EXPECT_TRUE(eventually([&] { return settled() && partners(0) == ids[1] && partners(2).empty(); }))
+        << partners(0) << "; " << partners(2);
 }
 
 }  // namespace

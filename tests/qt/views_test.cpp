@@ -153,6 +153,26 @@ TEST_F(Reading, SlicesWithoutTaggingAreOneKeyAwayAndNeverTheFirst)
     EXPECT_TRUE(eventually([&] { return pictureOf("axial") == acquired; }));
 }
 
+TEST_F(Reading, SlicesWithoutTaggingAreSoInBothScansOrSayThatTheyAreNot)
+{
+    const std::filesystem::path scan = CaseStore(store_).scanFolder(test::kCase, test::kProne);
+    HuVolume clean = scan_files::readVolume<std::int16_t>(scan / "volume.mha");
+    std::fill(clean.voxels.begin(), clean.voxels.end(), std::int16_t(0));
+    scan_files::writeVolume(scan / "cleansed.mha", clean, scan_files::Packing::raw);
+    openCase();
+    key(Qt::Key_C);
+    ASSERT_TRUE(eventually([] { return drawn("besideAxial"); }));
+    waitUntilQuiet();
+    const QImage acquired = pictureOf("axial"), beside = pictureOf("besideAxial");
+    key(Qt::Key_K);
+    ASSERT_TRUE(eventually([&] { return pictureOf("besideAxial") != beside; })) << "the other scan, too";
+    waitUntilQuiet();
+    screenshot("cleansed_beside");
+    EXPECT_NE(pictureOf("axial"), acquired) << "nothing was taken out of this one, and it says so";
+    key(Qt::Key_K);
+    EXPECT_TRUE(eventually([&] { return pictureOf("axial") == acquired && pictureOf("besideAxial") == beside; }));
+}
+
 TEST_F(Reading, TheWallAsAcquiredIsOneKeyAwayCountsNothingAndIsNeverTheFirst)
 {
     openCase();

@@ -148,14 +148,14 @@ TEST(Statements, AMarkerGivesTheMeasuredDistanceFirstAndTheEstimateLast)
             Statement{"Fraction", "25.8 % of the whole, 1595 mm, from the rectal end"},
             Statement{"By endoscope", "estimated: about 32 cm (0.78 × CT distance, left colon)"}));
     entry.marker.size = MarkerSize{.straight_mm = 6.24, .along_mm = 8};
-    entry.marker.pair = "m7";
+    entry.marker.partners = {"m7"};
     EXPECT_EQ(said(markerStatements(entry), "Size"), "6.2 mm straight, 8.0 mm along the wall");
     EXPECT_EQ(said(markerStatements(entry), "Same finding"), "m7");
     entry.marker.size->plane = PlaneSize{.diameter_mm = 9.04};
     EXPECT_EQ(said(markerStatements(entry), "Size"),
               "6.2 mm straight, 8.0 mm along the wall, 9.0 mm largest in the best plane");
     entry.marker.size.reset();
-    entry.marker.pair.clear();
+    entry.marker.partners.clear();
     EXPECT_EQ(said(markerStatements(entry), "Same finding"), "(nothing)");
     EXPECT_EQ(said(markerStatements(entry), "Size"), "(nothing)");
     entry.part_name.clear();

@@ -1,6 +1,7 @@
 // What flat pictures of the wall are made with: the raster, the unfolded cube, the turned view.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -91,6 +92,41 @@ TEST(Cube, FacesAreWhereTheyAreSaidToBeAndGoOnAcrossTheirEdges)
                                std::pair(front, -up), std::pair(right, -front)}) {
         const Pixel one = pixelOf(a * 1.001 + b), other = pixelOf(a + b * 1.001);
         EXPECT_LT(std::hypot(one.x - other.x, one.y - other.y), 1) << one.x << ", " << one.y;
+    }
+}
+
+TEST(Cube, ALineIsCutWhereItGoesFromOneFaceToAnotherAndIsWhole)
+{
+    const CubeLayout layout(800, 600);
+    std::mt19937 random(6);
+    std::normal_distribution<double> normal(0, 30);
+    const auto somewhere = [&] { return kEye.eye_mm + Vector3{normal(random), normal(random), normal(random)}; };
+    const auto near = [](Pixel a, Pixel b) { return std::hypot(a.x - b.x, a.y - b.y) < 1e-6; };
+    for (int n = 0; n < 200; ++n) {
+        const Point3 from = somewhere(), to = somewhere();
+        bool begins = false, ends = false;
+        double turned_rad = 0;
+        for (const CubeFace face : kCubeFaces) {
+            const auto part = layout.partOn(face, kEye, from, to);
+            if (!part)
+                continue;
+            const Pixel corner = layout.cornerOf(face);
+            for (const Pixel at : {part->first, part->second}) {
+                EXPECT_GE(at.x, corner.x - 1e-6);
+                EXPECT_LE(at.x, corner.x + layout.side() + 1e-6);
+                EXPECT_GE(at.y, corner.y - 1e-6);
+                EXPECT_LE(at.y, corner.y + layout.side() + 1e-6);
+            }
+            begins = begins || near(part->first, layout.toPixel(kEye, from));
+            ends = ends || near(part->second, layout.toPixel(kEye, to));
+            const auto ray = [&](Pixel at) {
+                return rayThrough(poseOf(face, kEye), layout.lens(), {at.x - corner.x, at.y - corner.y});
+            };
+            turned_rad += std::acos(std::clamp(dot(ray(part->first), ray(part->second)), -1.0, 1.0));
+        }
+        EXPECT_TRUE(begins && ends);
+        const double whole_rad = std::acos(dot(normalized(from - kEye.eye_mm), normalized(to - kEye.eye_mm)));
+        EXPECT_NEAR(turned_rad, whole_rad, 1e-3) << "nothing is missing, nothing is drawn twice";
     }
 }
 

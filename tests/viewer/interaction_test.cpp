@@ -34,7 +34,6 @@ PickedPoint beside()
 {
     PickedPoint point = pointAt(0);
     point.scan_id = kBeside;
-    point.in_scan_read = false;
     return point;
 }
 
@@ -196,16 +195,15 @@ TEST(Interaction, ASizeLiesBetweenTwoClicks)
     EXPECT_TRUE(interaction.inUse<Idle>());
 }
 
-TEST(Interaction, OneClickOutlinesAPolypOfTheScanThatIsRead)
+TEST(Interaction, OneClickOutlinesAPolypOfTheScanThatIsReadOrOfTheOneBeside)
 {
-    Interaction interaction;
-    interaction.begin(OutlinePolyp{});
-    EXPECT_TRUE(interaction.awaitsClick());
-    PickedPoint other = onWall(1);
-    other.in_scan_read = false;
-    EXPECT_TRUE(is<Refuse>(interaction.click(other)));
-    EXPECT_TRUE(is<OutlineHere>(interaction.click(onWall(1))));
-    EXPECT_TRUE(interaction.inUse<Idle>());
+    for (const PickedPoint& point : {onWall(1), beside()}) {
+        Interaction interaction;
+        interaction.begin(OutlinePolyp{});
+        EXPECT_TRUE(interaction.awaitsClick());
+        EXPECT_TRUE(is<OutlineHere>(interaction.click(point)));
+        EXPECT_TRUE(interaction.inUse<Idle>());
+    }
 }
 
 TEST(Interaction, ASizeWithAnEndInASliceIsNotMeasuredOverTheWall)
@@ -218,7 +216,7 @@ TEST(Interaction, ASizeWithAnEndInASliceIsNotMeasuredOverTheWall)
     }
 }
 
-TEST(Interaction, AnEndInTheScanBesideIsRefusedAndTheFirstOneKept)
+TEST(Interaction, AnEndInAnotherScanThanTheFirstIsRefusedAndTheFirstOneKept)
 {
     Interaction interaction;
     interaction.begin(Measure{});
@@ -227,6 +225,17 @@ TEST(Interaction, AnEndInTheScanBesideIsRefusedAndTheFirstOneKept)
     ASSERT_TRUE(is<Refuse>(refused));
     EXPECT_EQ(std::get<Refuse>(refused).why, Refuse::Why::end_in_other_scan);
     EXPECT_TRUE(is<MeasureBetween>(interaction.click(onWall(9))));
+}
+
+TEST(Interaction, ASizeMayLieInTheScanBesideAndThenHasBothEndsThere)
+{
+    Interaction interaction;
+    interaction.begin(Measure{});
+    EXPECT_TRUE(is<AwaitOtherEnd>(interaction.click(beside())));
+    EXPECT_TRUE(is<Refuse>(interaction.click(pointAt(9)))) << "the scan that is read is the other one now";
+    const ClickMeaning size = interaction.click(beside());
+    ASSERT_TRUE(is<MeasureBetween>(size));
+    EXPECT_TRUE(interaction.inUse<Idle>());
 }
 
 TEST(Interaction, NoSizeReachesFromOneScanToAnother)

@@ -20,7 +20,7 @@ struct History : testing::Test {
         CaseRecord a_case;
         a_case.id = "c1";
         a_case.study.uid = "1.2.3";
-        for (const std::string id : {"s1", "s2"}) {
+        for (const std::string id : {"s1", "s2", "s3"}) {
             ScanRecord scan;
             scan.id = id;
             scan.case_id = "c1";
@@ -114,7 +114,7 @@ struct Pairs : History {
     {
         std::vector<std::string> all;
         for (const Marker& m : store.markers("c1"))
-            all.push_back(m.note + (m.pair.empty() ? "" : store.requireMarker("c1", m.pair).note));
+            all.push_back(m.note + (m.partners.empty() ? "" : store.requireMarker("c1", m.partners.front()).note));
         std::sort(all.begin(), all.end());
         return all;
     }
@@ -169,6 +169,41 @@ TEST_F(Pairs, AreNeverHalfWhenTheOtherMarkerWasChangedMeanwhile)
     EXPECT_EQ(pairs(), together) << "what could not be undone is in force as a whole";
     EXPECT_TRUE(history.canUndo());
     EXPECT_FALSE(history.canRedo());
+}
+
+TEST_F(Pairs, GrowToAGroupOfThreeScansWhichLosesOneAndIsUndone)
+{
+    const Marker third = add("d", "s3");
+    const auto partners = [&](const Marker& marker) {
+        std::string notes;
+        for (const std::string& id : now(marker).partners)
+            notes += store.requireMarker("c1", id).note;
+        return notes;
+    };
+    history.pair(store, a, b);
+    history.pair(store, third, now(b));
+    EXPECT_EQ(partners(a), "bd");
+    EXPECT_EQ(partners(b), "ad");
+    EXPECT_EQ(partners(third), "ab");
+    history.part(store, now(b));
+    EXPECT_EQ(partners(a), "d") << "the others stay together";
+    EXPECT_EQ(partners(b), "");
+    EXPECT_EQ(partners(third), "a");
+    history.undo(store);
+    EXPECT_EQ(partners(third), "ab");
+    history.pair(store, now(a), c);  // c lies in b's scan
+    EXPECT_EQ(partners(a), "cd");
+    EXPECT_EQ(partners(b), "");
+    EXPECT_EQ(partners(c), "ad");
+    EXPECT_EQ(partners(third), "ac");
+    history.undo(store);
+    history.remove(store, now(a));
+    EXPECT_EQ(partners(b), "d");
+    history.undo(store);
+    EXPECT_EQ(partners(b), "ad");
+    history.undo(store);
+    history.undo(store);
+    EXPECT_EQ(partners(third) + partners(a) + partners(b), "");
 }
 
 TEST_F(Pairs, OfOneScanAreRefused)

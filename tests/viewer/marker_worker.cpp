@@ -125,14 +125,14 @@ private:
 
     static Marker parted(Marker marker)
     {
-        marker.pair.clear();
+        marker.partners.clear();
         return marker;
     }
 
     State withoutPairOf(const Marker& marker) const
     {
         State wanted{{marker.id, parted(marker)}};
-        if (const auto other = mine_.find(marker.pair); other != mine_.end())
+        if (const auto other = mine_.find(partnerNames(marker)); other != mine_.end())  // of two scans: one at most
             wanted[other->first] = parted(other->second);
         return wanted;
     }
@@ -140,14 +140,14 @@ private:
     void pairOrPart()
     {
         const Marker a = any(), b = any();
-        if (!a.pair.empty()) {
+        if (!a.partners.empty()) {
             step(withoutPairOf(a), [&] { history_.part(store_, a); });
         } else if (a.scan_id != b.scan_id) {
             State wanted = withoutPairOf(b);
             wanted[a.id] = a;
             wanted[b.id] = b;
-            wanted[a.id]->pair = b.id;
-            wanted[b.id]->pair = a.id;
+            wanted[a.id]->partners = {b.id};
+            wanted[b.id]->partners = {a.id};
             step(wanted, [&] { history_.pair(store_, a, b); });
         }
     }

@@ -1,6 +1,8 @@
 // Pictures of all of the wall: the unfolded cube, the band, the body that turns.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scan_fixture.h"
@@ -203,6 +205,105 @@ TEST_F(Panorama, TheBodySeenFromOutsideIsPickedPaintedAndMarkedAsItIsTurned)
     }
     request.seen.assign(files.cells().triangleCount(), 1);
     EXPECT_GT(greenish(turnedPicture(files, request, quiet).picture), 5000);
+}
+
+/// A stretch of the colon with the place in its middle, and no name.
+PriorPlace stretchOf(const PreparedScan& files, double station_mm, double to_either_side_mm)
+{
+    return samePlace({}, files.skeleton(),
+                     {station_mm, station_mm - to_either_side_mm, station_mm + to_either_side_mm});
+}
+
+int pixelsOf(const Picture& picture, Rgb color, const Area& area)
+{
+    int count = 0;
+    for (int y = std::max(0, int(area.y)); y < std::min<double>(picture.height, area.bottom()); ++y)
+        for (int x = std::max(0, int(area.x)); x < std::min<double>(picture.width, area.right()); ++x)
+            count += apart(picture.at(x, y), color) <= 2;
+    return count;
+}
+
+TEST_F(Panorama, WhereSomethingShouldLieIsSeenFromInsideAsRingsOnTheWallAtBothEndsOfTheStretch)
+{
+    const PreparedScan files = scan();
+    const double station_mm = colon.polyp_station_mm, side_mm = 15;
+    const PriorPlace place = stretchOf(files, station_mm, side_mm);
+    EXPECT_EQ(place.least_mm, station_mm - side_mm);
+    const PathFrame eye = files.frames().at(station_mm);
+    const auto lines = priorRings(place, files.frames(), files.lumen(), eye.position_mm);
+    std::array<int, 2> at_end{};
+    for (const auto& line : lines)
+        for (const Point3 p : line) {
+            EXPECT_LT(files.lumen().clearance_mm(p), 2 * files.lumen().voxel_mm()) << "on the wall";
+            bool across = false;
+            for (const std::size_t end : {0U, 1U}) {
+                const PathFrame frame = files.frames().at(station_mm + (end == 0 ? -side_mm : side_mm));
+                const bool here = std::abs(dot(p - frame.position_mm, frame.forward)) < 1e-6;
+                at_end[end] += here;
+                across = across || here;
+            }
+            EXPECT_TRUE(across) << "where the stretch begins or ends";
+        }
+    constexpr int kMostOfIt = 40;  // of 72 corners
+    EXPECT_GT(at_end[0], kMostOfIt);
+    EXPECT_GT(at_end[1], kMostOfIt);
+    const PathFrame away = files.frames().at(files.frames().length_mm());
+    EXPECT_TRUE(priorRings(place, files.frames(), files.lumen(), away.position_mm).empty()) << "behind bends";
+}
+
+TEST_F(Panorama, WhereSomethingShouldLieIsShownFromInsideInCubeBandAndOnTheBodyThatTurns)
+{
+    const PreparedScan files = scan();
+    NoProgress quiet;
+    constexpr double kSide_mm = 15;
+    const double station_mm = colon.polyp_station_mm;
+    const std::vector<PriorPlace> stretch{stretchOf(files, station_mm, kSide_mm)};
+    const auto all = [](const Picture& picture) {
+        return pixelsOf(picture, kSamePlaceColor, {0, 0, double(picture.width), double(picture.height)});
+    };
+
+    SnapshotRequest cube = cubeRequest(colon);
+    EXPECT_EQ(all(drawSnapshot(files, cube).picture), 0);
+    cube.priors = stretch;
+    EXPECT_GT(all(drawSnapshot(files, cube).picture), 100);
+    SnapshotRequest inside = cube;
+    inside.view = SnapshotRequest::View::endo;
+    inside.priors = {stretchOf(files, station_mm, 2 * kSide_mm)};
+    const DrawnSnapshot ahead = drawSnapshot(files, inside);
+    writePng(folder / "ring.png", ahead.picture);
+    EXPECT_GT(all(ahead.picture), 100) << "the end of the stretch, ahead";
+
+    const BandMap band = bandOf(files, quiet);
+    BandRequest request;
+    request.width = 900;
+    request.height = 300;
+    request.middle_mm = station_mm;
+    EXPECT_EQ(all(bandPicture(files, band, request, quiet).picture), 0);
+    request.priors = stretch;
+    for (const bool from_caecum : {false, true}) {
+        request.from_caecum = from_caecum;
+        const BandPicture drawn = bandPicture(files, band, request, quiet);
+        const auto x = [&](double station) { return drawn.page.toPixel(band, {station, 0}).x; };
+        const double one = x(station_mm - kSide_mm), other = x(station_mm + kSide_mm);
+        for (const double end : {one, other})
+            EXPECT_GT(pixelsOf(drawn.picture, kSamePlaceColor, {end - 2, 0, 4, 300}), 50) << from_caecum;
+        const double first = std::min(one, other), last = std::max(one, other);
+        EXPECT_EQ(pixelsOf(drawn.picture, kSamePlaceColor, {0, 0, first - 4, 300}), 0) << "nothing before it";
+        EXPECT_EQ(pixelsOf(drawn.picture, kSamePlaceColor, {last + 4, 0, 900, 300}), 0) << "nothing after it";
+    }
+
+    TurnedRequest turned;
+    turned.width = turned.height = 400;
+    turned.view.turn({120, 40}, 200);
+    EXPECT_EQ(all(turnedPicture(files, turned, quiet).picture), 0);
+    turned.priors = stretch;
+    const TurnedPicture drawn = turnedPicture(files, turned, quiet);
+    const Pixel middle = drawn.view.toPixel(files.skeleton().at(station_mm).position_mm);
+    const double near_px = (kSide_mm + 12) / drawn.view.mm_per_pixel;  // and the disc in its middle
+    const int there =
+        pixelsOf(drawn.picture, kSamePlaceColor, {middle.x - near_px, middle.y - near_px, 2 * near_px, 2 * near_px});
+    EXPECT_GT(there, 30);
+    EXPECT_EQ(there, all(drawn.picture)) << "nowhere else";
 }
 
 TEST_F(Panorama, WhatIsNoLongerWantedStops)

@@ -93,4 +93,34 @@ Pixel CubeLayout::toPixel(const Pose& eye, Point3 p) const
     return {corner.x + at.x, corner.y + at.y};
 }
 
+std::optional<std::pair<Pixel, Pixel>> CubeLayout::partOn(CubeFace face, const Pose& eye, Point3 from, Point3 to) const
+{
+    constexpr double kLeastDepth_mm = 1e-3;  // what lies in the eye has no place
+    const Pose pose = poseOf(face, eye);
+    const Vector3 right = pose.right();
+    const auto off = [&](Point3 p) { return p - eye.eye_mm; };
+    double begin = 0, end = 1;  // of the line
+    // A face is bounded by four planes through the eye; it shows what lies on the inner side of all.
+    const auto cut = [&](double at_from, double at_to) {
+        if (at_from < 0 && at_to < 0)
+            end = -1;
+        else if (at_from < 0)
+            begin = std::max(begin, at_from / (at_from - at_to));
+        else if (at_to < 0)
+            end = std::min(end, at_from / (at_from - at_to));
+    };
+    for (const Vector3 inwards :
+         {pose.forward + right, pose.forward - right, pose.forward + pose.up, pose.forward - pose.up})
+        cut(dot(off(from), inwards), dot(off(to), inwards));
+    cut(dot(off(from), pose.forward) - kLeastDepth_mm, dot(off(to), pose.forward) - kLeastDepth_mm);
+    if (begin >= end)
+        return std::nullopt;
+    const Pixel corner = cornerOf(face);
+    const auto place = [&](double along) {
+        const Pixel at = project(pose, lens(), interpolate(from, to, along)).at;
+        return Pixel{corner.x + at.x, corner.y + at.y};
+    };
+    return std::pair(place(begin), place(end));
+}
+
 }  // namespace vicon::viewer

@@ -11,9 +11,11 @@ bool Interaction::awaitsClick() const
 
 ClickMeaning Interaction::measureAt(const PickedPoint& point)
 {
-    if (!point.in_scan_read)
-        return Refuse{Refuse::Why::end_in_other_scan, {}};
     auto& measure = std::get<Measure>(tool_);
+    if (measure.ends_mm.empty())
+        measure.scan_id = point.scan_id;
+    else if (measure.scan_id != point.scan_id)
+        return Refuse{Refuse::Why::end_in_other_scan, {}};
     measure.ends_mm.push_back(point.at_mm);
     measure.on_wall = measure.on_wall && point.on_wall;
     if (measure.ends_mm.size() < 2)
@@ -30,8 +32,6 @@ ClickMeaning Interaction::click(const PickedPoint& point)
     if (inUse<Measure>())
         return measureAt(point);
     if (inUse<OutlinePolyp>()) {
-        if (!point.in_scan_read)
-            return Refuse{Refuse::Why::end_in_other_scan, {}};
         finish();
         return OutlineHere{};
     }

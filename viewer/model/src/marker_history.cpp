@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "vicon/core/error.h"
+#include "vicon/cases/marker_groups.h"
 
 namespace vicon::viewer {
 namespace {
@@ -15,12 +15,6 @@ std::vector<MarkerEdit> inverse(const std::vector<MarkerEdit>& step)
         return MarkerEdit{edit.after, edit.before};
     });
     return back;
-}
-
-Marker named(Marker marker, const std::string& partner)
-{
-    marker.pair = partner;
-    return marker;
 }
 
 }  // namespace
@@ -61,15 +55,14 @@ void MarkerHistory::remove(CaseStore& store, const Marker& before)
 
 void MarkerHistory::pair(CaseStore& store, const Marker& a, const Marker& b)
 {
-    if (a.scan_id == b.scan_id)
-        throw Error(ErrorCode::wrong_use, "a pair is one finding in two scans; both markers lie in the same one",
-                    a.id + " and " + b.id);
-    take(store, {{a, named(a, b.id)}, {b, named(b, a.id)}});
+    take(store, pairingEdits(store.markers(case_id_), a, b));
 }
 
 void MarkerHistory::part(CaseStore& store, const Marker& marker)
 {
-    take(store, {{marker, named(marker, "")}});
+    Marker parted = marker;
+    parted.partners.clear();
+    take(store, {{marker, parted}});
 }
 
 void MarkerHistory::undo(CaseStore& store)

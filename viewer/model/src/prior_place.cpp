@@ -27,9 +27,9 @@ std::vector<Point3>::const_iterator crossing(const PlaneView& view, const PriorP
 PriorPlace priorPlace(const std::string& label, const Skeleton& skeleton, double station_mm, double least_mm,
                       double most_mm)
 {
-    PriorPlace place{
-        label, skeleton.at(std::clamp(station_mm, 0.0, skeleton.length_mm())).position_mm, {}, kPriorColor};
-    const double from = std::max(0.0, least_mm), to = std::min(skeleton.length_mm(), most_mm);
+    const auto within = [&](double station) { return std::clamp(station, 0.0, skeleton.length_mm()); };
+    const double from = within(least_mm), to = within(most_mm);
+    PriorPlace place{label, skeleton.at(within(station_mm)).position_mm, {}, within(station_mm), from, to, kPriorColor};
     const int steps = std::max(1, int(std::ceil((to - from) / kWayStep_mm)));
     for (int n = 0; n <= steps; ++n)
         place.band_mm.push_back(skeleton.at(from + (to - from) * n / steps).position_mm);
@@ -62,6 +62,12 @@ void addPriorBand(Overlay& overlay, const PlaneView& view, const PriorPlace& pla
         band.points.push_back(view.toPixel(p));
     overlay.lines.push_back(std::move(band));
     overlay.discs.push_back({view.toPixel(place.position_mm), 0.45 * text_px, place.color, 2});
+}
+
+void addPriorName(Overlay& overlay, Pixel at, const PriorPlace& place, double text_px)
+{
+    overlay.texts.push_back(
+        {{at.x + 0.7 * text_px, at.y}, place.label, 0.9 * text_px, place.color, Across::left, Along::middle, 1e9});
 }
 
 void addPriorDiamond(Overlay& overlay, const PlaneView& view, const PriorPlace& place, double depth_mm, double near_mm,

@@ -146,6 +146,31 @@ void addBandMarkers(Overlay& overlay, const BandMap& band, const BandPage& page,
     }
 }
 
+/// A bracket from where something is expected at least to where at most, with its label, and a tick at its middle.
+void addBandPriors(Overlay& overlay, const BandMap& band, const BandPage& page, const std::vector<PriorPlace>& priors,
+                   double text_px)
+{
+    constexpr double kDash_px = 6;
+    for (const PriorPlace& place : priors)
+        for (int row = 0; row < page.rows; ++row) {
+            const double least = std::max(place.least_mm, page.rowLeast_mm(row)),
+                         most = std::min(place.most_mm, page.rowMost_mm(row));
+            if (least > most)
+                continue;
+            const auto x = [&](double station) { return page.toPixel(band, {station, 0}, row).x; };
+            const double top = page.rowTop(row) + page.label_px, bottom = page.rowTop(row) + page.rowHeight();
+            const double bar = top + 0.3 * text_px;
+            overlay.lines.push_back({{{x(least), bar}, {x(most), bar}}, place.color, std::max(3.0, 0.3 * text_px), 0});
+            for (const double end : {place.least_mm, place.most_mm})
+                if (end >= least && end <= most)
+                    overlay.lines.push_back({{{x(end), top}, {x(end), bottom}}, place.color, 2, kDash_px});
+            if (place.station_mm < least || place.station_mm > most)
+                continue;
+            overlay.discs.push_back({{x(place.station_mm), bar}, 0.45 * text_px, place.color, 2});
+            addPriorName(overlay, {x(place.station_mm), bar + 1.1 * text_px}, place, text_px);
+        }
+}
+
 /// A line across the band where the eye is, and a mark on the wall at which it looks.
 void addEye(Overlay& overlay, const BandMap& band, const BandPage& page, const SnapshotResult& eye, double text_px)
 {
@@ -168,6 +193,7 @@ Overlay bandOverlay(const PreparedScan& scan, const BandMap& band, const BandPag
     addStations(overlay, scan, page, text_px);
     addSides(overlay, band, page, text_px);
     addBridges(overlay, band, scan.skeleton(), page, text_px);
+    addBandPriors(overlay, band, page, request.priors, text_px);
     addBandMarkers(overlay, band, page, request.markers, text_px);
     if (request.eye)
         addEye(overlay, band, page, *request.eye, text_px);

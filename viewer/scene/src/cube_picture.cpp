@@ -1,6 +1,7 @@
 #include "vicon/viewer/scene/cube_picture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "pictures.h"
@@ -23,6 +24,50 @@ void addWallLines(Overlay& overlay, const CubeLayout& layout, const std::vector<
             broken.push_back(line);
         }
     addLines(overlay, {0, face.y, face.x, face.x}, broken, text_px);
+}
+
+/// What a face shows of a line through space, in as few lines as it can.
+void addOnFace(Overlay& overlay, const CubeLayout& layout, CubeFace face, const Pose& eye,
+               const std::vector<Point3>& through, Rgb color)
+{
+    constexpr double kSame_px = 1e-3;
+    OverlayLine line{{}, color, 2, 0};
+    const auto end = [&] {
+        if (line.points.size() > 1)
+            overlay.lines.push_back(line);
+        line.points.clear();
+    };
+    for (std::size_t n = 1; n < through.size(); ++n) {
+        const auto part = layout.partOn(face, eye, through[n - 1], through[n]);
+        if (!part)
+            continue;
+        if (line.points.empty() ||
+            std::hypot(line.points.back().x - part->first.x, line.points.back().y - part->first.y) > kSame_px) {
+            end();
+            line.points.push_back(part->first);
+        }
+        line.points.push_back(part->second);
+    }
+    end();
+}
+
+/// Over all faces; the label stands where the rings are highest.
+void addCubeRings(Overlay& overlay, const CubeLayout& layout, const PreparedScan& scan, const PriorPlace& expected,
+                  const Pose& eye, double text_px)
+{
+    const std::size_t before = overlay.lines.size();
+    for (const std::vector<Point3>& ring : priorRings(expected, scan.frames(), scan.lumen(), eye.eye_mm))
+        for (const CubeFace face : kCubeFaces)
+            addOnFace(overlay, layout, face, eye, ring, expected.color);
+    std::optional<Pixel> highest;
+    for (std::size_t n = before; n < overlay.lines.size(); ++n)
+        for (const Pixel at : overlay.lines[n].points)
+            if (!highest || at.y < highest->y)
+                highest = at;
+    PriorPlace end = expected;
+    end.label += ", to here";  // it lies between the rings, not in one
+    if (highest)
+        addPriorName(overlay, *highest, end, text_px);
 }
 
 std::string faceName(CubeFace face)
@@ -93,6 +138,8 @@ Overlay cubeOverlay(const PreparedScan& scan, const SnapshotRequest& request, co
                                      kLeast_px * request.pixel_ratio);
     const double text_px = request.text_px > 0 ? request.text_px : usual_px;
     Overlay overlay;
+    for (const PriorPlace& expected : request.priors)
+        addCubeRings(overlay, layout, scan, expected, place.pose, text_px);
     for (const CubeFace face : kCubeFaces) {
         const Pose pose = poseOf(face, place.pose);
         Overlay of_face;

@@ -121,6 +121,8 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
     const Area area{0, 0, double(request.width), double(request.height)};
     const double text_px =
         request.text_px > 0 ? request.text_px : textHeightFor(request.width, request.height, request.pixel_ratio);
+    for (const PriorPlace& expected : request.priors)
+        addPriorRings(overlay, expected, scan.frames(), scan.lumen(), place.pose, lens, text_px);
     addMarkersInView(overlay, scan, request, place.pose, lens, text_px);
     addLetters(overlay, area, place.pose.right(), -place.pose.up, text_px);
     const bool tall = area.height >= kLeastForTriad * text_px;

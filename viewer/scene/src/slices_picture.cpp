@@ -43,10 +43,10 @@ void drawRim(Picture& picture, const InsideView& inside, const SliceRequest& req
             picture.set(int(n % std::size_t(picture.width)), int(n / std::size_t(picture.width)), kLumenRimColor);
 }
 
-/// Which densities are shown, where there are two kinds.
-std::string wordFor(bool cleansable, bool shown)
+/// Which densities are shown, where there are two kinds or the other kind was asked for.
+std::string wordFor(bool cleansable, bool asked)
 {
-    return !cleansable ? "" : shown ? ", CLEANSED" : ", as acquired";
+    return cleansable && asked ? ", CLEANSED" : cleansable || asked ? ", as acquired" : "";
 }
 
 std::string titleOf(SlicePlane plane, Point3 point)

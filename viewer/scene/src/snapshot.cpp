@@ -50,6 +50,7 @@ Picture bandSnapshot(const PreparedScan& scan, const SnapshotRequest& request, c
     if (!request.whole_band)
         band.middle_mm = place.station_mm;
     band.markers = request.markers;
+    band.priors = request.priors;
     band.caption = request.caption;
     band.captioned = request.captioned;
     return bandPicture(scan, bandOf(scan, quiet), band, quiet).picture;

@@ -147,6 +147,10 @@ Overlay turnedOverlay(const PreparedScan& scan, const TurnedPicture& drawn, cons
     Overlay overlay;
     const Area area{0, 0, double(request.width), double(request.height)};
     addTips(overlay, scan.skeleton(), scan.words(), drawn.view, text_px);
+    for (const PriorPlace& place : request.priors) {
+        addPriorBand(overlay, drawn.view, place, text_px);
+        addPriorName(overlay, drawn.view.toPixel(place.position_mm), place, text_px);
+    }
     addTurnedMarkers(overlay, scan.cells(), drawn, request.markers, text_px);
     addHere(overlay, drawn.view, request.eye.pose, 0.8 * text_px);
     addLetters(overlay, area, drawn.view.right, drawn.view.down, text_px);

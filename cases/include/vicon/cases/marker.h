@@ -30,7 +30,8 @@ struct Marker {
     std::string created;
     std::string changed;
     std::optional<ColonPart> part;  ///< where it lies; absent where the parts are not known
-    std::string pair;               ///< the marker of the same finding in the other scan; empty: none
+    /// The markers of the same finding in other scans, one in each at most; each of them names all others.
+    std::vector<std::string> partners;
     std::optional<MarkerSize> size;
     std::optional<DensitySample> density;
     std::optional<MarkerView> view;  ///< from which it was placed
@@ -38,6 +39,9 @@ struct Marker {
     /// is.
     nlohmann::json extra = nlohmann::json::object();
 };
+
+/// "m2, m5": those of the same finding.
+std::string partnerNames(const Marker& marker);
 
 /// As docs/dev/schemas/markers.schema.json has it.
 nlohmann::json toJson(const Marker& marker);

@@ -32,10 +32,11 @@ struct PairProposal {
     int rivals = 0;             ///< other candidates of either marker that fit about as well
     std::string reason;         ///< in words
 };
-/// Whether markers that are in no pair lie in two scans or more: else there is nothing to propose, and no need of maps.
+/// Whether there are markers of two scans that may be one finding: else there is nothing to propose, and no need of
+/// maps.
 bool mayBePaired(const std::vector<Marker>& markers);
-/// Of all markers that are in no pair: those of two scans that may lie in one place, the best first. A marker is in at
-/// most one proposal of rank 1 with another scan.
+/// Of all markers but those that are paired with one of the other scan already: those of two scans that may lie in one
+/// place, the best first. A marker is in at most one proposal of rank 1 with another scan.
 std::vector<PairProposal> proposePairs(const std::vector<Marker>& markers, const std::vector<ScanMatch>& matches);
 nlohmann::json toJson(const PairProposal& proposal);
 

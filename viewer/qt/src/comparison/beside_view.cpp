@@ -34,4 +34,13 @@ void BesideView::sayPlace(const QString& words, const QString& more)
     place_->setVisible(!words.isEmpty());
 }
 
+void BesideView::clear(const QString& words)
+{
+    slice_->leave(words);
+    for (PictureView* view : {endoscopic_, overview_}) {
+        view->clearPicture(words);
+        view->setNote({});
+    }
+}
+
 }  // namespace vicon::viewer

@@ -19,6 +19,9 @@ public:
     /// How surely it is the same place; empty: nothing is said.
     void sayPlace(const QString& words, const QString& more);
 
+    /// Another scan is shown from now on; these words stand there until its pictures come.
+    void clear(const QString& words);
+
 private:
     PictureView* endoscopic_;
     SliceView* slice_;

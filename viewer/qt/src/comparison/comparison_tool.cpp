@@ -26,13 +26,17 @@ void ComparisonTool::addTo(ReadingLayout& layout)
     connect(&reading_.views(), &ReadingViews::laidOut, this, &ComparisonTool::followLayout);
     connect(&reading_.session(), &CaseSession::besideOpened, this, [this] {
         map_.reset();
+        shown_ = {};
+        shown_overview_.reset();
+        const std::string& position = reading_.session().beside()->caption.position;
+        view_->clear(tr("%1: this picture is still to come").arg(QString::fromStdString(position)));
         reading_.say({});
         showPartner();
         arrange();
     });
     connect(&reading_.session(), &CaseSession::besideClosed, this, &ComparisonTool::arrange);
     connect(&reading_, &Reading::partnerWanted, this, [this](const Marker& partner) {
-        partner_marker_ = partner;
+        partner_markers_ = {partner};
         showPartner();
         draw(true);
     });
@@ -45,34 +49,15 @@ void ComparisonTool::addTo(ReadingLayout& layout)
             });
     connect(&reading_.drawing(), &DrawingThread::besideDrawn, this,
             [this](const Picture& picture, const ShownPicture& shown) {
+                if (!shown.isOf(reading_.session().sharedBeside()))
+                    return;  // another scan is beside by now
                 shown_ = shown;
                 view_->endoscopic()->showPicture(picture);
                 view_->endoscopic()->noteWhereElsewhere(shown.place.pose.eye_mm, eye_mm_);
+                drawLine();
             });
     connectView();
-}
-
-void ComparisonTool::connectView()
-{
-    PictureView* endoscopic = view_->endoscopic();
-    SliceView* slice = view_->slice();
-    connect(endoscopic, &PictureView::resized, this, [this] { draw(true); });
-    connect(endoscopic, &PictureView::clicked, this, &ComparisonTool::clicked);
-    connect(view_->overview(), &PictureView::resized, this, [this] { draw(true); });
-    connect(view_->overview(), &PictureView::clicked, this, &ComparisonTool::clickedOverview);
-    connect(endoscopic, &PictureView::turned, &reading_, [this](int steps) { emit reading_.stepWanted(steps); });
-    connect(slice, &SliceView::failed, &reading_, &Reading::warn);
-    connect(slice, &SliceView::pointClicked, this, [this](Point3 point, Qt::KeyboardModifiers modifiers) {
-        if (const OpenScan* scan = markableScan())
-            reading_.click({*scan, shown_.place, point, modifiers, false});
-    });
-    connect(&reading_, &Reading::sliceLookChanged, slice, &SliceView::setLook);
-    connect(slice, &SliceView::trackWanted, &reading_, &Reading::trackWanted);
-    connect(slice, &SliceView::windowDragged, &reading_, &Reading::windowDragged);
-    connect(&reading_, &Reading::awaitingClick, this, [endoscopic, slice](bool on) {
-        endoscopic->setPicking(on);
-        slice->setPicking(on);
-    });
+    connectLine();
 }
 
 void ComparisonTool::restore()
@@ -233,10 +218,10 @@ void ComparisonTool::drawBeside(bool still)
     if (shown_.isOf(scan))
         view_->endoscopic()->noteWhereElsewhere(shown_.place.pose.eye_mm, eye_mm_);
     EndoscopicRequest request = reading_.requestFor(*scan, at, view_->endoscopic()->pictureSize(), still);
-    reading_.drawing().drawBeside(scan, request);
     const std::string label = tr("same place, 80 %").toStdString();
+    request.snapshot.priors.push_back(samePlace(label, scan->files.skeleton(), same));
+    reading_.drawing().drawBeside(scan, request);
     SnapshotRequest overview = request.snapshot;
-    overview.priors.push_back(samePlace(label, scan->files.skeleton(), same));
     view_->slice()->look(scan, partner_ ? partner_->at_mm : at.pose.eye_mm, at.pose, overview.markers, overview.priors);
     const QSize size = view_->overview()->pictureSize();
     overview.width = size.width();
@@ -256,53 +241,18 @@ void ComparisonTool::sayPlace(const StationInterval& place)
                         .arg(reading_.organWords().first_end.c_str(), nameOf(map_->source).c_str()));
 }
 
-const OpenScan* ComparisonTool::markableScan()
-{
-    if (!reading_.session().besideIsPrior())
-        return reading_.session().beside();
-    reading_.say(tr("The earlier examination is looked at, not marked."));
-    return nullptr;
-}
-
-void ComparisonTool::clicked(Pixel at, Qt::KeyboardModifiers modifiers)
-{
-    const auto scan = reading_.session().sharedBeside();
-    if (!scan || !shown_.isOf(scan) || !markableScan())
-        return;
-    if (const auto point = shown_.wallAt(at);
-        point && reading_.click({*scan, shown_.place, *point, modifiers, !shown_.acquired}))
-        return;
-    ScanRequest request;
-    request.scan_id = scan->record.id;
-    reading_.changeScan(request);
-}
-
-void ComparisonTool::clickedOverview(Pixel at)
-{
-    const auto scan = reading_.session().sharedBeside();
-    if (!scan || !map_ || !shown_overview_)
-        return;
-    const PathFrames& path = scan->files.frames();
-    double station = 0, least = 1e300;
-    for (double s = 0; s <= path.length_mm(); s += 1) {
-        const Pixel p = shown_overview_->toPixel(path.at(s).position_mm);
-        if (const double d = std::hypot(p.x - at.x, p.y - at.y); d < least) {
-            least = d;
-            station = s;
-        }
-    }
-    emit reading_.jumpWanted(map_->reversed().at(station).station_mm);
-}
-
 void ComparisonTool::markerShown(const Marker& marker)
 {
-    partner_marker_ = reading_.session().marker(marker.pair);
+    partner_markers_.clear();
+    for (const std::string& id : marker.partners)
+        if (const auto partner = reading_.session().marker(id))
+            partner_markers_.push_back(*partner);
     showPartner();
 }
 
 void ComparisonTool::pointLeft()
 {
-    partner_marker_.reset();
+    partner_markers_.clear();
     partner_.reset();
 }
 
@@ -310,8 +260,9 @@ void ComparisonTool::showPartner()
 {
     const OpenScan* scan = reading_.session().beside();
     partner_.reset();
-    if (scan && partner_marker_ && partner_marker_->scan_id == scan->record.id)
-        partner_ = Partner{viewOfMarker(*scan, *partner_marker_), partner_marker_->position_mm};
+    for (const Marker& marker : partner_markers_)
+        if (scan && marker.scan_id == scan->record.id)
+            partner_ = Partner{viewOfMarker(*scan, marker), marker.position_mm};
 }
 
 }  // namespace vicon::viewer

@@ -25,12 +25,14 @@ public:
     void annotate(SnapshotRequest& request, const OpenScan& scan) const override;
 
 private:
-    /// The partner of the marker that is shown.
+    /// The partner of the marker that is shown, in the scan beside.
     struct Partner {
         ViewPose view;
         Point3 at_mm;
     };
     void connectView();
+    void connectLine();
+    void drawLine();
     /// Not where it lies in a scan that is not beside, until that comes.
     void showPartner();
     /// The key: the other scan; of several the next one; after the last none.
@@ -49,13 +51,13 @@ private:
     void clicked(Pixel at, Qt::KeyboardModifiers modifiers);
     /// To what corresponds to the place of the other scan's way that is nearest in its projection.
     void clickedOverview(Pixel at);
-    /// What is beside; nothing, which is said, where it is of an earlier examination.
-    const OpenScan* markableScan();
+    /// What is beside; nothing, which is said, where it is of an earlier examination and the click measures nothing.
+    const OpenScan* clickableScan();
 
     BesideView* view_;
     QAction* on_ = nullptr;
-    bool by_layout_ = false;  // the reader did not ask for the other scan alone
-    std::optional<Marker> partner_marker_;
+    bool by_layout_ = false;               // the reader did not ask for the other scan alone
+    std::vector<Marker> partner_markers_;  // in whatever scans
     std::optional<Partner> partner_;
     std::optional<StationMap> map_;  // from the scan that is read to the one beside
     std::shared_ptr<OpenScan> left_;

@@ -193,6 +193,7 @@ void CoverageTool::drawPicture(int region)
     EndoscopicRequest request = reading_.requestFor(*reading_.scan(), at, CoveragePanel::pictureSize(), true);
     request.snapshot.captioned = false;
     request.snapshot.markers.clear();
+    request.snapshot.priors.clear();
     request.missed = std::make_shared<const std::vector<std::uint8_t>>(
         missed_.trianglesOf(std::size_t(region), reading_.scan()->files.cells().triangleCount()));
     reading_.drawing().drawMissed(reading_.sharedScan(), request, {list_, region});

@@ -49,6 +49,7 @@ void FilmTool::start(const QString& file)
     const double step_mm = reading_.navigator()->speed_mm_s() / FilmMaker::kPictures_per_s;
     EndoscopicRequest request = reading_.requestFor(*reading_.scan(), from, size, false);
     request.snapshot.caption = reading_.scan()->saved_caption;
+    request.snapshot.priors.clear();  // they are of one place
     maker_->start(reading_.sharedScan(), request, from.station_mm, reading_.navigator()->heading(), step_mm,
                   file.toStdString());
 }

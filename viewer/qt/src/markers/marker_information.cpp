@@ -57,9 +57,9 @@ QString informationOf(const Marker& marker, const QString& scan, const OrganWord
            row(QObject::tr("LPS"),
                QObject::tr("%1, %2, %3 mm").arg(p.x, 0, 'f', 1).arg(p.y, 0, 'f', 1).arg(p.z, 0, 'f', 1)) +
            row(QObject::tr("Size"), sizeWords(marker)) + row(QObject::tr("Density"), densityWords(marker)) +
-           row(QObject::tr("Same finding"), words(marker.pair)) + row(QObject::tr("Note"), words(marker.note)) +
-           row(QObject::tr("Placed"), words(marker.created)) + row(QObject::tr("Changed"), words(marker.changed)) +
-           "</table>";
+           row(QObject::tr("Same finding"), words(partnerNames(marker))) +
+           row(QObject::tr("Note"), words(marker.note)) + row(QObject::tr("Placed"), words(marker.created)) +
+           row(QObject::tr("Changed"), words(marker.changed)) + "</table>";
 }
 
 void addMeasures(QMessageBox& box, const Picture& drawn)

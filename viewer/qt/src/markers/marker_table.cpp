@@ -86,7 +86,7 @@ void MarkerTable::buildButtons()
     color_->setAccessibleName(tr("Colour of the marker"));
     color_->addItems({tr("red"), tr("yellow"), tr("green")});
     move_ = button(tr("Move"), "markerMove", tr("Then click on its new place in any view"));
-    pair_ = button(tr("Pair"), "markerPair", tr("Then choose the same finding in the other scan; again: part them"));
+    pair_ = button(tr("Pair"), "markerPair", tr("Then choose the same finding in another scan; again: part them"));
     remove_ = button(tr("Delete"), "markerRemove", tr("Delete the marker (Delete)"));
     undo_ = button(tr("Undo"), "undo", tr("Undo the last change (Ctrl+Z)"));
     redo_ = button(tr("Redo"), "redo", tr("Do it again (Ctrl+Y)"));
@@ -144,7 +144,7 @@ void MarkerTable::show(const std::vector<Marker>& markers, const std::map<std::s
                                 position == positions.end() ? text(m.scan_id) : text(position->second),
                                 QString::number(m.station_mm, 'f', 0),
                                 m.part ? text(nameOf(*m.part)) : QString(),
-                                text(m.pair),
+                                text(partnerNames(m)),
                                 sizeCell(m),
                                 text(m.note)};
         for (int column = 0; column < kColumns; ++column) {

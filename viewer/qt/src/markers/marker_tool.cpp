@@ -99,8 +99,8 @@ void MarkerTool::startMoving(const Marker& marker)
 
 void MarkerTool::pair(const Marker& marker)
 {
-    if (marker.pair.empty())
-        reading_.begin(PairMarker{marker.id, marker.scan_id}, tr("Choose the same finding in the other scan"));
+    if (marker.partners.empty())
+        reading_.begin(PairMarker{marker.id, marker.scan_id}, tr("Choose the same finding in another scan"));
     else
         reading_.session().partMarkers(marker);
 }
@@ -125,7 +125,7 @@ bool MarkerTool::act(const ClickMeaning& meaning, const ClickedPoint& point)
         return true;
     }
     if (const auto* moves = std::get_if<MoveMarkerHere>(&meaning)) {
-        move(moves->id, point.at_mm);
+        move(moves->id, point);
         return true;
     }
     const auto* refusal = std::get_if<Refuse>(&meaning);
@@ -162,17 +162,17 @@ void MarkerTool::warnOffWall(const Marker& marker, const Lumen& lumen)
     warned_off_wall_ = off;
 }
 
-void MarkerTool::move(const std::string& id, Point3 to)
+void MarkerTool::move(const std::string& id, const ClickedPoint& to)
 {
     reading_.endTool();
     const auto before = reading_.session().marker(id);
     if (!before)
         return;
     Marker after = *before;
-    after.position_mm = to;
+    after.position_mm = to.at_mm;
     after.view.reset();
     reading_.session().changeMarker(*before, after, true);
-    warnOffWall(after, reading_.scan()->lumen);
+    warnOffWall(after, to.scan.lumen);
 }
 
 void MarkerTool::refuseMove(const std::string& id)

@@ -33,7 +33,7 @@ private:
     void choose(const Marker& marker);
     void add(MarkerColor color, const ClickedPoint& point);
     void warnOffWall(const Marker& marker, const Lumen& lumen);
-    void move(const std::string& id, Point3 to);
+    void move(const std::string& id, const ClickedPoint& to);
     void removeChosen();
     void refuseMove(const std::string& id);
     void chooseFile(bool to_save);

@@ -3,6 +3,7 @@
 #include <QMessageBox>
 #include <QPushButton>
 
+#include "measuring/line_from_inside.h"
 #include "reading/reading.h"
 #include "widgets/length_text.h"
 #include "window/reading_layout.h"
@@ -27,22 +28,54 @@ void MeasuringTool::addTo(ReadingLayout& layout)
                      [this] { startOutline(); });
     connect(&reading_.session(), &CaseSession::outlined, this, &MeasuringTool::outlined);
     connect(&reading_.session(), &CaseSession::measured, this, &MeasuringTool::measured);
-    connect(&reading_, &Reading::endoscopicShown, this, [this] { drawLine(); });
-    connect(reading_.views().endoscopic(), &PictureView::endDragged, this, [this](int end, Pixel at, bool released) {
+    for (const auto changed : {&CaseSession::besideOpened, &CaseSession::besideClosed})
+        connect(&reading_.session(), changed, this, &MeasuringTool::forgetClosed);
+    connect(&reading_, &Reading::lineDragged, this, &MeasuringTool::drag);
+    connectViews();
+}
+
+/// Those of the scan that is read; the tools that have other views do the same there.
+void MeasuringTool::connectViews()
+{
+    PictureView* endoscopic = reading_.views().endoscopic();
+    const auto draw = [this, endoscopic] {
+        endoscopic->setCalliper(lineFromInside(reading_.line(), reading_.sharedScan(), reading_.shown()));
+    };
+    connect(&reading_, &Reading::endoscopicShown, this, draw);
+    connect(&reading_, &Reading::lineChanged, this, draw);
+    connect(endoscopic, &PictureView::endDragged, this, [this](int end, Pixel at, bool released) {
         const ShownPicture& picture = reading_.shown();
         if (reading_.scan() && picture.isOf(reading_.sharedScan()))
-            if (const auto wall = picture.wallAt(at)) {
-                if (shown_ && picture.acquired)
-                    shown_->size.along_mm.reset();  // it may lie on fluid
-                drag(end, *wall, released);
-            }
+            if (const auto wall = picture.wallAt(at))
+                emit reading_.lineDragged(end, {*reading_.scan(), picture.place, *wall, {}, !picture.acquired},
+                                          released);
     });
-    for (SliceView* slice : reading_.views().slices())
+    for (SliceView* slice : reading_.views().slices()) {
+        connect(&reading_, &Reading::lineChanged, slice, [this, slice] { slice->setLine(reading_.line()); });
         connect(slice, &SliceView::lineDragged, this, [this](int end, Point3 to, bool released) {
-            if (shown_)
-                shown_->size.along_mm.reset();  // an end that was dragged in a slice need not lie on the wall
-            drag(end, to, released);
+            if (reading_.scan())
+                emit reading_.lineDragged(end, {*reading_.scan(), reading_.place(), to, {}, false}, released);
         });
+    }
+}
+
+/// Where the two scans changed places the line goes along with its own.
+void MeasuringTool::scanOpened(const Arrival& arrival)
+{
+    if (std::holds_alternative<SamePlace>(arrival.place))
+        shown_.reset();  // read again: the wall may be another one
+    forgetClosed();
+}
+
+void MeasuringTool::forgetClosed()
+{
+    CaseSession& session = reading_.session();
+    const auto* under_way = reading_.interaction().inUse<Measure>();
+    if (under_way && !under_way->ends_mm.empty() && !session.openScan(under_way->scan_id))
+        reading_.interaction().scanChanged();
+    if (shown_ && !session.openScan(shown_->scan_id))
+        shown_.reset();
+    showLine();
 }
 
 void MeasuringTool::start()
@@ -68,50 +101,54 @@ bool MeasuringTool::act(const ClickMeaning& meaning, const ClickedPoint& point)
     if (std::holds_alternative<OutlineHere>(meaning)) {
         reading_.toolChanged();
         reading_.say(tr("Outlining ..."));
-        reading_.session().outlinePolyp(point.at_mm);
+        shown_ = Shown{point.scan.record.id, {}, {}, {}};
+        reading_.session().outlinePolyp(point.scan.record.id, point.at_mm);
         return true;
     }
     if (const auto* ends = std::get_if<MeasureBetween>(&meaning)) {
         reading_.toolChanged();
-        measure(ends->from_mm, ends->to_mm, ends->on_wall);
+        shown_.reset();  // a marker that was shown meanwhile keeps its size
+        measure(ends->from_mm, ends->to_mm, ends->on_wall, point);
         return true;
     }
     if (std::holds_alternative<AwaitOtherEnd>(meaning)) {
-        drawLine();
+        showLine();
         reading_.say(tr("Measure: click on the other end"));
         return true;
     }
     const auto* refusal = std::get_if<Refuse>(&meaning);
     const bool of_end = refusal && refusal->why == Refuse::Why::end_in_other_scan;
     if (of_end)
-        reading_.warn(tr("Both ends of a size lie in the scan that is being read."));
+        reading_.warn(tr("Both ends of a size lie in one scan: click in the one of the first end."));
     return of_end;
 }
 
 void MeasuringTool::escape()
 {
     shown_.reset();
-    drawLine();
+    showLine();
 }
 
-void MeasuringTool::measure(Point3 from, Point3 to, bool on_wall)
+void MeasuringTool::measure(Point3 from, Point3 to, bool on_wall, const ClickedPoint& last)
 {
     if (!shown_)
         shown_.emplace();
+    shown_->scan_id = last.scan.record.id;
     shown_->way_mm = {from, to};
     shown_->size = {.straight_mm = distance(from, to), .from_mm = from, .to_mm = to};
-    drawLine();
+    showLine();
     if (on_wall) {
         reading_.say(tr("Measuring ..."));
-        reading_.session().measure(from, to, reading_.shown().place.pose.eye_mm);
+        reading_.session().measure(shown_->scan_id, from, to, last.from.pose.eye_mm);
     } else {
         finish();
     }
 }
 
-void MeasuringTool::measured(const WallDistance& size, const std::optional<PlaneSize>& plane)
+void MeasuringTool::measured(const std::string& scan_id, const WallDistance& size,
+                             const std::optional<PlaneSize>& plane)
 {
-    if (!shown_)
+    if (!shown_ || shown_->scan_id != scan_id)
         return;  // given up meanwhile
     shown_->way_mm = size.way_mm;
     shown_->size = {.straight_mm = size.straight_mm,
@@ -123,28 +160,33 @@ void MeasuringTool::measured(const WallDistance& size, const std::optional<Plane
 }
 
 /// Where there is no outline the two ends are asked for instead.
-void MeasuringTool::outlined(const PolypOutline& outline)
+void MeasuringTool::outlined(const std::string& scan_id, const PolypOutline& outline)
 {
+    if (!shown_ || shown_->scan_id != scan_id)
+        return;  // given up meanwhile
     if (!outline.size) {
         start();
         reading_.warn(tr("The polyp cannot be outlined: %1. Click on its two ends.")
                           .arg(QString::fromStdString(outline.trouble)));
         return;
     }
-    shown_ = Shown{sizeOf(*outline.size), {outline.size->from_mm, outline.size->to_mm}, {}};
+    shown_ = Shown{scan_id, sizeOf(*outline.size), {outline.size->from_mm, outline.size->to_mm}, {}};
     finish();
 }
 
 void MeasuringTool::finish()
 {
-    drawLine();
+    showLine();
     const MarkerSize size = shown_->size;
     if (!shown_->marker_id.empty()) {
         keep(shown_->marker_id, size);
         return;
     }
-    const auto marker = reading_.markerNear(shown_->way_mm);
-    if (!marker)
+    const auto marker = reading_.markerNear(shown_->scan_id, shown_->way_mm);
+    const auto scan = reading_.session().openScan(shown_->scan_id);
+    if (scan && scan->record.case_id != reading_.session().record().id)
+        reading_.say(sizeText(size) + tr("; not kept: the earlier examination takes no markers"));
+    else if (!marker)
         reading_.say(sizeText(size) + tr("; no marker beside it to keep it with"));
     else if (marker->size)
         ask(*marker, size);
@@ -188,27 +230,29 @@ void MeasuringTool::keep(const std::string& marker_id, const MarkerSize& size)
                                     tr("%1; kept with %2").arg(sizeText(size), QString::fromStdString(marker_id)));
 }
 
-void MeasuringTool::drag(int end, Point3 to, bool released)
+void MeasuringTool::drag(int end, const ClickedPoint& to, bool released)
 {
-    if (!shown_ || shown_->way_mm.empty())
+    if (!shown_ || shown_->way_mm.empty() || shown_->scan_id != to.scan.record.id)
         return;
+    if (!to.on_wall)
+        shown_->size.along_mm.reset();  // in a slice, or where fluid stands as acquired, an end need not lie on it
     const Point3 other = end == 0 ? shown_->way_mm.back() : shown_->way_mm.front();
     const bool on_wall = shown_->size.along_mm.has_value();
-    const Point3 from = end == 0 ? to : other, last = end == 0 ? other : to;
+    const Point3 from = end == 0 ? to.at_mm : other, last = end == 0 ? other : to.at_mm;
     if (released) {
-        measure(from, last, on_wall);
+        measure(from, last, on_wall, to);
         return;
     }
     shown_->way_mm = {from, last};
     shown_->size.straight_mm = distance(from, last);
     shown_->size.plane.reset();
     shown_->size.polyp.reset();
-    drawLine();
+    showLine();
 }
 
 MeasuringTool::Shown MeasuringTool::shownOf(const Marker& marker)
 {
-    return {*marker.size, {marker.size->from_mm, marker.size->to_mm}, marker.id};
+    return {marker.scan_id, *marker.size, {marker.size->from_mm, marker.size->to_mm}, marker.id};
 }
 
 void MeasuringTool::markerShown(const Marker& marker)
@@ -216,7 +260,7 @@ void MeasuringTool::markerShown(const Marker& marker)
     shown_.reset();
     if (marker.size)
         shown_ = shownOf(marker);
-    drawLine();
+    showLine();
 }
 
 // What was undone, done again or changed by another reader is drawn as it is now.
@@ -229,20 +273,21 @@ void MeasuringTool::markersChanged()
         shown_.reset();
     else if (!same(*marker->size, shown_->size))
         shown_ = shownOf(*marker);
-    drawLine();
+    showLine();
 }
 
 std::optional<MeasuredLine> MeasuringTool::line() const
 {
     if (const auto* under_way = reading_.interaction().inUse<Measure>())
-        return under_way->ends_mm.empty() ? std::nullopt : std::optional(MeasuredLine{under_way->ends_mm, {}, {}});
+        return under_way->ends_mm.empty() ? std::nullopt
+                                          : std::optional(MeasuredLine{under_way->scan_id, under_way->ends_mm, {}, {}});
     if (!shown_ || shown_->way_mm.empty())
         return std::nullopt;
     const double largest_mm = largestDiameter_mm(shown_->size);
     QString text = lengthText(shown_->size.straight_mm);
     if (largest_mm > shown_->size.straight_mm + kWorthSaying_mm)
         text += tr(" (largest %1)").arg(lengthText(largest_mm));
-    MeasuredLine line{shown_->way_mm, text, {}};
+    MeasuredLine line{shown_->scan_id, shown_->way_mm, text, {}};
     if (const auto& polyp = shown_->size.polyp) {
         line.text += tr(" (%1 to %2)").arg(polyp->least_mm, 0, 'f', 1).arg(polyp->most_mm, 0, 'f', 1);
         line.rim_mm = polyp->rim_mm;
@@ -250,30 +295,9 @@ std::optional<MeasuredLine> MeasuringTool::line() const
     return line;
 }
 
-/// Nothing where the wall hides both ends.
-std::optional<Calliper> MeasuringTool::seenByEye(const MeasuredLine& line) const
+void MeasuringTool::showLine()
 {
-    constexpr double kBehind_mm = 3;  // of the wall: an end in a slice need not lie on it
-    const ShownPicture& picture = reading_.shown();
-    if (!reading_.scan() || !picture.isOf(reading_.sharedScan()))
-        return std::nullopt;
-    const Pose& pose = picture.place.pose;
-    const auto hidden = [&](Point3 end) {
-        const auto wall = picture.wallAt(project(pose, picture.lens, end).at);
-        return wall && distance(pose.eye_mm, *wall) + kBehind_mm < distance(pose.eye_mm, end);
-    };
-    auto calliper = inEndoscopy(line, pose, picture.lens);
-    if (calliper && hidden(line.way_mm.front()) && hidden(line.way_mm.back()))
-        return std::nullopt;
-    return calliper;
-}
-
-void MeasuringTool::drawLine()
-{
-    const std::optional<MeasuredLine> now = line();
-    reading_.views().endoscopic()->setCalliper(now ? seenByEye(*now) : std::nullopt);
-    for (SliceView* slice : reading_.views().slices())
-        slice->setLine(now);
+    reading_.setLine(line());
 }
 
 }  // namespace vicon::viewer

@@ -110,6 +110,7 @@ BandRequest BandView::requestNow(bool still) const
     request.from_caecum = look_.from_caecum;
     request.eye = look_.eye;
     request.markers = look_.markers;
+    request.priors = look_.priors;
     request.caption = scan_->caption;
     request.still = still;
     return request;

@@ -24,6 +24,7 @@ public:
         SnapshotResult eye;
         bool from_caecum = false;
         std::vector<Marker> markers;
+        std::vector<PriorPlace> priors;
         bool paint_seen = false;
     };
     /// Draws it, when it is visible.

@@ -5,6 +5,7 @@
 #include <QMainWindow>
 #include <cmath>
 
+#include "measuring/line_from_inside.h"
 #include "panorama/band_view.h"
 #include "reading/reading.h"
 #include "vicon/viewer/scene/cube_picture.h"
@@ -57,6 +58,11 @@ void PanoramaTool::addCube(ReadingLayout& layout)
             cube_dock_->setGeometry(cube_dock_->parentWidget()->geometry());
     });
     connect(cube_, &PictureView::turned, &reading_, [this](int steps) { emit reading_.stepWanted(steps); });
+    connect(&reading_, &Reading::lineChanged, this, &PanoramaTool::drawLine);
+    connect(cube_, &PictureView::endDragged, this, [this](int end, Pixel at, bool released) {
+        if (const auto point = cubePointAt(at))
+            emit reading_.lineDragged(end, *point, released);
+    });
     connect(&reading_.drawing(), &DrawingThread::cubeDrawn, this,
             [this](const Picture& picture, const ShownPicture& shown) {
                 cube_under_way_ = false;
@@ -64,6 +70,7 @@ void PanoramaTool::addCube(ReadingLayout& layout)
                     shown_cube_ = shown;
                     cube_->showPicture(picture);
                     cube_->noteWhereElsewhere(shown.place.pose.eye_mm, cube_eye_mm_);
+                    drawLine();
                 }
                 if (cube_is_old_)
                     drawCube(false);
@@ -169,26 +176,38 @@ void PanoramaTool::drawBand(bool still)
         reading_.requestFor(*reading_.scan(), reading_.navigator()->state(), band_->pictureSize(), still);
     band_->look(reading_.sharedScan(),
                 {request.place, reading_.navigator()->heading() == Heading::rectum, request.snapshot.markers,
-                 request.paint_seen},
+                 request.snapshot.priors, request.paint_seen},
                 still);
 }
 
-void PanoramaTool::clickedCube(Pixel at, Qt::KeyboardModifiers modifiers)
+void PanoramaTool::drawLine()
+{
+    cube_->setCalliper(lineOnCube(reading_.line(), reading_.sharedScan(), shown_cube_));
+}
+
+std::optional<ClickedPoint> PanoramaTool::cubePointAt(Pixel at, Qt::KeyboardModifiers modifiers) const
 {
     const auto scan = reading_.sharedScan();
-    if (!shown_cube_.isOf(scan))
-        return;
-    reading_.rememberPlace();
     const CubeLayout layout(shown_cube_.lens.width, shown_cube_.lens.height);
     const auto face = layout.faceAt(at);
-    if (!face)
-        return;
+    if (!shown_cube_.isOf(scan) || !face)
+        return std::nullopt;
     ShownPicture of_face = shown_cube_;
     of_face.place = faceOf(*face, shown_cube_.place);
     of_face.lens = layout.lens();
     const Pixel corner = layout.cornerOf(*face);
-    if (const auto point = of_face.wallAt({at.x - corner.x, at.y - corner.y}))
-        clickedWall(of_face.place, *point, modifiers, !of_face.acquired);
+    const auto point = of_face.wallAt({at.x - corner.x, at.y - corner.y});
+    return point ? std::optional(ClickedPoint{*scan, of_face.place, *point, modifiers, !of_face.acquired})
+                 : std::nullopt;
+}
+
+void PanoramaTool::clickedCube(Pixel at, Qt::KeyboardModifiers modifiers)
+{
+    if (!shown_cube_.isOf(reading_.sharedScan()))
+        return;
+    reading_.rememberPlace();
+    if (const auto point = cubePointAt(at, modifiers))
+        clickedWall(point->from, point->at_mm, modifiers, point->on_wall);
 }
 
 void PanoramaTool::clickedBand(Point3 point, Qt::KeyboardModifiers modifiers)

@@ -31,6 +31,10 @@ private:
     static void showDock(QDockWidget* dock, bool on, Qt::Orientation along, double share);
     void drawCube(bool still);
     void drawBand(bool still);
+    /// What is measured, over the cube.
+    void drawLine();
+    /// The point of the wall that the cube shows there.
+    std::optional<ClickedPoint> cubePointAt(Pixel at, Qt::KeyboardModifiers modifiers = {}) const;
     void clickedCube(Pixel at, Qt::KeyboardModifiers modifiers);
     void clickedBand(Point3 point, Qt::KeyboardModifiers modifiers);
     /// What a click on the wall does, in either view.

@@ -29,7 +29,6 @@ bool Reading::click(const ClickedPoint& point)
     PickedPoint picked;
     picked.at_mm = point.at_mm;
     picked.scan_id = point.scan.record.id;
-    picked.in_scan_read = &point.scan == scan();
     picked.on_wall = point.on_wall;
     picked.wants_marker = point.modifiers & Qt::ShiftModifier;
     const ClickMeaning meaning = interaction_.click(picked);

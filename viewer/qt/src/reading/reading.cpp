@@ -177,17 +177,23 @@ void Reading::beginPass()
             open->coverage.beginPass();
 }
 
-std::optional<Marker> Reading::markerNear(const std::vector<Point3>& line_mm) const
+std::optional<Marker> Reading::markerNear(const std::string& scan_id, const std::vector<Point3>& line_mm) const
 {
     std::optional<Marker> nearest;
     double least = kNear_mm;
-    for (const Marker& marker : session_.markersOf(scan()->record.id))
+    for (const Marker& marker : session_.markersOf(scan_id))
         for (const Point3 p : line_mm)
             if (const double d = distance(p, marker.position_mm); d < least) {
                 least = d;
                 nearest = marker;
             }
     return nearest;
+}
+
+void Reading::setLine(const std::optional<MeasuredLine>& line)
+{
+    line_ = line;
+    emit lineChanged();
 }
 
 SnapshotRequest Reading::snapshotOf(const OpenScan& scan, const QSize& size) const

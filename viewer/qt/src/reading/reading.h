@@ -56,8 +56,11 @@ public:
     void showMarker(const Marker& marker);
     /// Another pass begins: what was seen before it can be told from what is seen in it.
     void beginPass();
-    /// The marker of the open scan that is nearest to a line or point, within a centimetre.
-    std::optional<Marker> markerNear(const std::vector<Point3>& line_mm) const;
+    /// The marker of a scan that is nearest to a line or point in it, within a centimetre.
+    std::optional<Marker> markerNear(const std::string& scan_id, const std::vector<Point3>& line_mm) const;
+    /// What is measured; each view of its scan draws it.
+    const std::optional<MeasuredLine>& line() const { return line_; }
+    void setLine(const std::optional<MeasuredLine>& line);
 
     // The pictures.
     EndoscopicRequest requestFor(const OpenScan& scan, const NavigationState& at, const QSize& size, bool still) const;
@@ -114,6 +117,11 @@ signals:
     void endoscopicShown();
     /// Of all slices.
     void sliceLookChanged(const vicon::viewer::SliceLook& look);
+    void lineChanged();
+    /// An end of the line, 0 or 1, to a place in a view of its scan. @param released the mouse was let go there
+    void lineDragged(int end, const vicon::viewer::ClickedPoint& to, bool released);
+    /// All slices show densities without tagging, where that was taken out, or as acquired.
+    void cleansedChanged(bool cleansed);
     /// By notches of the mouse wheel.
     void stepWanted(int steps);
     /// In slices across this direction, along the lumen.
@@ -160,6 +168,7 @@ private:
         std::optional<Point3> looked_at_mm;
     };
     std::optional<PlaceBefore> before_click_;
+    std::optional<MeasuredLine> line_;
     Interaction interaction_;
     RestTimer still_;
 };

@@ -191,6 +191,7 @@ void ReportTool::drawFinding(const QString& finding, const QStringList& markers)
             EndoscopicRequest request = reading_.requestFor(*scan, at, QSize(kSide_px, kSide_px), true);
             request.snapshot.captioned = false;  // it is small, and the form is this patient's
             request.snapshot.markers = {*marker};
+            request.snapshot.priors.clear();
             request.snapshot.peel.preset.clear();
             reading_.drawing().drawFinding(scan, request, finding);
             return;

@@ -13,32 +13,46 @@ void CaseSession::giveUpMeasuring()
         loader_.giveUp(name);
 }
 
-void CaseSession::measure(Point3 from, Point3 to, Point3 eye)
+std::shared_ptr<OpenScan> CaseSession::openScan(const std::string& id) const
 {
-    loader_.postTask(kMeasure, [this, scan = scan_, from, to, eye](const Progress& wanted) -> Worker::Work {
+    for (const auto& open : {scan_, beside_})
+        if (open && open->record.id == id)
+            return open;
+    return {};
+}
+
+void CaseSession::measure(const std::string& scan_id, Point3 from, Point3 to, Point3 eye)
+{
+    const auto of = openScan(scan_id);
+    if (!of)
+        return;
+    loader_.postTask(kMeasure, [this, scan = of, from, to, eye](const Progress& wanted) -> Worker::Work {
         const auto& cells = scan->files.cells();
         const auto size = distanceOverWall(cells.points_mm, cells.triangles, from, to);
         wanted.check();
         const auto plane = sizeOnBestPlane(scan->files.inside(), from, to, eye);
         return [this, scan, size, plane] {
-            if (scan != scan_)
+            if (scan != openScan(scan->record.id))
                 return;
             if (size)
-                emit measured(*size, plane);
+                emit measured(scan->record.id, *size, plane);
             else
                 emit warned(tr("No way over the wall joins the two points; measure them straight, in a slice."));
         };
     });
 }
 
-void CaseSession::outlinePolyp(Point3 at)
+void CaseSession::outlinePolyp(const std::string& scan_id, Point3 at)
 {
-    loader_.postTask(kOutline, [this, scan = scan_, at](const Progress& wanted) -> Worker::Work {
+    const auto of = openScan(scan_id);
+    if (!of)
+        return;
+    loader_.postTask(kOutline, [this, scan = of, at](const Progress& wanted) -> Worker::Work {
         const PolypOutline outline =
             vicon::outlinePolyp(scan->files.cells(), at, blurOfScan_mm(scan->files.folder()), &wanted);
         return [this, scan, outline] {
-            if (scan == scan_)
-                emit outlined(outline);
+            if (scan == openScan(scan->record.id))
+                emit outlined(scan->record.id, outline);
         };
     });
 }

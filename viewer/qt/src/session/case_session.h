@@ -65,13 +65,15 @@ public:
     StationMap mapBetween(const OpenScan& from, const OpenScan& to) { return maps_.between(from, to); }
     OpenScan* scan() const { return scan_.get(); }
     std::shared_ptr<OpenScan> sharedScan() const { return scan_; }
+    /// The one that is read or the one beside it; nothing: neither is.
+    std::shared_ptr<OpenScan> openScan(const std::string& id) const;
 
     void addMarker(const Marker& marker);
     /// @param what is said when it is saved; empty: that it is
     void changeMarker(const Marker& before, const Marker& after, bool moved, const QString& what = {});
     void removeMarker(const Marker& marker);
     void pairMarkers(const Marker& a, const Marker& b);
-    /// Ends a pair, on both sides.
+    /// Takes it from those that it is paired with, on both sides.
     void partMarkers(const Marker& marker);
     /// The markers of a file join those of the case: all in one step, or none.
     void loadMarkers(const std::filesystem::path& file);
@@ -91,10 +93,10 @@ public:
     void writeReport();
     /// Into the audit trail.
     void log(const std::string& event, const std::string& scan_id, const QString& words);
-    /// Between two points of the open scan's wall, seen from `eye`; measured() follows, or warned().
-    void measure(Point3 from, Point3 to, Point3 eye);
-    /// The polyp of the open scan under a point of the wall or around one in its tissue; outlined() follows.
-    void outlinePolyp(Point3 at);
+    /// Between two points of the wall of a scan that is open, seen from `eye`; measured() follows, or warned().
+    void measure(const std::string& scan_id, Point3 from, Point3 to, Point3 eye);
+    /// The polyp of a scan that is open under a point of the wall or around one in its tissue; outlined() follows.
+    void outlinePolyp(const std::string& scan_id, Point3 at);
     /// Of the open scan's tissue around a point, below a circled wall where there is one; biopsied() follows, or
     /// warned().
     void takeBiopsy(Point3 centre, double radius_mm, const std::optional<CircledWall>& wall);
@@ -118,8 +120,9 @@ signals:
     void busyChanged(bool busy);
     void saved(const QString& what);
     void warned(const QString& message);
-    void measured(const vicon::viewer::WallDistance& size, const std::optional<vicon::PlaneSize>& plane);
-    void outlined(const vicon::PolypOutline& outline);
+    void measured(const std::string& scan_id, const vicon::viewer::WallDistance& size,
+                  const std::optional<vicon::PlaneSize>& plane);
+    void outlined(const std::string& scan_id, const vicon::PolypOutline& outline);
     void biopsied(const vicon::DensitySample& biopsy);
     void measuresDrawn(const QString& marker, const vicon::viewer::Picture& picture);
     void filmNamed(const QString& file);

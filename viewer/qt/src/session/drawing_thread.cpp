@@ -15,14 +15,19 @@ constexpr double kReach_mm = 500;  // of a click into the endoscopic view
 
 std::optional<Point3> ShownPicture::wallAt(Pixel at) const
 {
+    const Vector3 ray = rayThrough(place.pose, lens, at);
+    const auto far_mm = distanceToWall_mm(ray);
+    return far_mm ? std::optional(place.pose.eye_mm + ray * *far_mm) : std::nullopt;
+}
+
+std::optional<double> ShownPicture::distanceToWall_mm(Vector3 ray) const
+{
     const auto of = scan.lock();
     if (!of)
         return std::nullopt;
     const Point3 eye_mm = place.pose.eye_mm;
-    const Vector3 ray = rayThrough(place.pose, lens, at);
-    const auto far_mm = acquired ? distanceToAcquiredWall_mm(of->files.volume(), of->lumen, eye_mm, ray, kReach_mm)
-                                 : distanceToWall_mm(of->lumen, eye_mm, ray, kReach_mm);
-    return far_mm ? std::optional(eye_mm + ray * *far_mm) : std::nullopt;
+    return acquired ? distanceToAcquiredWall_mm(of->files.volume(), of->lumen, eye_mm, ray, kReach_mm)
+                    : viewer::distanceToWall_mm(of->lumen, eye_mm, ray, kReach_mm);
 }
 
 DrawingThread::DrawingThread(QObject* parent) : QObject(parent)

@@ -42,6 +42,8 @@ struct ShownPicture {
 
     /// The place on the wall that a pixel shows: on the one that the picture was made of. Nothing where it shows none.
     std::optional<Point3> wallAt(Pixel at) const;
+    /// The same from the picture's eye along a ray, as a distance.
+    std::optional<double> distanceToWall_mm(Vector3 ray) const;
     bool isOf(const std::shared_ptr<OpenScan>& which) const { return which && scan.lock() == which; }
 };
 

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kNearSlice_mm = 5;  // as a marker's ring
 constexpr double kRimNearSlice_mm = 1;
+constexpr double kAtEye_mm = 1e-3;  // no direction leads there
 
 QPointF toQt(Pixel at)
 {
@@ -92,6 +93,30 @@ std::optional<Calliper> inEndoscopy(const MeasuredLine& line, const Pose& pose, 
     addRim(
         made, line.rim_mm, [&](Point3 p) { return at(p).at; }, [&](Point3 p) { return at(p).depth_mm > 0; });
     made.label_at = from.at.x > to.at.x ? *made.grips[0] : *made.grips[1];
+    made.text = line.text;
+    return made;
+}
+
+std::optional<Calliper> inCube(const MeasuredLine& line, const Pose& pose, const CubeLayout& layout)
+{
+    const auto atEye = [&](Point3 p) { return distance(p, pose.eye_mm) < kAtEye_mm; };
+    if (line.way_mm.empty() || std::any_of(line.way_mm.begin(), line.way_mm.end(), atEye))
+        return std::nullopt;
+    Calliper made;
+    made.grips[0] = toQt(layout.toPixel(pose, line.way_mm.front()));
+    if (line.way_mm.size() < 2)
+        return made;
+    made.grips[1] = toQt(layout.toPixel(pose, line.way_mm.back()));
+    const auto draw = [&](QVector<QLineF>& lines, Point3 from, Point3 to) {
+        for (const CubeFace face : kCubeFaces)
+            if (const auto part = layout.partOn(face, pose, from, to))
+                lines << QLineF(toQt(part->first), toQt(part->second));
+    };
+    for (std::size_t n = 1; n < line.way_mm.size(); ++n)
+        draw(made.lines, line.way_mm[n - 1], line.way_mm[n]);
+    for (std::size_t n = 0; n < line.rim_mm.size(); ++n)
+        draw(made.rim, line.rim_mm[n], line.rim_mm[(n + 1) % line.rim_mm.size()]);
+    made.label_at = made.grips[0]->x() > made.grips[1]->x() ? *made.grips[0] : *made.grips[1];
     made.text = line.text;
     return made;
 }

@@ -2,17 +2,20 @@
 
 #include <QString>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "vicon/core/volume.h"
 #include "vicon/viewer/model/camera.h"
+#include "vicon/viewer/model/cube.h"
 #include "vicon/viewer/model/peeling.h"
 #include "widgets/calliper.h"
 
 namespace vicon::viewer {
 
-/// What is measured, in the scan: from its first to its last point; one point while the other end is missing.
+/// What is measured, in one scan: from its first to its last point; one point while the other end is missing.
 struct MeasuredLine {
+    std::string scan_id;  ///< views of other scans do not show it
     std::vector<Point3> way_mm;
     QString text;
     std::vector<Point3> rim_mm;  ///< of an outlined polyp, around it
@@ -33,5 +36,8 @@ std::optional<Calliper> inSlice(const MeasuredLine& line, const PlaneView& view,
 
 /// The line as the eye sees it. Nothing where an end lies behind it.
 std::optional<Calliper> inEndoscopy(const MeasuredLine& line, const Pose& pose, const Lens& lens);
+
+/// The line on the faces of an unfolded cube around the eye, cut where it goes from one face to another.
+std::optional<Calliper> inCube(const MeasuredLine& line, const Pose& pose, const CubeLayout& layout);
 
 }  // namespace vicon::viewer

@@ -64,9 +64,12 @@ void SliceTool::addCleansed(ReadingLayout& layout)
         }
         for (SliceView* slice : reading_.views().slices())
             slice->setCleansed(on);
+        emit reading_.cleansedChanged(on);
     });
-    for (SliceView* slice : reading_.views().slices())
-        connect(slice, &SliceView::lineDragged, this, &SliceTool::showAcquired);
+    connect(&reading_, &Reading::lineDragged, this, [this](int, const ClickedPoint& to) {
+        if (!to.on_wall)
+            showAcquired();
+    });
 }
 
 bool SliceTool::measures() const
@@ -86,7 +89,8 @@ void SliceTool::showAcquired()
     if (!cleansed_->isChecked())
         return;
     cleansed_->setChecked(false);
-    if (reading_.scan() && reading_.scan()->files.canBeCleansed())
+    const auto was = [](const OpenScan* scan) { return scan && scan->files.canBeCleansed(); };
+    if (was(reading_.scan()) || was(reading_.session().beside()))
         reading_.warn(
             tr("The slices show the densities as acquired again: these are measured. K shows them cleansed, "
                "after measuring."));

@@ -286,7 +286,7 @@ void SliceView::setSampled(const std::optional<SampledBall>& ball)
 void SliceView::drawLine()
 {
     setRing(ball_ && scan_ && !image().isNull() ? inSlice(*ball_, shown_) : std::nullopt);
-    const bool there = line_ && scan_ && !image().isNull();
+    const bool there = line_ && scan_ && line_->scan_id == scan_->record.id && !image().isNull();
     setCalliper(there ? inSlice(*line_, shown_, scan_->files.volume().grid) : std::nullopt);
 }
 

@@ -40,7 +40,7 @@ public:
     const PlaneView& shown() const { return shown_; }
     /// Where the cross is.
     Point3 point_mm() const { return request_.point_mm; }
-    /// A measured line, drawn where the slice passes it.
+    /// A measured line, drawn where the slice passes it; not where it lies in another scan.
     void setLine(const std::optional<MeasuredLine>& line);
     /// Where a density was taken, drawn where the slice cuts it.
     void setSampled(const std::optional<SampledBall>& ball);

@@ -97,6 +97,7 @@ void TurningTool::draw(bool still)
     request.view = view_;
     request.eye = now.place;
     request.markers = now.snapshot.markers;
+    request.priors = now.snapshot.priors;
     request.caption = now.snapshot.caption;
     request.still = still;
     if (!shown_)

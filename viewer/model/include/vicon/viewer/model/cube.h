@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "vicon/viewer/model/camera.h"
 
@@ -34,6 +35,8 @@ public:
     std::optional<Vector3> rayThrough(const Pose& eye, Pixel at) const;
     /// Where a point is seen; it must not be where the eye is.
     Pixel toPixel(const Pose& eye, Point3 p) const;
+    /// The part of a straight line that a face shows, from end to end; nothing where it shows none.
+    std::optional<std::pair<Pixel, Pixel>> partOn(CubeFace face, const Pose& eye, Point3 from, Point3 to) const;
 
 private:
     int side_ = 1;

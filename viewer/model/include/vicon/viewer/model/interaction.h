@@ -30,8 +30,9 @@ struct Correct {
 struct Measure {
     std::vector<Point3> ends_mm;  ///< clicked so far, one at most
     bool on_wall = true;          ///< all of them; else the size is straight, as in a slice
+    std::string scan_id = {};     ///< in which the first end was clicked; the other one belongs there, too
 };
-/// The polyp that is clicked on is outlined.
+/// The polyp that is clicked on is outlined, in whichever scan.
 struct OutlinePolyp {};
 /// A circle is drawn around a finding; clicks show what is there.
 struct CircleFinding {};
@@ -43,8 +44,7 @@ using ToolInUse =
 struct PickedPoint {
     Point3 at_mm;
     std::string scan_id;
-    bool in_scan_read = true;  ///< not in the one beside it
-    bool on_wall = false;      ///< chosen on the surface of the cells, in an endoscopic picture
+    bool on_wall = false;  ///< chosen on the surface of the cells, in an endoscopic picture
     bool wants_marker = false;
 };
 
@@ -95,7 +95,8 @@ using ChoiceMeaning = std::variant<ShowMarker, PairWith, RefusePair>;
 ///     click refused                 as before; Idle where a marker of the other scan was to be moved
 ///     finish(), escape()            Idle
 ///     choose(marker) of a pair      Idle
-///     another scan is opened        as before, Measure without an end
+///     another scan is opened,       as before, Measure without an end
+///     or that of its end is closed
 ///     the marker is gone            Idle, of MoveMarker and PairMarker
 class Interaction {
 public:

@@ -6,7 +6,9 @@
 #include "vicon/cases/prior_match.h"
 #include "vicon/cases/station_map.h"
 #include "vicon/core/skeleton.h"
+#include "vicon/viewer/model/lumen.h"
 #include "vicon/viewer/model/overlay.h"
+#include "vicon/viewer/model/path_frames.h"
 
 namespace vicon::viewer {
 
@@ -17,9 +19,10 @@ inline constexpr Rgb kSamePlaceColor{120, 230, 170};
 /// Where something should lie in a scan, a finding of an earlier report or the same place of another scan: a stretch of
 /// the centreline, not a point of the wall.
 struct PriorPlace {
-    std::string label;            ///< "2021: polyp 7.0 mm"
-    Point3 position_mm;           ///< of the centreline, in the middle of what is expected
-    std::vector<Point3> band_mm;  ///< along the centreline, as far as it is expected
+    std::string label;                                 ///< "2021: polyp 7.0 mm"
+    Point3 position_mm;                                ///< of the centreline, in the middle of what is expected
+    std::vector<Point3> band_mm;                       ///< along the centreline, as far as it is expected
+    double station_mm = 0, least_mm = 0, most_mm = 0;  ///< the same as stations
     Rgb color = kPriorColor;
 };
 /// @param least_mm,most_mm stations; beyond the ends: the ends
@@ -35,6 +38,17 @@ std::vector<PriorPlace> priorPlacesIn(const PriorList& priors, const ScanColon& 
 
 /// The stretch, beside the centreline's own line.
 void addPriorBand(Overlay& overlay, const PlaneView& view, const PriorPlace& place, double text_px);
+
+/// Its label, where there is nothing to find a better place for it.
+void addPriorName(Overlay& overlay, Pixel at, const PriorPlace& place, double text_px);
+
+/// What is seen from inside of a stretch: lines around the wall where it begins and where it ends, as far as they are
+/// in plain view of an eye. Nothing where the centreline leaves the lumen.
+std::vector<std::vector<Point3>> priorRings(const PriorPlace& place, const PathFrames& path, const Lumen& lumen,
+                                            Point3 eye_mm);
+/// The rings as the eye sees them, with the label.
+void addPriorRings(Overlay& overlay, const PriorPlace& place, const PathFrames& path, const Lumen& lumen,
+                   const Pose& pose, const Lens& lens, double text_px);
 
 /// In a slice: a diamond where the stretch passes within `near_mm` of the plane, nearest to its middle; dashed where
 /// that is not the middle. Nothing where it does not. @param depth_mm of the plane, as the view has it

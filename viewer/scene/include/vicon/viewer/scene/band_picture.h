@@ -20,6 +20,7 @@ struct BandRequest {
     bool from_caecum = false;           ///< the rows go from the caecum to the rectum
     std::optional<SnapshotResult> eye;  ///< where it is
     std::vector<Marker> markers;        ///< of the scan
+    std::vector<PriorPlace> priors;     ///< likewise
     std::vector<std::uint8_t> seen;     ///< of each triangle, 1: painted as seen; empty: none is
     Caption caption;
     bool captioned = false;  ///< who and when is written above

@@ -48,7 +48,7 @@ struct SnapshotRequest {
     std::optional<Point3> look_at_mm;  ///< what to look at (a marker's position); empty: the place at `station_mm`
     double station_mm = 0;             ///< used without `look_at_mm`; beyond the ends: the end
     std::vector<Marker> markers;       ///< drawn where they are in view
-    std::vector<PriorPlace> priors;    ///< overview and slices: where findings of earlier reports should lie
+    std::vector<PriorPlace> priors;    ///< where findings of earlier reports, or another scan's place, should lie
     Caption caption;
     bool captioned = true;       ///< who, when and where is written into the picture
     int width = 0;               ///< pixels, kLeastSide to kMostSide; 0: 1024

@@ -20,7 +20,8 @@ struct TurnedRequest {
     double text_px = 0;      ///< likewise
     TurnedView view;
     SnapshotResult eye;
-    std::vector<Marker> markers;  ///< of the scan
+    std::vector<Marker> markers;     ///< of the scan
+    std::vector<PriorPlace> priors;  ///< likewise
     Caption caption;
     std::vector<std::uint8_t> seen;  ///< of each triangle, 1: painted as seen; empty: none is
     bool still = true;               ///< smoothed
