@@ -60,19 +60,20 @@ public:
                 const double t = (i - middle()) * c + (j - middle()) * s + middle();
                 const int n = int(std::floor(t));
                 if (n >= 0 && n + 1 < size_)
-                    cells[std::size_t(j * size_ + i)] += float(
-                        std::lerp(sharp[std::size_t(n)], sharp[std::size_t(n) + 1], t - n) * std::numbers::pi / kViews);
+                    cells[cellAt(i, j)] += float(std::lerp(sharp[std::size_t(n)], sharp[std::size_t(n) + 1], t - n) *
+                                                 std::numbers::pi / kViews);
             }
     }
 
     std::size_t cellCount() const { return std::size_t(size_) * std::size_t(size_); }
     int size() const { return size_; }
+    std::size_t cellAt(int i, int j) const { return std::size_t(j) * std::size_t(size_) + std::size_t(i); }
     float valueAt(const std::vector<float>& cells, double x, double y) const
     {
         const int i = int(std::floor(x)), j = int(std::floor(y));
         if (i < 0 || j < 0 || i + 1 >= size_ || j + 1 >= size_)
             return 0;
-        const float* at = &cells[std::size_t(j * size_ + i)];
+        const float* at = &cells[cellAt(i, j)];
         const auto fx = float(x - i), fy = float(y - j);
         return (1 - fy) * (at[0] + fx * (at[1] - at[0])) + fy * (at[size_] + fx * (at[size_ + 1] - at[size_]));
     }
@@ -115,7 +116,7 @@ public:
             for (int i = 0; i < plane.size(); ++i)
                 for (int n = 0; n < kCell * kCell; ++n) {
                     const std::int16_t v = hu.valueOr({i * kCell + n % kCell, j * kCell + n / kCell, k}, kPaddingHu);
-                    const std::size_t cell = std::size_t(j * plane.size() + i);
+                    const std::size_t cell = plane.cellAt(i, j);
                     const bool metal = v >= kShownAsMetal_hu;
                     has_metal_ = has_metal_ || metal;
                     const double per_mm = v == kPaddingHu ? 0

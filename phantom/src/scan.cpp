@@ -176,7 +176,7 @@ Scene surroundings(const PhantomOptions& options, const DrawnCourse& course, con
 }
 
 /// What the scanner makes of a painted scene, whose slices it averages.
-HuVolume scanned(HuVolume painted, const PhantomOptions& options, std::uint64_t seed, int thin_slices,
+HuVolume scanned(const HuVolume& painted, const PhantomOptions& options, std::uint64_t seed, int thin_slices,
                  PhantomTruth& truth, Progress& progress)
 {
     if (options.mr != "none") {
@@ -283,10 +283,10 @@ PhantomScan makeScan(const PhantomOptions& options, const std::string& patient_p
     progress.report(0.5, "body");
     scan.truth.blur_mm = blurOf(options);
     scan.truth.noise_hu = noiseOf(options);
-    HuVolume painted = paintScene(grid, scene, field, scan.truth, progress);
+    const HuVolume painted = paintScene(grid, scene, field, scan.truth, progress);
     progress.report(0.7, "blur and noise");
-    scan.hu = scanned(std::move(painted), options, options.seed * 8 + std::uint64_t(placement.position), thin_slices,
-                      scan.truth, progress);
+    scan.hu = scanned(painted, options, options.seed * 8 + std::uint64_t(placement.position), thin_slices, scan.truth,
+                      progress);
     progress.report(1, "scan");
     return scan;
 }
