@@ -72,13 +72,13 @@ std::string checkDatabase(Context& context)
 }
 
 /// No fault, but nobody else says that it waits for a person.
-std::string checkQuarantine(Context& context)
+std::string checkQuarantine(const fs::path& store)
 {
-    const Quarantine found = quarantineOf(context.store());
+    const Quarantine found = quarantineOf(store);
     if (found.objects == 0)
         return "empty";
-    return std::to_string(found.objects) + " objects since " + found.since + ", in " +
-           (context.store().folder() / "quarantine").string() + "; the log says of each why";
+    return std::to_string(found.objects) + " objects since " + found.since + ", in " + (store / "quarantine").string() +
+           "; the log says of each why";
 }
 
 std::string checkPeer(const Config& config, const std::string& name)
@@ -155,7 +155,7 @@ int doctor(Context& context)
         checked("configuration", [&] { return std::to_string(context.config().specs().size()) + " options"; }),
         checked("store", [&] { return checkFolder(place.folder, !place.database.empty()); }),
         checked("database", [&] { return checkDatabase(context); }),
-        checked("quarantine", [&] { return checkQuarantine(context); }),
+        checked("quarantine", [&] { return checkQuarantine(place.folder); }),
         checked("disk space", [&] { return checkSpace(place.folder); }),
         checked("memory", [] { return checkMemory(); }),
         checked("fonts", [&] { return checkFonts(report.font_folder); }),

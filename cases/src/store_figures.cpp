@@ -55,12 +55,12 @@ std::string dateOf(std::filesystem::file_time_type time)
 
 }  // namespace
 
-Quarantine quarantineOf(const CaseStore& store)
+Quarantine quarantineOf(const std::filesystem::path& store)
 {
     namespace fs = std::filesystem;
     Quarantine found;
     std::error_code gone;  // there is none, or a person is at work in it
-    for (auto entry = fs::recursive_directory_iterator(store.folder() / "quarantine", gone);
+    for (auto entry = fs::recursive_directory_iterator(store / "quarantine", gone);
          !gone && entry != fs::recursive_directory_iterator(); entry.increment(gone)) {
         std::error_code unknown;
         if (!entry->is_regular_file(unknown))
@@ -89,7 +89,7 @@ StoreFigures figuresOf(CaseStore& store)
         figures.instances = countOf(sql, "instances");
         figures.steps = stepFigures(sql);
     });
-    figures.quarantined = quarantineOf(store).objects;
+    figures.quarantined = quarantineOf(store.folder()).objects;
     std::error_code unknown;
     const auto space = std::filesystem::space(store.folder(), unknown);
     figures.free_bytes = unknown ? 0 : double(space.available);

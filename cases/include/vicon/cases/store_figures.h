@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 
@@ -29,6 +30,6 @@ struct Quarantine {
     std::int64_t objects = 0;
     std::string since;  ///< the date on which the oldest came, YYYY-MM-DD; empty without any
 };
-Quarantine quarantineOf(const CaseStore& store);
+Quarantine quarantineOf(const std::filesystem::path& store);
 
 }  // namespace vicon
