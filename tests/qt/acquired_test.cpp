@@ -57,17 +57,6 @@ protected:
     }
     static QString said() { return window()->statusBar()->currentMessage(); }
     static bool cleansed() { return the<QAction>("cleansed")->isChecked(); }
-    static void drag(const char* view, QPoint from, QPoint to)
-    {
-        auto* widget = the<QWidget>(view);
-        QTest::mousePress(widget, Qt::LeftButton, {}, from);
-        for (int n = 1; n <= 4; ++n) {
-            const QPoint at = from + (to - from) * n / 4;
-            QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, {});
-            QApplication::sendEvent(widget, &move);
-        }
-        QTest::mouseRelease(widget, Qt::LeftButton, {}, to);
-    }
 
     const Skeleton path_ = test::TestColon().skeleton;
 };

@@ -62,17 +62,6 @@ protected:
         QApplication::sendEvent(widget, &event);
         waitUntilQuiet();
     }
-    static void drag(const char* view, QPoint from, QPoint to)
-    {
-        auto* widget = the<QWidget>(view);
-        QTest::mousePress(widget, Qt::LeftButton, {}, from);
-        for (int n = 1; n <= 4; ++n) {
-            const QPoint at = from + (to - from) * n / 4;
-            QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, {});
-            QApplication::sendEvent(widget, &move);
-        }
-        QTest::mouseRelease(widget, Qt::LeftButton, {}, to);
-    }
     bool taken() const { return stored()[0].density.has_value() && settled(); }
     static int pixels(const char* view, double mm) { return int(mm / slice(view)->shown().mm_per_pixel); }
 

@@ -81,17 +81,6 @@ protected:
         EXPECT_TRUE(eventually([] { return said().contains("straight"); })) << said().toStdString();
         return firstLength(said());
     }
-    static void drag(const char* view, QPoint from, QPoint to)
-    {
-        auto* widget = the<QWidget>(view);
-        QTest::mousePress(widget, Qt::LeftButton, {}, from);
-        for (int n = 1; n <= 4; ++n) {  // QTest's own moves have no button down: a slice does not hear of them
-            const QPoint at = from + (to - from) * n / 4;
-            QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, {});
-            QApplication::sendEvent(widget, &move);
-        }
-        QTest::mouseRelease(widget, Qt::LeftButton, {}, to);
-    }
     static void answer(const char* button)
     {
         ASSERT_TRUE(eventually([] { return window()->findChild<QMessageBox*>("replaceSize") != nullptr; }));

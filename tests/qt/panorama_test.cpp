@@ -21,7 +21,7 @@ void wheel(QWidget* over, QPoint at, int notches, Qt::KeyboardModifiers modifier
     QApplication::sendEvent(over, &event);
 }
 
-void drag(QWidget* over, QPoint from, QPoint by, Qt::MouseButton button = Qt::LeftButton)
+void dragBy(QWidget* over, QPoint from, QPoint by, Qt::MouseButton button = Qt::LeftButton)
 {
     QTest::mousePress(over, button, {}, from);
     constexpr int kSteps = 4;
@@ -104,7 +104,7 @@ TEST_F(Panoramas, ALengthIsMeasuredOnTheCubeAndItsEndsAreDraggedThere)
     EXPECT_NE(pictureOf("endoscopic"), inside) << "the same line in the other view of this scan";
     const double before = said().section(' ', 0, 0).toDouble();
     const QPoint to = end(1) + QPoint(30, 0);
-    drag(cube, end(1), QPoint(30, 0));
+    dragBy(cube, end(1), QPoint(30, 0));
     EXPECT_TRUE(eventually([&] { return said().section(' ', 0, 0).toDouble() > 1.3 * before; }))
         << said().toStdString();
     waitUntilQuiet();
@@ -202,14 +202,14 @@ TEST_F(Panoramas, TheProjectionTurnsGrowsIsClickedAndComesBackFromTheFront)
     const auto reviewed_percent = [] { return the<QLabel>("seen")->text().section(' ', 0, 0).toDouble(); };
     const double reviewed_before = reviewed_percent();
     const QImage front = pictureOf("overview");
-    drag(overview, overview->rect().center(), QPoint(60, 15));
+    dragBy(overview, overview->rect().center(), QPoint(60, 15));
     ASSERT_TRUE(changesFrom("overview", front));
     screenshot("turned");
     const QImage turned = pictureOf("overview");
     wheel(overview, overview->rect().center(), 2);
     ASSERT_TRUE(changesFrom("overview", turned));
     const QImage grown = pictureOf("overview");
-    drag(overview, overview->rect().center(), QPoint(20, 10), Qt::RightButton);
+    dragBy(overview, overview->rect().center(), QPoint(20, 10), Qt::RightButton);
     ASSERT_TRUE(changesFrom("overview", grown));
     screenshot("turned_grown");
     const QImage moved = pictureOf("overview");

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QFileDialog>
 #include <QLabel>
+#include <QMouseEvent>
 #include <QPushButton>
 #include <QSettings>
 #include <QTabBar>
@@ -127,6 +128,18 @@ void Reader::press(QWidget* in, const char* name)
 void Reader::click(const char* view, QPoint at, Qt::KeyboardModifiers modifiers)
 {
     QTest::mouseClick(the<QWidget>(view), Qt::LeftButton, modifiers, at);
+}
+
+void Reader::drag(const char* view, QPoint from, QPoint to)
+{
+    auto* widget = the<QWidget>(view);
+    QTest::mousePress(widget, Qt::LeftButton, {}, from);
+    for (int n = 1; n <= 4; ++n) {  // QTest's own moves have no button down: a slice does not hear of them
+        const QPoint at = from + (to - from) * n / 4;
+        QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, {});
+        QApplication::sendEvent(widget, &move);
+    }
+    QTest::mouseRelease(widget, Qt::LeftButton, {}, to);
 }
 
 void Reader::key(int which, Qt::KeyboardModifiers modifiers)

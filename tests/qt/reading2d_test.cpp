@@ -30,17 +30,6 @@ protected:
                           Qt::NoScrollPhase, false);
         QApplication::sendEvent(widget, &event);
     }
-    static void drag(const char* view, QPoint from, QPoint to)
-    {
-        auto* widget = the<QWidget>(view);
-        QTest::mousePress(widget, Qt::LeftButton, {}, from);
-        for (int n = 1; n <= 4; ++n) {
-            const QPoint at = from + (to - from) * n / 4;
-            QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, {});
-            QApplication::sendEvent(widget, &move);
-        }
-        QTest::mouseRelease(widget, Qt::LeftButton, {}, to);
-    }
     static const PlaneView& shown(const char* view) { return the<SliceView>(view)->shown(); }
     /// Of the place that is looked at, in the view.
     static QPoint cross(const char* view)

@@ -185,11 +185,10 @@ std::vector<FaintWall> settleOpenings(const Mixture& mixture, const std::vector<
             std::ranges::copy_if(part, std::back_inserter(mouths),
                                  [&](std::size_t m) { return openings.isBesideLumen(m); });
     }
-    Voxels closed = openings.hanging(sortedOnce(std::move(mouths)));
+    mouths = sortedOnce(std::move(mouths));
+    Voxels closed = openings.hanging(mouths);
     openings.shut(closed);
-    for (const std::size_t n : openings.beyond())
-        if (openings.partFrom(n).size() > kRecess_voxels)
-            closed.push_back(n);
+    std::ranges::copy_if(mouths, std::back_inserter(closed), [&](std::size_t n) { return openings.isBesideLumen(n); });
     closed = sortedOnce(std::move(closed));
     openings.shut(closed);
     const double face_mm2 = std::pow(lumen.grid.voxelVolume_mm3(), 2.0 / 3);

@@ -23,9 +23,9 @@ inline constexpr double kPolypReach_mm = 15;
 /// sections of the surface through its axis, to where each turns concave the most, at the wall or at its stalk. After
 /// the rings of curvature of Summers et al., Radiology 2000. On a fold there is no outline: its edge is not the
 /// polyp's. Figures: docs/evaluation/measuring.md.
-/// @param surface the wall, with normals into the lumen
 /// Begins at the surface nearest to the point; where that gives no outline that holds the point, at the surface in
 /// other directions from it.
+/// @param surface the wall, with normals into the lumen
 /// @param at in the polyp, within kPolypReach_mm of its surface, or 2 mm beside it
 /// @param blur_mm standard deviation of the scan's blur
 /// Throws Error{cancelled} where `wanted`, if there is one, says so.
