@@ -19,6 +19,7 @@
 #include "vicon/steps/cells.h"
 #include "vicon/steps/colon_parts.h"
 #include "vicon/steps/exit_distance.h"
+#include "vicon/steps/largest.h"
 #include "vicon/steps/lumen_contrast.h"
 #include "vicon/steps/organ.h"
 #include "vicon/steps/projections.h"
@@ -98,21 +99,18 @@ json runSubdivide(const StepInputs& inputs, ScanResults& results, const StepReco
 json runPotential(const StepInputs& inputs, ScanResults& results, const StepRecords&, Progress& progress)
 {
     PartOfProgress wall(progress, 0, 0.3), exit(progress, 0.3, 1);
-    const auto largest = [](const FieldVolume& field) {
-        return *std::max_element(field.voxels.begin(), field.voxels.end());
-    };
     PotentialFound found;
     std::optional<FieldVolume> from_wall_mm = results.takeWallDistance();
     if (!from_wall_mm)
         from_wall_mm = steps::wallDistance(results.inside(), surfaceOf(inputs.config, results).get().nearWall(), wall);
-    found.largest_wall_distance_mm = largest(*from_wall_mm);
+    found.largest_wall_distance_mm = steps::largestOf(*from_wall_mm);
     results.write("wall_distance.mha", *std::move(from_wall_mm));
     if (!hasPath(inputs.config))
         return toJson(found);
     const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));
     FieldVolume from_exit_mm = tree.empty() ? steps::exitDistance(results.inside(), results.skeleton(), exit)
                                             : steps::exitDistance(results.inside(), tree, exit);
-    found.largest_exit_distance_mm = largest(from_exit_mm);
+    found.largest_exit_distance_mm = steps::largestOf(from_exit_mm);
     results.write("exit_distance.mha", std::move(from_exit_mm));
     return toJson(found);
 }

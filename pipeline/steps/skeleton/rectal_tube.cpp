@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid/voxel_box.h"
+#include "vicon/steps/largest.h"
 #include "vicon/steps/wall_distance.h"
 
 namespace vicon::steps {
@@ -102,11 +103,6 @@ std::vector<Index3> tubeIn(const InsideVolume& inside, Point3 rectal_end_mm)
     return tube;
 }
 
-float largest(const FieldVolume& field)
-{
-    return *std::max_element(field.voxels.begin(), field.voxels.end());
-}
-
 }  // namespace
 
 FieldVolume wallDistanceOverTube(const InsideVolume& inside, Point3 rectal_end_mm, Progress& progress)
@@ -126,7 +122,7 @@ FieldVolume wallDistanceOverTube(const InsideVolume& inside, Point3 rectal_end_m
             part.at({v.i - seen.low.i, v.j - seen.low.j, v.k - seen.low.k}) = kGas;
         const FieldVolume open_mm = wallDistance(part, progress);
         // Lumen that is not as wide as the margin meets its wall within the box, and has none of the tube beyond it.
-        if (largest(open_mm) < margin_mm - voxel_mm ||
+        if (largestOf(open_mm) < margin_mm - voxel_mm ||
             changed == VoxelBox{{0, 0, 0}, {inside.grid.size[0], inside.grid.size[1], inside.grid.size[2]}})
             return cropped(open_mm,
                            {{changed.low.i - seen.low.i, changed.low.j - seen.low.j, changed.low.k - seen.low.k},
