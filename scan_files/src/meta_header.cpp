@@ -117,8 +117,8 @@ std::string rawHeader(const Grid& grid, const std::string& type)
 
 std::string packedHeader(const Grid& grid, const std::string& type, std::size_t packed_bytes)
 {
-    return kFirst + linesOf(grid, type,
-                            "CompressedData = True\nCompressedDataSize = " + std::to_string(packed_bytes) + "\n");
+    return kFirst +
+           linesOf(grid, type, "CompressedData = True\nCompressedDataSize = " + std::to_string(packed_bytes) + "\n");
 }
 
 bool isPlainHeader(const fs::path& file)

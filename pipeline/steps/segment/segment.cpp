@@ -1,9 +1,15 @@
 #include "vicon/steps/segment.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
 
+#include "grid/sharp_kernel.h"
+#include "segment/as_is.h"
 #include "segment/automatic.h"
 #include "segment/binary.h"
+#include "segment/verdict.h"
 
 namespace vicon::steps {
 namespace {
@@ -22,19 +28,42 @@ Segmentation measured(Segmentation result, Progress& progress)
     return result;
 }
 
+/// Of a sharp kernel's densities those that a usual one would have made are segmented.
+Segmentation segmentSoftened(const HuVolume& volume, const InsideVolume* given, Vector3 gravity,
+                             const SegmentOptions& options, Progress& progress)
+{
+    const std::optional<SoftenedDensities> soft = softened(volume, options.densities);
+    if (!soft)
+        return segmentAsIs(volume, given, gravity, options, progress);
+    Segmentation result = segmentAsIs(soft->hu, given, gravity, options, progress);
+    result.measures["overshoot_hu"] = soft->overshoot_hu;
+    note(result, "a sharp kernel: edges overshoot by " + std::to_string(std::lround(soft->overshoot_hu)) +
+                     " HU; the wall was sought in softened densities");
+    return result;
+}
+
 }  // namespace
 
-Segmentation segmentColon(const HuVolume& volume, Vector3 gravity, const SegmentOptions& options, Progress& progress)
+Segmentation segmentAsIs(const HuVolume& volume, const InsideVolume* given, Vector3 gravity,
+                         const SegmentOptions& options, Progress& progress)
 {
+    if (given)
+        return measured(segmentGiven(volume, *given, gravity, options, progress), progress);
     return measured(options.method == SegmentMethod::binary ? segmentBinary(volume, options, progress)
                                                             : segmentAutomatically(volume, gravity, options, progress),
                     progress);
 }
 
+Segmentation segmentColon(const HuVolume& volume, Vector3 gravity, const SegmentOptions& options, Progress& progress)
+{
+    return options.method == SegmentMethod::binary ? segmentAsIs(volume, nullptr, gravity, options, progress)
+                                                   : segmentSoftened(volume, nullptr, gravity, options, progress);
+}
+
 Segmentation segmentGivenColon(const HuVolume& volume, const InsideVolume& given, Vector3 gravity,
                                const SegmentOptions& options, Progress& progress)
 {
-    return measured(segmentGiven(volume, given, gravity, options, progress), progress);
+    return segmentSoftened(volume, &given, gravity, options, progress);
 }
 
 }  // namespace vicon::steps

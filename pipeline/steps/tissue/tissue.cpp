@@ -4,11 +4,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "grid/allocate.h"
 #include "grid/byte_rows.h"
 #include "grid/run_labels.h"
+#include "grid/sharp_kernel.h"
 #include "grid/voxel_lists.h"
 #include "tissue/edge_model.h"
 #include "tissue/faint_walls.h"
@@ -157,10 +159,14 @@ std::size_t modelLevels(const Mixture& mixture, const DownAxis& down, double noi
 
 }  // namespace
 
-TissueResult findTissue(const HuVolume& hu, const InsideVolume& labels, Vector3 gravity, const WallDensities& densities,
-                        double noise_hu, Progress& progress, const TissueOptions& options)
+TissueResult findTissue(const HuVolume& acquired_hu, const InsideVolume& labels, Vector3 gravity,
+                        const WallDensities& densities, double noise_hu, Progress& progress,
+                        const TissueOptions& options)
 {
     progress.report(0, "tissue");
+    // MR, which has no stool that could be told, has no such kernels.
+    const auto soft = options.find_stool ? softened(acquired_hu, densities) : std::optional<SoftenedDensities>();
+    const HuVolume& hu = soft ? soft->hu : acquired_hu;
     const DownAxis down(labels.grid, gravity);
     const Contents contents = findContents({hu, labels, densities}, down, noise_hu, options);
     const auto& [inside, levels, stool, blur_mm] = contents;
@@ -188,8 +194,8 @@ TissueResult findTissue(const HuVolume& hu, const InsideVolume& labels, Vector3 
     result.untrusted.faint = settleOpenings(mixture, other_bowel, result.tissue, result.lumen);
     const auto holes = closeFaintWalls(labels, stool, down, result.tissue, result.lumen);
     result.untrusted.faint.insert(result.untrusted.faint.end(), holes.begin(), holes.end());
-    result.cleansed =
-        cleanse(mixture, result.lumen, brightOfStool_hu(mixture.tissue_hu, noise_hu, options), result.tissue);
+    result.cleansed = cleanse({acquired_hu, inside, densities}, result.lumen,
+                              brightOfStool_hu(mixture.tissue_hu, noise_hu, options), result.tissue);
     result.blur_mm = blur_mm;
     result.found = {{"level_columns", levels.columns.size()},
                     {"level_columns_fitted", levels.fitted},

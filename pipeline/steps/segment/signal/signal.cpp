@@ -1,5 +1,6 @@
 #include <vector>
 
+#include "segment/as_is.h"
 #include "segment/verdict.h"
 #include "vicon/core/error.h"
 #include "vicon/steps/lumen_contrast.h"
@@ -72,8 +73,7 @@ public:
             return;
         SignalSegmentation one;
         one.lumen_scale = onLumenScale(evened_, levels);
-        one.found = given ? segmentGivenColon(one.lumen_scale, *given, gravity_, options_, progress_)
-                          : segmentColon(one.lumen_scale, gravity_, options_, progress_);
+        one.found = segmentAsIs(one.lumen_scale, given ? &*given : nullptr, gravity_, options_, progress_);
         SignalLevels told = levels;
         if (one.found.verdict != Verdict::absent)
             one.lumen_scale = onLumenScaleAround(evened_, one.lumen_scale, one.found.inside, told);
