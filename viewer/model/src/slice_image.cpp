@@ -45,7 +45,7 @@ double along(Vector3 direction, const Bounds& bounds)
 
 }  // namespace
 
-std::vector<float> sliceDensities(const HuView& volume, const PlaneView& view)
+std::vector<float> sliceDensities(const HuView& volume, const PlaneView& view, const Progress* wanted)
 {
     const Sampler sample(volume);
     const auto at = [&](double x, double y) { return volume.grid.continuousIndexAt(view.pointAt({x, y})); };
@@ -54,6 +54,8 @@ std::vector<float> sliceDensities(const HuView& volume, const PlaneView& view)
     std::vector<float> densities(std::size_t(view.width) * std::size_t(view.height));
     auto* out = densities.data();
     for (int y = 0; y < view.height; ++y) {
+        if (wanted)
+            wanted->check();
         const ContinuousIndex3 c = at(0.5, y + 0.5);
         for (int x = 0; x < view.width; ++x)
             *out++ = sample({c.i + step.i * x, c.j + step.j * x, c.k + step.k * x});
@@ -61,10 +63,11 @@ std::vector<float> sliceDensities(const HuView& volume, const PlaneView& view)
     return densities;
 }
 
-std::vector<float> sliceDensities(const HuView& volume, const HuView& cleansed, const PlaneView& view)
+std::vector<float> sliceDensities(const HuView& volume, const HuView& cleansed, const PlaneView& view,
+                                  const Progress* wanted)
 {
-    std::vector<float> densities = sliceDensities(volume, view);
-    const std::vector<float> clean = sliceDensities(cleansed, view);
+    std::vector<float> densities = sliceDensities(volume, view, wanted);
+    const std::vector<float> clean = sliceDensities(cleansed, view, wanted);
     for (std::size_t n = 0; n < densities.size(); ++n)
         if (clean[n] != kPaddingHu)
             densities[n] = clean[n];

@@ -84,7 +84,9 @@ struct OverviewGround {
     TextSize caption;         ///< what the caption takes
     std::vector<Area> names;  ///< what the names of the colon's parts take
 };
-OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request);
+/// @param wanted throws Error{cancelled} where it is no longer
+OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request,
+                              const Progress* wanted = nullptr);
 /// What is written over it.
 Overlay overviewOverlay(const OverviewGround& ground, const PreparedScan& scan, const SnapshotRequest& request,
                         const SnapshotResult& place);

@@ -20,10 +20,10 @@ constexpr double kCloseUp_mm = 50;  // what the close-up shows: a polyp of 6 mm 
 
 /// @param cleansed shown where it has densities; nothing: nowhere
 Picture greyPicture(const HuView& volume, const HuView* cleansed, const PlaneView& view, const WindowLevel& window,
-                    const ThickSlice& thick = {})
+                    const ThickSlice& thick = {}, const Progress* wanted = nullptr)
 {
     Picture picture(view.width, view.height);
-    const auto densities = thickSliceDensities(volume, cleansed, view, thick);
+    const auto densities = thickSliceDensities(volume, cleansed, view, thick, wanted);
     for (std::size_t n = 0; n < densities.size(); ++n)
         std::fill_n(picture.rgb.begin() + std::ptrdiff_t(3 * n), 3, window.greyOf(densities[n]));
     return picture;
@@ -189,10 +189,10 @@ Overlay sliceOverlay(const SliceRequest& request, bool cleansable)
 }
 
 Picture slicePicture(const HuView& volume, const SliceRequest& request, const HuView* cleansed,
-                     const InsideView* inside)
+                     const InsideView* inside, const Progress* wanted)
 {
     Picture picture =
-        greyPicture(volume, request.cleansed ? cleansed : nullptr, request.view, request.window, request.thick);
+        greyPicture(volume, request.cleansed ? cleansed : nullptr, request.view, request.window, request.thick, wanted);
     if (request.tracks && inside)
         drawRim(picture, *inside, request);
     paint(picture, sliceOverlay(request, cleansed != nullptr));

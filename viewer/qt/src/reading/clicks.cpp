@@ -7,6 +7,7 @@ namespace vicon::viewer {
 
 void Reading::begin(const ToolInUse& tool, const QString& prompt)
 {
+    session_.giveUpMeasuring();
     interaction_.begin(tool);
     for (ReadingTool* each : tools_)
         each->nextClickChanged();

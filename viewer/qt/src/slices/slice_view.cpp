@@ -11,6 +11,8 @@
 namespace vicon::viewer {
 namespace {
 
+constexpr const char *kSlice = "slice", *kAhead = "next slices";
+
 /// Across the lumen, what is farther than some 7 cm from it is of no use.
 double usualZoom(SlicePlane plane)
 {
@@ -59,10 +61,12 @@ void SliceView::setPlane(SlicePlane plane)
 void SliceView::look(std::shared_ptr<OpenScan> scan, Point3 point, const Pose& pose, std::vector<Marker> markers,
                      std::vector<PriorPlace> priors, Move how)
 {
-    if (scan != scan_)
+    if (scan != scan_) {
+        worker_.giveUp(kSlice);
         pan_mm_ = {};
-    else if (!(point == request_.point_mm))
+    } else if (!(point == request_.point_mm)) {
         pan_mm_ = panFor(point, how);
+    }
     scan_ = std::move(scan);
     request_.point_mm = point;
     request_.pose = pose;
@@ -203,18 +207,17 @@ void SliceView::draw()
     request_.text_px = textHeight_px();
     if (!image().isNull())
         noteWhereElsewhere(shown_point_mm_, request_.point_mm);
-    worker_.post("slice", [this, scan = scan_, request = request_](SlicePictures& pictures) -> Worker::Work {
-        const std::shared_ptr<const PreparedScan> files(scan, &scan->files);
-        auto picture = std::make_shared<Picture>(pictures.draw(files, request));
-        worker_.post("next slices", [](SlicePictures& ahead) -> Worker::Work {
-            ahead.readAhead();
-            return {};
+    worker_.post(
+        kSlice,
+        [this, scan = scan_, request = request_](SlicePictures& pictures, const Progress& wanted) -> Worker::Work {
+            const std::shared_ptr<const PreparedScan> files(scan, &scan->files);
+            auto picture = std::make_shared<Picture>(pictures.draw(files, request, &wanted));
+            worker_.post(kAhead, [](SlicePictures& ahead, const Progress& still_wanted) -> Worker::Work {
+                ahead.readAhead(&still_wanted);
+                return {};
+            });
+            return [this, picture, request] { show(*picture, request); };
         });
-        return [this, picture, scan, request] {
-            if (scan == scan_)
-                show(*picture, request);
-        };
-    });
 }
 
 void SliceView::show(const Picture& picture, const SliceRequest& of)
@@ -265,6 +268,8 @@ void SliceView::leaveEvent(QEvent* event)
 
 void SliceView::leave(const QString& words)
 {
+    for (const char* name : {kSlice, kAhead})
+        worker_.giveUp(name);
     scan_.reset();
     line_.reset();
     ball_.reset();
