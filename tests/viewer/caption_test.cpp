@@ -168,7 +168,7 @@ TEST_P(CaptionsOfSmallViews, KeepTheTextsSizeInASlice)
     request.text_px = kText_px;
     request.window = of.windows().front();
     request.thick = {ThickSlice::Of::minimum, 5};
-    request.exact = true;
+    request.voxels_a_pixel = 1;
     for (int height = 140; height <= 400; height += 10)
         for (const SlicePlane plane : {SlicePlane::axial, SlicePlane::coronal, SlicePlane::sagittal}) {
             SCOPED_TRACE(height);

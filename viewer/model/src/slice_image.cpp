@@ -110,7 +110,7 @@ PlaneView sliceThrough(const Grid& grid, const SliceAxes& axes, Point3 point, in
     return view;
 }
 
-PlaneView pixelForPixel(const Grid& grid, const PlaneView& view, Point3 point)
+PlaneView pixelForPixel(const Grid& grid, const PlaneView& view, Point3 point, int voxels_a_pixel)
 {
     PlaneView exact = view;
     exact.mm_per_pixel = std::numeric_limits<double>::max();
@@ -118,10 +118,13 @@ PlaneView pixelForPixel(const Grid& grid, const PlaneView& view, Point3 point)
     for (std::size_t a = 0; a < 3; ++a)
         if (std::abs(dot(grid.axis[a], view.forward())) < kAcross)
             exact.mm_per_pixel = std::min(exact.mm_per_pixel, grid.spacing_mm[a]);
+    const double to_middle = (voxels_a_pixel - 1) / 2.0 * exact.mm_per_pixel;  // of the pixel's voxels
+    exact.mm_per_pixel *= voxels_a_pixel;
     // Pixels' middles lie at halves, also where the picture's middle is an edge between two of them.
     const int column = view.width / 2, row = view.height / 2;
     const double x = column + 0.5 - view.width / 2.0, y = row + 0.5 - view.height / 2.0;
-    exact.centre_mm = grid.pointAt(grid.indexAt(point)) - (view.right * x + view.down * y) * exact.mm_per_pixel;
+    exact.centre_mm = grid.pointAt(grid.indexAt(point)) + (view.right + view.down) * to_middle -
+                      (view.right * x + view.down * y) * exact.mm_per_pixel;
     return exact;
 }
 

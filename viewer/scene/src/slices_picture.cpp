@@ -149,8 +149,8 @@ std::vector<OverlayText> linesOfSlice(const SliceRequest& request, bool cleansab
     if (std::string thickness = nameOf(request.thick); !thickness.empty())
         lines.push_back(plain(std::move(thickness)));
     lines.push_back(plain(request.window.name + " " + request.window.words() + wordFor(cleansable, request.cleansed)));
-    if (request.exact)
-        lines.push_back(plain("pixel for pixel"));
+    if (request.voxels_a_pixel > 0)
+        lines.push_back(plain(request.voxels_a_pixel == 1 ? "pixel for pixel" : "half resolution"));
     if (request.caption.lossy)
         lines.push_back(plain("LOSSY COMPRESSION"));
     if (request.caption.lossy)

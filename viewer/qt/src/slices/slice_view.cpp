@@ -27,9 +27,9 @@ SliceView::SliceView(SlicePlane plane, const QString& name, QWidget* parent) : P
     zoom_ = usualZoom(plane);
     setMouseTracking(true);
     connect(this, &PictureView::hovered, this, &SliceView::readAt);
-    setToolTip(
-        tr("Click: look there. Wheel: scroll, or along the lumen (Q). Control and wheel: zoom. Drag: window. Right "
-           "button: pan. Double click: enlarge. Shift and click: marker."));
+    setToolTip(tr(
+        "Click: look there. Wheel: scroll, or along the lumen (Q). Control and wheel: zoom. Drag: window. Right "
+        "button: pan. Double click: enlarge. Shift and click: marker. Control and click: pixel for pixel, and back."));
     connect(this, &PictureView::resized, this, &SliceView::draw);
     connect(this, &PictureView::turned, this, &SliceView::scroll);
     connect(worker_.worker(), &Worker::failed, this, &SliceView::failed);
@@ -81,7 +81,7 @@ Vector3 SliceView::panFor(Point3 point, Move how) const
 {
     const PlaneView& view = request_.view;
     const auto inPlane = [&](Vector3 v) { return v - view.forward() * dot(v, view.forward()); };
-    if (zoom_ <= 1 && !request_.exact)
+    if (zoom_ <= 1 && request_.voxels_a_pixel == 0)
         return inPlane(pan_mm_);
     const auto isInside = [&](Point3 p, double margin) {
         const Pixel at = view.toPixel(p);
@@ -132,15 +132,28 @@ void SliceView::resetView()
 {
     pan_mm_ = {};
     zoom_ = 1;
-    request_.exact = false;
+    request_.voxels_a_pixel = 0;
     draw();
 }
 
-void SliceView::setPixelForPixel()
+void SliceView::setResolution(Resolution of)
 {
-    resetView();
-    request_.exact = true;
+    pan_mm_ = {};
+    zoom_ = 1;
+    request_.voxels_a_pixel = of == Resolution::half ? 2 : 1;
     draw();
+}
+
+void SliceView::toAcquiredAndBack()
+{
+    if (request_.voxels_a_pixel != 1) {
+        half_before_ = request_.voxels_a_pixel == 2;
+        setResolution(Resolution::acquired);
+    } else if (half_before_) {
+        setResolution(Resolution::half);
+    } else {
+        resetView();
+    }
 }
 
 void SliceView::scroll(int steps, Qt::KeyboardModifiers modifiers)
@@ -164,7 +177,7 @@ void SliceView::scroll(int steps, Qt::KeyboardModifiers modifiers)
 void SliceView::zoom(int notches)
 {
     constexpr double kNotch = 1.2, kMost = 20;
-    request_.exact = false;
+    request_.voxels_a_pixel = 0;
     const double before = zoom_;
     zoom_ = std::clamp(zoom_ * std::pow(kNotch, notches), 1.0, kMost);
     const PlaneView& view = request_.view;
@@ -200,8 +213,8 @@ void SliceView::draw()
         view.centre_mm += to_point;
     }
     view.centre_mm += pan_mm_;
-    if (request_.exact)
-        view = pixelForPixel(grid, view, request_.point_mm + pan_mm_);
+    if (request_.voxels_a_pixel > 0)
+        view = pixelForPixel(grid, view, request_.point_mm + pan_mm_, request_.voxels_a_pixel);
     request_.view = view;
     request_.pixel_ratio = devicePixelRatioF();
     request_.text_px = textHeight_px();

@@ -28,7 +28,8 @@ PlaneView sliceThrough(const Grid& grid, const SliceAxes& axes, Point3 point, in
 
 /// The same slice pixel for pixel: the voxel at `point` in the middle, and as many millimetres a pixel as the grid's
 /// finest axis in the plane has. Where the grid's axes are those of the picture, nothing is interpolated along it.
-PlaneView pixelForPixel(const Grid& grid, const PlaneView& view, Point3 point);
+/// @param voxels_a_pixel 2: at half resolution, where each pixel is the mean of its two by two voxels
+PlaneView pixelForPixel(const Grid& grid, const PlaneView& view, Point3 point, int voxels_a_pixel = 1);
 
 /// The smallest box around a grid, in patient coordinates.
 struct Bounds {

@@ -29,8 +29,8 @@ struct SliceRequest {
     Caption caption;
     bool cleansed = false;  ///< without tagging, where that was taken out
     ThickSlice thick;
-    bool exact = false;   ///< the view is pixelForPixel(), and the picture says so
-    bool tracks = false;  ///< the rim of the lumen around the eye is drawn
+    int voxels_a_pixel = 0;  ///< above 0: the view is pixelForPixel() of so many, and the picture says so
+    bool tracks = false;     ///< the rim of the lumen around the eye is drawn
 };
 /// Needs no display. The picture says which densities it shows, where there are two kinds.
 /// @param cleansed PreparedScan::cleansed()
