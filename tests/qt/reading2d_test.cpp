@@ -44,6 +44,12 @@ protected:
         const QWidget* widget = the<QWidget>(view);
         return widget->isVisible() ? widget->width() * widget->height() : 0;
     }
+    static bool isNear(const QColor& a, const QColor& b)
+    {
+        constexpr int kNear = 40;  // a smooth line covers a pixel in part
+        return std::abs(a.red() - b.red()) < kNear && std::abs(a.green() - b.green()) < kNear &&
+               std::abs(a.blue() - b.blue()) < kNear;
+    }
     /// The colour of the rim of the lumen that is followed.
     static int rimPixels(const char* view)
     {
@@ -51,7 +57,7 @@ protected:
         int count = 0;
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x)
-                count += image.pixelColor(x, y) == QColor(40, 205, 190);
+                count += isNear(image.pixelColor(x, y), QColor(40, 205, 190));
         return count;
     }
     /// Of a picture's pixels, those that are as grey as the window makes the mean of so many by so many voxels.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "caption_panel.h"
 #include "pictures.h"
@@ -38,9 +39,15 @@ void drawRim(Picture& picture, const InsideView& inside, const SliceRequest& req
     if (std::abs(request.view.depth_mm(request.pose.eye_mm)) > kEyeNear_mm)
         return;
     const auto rim = lumenRim(inside, request.view, request.pose.eye_mm);
-    for (std::size_t n = 0; n < rim.size(); ++n)
-        if (rim[n])
-            picture.set(int(n % std::size_t(picture.width)), int(n / std::size_t(picture.width)), kLumenRimColor);
+    for (std::size_t n = 0; n < rim.size(); ++n) {
+        const auto mixed = [&](std::size_t c, std::uint8_t color) {
+            std::uint8_t& own = picture.rgb[3 * n + c];
+            own = std::uint8_t(std::lround(std::lerp(double(own), double(color), double(rim[n]))));
+        };
+        mixed(0, kLumenRimColor.red);
+        mixed(1, kLumenRimColor.green);
+        mixed(2, kLumenRimColor.blue);
+    }
 }
 
 /// Which densities are shown, where there are two kinds or the other kind was asked for.
