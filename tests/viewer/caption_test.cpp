@@ -98,6 +98,7 @@ TEST(CaptionOfSlices, SaysWhereThereWasMore)
 }
 
 struct Captions : test::ColonFixture {};
+struct BandCaptions : Captions {};
 
 TEST_F(Captions, OfTheViewFromInsideTouchNeitherLettersNorEachOther)
 {
