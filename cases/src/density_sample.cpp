@@ -19,8 +19,9 @@ constexpr int kFatFrom_hu = -200, kFatTo_hu = -30;
 /// A ball's voxels, and the lumen in and around them.
 class Surroundings {
 public:
-    Surroundings(const HuView& volume, const InsideView& inside, Point3 centre, double radius_mm, double margin_mm)
-        : volume_(&volume), centre_(centre), radius_mm_(radius_mm)
+    Surroundings(const HuView& volume, const InsideView& inside, Point3 centre, double radius_mm, double margin_mm,
+                 const Progress* wanted)
+        : volume_(&volume), wanted_(wanted), centre_(centre), radius_mm_(radius_mm)
     {
         const Index3 middle = volume.grid.indexAt(centre);
         const std::array<int, 3> at{middle.i, middle.j, middle.k};
@@ -86,10 +87,13 @@ private:
     void forEach(Do what) const
     {
         std::size_t n = 0;
-        for (int k = 0; k < size_[2]; ++k)
+        for (int k = 0; k < size_[2]; ++k) {
+            if (wanted_)
+                wanted_->check();
             for (int j = 0; j < size_[1]; ++j)
                 for (int i = 0; i < size_[0]; ++i, ++n)
                     what(Index3{from_[0] + i, from_[1] + j, from_[2] + k}, n);
+        }
     }
     /// Of 27 voxels the mean: noise alone makes no fat. Those beside the lumen, half gas, are not counted.
     bool isLight(Index3 middle) const
@@ -140,6 +144,7 @@ private:
     }
 
     const HuView* volume_;
+    const Progress* wanted_;
     Point3 centre_;
     double radius_mm_;
     std::array<int, 3> from_{}, size_{};
@@ -173,12 +178,12 @@ void describe(DensitySample& sample, const std::vector<int>& densities)
 }  // namespace
 
 DensitySample sampleDensity(const HuView& volume, const InsideView& inside, Point3 centre, double radius_mm,
-                            const std::optional<CircledWall>& wall)
+                            const std::optional<CircledWall>& wall, const Progress* wanted)
 {
     if (!(radius_mm >= kLeastRadius_mm && radius_mm <= kMostRadius_mm))
         throw Error(ErrorCode::wrong_use, "the radius of a density sample is 0.5 to 25 mm", std::to_string(radius_mm));
     const double voxel_mm = std::cbrt(volume.grid.voxelVolume_mm3()), least_mm = kMarginVoxels * voxel_mm;
-    Surroundings around(volume, inside, centre, radius_mm, std::max(kMargin_mm, least_mm) + voxel_mm);
+    Surroundings around(volume, inside, centre, radius_mm, std::max(kMargin_mm, least_mm) + voxel_mm, wanted);
     if (wall)
         around.endBehind(*wall, least_mm);
     DensitySample sample{centre, radius_mm};

@@ -118,11 +118,13 @@ nlohmann::json toJson(const StationMap& map)
 
 }  // namespace
 
-std::vector<ScanMatch> matchesOf(CaseStore& store, const std::string& case_id)
+std::vector<ScanMatch> matchesOf(CaseStore& store, const std::string& case_id, const Progress* wanted)
 {
     const std::map<std::string, Skeleton> skeletons = skeletonsOf(store, case_id);
     std::vector<std::pair<std::string, ColonProfile>> profiles;
     for (const ScanRecord& scan : store.scans(case_id)) {
+        if (wanted)
+            wanted->check();
         const auto skeleton = skeletons.find(scan.id);
         if (skeleton == skeletons.end() || skeleton->second.empty())
             continue;
@@ -131,14 +133,14 @@ std::vector<ScanMatch> matchesOf(CaseStore& store, const std::string& case_id)
             results.quality && results.quality->quality ? results.quality->quality->along : LumenAlong();
         ColonProfile profile = profileOf(skeleton->second, results.parts(), along);
         if (const auto inside = store.scanFolder(case_id, scan.id) / "inside.mha"; std::filesystem::exists(inside))
-            profile.relief = reliefOf(scan_files::StoredVolume<std::uint8_t>(inside).view(), skeleton->second);
+            profile.relief = reliefOf(scan_files::StoredVolume<std::uint8_t>(inside).view(), skeleton->second, wanted);
         profiles.emplace_back(scan.id, std::move(profile));
     }
     std::vector<ScanMatch> matches;
     for (std::size_t a = 0; a < profiles.size(); ++a)
         for (std::size_t b = a + 1; b < profiles.size(); ++b)
             matches.push_back(
-                {profiles[a].first, profiles[b].first, matchStations(profiles[a].second, profiles[b].second)});
+                {profiles[a].first, profiles[b].first, matchStations(profiles[a].second, profiles[b].second, wanted)});
     return matches;
 }
 

@@ -93,18 +93,18 @@ std::vector<int> windowsAlong(const std::vector<double>& nodes_mm, const std::ve
 
 }  // namespace
 
-StationChain::StationChain(const ColonProfile& from, const ColonProfile& to)
+StationChain::StationChain(const ColonProfile& from, const ColonProfile& to, const Progress* wanted)
     : from_(from),
       to_(to),
       here_(featuresOf(from)),
       there_(featuresOf(to)),
       node_mm_(nodesAlong(from.length_mm)),
       lowest_(windowsAlong(node_mm_, sharedLandmarks(from, to))),
-      likeness_(here_, there_, node_mm_, node_mm_[1], lowest_, kColumns + kFastest)
+      likeness_(here_, there_, node_mm_, node_mm_[1], lowest_, kColumns + kFastest, wanted)
 {
     holdMarks(sharedLandmarks(from, to));
-    forward();
-    backward();
+    forward(wanted);
+    backward(wanted);
 }
 
 void StationChain::holdMarks(const std::vector<LandmarkPair>& marks)
@@ -180,12 +180,14 @@ StationChain::Plane StationChain::turned(const Plane& plane, std::size_t node) c
     return out;
 }
 
-void StationChain::forward()
+void StationChain::forward(const Progress* wanted)
 {
     ahead_.assign(node_mm_.size(), Plane(likeness_.turns() * kLayer, 0));
     for (std::size_t row = 0; row < likeness_.turns() * kSpeeds; ++row)
         std::copy_n(holdOf(0), kColumns, &ahead_[0][row * kColumns]);
     for (std::size_t node = 0; node + 1 < node_mm_.size(); ++node) {
+        if (wanted)
+            wanted->check();
         const Plane now = turned(ahead_[node], node);
         const std::vector<float> free = freeAt(node);
         Plane& next = ahead_[node + 1];
@@ -223,11 +225,13 @@ StationChain::Plane StationChain::before(std::size_t node, const Plane& behind) 
     return turned(out, node);
 }
 
-void StationChain::backward()
+void StationChain::backward(const Progress* wanted)
 {
     passed_.resize(node_mm_.size());
     Plane behind(likeness_.turns() * kLayer, 1);
     for (std::size_t node = node_mm_.size(); node-- > 0;) {
+        if (wanted)
+            wanted->check();
         if (node + 1 < node_mm_.size())
             behind = before(node, behind);
         passed_[node] = intervalAt(node, behind);

@@ -17,7 +17,8 @@ public:
     static constexpr double kStep_mm = 10;  ///< along the first centreline
     static constexpr int kReach_mm = 130;   ///< to either side of the landmarks' place
 
-    StationChain(const ColonProfile& from, const ColonProfile& to);
+    /// Throws Error{cancelled} where `wanted` is no longer; nothing: it always is.
+    StationChain(const ColonProfile& from, const ColonProfile& to, const Progress* wanted);
     /// Whether there is any way through.
     bool passes() const { return passes_; }
     /// Whether the clearance of both scans is known, so that folds were compared.
@@ -49,8 +50,8 @@ private:
     std::vector<float> freeAt(std::size_t node) const;
     /// From each turn to the next.
     Plane turned(const Plane& plane, std::size_t node) const;
-    void forward();
-    void backward();
+    void forward(const Progress* wanted);
+    void backward(const Progress* wanted);
     /// A step against the way.
     Plane before(std::size_t node, const Plane& behind) const;
     StationInterval intervalAt(std::size_t node, const Plane& behind);

@@ -40,16 +40,19 @@ float dotAt(const std::array<float, ProfileFeatures::kSectors>& a,
 
 StationLikeness::StationLikeness(const ProfileFeatures& here, const ProfileFeatures& there,
                                  const std::vector<double>& from_mm, double step_mm, const std::vector<int>& lowest_mm,
-                                 std::size_t columns)
+                                 std::size_t columns, const Progress* wanted)
     : here_(here),
       there_(there),
       turns_(here.folds.empty() || there.folds.empty() ? 1 : ProfileFeatures::kSectors),
       columns_(columns),
       factor_(from_mm.size() * turns_ * kSamples.size() * columns, 1)
 {
-    for (std::size_t node = 0; node < from_mm.size(); ++node)
+    for (std::size_t node = 0; node < from_mm.size(); ++node) {
+        if (wanted)
+            wanted->check();
         for (std::size_t sample = 0; sample < kSamples.size(); ++sample)
             compare(node, sample, std::lround(from_mm[node] + kSamples[sample] * step_mm), lowest_mm[node]);
+    }
 }
 
 void StationLikeness::compare(std::size_t node, std::size_t sample, long here, int lowest)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "profile_features.h"
+#include "vicon/core/progress.h"
 
 namespace vicon {
 
@@ -17,8 +18,9 @@ public:
     /// @param from_mm where the steps of the first centreline begin, `step_mm` long
     /// @param lowest_mm the first station of the second centreline that each is compared with
     /// @param columns stations compared with, each 1 mm on
+    /// @param wanted throws Error{cancelled} where it is no longer; nothing: it always is
     StationLikeness(const ProfileFeatures& here, const ProfileFeatures& there, const std::vector<double>& from_mm,
-                    double step_mm, const std::vector<int>& lowest_mm, std::size_t columns);
+                    double step_mm, const std::vector<int>& lowest_mm, std::size_t columns, const Progress* wanted);
 
     /// How many turns are told apart: 1 where a relief is not known.
     std::size_t turns() const { return turns_; }

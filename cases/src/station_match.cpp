@@ -35,11 +35,11 @@ StationMap unmatched(const ColonProfile& from, const ColonProfile& to)
 
 }  // namespace
 
-StationMap matchStations(const ColonProfile& from, const ColonProfile& to)
+StationMap matchStations(const ColonProfile& from, const ColonProfile& to, const Progress* wanted)
 {
     if (std::min(from.length_mm, to.length_mm) < kShortest_mm)
         return unmatched(from, to);
-    const StationChain chain(from, to);
+    const StationChain chain(from, to, wanted);
     if (!chain.passes())
         return unmatched(from, to);
     StationMap map = chain.map();

@@ -27,7 +27,7 @@ Vector3 across(Vector3 v, Vector3 along)
 
 }  // namespace
 
-WallRelief reliefOf(const InsideView& inside, const Skeleton& skeleton)
+WallRelief reliefOf(const InsideView& inside, const Skeleton& skeleton, const Progress* wanted)
 {
     WallRelief relief;
     if (skeleton.empty())
@@ -37,6 +37,8 @@ WallRelief reliefOf(const InsideView& inside, const Skeleton& skeleton)
     const Vector3 start = skeleton.tangentAt(0, kTangent_mm);
     Vector3 first = across(std::abs(start.y) < 0.9 ? Vector3{0, -1, 0} : Vector3{0, 0, 1}, start);
     for (std::size_t n = 0; n < count; ++n) {
+        if (wanted)
+            wanted->check();
         const Point3 middle = skeleton.at(double(n)).position_mm;
         const Vector3 along = skeleton.tangentAt(double(n), kTangent_mm);
         first = across(first, along);

@@ -8,8 +8,10 @@
 
 #include "film_reader.h"
 #include "reading.h"
+#include "test_colon.h"
 #include "vicon/core/file.h"
 #include "vicon/scan_files/skeleton_file.h"
+#include "vicon/scan_files/volume_file.h"
 
 namespace vicon::viewer {
 namespace {
@@ -62,6 +64,36 @@ TEST_F(Reading, GuidedFlightIsSteeredByKeysAndComesBackWhenReleased)
     waitUntilAtRest();
     screenshotNow("guided");
     EXPECT_LT(std::abs(station() - released), 40) << "nothing pulls it any more";
+}
+
+/// Space lets go of it: the distance from the exit leads it on, and no key.
+TEST_F(Reading, GuidedFlightIsPulledAlongByTheDistanceFromTheExit)
+{
+    constexpr double kBegin_mm = 150;
+    test::TestColon colon;
+    FieldVolume other_way = colon.exit_distance;
+    for (std::size_t n = 0; n < other_way.voxels.size(); ++n)
+        if (colon.inside.voxels[n] != kOutside)
+            other_way.voxels[n] = 1000 - other_way.voxels[n];
+    const auto file = CaseStore(store_).scanFolder(test::kCase, test::kSupine) / "exit_distance.mha";
+    for (const bool as_made : {true, false}) {
+        if (!as_made)
+            scan_files::writeVolume(file, other_way, scan_files::Packing::raw);
+        openCase();
+        key(Qt::Key_Home);
+        key(Qt::Key_G);
+        QTest::keyPress(window(), Qt::Key_W);
+        ASSERT_TRUE(eventually([] { return station() > kBegin_mm; }));
+        QTest::keyRelease(window(), Qt::Key_W);
+        waitUntilAtRest();
+        const double begin_mm = station();
+        key(Qt::Key_Space);
+        EXPECT_TRUE(eventually([&] { return as_made ? station() > begin_mm + 30 : station() < begin_mm - 5; }))
+            << "from " << begin_mm << " to " << station();
+        key(Qt::Key_Space);
+        waitUntilAtRest();
+        closeCase();
+    }
 }
 
 TEST_F(Reading, AGuidedFlightThatCannotReachAPlaceSaysSo)

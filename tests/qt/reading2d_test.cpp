@@ -6,6 +6,8 @@
 
 #include "reading.h"
 #include "slices/slice_view.h"
+#include "vicon/scan_files/stored_volume.h"
+#include "vicon/viewer/model/window_level.h"
 
 namespace vicon::viewer {
 namespace {
@@ -42,6 +44,12 @@ protected:
         const QWidget* widget = the<QWidget>(view);
         return widget->isVisible() ? widget->width() * widget->height() : 0;
     }
+    static bool isNear(const QColor& a, const QColor& b)
+    {
+        constexpr int kNear = 40;  // a smooth line covers a pixel in part
+        return std::abs(a.red() - b.red()) < kNear && std::abs(a.green() - b.green()) < kNear &&
+               std::abs(a.blue() - b.blue()) < kNear;
+    }
     /// The colour of the rim of the lumen that is followed.
     static int rimPixels(const char* view)
     {
@@ -49,8 +57,32 @@ protected:
         int count = 0;
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x)
-                count += image.pixelColor(x, y) == QColor(40, 205, 190);
+                count += isNear(image.pixelColor(x, y), QColor(40, 205, 190));
         return count;
+    }
+    /// Of a picture's pixels, those that are as grey as the window makes the mean of so many by so many voxels.
+    static double asAcquired(const char* name, const HuView& volume, int voxels)
+    {
+        const PlaneView view = shown(name);
+        const WindowLevel window = windowPreset(the<QComboBox>("window")->currentText().toStdString());
+        const QImage image = pictureOf(name);
+        int same = 0, all = 0;
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x) {
+                double sum_hu = 0;
+                bool within = true;
+                for (int n = 0; n < voxels * voxels; ++n) {
+                    const Point3 p = view.pointAt({x + (n % voxels + 0.5) / voxels, y + (n / voxels + 0.5) / voxels});
+                    const Index3 v = volume.grid.indexAt(p);
+                    within = within && volume.grid.contains(v) && distance(volume.grid.pointAt(v), p) < 1e-6;
+                    sum_hu += within ? volume.at(v) : 0;
+                }
+                if (!within)
+                    continue;
+                ++all;
+                same += std::abs(qGray(image.pixel(x, y)) - int(window.greyOf(float(sum_hu / (voxels * voxels))))) <= 1;
+            }
+        return all > 0 ? double(same) / all : 0;
     }
     /// The picture of a slice is of the size that its view has by now.
     static bool fits(const char* view)
@@ -237,6 +269,43 @@ TEST_F(Reading2D, SlicesAreAKeyAwayFromWhatWasAcquiredPixelForPixel)
     EXPECT_LE(distance(view.centre_mm, the<SliceView>("axial")->point_mm()), 1.5) << "around the cross";
     type(Qt::Key_0);
     EXPECT_TRUE(eventually([&] { return shown("axial").mm_per_pixel == whole; }));
+}
+
+TEST_F(Reading2D, AClickBringsASliceFromHalfTheResolutionToTheAcquiredOnePixelForPixelAndBack)
+{
+    const scan_files::StoredVolume<std::int16_t> stored(CaseStore(store_).scanFolder(test::kCase, test::kSupine) /
+                                                        "volume.mha");
+    const HuView& volume = stored.view();
+    type(Qt::Key_0);
+    waitUntilQuiet();
+    const double whole = shown("axial").mm_per_pixel, coronal = shown("coronal").mm_per_pixel;
+    EXPECT_LT(asAcquired("axial", volume, 1), 0.1);
+    type(Qt::Key_9, Qt::ControlModifier);
+    waitUntilQuiet();
+    EXPECT_NEAR(shown("axial").mm_per_pixel, 4, 1e-9) << "of voxels of two millimetres";
+    constexpr double kNothingOver = 0.6;  // the rest lies under lines and words
+    EXPECT_GT(asAcquired("axial", volume, 2), kNothingOver);
+    const QPoint at = cross("axial") + QPoint(2, -3);
+    const Point3 clicked = shown("axial").pointAt({at.x() + 0.5, at.y() + 0.5});
+    click("axial", at, Qt::ControlModifier);
+    waitUntilQuiet();
+    EXPECT_NEAR(shown("axial").mm_per_pixel, 2, 1e-9);
+    EXPECT_GT(asAcquired("axial", volume, 1), kNothingOver);
+    EXPECT_LE(distance(shown("axial").centre_mm, clicked), 3.5) << "around the place that was clicked";
+    EXPECT_NEAR(shown("coronal").mm_per_pixel, 4, 1e-9) << "the others stay";
+    screenshot("pixel_for_pixel");
+    click("axial", middle("axial"), Qt::ControlModifier);
+    waitUntilQuiet();
+    EXPECT_NEAR(shown("axial").mm_per_pixel, 4, 1e-9) << "back";
+    type(Qt::Key_0);
+    waitUntilQuiet();
+    click("axial", middle("axial"), Qt::ControlModifier);
+    waitUntilQuiet();
+    EXPECT_NEAR(shown("axial").mm_per_pixel, 2, 1e-9);
+    click("axial", middle("axial"), Qt::ControlModifier);
+    waitUntilQuiet();
+    EXPECT_EQ(shown("axial").mm_per_pixel, whole);
+    EXPECT_EQ(shown("coronal").mm_per_pixel, coronal);
 }
 
 TEST_F(Reading2D, TheWindowIsSetByDraggingAndByNumberKeysInEverySlice)

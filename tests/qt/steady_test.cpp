@@ -1,6 +1,10 @@
 // What runs on other threads: it can be given up, and nobody takes what it has not shown yet for what it will show.
+#include <QComboBox>
+#include <QLabel>
 #include <QSignalSpy>
+#include <QStatusBar>
 #include <atomic>
+#include <functional>
 
 #include "reading.h"
 #include "vicon/core/error.h"
@@ -60,6 +64,27 @@ TEST_F(AWorker, GoesOnToTheNextWorkWhenWhatRunsIsGivenUp)
     EXPECT_EQ(failed_.count(), 0);
 }
 
+TEST_F(AWorker, DoesNotDoWhatWasFoundBeforeItWasGivenUp)
+{
+    int found = 0;
+    const auto find = [&](const char* name) {
+        worker_.post(name, [&]() -> Worker::Work { return [&found] { ++found; }; });
+    };
+    find("a");
+    find("b");
+    std::atomic<bool> both = false;
+    worker_.post("after them", [&]() -> Worker::Work {
+        both = true;
+        return {};
+    });
+    ASSERT_TRUE(support::waitUntil([&] { return both.load(); }));  // no event is handled meanwhile
+    EXPECT_TRUE(worker_.giveUp("a"));
+    EXPECT_FALSE(worker_.giveUp("a")) << "it is given up already";
+    EXPECT_FALSE(worker_.giveUp("of another name"));
+    waitUntilQuiet();
+    EXPECT_EQ(found, 1);
+}
+
 TEST_F(AWorker, DoesWhatMustBeSavedToItsEnd)
 {
     std::atomic<bool> begun = false, ending = false, wanted_still = false, saved = false;
@@ -87,6 +112,108 @@ TEST_F(AWorker, TellsWhatFailedThoughItWasCalledCancelled)
     EXPECT_TRUE(eventually([&] { return failed_.count() == 1; }));
 }
 
+/// What a reader begins in the open scan, each kind on another thread.
+class Begun : public Reading {
+protected:
+    struct Kind {
+        const char* name;
+        std::function<void()> begin;
+    };
+
+    void SetUp() override
+    {
+        Reading::SetUp();
+        openCase();
+    }
+    static void circle()
+    {
+        auto* view = the<QWidget>("endoscopic");
+        const QPoint at = middle("endoscopic") + QPoint(-150, 20);
+        key(Qt::Key_T);
+        QTest::mousePress(view, Qt::LeftButton, {}, at);
+        for (int n = 1; n <= 5; ++n)
+            QTest::mouseMove(view, at + QPoint(22 * n, 0));
+        QTest::mouseRelease(view, Qt::LeftButton, {}, at + QPoint(110, 0));
+    }
+    /// Over the wall from one end of the colon to the other: no way is as short as is looked for, which takes longest.
+    static void measureFar()
+    {
+        key(Qt::Key_Home);
+        waitUntilQuiet();
+        key(Qt::Key_M);
+        click("endoscopic", middle("endoscopic") + QPoint(-150, 20));
+        key(Qt::Key_End);
+        ASSERT_TRUE(eventually([] { return length() - station() < 5 && pictureIsThere(); }));
+        click("endoscopic", middle("endoscopic") + QPoint(150, 20));
+    }
+    static std::vector<Kind> kinds()
+    {
+        return {
+            {"biopsy", circle},
+            {"size over the wall", measureFar},
+            {"outline",
+             [] {
+                 key(Qt::Key_M, Qt::ShiftModifier);
+                 click("endoscopic", middle("endoscopic") + QPoint(-150, 20));
+             }},
+            {"slab",
+             [] {
+                 key(Qt::Key_Y);
+                 key(Qt::Key_Y, Qt::ShiftModifier);
+             }},
+            {"cube", [] { key(Qt::Key_U); }},
+            {"band", [] { key(Qt::Key_B, Qt::ShiftModifier); }},
+            {"projection turned", [] { drag("overview", middle("overview"), middle("overview") + QPoint(40, 10)); }},
+            {"missed regions", [] { showList(1); }},
+            {"proposed pairs", [] { showList(kPairs); }}};
+    }
+    static constexpr int kPairs = 4;
+    /// Nothing of what was begun in the scan before is shown.
+    static void expectNothingOfIt(const char* name)
+    {
+        EXPECT_EQ(warning(), "") << name;
+        EXPECT_FALSE(the<QLabel>("histogram")->isVisible()) << name;
+        const QString said = window()->statusBar()->currentMessage();
+        EXPECT_FALSE(said.contains("HU") || said.contains("marker beside it")) << name << ": " << said.toStdString();
+    }
+};
+
+TEST_F(Begun, InAScanNeitherHoldsUpTheNextNorIsShownThere)
+{
+    auto* scan = the<QComboBox>("scan");
+    for (const Kind& kind : kinds()) {
+        const QString before = scan->currentText();
+        ASSERT_NO_FATAL_FAILURE(kind.begin()) << kind.name;
+        key(Qt::Key_X);
+        ASSERT_TRUE(eventually([&] { return pictureIsThere() && scan->currentText() != before; })) << kind.name;
+        waitUntilQuiet();
+        expectNothingOfIt(kind.name);
+    }
+}
+
+TEST_F(Begun, IsGivenUpByEscape)
+{
+    for (const auto& begin : {circle, measureFar}) {
+        ASSERT_NO_FATAL_FAILURE(begin());
+        key(Qt::Key_Escape);
+        waitUntilQuiet();
+        expectNothingOfIt("escape");
+    }
+    EXPECT_TRUE(stored().empty());
+}
+
+TEST_F(Begun, DoesNotKeepTheWindow)
+{
+    for (const Kind& kind : {kinds().front(), kinds()[1], kinds().back()}) {
+        ASSERT_NO_FATAL_FAILURE(kind.begin()) << kind.name;
+        ASSERT_NO_FATAL_FAILURE(closeCase()) << kind.name;
+        startOpening();  // and neither does a scan that is being opened
+        ASSERT_TRUE(eventually([] { return window() && the<QWidget>("opening")->isVisible(); })) << kind.name;
+        ASSERT_NO_FATAL_FAILURE(closeCase()) << kind.name;
+        ASSERT_NO_FATAL_FAILURE(openCase()) << kind.name;
+    }
+}
+
 TEST_F(Reading, APictureThatIsNotOfThisPlaceYetSaysSo)
 {
     openCase();
@@ -94,7 +221,7 @@ TEST_F(Reading, APictureThatIsNotOfThisPlaceYetSaysSo)
     key(Qt::Key_U);
     ASSERT_TRUE(eventually([] { return the<QWidget>("cube")->isVisible() && drawn("cube"); }));
     waitUntilQuiet();
-    const std::vector<const char*> views{"endoscopic", "axial", "cube"};
+    const std::vector<const char*> views{"endoscopic", "axial", "coronal", "sagittal", "cube"};
     for (const char* view : views)
         ASSERT_EQ(note(view), "") << view;
     key(Qt::Key_End);

@@ -91,6 +91,27 @@ TEST_F(AcquiredWall, IsMetByARayWhereThePictureShowsIt)
         << "from under fluid nothing is seen";
 }
 
+TEST_F(AcquiredWall, SaysWhereFluidFillsTheView)
+{
+    request.width = request.height = 600;
+    const SnapshotResult eye = place();
+    const auto orange = [&](const char* folder) {
+        return findColor(shoot(scan(colon, folder), request), kWarningColor, {0, 0, 600, 280}, 40).count;
+    };
+    request.wall.acquired = true;
+    fillAhead(eye.pose, 12);  // between it and the eye the wall is seen
+    const Lens lens{request.view_angle_deg, 600, 600};
+    const PreparedScan in_part = scan(colon, "in part");
+    const double share = standingShare(in_part.volume(), in_part.lumen(), eye.pose, lens);
+    EXPECT_GT(share, 0.05);
+    EXPECT_LT(share, 0.9);
+    EXPECT_EQ(orange("in part"), 0);
+    fillAhead(eye.pose, 2);
+    EXPECT_GT(orange("before the eye"), 30) << "a picture of nothing says so";
+    request.wall.acquired = false;
+    EXPECT_EQ(orange("before the eye"), 0);
+}
+
 TEST_F(AcquiredWall, SaysWhereTheEyeIsUnderFluid)
 {
     const auto orange = [](const Picture& picture) {

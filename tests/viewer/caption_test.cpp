@@ -20,21 +20,17 @@ constexpr std::array<std::array<int, 2>, 9> kSizes{{{200, 200},
                                                     {600, 1600},
                                                     {4096, 4096}}};
 
-constexpr std::size_t kMostLetters = 2;  // of a direction
-
 bool touch(const Area& a, const Area& b)
 {
     return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
 }
 
-/// Texts that lie over one another, or none. The letters of the indicator of directions lie about a sphere: those
-/// behind may.
+/// Texts that lie over one another, or none.
 std::string overlapping(const std::vector<OverlayText>& texts)
 {
     for (std::size_t n = 0; n < texts.size(); ++n)
         for (std::size_t other = 0; other < n; ++other)
-            if (std::max(texts[n].text.size(), texts[other].text.size()) > kMostLetters &&
-                touch(textArea(texts[n]), textArea(texts[other])))
+            if (touch(textArea(texts[n]), textArea(texts[other])))
                 return texts[other].text + " | " + texts[n].text;
     return {};
 }
@@ -102,6 +98,7 @@ TEST(CaptionOfSlices, SaysWhereThereWasMore)
 }
 
 struct Captions : test::ColonFixture {};
+struct BandCaptions : Captions {};
 
 TEST_F(Captions, OfTheViewFromInsideTouchNeitherLettersNorEachOther)
 {
@@ -117,6 +114,53 @@ TEST_F(Captions, OfTheViewFromInsideTouchNeitherLettersNorEachOther)
         request.height = height;
         EXPECT_EQ(overlapping(endoscopicOverlay(of, request, place).texts), "") << width << " x " << height;
     }
+}
+
+TEST(CaptionOfDirections, AboutTheEyeNeverTouchAndTheNearestIsThere)
+{
+    constexpr double kText_px = 14;
+    for (int turn = 0; turn < 360; turn += 5)
+        for (int tilt = -85; tilt <= 85; tilt += 10) {
+            const double a = radians(turn), b = radians(tilt);
+            const Vector3 forward{std::cos(a) * std::cos(b), std::sin(a) * std::cos(b), std::sin(b)};
+            const Pose pose{{0, 0, 0}, forward, uprightOn(forward, {0, 0, 1})};
+            Overlay overlay;
+            addTriad(overlay, {60, 60}, 2.7 * kText_px, pose, kText_px);
+            EXPECT_EQ(overlapping(overlay.texts), "") << turn << " " << tilt;
+            EXPECT_GE(overlay.texts.size(), 3U);
+            EXPECT_EQ(overlay.texts.front().text.front(), lettersFor(-forward).front())
+                << "what lies before the eye's back";
+        }
+}
+
+/// A band's words: within the picture, whole, none over another.
+TEST_F(BandCaptions, StandBesideEachOtherToTheEndOfEachRow)
+{
+    const PreparedScan of = scan();
+    NoProgress quiet;
+    const BandMap band = bandOf(of, quiet);
+    for (const int width : {400, 640, 900, 1250})
+        for (const double middle_mm : {0.0, 90.0, 200.0, 260.0, 333.0, 480.0})
+            for (const bool from_caecum : {false, true}) {
+                BandRequest request;
+                request.width = width;
+                request.height = 260;
+                request.middle_mm = middle_mm;
+                request.from_caecum = from_caecum;
+                request.still = false;
+                const BandPage page = bandPicture(of, band, request, quiet).page;
+                const Overlay overlay = bandOverlay(of, band, page, request);
+                std::vector<OverlayText> stations;
+                for (const OverlayText& text : overlay.texts)
+                    if (text.text.find(" cm") != std::string::npos && text.at.y < page.top_px + page.label_px)
+                        stations.push_back(text);
+                EXPECT_EQ(overlapping(stations), "") << width << " " << middle_mm;
+                for (const OverlayText& text : stations) {
+                    EXPECT_GE(text.at.x, 0) << text.text;
+                    EXPECT_LE(text.at.x + textSize(text).width_px, width) << text.text;
+                    EXPECT_GE(text.most_width_px, textSize(text).width_px) << text.text << " is cut";
+                }
+            }
 }
 
 void expectWholeText(const Overlay& overlay, double text_px)
@@ -157,7 +201,7 @@ TEST_P(CaptionsOfSmallViews, KeepTheTextsSizeInTheViewFromInside)
         EXPECT_GE(overlay.texts.size(), texts) << "the more room the more is said";
         texts = overlay.texts.size();
     }
-    EXPECT_GE(texts, 14U) << "four letters, six around the eye, place and direction";
+    EXPECT_GE(texts, 13U) << "four letters, five around the eye and more, place and direction";
 }
 
 TEST_P(CaptionsOfSmallViews, KeepTheTextsSizeInASlice)
@@ -168,7 +212,7 @@ TEST_P(CaptionsOfSmallViews, KeepTheTextsSizeInASlice)
     request.text_px = kText_px;
     request.window = of.windows().front();
     request.thick = {ThickSlice::Of::minimum, 5};
-    request.exact = true;
+    request.voxels_a_pixel = 1;
     for (int height = 140; height <= 400; height += 10)
         for (const SlicePlane plane : {SlicePlane::axial, SlicePlane::coronal, SlicePlane::sagittal}) {
             SCOPED_TRACE(height);

@@ -154,6 +154,36 @@ TEST_F(Panorama, TheBandShowsAMarkerWhereItsWallIsAndTurnedAboutFromTheCaecum)
     }
 }
 
+TEST_F(Panorama, ABandAroundAStationMarksIt)
+{
+    const PreparedScan files = scan();
+    SnapshotRequest request;
+    request.view = SnapshotRequest::View::band;
+    request.width = 900;
+    request.height = 300;
+    request.station_mm = 200;
+    request.whole_band = false;
+    const auto file = folder / "band.png";
+    renderSnapshot(files, request, file);
+    const Picture marked = readPicture(file);
+    const auto greyAt = [&](int x, int y) {  // neither wall nor ground
+        const Rgb color = marked.at(x, y);
+        return color.red > 100 && std::abs(color.red - color.blue) < 25;
+    };
+    int most = 0, at = 0;
+    for (int x = 0; x < marked.width; ++x) {
+        int here = 0;
+        for (int y = 0; y < marked.height; ++y)
+            here += greyAt(x, y) ? 1 : 0;
+        if (here > most) {
+            most = here;
+            at = x;
+        }
+    }
+    EXPECT_GT(most, 50) << "a dashed line across";
+    EXPECT_NEAR(at, 450, 2) << "in the middle";
+}
+
 TEST_F(Panorama, TheWholeBandIsWrittenWithoutAWindowAndSeenWallIsPaintedInIt)
 {
     const PreparedScan files = scan();

@@ -68,6 +68,28 @@ TEST(Slices, ShowEachVoxelAsItIsPixelForPixel)
     }
 }
 
+TEST(Slices, ShowTheMeanOfFourVoxelsAtHalfResolution)
+{
+    Grid grid;
+    grid.size = {40, 36, 20};
+    grid.spacing_mm = {0.7, 0.7, 1.25};
+    HuVolume volume(grid);
+    for (std::size_t n = 0; n < volume.voxels.size(); ++n)
+        volume.voxels[n] = std::int16_t(n * 7919 % 2000);
+    const Index3 middle{18, 17, 9};
+    const Point3 point = grid.pointAt(middle);
+    const PlaneView view = pixelForPixel(grid, sliceThrough(grid, SlicePlane::axial, point, 10, 8), point, 2);
+    EXPECT_EQ(view.mm_per_pixel, 1.4);
+    const auto densities = sliceDensities(volume, view);
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            double sum = 0;
+            for (int n = 0; n < 4; ++n)
+                sum += volume.at({middle.i + 2 * (x - 5) + n % 2, middle.j + 2 * (y - 4) + n / 2, middle.k});
+            EXPECT_NEAR(densities[std::size_t(y * view.width + x)], sum / 4, 1e-2);
+        }
+}
+
 TEST(Slices, PassThroughTheirPointAndShowTheWholeScan)
 {
     const Point3 point{7, -4, 11};

@@ -114,6 +114,8 @@ void addScaleBar(Overlay& overlay, const Area& area, double mm_per_pixel, double
 
 void addTriad(Overlay& overlay, Pixel centre, double radius_px, const Pose& pose, double text_px)
 {
+    constexpr double kAway = 0.3;                               // of a unit vector: drawn dim
+    constexpr double kLetterWidth = 1.1, kLetterHeight = 1.35;  // with its ground, of the text's height
     struct Axis {
         Vector3 direction;
         double away;
@@ -126,16 +128,26 @@ void addTriad(Overlay& overlay, Pixel centre, double radius_px, const Pose& pose
     }
     std::stable_sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.away > b.away; });
     overlay.discs.push_back({centre, radius_px * 1.35, dimmed(kTextColor, 0.5), 1});
-    for (const Axis& axis : axes) {
-        const double x = dot(axis.direction, pose.right()), y = -dot(axis.direction, pose.up);
-        const Rgb color = dimmed(kLetterColor, axis.away > 0.3 ? 0.55 : 1.0);
-        overlay.lines.push_back({{centre, {centre.x + x * radius_px * 0.72, centre.y + y * radius_px * 0.72}},
-                                 color,
-                                 axis.away > 0.3 ? 1.0 : 1.8,
-                                 0});
-        overlay.texts.push_back(text({centre.x + x * radius_px, centre.y + y * radius_px},
-                                     std::string{letterFor(axis.direction)}, text_px, color, Across::centre,
-                                     Along::middle));
+    const auto at = [&](const Axis& axis, double share) {
+        return Pixel{centre.x + dot(axis.direction, pose.right()) * radius_px * share,
+                     centre.y - dot(axis.direction, pose.up) * radius_px * share};
+    };
+    const auto colorOf = [](const Axis& axis) { return dimmed(kLetterColor, axis.away > kAway ? 0.55 : 1.0); };
+    for (const Axis& axis : axes)
+        overlay.lines.push_back({{centre, at(axis, 0.72)}, colorOf(axis), axis.away > kAway ? 1.0 : 1.8, 0});
+    std::vector<Pixel> written;
+    for (auto axis = axes.rbegin(); axis != axes.rend();
+         ++axis) {  // the nearest first: what lies behind it is left out
+        const Pixel letter = at(*axis, 1);
+        const bool free = std::ranges::none_of(written, [&](Pixel other) {
+            return std::abs(other.x - letter.x) < kLetterWidth * text_px &&
+                   std::abs(other.y - letter.y) < kLetterHeight * text_px;
+        });
+        if (!free)
+            continue;
+        written.push_back(letter);
+        overlay.texts.push_back(text(letter, std::string{letterFor(axis->direction)}, text_px, colorOf(*axis),
+                                     Across::centre, Along::middle));
     }
 }
 

@@ -193,7 +193,8 @@ private:
 
 }  // namespace
 
-std::optional<PlaneSize> sizeOnBestPlane(const InsideView& inside, Point3 a, Point3 b, Point3 eye)
+std::optional<PlaneSize> sizeOnBestPlane(const InsideView& inside, Point3 a, Point3 b, Point3 eye,
+                                         const Progress* wanted)
 {
     const double length_mm = distance(a, b);
     if (!(length_mm >= kLeast_mm && length_mm <= kMost_mm))
@@ -203,6 +204,8 @@ std::optional<PlaneSize> sizeOnBestPlane(const InsideView& inside, Point3 a, Poi
     best.along = (b - a) / length_mm;
     const Vector3 up = uprightFor(inside, a, b, best.along, eye - best.middle_mm), aside = cross(best.along, up);
     for (int n = 0; n <= 2 * kPlanesToASide; ++n) {  // from upright, to one side and the other
+        if (wanted)
+            wanted->check();
         const int lean = n % 2 == 0 ? n / 2 : -(n + 1) / 2;
         const double angle = radians(kMostLean_deg * lean / kPlanesToASide);
         const Vector3 turned = up * std::cos(angle) + aside * std::sin(angle);

@@ -33,7 +33,7 @@ void sweepRow(Row row, const std::array<const std::uint8_t*, 4>& done, int width
             row[i] = std::min(row[i], std::uint8_t(row[i + 1] + 1));
 }
 
-void sweep(std::vector<std::uint8_t>& steps, const std::array<int, 3>& size, bool forward)
+void sweep(std::vector<std::uint8_t>& steps, const std::array<int, 3>& size, bool forward, const Progress* wanted)
 {
     const auto rowAt = [&](int j, int k) -> Row {
         if (j < 0 || j >= size[1] || k < 0 || k >= size[2])
@@ -42,18 +42,21 @@ void sweep(std::vector<std::uint8_t>& steps, const std::array<int, 3>& size, boo
     };
     const int back = forward ? -1 : 1;
     std::vector<std::uint8_t> least;
-    for (int n = 0; n < size[2]; ++n)
+    for (int n = 0; n < size[2]; ++n) {
+        if (wanted)
+            wanted->check();
         for (int m = 0; m < size[1]; ++m) {
             const int k = forward ? n : size[2] - 1 - n, j = forward ? m : size[1] - 1 - m;
             sweepRow(rowAt(j, k),
                      {rowAt(j + back, k), rowAt(j - 1, k + back), rowAt(j, k + back), rowAt(j + 1, k + back)}, size[0],
                      forward, least);
         }
+    }
 }
 
 }  // namespace
 
-SightField::SightField(const InsideView& inside) : grid_(inside.grid)
+SightField::SightField(const InsideView& inside, const Progress* wanted) : grid_(inside.grid)
 {
     for (std::size_t d = 0; d < 3; ++d)
         size_[d] = grid_.size[d] + 1;
@@ -63,9 +66,11 @@ SightField::SightField(const InsideView& inside) : grid_(inside.grid)
             for (int j = 0; j < size_[1]; ++j)
                 classifyRow(inside, j, k, steps);
     });
-    sweep(steps, size_, true);
-    sweep(steps, size_, false);
+    sweep(steps, size_, true, wanted);
+    sweep(steps, size_, false, wanted);
     fillVoxelBlocks(inside);
+    if (wanted)
+        wanted->check();
     fillCubeBlocks(inside, steps);
 }
 

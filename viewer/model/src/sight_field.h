@@ -8,6 +8,7 @@
 
 #include "block_grid.h"
 #include "float4.h"
+#include "vicon/core/progress.h"
 #include "vicon/core/volume_view.h"
 
 namespace vicon::viewer {
@@ -19,7 +20,8 @@ namespace vicon::viewer {
 /// corners are inside and some are not (wall); it never enters those with all corners inside (open) or none (solid).
 class SightField {
 public:
-    explicit SightField(const InsideView& inside);
+    /// Throws Error{cancelled} where `wanted` is no longer; nothing: it always is.
+    SightField(const InsideView& inside, const Progress* wanted);
 
     enum class Kind { open, wall, solid };
     /// A place's kind, and the half edge, in voxels, of a box around it that holds no cube of another kind.

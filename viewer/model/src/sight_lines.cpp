@@ -207,8 +207,8 @@ struct SightLines::Parts {
     PatchBlocks blocks;
 };
 
-SightLines::SightLines(const InsideView& inside, const DrawnSurface& surface)
-    : parts_(std::make_unique<Parts>(Parts{SightField(inside), PatchBlocks(inside.grid, surface)}))
+SightLines::SightLines(const InsideView& inside, const DrawnSurface& surface, const Progress* wanted)
+    : parts_(std::make_unique<Parts>(Parts{SightField(inside, wanted), PatchBlocks(inside.grid, surface)}))
 {
 }
 

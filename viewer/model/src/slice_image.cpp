@@ -45,7 +45,7 @@ double along(Vector3 direction, const Bounds& bounds)
 
 }  // namespace
 
-std::vector<float> sliceDensities(const HuView& volume, const PlaneView& view)
+std::vector<float> sliceDensities(const HuView& volume, const PlaneView& view, const Progress* wanted)
 {
     const Sampler sample(volume);
     const auto at = [&](double x, double y) { return volume.grid.continuousIndexAt(view.pointAt({x, y})); };
@@ -54,6 +54,8 @@ std::vector<float> sliceDensities(const HuView& volume, const PlaneView& view)
     std::vector<float> densities(std::size_t(view.width) * std::size_t(view.height));
     auto* out = densities.data();
     for (int y = 0; y < view.height; ++y) {
+        if (wanted)
+            wanted->check();
         const ContinuousIndex3 c = at(0.5, y + 0.5);
         for (int x = 0; x < view.width; ++x)
             *out++ = sample({c.i + step.i * x, c.j + step.j * x, c.k + step.k * x});
@@ -61,10 +63,11 @@ std::vector<float> sliceDensities(const HuView& volume, const PlaneView& view)
     return densities;
 }
 
-std::vector<float> sliceDensities(const HuView& volume, const HuView& cleansed, const PlaneView& view)
+std::vector<float> sliceDensities(const HuView& volume, const HuView& cleansed, const PlaneView& view,
+                                  const Progress* wanted)
 {
-    std::vector<float> densities = sliceDensities(volume, view);
-    const std::vector<float> clean = sliceDensities(cleansed, view);
+    std::vector<float> densities = sliceDensities(volume, view, wanted);
+    const std::vector<float> clean = sliceDensities(cleansed, view, wanted);
     for (std::size_t n = 0; n < densities.size(); ++n)
         if (clean[n] != kPaddingHu)
             densities[n] = clean[n];
@@ -107,7 +110,7 @@ PlaneView sliceThrough(const Grid& grid, const SliceAxes& axes, Point3 point, in
     return view;
 }
 
-PlaneView pixelForPixel(const Grid& grid, const PlaneView& view, Point3 point)
+PlaneView pixelForPixel(const Grid& grid, const PlaneView& view, Point3 point, int voxels_a_pixel)
 {
     PlaneView exact = view;
     exact.mm_per_pixel = std::numeric_limits<double>::max();
@@ -115,10 +118,13 @@ PlaneView pixelForPixel(const Grid& grid, const PlaneView& view, Point3 point)
     for (std::size_t a = 0; a < 3; ++a)
         if (std::abs(dot(grid.axis[a], view.forward())) < kAcross)
             exact.mm_per_pixel = std::min(exact.mm_per_pixel, grid.spacing_mm[a]);
+    const double to_middle = (voxels_a_pixel - 1) / 2.0 * exact.mm_per_pixel;  // of the pixel's voxels
+    exact.mm_per_pixel *= voxels_a_pixel;
     // Pixels' middles lie at halves, also where the picture's middle is an edge between two of them.
     const int column = view.width / 2, row = view.height / 2;
     const double x = column + 0.5 - view.width / 2.0, y = row + 0.5 - view.height / 2.0;
-    exact.centre_mm = grid.pointAt(grid.indexAt(point)) - (view.right * x + view.down * y) * exact.mm_per_pixel;
+    exact.centre_mm = grid.pointAt(grid.indexAt(point)) + (view.right + view.down) * to_middle -
+                      (view.right * x + view.down * y) * exact.mm_per_pixel;
     return exact;
 }
 

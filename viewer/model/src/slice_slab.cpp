@@ -35,7 +35,7 @@ void copyRows(const HuView& from, HuVolume& to, int first, int k, int begin, int
 
 }  // namespace
 
-SliceSlab::SliceSlab(const HuView& volume, double plane)
+SliceSlab::SliceSlab(const HuView& volume, double plane, const Progress* wanted)
 {
     const auto& size = volume.grid.size;
     const int planes = std::min(kPlanes, size[0]);
@@ -43,9 +43,12 @@ SliceSlab::SliceSlab(const HuView& volume, double plane)
     at_begin_ = first_ == 0;
     at_end_ = first_ + planes == size[0];
     volume_ = HuVolume(gridOf(volume.grid, first_, planes));
-    for (int k = 0; k < size[2]; ++k)
+    for (int k = 0; k < size[2]; ++k) {
+        if (wanted)
+            wanted->check();
         for (int j = 0; j < size[1]; j += kSlabRows)
             copyRows(volume, volume_, first_, k, j, std::min(j + kSlabRows, size[1]));
+    }
 }
 
 std::optional<double> SliceSlab::planeOf(const Grid& grid, const PlaneView& view)

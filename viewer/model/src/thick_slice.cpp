@@ -11,10 +11,11 @@ namespace vicon::viewer {
 namespace {
 
 /// A plane at `offset_mm` along the direction of view.
-std::vector<float> planeAt(const HuView& volume, const HuView* cleansed, PlaneView view, double offset_mm)
+std::vector<float> planeAt(const HuView& volume, const HuView* cleansed, PlaneView view, double offset_mm,
+                           const Progress* wanted)
 {
     view.centre_mm += view.forward() * offset_mm;
-    return cleansed ? sliceDensities(volume, *cleansed, view) : sliceDensities(volume, view);
+    return cleansed ? sliceDensities(volume, *cleansed, view, wanted) : sliceDensities(volume, view, wanted);
 }
 
 float together(const std::vector<std::vector<float>>& planes, std::size_t pixel, ThickSlice::Of of)
@@ -45,16 +46,16 @@ std::string nameOf(const ThickSlice& thick)
 }
 
 std::vector<float> thickSliceDensities(const HuView& volume, const HuView* cleansed, const PlaneView& view,
-                                       const ThickSlice& thick)
+                                       const ThickSlice& thick, const Progress* wanted)
 {
     if (thick.of == ThickSlice::Of::one_plane)
-        return planeAt(volume, cleansed, view, 0);
+        return planeAt(volume, cleansed, view, 0, wanted);
     const auto& spacing = volume.grid.spacing_mm;
     const double voxel_mm = *std::min_element(spacing.begin(), spacing.end());
     const int gaps = 2 * std::max(1, int(std::ceil(thick.thickness_mm / 2 / voxel_mm)));  // the plane itself is one
     std::vector<std::vector<float>> planes(std::size_t(gaps) + 1);
     tbb::parallel_for(std::size_t(0), planes.size(), [&](std::size_t n) {
-        planes[n] = planeAt(volume, cleansed, view, thick.thickness_mm * (double(n) / gaps - 0.5));
+        planes[n] = planeAt(volume, cleansed, view, thick.thickness_mm * (double(n) / gaps - 0.5), wanted);
     });
     std::vector<float> densities(planes.front().size());
     for (std::size_t n = 0; n < densities.size(); ++n)

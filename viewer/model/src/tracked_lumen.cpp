@@ -24,22 +24,22 @@ double oneSliceOn(const PathFrames& path, double station_mm, Vector3 across, dou
     return station;
 }
 
-/// The pixels of a picture and which of them lie in the lumen.
+/// The pixels of a picture and how much of each place is lumen.
 class LumenPixels {
 public:
-    LumenPixels(const InsideView& inside, const PlaneView& view) : inside_(inside), view_(view) {}
+    LumenPixels(const InsideView& inside, const PlaneView& view)
+        : inside_(inside),
+          view_(view),
+          shares_((std::size_t(view.width) + 2) * (std::size_t(view.height) + 2), kUnknown)
+    {
+    }
 
     bool inPicture(int x, int y) const { return x >= 0 && y >= 0 && x < view_.width && y < view_.height; }
-    bool has(int x, int y) const
-    {
-        if (!inPicture(x, y))
-            return false;
-        return shareAt(inside_.grid.continuousIndexAt(view_.pointAt({x + 0.5, y + 0.5}))) >= kHalf;
-    }
+    bool has(int x, int y) { return inPicture(x, y) && shareAt(x, y) >= kHalf; }
     std::size_t offset(int x, int y) const { return std::size_t(y) * std::size_t(view_.width) + std::size_t(x); }
 
     /// The pixel of the lumen nearest to a place.
-    std::optional<std::pair<int, int>> nearest(Pixel at) const
+    std::optional<std::pair<int, int>> nearest(Pixel at)
     {
         const int reach = int(std::ceil(kLookFor_mm / view_.mm_per_pixel));
         std::optional<std::pair<int, int>> found;
@@ -54,10 +54,36 @@ public:
         return found;
     }
 
+    /// From a pixel's middle to where the lumen ends, in pixels: from where it crosses the lines to the four
+    /// neighbours.
+    double toRim(int x, int y)
+    {
+        const double along = std::min(crossing(x, y, -1, 0), crossing(x, y, 1, 0));
+        const double down = std::min(crossing(x, y, 0, -1), crossing(x, y, 0, 1));
+        return along > 1 || down > 1 ? std::min(along, down) : along * down / std::max(1e-9, std::hypot(along, down));
+    }
+
 private:
     static constexpr double kHalf = 0.5;
+    static constexpr float kUnknown = -1;
 
-    /// How much lumen there is, trilinear: the voxels' own edges would be teeth where the slice lies askew to them.
+    double crossing(int x, int y, int dx, int dy)
+    {
+        constexpr double kNone = 2;
+        const double here = shareAt(x, y) - kHalf, there = shareAt(x + dx, y + dy) - kHalf;
+        return (here >= 0) == (there >= 0) ? kNone : here / (here - there);
+    }
+
+    /// Of a pixel in the picture or beside it.
+    float shareAt(int x, int y)
+    {
+        float& share = shares_[(std::size_t(y) + 1) * (std::size_t(view_.width) + 2) + std::size_t(x) + 1];
+        if (share == kUnknown)
+            share = float(shareAt(inside_.grid.continuousIndexAt(view_.pointAt({x + 0.5, y + 0.5}))));
+        return share;
+    }
+
+    /// Trilinear: the voxels' own edges would be teeth where the slice lies askew to them.
     double shareAt(ContinuousIndex3 c) const
     {
         const Index3 low{int(std::floor(c.i)), int(std::floor(c.j)), int(std::floor(c.k))};
@@ -73,7 +99,15 @@ private:
 
     const InsideView& inside_;
     const PlaneView& view_;
+    std::vector<float> shares_;  // with an edge of a pixel all around
 };
+
+/// Of a line 1.5 pixels wide, what covers a pixel so far from it.
+float coverOf(double from_line_px)
+{
+    constexpr double kHalfWidth_px = 0.75;
+    return float(std::clamp(kHalfWidth_px + 0.5 - from_line_px, 0.0, 1.0));
+}
 
 constexpr std::array<std::pair<int, int>, 4> kBeside{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
@@ -101,10 +135,10 @@ SliceAxes axesAcross(const PathFrames& way, Point3 point, const Pose& eye)
     return {cross(forward, up), up * -1};
 }
 
-std::vector<std::uint8_t> lumenRim(const InsideView& inside, const PlaneView& view, Point3 in_lumen)
+std::vector<float> lumenRim(const InsideView& inside, const PlaneView& view, Point3 in_lumen)
 {
-    std::vector<std::uint8_t> rim(std::size_t(view.width) * std::size_t(view.height), 0);
-    const LumenPixels pixels(inside, view);
+    std::vector<float> rim(std::size_t(view.width) * std::size_t(view.height), 0);
+    LumenPixels pixels(inside, view);
     const auto start = pixels.nearest(view.toPixel(in_lumen));
     if (!start)
         return rim;
@@ -119,7 +153,8 @@ std::vector<std::uint8_t> lumenRim(const InsideView& inside, const PlaneView& vi
             if (!pixels.inPicture(bx, by) || met[pixels.offset(bx, by)])
                 continue;
             if (!pixels.has(bx, by)) {
-                rim[pixels.offset(x, y)] = 1;
+                rim[pixels.offset(x, y)] = coverOf(pixels.toRim(x, y));
+                rim[pixels.offset(bx, by)] = coverOf(pixels.toRim(bx, by));
                 continue;
             }
             met[pixels.offset(bx, by)] = 1;

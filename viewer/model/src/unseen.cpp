@@ -27,8 +27,16 @@ std::vector<Edge> edgesOf(const std::vector<std::uint32_t>& corners, const std::
     return edges;
 }
 
+void checkAt(std::size_t n, const Progress* wanted)
+{
+    constexpr std::size_t kSome = 65536;  // milliseconds
+    if (wanted && n % kSome == 0)
+        wanted->check();
+}
+
 // Unseen triangles by piece, each piece's in ascending order.
-std::vector<std::vector<std::uint32_t>> piecesOf(const std::vector<std::uint32_t>& corners, const Coverage& coverage)
+std::vector<std::vector<std::uint32_t>> piecesOf(const std::vector<std::uint32_t>& corners, const Coverage& coverage,
+                                                 const Progress* wanted)
 {
     std::vector<std::uint32_t> unseen;
     for (std::size_t t = 0; t < corners.size() / 3; ++t)
@@ -36,12 +44,16 @@ std::vector<std::vector<std::uint32_t>> piecesOf(const std::vector<std::uint32_t
             unseen.push_back(std::uint32_t(t));
     DisjointSets joined(corners.size() / 3);
     const std::vector<Edge> edges = edgesOf(corners, unseen);
-    for (std::size_t n = 1; n < edges.size(); ++n)
+    for (std::size_t n = 1; n < edges.size(); ++n) {
+        checkAt(n - 1, wanted);
         if (edges[n].points == edges[n - 1].points)
             joined.join(edges[n].triangle, edges[n - 1].triangle);
+    }
     std::vector<std::vector<std::uint32_t>> pieces;
     std::vector<std::uint32_t> piece_of(corners.size() / 3, 0);
-    for (const std::uint32_t t : unseen) {
+    for (std::size_t n = 0; n < unseen.size(); ++n) {
+        checkAt(n, wanted);
+        const std::uint32_t t = unseen[n];
         const std::uint32_t root = joined.rootOf(t);
         if (root == t) {  // the first of its piece
             piece_of[t] = std::uint32_t(pieces.size());
@@ -83,11 +95,12 @@ void requireSameSurface(const std::vector<std::uint32_t>& triangles, const Cover
 
 }  // namespace
 
-std::vector<double> unseenAreas_mm2(const std::vector<std::uint32_t>& triangles, const Coverage& coverage)
+std::vector<double> unseenAreas_mm2(const std::vector<std::uint32_t>& triangles, const Coverage& coverage,
+                                    const Progress* wanted)
 {
     requireSameSurface(triangles, coverage);
     std::vector<double> areas_mm2;
-    for (const std::vector<std::uint32_t>& piece : piecesOf(triangles, coverage)) {
+    for (const std::vector<std::uint32_t>& piece : piecesOf(triangles, coverage, wanted)) {
         double area_mm2 = 0;
         for (const std::uint32_t t : piece)
             area_mm2 += coverage.area_mm2(t);
@@ -102,7 +115,7 @@ std::vector<UnseenPatch> unseenPatches(const std::vector<float>& points_mm, cons
 {
     requireSameSurface(triangles, coverage);
     std::vector<UnseenPatch> patches;
-    for (std::vector<std::uint32_t>& piece : piecesOf(triangles, coverage)) {
+    for (std::vector<std::uint32_t>& piece : piecesOf(triangles, coverage, wanted)) {
         UnseenPatch patch;
         Vector3 moment;
         for (const std::uint32_t t : piece) {

@@ -19,13 +19,16 @@ constexpr double kLeastReach_mm = 15, kMostReach_mm = 400;
 /// on the same triangle.
 class NearSurface {
 public:
+    /// Every function throws Error{cancelled} where `wanted` is no longer; nothing: it always is.
     NearSurface(const std::vector<float>& points_mm, const std::vector<std::uint32_t>& triangles, Point3 centre,
-                double reach)
-        : points_(points_mm)
+                double reach, const Progress* wanted)
+        : points_(points_mm), wanted_(wanted)
     {
-        for (std::size_t n = 0; n + 2 < triangles.size(); n += 3)
+        for (std::size_t n = 0; n + 2 < triangles.size(); n += 3) {
+            checkAt(n);
             if (distance(point(triangles[n]), centre) < reach)
                 addTriangle({triangles[n], triangles[n + 1], triangles[n + 2]});
+        }
     }
 
     bool empty() const { return corners_.empty(); }
@@ -37,6 +40,7 @@ public:
         std::size_t on = 0;
         Point3 foot;
         for (std::size_t t = 0; t < corners_.size(); ++t) {
+            checkAt(t);
             const auto& c = corners_[t];
             const Point3 q = nearestOnTriangle(p, at_[c[0]], at_[c[1]], at_[c[2]]);
             if (const double d = distance(p, q); d < least)
@@ -55,7 +59,8 @@ public:
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
         way[from] = 0;
         front.emplace(0, from);
-        while (!front.empty() && front.top().second != to) {
+        for (std::size_t n = 0; !front.empty() && front.top().second != to; ++n) {
+            checkAt(n);
             const auto [so_far, node] = front.top();
             front.pop();
             if (so_far > way[node])
@@ -81,6 +86,13 @@ public:
     Point3 at(std::size_t node) const { return at_[node]; }
 
 private:
+    void checkAt(std::size_t n) const
+    {
+        constexpr std::size_t kSome = 1024;  // a millisecond of the slowest loop
+        if (wanted_ && n % kSome == 0)
+            wanted_->check();
+    }
+
     Point3 point(std::uint32_t n) const
     {
         const std::size_t at = std::size_t{3} * n;
@@ -129,6 +141,7 @@ private:
     }
 
     const std::vector<float>& points_;
+    const Progress* wanted_;
     std::vector<Point3> at_;                              // of the nodes
     std::vector<std::vector<std::size_t>> triangles_of_;  // a node
     std::vector<std::vector<std::size_t>> nodes_of_;      // a triangle
@@ -140,12 +153,13 @@ private:
 }  // namespace
 
 std::optional<WallDistance> distanceOverWall(const std::vector<float>& points_mm,
-                                             const std::vector<std::uint32_t>& triangles, Point3 from, Point3 to)
+                                             const std::vector<std::uint32_t>& triangles, Point3 from, Point3 to,
+                                             const Progress* wanted)
 {
     const Point3 middle = interpolate(from, to, 0.5);
     double reach_mm = std::max(kLeastReach_mm, distance(from, to));
     while (reach_mm <= kMostReach_mm) {
-        NearSurface patch(points_mm, triangles, middle, reach_mm);
+        NearSurface patch(points_mm, triangles, middle, reach_mm, wanted);
         double along_mm = std::numeric_limits<double>::max();
         if (!patch.empty()) {
             const std::size_t first = patch.attach(from), last = patch.attach(to);

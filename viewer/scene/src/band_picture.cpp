@@ -64,27 +64,55 @@ OverlayText textAt(Pixel at, const std::string& text, double height_px, Rgb colo
     return {at, text, height_px, color, Across::left, Along::top, 1e9};
 }
 
-/// Ticks with the distance from the rectum, and which part of the colon this is.
+std::string distanceLabel(double station_mm)
+{
+    return std::to_string(std::lround(station_mm / 10)) + " cm";
+}
+
+double widthOf(const std::string& words, double text_px)
+{
+    return textSize(textAt({}, words, text_px, kTextColor)).width_px;
+}
+
+/// Of a distance and a part's name, the longest that there can be.
+double widestLabel_px(const PreparedScan& scan, double text_px)
+{
+    const std::string farthest = distanceLabel(scan.frames().length_mm());
+    double widest_px = widthOf(farthest, text_px);
+    for (const ColonPartRange& range : scan.parts())
+        widest_px = std::max(widest_px, widthOf(farthest + "  " + nameOf(range.part), text_px));
+    return widest_px;
+}
+
+/// Ticks with the distance from the rectum, and which part of the colon this is. At the end of a row the words move as
+/// far to the left as the ones before leave room; else the distance alone is written, or nothing.
 void addStations(Overlay& overlay, const PreparedScan& scan, const BandPage& page, double text_px)
 {
-    constexpr double kTextWidth = 9;  // of a distance and a part's name, in heights of the text
+    const double gap_px = 0.3 * text_px, widest_px = widestLabel_px(scan, text_px);
     double every_mm = 100;
-    while (every_mm / page.mm_per_pixel < kTextWidth * text_px)
+    while (every_mm / page.mm_per_pixel < widest_px + 2 * gap_px)
         every_mm *= 2;
     const double length_mm = scan.frames().length_mm();
     for (int row = 0; row < page.rows; ++row) {
         const double top = page.rowTop(row), bottom = top + page.label_px;
-        for (double station = std::ceil(std::max(0.0, page.rowLeast_mm(row)) / every_mm) * every_mm;
-             station <= std::min(length_mm, page.rowMost_mm(row)); station += every_mm) {
+        const bool falls = page.from_caecum;
+        const double least = std::ceil(std::max(0.0, page.rowLeast_mm(row)) / every_mm),
+                     most = std::floor(std::min(length_mm, page.rowMost_mm(row)) / every_mm);
+        double written_to_px = 0;
+        for (double n = 0; n <= most - least; ++n) {  // from left to right
+            const double station = every_mm * (falls ? most - n : least + n);
             const double x = std::abs(station - page.rowBegin_mm(row)) / page.mm_per_pixel;
             overlay.lines.push_back({{{x, bottom - 0.4 * text_px}, {x, bottom}}, kTextColor, 1, 0});
-            std::string text = std::to_string(std::lround(station / 10)) + " cm";
-            if (const std::string part = partNameAt(scan.parts(), station); !part.empty())
-                text += "  " + part;
-            OverlayText tick = textAt({x + 0.3 * text_px, top}, text, text_px, kTextColor);
-            tick.most_width_px = every_mm / page.mm_per_pixel - 0.6 * text_px;
-            if (x + kTextWidth * text_px < page.width)
-                overlay.texts.push_back(tick);
+            const std::string part = partNameAt(scan.parts(), station), far = distanceLabel(station);
+            for (const std::string& words : {part.empty() ? far : far + "  " + part, far}) {
+                const double width_px = widthOf(words, text_px);
+                const double at_px = std::min(x + gap_px, page.width - width_px - gap_px);
+                if (at_px < written_to_px + gap_px && at_px < x + gap_px)
+                    continue;
+                overlay.texts.push_back(textAt({at_px, top}, words, text_px, kTextColor));
+                written_to_px = at_px + width_px;
+                break;
+            }
         }
     }
 }
@@ -186,6 +214,8 @@ void addEye(Overlay& overlay, const BandMap& band, const BandPage& page, const S
     overlay.lines.push_back({{{x, top}, {x + sign * arm, top + arm}, {x, top + 2 * arm}}, kHereColor, 2, 0});
 }
 
+}  // namespace
+
 Overlay bandOverlay(const PreparedScan& scan, const BandMap& band, const BandPage& page, const BandRequest& request)
 {
     const double text_px = bandTextHeight(request);
@@ -214,8 +244,6 @@ Overlay bandOverlay(const PreparedScan& scan, const BandMap& band, const BandPag
     }
     return overlay;
 }
-
-}  // namespace
 
 std::optional<Point3> BandPicture::pointAt(const BandMap& band, Pixel at) const
 {

@@ -12,8 +12,8 @@ namespace {
 
 constexpr Rgb kBandGround{10, 13, 18};
 constexpr std::array kBandWall{0.93, 0.66, 0.56};
-constexpr Rgb kHatch{90, 130, 255};
-constexpr double kHatchStrength = 0.5;
+constexpr Rgb kHatch{95, 115, 185};                    // seen on light and dark wall
+constexpr double kHatchStrength = 0.4;                 // what lies below is read through it
 constexpr double kLeastFactor = 0.5, kMostFactor = 2;  // of areas; beyond it is hatched
 constexpr double kRepeated = 0.5;                      // of the light
 constexpr double kBandClosedLight = 0.5;
@@ -95,7 +95,7 @@ private:
 
     Light hatched(Light own, double factor, int x, int y) const
     {
-        constexpr int kEvery_px = 7;
+        constexpr int kEvery_px = 9;
         const bool off = factor < kLeastFactor || factor > kMostFactor;
         if (!off || (x + y) / finer_ % kEvery_px != 0)
             return own;

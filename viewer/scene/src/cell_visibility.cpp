@@ -26,14 +26,14 @@ double nearCorner_mm(const Lens& lens)
 
 }  // namespace
 
-CellVisibility::CellVisibility(const PreparedScan& scan, Means means)
+CellVisibility::CellVisibility(const PreparedScan& scan, Means means, const Progress* wanted)
     : scan_(scan), visibility_(gatesOf(scan.subdivision()))
 {
     scan_.segments();
     if (means == Means::gates_and_sight_lines) {
         const CellSurface& surface = scan.cells();
         const std::vector<Patch> patches = patchesOf(surface.segment);
-        sight_lines_.emplace(scan.inside(), DrawnSurface{surface.points_mm, surface.triangles, patches});
+        sight_lines_.emplace(scan.inside(), DrawnSurface{surface.points_mm, surface.triangles, patches}, wanted);
         for (std::size_t n = 0; n < patches.size(); ++n) {
             if (cells_.empty() || cells_.back().segment != patches[n].cell)
                 cells_.push_back({patches[n].cell, n, n});

@@ -61,6 +61,13 @@ std::vector<OverlayText> linesOfPicture(const PreparedScan& scan, const Snapshot
     }
     for (const OverlayText& of_wall : linesOfWall(scan, request.wall, place))
         lines.push_back(of_wall);
+    constexpr double kFills = 0.9;  // of the picture: no lumen is seen, and no wall
+    if (request.wall.acquired && standingShare(scan.volume(), scan.lumen(), place.pose,
+                                               {request.view_angle_deg, request.width, request.height}) > kFills) {
+        line.text = "fluid or stool fills the view: no wall is seen";
+        line.color = kWarningColor;
+        lines.push_back(line);
+    }
     if (!place.sees_target) {
         line.text = "the marker lies behind the wall seen here";
         line.color = kWarningColor;

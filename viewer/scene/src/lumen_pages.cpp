@@ -57,7 +57,7 @@ void askFor(const std::vector<char>& wanted, const scan_files::StoredVolume<floa
 
 }  // namespace
 
-void bringInLumen(const scan_files::StoredVolume<float>& stored, const InsideView& inside)
+void bringInLumen(const scan_files::StoredVolume<float>& stored, const InsideView& inside, const Progress* progress)
 {
     const FieldView& field = stored.view();
     if (field.grid != inside.grid)
@@ -65,10 +65,13 @@ void bringInLumen(const scan_files::StoredVolume<float>& stored, const InsideVie
     const std::vector<char> wanted = pagesOfLumen(field, inside);
     askFor(wanted, stored);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, wanted.size()), [&](const auto& pages) {
-        for (std::size_t page = pages.begin(); page < pages.end(); ++page)
+        for (std::size_t page = pages.begin(); page < pages.end(); ++page) {
+            if (progress)
+                progress->check();
             for (const std::size_t at : {page * std::size_t(kPage), (page + 1) * std::size_t(kPage) - 1})
                 if (wanted[page] && at < field.voxels.size())
                     lookAt(field.voxels[at]);
+        }
     });
 }
 

@@ -134,12 +134,12 @@ Picture histogramPicture(const DensitySample& sample, int width, int height, dou
 }
 
 Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Caption& caption, int width, int height,
-                     double pixel_ratio)
+                     double pixel_ratio, const Progress* wanted)
 {
     const PlaneView view = viewOf(size, width, height, std::max(kLeastField_mm, kFieldOfDiameter * size.diameter_mm));
     const WindowLevel window = scan.quantity() == Quantity::signal ? scan.windows().front() : windowPreset(kWindow);
     Picture picture(width, height);
-    const auto densities = sliceDensities(scan.volume(), view);
+    const auto densities = sliceDensities(scan.volume(), view, wanted);
     for (std::size_t n = 0; n < densities.size(); ++n)
         std::fill_n(picture.rgb.begin() + std::ptrdiff_t(3 * n), 3, window.greyOf(densities[n]));
     Overlay overlay;
@@ -163,11 +163,11 @@ Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Capt
 }
 
 std::optional<Picture> measuresPicture(const PreparedScan& scan, const Marker& marker, const Caption& caption, int side,
-                                       double pixel_ratio)
+                                       double pixel_ratio, const Progress* wanted)
 {
     std::vector<Picture> parts;
     if (marker.size && marker.size->plane)
-        parts.push_back(planePicture(scan, *marker.size->plane, caption, side, side, pixel_ratio));
+        parts.push_back(planePicture(scan, *marker.size->plane, caption, side, side, pixel_ratio, wanted));
     if (marker.density && marker.density->voxels > 0)
         parts.push_back(histogramPicture(*marker.density, side, side, pixel_ratio));
     if (parts.empty())

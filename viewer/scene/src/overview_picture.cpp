@@ -89,7 +89,7 @@ Ink inkAt(const Projection& from, double column, double row)
 }
 
 // The mean of a few places in each pixel, so that a small picture of a large projection is smooth.
-Picture drawn(const Projection& from, const PlaneView& view)
+Picture drawn(const Projection& from, const PlaneView& view, const Progress* wanted)
 {
     constexpr Rgb kGround{10, 13, 18};
     const double step = view.mm_per_pixel / from.pixel_mm;  // projection's pixels in a pixel
@@ -98,6 +98,8 @@ Picture drawn(const Projection& from, const PlaneView& view)
     const double left = from.column(corner), top = from.row(corner);
     Picture picture(view.width, view.height);
     tbb::parallel_for(0, view.height, [&](int y) {
+        if (wanted)
+            wanted->check();
         for (int x = 0; x < view.width; ++x) {
             Ink sum{};
             for (int part = 0; part < finer * finer; ++part) {
@@ -251,14 +253,14 @@ void addTips(Overlay& overlay, const Skeleton& skeleton, const OrganWords& words
     }
 }
 
-OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request)
+OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request, const Progress* wanted)
 {
     const double text_px = textHeightFor(request.width, request.height, request.pixel_ratio);
     const Projection& projection = scan.coronalProjection();
     OverviewGround ground;
     ground.caption = captionSize(scan, request);
     ground.view = viewOfAll(projection, request.width, request.height, ground.caption, 2.2 * text_px);
-    ground.wall = drawn(projection, ground.view);
+    ground.wall = drawn(projection, ground.view, wanted);
     Overlay& overlay = ground.written;
     const bool tree = !scan.tree().empty();
     const double words_px = wordsHeight(request);

@@ -5,6 +5,7 @@
 
 #include "scene_look.h"
 #include "seen_surface.h"
+#include "vicon/viewer/scene/band_picture.h"
 #include "vicon/viewer/scene/canvas.h"
 #include "vicon/viewer/scene/offscreen.h"
 #include "vicon/viewer/scene/reading_pictures.h"
@@ -31,6 +32,9 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
 /// What is written over a slice.
 /// @param cleansable there are densities without tagging, so the picture says which it shows
 Overlay sliceOverlay(const SliceRequest& request, bool cleansable);
+
+/// What is written over a band.
+Overlay bandOverlay(const PreparedScan& scan, const BandMap& band, const BandPage& page, const BandRequest& request);
 
 /// Rings around the markers that are in plain view from `pose`; the one that is looked at wherever it lies.
 void addMarkersInView(Overlay& overlay, const PreparedScan& scan, const SnapshotRequest& request, const Pose& pose,
@@ -84,7 +88,9 @@ struct OverviewGround {
     TextSize caption;         ///< what the caption takes
     std::vector<Area> names;  ///< what the names of the colon's parts take
 };
-OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request);
+/// @param wanted throws Error{cancelled} where it is no longer
+OverviewGround overviewGround(const PreparedScan& scan, const SnapshotRequest& request,
+                              const Progress* wanted = nullptr);
 /// What is written over it.
 Overlay overviewOverlay(const OverviewGround& ground, const PreparedScan& scan, const SnapshotRequest& request,
                         const SnapshotResult& place);

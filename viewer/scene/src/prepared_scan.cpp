@@ -128,24 +128,30 @@ const fs::path& PreparedScan::folder() const
     return files_->folder;
 }
 
-void PreparedScan::readForFlight() const
+void PreparedScan::readForFlight(const Progress* wanted) const
 {
+    const auto check = [&] {
+        if (wanted)
+            wanted->check();
+    };
     tbb::parallel_invoke([&] { segments(); }, [&] { cells(); }, [&] { inside(); },
                          [&] {
                              subdivision();
                              wallDistance();
+                             check();
                              if (hasPath())
                                  exitDistance();
+                             check();
                              volume();
                          });
-    bringInLumen(files_->storedWallDistance(), inside());
+    bringInLumen(files_->storedWallDistance(), inside(), wanted);
 }
 
 void PreparedScan::readOn(const Progress& wanted) const
 {
     constexpr std::size_t kAtOnce = std::size_t(1) << 22;  // voxels: some milliseconds of a slow disk
     if (hasPath())
-        bringInLumen(files_->storedExitDistance(), inside());
+        bringInLumen(files_->storedExitDistance(), inside(), &wanted);
     const auto& stored = files_->storedVolume();
     const std::size_t all = stored.view().voxels.size();
     for (std::size_t n = 0; n < all; n += kAtOnce) {

@@ -44,7 +44,8 @@ struct ReadingPictures::Parts {
     double lamp_reach_mm = kUsualLampReach_mm;
     std::optional<PictureCoverage> picture_coverage;  // made when it is first asked for
 
-    void paintOverview(const ScanCoverage& reviewed, bool still)
+    /// What is begun is painted to its end: a ground painted in part is none.
+    void paintOverview(const ScanCoverage& reviewed, bool still, const Progress* wanted)
     {
         constexpr std::chrono::milliseconds kAgain(500);
         const auto now = std::chrono::steady_clock::now();
@@ -53,6 +54,8 @@ struct ReadingPictures::Parts {
             painted.emplace(Painted{ReviewedWall(scan.cells(), ground.view)});
         if (area_mm2 == painted->area_mm2 || (!still && now - painted->at < kAgain))
             return;
+        if (wanted)
+            wanted->check();
         painted->wall.see(reviewed.seenTriangles());
         painted->area_mm2 = area_mm2;
         painted->at = now;
@@ -270,15 +273,17 @@ void ReadingPictures::countSeen(ScanCoverage& seen, double now_s, const ReviewRu
 }
 
 ReadingPictures::Overview ReadingPictures::overview(const SnapshotRequest& request, const SnapshotResult& place,
-                                                    const ScanCoverage* reviewed, bool still)
+                                                    const ScanCoverage* reviewed, bool still, const Progress* wanted)
 {
     Parts& p = *parts_;
     if (p.ground.picture.width != request.width || p.ground.picture.height != request.height) {
-        p.ground = overviewGround(p.scan, request);
+        p.ground = overviewGround(p.scan, request, wanted);
         p.painted.reset();
     }
     if (reviewed)
-        p.paintOverview(*reviewed, still);
+        p.paintOverview(*reviewed, still, wanted);
+    if (wanted)
+        wanted->check();
     return {overviewOver(p.ground, p.scan, request, place), p.ground.view};
 }
 

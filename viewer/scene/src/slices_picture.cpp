@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "caption_panel.h"
 #include "pictures.h"
@@ -20,10 +21,10 @@ constexpr double kCloseUp_mm = 50;  // what the close-up shows: a polyp of 6 mm 
 
 /// @param cleansed shown where it has densities; nothing: nowhere
 Picture greyPicture(const HuView& volume, const HuView* cleansed, const PlaneView& view, const WindowLevel& window,
-                    const ThickSlice& thick = {})
+                    const ThickSlice& thick = {}, const Progress* wanted = nullptr)
 {
     Picture picture(view.width, view.height);
-    const auto densities = thickSliceDensities(volume, cleansed, view, thick);
+    const auto densities = thickSliceDensities(volume, cleansed, view, thick, wanted);
     for (std::size_t n = 0; n < densities.size(); ++n)
         std::fill_n(picture.rgb.begin() + std::ptrdiff_t(3 * n), 3, window.greyOf(densities[n]));
     return picture;
@@ -38,9 +39,15 @@ void drawRim(Picture& picture, const InsideView& inside, const SliceRequest& req
     if (std::abs(request.view.depth_mm(request.pose.eye_mm)) > kEyeNear_mm)
         return;
     const auto rim = lumenRim(inside, request.view, request.pose.eye_mm);
-    for (std::size_t n = 0; n < rim.size(); ++n)
-        if (rim[n])
-            picture.set(int(n % std::size_t(picture.width)), int(n / std::size_t(picture.width)), kLumenRimColor);
+    for (std::size_t n = 0; n < rim.size(); ++n) {
+        const auto mixed = [&](std::size_t c, std::uint8_t color) {
+            std::uint8_t& own = picture.rgb[3 * n + c];
+            own = std::uint8_t(std::lround(std::lerp(double(own), double(color), double(rim[n]))));
+        };
+        mixed(0, kLumenRimColor.red);
+        mixed(1, kLumenRimColor.green);
+        mixed(2, kLumenRimColor.blue);
+    }
 }
 
 /// Which densities are shown, where there are two kinds or the other kind was asked for.
@@ -149,8 +156,8 @@ std::vector<OverlayText> linesOfSlice(const SliceRequest& request, bool cleansab
     if (std::string thickness = nameOf(request.thick); !thickness.empty())
         lines.push_back(plain(std::move(thickness)));
     lines.push_back(plain(request.window.name + " " + request.window.words() + wordFor(cleansable, request.cleansed)));
-    if (request.exact)
-        lines.push_back(plain("pixel for pixel"));
+    if (request.voxels_a_pixel > 0)
+        lines.push_back(plain(request.voxels_a_pixel == 1 ? "pixel for pixel" : "half resolution"));
     if (request.caption.lossy)
         lines.push_back(plain("LOSSY COMPRESSION"));
     if (request.caption.lossy)
@@ -189,10 +196,10 @@ Overlay sliceOverlay(const SliceRequest& request, bool cleansable)
 }
 
 Picture slicePicture(const HuView& volume, const SliceRequest& request, const HuView* cleansed,
-                     const InsideView* inside)
+                     const InsideView* inside, const Progress* wanted)
 {
     Picture picture =
-        greyPicture(volume, request.cleansed ? cleansed : nullptr, request.view, request.window, request.thick);
+        greyPicture(volume, request.cleansed ? cleansed : nullptr, request.view, request.window, request.thick, wanted);
     if (request.tracks && inside)
         drawRim(picture, *inside, request);
     paint(picture, sliceOverlay(request, cleansed != nullptr));

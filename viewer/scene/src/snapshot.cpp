@@ -47,8 +47,10 @@ Picture bandSnapshot(const PreparedScan& scan, const SnapshotRequest& request, c
     band.height = request.height;
     band.pixel_ratio = request.pixel_ratio;
     band.from_caecum = request.from_caecum;
-    if (!request.whole_band)
+    if (!request.whole_band) {
         band.middle_mm = place.station_mm;
+        band.eye = place;
+    }
     band.markers = request.markers;
     band.priors = request.priors;
     band.caption = request.caption;

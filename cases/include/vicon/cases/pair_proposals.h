@@ -7,6 +7,7 @@
 
 #include "vicon/cases/marker.h"
 #include "vicon/cases/station_map.h"
+#include "vicon/core/progress.h"
 
 namespace vicon {
 
@@ -17,8 +18,9 @@ struct ScanMatch {
     std::string from_scan, to_scan;
     StationMap map;
 };
-/// Of every two scans whose centreline was found, each once, in the case's order: of three scans three.
-std::vector<ScanMatch> matchesOf(CaseStore& store, const std::string& case_id);
+/// Of every two scans whose centreline was found, each once, in the case's order: of three scans three. Throws
+/// Error{cancelled} where `wanted` is no longer.
+std::vector<ScanMatch> matchesOf(CaseStore& store, const std::string& case_id, const Progress* wanted = nullptr);
 /// As docs/dev/schemas/match.schema.json has it.
 nlohmann::json toJson(const ScanMatch& match);
 

@@ -4,6 +4,7 @@
 
 #include "vicon/cases/wall_relief.h"
 #include "vicon/core/colon_parts.h"
+#include "vicon/core/progress.h"
 #include "vicon/core/scan_quality.h"
 #include "vicon/core/skeleton.h"
 
@@ -57,7 +58,7 @@ struct StationMap {
 /// and landmarks (the rectum's end, the descending colon's begin, both flexures) hold it loosely. Forward and backward
 /// pass give the probability of every station at every station; its middle is the map, its middle 80 % the interval.
 /// Where no chain passes, as when one scan shows half of the colon, the map is by landmarks, and its interval 130 mm to
-/// either side.
-StationMap matchStations(const ColonProfile& from, const ColonProfile& to);
+/// either side. Throws Error{cancelled} where `wanted` is no longer.
+StationMap matchStations(const ColonProfile& from, const ColonProfile& to, const Progress* wanted = nullptr);
 
 }  // namespace vicon

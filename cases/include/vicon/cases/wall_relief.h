@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "vicon/core/progress.h"
 #include "vicon/core/skeleton.h"
 #include "vicon/core/volume_view.h"
 
@@ -17,7 +18,7 @@ struct WallRelief {
     std::vector<std::array<float, kDirections>> radius_mm;
 };
 
-/// Along rays through the lumen's mask; hundredths of a second.
-WallRelief reliefOf(const InsideView& inside, const Skeleton& skeleton);
+/// Along rays through the lumen's mask; hundredths of a second. Throws Error{cancelled} where `wanted` is no longer.
+WallRelief reliefOf(const InsideView& inside, const Skeleton& skeleton, const Progress* wanted = nullptr);
 
 }  // namespace vicon

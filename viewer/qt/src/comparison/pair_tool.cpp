@@ -5,6 +5,9 @@
 #include "window/reading_layout.h"
 
 namespace vicon::viewer {
+namespace {
+constexpr const char* kPairs = "pairs";
+}
 
 PairTool::PairTool(Reading& reading, const ReadingServices& services, std::string case_id)
     : ReadingTool(reading), case_id_(std::move(case_id)), panel_(new PairPanel), store_(this, services.store)
@@ -36,11 +39,12 @@ void PairTool::markersChanged()
 
 void PairTool::refresh()
 {
-    store_.post("pairs", [this](OwnStore& store) -> Worker::Work {
+    store_.giveUp(kPairs);
+    store_.post(kPairs, [this](OwnStore& store, const Progress& wanted) -> Worker::Work {
         const std::vector<Marker> markers = store().markers(case_id_);
         std::vector<PairProposal> proposals;
         if (mayBePaired(markers))
-            proposals = proposePairs(markers, matchesOf(store(), case_id_));
+            proposals = proposePairs(markers, matchesOf(store(), case_id_, &wanted));
         return [this, proposals] { panel_->show(proposals); };
     });
 }

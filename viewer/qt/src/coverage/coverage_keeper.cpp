@@ -19,24 +19,26 @@ std::filesystem::path fileFor(const std::filesystem::path& scan_folder)
     return scan_folder.parent_path() / "reading" / name;
 }
 
-ReviewedScan reviewedOf(const ScanRecord& scan, const std::vector<std::uint32_t>& triangles, const Coverage& coverage)
+ReviewedScan reviewedOf(const ScanRecord& scan, const std::vector<std::uint32_t>& triangles, const Coverage& coverage,
+                        const Progress& wanted)
 {
-    const std::vector<double> areas_mm2 = unseenAreas_mm2(triangles, coverage);
+    const std::vector<double> areas_mm2 = unseenAreas_mm2(triangles, coverage, &wanted);
     const auto missed =
         std::count_if(areas_mm2.begin(), areas_mm2.end(), [](double area) { return area >= kMissedRegion_mm2; });
     return {scan, coverage.seenArea_mm2(), coverage.wholeArea_mm2(), int(missed)};
 }
 
 /// A scan that cannot be read says so; the others are told all the same.
-ReviewedScan reviewedOf(const ScanToReview& which)
+ReviewedScan reviewedOf(const ScanToReview& which, const Progress& wanted)
 try {
     if (which.open)
-        return reviewedOf(which.scan, which.open->files.cells().triangles, which.open->coverage.coverage());
+        return reviewedOf(which.scan, which.open->files.cells().triangles, which.open->coverage.coverage(), wanted);
     const CellSurface cells = scan_files::readCells(which.folder / "cells.vtp");
     ScanCoverage kept(triangleAreas_mm2(cells.points_mm, cells.triangles));
     CoverageKeeper::restore(kept, which.folder);
-    return reviewedOf(which.scan, cells.triangles, kept.coverage());
+    return reviewedOf(which.scan, cells.triangles, kept.coverage(), wanted);
 } catch (const std::exception&) {
+    wanted.check();
     return {which.scan};
 }
 
@@ -55,20 +57,15 @@ void CoverageKeeper::restore(ScanCoverage& seen, const std::filesystem::path& sc
 
 void CoverageKeeper::findUnseen(std::shared_ptr<OpenScan> scan, double least_mm2)
 {
-    const int search = ++latest_search_;
     worker_.giveUp(kSearch);
-    worker_.post(
-        kSearch, [this, search, scan = std::move(scan), least_mm2](Written&, const Progress& wanted) -> Worker::Work {
-            UnseenOptions options;
-            options.least_area_mm2 = least_mm2;
-            const auto& cells = scan->files.cells();
-            auto patches = unseenPatches(cells.points_mm, cells.triangles, scan->coverage.coverage(),
-                                         scan->files.skeleton(), scan->files.frames(), scan->lumen, options, &wanted);
-            return [this, search, scan, patches = std::move(patches)] {
-                if (search == latest_search_)
-                    emit found(patches, scan);
-            };
-        });
+    worker_.post(kSearch, [this, scan = std::move(scan), least_mm2](Written&, const Progress& wanted) -> Worker::Work {
+        UnseenOptions options;
+        options.least_area_mm2 = least_mm2;
+        const auto& cells = scan->files.cells();
+        auto patches = unseenPatches(cells.points_mm, cells.triangles, scan->coverage.coverage(),
+                                     scan->files.skeleton(), scan->files.frames(), scan->lumen, options, &wanted);
+        return [this, scan, patches = std::move(patches)] { emit found(patches, scan); };
+    });
 }
 
 void CoverageKeeper::sumUp(std::vector<ScanToReview> scans)
@@ -78,7 +75,7 @@ void CoverageKeeper::sumUp(std::vector<ScanToReview> scans)
         std::vector<ReviewedScan> reviewed;
         for (const ScanToReview& scan : scans) {
             wanted.check();
-            reviewed.push_back(reviewedOf(scan));
+            reviewed.push_back(reviewedOf(scan, wanted));
         }
         return [this, reviewed] { emit summedUp(reviewed); };
     });

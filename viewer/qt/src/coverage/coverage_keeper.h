@@ -50,7 +50,6 @@ signals:
     void failed(const QString& message);
 
 private:
-    int latest_search_ = 0;                                        // by the owner's thread
     using Written = std::map<std::filesystem::path, std::string>;  ///< by file, what is in it
     WorkerWith<Written> worker_{this};
 };

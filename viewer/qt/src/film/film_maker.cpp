@@ -72,6 +72,7 @@ void FilmMaker::cancel()
 void FilmMaker::end()
 {
     film_.reset();
+    drawing_.giveUpFilm();
     scan_.reset();
     hide();
 }

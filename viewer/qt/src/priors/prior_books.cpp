@@ -8,6 +8,8 @@
 namespace vicon::viewer {
 namespace {
 
+constexpr const char* kPage = "page";
+
 std::vector<PriorImages> imagesOf(CaseStore& store, const PriorList& list)
 {
     std::vector<PriorImages> out;
@@ -50,41 +52,47 @@ PriorBooks::PriorBooks(const ReadingServices& services, std::string case_id, QOb
     connect(store_.worker(), &Worker::failed, this, &PriorBooks::warned);
 }
 
-PriorPage PriorBooks::pageOf(CaseStore& store) const
+PriorPage PriorBooks::pageOf(CaseStore& store, const Progress& wanted) const
 {
     PriorPage page{.list = services_.list(store, case_id_),
                    .colons = colonsOf(store, case_id_),
                    .read = readCase(store, case_id_),
                    .open = reportStatus(store, case_id_).open()};
-    for (const PriorReport& report : page.list.reports)
+    for (const PriorReport& report : page.list.reports) {
+        wanted.check();
         page.matches.push_back(matchFindings(report, page.read.findings, page.colons, services_.options));
+    }
     page.images = imagesOf(store, page.list);
     return page;
 }
 
 void PriorBooks::change(const QString& done, Change change)
 {
-    store_.postAlways([this, done, change = std::move(change)](OwnStore& store) -> Worker::Work {
-        std::string trouble;
-        try {
-            if (change)
-                change(store(), pageOf(store()));
-        } catch (const std::exception& e) {
-            trouble = e.what();
-        }
-        return [this, done, trouble, page = pageOf(store())] {
-            emit shown(page);
-            if (!trouble.empty())
-                emit warned(QString::fromStdString(trouble));
-            else if (!done.isEmpty())
-                emit said(done);
-        };
-    });
+    store_.giveUp(kPage);  // it follows
+    store_.postAlways(
+        [this, done, change = std::move(change)](OwnStore& store, const Progress& wanted) -> Worker::Work {
+            std::string trouble;
+            try {
+                change(store(), pageOf(store(), wanted));
+            } catch (const std::exception& e) {
+                trouble = e.what();
+            }
+            return [this, done, trouble, page = pageOf(store(), wanted)] {
+                emit shown(page);
+                if (!trouble.empty())
+                    emit warned(QString::fromStdString(trouble));
+                else if (!done.isEmpty())
+                    emit said(done);
+            };
+        });
 }
 
 void PriorBooks::refresh()
 {
-    change({}, {});
+    store_.giveUp(kPage);
+    store_.post(kPage, [this](OwnStore& store, const Progress& wanted) -> Worker::Work {
+        return [this, page = pageOf(store(), wanted)] { emit shown(page); };
+    });
 }
 
 void PriorBooks::say(const std::string& finding_id, const std::string& report_uid, const std::string& prior_uid,

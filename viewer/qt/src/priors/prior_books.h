@@ -53,7 +53,7 @@ signals:
 private:
     using Change = std::function<void(CaseStore&, const PriorPage&)>;
     void change(const QString& done, Change change);
-    PriorPage pageOf(CaseStore& store) const;
+    PriorPage pageOf(CaseStore& store, const Progress& wanted) const;
 
     const PriorServices services_;
     const std::string case_id_;

@@ -7,6 +7,7 @@ namespace vicon::viewer {
 
 void Reading::begin(const ToolInUse& tool, const QString& prompt)
 {
+    session_.giveUpMeasuring();
     interaction_.begin(tool);
     for (ReadingTool* each : tools_)
         each->nextClickChanged();
@@ -68,7 +69,7 @@ void Reading::clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers)
     showPlace();
 }
 
-void Reading::clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers)
+void Reading::clickedSlice(SliceView& slice, Point3 point, Qt::KeyboardModifiers modifiers)
 {
     if (!navigator())
         return;
@@ -76,6 +77,8 @@ void Reading::clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers)
     rememberPlace();
     if (!click({*scan(), place(), point, modifiers, false})) {
         goTo(point);
+        if (modifiers & Qt::ControlModifier)
+            slice.toAcquiredAndBack();
     } else if (!measuring) {
         looked_at_mm_ = point;
         showPlace();

@@ -62,7 +62,9 @@ void Reading::connectViews()
     connect(views_.overview(), &PictureView::resized, this, [this] { drawOverview(true); });
     connect(views_.overview(), &PictureView::enlargeWanted, this, &Reading::takeBackClick);
     for (SliceView* slice : views_.slices()) {
-        connect(slice, &SliceView::pointClicked, this, &Reading::clickedSlice);
+        connect(slice, &SliceView::pointClicked, this, [this, slice](Point3 point, Qt::KeyboardModifiers modifiers) {
+            clickedSlice(*slice, point, modifiers);
+        });
         connect(slice, &PictureView::enlargeWanted, this, &Reading::takeBackClick);
         connect(slice, &SliceView::failed, this, &Reading::warned);
         connect(slice, &SliceView::trackWanted, this, &Reading::trackWanted);

@@ -140,7 +140,7 @@ private:
     void markersChanged();
     void showEndoscopic(const Picture& picture, const ShownPicture& shown);
     void clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers);
-    void clickedSlice(Point3 point, Qt::KeyboardModifiers modifiers);
+    void clickedSlice(SliceView& slice, Point3 point, Qt::KeyboardModifiers modifiers);
     /// As lookFrom() and lookAt(); zoomed slices stay as they are while the point is well inside them.
     void goTo(const ViewPose& view, Point3 looked_at_mm);
     void goTo(Point3 point);

@@ -9,8 +9,14 @@ constexpr const char *kMeasure = "measure", *kOutline = "outline", *kBiopsy = "b
 
 void CaseSession::giveUpMeasuring()
 {
-    for (const char* name : {kMeasure, kOutline, kBiopsy, kMeasures})
+    for (const char* name : {kMeasure, kOutline, kBiopsy})
         loader_.giveUp(name);
+}
+
+void CaseSession::giveUpMeasures()
+{
+    giveUpMeasuring();
+    loader_.giveUp(kMeasures);
 }
 
 std::shared_ptr<OpenScan> CaseSession::openScan(const std::string& id) const
@@ -26,11 +32,11 @@ void CaseSession::measure(const std::string& scan_id, Point3 from, Point3 to, Po
     const auto of = openScan(scan_id);
     if (!of)
         return;
+    loader_.giveUp(kMeasure);
     loader_.postTask(kMeasure, [this, scan = of, from, to, eye](const Progress& wanted) -> Worker::Work {
         const auto& cells = scan->files.cells();
-        const auto size = distanceOverWall(cells.points_mm, cells.triangles, from, to);
-        wanted.check();
-        const auto plane = sizeOnBestPlane(scan->files.inside(), from, to, eye);
+        const auto size = distanceOverWall(cells.points_mm, cells.triangles, from, to, &wanted);
+        const auto plane = sizeOnBestPlane(scan->files.inside(), from, to, eye, &wanted);
         return [this, scan, size, plane] {
             if (scan != openScan(scan->record.id))
                 return;
@@ -47,6 +53,7 @@ void CaseSession::outlinePolyp(const std::string& scan_id, Point3 at)
     const auto of = openScan(scan_id);
     if (!of)
         return;
+    loader_.giveUp(kOutline);
     loader_.postTask(kOutline, [this, scan = of, at](const Progress& wanted) -> Worker::Work {
         const PolypOutline outline =
             vicon::outlinePolyp(scan->files.cells(), at, blurOfScan_mm(scan->files.folder()), &wanted);
@@ -59,8 +66,10 @@ void CaseSession::outlinePolyp(const std::string& scan_id, Point3 at)
 
 void CaseSession::takeBiopsy(Point3 centre, double radius_mm, const std::optional<CircledWall>& wall)
 {
-    loader_.post(kBiopsy, [this, scan = scan_, centre, radius_mm, wall]() -> Worker::Work {
-        const DensitySample biopsy = sampleDensity(scan->files.volume(), scan->files.inside(), centre, radius_mm, wall);
+    loader_.giveUp(kBiopsy);
+    loader_.postTask(kBiopsy, [this, scan = scan_, centre, radius_mm, wall](const Progress& wanted) -> Worker::Work {
+        const DensitySample biopsy =
+            sampleDensity(scan->files.volume(), scan->files.inside(), centre, radius_mm, wall, &wanted);
         return [this, scan, biopsy] {
             if (scan == scan_)
                 emit biopsied(biopsy);
@@ -73,8 +82,9 @@ void CaseSession::drawMeasures(const Marker& marker, int side_px)
     const auto& scan = beside_ && beside_->record.id == marker.scan_id ? beside_ : scan_;
     if (!scan || scan->record.id != marker.scan_id)
         return;
-    loader_.post(kMeasures, [this, scan, marker, side_px]() -> Worker::Work {
-        const auto picture = measuresPicture(scan->files, marker, scan->caption, side_px);
+    loader_.giveUp(kMeasures);
+    loader_.postTask(kMeasures, [this, scan, marker, side_px](const Progress& wanted) -> Worker::Work {
+        const auto picture = measuresPicture(scan->files, marker, scan->caption, side_px, 1, &wanted);
         if (!picture)
             return {};
         return [this, id = QString::fromStdString(marker.id), drawn = *picture] { emit measuresDrawn(id, drawn); };

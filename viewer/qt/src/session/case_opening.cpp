@@ -9,6 +9,8 @@
 namespace vicon::viewer {
 namespace {
 
+constexpr const char *kOpen = "open", *kOpenBeside = "open beside";
+
 /// Freeing a scan's memory takes long enough to be felt, on whatever thread the last owner is.
 void freeInBackground(OpenScan* scan)
 {
@@ -27,17 +29,16 @@ int branchIn(const std::filesystem::path& folder, int branch)
 void CaseSession::open(const std::string& scan_id, bool fresh, int branch)
 {
     wanted_scan_ = scan_id;
+    loader_.giveUp(kOpen);
     if (!fresh && beside_ && beside_->record.id == scan_id) {
+        loader_.giveUp(kOpenBeside);
         std::swap(scan_, beside_);
-        wanted_beside_ = beside_ ? beside_->record.id : "";
+        wanted_beside_ = beside_ ? filesOf(beside_->record.id) : std::nullopt;
         emit opened();
         emit besideOpened();
         return;
     }
-    if (stop_opening_)
-        *stop_opening_ = true;  // of an earlier request
-    giveUpMeasuring();
-    stop_opening_ = std::make_shared<std::atomic<bool>>(false);
+    giveUpMeasures();
     const auto take = [this](std::shared_ptr<OpenScan> made) {
         if (made->record.id != wanted_scan_)
             return;
@@ -47,13 +48,14 @@ void CaseSession::open(const std::string& scan_id, bool fresh, int branch)
         emit opened();
     };
     if (const auto files = filesOf(scan_id))
-        load("open", *files, branch, take, stop_opening_);
+        load(kOpen, *files, branch, take);
+    if (loader_.giveUp(kOpenBeside))
+        loadBeside();  // when this one is read
 }
 
 void CaseSession::cancelOpening()
 {
-    if (stop_opening_)
-        *stop_opening_ = true;
+    loader_.giveUp(kOpen);
     wanted_scan_ = scan_ ? scan_->record.id : "";
 }
 
@@ -65,11 +67,15 @@ void CaseSession::openBeside(const std::string& scan_id)
 
 void CaseSession::openPriorBeside(const CaseRecord& record, const ScanRecord& scan, const std::filesystem::path& folder)
 {
-    wanted_beside_ = scan.id;
+    wanted_beside_ = ScanFiles{record, scan, folder};
+    loader_.giveUp(kOpenBeside);
+    loadBeside();
+}
+
+void CaseSession::loadBeside()
+{
     constexpr int kFarthest = -1;
-    load("open beside", {record, scan, folder}, kFarthest, [this](std::shared_ptr<OpenScan> made) {
-        if (made->record.id != wanted_beside_)
-            return;
+    load(kOpenBeside, *wanted_beside_, kFarthest, [this](std::shared_ptr<OpenScan> made) {
         beside_ = std::move(made);
         if (besideIsPrior()) {
             beside_->caption.position += ", EARLIER EXAMINATION";
@@ -81,7 +87,8 @@ void CaseSession::openPriorBeside(const CaseRecord& record, const ScanRecord& sc
 
 void CaseSession::closeBeside()
 {
-    wanted_beside_.clear();
+    wanted_beside_.reset();
+    loader_.giveUp(kOpenBeside);
     beside_.reset();
     emit besideClosed();
 }
@@ -112,49 +119,44 @@ void CaseSession::readOn(const PreparedScan& files)
     });
 }
 
-void CaseSession::load(const std::string& work, const ScanFiles& files, int branch, Opened then,
-                       const std::shared_ptr<const std::atomic<bool>>& stop)
+void CaseSession::load(const char* work, const ScanFiles& files, int branch, Opened then)
 {
     constexpr int kStages = 3;
-    const auto at = [this, stop](int stage) {
-        if (stop && !*stop)
+    const bool leads = work == kOpen;
+    const auto at = [this, leads](int stage, const Progress& wanted) {
+        wanted.check();
+        if (leads)
             QMetaObject::invokeMethod(
                 this, [this, stage] { emit opening(stage, kStages); }, Qt::QueuedConnection);
-        return !stop || !*stop;
     };
     const std::array others{scan_, beside_};
-    loader_.post(work, [this, of = files, branch, then = std::move(then), at, stop, others]() -> Worker::Work {
-        const std::filesystem::path& folder = of.folder;
-        try {
-            if (!at(0))
-                return {};
-            const auto before = madeAt(folder);
-            const int way = branchIn(folder, branch);
-            auto files = PreparedScan::open(folder, way);
-            files.readForFlight();
-            if (!at(1))
-                return {};
-            const std::shared_ptr<OpenScan> made(new OpenScan(files, of.scan, of.record), freeInBackground);
-            made->made = before;
-            made->branch = way;
-            if (!at(2))
-                return {};
-            CoverageKeeper::restore(made->coverage, folder);
-            readOn(files);
-            for (const auto& other : others)
-                if (other && other->record.id != made->record.id && haveSamePlaces(*other, *made) && (!stop || !*stop))
-                    maps_.between(*other, *made);
-            return [made, then, stop] {
-                if (!stop || !*stop)
-                    then(made);
-            };
-        } catch (...) {
-            if (at(0))
-                QMetaObject::invokeMethod(
-                    this, [this] { emit openingFailed(); }, Qt::QueuedConnection);
-            throw;
-        }
-    });
+    loader_.postTask(
+        work, [this, of = files, branch, then = std::move(then), leads, at, others](Progress& wanted) -> Worker::Work {
+            const std::filesystem::path& folder = of.folder;
+            try {
+                at(0, wanted);
+                const auto before = madeAt(folder);
+                const int way = branchIn(folder, branch);
+                auto files = PreparedScan::open(folder, way);
+                files.readForFlight(&wanted);
+                at(1, wanted);
+                const std::shared_ptr<OpenScan> made(new OpenScan(files, of.scan, of.record), freeInBackground);
+                made->made = before;
+                made->branch = way;
+                at(2, wanted);
+                CoverageKeeper::restore(made->coverage, folder);
+                readOn(files);
+                for (const auto& other : others)
+                    if (other && other->record.id != made->record.id && haveSamePlaces(*other, *made))
+                        maps_.between(*other, *made, &wanted);
+                return [made, then] { then(made); };
+            } catch (...) {
+                if (leads && !wanted.cancelled())
+                    QMetaObject::invokeMethod(
+                        this, [this] { emit openingFailed(); }, Qt::QueuedConnection);
+                throw;
+            }
+        });
 }
 
 }  // namespace vicon::viewer

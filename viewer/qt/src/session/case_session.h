@@ -2,7 +2,6 @@
 
 #include <QImage>
 #include <QObject>
-#include <atomic>
 #include <map>
 #include <memory>
 #include <optional>
@@ -100,6 +99,8 @@ public:
     /// Of the open scan's tissue around a point, below a circled wall where there is one; biopsied() follows, or
     /// warned().
     void takeBiopsy(Point3 centre, double radius_mm, const std::optional<CircledWall>& wall);
+    /// What is being measured, outlined or sampled is given up.
+    void giveUpMeasuring();
     /// What was measured of a marker of a scan that is open, as a picture; measuresDrawn() follows where there is any.
     void drawMeasures(const Marker& marker, int side_px);
     /// Keeps a picture in the case's folder, "pictures/1.png" and on.
@@ -157,11 +158,11 @@ private:
     /// Of the case that is read; nothing where it has no such scan.
     std::optional<ScanFiles> filesOf(const std::string& scan_id) const;
     void readOn(const PreparedScan& files);
-    /// What is measured of the scan that was read does not hold up the next one.
-    void giveUpMeasuring();
-    /// Reads a scan's files on the loader's thread.
-    void load(const std::string& work, const ScanFiles& files, int branch, Opened then,
-              const std::shared_ptr<const std::atomic<bool>>& stop = {});
+    /// What is measured of the scan that was read, and drawn of it, does not hold up the next one.
+    void giveUpMeasures();
+    /// Reads a scan's files on the loader's thread. `work` is the one that reads, or the one beside.
+    void load(const char* work, const ScanFiles& files, int branch, Opened then);
+    void loadBeside();
 
     const ReadingServices services_;
     WorklistCase row_;
@@ -169,8 +170,8 @@ private:
     std::vector<Marker> markers_;
     std::shared_ptr<OpenScan> scan_;
     std::shared_ptr<OpenScan> beside_;
-    std::string wanted_scan_, wanted_beside_;
-    std::shared_ptr<std::atomic<bool>> stop_opening_;
+    std::string wanted_scan_;
+    std::optional<ScanFiles> wanted_beside_;
     std::optional<StepNumber> to_undo_, to_redo_;
     ScanMaps maps_;
     bool markers_known_ = false;

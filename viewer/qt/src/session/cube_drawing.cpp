@@ -27,7 +27,7 @@ void DrawingThread::drawCube(std::shared_ptr<OpenScan> scan, const EndoscopicReq
 // One face, and then what else waits is drawn before the next one.
 void DrawingThread::drawFaces()
 {
-    worker_.post(kCubeWork, [this](AllPictures& all) -> Worker::Work {
+    worker_.post(kCubeWork, [this](AllPictures& all, const Progress& wanted) -> Worker::Work {
         std::shared_ptr<Cube> cube;
         {
             const std::lock_guard lock(cube_mutex_);
@@ -35,7 +35,7 @@ void DrawingThread::drawFaces()
         }
         if (!cube)
             return {};
-        drawFace(*cube, all);
+        drawFace(*cube, all, wanted);
         if (cube->faces < kCubeFaces.size()) {
             drawFaces();
             return {};
@@ -49,17 +49,22 @@ void DrawingThread::drawFaces()
     });
 }
 
-void DrawingThread::drawFace(Cube& cube, AllPictures& all)
+void DrawingThread::drawFace(Cube& cube, AllPictures& all, const Progress& wanted)
 {
     const EndoscopicRequest& request = cube.request;
     const SnapshotRequest& snapshot = request.snapshot;
-    const CubeFace face = kCubeFaces[cube.faces++];
-    const EndoscopicLook look{request.paint_seen ? &cube.scan->coverage : nullptr, request.structure,
-                              request.lamp_factor};
+    const CubeFace face = kCubeFaces[cube.faces];
+    const EndoscopicLook look{request.paint_seen ? &cube.scan->coverage : nullptr,
+                              request.structure,
+                              request.lamp_factor,
+                              nullptr,
+                              true,
+                              &wanted};
     const Picture drawn = picturesOf(all, cube.scan)
                               .cubeFace(snapshot, request.place, face, request.still, look,
                                         request.count_seen ? &cube.scan->coverage : nullptr);
     placeFace(cube.picture, {snapshot.width, snapshot.height}, face, drawn);
+    ++cube.faces;
 }
 
 Worker::Work DrawingThread::finished(const std::shared_ptr<Cube>& cube)

@@ -55,7 +55,7 @@ void DrawingThread::end()
 
 void DrawingThread::scanChanged()
 {
-    for (const char* name : {kEndoscopicWork, kBesideWork, kMissedWork, kCubeWork})
+    for (const char* name : {kEndoscopicWork, kBesideWork, kMissedWork, kCubeWork, kOverviewWork, kBesideOverviewWork})
         worker_.giveUp(name);
     const std::lock_guard lock(cube_mutex_);
     cube_wanted_.reset();
@@ -83,7 +83,8 @@ void DrawingThread::findSightLines(const std::shared_ptr<OpenScan>& scan)
                 return {};
             files.openness(&wanted);
             worker_.post("shade", [this](AllPictures&) -> Worker::Work { return [this] { emit wallShaded(); }; });
-            auto visibility = std::make_shared<const CellVisibility>(files);
+            auto visibility =
+                std::make_shared<const CellVisibility>(files, CellVisibility::Means::gates_and_sight_lines, &wanted);
             worker_.post("sight lines", [visibility, of](AllPictures& all) -> Worker::Work {
                 for (ScanPictures& some : all)
                     if (some.of.lock() == of.lock())
@@ -174,40 +175,43 @@ bool DrawingThread::countSeen(AllPictures& all, const std::shared_ptr<OpenScan>&
 void DrawingThread::film(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, Heading heading,
                          std::shared_ptr<Film> film, bool last)
 {
-    worker_.post(
-        "film",
-        [this, scan = std::move(scan), request, heading, film = std::move(film),
-         last](AllPictures& all) -> Worker::Work {
-            const ViewPose view = poseAtStation(scan->files.frames(), scan->lumen, request.place.station_mm, heading);
-            const SnapshotResult place{view.pose, request.place.station_mm, view.clearance_mm, true};
-            film->add(picturesOf(all, scan).endoscopic(
-                request.snapshot, place, false, {nullptr, request.structure, request.lamp_factor, nullptr, false}));
-            if (last)
-                film->finish();
-            return [this, film, last] { emit filmed(film, last); };
-        });
+    worker_.post(kFilmWork,
+                 [this, scan = std::move(scan), request, heading, film = std::move(film), last](
+                     AllPictures& all, const Progress& wanted) -> Worker::Work {
+                     const ViewPose view =
+                         poseAtStation(scan->files.frames(), scan->lumen, request.place.station_mm, heading);
+                     const SnapshotResult place{view.pose, request.place.station_mm, view.clearance_mm, true};
+                     film->add(picturesOf(all, scan).endoscopic(
+                         request.snapshot, place, false,
+                         {nullptr, request.structure, request.lamp_factor, nullptr, false, &wanted}));
+                     if (last)
+                         film->finish();
+                     return [this, film, last] { emit filmed(film, last); };
+                 });
 }
 
 void DrawingThread::drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
                                  const SnapshotResult& place, bool still)
 {
-    drawOverview("overview", std::move(scan), request, place, still);
+    drawOverview(kOverviewWork, std::move(scan), request, place, still);
 }
 
 void DrawingThread::drawBesideOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
                                        const SnapshotResult& place, bool still)
 {
-    drawOverview("overview beside", std::move(scan), request, place, still);
+    drawOverview(kBesideOverviewWork, std::move(scan), request, place, still);
 }
 
-void DrawingThread::drawOverview(const std::string& work, std::shared_ptr<OpenScan> scan,
-                                 const SnapshotRequest& request, const SnapshotResult& place, bool still)
+void DrawingThread::drawOverview(const char* work, std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
+                                 const SnapshotResult& place, bool still)
 {
-    worker_.post(work, [this, scan = std::move(scan), request, place, still](AllPictures& all) -> Worker::Work {
-        auto drawn = std::make_shared<ReadingPictures::Overview>(
-            picturesOf(all, scan).overview(request, place, &scan->coverage, still));
-        return [this, drawn, scan] { emit overviewDrawn(drawn->picture, drawn->view, scan); };
-    });
+    worker_.post(work,
+                 [this, scan = std::move(scan), request, place, still](AllPictures& all,
+                                                                       const Progress& wanted) -> Worker::Work {
+                     auto drawn = std::make_shared<ReadingPictures::Overview>(
+                         picturesOf(all, scan).overview(request, place, &scan->coverage, still, &wanted));
+                     return [this, drawn, scan] { emit overviewDrawn(drawn->picture, drawn->view, scan); };
+                 });
 }
 
 }  // namespace vicon::viewer

@@ -80,6 +80,8 @@ public:
     /// @param last the film is finished with it
     void film(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, Heading heading,
               std::shared_ptr<Film> film, bool last);
+    /// The picture of a film that is being drawn is no longer wanted.
+    void giveUpFilm() { worker_.giveUp(kFilmWork); }
 
 signals:
     void filmed(const std::shared_ptr<vicon::viewer::Film>& film, bool finished);
@@ -102,7 +104,8 @@ private:
     enum class Which { leading, beside };
     // What work is called.
     static constexpr const char *kEndoscopicWork = "endoscopic", *kBesideWork = "beside", *kMissedWork = "missed",
-                                *kCubeWork = "cube";
+                                *kCubeWork = "cube", *kOverviewWork = "overview",
+                                *kBesideOverviewWork = "overview beside", *kFilmWork = "film";
     struct ScanPictures {
         std::weak_ptr<OpenScan> of;
         std::unique_ptr<ReadingPictures> pictures;
@@ -113,10 +116,10 @@ private:
     /// A cube, some of its faces drawn.
     struct Cube;
     void drawFaces();
-    void drawFace(Cube& cube, AllPictures& all);
+    void drawFace(Cube& cube, AllPictures& all, const Progress& wanted);
     Worker::Work finished(const std::shared_ptr<Cube>& cube);
     void draw(Which which, std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
-    void drawOverview(const std::string& work, std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
+    void drawOverview(const char* work, std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
                       const SnapshotResult& place, bool still);
     ReadingPictures& picturesOf(AllPictures& all, const std::shared_ptr<OpenScan>& scan);
     /// In the picture drawn last; while moving not in every one.

@@ -3,23 +3,24 @@
 namespace vicon::viewer {
 namespace {
 
-ColonProfile profileOf(const OpenScan& scan)
+ColonProfile profileOf(const OpenScan& scan, const Progress* wanted)
 {
     ColonProfile profile = profileOf(scan.files.skeleton(), scan.files.parts(), scan.files.along());
-    profile.relief = reliefOf(scan.files.inside(), scan.files.skeleton());
+    profile.relief = reliefOf(scan.files.inside(), scan.files.skeleton(), wanted);
     return profile;
 }
 
 }  // namespace
 
-StationMap ScanMaps::between(const OpenScan& from, const OpenScan& to)
+StationMap ScanMaps::between(const OpenScan& from, const OpenScan& to, const Progress* wanted)
 {
     const Versions versions{{from.record.id, from.made}, {to.record.id, to.made}};
     if (versions.second < versions.first)
-        return between(to, from).reversed();
+        return between(to, from, wanted).reversed();
     if (const auto made = known(versions))
         return *made;
-    StationMap map = matchStations(profileOf(from), profileOf(to));  // the window need not wait for another pair's
+    // The window need not wait for another pair's.
+    StationMap map = matchStations(profileOf(from, wanted), profileOf(to, wanted), wanted);
     const std::lock_guard lock(mutex_);
     return maps_.insert_or_assign(versions, std::move(map)).first->second;
 }

@@ -15,8 +15,9 @@ namespace vicon::viewer {
 /// From any thread.
 class ScanMaps {
 public:
-    /// Of two scans of one patient. Takes half a second the first time: the loader asks before the window does.
-    StationMap between(const OpenScan& from, const OpenScan& to);
+    /// Of two scans of one patient. Takes half a second the first time: the loader asks before the window does. Throws
+    /// Error{cancelled} where `wanted` is no longer.
+    StationMap between(const OpenScan& from, const OpenScan& to, const Progress* wanted = nullptr);
 
 private:
     /// A scan, and when its files were made.

@@ -5,6 +5,7 @@
 #include <QSignalBlocker>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "reading/reading.h"
 #include "vicon/core/quantity.h"
@@ -38,10 +39,13 @@ void SliceTool::addTo(ReadingLayout& layout)
         for (SliceView* slice : reading_.views().slices())
             slice->resetView();
     });
-    layout.addAction(ReadingMenu::slices, tr("As acquired, pixel for pixel"), QKeySequence("Ctrl+0"), [this] {
-        for (SliceView* slice : reading_.views().slices())
-            slice->setPixelForPixel();
-    });
+    for (const auto& [title, key, resolution] :
+         {std::tuple(tr("As acquired, pixel for pixel"), "Ctrl+0", SliceView::Resolution::acquired),
+          std::tuple(tr("Half resolution"), "Ctrl+9", SliceView::Resolution::half)})
+        layout.addAction(ReadingMenu::slices, title, QKeySequence(key), [this, resolution = resolution] {
+            for (SliceView* slice : reading_.views().slices())
+                slice->setResolution(resolution);
+        });
     addCleansed(layout);
     addKeys(layout);
     connect(window_, &QComboBox::currentTextChanged, this, [this](const QString& name) {

@@ -11,6 +11,8 @@
 namespace vicon::viewer {
 namespace {
 
+constexpr const char *kSlice = "slice", *kAhead = "next slices";
+
 /// Across the lumen, what is farther than some 7 cm from it is of no use.
 double usualZoom(SlicePlane plane)
 {
@@ -25,9 +27,9 @@ SliceView::SliceView(SlicePlane plane, const QString& name, QWidget* parent) : P
     zoom_ = usualZoom(plane);
     setMouseTracking(true);
     connect(this, &PictureView::hovered, this, &SliceView::readAt);
-    setToolTip(
-        tr("Click: look there. Wheel: scroll, or along the lumen (Q). Control and wheel: zoom. Drag: window. Right "
-           "button: pan. Double click: enlarge. Shift and click: marker."));
+    setToolTip(tr(
+        "Click: look there. Wheel: scroll, or along the lumen (Q). Control and wheel: zoom. Drag: window. Right "
+        "button: pan. Double click: enlarge. Shift and click: marker. Control and click: pixel for pixel, and back."));
     connect(this, &PictureView::resized, this, &SliceView::draw);
     connect(this, &PictureView::turned, this, &SliceView::scroll);
     connect(worker_.worker(), &Worker::failed, this, &SliceView::failed);
@@ -59,10 +61,12 @@ void SliceView::setPlane(SlicePlane plane)
 void SliceView::look(std::shared_ptr<OpenScan> scan, Point3 point, const Pose& pose, std::vector<Marker> markers,
                      std::vector<PriorPlace> priors, Move how)
 {
-    if (scan != scan_)
+    if (scan != scan_) {
+        worker_.giveUp(kSlice);
         pan_mm_ = {};
-    else if (!(point == request_.point_mm))
+    } else if (!(point == request_.point_mm)) {
         pan_mm_ = panFor(point, how);
+    }
     scan_ = std::move(scan);
     request_.point_mm = point;
     request_.pose = pose;
@@ -77,7 +81,7 @@ Vector3 SliceView::panFor(Point3 point, Move how) const
 {
     const PlaneView& view = request_.view;
     const auto inPlane = [&](Vector3 v) { return v - view.forward() * dot(v, view.forward()); };
-    if (zoom_ <= 1 && !request_.exact)
+    if (zoom_ <= 1 && request_.voxels_a_pixel == 0)
         return inPlane(pan_mm_);
     const auto isInside = [&](Point3 p, double margin) {
         const Pixel at = view.toPixel(p);
@@ -128,15 +132,28 @@ void SliceView::resetView()
 {
     pan_mm_ = {};
     zoom_ = 1;
-    request_.exact = false;
+    request_.voxels_a_pixel = 0;
     draw();
 }
 
-void SliceView::setPixelForPixel()
+void SliceView::setResolution(Resolution of)
 {
-    resetView();
-    request_.exact = true;
+    pan_mm_ = {};
+    zoom_ = 1;
+    request_.voxels_a_pixel = of == Resolution::half ? 2 : 1;
     draw();
+}
+
+void SliceView::toAcquiredAndBack()
+{
+    if (request_.voxels_a_pixel != 1) {
+        half_before_ = request_.voxels_a_pixel == 2;
+        setResolution(Resolution::acquired);
+    } else if (half_before_) {
+        setResolution(Resolution::half);
+    } else {
+        resetView();
+    }
 }
 
 void SliceView::scroll(int steps, Qt::KeyboardModifiers modifiers)
@@ -160,7 +177,7 @@ void SliceView::scroll(int steps, Qt::KeyboardModifiers modifiers)
 void SliceView::zoom(int notches)
 {
     constexpr double kNotch = 1.2, kMost = 20;
-    request_.exact = false;
+    request_.voxels_a_pixel = 0;
     const double before = zoom_;
     zoom_ = std::clamp(zoom_ * std::pow(kNotch, notches), 1.0, kMost);
     const PlaneView& view = request_.view;
@@ -196,25 +213,24 @@ void SliceView::draw()
         view.centre_mm += to_point;
     }
     view.centre_mm += pan_mm_;
-    if (request_.exact)
-        view = pixelForPixel(grid, view, request_.point_mm + pan_mm_);
+    if (request_.voxels_a_pixel > 0)
+        view = pixelForPixel(grid, view, request_.point_mm + pan_mm_, request_.voxels_a_pixel);
     request_.view = view;
     request_.pixel_ratio = devicePixelRatioF();
     request_.text_px = textHeight_px();
     if (!image().isNull())
         noteWhereElsewhere(shown_point_mm_, request_.point_mm);
-    worker_.post("slice", [this, scan = scan_, request = request_](SlicePictures& pictures) -> Worker::Work {
-        const std::shared_ptr<const PreparedScan> files(scan, &scan->files);
-        auto picture = std::make_shared<Picture>(pictures.draw(files, request));
-        worker_.post("next slices", [](SlicePictures& ahead) -> Worker::Work {
-            ahead.readAhead();
-            return {};
+    worker_.post(
+        kSlice,
+        [this, scan = scan_, request = request_](SlicePictures& pictures, const Progress& wanted) -> Worker::Work {
+            const std::shared_ptr<const PreparedScan> files(scan, &scan->files);
+            auto picture = std::make_shared<Picture>(pictures.draw(files, request, &wanted));
+            worker_.post(kAhead, [](SlicePictures& ahead, const Progress& still_wanted) -> Worker::Work {
+                ahead.readAhead(&still_wanted);
+                return {};
+            });
+            return [this, picture, request] { show(*picture, request); };
         });
-        return [this, picture, scan, request] {
-            if (scan == scan_)
-                show(*picture, request);
-        };
-    });
 }
 
 void SliceView::show(const Picture& picture, const SliceRequest& of)
@@ -265,6 +281,8 @@ void SliceView::leaveEvent(QEvent* event)
 
 void SliceView::leave(const QString& words)
 {
+    for (const char* name : {kSlice, kAhead})
+        worker_.giveUp(name);
     scan_.reset();
     line_.reset();
     ball_.reset();

@@ -34,8 +34,11 @@ public:
     void centreOnPoint();
     /// The whole scan, centred on the point.
     void resetView();
-    /// A pixel is a voxel, around the place looked at; until it is zoomed or resetView().
-    void setPixelForPixel();
+    /// A pixel is a voxel, or two by two of them, around the place looked at; until it is zoomed or resetView().
+    enum class Resolution { acquired, half };
+    void setResolution(Resolution of);
+    /// To the acquired resolution around the place looked at; from there to half of it or all of the slice, as before.
+    void toAcquiredAndBack();
     /// Of the picture that is shown: a click means a place in it.
     const PlaneView& shown() const { return shown_; }
     /// Where the cross is.
@@ -80,7 +83,8 @@ private:
     // well.
     Vector3 pan_mm_;
     double zoom_ = 1;
-    PlaneView shown_;  // that of the picture; request_.view is the one asked for
+    bool half_before_ = false;  // as the acquired resolution was asked for
+    PlaneView shown_;           // that of the picture; request_.view is the one asked for
     Point3 shown_point_mm_;
     std::optional<MeasuredLine> line_;
     std::optional<SampledBall> ball_;

@@ -4,10 +4,12 @@
 #include <algorithm>
 
 #include "reading/reading.h"
-#include "vicon/core/error.h"
 #include "window/reading_layout.h"
 
 namespace vicon::viewer {
+namespace {
+constexpr const char* kTurned = "turned";
+}
 
 TurningTool::TurningTool(Reading& reading) : ReadingTool(reading)
 {
@@ -42,8 +44,7 @@ void TurningTool::stop()
 
 void TurningTool::giveUp()
 {
-    if (wanted_)
-        wanted_->giveUp();
+    worker_.giveUp(kTurned);
     shown_.reset();
     reading_.views().overview()->setNote({});
 }
@@ -102,25 +103,16 @@ void TurningTool::draw(bool still)
     request.still = still;
     if (!shown_)
         overview->setNote(tr("being drawn ..."));
-    if (wanted_ && still)
-        wanted_->giveUp();  // what is drawn while the hand moves is shown, or the body would stand still
-    wanted_ = std::make_shared<Wanted>();
-    worker_.post("turned", [this, scan = reading_.sharedScan(), request, wanted = wanted_]() mutable -> Worker::Work {
+    if (still)
+        worker_.giveUp(kTurned);  // what is drawn while the hand moves is shown, or the body would stand still
+    worker_.postTask(kTurned, [this, scan = reading_.sharedScan(), request](Progress& wanted) mutable -> Worker::Work {
         request.seen = scan->coverage.seenTriangles();
-        try {
-            auto drawn = std::make_shared<TurnedPicture>(turnedPicture(scan->files, request, *wanted));
-            return [this, drawn, scan] {
-                if (scan != reading_.sharedScan() || view_.fromFront())
-                    return;
-                shown_ = *drawn;
-                reading_.views().overview()->setNote({});
-                reading_.views().overview()->showPicture(drawn->picture);
-            };
-        } catch (const Error& e) {
-            if (e.code() == ErrorCode::cancelled)
-                return {};
-            throw;
-        }
+        auto drawn = std::make_shared<TurnedPicture>(turnedPicture(scan->files, request, wanted));
+        return [this, drawn] {
+            shown_ = *drawn;
+            reading_.views().overview()->setNote({});
+            reading_.views().overview()->showPicture(drawn->picture);
+        };
     });
 }
 

@@ -29,7 +29,6 @@ private:
 
     TurnedView view_;
     std::optional<TurnedPicture> shown_;
-    std::shared_ptr<Wanted> wanted_;
     Worker worker_{this};
 };
 

@@ -39,19 +39,27 @@ void Worker::end()
     {
         const std::lock_guard lock(mutex_);
         stop_ = true;
-        tasks_.remove_if([](const Waiting& task) { return !task.name.empty(); });
-        if (!running_.empty())
-            wanted_->giveUp();
+        giveUpWhere([](const std::string& name) { return !name.empty(); });
     }
     wake_.notify_all();
 }
 
-void Worker::giveUp(const std::string& name)
+bool Worker::giveUp(const std::string& name)
 {
     const std::lock_guard lock(mutex_);
-    tasks_.remove_if([&](const Waiting& task) { return task.name == name; });
-    if (running_ == name)
-        wanted_->giveUp();
+    return giveUpWhere([&](const std::string& of) { return of == name; });
+}
+
+template <class Named>
+bool Worker::giveUpWhere(Named isMeant)
+{
+    bool any = tasks_.remove_if([&](const Waiting& task) { return isMeant(task.name); }) > 0;
+    for (const Begun& begun : begun_)
+        if (const auto wanted = begun.wanted.lock(); wanted && isMeant(begun.name)) {
+            any = any || !wanted->cancelled();
+            wanted->giveUp();
+        }
+    return any;
 }
 
 void Worker::postTask(const std::string& name, Task work)
@@ -71,26 +79,29 @@ void Worker::postTask(const std::string& name, Task work)
 std::optional<Worker::Waiting> Worker::next()
 {
     std::unique_lock lock(mutex_);
-    running_.clear();
     wake_.wait(lock, [&] { return stop_ || !tasks_.empty(); });
     if (tasks_.empty())
         return std::nullopt;
     Waiting task = std::move(tasks_.front());
     tasks_.pop_front();
-    running_ = task.name;
-    wanted_ = std::make_shared<Wanted>();
+    begun_.remove_if([](const Begun& begun) { return begun.wanted.expired(); });
+    begun_.push_back({task.name, task.wanted});
     return task;
 }
 
 void Worker::perform(const Waiting& task)
 {
-    const std::shared_ptr<Wanted> wanted = wanted_;  // only this thread replaces it
     try {
-        if (Work after = task.work(*wanted))
+        if (Work after = task.work(*task.wanted))
             QMetaObject::invokeMethod(
-                this, [after = std::move(after), until_then = task.under_way] { after(); }, Qt::QueuedConnection);
+                this,
+                [after = std::move(after), wanted = task.wanted, until_then = task.under_way] {
+                    if (!wanted->cancelled())
+                        after();
+                },
+                Qt::QueuedConnection);
     } catch (const Error& e) {
-        if (e.code() != ErrorCode::cancelled || !wanted->cancelled())
+        if (e.code() != ErrorCode::cancelled || !task.wanted->cancelled())
             emit failed(messageOf(e));
     } catch (const std::bad_alloc&) {
         emit failed(tr("Not enough memory; close other programs and try again."));

@@ -24,11 +24,12 @@ public:
     explicit Worker(QObject* owner);
     ~Worker() override;  ///< end(), and waits
 
-    /// What waits is dropped, but for work without a name, and what runs under a name is told that nobody wants it;
-    /// after that and the work that runs the thread ends. Does not wait for it. Later work is not done.
+    /// All work that has a name is given up; after what runs and what has none the thread ends. Does not wait for it.
+    /// Later work is not done.
     void end();
-    /// Work of this name that waits is dropped, and what runs is told that nobody wants it.
-    void giveUp(const std::string& name);
+    /// Work of this name that waits is dropped, what runs is told that nobody wants it, and what it returned and the
+    /// window has not done yet is not done. False where there is none.
+    bool giveUp(const std::string& name);
     bool ended() const { return ended_; }
 
     using Work = std::function<void()>;
@@ -52,16 +53,23 @@ private:
         std::string name;
         Task work;
         UnderWay under_way = {};  ///< until what it returns has run
+        std::shared_ptr<Wanted> wanted = std::make_shared<Wanted>();
+    };
+    /// Work that runs, or whose result is on its way to the window.
+    struct Begun {
+        std::string name;
+        std::weak_ptr<Wanted> wanted;
     };
     void run();
     std::optional<Waiting> next();
     void perform(const Waiting& task);
+    template <class Named>
+    bool giveUpWhere(Named isMeant);
 
     std::mutex mutex_;
     std::condition_variable wake_;
     std::list<Waiting> tasks_;
-    std::string running_;                                          // the name of the work that runs
-    std::shared_ptr<Wanted> wanted_ = std::make_shared<Wanted>();  // that work
+    std::list<Begun> begun_;
     bool stop_ = false;
     std::atomic<bool> ended_ = false;
     std::thread thread_;

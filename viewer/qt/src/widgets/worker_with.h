@@ -40,7 +40,7 @@ public:
         post({}, std::move(work));
     }
     void end() { worker_.end(); }
-    void giveUp(const std::string& name) { worker_.giveUp(name); }
+    bool giveUp(const std::string& name) { return worker_.giveUp(name); }
     bool ended() const { return worker_.ended(); }
     /// For its signals.
     const Worker* worker() const { return &worker_; }

@@ -4,6 +4,7 @@
 
 #include "vicon/core/usual_densities.h"
 #include "vicon/core/volume_view.h"
+#include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/lumen.h"
 
 namespace vicon::viewer {
@@ -21,5 +22,8 @@ bool startsInGas(const HuView& volume, Point3 eye_mm);
 /// kBehindWall_mm of the lumen's wall.
 std::optional<double> distanceToAcquiredWall_mm(const HuView& volume, const Lumen& lumen, Point3 from,
                                                 Vector3 direction, double reach_mm);
+
+/// How much of a picture shows fluid or stool that stands before the wall, 0 to 1; 0 where the eye is not in gas.
+double standingShare(const HuView& volume, const Lumen& lumen, const Pose& pose, const Lens& lens);
 
 }  // namespace vicon::viewer

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "vicon/core/progress.h"
 #include "vicon/core/volume_view.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/patches.h"
@@ -28,8 +29,9 @@ struct DrawnSurface {
 /// `inside` (it enters only cubes between voxel centres that are partly inside) and that its back is not drawn.
 class SightLines {
 public:
-    /// Takes about 0.4 s and one byte a voxel. The surface and the volume need not live on.
-    SightLines(const InsideView& inside, const DrawnSurface& surface);
+    /// Takes about 0.4 s and one byte a voxel. The surface and the volume need not live on. Throws
+    /// Error{cancelled} where `wanted` is no longer.
+    SightLines(const InsideView& inside, const DrawnSurface& surface, const Progress* wanted = nullptr);
     ~SightLines();
     SightLines(SightLines&&) noexcept;
     SightLines& operator=(SightLines&&) noexcept;

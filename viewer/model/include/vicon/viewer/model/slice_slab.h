@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "vicon/core/progress.h"
 #include "vicon/core/volume_view.h"
 #include "vicon/viewer/model/camera.h"
 
@@ -12,7 +13,8 @@ namespace vicon::viewer {
 class SliceSlab {
 public:
     /// Passes once through the volume's lines; copies kPlanes planes around `plane`, fewer where the volume ends.
-    SliceSlab(const HuView& volume, double plane);
+    /// Throws Error{cancelled} where `wanted` is no longer.
+    SliceSlab(const HuView& volume, double plane, const Progress* wanted = nullptr);
 
     /// Which plane across the volume's first axis a picture shows, counted in voxels; nothing where it is no such
     /// plane.

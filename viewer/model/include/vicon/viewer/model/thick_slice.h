@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "vicon/core/progress.h"
 #include "vicon/core/volume_view.h"
 #include "vicon/viewer/model/camera.h"
 
@@ -24,6 +25,6 @@ std::string nameOf(const ThickSlice& thick);
 /// behind. What lies outside the scan does not count; kPaddingHu where nothing is left.
 /// @param cleansed shown where it has densities; nothing: nowhere
 std::vector<float> thickSliceDensities(const HuView& volume, const HuView* cleansed, const PlaneView& view,
-                                       const ThickSlice& thick);
+                                       const ThickSlice& thick, const Progress* wanted = nullptr);
 
 }  // namespace vicon::viewer

@@ -20,9 +20,9 @@ double stationSlicesOn(const PathFrames& path, double station_mm, Vector3 across
 /// @param eye anywhere on the way: it is carried along to that place
 SliceAxes axesAcross(const PathFrames& way, Point3 point, const Pose& eye);
 
-/// The rim of the lumen that a slice cuts around a place, other loops left out: of each pixel, 1 where it is the
-/// lumen's outermost; else 0. All 0 where the place is not in the lumen.
+/// The rim of the lumen that a slice cuts around a place, other loops left out, as a smooth line: how much of each
+/// pixel it covers, 0 to 1. All 0 where the place is not in the lumen.
 /// @param in_lumen near the plane; the lumen is looked for within 3 mm of where it is in the picture
-std::vector<std::uint8_t> lumenRim(const InsideView& inside, const PlaneView& view, Point3 in_lumen);
+std::vector<float> lumenRim(const InsideView& inside, const PlaneView& view, Point3 in_lumen);
 
 }  // namespace vicon::viewer

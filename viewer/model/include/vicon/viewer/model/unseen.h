@@ -28,8 +28,9 @@ struct UnseenOptions {
     ViewPoseOptions pose;
 };
 
-/// The areas of the unseen pieces of a surface, in no order; quicker than unseenPatches().
-std::vector<double> unseenAreas_mm2(const std::vector<std::uint32_t>& triangles, const Coverage& coverage);
+/// The areas of the unseen pieces of a surface, in no order; quicker than unseenPatches(), and throws as that does.
+std::vector<double> unseenAreas_mm2(const std::vector<std::uint32_t>& triangles, const Coverage& coverage,
+                                    const Progress* wanted = nullptr);
 
 /// The unseen pieces of a surface, the largest first. Triangles belong to one piece when they share an edge; so pieces
 /// cross the borders of cells, and single triangles too thin for any pixel do not join what lies around them.

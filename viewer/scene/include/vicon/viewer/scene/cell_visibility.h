@@ -24,8 +24,10 @@ public:
     enum class Means { gates, gates_and_sight_lines };
 
     /// Reads segments.mha and subdivision.json, and for sight lines also inside.mha and cells.vtp; those take about
-    /// 0.5 s beyond the reading. Throws as PreparedScan does.
-    explicit CellVisibility(const PreparedScan& scan, Means means = Means::gates_and_sight_lines);
+    /// 0.5 s beyond the reading. Throws as PreparedScan does, and Error{cancelled} where `wanted` is no
+    /// longer.
+    explicit CellVisibility(const PreparedScan& scan, Means means = Means::gates_and_sight_lines,
+                            const Progress* wanted = nullptr);
 
     /// The segment of the voxel that holds a point; 0 outside.
     int segmentAt(Point3 p) const;

@@ -14,13 +14,14 @@ namespace vicon::viewer {
 /// tagging are named where the axis shows them. Needs no display.
 Picture histogramPicture(const DensitySample& sample, int width, int height, double pixel_ratio = 1);
 
-/// The slice in which a finding is measured, with the diameter drawn in. Needs no display. Throws as PreparedScan does.
+/// The slice in which a finding is measured, with the diameter drawn in. Needs no display. Throws as PreparedScan does,
+/// and Error{cancelled} where `wanted` is no longer.
 Picture planePicture(const PreparedScan& scan, const PlaneSize& size, const Caption& caption, int width, int height,
-                     double pixel_ratio = 1);
+                     double pixel_ratio = 1, const Progress* wanted = nullptr);
 
 /// What was measured of a marker: its best plane and its histogram beside each other, each square with this side; one
-/// of them where the other was not taken, nothing where neither was.
+/// of them where the other was not taken, nothing where neither was. Throws as planePicture() does.
 std::optional<Picture> measuresPicture(const PreparedScan& scan, const Marker& marker, const Caption& caption, int side,
-                                       double pixel_ratio = 1);
+                                       double pixel_ratio = 1, const Progress* wanted = nullptr);
 
 }  // namespace vicon::viewer

@@ -35,8 +35,9 @@ public:
     const std::filesystem::path& folder() const;
 
     /// Reads what a flight needs now, on all cores, also of the mapped distances from the wall: a camera that flies
-    /// does not wait for the disk. Throws as the functions below do.
-    void readForFlight() const;
+    /// does not wait for the disk. Throws as the functions below do, and Error{cancelled} where `wanted` is no
+    /// longer.
+    void readForFlight(const Progress* wanted = nullptr) const;
     /// Reads what else will be looked at soon: the distances from the exit, which pull the guided camera, and the
     /// densities. Throws as the functions below do, and Error{cancelled}.
     void readOn(const Progress& wanted) const;

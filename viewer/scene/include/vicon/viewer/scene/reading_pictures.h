@@ -29,14 +29,15 @@ struct SliceRequest {
     Caption caption;
     bool cleansed = false;  ///< without tagging, where that was taken out
     ThickSlice thick;
-    bool exact = false;   ///< the view is pixelForPixel(), and the picture says so
-    bool tracks = false;  ///< the rim of the lumen around the eye is drawn
+    int voxels_a_pixel = 0;  ///< above 0: the view is pixelForPixel() of so many, and the picture says so
+    bool tracks = false;     ///< the rim of the lumen around the eye is drawn
 };
 /// Needs no display. The picture says which densities it shows, where there are two kinds.
 /// @param cleansed PreparedScan::cleansed()
 /// @param inside PreparedScan::inside(), for a request that tracks
+/// @param wanted throws Error{cancelled} where it is no longer
 Picture slicePicture(const HuView& volume, const SliceRequest& request, const HuView* cleansed = nullptr,
-                     const InsideView* inside = nullptr);
+                     const InsideView* inside = nullptr, const Progress* wanted = nullptr);
 
 /// What an endoscopic picture shows beside the wall.
 struct EndoscopicLook {
@@ -83,8 +84,9 @@ public:
     };
     /// @param reviewed is painted; nothing: none is
     /// @param still it is painted as it is now; else at most twice a second anew
+    /// @param wanted throws Error{cancelled} where it is no longer
     Overview overview(const SnapshotRequest& request, const SnapshotResult& place,
-                      const ScanCoverage* reviewed = nullptr, bool still = true);
+                      const ScanCoverage* reviewed = nullptr, bool still = true, const Progress* wanted = nullptr);
 
 private:
     struct Parts;

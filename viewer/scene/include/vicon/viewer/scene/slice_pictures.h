@@ -12,11 +12,13 @@ namespace vicon::viewer {
 /// other that lie badly in memory, those around them are copied so that they lie well.
 class SlicePictures {
 public:
+    // Both throw Error{cancelled} where `wanted` is no longer.
     /// As slicePicture().
-    Picture draw(const std::shared_ptr<const PreparedScan>& scan, const SliceRequest& request);
+    Picture draw(const std::shared_ptr<const PreparedScan>& scan, const SliceRequest& request,
+                 const Progress* wanted = nullptr);
     /// Copies what the next slices will ask for, if it is worth it. Takes longer than a slice: to be called when the
     /// slice is on its way to the screen.
-    void readAhead();
+    void readAhead(const Progress* wanted = nullptr);
 
 private:
     std::weak_ptr<const PreparedScan> scan_;  // of what was drawn last
