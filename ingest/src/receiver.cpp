@@ -134,7 +134,7 @@ private:
             return;
         }
         const int socket = ::dup(caller.socket);
-        T_ASC_Association* association = reader_.read(std::move(caller));
+        const auto [association, watch] = reader_.read(std::move(caller));
         if (!association || socket < 0) {
             incoming_.trouble("a connection from " + host + " made no proper association request");
             ::close(socket);
@@ -148,10 +148,10 @@ private:
         served.socket = socket;
         served.crowded = crowded || too_many;
         Pace* const pace = peer ? &paces_.try_emplace(peer, peer->mb_per_s).first->second : nullptr;
-        served.thread = std::thread([this, &served, pace, secure, association] {
+        served.thread = std::thread([this, &served, pace, secure, association = association, watch = watch] {
             try {
                 const StorageService service{options_, rules_, incoming_, desk_, pace_, handlers_, *counts_};
-                StorageAssociation scp(service, {served.host, served.socket, secure, served.peer, pace});
+                StorageAssociation scp(service, {served.host, served.socket, secure, served.peer, pace, watch});
                 scp.serve(association, served.crowded);
             } catch (const std::exception& e) {
                 incoming_.trouble(e.what());
