@@ -87,11 +87,11 @@ public:
             joinFinished();
             waitForNews();
             acceptCallers();
-            std::vector<std::string> ended;
+            std::vector<Lobby::Ended> ended;
             for (Caller& caller : lobby_.takeReady(ended))
                 serve(std::move(caller));
-            for (const std::string& line : ended)
-                incoming_.trouble(line);
+            for (const Lobby::Ended& one : ended)
+                tellOf(one);
             endSilent();
         }
         endAssociations();
@@ -103,6 +103,13 @@ public:
     std::shared_ptr<const ReceiverCounts> counts() const { return counts_; }
 
 private:
+    void tellOf(const Lobby::Ended& ended) const
+    {
+        incoming_.trouble(ended.line);
+        if (ended.refused && handlers_.on_refused)
+            handlers_.on_refused(ended.host, ended.line);
+    }
+
     void waitForNews() const
     {
         std::vector<pollfd> watched{{listening_.descriptor(), POLLIN, 0}};

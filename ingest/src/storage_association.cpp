@@ -83,9 +83,12 @@ void StorageAssociation::tellOfEnd(double took_s)
     if (!from_.watch->whyEnded().empty())
         service_.incoming.trouble("an association from " + sender() + " was ended: " + from_.watch->whyEnded());
     ++(why.empty() ? service_.counts.associations : service_.counts.refused_associations);
-    if (!why.empty())
-        service_.incoming.trouble("refused " + sender() + ": " + why);
-    else if (service_.handlers.on_note)
+    if (!why.empty()) {
+        const std::string line = "refused " + sender() + ": " + why;
+        service_.incoming.trouble(line);
+        if (service_.handlers.on_refused)
+            service_.handlers.on_refused(from_.host, line);
+    } else if (service_.handlers.on_note)
         service_.handlers.on_note("association of " + sender() + ": " + std::to_string(count_) + " objects in " +
                                   seconds + (not_granted_.empty() ? "" : "; not served: " + not_granted_));
 }

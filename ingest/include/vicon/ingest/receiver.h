@@ -110,6 +110,9 @@ public:
     /// Says how many objects of a quiet study are known to be missing, on the thread that hands it over. Then it waits,
     /// and is asked again. When it throws, the study is handed over. May be empty.
     using OnQuiet = std::function<int(const Files&)>;
+    /// Told of each caller that was refused for who it is, what it asks for or how it speaks TLS, and whence it called;
+    /// on any thread. May be empty.
+    using OnRefused = std::function<void(const std::string& host, const std::string& line)>;
     struct Handlers {
         OnReceived on_received;
         OnTrouble on_trouble = {};
@@ -117,6 +120,7 @@ public:
         OnCommitment on_commitment = {};
         OnDemand on_demand = {};
         OnQuiet on_quiet = {};
+        OnRefused on_refused = {};
     };
 
     struct Network {
