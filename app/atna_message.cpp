@@ -2,19 +2,43 @@
 
 #include <unistd.h>
 
+#include <map>
+#include <optional>
 #include <pugixml.hpp>
 #include <sstream>
+
+#include "operation_audit.h"
 
 namespace vicon::app {
 namespace {
 
-/// What kind of event a line tells of: DICOM PS3.15 table A.5.1-1 and its action codes (create, read, update, delete).
+/// What kind of event a line tells of: DICOM PS3.15 A.5.3, by the codes of PS3.16 CID 400 and, where there is a type,
+/// CID 401; its action (create, read, update, delete, execute) and outcome (0: success, 4: minor failure).
 struct Kind {
     const char *code, *meaning, *action;
+    const char *type = "", *type_meaning = "", *outcome = "0";
 };
+
+/// What is of no case.
+std::optional<Kind> kindOfOperation(const std::string& event)
+{
+    static const std::map<std::string, Kind> kKinds{
+        {kApplicationStarted, {"110100", "Application Activity", "E", "110120", "Application Start"}},
+        {kApplicationStopped, {"110100", "Application Activity", "E", "110121", "Application Stop"}},
+        {kFilesImported, {"110107", "Import", "C"}},
+        {kStoreRestored, {"110107", "Import", "C"}},
+        {kStoreBackedUp, {"110106", "Export", "R"}},
+        {kPeerAsked, {"110112", "Query", "E"}},
+        {kCallerRefused, {"110113", "Security Alert", "E", "110126", "Node Authentication", "4"}},
+        {kAccountRefused, {"110113", "Security Alert", "E", "110132", "Use of Restricted Function", "4"}}};
+    const auto found = kKinds.find(event);
+    return found == kKinds.end() ? std::nullopt : std::optional(found->second);
+}
 
 Kind kindOf(const std::string& event)
 {
+    if (const auto kind = kindOfOperation(event))
+        return *kind;
     if (event == "imported")
         return {"110104", "DICOM Instances Transferred", "C"};
     if (event == "queued for a peer" || event.starts_with("object "))
@@ -23,7 +47,7 @@ Kind kindOf(const std::string& event)
         return {"110103", "DICOM Instances Accessed", "R"};
     if (event == "case deleted" || event == "scan removed")
         return {"110105", "DICOM Study Deleted", "D"};
-    if (event == "case written without names")
+    if (event == "case written without names" || event == "report exported" || event == "picture saved")
         return {"110106", "Export", "R"};
     return {"110110", "Patient Record", "U"};
 }
@@ -60,6 +84,20 @@ std::string base64(const std::string& text)
     return out;
 }
 
+void addEvent(pugi::xml_node message, const AuditLine& line, bool of_a_case)
+{
+    const Kind kind = kindOf(line.event);
+    pugi::xml_node event = message.append_child("EventIdentification");
+    event.append_attribute("EventActionCode") = kind.action;
+    event.append_attribute("EventDateTime") = line.at.c_str();
+    event.append_attribute("EventOutcomeIndicator") = kind.outcome;
+    addCode(event, "EventID", kind.code, "DCM", kind.meaning);
+    if (*kind.type)
+        addCode(event, "EventTypeCode", kind.type, "DCM", kind.type_meaning);
+    if (!of_a_case && !line.detail.empty())
+        event.append_child("EventOutcomeDescription").text() = line.detail.c_str();
+}
+
 void addStudy(pugi::xml_node message, const NumberedAuditLine& line, const CaseRecord& a_case)
 {
     const bool known = !a_case.study.uid.empty();
@@ -77,14 +115,9 @@ void addStudy(pugi::xml_node message, const NumberedAuditLine& line, const CaseR
 
 std::string atnaMessage(const NumberedAuditLine& line, const CaseRecord& a_case, const std::string& machine)
 {
-    const Kind kind = kindOf(line.line.event);
     pugi::xml_document document;
     pugi::xml_node message = document.append_child("AuditMessage");
-    pugi::xml_node event = message.append_child("EventIdentification");
-    event.append_attribute("EventActionCode") = kind.action;
-    event.append_attribute("EventDateTime") = line.line.at.c_str();
-    event.append_attribute("EventOutcomeIndicator") = "0";
-    addCode(event, "EventID", kind.code, "DCM", kind.meaning);
+    addEvent(message, line.line, !line.case_id.empty());
     pugi::xml_node person = message.append_child("ActiveParticipant");
     person.append_attribute("UserID") = line.line.person.empty() ? "unknown" : line.line.person.c_str();
     person.append_attribute("UserIsRequestor") = "true";

@@ -4,6 +4,7 @@
 #include "command.h"
 #include "configuration.h"
 #include "log_lines.h"
+#include "operation_audit.h"
 #include "vicon/cases/case_deletion.h"
 #include "vicon/core/error.h"
 
@@ -38,6 +39,14 @@ void finishDeletionsNow(CaseStore& store)
         if (e.code() != ErrorCode::cancelled)
             throw;
     }
+}
+
+/// Nothing where nothing says where the store is.
+std::function<void(const std::string&)> refusalsInto(Context& context)
+try {
+    return [place = context.storePlace()](const std::string& what) { auditRefusedAccount(place, what); };
+} catch (const Error&) {
+    return {};
 }
 
 }  // namespace
@@ -77,7 +86,7 @@ const Config& Context::config()
         return *config_;
     config_ = std::make_unique<Config>(readConfig({kSystemConfig, userConfig(), assignments}));
     writeLogAs(config_->get<LogOptions>());
-    setRoles(config_->get<RoleOptions>());
+    setRoles(config_->get<RoleOptions>(), refusalsInto(*this));
     return *config_;
 }
 

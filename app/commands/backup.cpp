@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "../command.h"
+#include "../operation_audit.h"
 #include "../progress_line.h"
 #include "../text_table.h"
 
@@ -30,6 +31,7 @@ int backup(Context& context, const std::string& to)
     ProgressLine progress("backup");
     const Copied copied = backUp(context.existingStore(), to, progress);
     progress.clear();
+    auditOperation(context.storePlace(), kStoreBackedUp, std::to_string(copied.cases) + " cases");
     print(context, copied);
     return 0;
 }
@@ -40,6 +42,7 @@ int restoreFrom(Context& context, const std::string& from)
     ProgressLine progress("restore");
     const Copied copied = restore(from, context.storePlace(), progress);
     progress.clear();
+    auditOperation(context.storePlace(), kStoreRestored, std::to_string(copied.cases) + " cases");
     print(context, copied);
     return 0;
 }

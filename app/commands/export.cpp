@@ -44,6 +44,7 @@ int exportObjects(CaseStore& store, const std::string& case_id, const std::optio
         throw Error(ErrorCode::bad_input, "only a signed report has DICOM objects", case_id,
                     "'vicon sign " + case_id + "' signs it");
     fs::create_directories(folder);
+    store.audit("report exported", case_id, "", "dicom");
     for (const fs::path& object : versionObjects(store, case_id, version->version)) {
         const fs::path copy = folder / object.filename();
         replaceFile(copy, readFile(object));
@@ -73,7 +74,8 @@ int exportReport(Context& context, const ExportArguments& a)
         return exportObjects(store, case_id, version, a.out);
     const nlohmann::json content =
         version ? nlohmann::json::parse(version->content) : reportContent(readCase(store, case_id));
-    const std::string text = formOf(context.json ? "json" : a.form, version, content);
+    const std::string form = context.json ? "json" : a.form, text = formOf(form, version, content);
+    store.audit("report exported", case_id, "", form);
     if (a.out.empty()) {
         std::fwrite(text.data(), 1, text.size(), stdout);
         return 0;

@@ -4,6 +4,7 @@
 
 #include "../command.h"
 #include "../lumen_import.h"
+#include "../operation_audit.h"
 #include "../progress_line.h"
 #include "vicon/core/error.h"
 
@@ -54,6 +55,7 @@ int import(Context& context, const ImportArguments& arguments)
         ingest::importPaths(context.store(), {arguments.paths.begin(), arguments.paths.end()},
                             context.config().get<ingest::ImportOptions>(), progress);
     progress.clear();
+    auditOperation(context.storePlace(), kFilesImported, std::to_string(report.scans_stored) + " scans new or grown");
     print(context, report.lines);
     return report.anythingStored() ? 0 : 1;
 }

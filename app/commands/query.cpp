@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "../command.h"
+#include "../operation_audit.h"
 #include "../peers.h"
 #include "../text_table.h"
 #include "vicon/ingest/modality_worklist.h"
@@ -54,8 +55,10 @@ nlohmann::json stepsJson(const std::vector<ingest::ScheduledStep>& steps)
 int queryWorklist(Context& context, const std::string& peer_name, const ingest::StudyQuery& query)
 {
     NoProgress quiet;
-    const auto steps = ingest::findScheduledSteps(requirePeer(context.config(), peer_name, PeerUse::query), query,
-                                                  context.config().get<ingest::ReceiverOptions>().ae_title, quiet);
+    const ingest::Peer peer = requirePeer(context.config(), peer_name, PeerUse::query);
+    auditOperation(context.storePlace(), kPeerAsked, peer_name + " for scheduled studies");
+    const auto steps =
+        ingest::findScheduledSteps(peer, query, context.config().get<ingest::ReceiverOptions>().ae_title, quiet);
     if (context.json) {
         std::printf("%s\n", stepsJson(steps).dump(2).c_str());
         return 0;
@@ -74,8 +77,10 @@ int queryWorklist(Context& context, const std::string& peer_name, const ingest::
 int query(Context& context, const std::string& peer_name, const ingest::StudyQuery& query)
 {
     NoProgress quiet;
-    const auto studies = ingest::findStudies(requirePeer(context.config(), peer_name, PeerUse::query), query,
-                                             context.config().get<ingest::ReceiverOptions>().ae_title, quiet);
+    const ingest::Peer peer = requirePeer(context.config(), peer_name, PeerUse::query);
+    auditOperation(context.storePlace(), kPeerAsked, peer_name + " for studies");
+    const auto studies =
+        ingest::findStudies(peer, query, context.config().get<ingest::ReceiverOptions>().ae_title, quiet);
     if (context.json) {
         std::printf("%s\n", studiesJson(studies).dump(2).c_str());
         return 0;

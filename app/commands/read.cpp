@@ -1,5 +1,6 @@
 #include "../command.h"
 #include "../demo_case.h"
+#include "../operation_audit.h"
 #include "../reading_services.h"
 #include "vicon/core/error.h"
 
@@ -28,6 +29,7 @@ int read(Context& context, const ReadArguments& arguments)
         id = openDemo(context, arguments);
     else if (!arguments.case_id.empty())
         id = context.existingStore().requireCase(arguments.case_id).id;
+    const AuditedRun audited(context.existingStore().place(), "read");
     return viewer::runReadingRoom(readingServices(context.existingStore().place(), context.config()), id,
                                   stopRequested());
 }

@@ -7,6 +7,7 @@
 #include "../command.h"
 #include "../delivering.h"
 #include "../metrics.h"
+#include "../operation_audit.h"
 #include "../ordering.h"
 #include "../peers.h"
 #include "../progress_line.h"
@@ -88,6 +89,7 @@ int receive(Context& context, bool no_work)
     ingest::Receiver::OnQuiet missing;
     if (completeness)
         missing = [&](const ingest::Receiver::Files& files) { return completeness->missing(files); };
+    RefusedCallers refused(store.place());
     ingest::Receiver receiver(
         options, store.folder() / "incoming",
         {.on_received = [&](const ingest::Receiver::Files& files) { return importReceived(store, config, files); },
@@ -95,8 +97,10 @@ int receive(Context& context, bool no_work)
          .on_note = [](const std::string& note) { spdlog::info("{}", note); },
          .on_commitment = [&](const ingest::CommitmentReport& report) { takeCommitment(store.place(), report); },
          .on_demand = [&](const ingest::CommitmentDemand& demand) { return giveCommitment(store.place(), demand); },
-         .on_quiet = missing},
+         .on_quiet = missing,
+         .on_refused = [&](const std::string& host, const std::string& line) { refused.note(host, line); }},
         networkOf(config));
+    const AuditedRun audited(store.place(), "receive");
     metrics.add(receiver.counts());
     std::printf("listening on port %d of %s\n", receiver.port(), options.address.c_str());
     std::fflush(stdout);

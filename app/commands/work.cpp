@@ -1,8 +1,10 @@
 #include <malloc.h>
 
 #include <cstdio>
+#include <optional>
 
 #include "../command.h"
+#include "../operation_audit.h"
 #include "../organs.h"
 #include "../point_argument.h"
 #include "../progress_line.h"
@@ -102,6 +104,9 @@ int work(Context& context, const WorkArguments& arguments)
         return runWorkers(context, arguments.jobs, arguments.until_idle);
     auto options = context.config().get<pipeline::WorkOptions>();
     options.until_idle = arguments.until_idle;
+    std::optional<AuditedRun> audited;
+    if (!arguments.until_idle)
+        audited.emplace(store.place(), "work");
 
     ProgressLine progress("work");
     pipeline::WorkerEvents events;

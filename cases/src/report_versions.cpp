@@ -42,13 +42,14 @@ ReportVersion versionFrom(const soci::row& row)
     return v;
 }
 
-void requireSigner(const SigningOptions& options)
+void requireSigner(CaseStore& store, const std::string& case_id, const SigningOptions& options)
 {
     const std::string person = thisPerson();
-    if (!isAmong(person, options.signers))
-        throw Error(
-            ErrorCode::bad_input, "this account may not sign reports", "'" + person + "'",
-            "who runs VICON here names those who may in the configuration: [roles] sign = [\"" + person + "\"]");
+    if (isAmong(person, options.signers))
+        return;
+    store.audit("account refused", case_id, "", "may not sign reports");
+    throw Error(ErrorCode::bad_input, "this account may not sign reports", "'" + person + "'",
+                "who runs VICON here names those who may in the configuration: [roles] sign = [\"" + person + "\"]");
 }
 
 void requireComplete(const ReadCase& read)
@@ -217,7 +218,7 @@ std::string textOf(const ReportStatus& status)
 void beginAmendment(CaseStore& store, const SigningOptions& options, const std::string& case_id,
                     const std::string& reason)
 {
-    requireSigner(options);
+    requireSigner(store, case_id, options);
     if (reason.empty())
         throw Error(ErrorCode::wrong_use, "an amendment needs a reason", case_id, "give it with --reason");
     store.database().write([&](soci::session& sql) {
@@ -236,7 +237,7 @@ void beginAmendment(CaseStore& store, const SigningOptions& options, const std::
 
 void cancelAmendment(CaseStore& store, const SigningOptions& options, const std::string& case_id)
 {
-    requireSigner(options);
+    requireSigner(store, case_id, options);
     store.database().write([&](soci::session& sql) {
         if (!statusIn(sql, case_id).amending)
             throw Error(ErrorCode::wrong_use, "no amendment was begun", case_id);
@@ -271,7 +272,7 @@ VersionDraft draftVersion(CaseStore& store, const SigningOptions& options, const
                           const std::string& software)
 {
     if (sign)
-        requireSigner(options);
+        requireSigner(store, case_id, options);
     removeUnnamedFile(store, case_id);
     const ReportStatus status = reportStatus(store, case_id);
     if (!status.open())

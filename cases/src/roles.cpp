@@ -15,6 +15,7 @@ namespace {
 struct Rules {
     std::mutex mutex;
     RoleOptions options;
+    std::function<void(const std::string& what)> on_refusal;
 };
 
 Rules& rules()
@@ -74,19 +75,24 @@ bool isAmong(const std::string& account, const std::vector<std::string>& entries
     });
 }
 
-void setRoles(const RoleOptions& options)
+void setRoles(const RoleOptions& options, std::function<void(const std::string& what)> on_refusal)
 {
     const std::lock_guard lock(rules().mutex);
     rules().options = options;
+    rules().on_refusal = std::move(on_refusal);
 }
 
 void requireRole(Role role)
 {
-    const std::lock_guard lock(rules().mutex);
+    std::unique_lock lock(rules().mutex);
     const Rule rule = ruleFor(role, rules().options);
     const std::string person = thisPerson();
     if (rule.accounts.empty() || isAmong(person, rule.accounts))
         return;
+    const auto on_refusal = rules().on_refusal;
+    lock.unlock();
+    if (on_refusal)
+        on_refusal(std::string("may not ") + rule.what);
     throw Error(ErrorCode::bad_input, std::string("this account may not ") + rule.what, "'" + person + "'",
                 std::string("who runs VICON here names those who may in the configuration: [roles] ") + rule.name);
 }

@@ -40,6 +40,20 @@ std::vector<std::string> searchWords(const CaseRecord& a_case)
     return words;
 }
 
+std::string rarestOf(const std::vector<std::string>& words, int most,
+                     const std::function<int(const std::string& beginning, int limit)>& count)
+{
+    constexpr int kFirstLimit = 50, kGrowth = 4;
+    for (int limit = std::min(kFirstLimit, most);; limit = std::min(kGrowth * limit, most)) {
+        std::vector<int> counts;
+        for (const std::string& word : words)
+            counts.push_back(words.size() == 1 ? 0 : count(word, limit));
+        const auto least = std::ranges::min_element(counts);
+        if (*least < limit || limit == most)
+            return words[std::size_t(least - counts.begin())];
+    }
+}
+
 void putSearchWords(soci::session& sql, const CaseRecord& a_case)
 {
     for (const std::string& word : searchWords(a_case))

@@ -2,6 +2,7 @@
 
 #include <soci/soci.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,12 @@ std::vector<std::string> searchWords(const CaseRecord& a_case);
 
 /// The words of what a reader typed.
 std::vector<std::string> wordsIn(const std::string& text);
+
+/// The word that the fewest cases have, or one that at least `most` have where all are so frequent. Counting stops soon
+/// where one is rare.
+/// @param count how many words of cases begin so, up to a limit
+std::string rarestOf(const std::vector<std::string>& words, int most,
+                     const std::function<int(const std::string& beginning, int limit)>& count);
 
 /// Keeps a case's words, within a transaction of the caller.
 void putSearchWords(soci::session& sql, const CaseRecord& a_case);

@@ -40,8 +40,8 @@ int matches(soci::session& sql, const std::string& beginning, int most)
 /// The rarest word finds, the others tell apart.
 std::vector<CaseRecord> found(soci::session& sql, const std::vector<std::string>& words, int most)
 {
-    const std::string from = *std::ranges::min_element(
-        words, {}, [&](const std::string& word) { return matches(sql, word, kMostLookedAt); });
+    const std::string from =
+        rarestOf(words, kMostLookedAt, [&](const std::string& word, int limit) { return matches(sql, word, limit); });
     const std::string to = endOf(from);
     // Where the others tell apart, more are looked at than are wanted.
     for (int looked_at = std::min(words.size() == 1 ? most : 2 * most, kMostLookedAt);;

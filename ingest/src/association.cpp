@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "quick_connection.h"
 #include "tls_layer.h"
 #include "vicon/core/error.h"
 
@@ -62,6 +61,14 @@ void PeerScu::useNetwork(const Peer& peer)
     }
     if (ready.bad())
         peerFailed("the network cannot be used", peer, ready);
+}
+
+OFCondition PeerScu::reasonOf(const OFCondition& failed) const
+{
+    const auto watch = layer_ ? layer_->watch() : nullptr;
+    return watch && !watch->whyEnded().empty()
+               ? makeOFCondition(failed.module(), failed.code(), OF_error, watch->whyEnded().c_str())
+               : failed;
 }
 
 void connect(PeerScu& scu, const Peer& peer)

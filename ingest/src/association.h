@@ -2,7 +2,6 @@
 
 #include <dcmtk/config/osconfig.h>
 
-#include <dcmtk/dcmnet/dcmlayer.h>
 #include <dcmtk/dcmnet/diutil.h>
 #include <dcmtk/dcmnet/scu.h>
 
@@ -10,6 +9,7 @@
 #include <string>
 
 #include "vicon/ingest/peer.h"
+#include "watched_connection.h"
 
 namespace vicon::ingest {
 
@@ -30,9 +30,11 @@ public:
     PeerScu& operator=(const PeerScu&) = delete;
     /// Throws Error{peer}, and Error{wrong_use} when its TLS files cannot be used.
     void useNetwork(const Peer& peer);
+    /// Why something failed: what the peer sent, where DCMTK did not see it, else what DCMTK says.
+    OFCondition reasonOf(const OFCondition& failed) const;
 
 private:
-    std::unique_ptr<DcmTransportLayer> layer_;
+    std::unique_ptr<WatchingLayer> layer_;
 };
 
 /// Addresses, titles, PDU and time-outs of an association that we open.

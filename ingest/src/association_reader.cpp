@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "association.h"
-#include "quick_connection.h"
 #include "vicon/core/error.h"
+#include "watched_connection.h"
 
 namespace vicon::ingest {
 namespace {
@@ -34,14 +34,14 @@ private:
 }  // namespace
 
 /// Goes on with the TLS session that a caller has begun.
-class AssociationReader::Layer : public DcmTransportLayer {
+class AssociationReader::Layer : public WatchingLayer {
 public:
     void lend(std::unique_ptr<TlsSession> session) { session_ = std::move(session); }
     DcmTransportConnection* createConnection(DcmNativeSocketType socket, OFBool) override
     {
         if (!session_)
-            return new QuickConnection(socket);
-        return std::exchange(session_, nullptr)->release();
+            return new Watched<QuickConnection>(newWatch(), socket);
+        return std::exchange(session_, nullptr)->release(newWatch());
     }
 
 private:
@@ -61,7 +61,7 @@ AssociationReader::~AssociationReader()
     ASC_dropNetwork(&network_);
 }
 
-T_ASC_Association* AssociationReader::read(Caller caller)
+AssociationReader::Read AssociationReader::read(Caller caller)
 {
     constexpr int kNoWait = 1;
     T_ASC_Association* association = nullptr;
@@ -72,12 +72,12 @@ T_ASC_Association* AssociationReader::read(Caller caller)
         ASC_receiveAssociation(network_, &association, kPduBytes, nullptr, nullptr, secure, DUL_NOBLOCK, kNoWait);
     layer_->lend(nullptr);
     if (received.good())
-        return association;
+        return {association, layer_->watch()};
     if (association) {
         ASC_dropSCPAssociation(association);
         ASC_destroyAssociation(&association);
     }
-    return nullptr;
+    return {};
 }
 
 }  // namespace vicon::ingest

@@ -19,9 +19,13 @@ public:
     AssociationReader(const AssociationReader&) = delete;
     AssociationReader& operator=(const AssociationReader&) = delete;
 
-    /// Takes over the connection of a caller whose request is there as a whole: reading it does not wait. Null when it
-    /// is none.
-    T_ASC_Association* read(Caller caller);
+    struct Read {
+        T_ASC_Association* association = nullptr;
+        std::shared_ptr<const MessageWatch> watch;  ///< of its connection
+    };
+    /// Takes over the connection of a caller whose request is there as a whole: reading it does not wait. No
+    /// association when it is none.
+    Read read(Caller caller);
 
 private:
     class Layer;

@@ -22,6 +22,10 @@ const char* const kTransferSyntaxes[] = {
     UID_JPEGProcess6_8TransferSyntax,       UID_JPEGProcess10_12TransferSyntax,
     UID_JPEGProcess1TransferSyntax};
 
+/// Of messages that are read as they come: what is deflated grows then, and must not.
+const char* const kMessageSyntaxes[] = {UID_LittleEndianExplicitTransferSyntax, UID_LittleEndianImplicitTransferSyntax,
+                                        UID_BigEndianExplicitTransferSyntax};
+
 bool isStorage(const std::string_view sop_class)
 {
     const char* const* const begin = dcmAllStorageSOPClassUIDs;
@@ -55,6 +59,9 @@ Services servicesFor(const StorageService& service, const Peer* peer, const T_AS
     OFList<OFString> syntaxes;
     for (const char* syntax : kTransferSyntaxes)
         syntaxes.push_back(syntax);
+    OFList<OFString> plain;
+    for (const char* syntax : kMessageSyntaxes)
+        plain.push_back(syntax);
     std::set<std::string> offered;
     bool would_store = false;
     for (int n = 0; n < ASC_countPresentationContexts(association.params); ++n) {
@@ -73,7 +80,7 @@ Services servicesFor(const StorageService& service, const Peer* peer, const T_AS
         // An archive that reports is the provider; who asks for a commitment, the user.
         const bool reports = context.proposedRole == ASC_SC_ROLE_SCP || context.proposedRole == ASC_SC_ROLE_SCUSCP;
         if (reports ? is_sent : stores && service.desk.isOpen()) {
-            config.addPresentationContext(context.abstractSyntax, syntaxes,
+            config.addPresentationContext(context.abstractSyntax, plain,
                                           reports ? context.proposedRole : ASC_SC_ROLE_DEFAULT);
             out.none = false;
         }

@@ -70,7 +70,7 @@ CommitmentRequest requestCommitment(const Peer& peer, const std::string& transac
     const OFCondition asked =
         scu.sendACTIONRequest(context, UID_StorageCommitmentPushModelSOPInstance, kRequestCommitment, &request, status);
     if (asked.bad())
-        peerFailed("the peer did not take the request for commitment", peer, asked);
+        peerFailed("the peer did not take the request for commitment", peer, scu.reasonOf(asked));
     if (status != STATUS_Success)
         refused("the peer refused the request for commitment", peer, status);
     answer = awaitAnswer(scu, wait_s);
@@ -94,7 +94,7 @@ void reportCommitment(const Peer& peer, const CommitmentReport& report, const st
     const OFCondition told =
         scu.sendEVENTREPORTRequest(context, UID_StorageCommitmentPushModelSOPInstance, Uint16(event), &dataset, status);
     if (told.bad())
-        peerFailed("the peer did not take the report on its request for commitment", peer, told);
+        peerFailed("the peer did not take the report on its request for commitment", peer, scu.reasonOf(told));
     if (status != STATUS_Success)
         refused("the peer refused the report on its request for commitment", peer, status);
     scu.releaseAssociation();

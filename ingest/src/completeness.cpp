@@ -20,18 +20,35 @@ constexpr auto kLeftAlone = std::chrono::seconds(60);
 /// Objects, by the series that they belong to.
 using Objects = std::map<std::string, std::set<std::string>>;
 
-Objects objectsIn(CaseStore& store, const std::string& study_uid, const std::vector<fs::path>& files)
+Objects objectsAmong(const std::string& study_uid, const std::vector<fs::path>& files)
 {
     Objects objects;
     for (const fs::path& file : files)
         if (const ObjectUids uids = uidsOf(file); uids.study == study_uid)
             objects[uids.series].insert(uids.object);
+    return objects;
+}
+
+void addKnown(Objects& objects, CaseStore& store, const std::string& study_uid)
+{
     if (const auto known = store.findCaseByStudy(study_uid))
         for (const ScanRecord& scan : store.scans(known->id))
-            if (const auto arriving = objects.find(scan.series.uid); arriving != objects.end())
-                for (const InstanceRecord& instance : store.instances(known->id, scan.id))
-                    arriving->second.insert(instance.sop_uid);
-    return objects;
+            for (const InstanceRecord& instance : store.instances(known->id, scan.id))
+                objects[scan.series.uid].insert(instance.sop_uid);
+}
+
+/// The series that the study is waited for with: those that have begun to arrive, and where images do, all of their
+/// modality, since one may not have begun yet.
+std::vector<FoundSeries> awaited(std::vector<FoundSeries> series, const Objects& arriving)
+{
+    std::set<std::string> modalities;
+    for (const FoundSeries& one : series)
+        if (arriving.contains(one.uid) && (one.modality == "CT" || one.modality == "MR"))
+            modalities.insert(one.modality);
+    std::erase_if(series, [&](const FoundSeries& one) {
+        return !arriving.contains(one.uid) && !modalities.contains(one.modality);
+    });
+    return series;
 }
 
 }  // namespace
@@ -48,16 +65,18 @@ int Completeness::missing(const std::vector<fs::path>& files)
     CaseStore store(place_);
     NoProgress quiet;
     const std::string study_uid = uidsOf(files.front()).study;
-    const Objects here = objectsIn(store, study_uid, files);
+    const Objects arriving = objectsAmong(study_uid, files);
+    Objects here = arriving;
+    addKnown(here, store, study_uid);
     int missing = 0;
     try {
-        for (const FoundSeries& series : describeSeries(peer_, study_uid, our_ae_title_, quiet)) {
-            const auto arriving = here.find(series.uid);
-            if (arriving == here.end() || (series.images >= 0 && std::size_t(series.images) <= arriving->second.size()))
+        for (const FoundSeries& series : awaited(describeSeries(peer_, study_uid, our_ae_title_, quiet), arriving)) {
+            const std::set<std::string>& known = here[series.uid];
+            if (series.images >= 0 && std::size_t(series.images) <= known.size())
                 continue;
             LooseFiles loose(store.folder());
             for (const std::string& uid : findObjects(peer_, study_uid, series.uid, our_ae_title_, quiet))
-                missing += arriving->second.contains(uid) || !loose.of(uid).empty() ? 0 : 1;
+                missing += known.contains(uid) || !loose.of(uid).empty() ? 0 : 1;
         }
     } catch (const Error&) {
         ask_again_ = std::chrono::steady_clock::now() + kLeftAlone;

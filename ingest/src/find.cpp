@@ -92,7 +92,7 @@ void find(const Peer& peer, const FindModel& model, DcmDataset& keys, const std:
     const OFCondition answered = scu.sendFINDRequest(context, &keys, nullptr);
     progress.check();
     if (answered.bad())
-        peerFailed("the query broke off", peer, answered);
+        peerFailed("the query broke off", peer, scu.reasonOf(answered));
     if (scu.last_status != STATUS_Success)
         peerFailed("the peer refused the query", peer,
                    makeOFCondition(OFM_dcmnet, scu.last_status, OF_error, DU_cfindStatusString(scu.last_status)));

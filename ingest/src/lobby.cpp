@@ -139,7 +139,7 @@ Lobby::State Lobby::goOnWithTls(Waiting& one)
     return state;
 }
 
-std::vector<Caller> Lobby::takeReady(std::vector<std::string>& ended)
+std::vector<Caller> Lobby::takeReady(std::vector<Ended>& ended)
 {
     std::vector<Caller> ready;
     const auto now = std::chrono::steady_clock::now();
@@ -157,7 +157,8 @@ std::vector<Caller> Lobby::takeReady(std::vector<std::string>& ended)
             if (state == State::under_way)
                 one->why_ended = "made no association request in time";
             if (!one->why_ended.empty())
-                ended.push_back("a connection from " + one->caller.host + " " + one->why_ended);
+                ended.push_back({one->caller.host, "a connection from " + one->caller.host + " " + one->why_ended,
+                                 state == State::failed});
             ::close(one->caller.socket);
         }
         one = waiting_.erase(one);

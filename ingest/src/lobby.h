@@ -36,6 +36,10 @@ public:
     {
     }
     ~Lobby();
+    struct Ended {
+        std::string host, line;
+        bool refused;  ///< for how it speaks TLS; else it was too slow
+    };
     Lobby(const Lobby&) = delete;
     Lobby& operator=(const Lobby&) = delete;
 
@@ -44,7 +48,7 @@ public:
     void addTo(std::vector<pollfd>& watched) const;
     /// The callers whose request is complete; it can be read without waiting. Their sockets are the receiver's now.
     /// Those that left, took too long or speak no DICOM are gone, each told of in `ended`.
-    std::vector<Caller> takeReady(std::vector<std::string>& ended);
+    std::vector<Caller> takeReady(std::vector<Ended>& ended);
 
 private:
     using State = TlsSession::State;

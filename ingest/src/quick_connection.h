@@ -2,7 +2,6 @@
 
 #include <dcmtk/config/osconfig.h>
 
-#include <dcmtk/dcmnet/dcmlayer.h>
 #include <dcmtk/dcmnet/dcmtrans.h>
 
 namespace vicon::ingest {
@@ -26,14 +25,5 @@ public:
 };
 
 using QuickConnection = Acknowledging<DcmTCPConnection>;
-
-/// Plain connections that acknowledge at once.
-class QuickLayer : public DcmTransportLayer {
-public:
-    DcmTransportConnection* createConnection(DcmNativeSocketType socket, OFBool) override
-    {
-        return new QuickConnection(socket);  // DCMTK's to delete
-    }
-};
 
 }  // namespace vicon::ingest

@@ -87,11 +87,11 @@ public:
             joinFinished();
             waitForNews();
             acceptCallers();
-            std::vector<std::string> ended;
+            std::vector<Lobby::Ended> ended;
             for (Caller& caller : lobby_.takeReady(ended))
                 serve(std::move(caller));
-            for (const std::string& line : ended)
-                incoming_.trouble(line);
+            for (const Lobby::Ended& one : ended)
+                tellOf(one);
             endSilent();
         }
         endAssociations();
@@ -103,6 +103,13 @@ public:
     std::shared_ptr<const ReceiverCounts> counts() const { return counts_; }
 
 private:
+    void tellOf(const Lobby::Ended& ended) const
+    {
+        incoming_.trouble(ended.line);
+        if (ended.refused && handlers_.on_refused)
+            handlers_.on_refused(ended.host, ended.line);
+    }
+
     void waitForNews() const
     {
         std::vector<pollfd> watched{{listening_.descriptor(), POLLIN, 0}};
@@ -134,7 +141,7 @@ private:
             return;
         }
         const int socket = ::dup(caller.socket);
-        T_ASC_Association* association = reader_.read(std::move(caller));
+        const auto [association, watch] = reader_.read(std::move(caller));
         if (!association || socket < 0) {
             incoming_.trouble("a connection from " + host + " made no proper association request");
             ::close(socket);
@@ -148,10 +155,10 @@ private:
         served.socket = socket;
         served.crowded = crowded || too_many;
         Pace* const pace = peer ? &paces_.try_emplace(peer, peer->mb_per_s).first->second : nullptr;
-        served.thread = std::thread([this, &served, pace, secure, association] {
+        served.thread = std::thread([this, &served, pace, secure, association = association, watch = watch] {
             try {
                 const StorageService service{options_, rules_, incoming_, desk_, pace_, handlers_, *counts_};
-                StorageAssociation scp(service, {served.host, served.socket, secure, served.peer, pace});
+                StorageAssociation scp(service, {served.host, served.socket, secure, served.peer, pace, watch});
                 scp.serve(association, served.crowded);
             } catch (const std::exception& e) {
                 incoming_.trouble(e.what());

@@ -107,7 +107,8 @@ RetrieveResult retrieveOne(Retrieving& scu, const Peer& peer, const char* model,
     const OFCondition done = request(context);
     progress.check();
     if (done.bad())
-        peerFailed("the transfer broke off after " + std::to_string(scu.result.completed) + " objects", peer, done);
+        peerFailed("the transfer broke off after " + std::to_string(scu.result.completed) + " objects", peer,
+                   scu.reasonOf(done));
     // B000: some of the objects failed, which the counts tell.
     if (scu.last_status != STATUS_Success && !DICOM_WARNING_STATUS(scu.last_status)) {
         scu.result.failed = std::max(scu.result.failed, 1);

@@ -1,7 +1,5 @@
 #include "storage_association.h"
 
-#include <sys/socket.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -18,8 +16,6 @@ namespace vicon::ingest {
 namespace {
 
 constexpr Uint16 kOutOfResources = STATUS_STORE_Refused_OutOfResources;
-/// Of a message that is held in memory; a request for commitment of 10,000 objects has 2 MB.
-constexpr unsigned long kMostMessageBytes = 16U << 20U;
 
 /// What is wrong with an object that was received: the status to answer with, and why.
 struct Fault {
@@ -84,10 +80,15 @@ void StorageAssociation::tellOfEnd(double took_s)
                             : !services_.why_not_stored.empty() ? services_.why_not_stored
                             : services_.none                    ? "it asks for nothing that it may have here"
                                                                 : "";
+    if (!from_.watch->whyEnded().empty())
+        service_.incoming.trouble("an association from " + sender() + " was ended: " + from_.watch->whyEnded());
     ++(why.empty() ? service_.counts.associations : service_.counts.refused_associations);
-    if (!why.empty())
-        service_.incoming.trouble("refused " + sender() + ": " + why);
-    else if (service_.handlers.on_note)
+    if (!why.empty()) {
+        const std::string line = "refused " + sender() + ": " + why;
+        service_.incoming.trouble(line);
+        if (service_.handlers.on_refused)
+            service_.handlers.on_refused(from_.host, line);
+    } else if (service_.handlers.on_note)
         service_.handlers.on_note("association of " + sender() + ": " + std::to_string(count_) + " objects in " +
                                   seconds + (not_granted_.empty() ? "" : "; not served: " + not_granted_));
 }
@@ -131,8 +132,6 @@ void StorageAssociation::notifyRECEIVEProgress(const unsigned long bytes)
 {
     const std::size_t more = bytes - std::min(bytes, bytes_);
     bytes_ = bytes;
-    if (!storing_ && bytes > kMostMessageBytes)
-        ::shutdown(from_.socket, SHUT_RD);
     service_.pace.take(more);
     if (from_.pace)
         from_.pace->take(more);
@@ -142,12 +141,11 @@ OFCondition StorageAssociation::handleIncomingCommand(T_DIMSE_Message* message,
                                                       const DcmPresentationContextInfo& context)
 {
     bytes_ = 0;
-    storing_ = message->CommandField == DIMSE_C_STORE_RQ;
     if (message->CommandField == DIMSE_N_EVENT_REPORT_RQ)
         return takeReport(message->msg.NEventReportRQ, context);
     if (message->CommandField == DIMSE_N_ACTION_RQ)
         return takeDemand(message->msg.NActionRQ, context);
-    if (!storing_)
+    if (message->CommandField != DIMSE_C_STORE_RQ)
         return DcmThreadSCP::handleIncomingCommand(message, context);
     T_DIMSE_C_StoreRQ& request = message->msg.CStoreRQ;
     Uint16 status = STATUS_Success;

@@ -10,6 +10,7 @@
 
 #include "caller_rules.h"
 #include "incoming.h"
+#include "message_watch.h"
 #include "pace.h"
 #include "vicon/ingest/receiver.h"
 
@@ -44,6 +45,7 @@ public:
         bool secure;       ///< it came by TLS
         const Peer* peer;  ///< who it is by the configuration; null: nobody that it knows
         Pace* pace;        ///< the peer's own; may be null
+        std::shared_ptr<const MessageWatch> watch;
     };
     StorageAssociation(const StorageService& service, From from) : service_(service), from_(std::move(from)) {}
 
@@ -81,7 +83,6 @@ private:
     Services services_;
     T_ASC_Association* association_ = nullptr;
     unsigned long bytes_ = 0;  ///< of the message that is being received
-    bool storing_ = false;
     std::filesystem::path folder_;
     int count_ = 0;
 };

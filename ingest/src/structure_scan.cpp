@@ -1,13 +1,12 @@
 #include "structure_scan.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "deflated_size.h"
+#include "element_coding.h"
 #include "element_source.h"
 #include "header_cost.h"
 
@@ -16,38 +15,14 @@ namespace {
 
 using Fate = Structure::Fate;
 
-constexpr std::uint32_t kUndefined = 0xffffffff;
-constexpr std::uint64_t kOpenEnd = ~std::uint64_t(0);
-constexpr std::uint32_t kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd = 0xfffee0dd;
-constexpr std::uint32_t kTransferSyntax = 0x00020010, kRecordType = 0x00041430, kPixelData = 0x7fe00010;
-constexpr std::uint32_t kLongestCode = 16;  // PS3.5 6.2, CS
+constexpr std::uint32_t kTransferSyntax = 0x00020010, kPixelData = 0x7fe00010;
 constexpr std::uint64_t kPreamble = 128, kHead = 132;
-
-constexpr std::string_view kShortVrs = "AE AS AT CS DA DS DT FD FL IS LO LT PN SH SL SS ST TM UI UL US ";
-constexpr std::string_view kLongVrs = "OB OD OF OL OV OW SQ SV UC UN UR UT UV ";
-
-bool isOneOf(std::string_view vrs, std::string_view vr)
-{
-    const std::size_t at = vrs.find(vr);
-    return at != std::string_view::npos && at % 3 == 0;
-}
-
-struct Coding {
-    bool explicit_vr = true, big_endian = false;
-};
 
 struct Element {
     std::uint32_t tag = 0, length = 0;
     std::string vr;  ///< empty where it is not written
     std::uint64_t value_at = 0;
 };
-
-std::string tagName(std::uint32_t tag)
-{
-    std::array<char, 16> text{};
-    std::snprintf(text.data(), text.size(), "(%04x,%04x)", unsigned(tag >> 16), unsigned(tag & 0xffff));
-    return text.data();
-}
 
 /// A place that holds elements or items.
 struct Open {
@@ -85,12 +60,12 @@ public:
         readMeta();
         if (syntax_.empty())
             odd();
-        if (syntax_ == "1.2.840.10008.1.2.1.99") {
+        if (syntax_ == kDeflatedLittleEndian) {
             if (deflatedSize(source_, at_, kLargestDeflated) > kLargestDeflated)
                 refuse("its deflated data set fills more than " + std::to_string(kLargestDeflated / 1000000) + " MB");
             odd();
         }
-        open_.push_back({source_.size(), false, {syntax_ != "1.2.840.10008.1.2", syntax_ == "1.2.840.10008.1.2.2"}});
+        open_.push_back({source_.size(), false, codingOf(syntax_)});
         while (!open_.empty())
             step();
     }
@@ -111,12 +86,7 @@ private:
     std::uint32_t number(std::uint64_t place, std::size_t count, bool big_endian)
     {
         const unsigned char* bytes = source_.at(place, count);
-        if (!bytes)
-            return 0;
-        std::uint32_t value = 0;
-        for (std::size_t n = 0; n < count; ++n)
-            value = value << 8 | bytes[big_endian ? n : count - 1 - n];
-        return value;
+        return bytes ? numberIn(bytes, count, big_endian) : 0;
     }
 
     std::uint32_t tagAt(std::uint64_t place, bool big_endian)
@@ -131,19 +101,19 @@ private:
             return {};
         Element e;
         e.tag = tagAt(at_, coding.big_endian);
-        if (!coding.explicit_vr || e.tag >> 16 == 0xfffe) {
+        if (!coding.explicit_vr || e.tag >> 16 == kDelimiterGroup) {
             e.length = number(at_ + 4, 4, coding.big_endian);
             e.value_at = at_ + 8;
             return e;
         }
         const unsigned char* vr = source_.at(at_ + 4, 2);
         e.vr = {char(vr[0]), char(vr[1])};
-        if (isOneOf(kShortVrs, e.vr)) {
+        if (isTypeOf(kShortVrs, e.vr)) {
             e.length = number(at_ + 6, 2, coding.big_endian);
             e.value_at = at_ + 8;
             return e;
         }
-        if (!isOneOf(kLongVrs, e.vr) || !source_.at(at_, 12))
+        if (!isTypeOf(kLongVrs, e.vr) || !source_.at(at_, 12))
             return {};
         e.length = number(at_ + 8, 4, coding.big_endian);
         e.value_at = at_ + 12;
@@ -213,9 +183,9 @@ private:
         }
         if (e->tag != kItem)
             odd();
-        if (e->length != kUndefined)
+        if (e->length != kUndefinedLength)
             mustFit(*e);
-        open_.push_back({e->length == kUndefined ? kOpenEnd : at_ + e->length, false, top.coding});
+        open_.push_back({e->length == kUndefinedLength ? kOpenEnd : at_ + e->length, false, top.coding});
     }
 
     void stepInItem()
@@ -224,7 +194,7 @@ private:
         const bool outermost = open_.size() == 1;
         const auto e = element(top.coding);
         const bool behind_pixels = outermost && after_pixels_ && (!e || e->tag <= kPixelData);
-        if (behind_pixels || (outermost && after_pixels_ && e->length != kUndefined && !fits(*e)))
+        if (behind_pixels || (outermost && after_pixels_ && e->length != kUndefinedLength && !fits(*e)))
             odd(source_.size() - at_);
         if (!e && source_.size() - at_ < 8)
             refuse("truncated or damaged (it breaks off within an element)");
@@ -235,7 +205,7 @@ private:
             open_.pop_back();
             return;
         }
-        if (e->tag >> 16 == 0xfffe)
+        if (e->tag >> 16 == kDelimiterGroup)
             odd();
         in_pixels_ = outermost && e->tag == kPixelData;
         stayWithin(cost_.addElement(open_.back().tally, e->tag, ownBytes(*e)));
@@ -249,7 +219,7 @@ private:
     /// Those of the header that are not elements of items again.
     std::uint64_t ownBytes(const Element& e)
     {
-        return in_pixels_ || e.length == kUndefined || isSequence(e, open_.back().coding) ? 0 : e.length;
+        return in_pixels_ || e.length == kUndefinedLength || isSequence(e, open_.back().coding) ? 0 : e.length;
     }
 
     bool isSequence(const Element& e, const Coding& coding)
@@ -259,17 +229,17 @@ private:
 
     void take(const Element& e, const Coding& coding)
     {
-        if (e.length == kUndefined && e.tag == kPixelData)
+        if (e.length == kUndefinedLength && e.tag == kPixelData)
             return skipFragments(e, coding);
         at_ = e.value_at;
-        if (e.length == kUndefined) {
+        if (e.length == kUndefinedLength) {
             if (!e.vr.empty() && e.vr != "SQ" && e.vr != "UN")
                 odd();
             const Coding inside = e.vr == "UN" ? Coding{false, false} : coding;
             return openSequence(kOpenEnd, inside);
         }
         mustFit(e);
-        if (e.tag == kRecordType && e.length > kLongestCode)  // DCMTK's parser throws there, and loses what it has read
+        if (e.tag == kRecordType && e.length > kLongestCode)
             refuse("truncated or damaged (" + tagName(e.tag) + " has " + std::to_string(e.length) + " bytes, " +
                    std::to_string(kLongestCode) + " at most are allowed)");
         if (isSequence(e, coding) && e.length > 0)
@@ -298,7 +268,7 @@ private:
                 at_ = e.value_at;
                 return;
             }
-            if (e.tag != kItem || e.length == kUndefined)
+            if (e.tag != kItem || e.length == kUndefinedLength)
                 odd();
             mustFit(e);
             at_ = e.value_at + e.length;

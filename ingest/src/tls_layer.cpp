@@ -9,7 +9,6 @@
 
 #include <cstdio>
 
-#include "quick_connection.h"
 #include "vicon/core/error.h"
 
 namespace vicon::ingest {
@@ -46,7 +45,7 @@ bool isAddress(const std::string& name)
 }
 
 /// DCMTK checks whom a certificate leads to, and not whose it is.
-class NamedLayer : public DcmTransportLayer {
+class NamedLayer : public WatchingLayer {
 public:
     NamedLayer(const TlsOptions& options, std::string name) : layer_(makeTlsLayer(options)), name_(std::move(name)) {}
 
@@ -57,7 +56,7 @@ public:
             SSL_free(ssl);
             return nullptr;
         }
-        return new Acknowledging<DcmTLSConnection>(socket, ssl);  // DCMTK's to delete
+        return new Watched<Acknowledging<DcmTLSConnection>>(newWatch(), socket, ssl);  // DCMTK's to delete
     }
 
 private:
@@ -97,7 +96,7 @@ std::unique_ptr<DcmTLSTransportLayer> makeTlsLayer(const TlsOptions& options)
     return layer;
 }
 
-std::unique_ptr<DcmTransportLayer> tlsLayerFor(const Peer& peer)
+std::unique_ptr<WatchingLayer> tlsLayerFor(const Peer& peer)
 {
     return std::make_unique<NamedLayer>(peer.tls.value(), peer.certificate_name.value_or(peer.host));
 }

@@ -8,6 +8,7 @@
 
 #include "vicon/ingest/peer.h"
 #include "vicon/ingest/tls.h"
+#include "watched_connection.h"
 
 namespace vicon::ingest {
 
@@ -15,6 +16,6 @@ namespace vicon::ingest {
 std::unique_ptr<DcmTLSTransportLayer> makeTlsLayer(const TlsOptions& options);
 
 /// For connections to a peer: its certificate must be trusted and hold its name.
-std::unique_ptr<DcmTransportLayer> tlsLayerFor(const Peer& peer);
+std::unique_ptr<WatchingLayer> tlsLayerFor(const Peer& peer);
 
 }  // namespace vicon::ingest

@@ -12,6 +12,7 @@
 
 #include "tls_layer.h"
 #include "vicon/core/error.h"
+#include "watched_connection.h"
 
 namespace vicon::ingest {
 namespace {
@@ -97,10 +98,10 @@ bool TlsSession::wantsToWrite() const
     return SSL_want_write(ssl_) == 1;
 }
 
-DcmTransportConnection* TlsSession::release()
+DcmTransportConnection* TlsSession::release(std::shared_ptr<MessageWatch> watch)
 {
     setBlocking(socket_, true);
-    return new BegunConnection(socket_, std::exchange(ssl_, nullptr), std::move(begun_));
+    return new Watched<BegunConnection>(std::move(watch), socket_, std::exchange(ssl_, nullptr), std::move(begun_));
 }
 
 TlsServer::TlsServer(TlsOptions options, std::function<void(const std::string&)> on_trouble)

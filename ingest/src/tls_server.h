@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "message_watch.h"
 #include "vicon/ingest/tls.h"
 
 namespace vicon::ingest {
@@ -33,7 +34,7 @@ public:
     bool wantsToWrite() const;
     const std::string& whyFailed() const { return why_failed_; }
     /// For DCMTK, which then waits for the socket, and owns it. Only once.
-    DcmTransportConnection* release();
+    DcmTransportConnection* release(std::shared_ptr<MessageWatch> watch);
 
 private:
     State fail(int result);

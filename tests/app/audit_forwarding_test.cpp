@@ -8,8 +8,10 @@
 
 #include <cstring>
 #include <fstream>
+#include <map>
 
 #include "atna_message.h"
+#include "operation_audit.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/support/support.h"
@@ -99,6 +101,77 @@ TEST_F(AuditForwarding, SendsEachLineOnce)
     ASSERT_EQ(later.size(), 2u);
     EXPECT_THAT(checked(later[0]), HasSubstr(R"(csd-code="110105")"));
     EXPECT_THAT(checked(later[1]), HasSubstr(R"(csd-code="110103")"));
+}
+
+/// Events of no case, by the codes of PS3.16 CID 400 and 401.
+TEST_F(AuditForwarding, SendsWhatIsOfNoCaseByItsOwnCode)
+{
+    const Listening syslog(options_.syslog);
+    forwardAudit(store_, options_);
+    ASSERT_EQ(syslog.packets().size(), 1u);
+    const std::map<std::string, std::pair<std::string, std::string>> codes = {
+        {kApplicationStarted, {"110100", "110120"}},
+        {kApplicationStopped, {"110100", "110121"}},
+        {kFilesImported, {"110107", ""}},
+        {kStoreRestored, {"110107", ""}},
+        {kStoreBackedUp, {"110106", ""}},
+        {kPeerAsked, {"110112", ""}},
+        {kCallerRefused, {"110113", "110126"}},
+        {kAccountRefused, {"110113", "110132"}},
+    };
+    for (const auto& [event, code] : codes) {
+        auditOperation(store_.place(), event, "why <so>");
+        forwardAudit(store_, options_);
+        const auto packets = syslog.packets();
+        ASSERT_EQ(packets.size(), 1u) << event;
+        const std::string message = checked(packets[0]);
+        EXPECT_THAT(message, HasSubstr("<EventID csd-code=\"" + code.first + "\"")) << event;
+        EXPECT_EQ(message.find("<EventTypeCode csd-code=\"" + code.second + "\"") != std::string::npos,
+                  !code.second.empty())
+            << event;
+        EXPECT_THAT(message, HasSubstr("why &lt;so&gt;")) << event;
+        const bool is_alert = code.first == "110113";
+        EXPECT_THAT(message, HasSubstr(is_alert ? R"(EventOutcomeIndicator="4")" : R"(EventOutcomeIndicator="0")"));
+    }
+    for (const char* event : {"report exported", "picture saved", "case written without names"}) {
+        store_.audit(event, "c1", "", "");
+        forwardAudit(store_, options_);
+        const auto packets = syslog.packets();
+        ASSERT_EQ(packets.size(), 1u) << event;
+        EXPECT_THAT(checked(packets[0]), HasSubstr(R"(<EventID csd-code="110106")")) << event;
+    }
+}
+
+TEST_F(AuditForwarding, KeepsALineOfTheRunOfAProgramAndNoneWhereThereIsNoStore)
+{
+    const long long before = auditAfter(store_, 0, 1000).back().number;
+    {
+        const AuditedRun run(store_.place(), "receive");
+    }
+    const auto lines = auditAfter(store_, before, 1000);
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0].line.event, kApplicationStarted);
+    EXPECT_EQ(lines[1].line.event, kApplicationStopped);
+    EXPECT_EQ(lines[1].line.detail, "receive");
+    auditOperation(StorePlace(folder_ / "none"), kPeerAsked, "main");
+    EXPECT_FALSE(fs::exists(folder_ / "none"));
+}
+
+TEST_F(AuditForwarding, KeepsOfACallerThatIsRefusedAgainAndAgainALineAMinute)
+{
+    const long long before = auditAfter(store_, 0, 1000).back().number;
+    std::chrono::steady_clock::time_point now{};
+    RefusedCallers refused(store_.place(), [&] { return now; });
+    for (int n = 0; n < 500; ++n)
+        refused.note("10.1.1.1", "refused 'X' at 10.1.1.1: because");
+    refused.note("10.1.1.2", "refused 'Y' at 10.1.1.2: because");
+    now += std::chrono::seconds(61);
+    refused.note("10.1.1.1", "refused 'Z' at 10.1.1.1: because");
+    const auto lines = auditAfter(store_, before, 1000);
+    ASSERT_EQ(lines.size(), 3u);
+    EXPECT_EQ(lines[0].line.event, kCallerRefused);
+    EXPECT_EQ(lines[1].line.detail, "refused 'Y' at 10.1.1.2: because");
+    EXPECT_EQ(lines[2].line.detail, "refused 'Z' at 10.1.1.1: because; before, 499 more of this host");
 }
 
 TEST_F(AuditForwarding, LosesNothingWhileSyslogIsAway)

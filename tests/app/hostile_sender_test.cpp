@@ -11,6 +11,7 @@
 #include "dicom_writer.h"
 #include "running_listener.h"
 #include "study.h"
+#include "wire.h"
 
 namespace fs = std::filesystem;
 
@@ -20,59 +21,17 @@ namespace {
 using testing::HasSubstr;
 using namespace std::string_literals;
 
-const std::string kCt = "1.2.840.10008.5.1.4.1.1.2", kImplicit = "1.2.840.10008.1.2";
+namespace wire = test::wire;
+using wire::bigEndian, wire::element, wire::fragment, wire::littleEndian, wire::pdu;
 
-std::string bigEndian(std::uint64_t value, int bytes)
-{
-    std::string out;
-    for (int n = bytes - 1; n >= 0; --n)
-        out += char(value >> (8 * n) & 0xff);
-    return out;
-}
-
-std::string littleEndian(std::uint64_t value, int bytes)
-{
-    const std::string big = bigEndian(value, bytes);
-    return {big.rbegin(), big.rend()};
-}
-
-std::string item(int kind, const std::string& content)
-{
-    return bigEndian(kind, 1) + "\0"s + bigEndian(content.size(), 2) + content;
-}
-
-std::string pdu(int kind, const std::string& content)
-{
-    return bigEndian(kind, 1) + "\0"s + bigEndian(content.size(), 4) + content;
-}
-
-/// An association request for one context: CT images, implicit VR.
-std::string request()
-{
-    const std::string context = item(0x20, "\1\0\0\0"s + item(0x30, kCt) + item(0x40, kImplicit));
-    const std::string user = item(0x50, item(0x51, bigEndian(16384, 4)) + item(0x52, "1.2.826.0.1.3680043.10.9.9"));
-    return pdu(1, "\0\1\0\0VICON           HOSTILE         "s + std::string(32, '\0') +
-                      item(0x10, "1.2.840.10008.3.1.1.1") + context + user);
-}
-
-std::string element(int group, int number, std::string value)
-{
-    if (value.size() % 2 != 0)
-        value += '\0';
-    return littleEndian(group, 2) + littleEndian(number, 2) + littleEndian(value.size(), 4) + value;
-}
-
-std::string fragment(bool is_command, const std::string& content, bool is_last = true)
-{
-    return pdu(4, bigEndian(content.size() + 2, 4) + "\1"s + char((is_command ? 1 : 0) | (is_last ? 2 : 0)) + content);
-}
+const std::string kCt = "1.2.840.10008.5.1.4.1.1.2";
 
 std::string storeCommand(const std::string& sop_uid)
 {
     const std::string fields = element(0, 2, kCt) + element(0, 0x100, littleEndian(1, 2)) +
                                element(0, 0x110, littleEndian(1, 2)) + element(0, 0x700, littleEndian(0, 2)) +
                                element(0, 0x800, littleEndian(1, 2)) + element(0, 0x1000, sop_uid);
-    return fragment(true, element(0, 0, littleEndian(fields.size(), 4)) + fields);
+    return fragment(true, wire::command(fields));
 }
 
 std::string image(const std::string& sop_uid, const std::string& study_uid, const std::string& name)
@@ -113,9 +72,9 @@ public:
         take(length);
         return std::uint8_t(head[0]);
     }
-    void associate() const
+    void associate(const std::string& sop_class = kCt, const std::string& syntax = wire::kImplicit) const
     {
-        say(request());
+        say(wire::request(sop_class, syntax));
         EXPECT_EQ(hear(), 2) << "no association";
     }
     bool isEnded() const
@@ -253,6 +212,36 @@ TEST_F(HostileSender, WhatIsAbortedHalfWayLeavesNothingHalf)
     }
     EXPECT_TRUE(waitUntil([&] { return allIsTaken(); }));
     EXPECT_EQ(viconJson(store_, "cases")["cases"].size(), 1u) << "the honest sender's";
+}
+
+/// Read element by element into memory: with one call of a function for each level, and a walk for each element that is
+/// out of order.
+TEST_F(HostileSender, WhatIsNestedOrEndlessInAMessageCostsItsAssociationAlone)
+{
+    constexpr int kDeep = 200'000;
+    std::string out_of_order;
+    for (int n = 100'000; n > 0; --n)
+        out_of_order += element(0x11 + 2 * (n / 0x7fff), 2 * (n % 0x7fff), "");
+    const std::string asked = fragment(true, wire::commitmentCommand());
+    const auto begin = std::chrono::steady_clock::now();
+    for (const auto& [syntax, message] :
+         {std::pair(wire::kExplicit, asked + wire::fragments(false, wire::nested(kDeep, true))),
+          std::pair(wire::kImplicit, asked + wire::fragments(false, wire::nested(kDeep, false))),
+          std::pair(wire::kImplicit, asked + wire::fragments(false, out_of_order)),
+          std::pair(wire::kImplicit, wire::fragments(true, wire::command("") + wire::nested(kDeep, false))),
+          std::pair(wire::kImplicit, fragment(true, wire::command("") + wire::nested(6000, false)))}) {
+        const Wire wire(port());
+        wire.associate(wire::kCommitment, syntax);
+        wire.say(message);
+        EXPECT_TRUE(wire.isEnded());
+    }
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    EXPECT_LT(took.count(), 60) << "s; the longest of them alone would take minutes";
+    expectThatAnHonestSenderGetsIn();
+    EXPECT_TRUE(
+        logSays("an association from 'HOSTILE' at 127.0.0.1 was ended: the data set of a message cannot be "
+                "read: its sequences are nested deeper than 64"));
+    EXPECT_TRUE(logSays("a command has more than 4096 bytes"));
 }
 
 }  // namespace

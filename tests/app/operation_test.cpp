@@ -6,7 +6,9 @@
 
 #include "delivering_listener.h"
 #include "dicom_writer.h"
+#include "running_listener.h"
 #include "study.h"
+#include "vicon/cases/audit_trail.h"
 #include "vicon/core/file.h"
 
 namespace vicon::support {
@@ -199,6 +201,35 @@ TEST_F(Operation, IsNotForThoseWhomTheRolesDoNotName)
     EXPECT_THAT(unsigned_.output, HasSubstr("may not sign reports"));
     EXPECT_FALSE(fs::exists(out));
     EXPECT_EQ(vicon("config" + nobody, store_).exit_code, 0) << "anybody may ask what the rules are";
+}
+
+/// What is done beside cases, and what is refused.
+TEST_F(Operation, LeavesALineOfWhatIsOfNoCase)
+{
+    std::ofstream(folder_ / "c.toml") << "[peers]\nmain = { host = \"127.0.0.1\", port = 1 }\n";
+    vicon("query main --config " + (folder_ / "c.toml").string(), store_);
+    vicon("delete " + case_id_ + " --yes --set roles.operate=nobody_else", store_);
+    vicon("sign " + case_id_ + " --set roles.sign=nobody_else", store_);
+    viconOn(store_, "backup " + (folder_ / "backup").string());
+    viconOn(folder_ / "again", "restore " + (folder_ / "backup").string());
+    viconOn(store_, "export " + case_id_ + " --as text");
+    {
+        const RunningListener listener(store_, "--set receive.allow=SOMEBODY");
+        EXPECT_NE(runCommand("echoscu -aec VICON 127.0.0.1 " + std::to_string(listener.peer().port)).exit_code, 0);
+        EXPECT_TRUE(waitUntil([&] { return listener.log().find("refused 'ECHOSCU'") != std::string::npos; }));
+    }
+    std::vector<std::string> all;
+    for (const fs::path& store : {store_, folder_ / "again"}) {
+        CaseStore own(store);
+        for (const NumberedAuditLine& one : auditAfter(own, 0, 1000))
+            all.push_back(one.line.event + ": " + one.line.detail);
+    }
+    for (const char* line : {"files imported: 1 scans new or grown", "account refused: may not do this",
+                             "account refused: may not sign reports", "store backed up: 1 cases",
+                             "store restored: 1 cases", "peer asked: main for studies", "report exported: text",
+                             "application started: receive", "application stopped: receive",
+                             "caller refused: refused 'ECHOSCU' at 127.0.0.1: receive.allow does not name it"})
+        EXPECT_THAT(all, testing::Contains(line));
 }
 
 TEST_F(Operation, WritesACaseWithoutNames)

@@ -210,7 +210,8 @@ TEST_F(WatchOrthanc, AMoveBesideTheListenerEndsWhenTheCaseIsThere)
     archive("1", "P1");
     const RunningListener listener(store_, "--config " + config_.string(), port_);
     ASSERT_TRUE(listener.answers());
-    const auto moved = vicon("retrieve pacs " + study("1", "P1").study_uid + " --method move");
+    configure(", retrieve = \"move\"");  // of the peer; the listener needs not know
+    const auto moved = vicon("retrieve pacs " + study("1", "P1").study_uid);
     EXPECT_EQ(moved.exit_code, 0) << moved.output;
     EXPECT_THAT(moved.output, HasSubstr("the running listener imported them"));
     EXPECT_EQ(cases(), 1u);

@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <soci/soci.h>
 
+#include <map>
+
 #include "case_fixture.h"
+#include "search_words.h"
 #include "vicon/cases/worklist.h"
 
 namespace vicon {
@@ -90,6 +93,24 @@ TEST_F(WorklistPages, FindByTheBeginningOfAnythingThatOneKnowsOfACase)
     EXPECT_THAT(found("ari"), IsEmpty()) << "not from the middle of a word";
     EXPECT_THAT(found("nobody"), IsEmpty());
     EXPECT_EQ(found("  ").size(), 2u);
+}
+
+TEST(WorklistSearch, CountsNoFurtherThanTheRarestWordNeeds)
+{
+    int read = 0;
+    const std::map<std::string, int> all{{"one", 1}, {"some", 70}, {"many", 100'000}, {"more", 200'000}};
+    const auto count = [&](const std::string& word, int limit) {
+        const int counted = std::min(all.at(word), limit);
+        read += counted;
+        return counted;
+    };
+    EXPECT_EQ(rarestOf({"many", "one"}, 2000, count), "one");
+    EXPECT_LE(read, 100) << "rows, which an index may have to look for all over the table";
+    EXPECT_EQ(rarestOf({"some", "many"}, 2000, count), "some");
+    EXPECT_EQ(rarestOf({"many", "more"}, 2000, count), "many") << "either would do";
+    read = 0;
+    EXPECT_EQ(rarestOf({"more"}, 2000, count), "more");
+    EXPECT_EQ(read, 0) << "there is no choice";
 }
 
 TEST_F(WorklistPages, FindNoMoreThanIsWantedAndEachOnce)

@@ -227,8 +227,8 @@ TEST_F(Peers, AreWhoMayCallWhereTheListenerIsOpen)
     const auto listener = receiver({{"scanner", "localhost", "SCANNER", 104}, {"far", "10.9.8.7", "FAR", 104}}, open);
     EXPECT_NO_THROW(ingest::echo(vicon(), "SCANNER"));
     for (const char* title : {"STRANGER", "FAR"}) {
-        const auto asked =
-            support::runCommand("echoscu -aet " + std::string(title) + " 127.0.0.1 " + std::to_string(port_) + " 2>&1");
+        const auto asked = support::runCommand("echoscu -aec VICON -aet " + std::string(title) + " 127.0.0.1 " +
+                                               std::to_string(port_) + " 2>&1");
         EXPECT_NE(asked.exit_code, 0);
         EXPECT_THAT(asked.output, HasSubstr("Calling AE Title Not Recognized"));
     }
@@ -243,6 +243,7 @@ TEST_F(Peers, OneThatOpensTooManyAssociationsKeepsNobodyElseOut)
     const auto listener = receiver({greedy});
     DcmSCU open;
     open.setPeerHostName("127.0.0.1");
+    open.setPeerAETitle("VICON");
     open.setPeerPort(Uint16(port_));
     open.setAETitle("GREEDY");
     OFList<OFString> syntaxes;

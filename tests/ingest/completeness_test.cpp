@@ -59,6 +59,34 @@ TEST_F(Complete, AStudyWaitsForWhatItsArchiveHas)
     EXPECT_EQ(listener_->waitFor(13).size(), 13u) << "what is in its case counts";
 }
 
+TEST_F(Complete, AStudyWaitsForASeriesThatHasNotBegun)
+{
+    SeriesSpec prone;
+    prone.series_uid += ".2";
+    prone.patient_position = "HFP";
+    listen(3600);
+    const std::vector<fs::path> others = writeSeries(folder / "prone", prone);
+    ASSERT_TRUE(ingest::storeFiles(orthanc_.peer(), others, "VICON", quiet).complete());
+    sendFromArchive(0, 12);
+    EXPECT_TRUE(listener_->tells("waits for 12 objects"));
+    EXPECT_EQ(listener_->calls(), 0) << "one series is whole, the other has not begun";
+    ASSERT_TRUE(ingest::storeFiles(listener_->peer(), others, "SCANNER", quiet).complete());
+    EXPECT_EQ(listener_->waitFor(24).size(), 24u);
+    EXPECT_EQ(listener_->calls(), 1) << "both were handed over at once";
+}
+
+TEST_F(Complete, WhatIsNoImageIsNotWaitedFor)
+{
+    SeriesSpec other;
+    other.series_uid += ".3";
+    other.modality = "PT";
+    listen(3600);
+    ASSERT_TRUE(
+        ingest::storeFiles(orthanc_.peer(), writeSeries(folder / "other", other, {0, 1}), "VICON", quiet).complete());
+    sendFromArchive(0, 12);
+    EXPECT_EQ(listener_->waitFor(12).size(), 12u);
+}
+
 TEST_F(Complete, WhatWaitsIsKeptForTheNextRun)
 {
     listen(3600);

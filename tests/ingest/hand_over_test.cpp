@@ -31,6 +31,7 @@ TEST_F(Network, AnOpenAssociationThatFallsSilentIsHandedOver)
     RunningReceiver receiver(incoming, options);
     DcmSCU scu;
     scu.setPeerHostName("127.0.0.1");
+    scu.setPeerAETitle("VICON");
     scu.setPeerPort(Uint16(receiver.port()));
     OFList<OFString> syntaxes;
     syntaxes.push_back(UID_LittleEndianExplicitTransferSyntax);

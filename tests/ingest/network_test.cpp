@@ -26,9 +26,9 @@ TEST_F(Network, AStudySentByStorescuIsHandedOverAndImports)
         CaseStore own(store.folder());
         stored = ingest::importPaths(own, received, options, quiet).scans_stored;
     });
-    const auto echo = support::runCommand("echoscu 127.0.0.1 " + std::to_string(receiver.port()));
+    const auto echo = support::runCommand("echoscu -aec VICON 127.0.0.1 " + std::to_string(receiver.port()));
     EXPECT_EQ(echo.exit_code, 0) << echo.output;
-    const auto sent = support::runCommand("storescu 127.0.0.1 " + std::to_string(receiver.port()) + " +sd " +
+    const auto sent = support::runCommand("storescu -aec VICON 127.0.0.1 " + std::to_string(receiver.port()) + " +sd " +
                                           (folder / "in").string());
     ASSERT_EQ(sent.exit_code, 0) << sent.output;
     std::multiset<std::string> expected, received;
@@ -76,6 +76,7 @@ TEST_F(Network, EveryStorageClassIsTaken)
     for (int from = 0; from < numberOfDcmAllStorageSOPClassUIDs; from += kAtOnce) {
         DcmSCU scu;
         scu.setPeerHostName("127.0.0.1");
+        scu.setPeerAETitle("VICON");
         scu.setPeerPort(Uint16(receiver.port()));
         const int to = std::min(from + kAtOnce, numberOfDcmAllStorageSOPClassUIDs);
         for (int n = from; n < to; ++n)
@@ -145,8 +146,8 @@ TEST_F(Network, TheSameObjectsFromDiscAndThenByStoreAreTheSame)
             CaseStore own(store.folder());
             again = ingest::importPaths(own, received, options, quiet);
         });
-        const auto sent = support::runCommand("storescu -xi 127.0.0.1 " + std::to_string(receiver.port()) + " +sd " +
-                                              (folder / "in").string());
+        const auto sent = support::runCommand("storescu -xi -aec VICON 127.0.0.1 " + std::to_string(receiver.port()) +
+                                              " +sd " + (folder / "in").string());
         ASSERT_EQ(sent.exit_code, 0) << sent.output;
         receiver.waitFor(files.size());
     }

@@ -70,6 +70,7 @@ struct IdleAssociation {
     explicit IdleAssociation(int port)
     {
         scu.setPeerHostName("127.0.0.1");
+        scu.setPeerAETitle("VICON");
         scu.setPeerPort(Uint16(port));
         OFList<OFString> syntaxes;
         syntaxes.push_back(UID_LittleEndianExplicitTransferSyntax);
@@ -111,15 +112,19 @@ TEST_F(Network, TitlesPortsAndSecondReceiversAreChecked)
     EXPECT_THROW(ingest::echo({"gone", "127.0.0.1", "X", 1}, "SENDER"), Error);
 }
 
-TEST_F(Network, ATitleThatIsNotOursIsRefusedWhenAskedFor)
+TEST_F(Network, ATitleThatIsNotOursIsRefusedUnlessAllAreTaken)
 {
-    ingest::ReceiverOptions strict;
-    strict.any_called_title = false;
-    RunningReceiver receiver(incoming, strict);
+    RunningReceiver receiver(incoming, {});
     EXPECT_NO_THROW(ingest::echo(receiver.peer(), "SENDER"));
     ingest::Peer wrong = receiver.peer();
     wrong.ae_title = "SOMEBODY";
     EXPECT_THROW(ingest::echo(wrong, "SENDER"), Error);
+    EXPECT_TRUE(receiver.tells("refused 'SENDER' at 127.0.0.1: it calls 'SOMEBODY', not us"));
+    ingest::ReceiverOptions any;
+    any.any_called_title = true;
+    RunningReceiver open(folder / "open", any);
+    wrong.port = open.port();
+    EXPECT_NO_THROW(ingest::echo(wrong, "SENDER"));
 }
 
 TEST_F(Network, APeerWhoseRolesDoNotLetItStoreIsRefusedByItsTitleAndTheLogSaysWhy)
@@ -129,8 +134,8 @@ TEST_F(Network, APeerWhoseRolesDoNotLetItStoreIsRefusedByItsTitleAndTheLogSaysWh
     archive.stores = false;
     RunningReceiver receiver(incoming, {}, {}, {}, {.peers = {archive}});
     const auto send = [&](const std::string& title) {
-        return support::runCommand("storescu -v -aet " + title + " 127.0.0.1 " + std::to_string(receiver.port()) + " " +
-                                   files.at(0).string() + " 2>&1");
+        return support::runCommand("storescu -v -aec VICON -aet " + title + " 127.0.0.1 " +
+                                   std::to_string(receiver.port()) + " " + files.at(0).string() + " 2>&1");
     };
     const auto refused = send("ARCHIVE");
     EXPECT_NE(refused.exit_code, 0);
@@ -222,7 +227,6 @@ TEST_F(Network, OnlyWhoIsAllowedMayCallAndTheRefusalNamesTheSender)
 TEST_F(Network, WhoAsksForWhatIsNotServedIsToldSoAndLogged)
 {
     ingest::ReceiverOptions options;
-    options.any_called_title = false;
     options.allow = "FINDSCU@localhost, MOVESCU@localhost, GETSCU@localhost";
     RunningReceiver receiver(incoming, options);
     const auto ask = [&](const std::string& tool) {

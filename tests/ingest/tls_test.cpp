@@ -45,7 +45,7 @@ protected:
     /// storescu with these of its TLS options.
     bool stores(const std::string& how)
     {
-        return support::runCommand("cd " + folder.path().string() + " && storescu " + how + " localhost " +
+        return support::runCommand("cd " + folder.path().string() + " && storescu -aec VICON " + how + " localhost " +
                                    std::to_string(port_) + " +sd in 2>&1")
                    .exit_code == 0;
     }

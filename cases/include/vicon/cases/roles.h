@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,8 @@ struct RoleOptions {
 bool isAmong(const std::string& account, const std::vector<std::string>& entries);
 
 /// By these rules requireRole() goes from now on; before, everybody may do everything.
-void setRoles(const RoleOptions& options);
+/// @param on_refusal told what an account may not, before requireRole() throws
+void setRoles(const RoleOptions& options, std::function<void(const std::string& what)> on_refusal = {});
 /// Throws Error{bad_input} where whoever runs this may not.
 void requireRole(Role role);
 

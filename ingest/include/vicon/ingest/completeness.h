@@ -10,13 +10,14 @@
 
 namespace vicon::ingest {
 
-/// Asks an archive whether all objects of the series that arrive have arrived. One thread at a time.
+/// Asks an archive whether all objects of a study that arrives have arrived: of the series that have begun, and of all
+/// others of their modality, CT or MR. One thread at a time.
 class Completeness {
 public:
     /// @param peer the archive
     Completeness(StorePlace place, Peer peer, std::string our_ae_title);
 
-    /// How many objects the archive has of the series that these files belong to, and that lie nowhere here: neither in
+    /// How many objects the archive has of the study that these files belong to, and that lie nowhere here: neither in
     /// a case, nor among the files, nor in quarantine. Throws Error{peer} when it does not answer; it is then left
     /// alone for a while, as long as that 0.
     int missing(const std::vector<std::filesystem::path>& files);

@@ -17,7 +17,7 @@ struct ReceiverOptions {
     /// Nobody else reaches the listener until a site says from where it shall be reached.
     std::string address = "127.0.0.1";
     std::string ae_title = "VICON";
-    bool any_called_title = true;
+    bool any_called_title = false;
     std::string allow;
     std::string tls = "off";
     /// Between two associations of one study a scanner pauses for a second or two.
@@ -54,7 +54,7 @@ struct ReceiverOptions {
         v("receive.idle_s", idle_s, "s", "A study is handed over when its open association was silent for so long.",
           {0.1, 3600});
         v("receive.count_at", count_at, "",
-          "Peer that is asked which objects a series has before its study is handed over; empty: nobody.");
+          "Peer that is asked which objects a study has before it is handed over; empty: nobody.");
         v("receive.incomplete_s", incomplete_s, "s",
           "A study whose objects receive.count_at has, and that have not come, waits for them so long.", {0, 86400});
         v("receive.max_associations", max_associations, "", "Associations served at the same time.", {1, 1000});
@@ -110,6 +110,9 @@ public:
     /// Says how many objects of a quiet study are known to be missing, on the thread that hands it over. Then it waits,
     /// and is asked again. When it throws, the study is handed over. May be empty.
     using OnQuiet = std::function<int(const Files&)>;
+    /// Told of each caller that was refused for who it is, what it asks for or how it speaks TLS, and whence it called;
+    /// on any thread. May be empty.
+    using OnRefused = std::function<void(const std::string& host, const std::string& line)>;
     struct Handlers {
         OnReceived on_received;
         OnTrouble on_trouble = {};
@@ -117,6 +120,7 @@ public:
         OnCommitment on_commitment = {};
         OnDemand on_demand = {};
         OnQuiet on_quiet = {};
+        OnRefused on_refused = {};
     };
 
     struct Network {
