@@ -32,8 +32,8 @@ std::vector<Leg> legsOf(const PreparedScan& scan, const FlightRequest& request)
     const Lumen lumen = scan.lumen();
     std::vector<Leg> legs;
     for (const Heading heading : {Heading::caecum, Heading::rectum}) {
-        const bool wanted = request.direction == FlightRequest::Direction::both ||
-                            (request.direction == FlightRequest::Direction::to_caecum) == (heading == Heading::caecum);
+        const bool wanted = request.direction == FlightDirection::both ||
+                            (request.direction == FlightDirection::to_caecum) == (heading == Heading::caecum);
         if (wanted)
             legs.push_back({heading, planFlight(scan.frames(), lumen, step, heading)});
     }

@@ -15,7 +15,7 @@ namespace {
 SnapshotRequest completed(const PreparedScan& scan, SnapshotRequest request)
 {
     constexpr double kNarrowest_deg = 20, kWidest_deg = 150;
-    const bool overview = request.view == SnapshotRequest::View::overview;
+    const bool overview = request.view == SnapshotView::overview;
     if (request.width == 0)
         request.width = 1024;
     if (request.height == 0)
@@ -74,21 +74,6 @@ Caption captionFor(const CaseRecord& a_case, const ScanRecord& scan)
             scan.series.lossy};
 }
 
-SnapshotRequest::View snapshotViewFrom(const std::string& name)
-{
-    if (name == "endo")
-        return SnapshotRequest::View::endo;
-    if (name == "slices")
-        return SnapshotRequest::View::slices;
-    if (name == "overview")
-        return SnapshotRequest::View::overview;
-    if (name == "cube")
-        return SnapshotRequest::View::cube;
-    if (name == "band")
-        return SnapshotRequest::View::band;
-    throw Error(ErrorCode::wrong_use, "a view must be endo, slices, overview, cube or band", "'" + name + "'");
-}
-
 SnapshotResult placeOf(const PreparedScan& scan, const SnapshotRequest& request)
 {
     const Lumen lumen = scan.lumen();
@@ -137,15 +122,15 @@ DrawnSnapshot drawSnapshot(const PreparedScan& scan, const SnapshotRequest& requ
     const SnapshotRequest whole = completed(scan, request);
     const SnapshotResult place = placeOf(scan, whole);
     switch (whole.view) {
-        case SnapshotRequest::View::slices:
+        case SnapshotView::slices:
             return {slicesPicture(scan, whole, place), place};
-        case SnapshotRequest::View::overview:
+        case SnapshotView::overview:
             return {overviewPicture(scan, whole, place), place};
-        case SnapshotRequest::View::band:
+        case SnapshotView::band:
             return {bandSnapshot(scan, whole, place), place};
-        case SnapshotRequest::View::cube:
+        case SnapshotView::cube:
             return {EndoscopicPictures(scan).drawCube(whole, place), place};
-        case SnapshotRequest::View::endo:
+        case SnapshotView::endo:
             break;
     }
     return {EndoscopicPictures(scan).draw(whole, place), place};

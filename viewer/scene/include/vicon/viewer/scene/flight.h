@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "vicon/core/option_names.h"
 #include "vicon/core/progress.h"
 #include "vicon/viewer/model/flight_quality.h"
 #include "vicon/viewer/model/unseen.h"
@@ -11,10 +12,23 @@
 
 namespace vicon::viewer {
 
+/// Where a planned flight leads; of a tree from the root to a tip.
+enum class FlightDirection { to_caecum, to_rectum, both };
+inline constexpr EnumNames<FlightDirection, 5> kFlightDirectionNames{{
+    {FlightDirection::to_caecum, "caecum"},
+    {FlightDirection::to_caecum, "tip"},
+    {FlightDirection::to_rectum, "rectum"},
+    {FlightDirection::to_rectum, "root"},
+    {FlightDirection::both, "both"},
+}};
+constexpr const auto& optionNames(FlightDirection /*value*/)
+{
+    return kFlightDirectionNames;
+}
+
 /// A planned flight along the centreline.
 struct FlightRequest {
-    enum class Direction { to_caecum, to_rectum, both };
-    Direction direction = Direction::to_caecum;
+    FlightDirection direction = FlightDirection::to_caecum;
     double step_mm = 4;  ///< between poses, along the centreline
     int frames = 0;      ///< above 0: that many poses in each direction, instead of a step
     int width = 0;       ///< pixels of a frame; 0: 512
