@@ -80,10 +80,10 @@ SnapshotResult placeOf(const PreparedScan& scan, const SnapshotRequest& request)
     ViewPose view;
     double station = request.station_mm;
     if (request.look_at_mm) {
-        view = poseForPoint(scan.skeleton(), scan.frames(), lumen, *request.look_at_mm, request.pose);
+        view = poseForPoint(scan.skeleton(), scan.frames(), lumen, *request.look_at_mm);
         station = scan.skeleton().nearest(*request.look_at_mm).station_mm;
     } else {
-        view = poseAtStation(scan.frames(), lumen, request.station_mm, Heading::caecum, request.pose);
+        view = poseAtStation(scan.frames(), lumen, request.station_mm, Heading::caecum);
         station = view.station_mm;
     }
     return {view.pose, station, view.clearance_mm, view.sees_target};

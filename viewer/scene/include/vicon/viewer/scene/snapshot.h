@@ -75,7 +75,6 @@ struct SnapshotRequest {
     bool from_caecum = false;    ///< band: its rows begin there
     bool whole_band = true;      ///< band: all of it, in rows; else a single row around the place
     double slice_field_mm = 0;   ///< slices: how much to show around the point; 0: the whole scan
-    ViewPoseOptions pose;        ///< endo: where to put the eye
     PeelRequest peel;            ///< endo: the look below the wall
 
     static constexpr int kLeastSide = 200;
