@@ -21,22 +21,17 @@ std::string whyNoPath(const std::string& path)
 
 ValueCheck range(int least, int most)
 {
-    return {.kind = ValueCheck::Kind::integers, .least = double(least), .most = double(most), .words = {}};
+    return {.kind = ValueCheck::Kind::integers, .least = double(least), .most = double(most)};
 }
 
 ValueCheck range(double least, double most)
 {
-    return {.kind = ValueCheck::Kind::numbers, .least = least, .most = most, .words = {}};
-}
-
-ValueCheck oneOf(std::vector<std::string> words)
-{
-    return {.kind = ValueCheck::Kind::words, .words = std::move(words)};
+    return {.kind = ValueCheck::Kind::numbers, .least = least, .most = most};
 }
 
 ValueCheck existingPath()
 {
-    return {.kind = ValueCheck::Kind::existing_path, .words = {}};
+    return {.kind = ValueCheck::Kind::existing_path};
 }
 
 CommandOption& CommandOption::required()
@@ -59,9 +54,6 @@ CommandOption& CommandOption::check(const ValueCheck& check)
             break;
         case ValueCheck::Kind::numbers:
             option_->check(CLI::Range(check.least, check.most));
-            break;
-        case ValueCheck::Kind::words:
-            option_->check(CLI::IsMember(check.words));
             break;
         case ValueCheck::Kind::existing_path:
             option_->check(CLI::Validator(whyNoPath, ""));
@@ -122,6 +114,15 @@ template CommandOption CommandLine::option(const std::string&, int&, const std::
 template CommandOption CommandLine::option(const std::string&, double&, const std::string&);
 template CommandOption CommandLine::option(const std::string&, std::uint64_t&, const std::string&);
 template CommandOption CommandLine::option(const std::string&, std::vector<std::string>&, const std::string&);
+
+CommandOption CommandLine::choice(const std::string& name, const std::vector<std::string>& words,
+                                  std::function<void(const std::string&)> take, const std::string& help,
+                                  const std::string& usual)
+{
+    CLI::Option* const option = app_->add_option_function<std::string>(name, take, help);
+    option->check(CLI::IsMember(words))->default_function([usual] { return usual; });
+    return CommandOption(*option);
+}
 
 CommandOption CommandLine::flag(const std::string& name, bool& value, const std::string& help)
 {

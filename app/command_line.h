@@ -1,7 +1,11 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "vicon/core/option_names.h"
 
 namespace CLI {
 class App;
@@ -12,14 +16,12 @@ namespace vicon::app {
 
 /// What an option's value is held against before the command runs.
 struct ValueCheck {
-    enum class Kind { integers, numbers, words, existing_path };
-    Kind kind = Kind::words;
+    enum class Kind { integers, numbers, existing_path };
+    Kind kind = Kind::integers;
     double least = 0, most = 0;
-    std::vector<std::string> words;
 };
 ValueCheck range(int least, int most);
 ValueCheck range(double least, double most);
-ValueCheck oneOf(std::vector<std::string> words);
 ValueCheck existingPath();
 
 /// One option of a subcommand; each call says one thing more of it.
@@ -57,10 +59,31 @@ public:
     /// @tparam Value instantiated in command_line.cpp: text, numbers, paths, lists of text
     template <class Value>
     CommandOption option(const std::string& name, Value& value, const std::string& help);
+    /// One of the names of an enumeration.
+    template <OptionEnum Enum>
+    CommandOption option(const std::string& name, Enum& value, const std::string& help)
+    {
+        return choice(
+            name, namesOf(optionNames(value)),
+            [name, &value](const std::string& said) { value = valueIn(optionNames(value), said, name); }, help,
+            nameIn(optionNames(value), value));
+    }
+    /// The same; nothing as long as none is given.
+    template <OptionEnum Enum>
+    CommandOption option(const std::string& name, std::optional<Enum>& value, const std::string& help)
+    {
+        return choice(
+            name, namesOf(optionNames(Enum{})),
+            [name, &value](const std::string& said) { value = valueIn(optionNames(Enum{}), said, name); }, help, "");
+    }
     /// @param name "--name"; "!--no-name" sets it to false; several separated by commas
     CommandOption flag(const std::string& name, bool& value, const std::string& help);
 
 private:
+    CommandOption choice(const std::string& name, const std::vector<std::string>& words,
+                         std::function<void(const std::string&)> take, const std::string& help,
+                         const std::string& usual);
+
     CLI::App* app_;
 };
 

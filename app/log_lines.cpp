@@ -45,7 +45,7 @@ private:
 
 void writeLogAs(const LogOptions& options)
 {
-    spdlog::set_formatter(std::make_unique<LogLines>(options.format == "json"));
+    spdlog::set_formatter(std::make_unique<LogLines>(options.format == LogFormat::json));
 }
 
 }  // namespace vicon::app

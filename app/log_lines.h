@@ -1,18 +1,24 @@
 #pragma once
 
-#include <string>
-
+#include "vicon/core/option_names.h"
 #include "vicon/core/options.h"
 
 namespace vicon::app {
 
+enum class LogFormat { text, json };
+inline constexpr EnumNames<LogFormat, 2> kLogFormatNames{{{LogFormat::text, "text"}, {LogFormat::json, "json"}}};
+constexpr const auto& optionNames(LogFormat /*value*/)
+{
+    return kLogFormatNames;
+}
+
 struct LogOptions {
-    std::string format = "text";
+    LogFormat format = LogFormat::text;
 
     template <class Visitor>
     void visit(Visitor&& v)
     {
-        v("log.format", format, "", "What a line of the log is.", {-1e300, 1e300, {"text", "json"}});
+        v("log.format", format, "", "What a line of the log is.", choicesOf(format));
     }
 };
 

@@ -1,5 +1,7 @@
 #include "peers.h"
 
+#include <algorithm>
+
 #include "vicon/core/error.h"
 
 namespace vicon::app {
@@ -13,16 +15,18 @@ namespace {
 void takeRoles(ingest::Peer& peer, const nlohmann::json& roles)
 {
     constexpr const char* kRemedy = "roles are \"store\" (it may store here), \"query\" (it is asked) and \"send\"";
-    peer.stores = peer.is_queried = peer.is_sent = false;
+    constexpr std::pair<bool ingest::Peer::*, const char*> kRoles[] = {
+        {&ingest::Peer::stores, "store"},
+        {&ingest::Peer::is_queried, "query"},
+        {&ingest::Peer::is_sent, "send"},
+    };
+    for (const auto& [member, name] : kRoles)
+        peer.*member = false;
     for (const nlohmann::json& role : roles) {
-        if (role == "store")
-            peer.stores = true;
-        else if (role == "query")
-            peer.is_queried = true;
-        else if (role == "send")
-            peer.is_sent = true;
-        else
+        const auto known = std::ranges::find_if(kRoles, [&](const auto& one) { return role == one.second; });
+        if (known == std::end(kRoles))
             wrong(peer.name, "not a role: " + role.dump(), kRemedy);
+        peer.*known->first = true;
     }
 }
 

@@ -18,6 +18,7 @@
 #include "vicon/viewer/scene/snapshot.h"
 
 using vicon::viewer::SnapshotRequest;
+using vicon::viewer::SnapshotView;
 
 namespace vicon::app {
 namespace {
@@ -163,7 +164,7 @@ private:
     void drawOthers(report::MarkerEntry& entry, Sight& sight) const
     {
         const Marker& marker = entry.marker;
-        const auto slices = markerPicture(SnapshotRequest::View::slices, scan_, marker, kSlicesWidth, kSlicesHeight);
+        const auto slices = markerPicture(SnapshotView::slices, scan_, marker, kSlicesWidth, kSlicesHeight);
         entry.slices_picture = marker.id + "-slices";
         sight.slices = made(entry.slices_picture, viewer::drawSnapshot(prepared_, slices).picture);
         if (auto measures =
@@ -208,7 +209,7 @@ std::vector<report::ScanEntry> drawScans(CaseStore& store, const ReadCase& read,
             entry.reason = "not a colon, and no part of this report";
             entry.skeleton_length_mm = 0;
         } else if (const viewer::PreparedScan* prepared = scans.find(scan.id)) {
-            auto request = reportPicture(SnapshotRequest::View::overview, scan, kOverviewWidth, kOverviewHeight);
+            auto request = reportPicture(SnapshotView::overview, scan, kOverviewWidth, kOverviewHeight);
             request.markers = numbered(read, markersOf(read, scan));
             request.pixel_ratio = kOverviewTextRatio;
             entry.overview_picture = scan.id + "-overview";

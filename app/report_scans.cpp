@@ -4,6 +4,7 @@
 
 namespace fs = std::filesystem;
 using vicon::viewer::SnapshotRequest;
+using vicon::viewer::SnapshotView;
 
 namespace vicon::app {
 namespace {
@@ -31,7 +32,7 @@ viewer::Caption captionOf(const ScanRecord& scan)
     return {.named = false, .lossy = scan.series.lossy};
 }
 
-SnapshotRequest reportPicture(SnapshotRequest::View view, const ScanRecord& scan, int width, int height)
+SnapshotRequest reportPicture(SnapshotView view, const ScanRecord& scan, int width, int height)
 {
     SnapshotRequest request;
     request.view = view;
@@ -42,8 +43,7 @@ SnapshotRequest reportPicture(SnapshotRequest::View view, const ScanRecord& scan
     return request;
 }
 
-SnapshotRequest markerPicture(SnapshotRequest::View view, const ScanRecord& scan, const Marker& marker, int width,
-                              int height)
+SnapshotRequest markerPicture(SnapshotView view, const ScanRecord& scan, const Marker& marker, int width, int height)
 {
     SnapshotRequest request = reportPicture(view, scan, width, height);
     request.pixel_ratio = kTextRatio;
@@ -63,8 +63,7 @@ ReportScans::ReportScans(CaseStore& store, const ReadCase& read)
         added.id = scan.id;
         added.folder = folder;
         for (const Marker& marker : markersOf(read, scan))
-            added.requests.push_back(
-                markerPicture(SnapshotRequest::View::endo, scan, marker, kEndoscopicSide, kEndoscopicSide));
+            added.requests.push_back(markerPicture(SnapshotView::endo, scan, marker, kEndoscopicSide, kEndoscopicSide));
     }
     making_ = std::async(std::launch::async, [this] { makeReady(); });
 }

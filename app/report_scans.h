@@ -18,10 +18,9 @@ std::vector<Marker> markersOf(const ReadCase& read, const ScanRecord& scan);
 /// What a picture says about its scan; the page says whose it is, and the heading of the picture which scan's.
 viewer::Caption captionOf(const ScanRecord& scan);
 /// What the pictures of a report have in common.
-viewer::SnapshotRequest reportPicture(viewer::SnapshotRequest::View view, const ScanRecord& scan, int width,
-                                      int height);
+viewer::SnapshotRequest reportPicture(viewer::SnapshotView view, const ScanRecord& scan, int width, int height);
 /// ... those of a marker.
-viewer::SnapshotRequest markerPicture(viewer::SnapshotRequest::View view, const ScanRecord& scan, const Marker& marker,
+viewer::SnapshotRequest markerPicture(viewer::SnapshotView view, const ScanRecord& scan, const Marker& marker,
                                       int width, int height);
 constexpr int kEndoscopicSide = 600;  ///< printed 144 points wide and less: a printer has 300 pixels to the inch
 

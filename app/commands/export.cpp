@@ -14,8 +14,23 @@ namespace fs = std::filesystem;
 namespace vicon::app {
 namespace {
 
+enum class ExportForm { text, json, csv, fhir, hl7, dicom };
+constexpr EnumNames<ExportForm, 6> kExportFormNames{{
+    {ExportForm::text, "text"},
+    {ExportForm::json, "json"},
+    {ExportForm::csv, "csv"},
+    {ExportForm::fhir, "fhir"},
+    {ExportForm::hl7, "hl7"},
+    {ExportForm::dicom, "dicom"},
+}};
+constexpr const auto& optionNames(ExportForm /*value*/)
+{
+    return kExportFormNames;
+}
+
 struct ExportArguments {
-    std::string case_id, form, out;
+    std::string case_id, out;
+    ExportForm form = ExportForm::text;
     int version = 0;  // 0: the last one that was given out, or the draft
     bool draft = false;
 };
@@ -53,16 +68,25 @@ int exportObjects(CaseStore& store, const std::string& case_id, const std::optio
     return 0;
 }
 
-std::string formOf(const std::string& form, const std::optional<ReportVersion>& version, const nlohmann::json& content)
+std::string formOf(ExportForm form, const std::optional<ReportVersion>& version, const nlohmann::json& content)
 {
-    if (form == "json")
+    if (form == ExportForm::json)
         return reportDocument(version, content).dump(2) + "\n";
     const ReadCase read = readCaseFromContent(content);
-    if (form == "fhir")
-        return report::asFhir(read, version).dump(2) + "\n";
-    if (form == "hl7")
-        return report::asHl7(read, version);
-    return form == "csv" ? report::asCsv(read) : report::asText(read, version);
+    switch (form) {
+        case ExportForm::text:
+            return report::asText(read, version);
+        case ExportForm::csv:
+            return report::asCsv(read);
+        case ExportForm::fhir:
+            return report::asFhir(read, version).dump(2) + "\n";
+        case ExportForm::hl7:
+            return report::asHl7(read, version);
+        case ExportForm::json:
+        case ExportForm::dicom:
+            break;
+    }
+    throw Error(ErrorCode::internal, "a report has no such text");
 }
 
 int exportReport(Context& context, const ExportArguments& a)
@@ -70,12 +94,13 @@ int exportReport(Context& context, const ExportArguments& a)
     CaseStore& store = context.existingStore();
     const std::string case_id = store.requireCase(a.case_id).id;
     const auto version = versionFor(store, case_id, a);
-    if (a.form == "dicom" && !context.json)
+    if (a.form == ExportForm::dicom && !context.json)
         return exportObjects(store, case_id, version, a.out);
     const nlohmann::json content =
         version ? nlohmann::json::parse(version->content) : reportContent(readCase(store, case_id));
-    const std::string form = context.json ? "json" : a.form, text = formOf(form, version, content);
-    store.audit("report exported", case_id, "", form);
+    const ExportForm form = context.json ? ExportForm::json : a.form;
+    const std::string text = formOf(form, version, content);
+    store.audit("report exported", case_id, "", nameIn(kExportFormNames, form));
     if (a.out.empty()) {
         std::fwrite(text.data(), 1, text.size(), stdout);
         return 0;
@@ -94,8 +119,7 @@ Subcommand exportCommand()
                 auto a = std::make_shared<ExportArguments>();
                 command.option("CASE", a->case_id, "The case's id").required();
                 command.option("--as", a->form, "text, json, csv (of its findings), fhir (R4 bundle), hl7 (ORU), dicom")
-                    .required()
-                    .check(oneOf({"text", "json", "csv", "fhir", "hl7", "dicom"}));
+                    .required();
                 command.option("--out", a->out, "The file (default: printed); of dicom the folder").typeName("PATH");
                 const auto version =
                     command.option("--version-number", a->version, "This version, in place of the last one")

@@ -13,23 +13,11 @@ namespace vicon::app {
 namespace {
 
 struct FlyArguments {
-    std::string case_id, scan_id, direction = "caecum", out;
+    std::string case_id, scan_id, out;
     WallLookArguments wall;
     int branch = -1;
     viewer::FlightRequest request;
 };
-
-viewer::FlightRequest::Direction directionFrom(const std::string& name)
-{
-    using Direction = viewer::FlightRequest::Direction;
-    if (name == "caecum" || name == "tip")
-        return Direction::to_caecum;
-    if (name == "rectum" || name == "root")
-        return Direction::to_rectum;
-    if (name == "both")
-        return Direction::both;
-    throw Error(ErrorCode::wrong_use, "must be caecum, rectum or both; of a tree tip, root or both", "--to");
-}
 
 constexpr std::size_t kMostListed = 10;
 
@@ -72,7 +60,6 @@ int fly(Context& context, const FlyArguments& arguments)
     const CaseRecord record = store.requireCase(arguments.case_id);
     const ScanRecord scan = requirePreparedScan(store, record.id, arguments.scan_id);
     viewer::FlightRequest request = arguments.request;
-    request.direction = directionFrom(arguments.direction);
     request.wall = arguments.wall.look();
     request.out = arguments.out;
     request.write_frames = !arguments.out.empty();
@@ -115,7 +102,7 @@ Subcommand flyCommand()
             viewer::FlightRequest& request = arguments->request;
             command.option("CASE", arguments->case_id, "The case's id").required();
             command.option("--scan", arguments->scan_id, "The scan (default: the first prepared one)").typeName("SCAN");
-            command.option("--to", arguments->direction, "Where to: caecum (of a tree: tip), rectum (root) or both")
+            command.option("--to", request.direction, "Where to: caecum (of a tree: tip), rectum (root) or both")
                 .captureDefault();
             command
                 .option("--branch", arguments->branch,

@@ -5,14 +5,14 @@
 #include "../command.h"
 #include "../progress_line.h"
 #include "vicon/core/error.h"
-#include "vicon/core/organ.h"
 #include "vicon/phantom/organ_phantom.h"
 
 namespace vicon::app {
 namespace {
 
 struct PhantomArguments {
-    std::string out, size, organ = "colon";
+    std::string out, size;
+    phantom::PhantomOrgan organ = phantom::PhantomOrgan::colon;
     bool supine = false, prone = false;
     phantom::PhantomOptions options;
 };
@@ -38,7 +38,7 @@ int makePhantom(const PhantomArguments& arguments)
         options.prone = arguments.prone;
     }
     ProgressLine progress("phantom");
-    if (Organ(arguments.organ).isColon()) {
+    if (arguments.organ == phantom::PhantomOrgan::colon) {
         phantom::writeStudy(arguments.out, options, progress);
     } else {
         phantom::OrganPhantomOptions other{.organ = arguments.organ, .seed = options.seed};
@@ -56,9 +56,7 @@ void addScannerOptions(CommandLine& command, phantom::PhantomOptions& options)
 {
     phantom::Protocol& protocol = options.protocol;
     command.option("--noise", options.noise_hu, "Noise in HU (default: drawn from 15 to 40)").check(range(0.0, 500.0));
-    command.option("--kernel", protocol.kernel, "Point spread; with a sharp one edges overshoot")
-        .check(oneOf({"smooth", "usual", "sharp"}))
-        .captureDefault();
+    command.option("--kernel", protocol.kernel, "Point spread; with a sharp one edges overshoot").captureDefault();
     command.option("--slice", protocol.thickness_mm, "Thickness of the slices in mm (default: 1)")
         .check(range(0.5, 5.0));
     command.option("--tagging", protocol.tagging_hu, "Density of the pools in HU (default: drawn from 300 to 900)")
@@ -67,9 +65,7 @@ void addScannerOptions(CommandLine& command, phantom::PhantomOptions& options)
         .valueIfBare("40")
         .check(range(0, 200));
     command.flag("--contrast", protocol.contrast, "Contrast medium in wall, vessels and organs");
-    command.option("--hips", protocol.hips, "Streaks from hip to hip, or the right one of metal")
-        .check(oneOf({"quiet", "streaks", "metal"}))
-        .captureDefault();
+    command.option("--hips", protocol.hips, "Streaks from hip to hip, or the right one of metal").captureDefault();
 }
 
 }  // namespace
@@ -82,12 +78,10 @@ Subcommand phantomCommand()
             phantom::PhantomOptions& options = arguments->options;
             command.option("OUT", arguments->out, "Folder to write to; made, and must be empty").required();
             command.option("--organ", arguments->organ, "Which organ; those but the colon take --seed and --size alone")
-                .check(oneOf({"colon", "airway", "aorta", "stomach"}))
                 .captureDefault();
             command.flag("--supine", arguments->supine, "Make the supine scan (default: supine and prone)");
             command.flag("--prone", arguments->prone, "Make the prone scan");
-            command.option("--decubitus", options.decubitus, "One scan more, lying on this side")
-                .check(oneOf({"none", "left", "right"}));
+            command.option("--decubitus", options.decubitus, "One scan more, lying on this side");
             command.flag("--stretch", options.stretch,
                          "The wall is drawn out, turned and distended otherwise in every position");
             command.flag("--feet-first", options.feet_first, "The patient enters the scanner feet first");
@@ -108,8 +102,7 @@ Subcommand phantomCommand()
                 .check(range(0, 40));
             command.flag("--film", options.film, "Films of tagging on the polyps");
             command.flag("--ileum", options.ileum, "A terminal ileum filled through the ileocaecal valve");
-            command.option("--mr", options.mr, "MR images in place of CT, the lumen dark or bright in them")
-                .check(oneOf({"none", "dark", "bright"}));
+            command.option("--mr", options.mr, "MR images in place of CT, the lumen dark or bright in them");
             command.flag("--low-dose", options.low_dose, "Noise of 50 to 80 HU");
             addScannerOptions(command, options);
             command.option("--seed", options.seed, "Number that the study is drawn from").captureDefault();

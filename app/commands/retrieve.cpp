@@ -13,15 +13,14 @@ namespace {
 
 struct Request {
     std::string peer, study_uid;
-    std::string method;    ///< empty: the peer's
-    bool reports = false;  ///< in place of images
+    std::optional<ingest::RetrieveMethod> method;  ///< none: the peer's
+    bool reports = false;                          ///< in place of images
 };
 
 int retrieve(Context& context, const Request& request)
 {
     ingest::Peer peer = requirePeer(context.config(), request.peer, PeerUse::query);
-    if (!request.method.empty())
-        peer.retrieve = valueIn(ingest::kRetrieveMethodNames, request.method, "--method");
+    peer.retrieve = request.method.value_or(peer.retrieve);
     const std::string title = context.config().get<ingest::ReceiverOptions>().ae_title;
     ProgressLine progress("retrieve");
     std::vector<std::string> series;
@@ -71,11 +70,10 @@ Subcommand retrieveCommand()
                 auto request = std::make_shared<Request>();
                 command.option("PEER", request->peer, "Name of a peer in the configuration").required();
                 command.option("STUDY", request->study_uid, "Study Instance UID; 'vicon query' prints it").required();
-                command
-                    .option("--method", request->method,
-                            "get: over our own association; move: the PACS sends to receive.port of receive.address, "
-                            "to 'vicon receive' where it runs, and must know receive.ae_title; else as [peers] says")
-                    .check(oneOf(namesOf(ingest::kRetrieveMethodNames)));
+                command.option("--method", request->method,
+                               "get: over our own association; move: the PACS sends to receive.port of "
+                               "receive.address, to 'vicon receive' where it runs, and must know receive.ae_title; "
+                               "else as [peers] says");
                 command.flag("--reports", request->reports,
                              "Its structured reports in place of images: earlier reports for 'vicon priors'");
                 return [request](Context& context) { return retrieve(context, *request); };

@@ -12,7 +12,8 @@ namespace vicon::app {
 namespace {
 
 struct SnapshotArguments {
-    std::string case_id, scan_id, view, marker, out;
+    std::string case_id, scan_id, marker, out;
+    viewer::SnapshotView view = viewer::SnapshotView::endo;
     double station_mm = 0;
     bool at_station = false;
     int width = 0, height = 0;
@@ -32,7 +33,7 @@ int snapshot(Context& context, const SnapshotArguments& arguments)
     CaseStore& store = context.existingStore();
     const CaseRecord record = store.requireCase(arguments.case_id);
     viewer::SnapshotRequest request;
-    request.view = viewer::snapshotViewFrom(arguments.view);
+    request.view = arguments.view;
     std::string scan_id = arguments.scan_id;
     if (!arguments.marker.empty()) {
         const Marker marker = store.requireMarker(record.id, arguments.marker);

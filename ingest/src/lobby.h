@@ -20,9 +20,6 @@ struct Caller {
     std::unique_ptr<TlsSession> tls;  ///< null: it speaks plainly
 };
 
-/// Whether callers speak TLS.
-enum class TlsUse { off, offered, required };
-
 /// The connections whose association request has not come completely. They wait here without a thread of their own, so
 /// that a silent, partial or trickling one stops nobody; when there are too many, the oldest of the host with the most
 /// is ended. Not for several threads.

@@ -69,8 +69,8 @@ public:
           desk_(folder.parent_path() / "commitments", options_, handlers_, rules_),
           incoming_(folder, {options.quiet_s, options.idle_s, options.incomplete_s}, handlers_),
           listening_(options.address, options.port),
-          tls_(tlsUse() == TlsUse::off ? nullptr : std::make_unique<TlsServer>(network.tls, handlers_.on_trouble)),
-          lobby_(options.max_half_open, options.request_s, tlsUse(), tls_.get()),
+          tls_(options_.tls == TlsUse::off ? nullptr : std::make_unique<TlsServer>(network.tls, handlers_.on_trouble)),
+          lobby_(options.max_half_open, options.request_s, options_.tls, tls_.get()),
           reader_(port(), int(options.timeout_s))
     {
     }
@@ -124,11 +124,6 @@ private:
                 lobby_.enter(std::move(*caller));
             else
                 return;
-    }
-
-    TlsUse tlsUse() const
-    {
-        return options_.tls == "off" ? TlsUse::off : options_.tls == "offered" ? TlsUse::offered : TlsUse::required;
     }
 
     void serve(Caller caller)

@@ -31,11 +31,17 @@ struct FreeCertificate {
     throw Error(ErrorCode::wrong_use, what + reason, file.empty() ? option : file, "set " + option);
 }
 
-DcmTLSSecurityProfile profileOf(const std::string& name)
+DcmTLSSecurityProfile profileOf(TlsProfile profile)
 {
-    if (name == "bcp195_nd")
-        return TSP_Profile_BCP195_ND;
-    return name == "bcp195_extended" ? TSP_Profile_BCP195_Extended : TSP_Profile_BCP195;
+    switch (profile) {
+        case TlsProfile::bcp195:
+            return TSP_Profile_BCP195;
+        case TlsProfile::bcp195_nd:
+            return TSP_Profile_BCP195_ND;
+        case TlsProfile::bcp195_extended:
+            return TSP_Profile_BCP195_Extended;
+    }
+    throw Error(ErrorCode::internal, "no such TLS profile");
 }
 
 bool isAddress(const std::string& name)
@@ -82,7 +88,7 @@ std::unique_ptr<DcmTLSTransportLayer> makeTlsLayer(const TlsOptions& options)
     ERR_clear_error();
     auto layer = std::make_unique<DcmTLSTransportLayer>(NET_ACCEPTORREQUESTOR, nullptr, OFFalse);
     if (layer->setTLSProfile(profileOf(options.profile)).bad() || layer->activateCipherSuites().bad())
-        wrong("this profile cannot be had", options.profile, "tls.profile");
+        wrong("this profile cannot be had", nameIn(kTlsProfileNames, options.profile), "tls.profile");
     layer->setPrivateKeyPasswd("");  // nobody is there to be asked for one
     if (layer->setPrivateKeyFile(options.key.c_str(), DCF_Filetype_PEM).bad())
         wrong("no key without a password can be read", options.key, "tls.key");

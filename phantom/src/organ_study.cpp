@@ -24,23 +24,23 @@ constexpr double kThinnestWall_mm = 1.2, kWallShare = 0.2;  // of the radius
 constexpr double kStomachWall_mm = 4;
 constexpr double kOrganWall_hu = 30, kAir_hu = -1000, kContrast_hu = 320;
 
-/// What there is a phantom of.
+/// How the phantom of an organ is made and named.
 struct Kind {
-    const char* organ;
+    PhantomOrgan organ;
     double height_mm;
     double content_hu;
     const char *description, *body_part;
 };
-constexpr Kind kKinds[] = {{"airway", 280, kAir_hu, "CT CHEST", "CHEST"},
-                           {"aorta", 400, kContrast_hu, "CT ANGIOGRAPHY", "AORTA"},
-                           {"stomach", 280, kAir_hu, "CT ABDOMEN", "ABDOMEN"}};
+constexpr Kind kKinds[] = {{PhantomOrgan::airway, 280, kAir_hu, "CT CHEST", "CHEST"},
+                           {PhantomOrgan::aorta, 400, kContrast_hu, "CT ANGIOGRAPHY", "AORTA"},
+                           {PhantomOrgan::stomach, 280, kAir_hu, "CT ABDOMEN", "ABDOMEN"}};
 
 const Kind& kindOf(const OrganPhantomOptions& options)
 {
     for (const Kind& kind : kKinds)
         if (options.organ == kind.organ)
             return kind;
-    throw Error(ErrorCode::wrong_use, "there is no phantom of '" + options.organ + "'", "--organ",
+    throw Error(ErrorCode::wrong_use, "no organ of this kind", nameIn(kPhantomOrganNames, options.organ),
                 "name airway, aorta or stomach");
 }
 
@@ -124,7 +124,7 @@ OrganScan makeOrganScan(const OrganPhantomOptions& options, Progress& progress)
 {
     const Kind& kind = kindOf(options);
     const Grid grid = gridFor(options);
-    const bool airway = options.organ == "airway", stomach = options.organ == "stomach";
+    const bool airway = options.organ == PhantomOrgan::airway, stomach = options.organ == PhantomOrgan::stomach;
     OrganScan scan;
     if (!stomach)
         scan.truth.tree = airway ? drawAirway(options.seed) : drawAorta(options.seed);
@@ -158,15 +158,15 @@ void writeOrganStudy(const fs::path& out, const OrganPhantomOptions& options, Pr
                     "name a new or an empty folder");
     const OrganScan scan = makeOrganScan(options, progress);
     makePrivateFolder(out);
-    const std::string seed = std::to_string(options.seed);
+    const std::string seed = std::to_string(options.seed), organ = nameIn(kPhantomOrganNames, options.organ);
     const auto& size = options.size;
     StudyHeader study;
-    study.key = Random(options.seed, options.organ + std::to_string(size[0]) + "x" + std::to_string(size[1]) + "x" +
-                                         std::to_string(size[2]))
+    study.key = Random(options.seed,
+                       organ + std::to_string(size[0]) + "x" + std::to_string(size[1]) + "x" + std::to_string(size[2]))
                     .bits();
     study.study_uid = uidFor(study.key, "study");
-    study.patient_name = "Phantom^" + options.organ + seed;
-    study.patient_id = "PHANTOM-" + options.organ + "-" + seed;
+    study.patient_name = "Phantom^" + organ + seed;
+    study.patient_id = "PHANTOM-" + organ + "-" + seed;
     study.birth_date = "19500115";
     study.sex = "F";
     study.date = "20240115";
@@ -176,16 +176,15 @@ void writeOrganStudy(const fs::path& out, const OrganPhantomOptions& options, Pr
     study.description = kind.description;
     study.body_part = kind.body_part;
     study.protocol = kind.body_part;
-    const SeriesHeader series{2, uidFor(study.key, options.organ), options.organ + " soft", "HFS"};
-    writeSeries(out / ("series-2-" + options.organ), study, series, scan.hu, progress);
-    scan_files::writeVolume(out / ("truth-" + options.organ + "-inside.mha"), scan.truth.inside,
-                            scan_files::Packing::zlib);
+    const SeriesHeader series{2, uidFor(study.key, organ), organ + " soft", "HFS"};
+    writeSeries(out / ("series-2-" + organ), study, series, scan.hu, progress);
+    scan_files::writeVolume(out / ("truth-" + organ + "-inside.mha"), scan.truth.inside, scan_files::Packing::zlib);
     nlohmann::json truth = describe(scan.truth);
-    truth["organ"] = options.organ;
+    truth["organ"] = organ;
     truth["scan"] = series.uid;
     truth["study"] = study.study_uid;
     truth["noise_hu"] = options.noise_hu;
-    replaceFile(out / ("truth-" + options.organ + ".json"), truth.dump() + "\n");
+    replaceFile(out / ("truth-" + organ + ".json"), truth.dump() + "\n");
     progress.report(1, "study");
 }
 

@@ -37,8 +37,6 @@ void checkOptions(const PhantomOptions& options)
         const nlohmann::json value = toJson(options).at(spec.key);
         if (value.is_number() && (value.get<double>() < spec.lowest || value.get<double>() > spec.highest))
             throw Error(ErrorCode::wrong_use, spec.key + " is out of range", value.dump());
-        if (!spec.choices.empty() && std::find(spec.choices.begin(), spec.choices.end(), value) == spec.choices.end())
-            throw Error(ErrorCode::wrong_use, spec.key + " is none of its choices", value.dump());
     }
 }
 
@@ -51,9 +49,15 @@ double blurOf(const PhantomOptions& options)
 {
     if (options.blur_mm > 0)
         return options.blur_mm;
-    return options.protocol.kernel == "smooth"  ? drawn(options, "blur", 0.8, 1.1)
-           : options.protocol.kernel == "sharp" ? drawn(options, "blur", 0.45, 0.6)
-                                                : drawn(options, "blur", 0.5, 0.8);
+    switch (options.protocol.kernel) {
+        case Kernel::smooth:
+            return drawn(options, "blur", 0.8, 1.1);
+        case Kernel::sharp:
+            return drawn(options, "blur", 0.45, 0.6);
+        case Kernel::usual:
+            break;
+    }
+    return drawn(options, "blur", 0.5, 0.8);
 }
 
 double noiseOf(const PhantomOptions& options)
@@ -147,7 +151,7 @@ bool hasTopology(const InsideVolume& inside, const LumenField& field, int euler_
 void drawContents(const PhantomOptions& options, const Course& course, const Wall& wall, Position position,
                   PhantomTruth& truth)
 {
-    if (options.mr != "none")  // in MR all of the lumen is filled alike
+    if (options.mr != MrLumen::none)  // in MR all of the lumen is filled alike
         return;
     if (options.fluid)
         truth.pools = drawPools(options.seed, course, wall, position);
@@ -163,7 +167,7 @@ Scene surroundings(const PhantomOptions& options, const DrawnCourse& course, con
                    PhantomTruth& truth)
 {
     Scene scene = drawScene(options.seed, course, position,
-                            {options.catheter, options.protocol.contrast, options.protocol.hips == "metal"});
+                            {options.catheter, options.protocol.contrast, options.protocol.hips == Hips::metal});
     if (!options.ileum)
         return scene;
     Ileum ileum = drawIleum(options.seed, course, wall, truth.pools, position);
@@ -179,14 +183,15 @@ Scene surroundings(const PhantomOptions& options, const DrawnCourse& course, con
 HuVolume scanned(const HuVolume& painted, const PhantomOptions& options, std::uint64_t seed, int thin_slices,
                  PhantomTruth& truth, Progress& progress)
 {
-    if (options.mr != "none") {
+    if (options.mr != MrLumen::none) {
         truth.noise_hu = 0;
-        HuVolume hu =
-            imageScene(signalScene(painted, truth.inside, options.mr == "bright"), {seed, truth.blur_mm, 0}, progress);
+        HuVolume hu = imageScene(signalScene(painted, truth.inside, options.mr == MrLumen::bright),
+                                 {seed, truth.blur_mm, 0}, progress);
         receive(hu, options.seed, seed);
         return averagedSlices(std::move(hu), thin_slices);
     }
-    ImagingOptions imaging{seed, truth.blur_mm, truth.noise_hu, options.protocol.kernel == "sharp" ? kOvershoot : 0};
+    ImagingOptions imaging{seed, truth.blur_mm, truth.noise_hu,
+                           options.protocol.kernel == Kernel::sharp ? kOvershoot : 0};
     HuVolume hu;
     if (thin_slices == 1) {
         hu = imageScene(painted, imaging, progress);
@@ -196,7 +201,7 @@ HuVolume scanned(const HuVolume& painted, const PhantomOptions& options, std::ui
         imaging.noise_hu = truth.noise_hu;
         addTo(hu, imageScene(HuVolume(hu.grid, 0), imaging, progress));
     }
-    if (options.protocol.hips != "quiet")
+    if (options.protocol.hips != Hips::quiet)
         addHipArtefacts(hu, seed, progress);
     return hu;
 }
@@ -299,8 +304,8 @@ std::vector<std::string> positionsOf(const PhantomOptions& options)
         positions.push_back(head + "S");
     if (options.prone)
         positions.push_back(head + "P");
-    if (options.decubitus != "none")
-        positions.push_back(head + (options.decubitus == "left" ? "DL" : "DR"));
+    if (options.decubitus != Decubitus::none)
+        positions.push_back(head + (options.decubitus == Decubitus::left ? "DL" : "DR"));
     return positions;
 }
 

@@ -36,7 +36,7 @@ StudyHeader headerFor(const PhantomOptions& options)
     StudyHeader study;
     nlohmann::json shaping = toJson(options);
     // Studies keep the identifiers that they had before there was MR, stool, film and what follows.
-    if (options.mr == "none")
+    if (options.mr == MrLumen::none)
         shaping.erase("phantom.mr");
     if (options.stool == 0)
         shaping.erase("phantom.stool");
@@ -57,7 +57,7 @@ StudyHeader headerFor(const PhantomOptions& options)
     study.date = "20240115";
     study.accession_number = "P" + seed;
     study.study_id = seed.substr(0, 16);
-    if (options.mr != "none")
+    if (options.mr != MrLumen::none)
         study.description = "MR COLONOGRAPHY";
     return study;
 }
@@ -132,17 +132,18 @@ void writeStudy(const fs::path& out, const PhantomOptions& options, Progress& pr
         PartProgress part(progress, (number - 1.0) / double(positions.size()), 1.0 / double(positions.size()));
         const PhantomScan scan = makeScan(options, position, part);
         const std::string name = nameOfPosition(position);
-        if (options.extras && number == 1 && options.mr == "none")
+        if (options.extras && number == 1 && options.mr == MrLumen::none)
             writeLocalizer(out / "series-1-localizer", study,
                            {1, uidFor(study.key, "localizer"), "Localizer", position}, scan.hu);
         ++number;
         char thickness[16];
         std::snprintf(thickness, sizeof thickness, "%.1f", scan.hu.grid.spacing_mm[2]);
-        const bool mr = options.mr != "none";
-        const SeriesHeader series{number, uidFor(study.key, name),
-                                  mr ? "MRC " + name + " " + thickness + " mm, " + options.mr + " lumen"
-                                     : "CTC " + name + " " + thickness + " mm soft",
-                                  position, mr ? "MR" : "CT"};
+        const bool mr = options.mr != MrLumen::none;
+        const SeriesHeader series{
+            number, uidFor(study.key, name),
+            mr ? "MRC " + name + " " + thickness + " mm, " + nameIn(kMrLumenNames, options.mr) + " lumen"
+               : "CTC " + name + " " + thickness + " mm soft",
+            position, mr ? "MR" : "CT"};
         writeSeries(out / ("series-" + std::to_string(number) + "-" + name), study, series, scan.hu, part);
         scan_files::writeVolume(out / ("truth-" + name + "-inside.mha"), scan.truth.inside, scan_files::Packing::zlib);
         nlohmann::json truth = describeTruth(scan.truth);
@@ -152,7 +153,7 @@ void writeStudy(const fs::path& out, const PhantomOptions& options, Progress& pr
         truth["options"] = toJson(options);
         replaceFile(out / ("truth-" + name + ".json"), truth.dump() + "\n");
     }
-    if (options.extras && options.mr == "none")
+    if (options.extras && options.mr == MrLumen::none)
         writeDoseSheet(out / "series-999-dose", study, {999, uidFor(study.key, "dose"), "Dose report", ""});
     progress.report(1, "study");
 }

@@ -12,10 +12,10 @@ namespace vicon::report {
 namespace {
 
 /// Width and height in points.
-PageFlow::Paper paperOf(const std::string& name)
+PageFlow::Paper paperOf(Paper paper)
 {
     constexpr double kA4Width = 595.28, kA4Height = 841.89, kLetterWidth = 612, kLetterHeight = 792;
-    if (name == "letter")
+    if (paper == Paper::letter)
         return {.width = kLetterWidth, .height = kLetterHeight};
     return {.width = kA4Width, .height = kA4Height};
 }

@@ -48,7 +48,7 @@ TEST(WrongUse, EndsWithTheRightCodeAndOneLineThatSaysWhatToDo)
         {"work --until-idle --config " + (folder / "bad.toml").string() + store, 2, "gas_below_hu"},
         {"work --until-idle --config /nonexistent.toml" + store, 2, "no such configuration file"},
         {"work --until-idle --set segment.gas_below_hu=5000" + store, 2, "between"},
-        {"snapshot nosuchcase --view sideways --out x.png" + store, 1, "no such case"},
+        {"snapshot nosuchcase --view sideways --out x.png" + store, 2, "{endo,slices,overview,cube,band}"},
         {"query scanner" + peers, 2, "not to be asked"},
         {"retrieve scanner 1.2.3" + peers + store, 2, "not to be asked"},
         {"query odd" + peers, 2, "not understood"},
@@ -66,7 +66,7 @@ TEST(WrongUse, EndsWithTheRightCodeAndOneLineThatSaysWhatToDo)
         {"export nosuchcase --as pdf" + store, 2, "{text,json,csv,fhir,hl7,dicom}"},
         {"phantom " + (folder / "p").string() + " --size 3x3", 2, "COLUMNSxROWSxSLICES"},
         {"phantom /proc/nowhere --size 64x64x32", 1, "/proc/nowhere"},
-        {"fly nosuchcase --to moon" + store, 1, "no such case"},
+        {"fly nosuchcase --to moon" + store, 2, "{caecum,tip,rectum,root,both}"},
         {"read nosuchcase --demo" + store, 2, "leave out CASE"},
     });
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <soci/soci.h>
 
+#include "vicon/cases/audit_trail.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/support/message_of.h"
@@ -147,6 +148,23 @@ TEST_F(Store, FlagsACaseOncePerLine)
     store_.flag("c1", "check the patient");
     store_.flag("c1", "check the patient");
     EXPECT_EQ(store_.requireCase("c1").flags, std::vector<std::string>{"check the patient"});
+}
+
+TEST_F(Store, ASettledFlagIsGoneAndStaysKnown)
+{
+    addScan("s1");
+    store_.flag("c1", "check the patient");
+    store_.flag("c1", "check the position");
+    store_.settleFlag("c1", "check the patient");
+    EXPECT_EQ(store_.requireCase("c1").flags, std::vector<std::string>{"check the position"}) << "no other";
+    EXPECT_EQ(auditTrail(store_, "c1").back().event, "flag settled");
+    EXPECT_EQ(auditTrail(store_, "c1").back().detail, "check the patient");
+    EXPECT_TRUE(store_.wasFlagged("c1", "check the patient"));
+    EXPECT_FALSE(store_.wasFlagged("c1", "check the dose"));
+    EXPECT_FALSE(store_.wasFlagged("c2", "check the patient")) << "of another case";
+    const std::size_t lines = auditTrail(store_, "c1").size();
+    EXPECT_THAT(messageOf([&] { store_.settleFlag("c1", "check the patient"); }), HasSubstr("no such flag"));
+    EXPECT_EQ(auditTrail(store_, "c1").size(), lines);
 }
 
 TEST_F(Store, RefusesADatabaseOfANewerVersion)

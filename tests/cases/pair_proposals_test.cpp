@@ -162,6 +162,10 @@ TEST(PairProposals, NeverHaveTwoMarkersOfOneScanInAGroup)
     const auto edits = pairingEdits(markers, markers[0], markers[3]);
     ASSERT_EQ(edits.size(), 3U);
     EXPECT_EQ(partnerNames(*edits[0].after), "m3, m4");
+    EXPECT_EQ(edits[1].after->id, "m3") << "in the case's order";
+    EXPECT_EQ(partnerNames(*edits[1].after), "m1, m4");
+    EXPECT_EQ(partnerNames(*edits[2].after), "m1, m3");
+    EXPECT_EQ(partnerNames(*edits[1].before), "m4") << "as it was stored";
 }
 
 }  // namespace

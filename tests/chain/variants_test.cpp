@@ -31,8 +31,8 @@ const std::vector<Variant>& variants()
 {
     static const std::vector<Variant> all{
         {"usual", [](PhantomOptions&) {}, 0.4},
-        {"kernel smooth", [](PhantomOptions& o) { o.protocol.kernel = "smooth"; }, 0.4},
-        {"kernel sharp", [](PhantomOptions& o) { o.protocol.kernel = "sharp"; }, 0.4, {403, 404}},
+        {"kernel smooth", [](PhantomOptions& o) { o.protocol.kernel = phantom::Kernel::smooth; }, 0.4},
+        {"kernel sharp", [](PhantomOptions& o) { o.protocol.kernel = phantom::Kernel::sharp; }, 0.4, {403, 404}},
         {"slices 0.6 mm", [](PhantomOptions& o) { o.protocol.thickness_mm = 0.6; }, 0.4},
         {"slices 2 mm", [](PhantomOptions& o) { o.protocol.thickness_mm = 2; }, 0.4},
         {"slices 3 mm", [](PhantomOptions& o) { o.protocol.thickness_mm = 3; }, 0.5},
@@ -43,8 +43,8 @@ const std::vector<Variant>& variants()
         {"bubbles", [](PhantomOptions& o) { o.protocol.bubbles = 60; }, 0.4},
         {"films", [](PhantomOptions& o) { o.film = true; }, 0.4},
         {"contrast medium", [](PhantomOptions& o) { o.protocol.contrast = true; }, 0.4},
-        {"hips, streaks", [](PhantomOptions& o) { o.protocol.hips = "streaks"; }, 0.4},
-        {"hips, metal", [](PhantomOptions& o) { o.protocol.hips = "metal"; }, 0.4},
+        {"hips, streaks", [](PhantomOptions& o) { o.protocol.hips = phantom::Hips::streaks; }, 0.4},
+        {"hips, metal", [](PhantomOptions& o) { o.protocol.hips = phantom::Hips::metal; }, 0.4},
         {"thin walls", [](PhantomOptions& o) { o.thin_walls = true; }, 0.4, {401, 403}},  // 402 has no such colon
     };
     return all;

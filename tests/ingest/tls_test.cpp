@@ -30,7 +30,7 @@ protected:
         certificates.certify(name, "ca");
         return {(folder / (name + ".pem")).string(), (folder / (name + ".key")).string(), (folder / "ca.pem").string()};
     }
-    std::unique_ptr<RunningReceiver> receiver(const std::string& use, std::vector<ingest::Peer> peers = {},
+    std::unique_ptr<RunningReceiver> receiver(ingest::TlsUse use, std::vector<ingest::Peer> peers = {},
                                               ingest::ReceiverOptions options = {})
     {
         options.port = port_;
@@ -55,7 +55,7 @@ TEST_F(Tls, StorescuStoresByItAndOnlyWithATrustedCertificate)
 {
     certificates.makeAuthority("stranger_ca");
     certificates.certify("stranger", "stranger_ca");
-    const auto listener = receiver("required");
+    const auto listener = receiver(ingest::TlsUse::required);
     EXPECT_TRUE(stores("+tls other.key other.pem +cf ca.pem"));
     EXPECT_EQ(listener->waitFor(files_.size()).size(), files_.size());
     EXPECT_FALSE(stores(""));
@@ -70,7 +70,7 @@ TEST_F(Tls, StorescuStoresByItAndOnlyWithATrustedCertificate)
 TEST_F(Tls, IsSpokenWithWhoSpeaksItAndByPeersThatMust)
 {
     ingest::Peer must{.name = "must", .host = "localhost", .ae_title = "MUST", .port = 104, .tls = vicon_};
-    const auto listener = receiver("offered", {must});
+    const auto listener = receiver(ingest::TlsUse::offered, {must});
     EXPECT_TRUE(stores("+tls other.key other.pem +cf ca.pem"));
     EXPECT_TRUE(stores(""));
     EXPECT_TRUE(stores("-aet MUST +tls other.key other.pem +cf ca.pem"));
@@ -80,14 +80,14 @@ TEST_F(Tls, IsSpokenWithWhoSpeaksItAndByPeersThatMust)
 
 TEST_F(Tls, IsRefusedWhereItIsOff)
 {
-    const auto listener = receiver("off");
+    const auto listener = receiver(ingest::TlsUse::off);
     EXPECT_FALSE(stores("+tls other.key other.pem +cf ca.pem"));
     EXPECT_TRUE(listener->tells("speaks TLS, which receive.tls does not offer"));
 }
 
 TEST_F(Tls, WhoeverIsCalledMustHaveTheName)
 {
-    const auto listener = receiver("required");
+    const auto listener = receiver(ingest::TlsUse::required);
     EXPECT_NO_THROW(ingest::echo(called(other_), "SENDER"));
     ingest::Peer peer = called(other_);
     peer.host = "127.0.0.1";
@@ -102,7 +102,7 @@ TEST_F(Tls, WhoeverIsCalledMustHaveTheName)
 
 TEST_F(Tls, ReplacedCertificatesAreUsedForTheNextConnection)
 {
-    const auto listener = receiver("required");
+    const auto listener = receiver(ingest::TlsUse::required);
     ASSERT_NO_THROW(ingest::echo(called(other_), "SENDER"));
     certificates.makeAuthority("new_ca");
     certificates.certify("new", "new_ca");
@@ -121,7 +121,7 @@ TEST_F(Tls, HalfAHandshakeKeepsNobodyWaiting)
 {
     ingest::ReceiverOptions options;
     options.request_s = 2;
-    const auto listener = receiver("required", {}, options);
+    const auto listener = receiver(ingest::TlsUse::required, {}, options);
     for (int n = 0; n < 3; ++n) {
         const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
         sockaddr_in to{};
@@ -179,7 +179,7 @@ TEST_F(Tls, OrthancIsSentToAskedFetchedFromAndCommits)
     std::vector<ingest::CommitmentReport> reports;
     ingest::ReceiverOptions options;
     options.port = port_;
-    options.tls = "required";
+    options.tls = ingest::TlsUse::required;
     RunningReceiver listener(
         store.folder() / "incoming", options, nullptr, {},
         {.peers = {orthanc.peer()},

@@ -41,6 +41,22 @@ TEST(WatchRule, AStudyFitsByOneSeriesThatFitsAllOfIt)
     EXPECT_EQ(ingest::reportSeries(series), Uids{"3"});
 }
 
+TEST(WatchRule, SeriesOfTheOtherModalityAreNotFetched)
+{
+    using ingest::WatchModality;
+    const std::vector<ingest::FoundSeries> both{{"1", "CT", "", "", 200}, {"2", "MR", "", "", 200}};
+    const auto uids = [&](WatchModality modality) { return ingest::imageSeries({.modality = modality}, both); };
+    using Uids = std::vector<std::string>;
+    EXPECT_EQ(uids(WatchModality::ct), Uids{"1"});
+    EXPECT_EQ(uids(WatchModality::mr), Uids{"2"});
+    EXPECT_EQ(uids(WatchModality::any), (Uids{"1", "2"}));
+    EXPECT_FALSE(ingest::fits({.modality = WatchModality::mr}, {}, {both[0]}));
+    EXPECT_FALSE(ingest::fits({.modality = WatchModality::ct}, {}, {both[1]}));
+    EXPECT_EQ(ingest::modalityAsked({.modality = WatchModality::ct}), "CT");
+    EXPECT_EQ(ingest::modalityAsked({.modality = WatchModality::mr}), "MR");
+    EXPECT_EQ(ingest::modalityAsked({.modality = WatchModality::any}), "") << "asked for all, chosen afterwards";
+}
+
 TEST(WatchRule, LooksBackFromTheNewestStudyOrTodayWhicheverIsEarlier)
 {
     ingest::WatchOptions rule;

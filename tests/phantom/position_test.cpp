@@ -181,7 +181,7 @@ TEST(Positions, AreThoseAskedFor)
     EXPECT_EQ(positionsOf(options), (std::vector<std::string>{"HFS", "HFP"}));
     options.feet_first = true;
     options.supine = false;
-    options.decubitus = "left";
+    options.decubitus = Decubitus::left;
     EXPECT_EQ(positionsOf(options), (std::vector<std::string>{"FFP", "FFDL"}));
     EXPECT_EQ(nameOfPosition("FFDL"), "decubitus-left");
 }

@@ -140,13 +140,11 @@ TEST(PhantomScan, RefusesWhatItCannotMake)
         }
         return std::string_view("none");
     };
-    PhantomOptions many_gaps = smallOptions(), no_columns = smallOptions(), upside_down = smallOptions();
+    PhantomOptions many_gaps = smallOptions(), no_columns = smallOptions();
     many_gaps.gaps = 40;
     no_columns.size[0] = 0;
-    upside_down.decubitus = "upside down";
     EXPECT_EQ(codeOf(many_gaps, "HFS"), nameOf(ErrorCode::wrong_use));
     EXPECT_EQ(codeOf(no_columns, "HFS"), nameOf(ErrorCode::wrong_use));
-    EXPECT_EQ(codeOf(upside_down, "HFS"), nameOf(ErrorCode::wrong_use));
     EXPECT_EQ(codeOf(smallOptions(), "HFX"), nameOf(ErrorCode::wrong_use));
 }
 

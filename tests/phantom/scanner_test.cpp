@@ -56,7 +56,7 @@ TEST(Scanner, WithASharpKernelOvershootsAtEdges)
     PhantomOptions options = quietOptions();
     options.blur_mm = 3;
     const PhantomScan usual = scanOf(options);
-    options.protocol.kernel = "sharp";
+    options.protocol.kernel = Kernel::sharp;
     const PhantomScan sharp = scanOf(options);
     const Point3 liver{-72, -14, 352};
     EXPECT_NEAR(sharp.hu.at(sharp.hu.grid.indexAt(liver)), usual.hu.at(usual.hu.grid.indexAt(liver)), 3);
@@ -152,9 +152,9 @@ TEST(Scanner, StreaksFromHipToHipAndStarvesBehindMetal)
 {
     PhantomOptions options = quietOptions();
     const PhantomScan quiet = scanOf(options);
-    options.protocol.hips = "streaks";
+    options.protocol.hips = Hips::streaks;
     const PhantomScan streaked = scanOf(options);
-    options.protocol.hips = "metal";
+    options.protocol.hips = Hips::metal;
     const PhantomScan metal = scanOf(options);
     HuVolume added = streaked.hu;
     for (std::size_t n = 0; n < added.voxels.size(); ++n)

@@ -22,7 +22,7 @@ namespace {
 struct Study {
     Study() : out(folder / "study"), options(smallOptions(5))
     {
-        options.decubitus = "left";
+        options.decubitus = Decubitus::left;
         options.oblique_deg = 7;
         NoProgress progress;
         writeStudy(out, options, progress);
@@ -169,7 +169,7 @@ TEST(PhantomStudy, GivesOtherVoxelsOtherIdentifiers)
 {
     support::TemporaryFolder folder;
     PhantomOptions options = study().options;
-    options.decubitus = "none";
+    options.decubitus = Decubitus::none;
     options.prone = false;
     options.extras = false;
     options.noise_hu = 5;

@@ -187,9 +187,9 @@ TEST_F(PdfOfFindings, OfANormalStudyIsOnePage)
         samples::makeNormal(content_);
         for (ScanEntry& entry : content_.scans)
             entry.quality->noise_hu = 14;
-        for (const char* paper : {"a4", "letter"}) {
+        for (const Paper paper : {Paper::a4, Paper::letter}) {
             const PdfResult result = write({.paper = paper});
-            EXPECT_EQ(result.pages, 1) << scans << " scans on " << paper;
+            EXPECT_EQ(result.pages, 1) << scans << " scans on " << nameIn(kPaperNames, paper);
             expectSound(pdf_);
         }
         EXPECT_THAT(samples::textOf(pdf_),

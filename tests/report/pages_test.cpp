@@ -210,12 +210,12 @@ constexpr std::size_t kLeastWords = 45;  // of the last page, with what stands o
 
 TEST_P(Pages, AreSoundAndTidyAndSayEveryNumber)
 {
-    for (const char* paper : {"a4", "letter"}) {
+    for (const Paper paper : {Paper::a4, Paper::letter}) {
         const PdfResult result = write({.paper = paper, .site = {GetParam().site, "1 Main Street, Exampleton"}});
         EXPECT_THAT(result.warnings, testing::IsEmpty());
-        EXPECT_LE(result.pages, GetParam().most_pages) << paper;
+        EXPECT_LE(result.pages, GetParam().most_pages) << nameIn(kPaperNames, paper);
         expectSound(pdf_);
-        if (std::string(paper) == "a4") {
+        if (paper == Paper::a4) {
             expectTidy(pdf_);
             if (GetParam().keeps_layout)
                 samples::expectLayout(pdf_, GetParam().name);
@@ -228,7 +228,7 @@ TEST_P(Pages, AreSoundAndTidyAndSayEveryNumber)
             EXPECT_THAT(samples::pageTexts(pdf_).at(0), HasSubstr("CT colonography report, amended"));
         }
         if (GetParam().findings > 0) {
-            EXPECT_GT(filledShare(pdf_, std::string(paper) == "a4" ? 842 : 792), 0.75) << paper;
+            EXPECT_GT(filledShare(pdf_, paper == Paper::a4 ? 842 : 792), 0.75) << nameIn(kPaperNames, paper);
         }
         std::string text =
             samples::textOf(pdf_) + support::runCommand("pdftotext -layout " + pdf_.string() + " -").output;

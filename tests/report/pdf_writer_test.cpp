@@ -211,7 +211,7 @@ TEST_F(PdfWriter, LetterPaperAndASignedReport)
     addMarkers(3);
     content_.version =
         ReportVersion{.version = 1, .state = ReportState::final, .person = "anna", .at = "2026-11-21T08:15:30Z"};
-    const PdfResult result = write({.paper = "letter"});
+    const PdfResult result = write({.paper = Paper::letter});
     EXPECT_THAT(runCommand("pdfinfo " + pdf_.string()).output, HasSubstr("letter"));
     EXPECT_THAT(samples::textOf(pdf_), Not(HasSubstr("DRAFT")));
     EXPECT_THAT(samples::textOf(pdf_), HasSubstr("research software that is no medical device"));

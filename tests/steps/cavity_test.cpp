@@ -44,8 +44,8 @@ TEST(Stomach, IsFoundWithItsFoldsAndWithoutGulletBulbAndColon)
 {
     NoProgress quiet;
     for (const std::uint64_t seed : {31U, 32U}) {
-        phantom::OrganScan scan =
-            phantom::makeOrganScan({.organ = "stomach", .seed = seed, .size = {160, 160, 150}}, quiet);
+        phantom::OrganScan scan = phantom::makeOrganScan(
+            {.organ = phantom::PhantomOrgan::stomach, .seed = seed, .size = {160, 160, 150}}, quiet);
         const Segmentation found = segmentOrgan(resample(std::move(scan.hu), {}, quiet), stomach(), quiet);
         EXPECT_EQ(found.verdict, Verdict::found) << found.reason;
         EXPECT_GE(test::dice(scan.truth.inside, found.inside), 0.97);

@@ -17,7 +17,7 @@ namespace {
 // As the phantom makes them, before its shading.
 constexpr double kDarkLumen = 40, kBrightLumen = 900, kTissue = 420;
 
-phantom::PhantomScan mrScan(const std::string& contrast, std::uint64_t seed)
+phantom::PhantomScan mrScan(phantom::MrLumen contrast, std::uint64_t seed)
 {
     phantom::PhantomOptions options;
     options.seed = seed;
@@ -48,35 +48,36 @@ double dice(const InsideVolume& found, const InsideVolume& truth)
     return 2 * double(both) / double(either);
 }
 
-class MrLumen : public testing::TestWithParam<const char*> {};
+class MrLumen : public testing::TestWithParam<phantom::MrLumen> {};
 
 TEST_P(MrLumen, IsFoundWithItsPolarityAndItsLevels)
 {
-    const std::string contrast = GetParam();
+    const phantom::MrLumen contrast = GetParam();
+    const std::string name = nameIn(phantom::kMrLumenNames, contrast);
     const phantom::PhantomScan scan = mrScan(contrast, 611);
     NoProgress quiet;
     const SignalSegmentation result = segmentSignal(scan.hu, {}, scan.truth.gravity, {}, {}, quiet);
     EXPECT_EQ(result.found.verdict, Verdict::found) << result.found.reason;
-    EXPECT_EQ(result.found.measures["contrast"], contrast);
+    EXPECT_EQ(result.found.measures["contrast"], name);
     EXPECT_EQ(std::count(result.found.inside.voxels.begin(), result.found.inside.voxels.end(), kFluid), 0);
     const double lumen = result.found.measures["lumen_signal"], tissue = result.found.measures["tissue_signal"];
-    const double told = (contrast == "dark" ? kDarkLumen : kBrightLumen) / kTissue;
+    const double told = (contrast == phantom::MrLumen::dark ? kDarkLumen : kBrightLumen) / kTissue;
     EXPECT_NEAR(lumen / tissue, told, 0.15 * std::max(1.0, told));
     EXPECT_FALSE(result.found.measures.contains("noise_hu")) << "a signal has no HU";
     const TissueResult placed =
         findTissue(result.lumen_scale, result.found.inside, scan.truth.gravity, {}, 0, quiet, {});
     const double overlap = dice(placed.lumen, scan.truth.inside);
-    std::printf("%s: dice %.4f, lumen %.0f, tissue %.0f\n", contrast.c_str(), overlap, lumen, tissue);
-    EXPECT_GT(overlap, contrast == "dark" ? 0.94 : 0.97);
+    std::printf("%s: dice %.4f, lumen %.0f, tissue %.0f\n", name.c_str(), overlap, lumen, tissue);
+    EXPECT_GT(overlap, contrast == phantom::MrLumen::dark ? 0.94 : 0.97);
 }
 
-INSTANTIATE_TEST_SUITE_P(Contrasts, MrLumen, testing::Values("dark", "bright"));
+INSTANTIATE_TEST_SUITE_P(Contrasts, MrLumen, testing::Values(phantom::MrLumen::dark, phantom::MrLumen::bright));
 
 TEST(MrLevels, AreToldByAGivenLumen)
 {
     NoProgress quiet;
     for (const bool bright : {false, true}) {
-        const phantom::PhantomScan scan = mrScan(bright ? "bright" : "dark", 612);
+        const phantom::PhantomScan scan = mrScan(bright ? phantom::MrLumen::bright : phantom::MrLumen::dark, 612);
         const HuVolume evened = evenedOut(scan.hu, shadingOf(scan.hu, quiet));
         const SignalLevels levels = levelsWithin(evened, scan.truth.inside, {});
         EXPECT_EQ(levels.contrast, bright ? LumenContrast::bright : LumenContrast::dark);
@@ -88,7 +89,7 @@ TEST(MrLevels, AreToldByAGivenLumen)
 
 TEST(MrLevels, ThatAreSetComeFirst)
 {
-    const phantom::PhantomScan scan = mrScan("bright", 613);
+    const phantom::PhantomScan scan = mrScan(phantom::MrLumen::bright, 613);
     const SignalLevels levels = levelsOf(scan.hu, LumenContrast::bright, {.lumen_signal = 800, .tissue_signal = 300});
     EXPECT_EQ(levels.lumen, 800);
     EXPECT_EQ(levels.tissue, 300);
@@ -143,7 +144,7 @@ TEST(MrShading, LeavesPaddingAndAnEmptyScan)
 
 TEST(MrGivenLumen, ThatDoesNotStandOutIsRefused)
 {
-    const phantom::PhantomScan scan = mrScan("dark", 611);
+    const phantom::PhantomScan scan = mrScan(phantom::MrLumen::dark, 611);
     InsideVolume elsewhere(scan.hu.grid);
     const auto& size = scan.hu.grid.size;
     for (int k = 2; k < 12; ++k)

@@ -35,10 +35,10 @@ struct Worked {
     TreeResult skeleton;
 };
 
-Worked work(const std::string& organ, std::uint64_t seed)
+Worked work(phantom::PhantomOrgan organ, std::uint64_t seed)
 {
     NoProgress quiet;
-    const Config config = configOf(organ);
+    const Config config = configOf(nameIn(phantom::kPhantomOrganNames, organ));
     const auto options = config.get<OrganOptions>();
     phantom::OrganScan scan = phantom::makeOrganScan({.organ = organ, .seed = seed, .size = {160, 160, 160}}, quiet);
     Worked out{std::move(scan.truth), segmentOrgan(resample(std::move(scan.hu), {}, quiet), options, quiet), {}};
@@ -51,12 +51,12 @@ Worked work(const std::string& organ, std::uint64_t seed)
 /// Shared by the tests: each takes seconds.
 const Worked& airway()
 {
-    static const Worked kWorked = work("airway", 11);
+    static const Worked kWorked = work(phantom::PhantomOrgan::airway, 11);
     return kWorked;
 }
 const Worked& aorta()
 {
-    static const Worked kWorked = work("aorta", 12);
+    static const Worked kWorked = work(phantom::PhantomOrgan::aorta, 12);
     return kWorked;
 }
 
@@ -217,10 +217,10 @@ TEST(Organ, WhatIsNotThereIsNotFound)
     NoProgress quiet;
     struct Case {
         const char* organ;
-        const char* phantom;
+        phantom::PhantomOrgan shown;
     };
-    for (const Case& c : {Case{"aorta", "airway"}, Case{"airway", "aorta"}}) {
-        phantom::OrganScan scan = phantom::makeOrganScan({.organ = c.phantom, .seed = 13, .size = {96, 96, 96}}, quiet);
+    for (const Case& c : {Case{"aorta", phantom::PhantomOrgan::airway}, Case{"airway", phantom::PhantomOrgan::aorta}}) {
+        phantom::OrganScan scan = phantom::makeOrganScan({.organ = c.shown, .seed = 13, .size = {96, 96, 96}}, quiet);
         const Segmentation found =
             segmentOrgan(resample(std::move(scan.hu), {}, quiet), configOf(c.organ).get<OrganOptions>(), quiet);
         EXPECT_TRUE(found.verdict != Verdict::found) << c.organ << ": " << found.reason;

@@ -211,7 +211,7 @@ TEST_P(CaptionsOfSmallViews, KeepTheTextsSizeInASlice)
     request.caption = caption();
     request.text_px = kText_px;
     request.window = of.windows().front();
-    request.thick = {ThickSlice::Of::minimum, 5};
+    request.thick = {ThickSlice::Kind::minimum, 5};
     request.voxels_a_pixel = 1;
     for (int height = 140; height <= 400; height += 10)
         for (const SlicePlane plane : {SlicePlane::axial, SlicePlane::coronal, SlicePlane::sagittal}) {

@@ -91,7 +91,7 @@ TEST_F(EyesMarks, LiesInTheProjectionWhereTheEyeIsAndPointsWhereItLooks)
     const PreparedScan prepared = scan();
     ReadingPictures pictures(prepared);
     SnapshotRequest request;
-    request.view = SnapshotRequest::View::overview;
+    request.view = SnapshotView::overview;
     request.width = 800;
     request.height = 700;
     const Point3 eye = prepared.frames().at(prepared.frames().length_mm() / 2).position_mm;

@@ -178,7 +178,7 @@ TEST(TurnedView, GrowsAroundThePlaceOfTheMouse)
     const PlaneView before = view.over(colon.cells, 400, 400);
     const Pixel mouse{310, 120};
     const Point3 under = before.pointAt(mouse);
-    view.enlarge(3, {(mouse.x - 200) * before.mm_per_pixel, (mouse.y - 200) * before.mm_per_pixel});
+    view.zoom(3, {(mouse.x - 200) * before.mm_per_pixel, (mouse.y - 200) * before.mm_per_pixel});
     const PlaneView after = view.over(colon.cells, 400, 400);
     EXPECT_LT(after.mm_per_pixel, before.mm_per_pixel / 1.5);
     EXPECT_NEAR(after.toPixel(under).x, mouse.x, 1e-6);

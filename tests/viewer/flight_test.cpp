@@ -123,7 +123,7 @@ TEST_F(Flights, ReportPosesFramesAndCoverage)
     ASSERT_EQ(json.at("unseen").size(), one_way.unseen.size());
     EXPECT_NEAR(json.at("unseen")[0].at("area_mm2").get<double>(), one_way.unseen[0].area_mm2, 1e-9);
 
-    request.direction = FlightRequest::Direction::both;
+    request.direction = FlightDirection::both;
     request.write_frames = false;
     const FlightReport both = fly(of, request, progress);
     EXPECT_GT(both.coverage, one_way.coverage);

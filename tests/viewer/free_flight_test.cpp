@@ -15,7 +15,7 @@
 namespace vicon::viewer {
 namespace {
 
-constexpr double kCamera_mm = SubmarineOptions{}.camera_radius_mm;
+constexpr double kCamera_mm = kCameraRadius_mm;
 
 /// An ellipsoid with folds, and a wall of 1.6 mm across it that is open above.
 bool insideCavity(Point3 p)

@@ -103,7 +103,7 @@ TEST_F(GivingUp, OfSlices)
     };
     SlicePictures pictures;
     expectStops("slice", 100, [&](const Progress* wanted) { draw(pictures, 0, wanted); });
-    request.thick = {ThickSlice::Of::mean, 20};
+    request.thick = {ThickSlice::Kind::mean, 20};
     expectStops("slab", 1000, [&](const Progress* wanted) { draw(pictures, 0, wanted); });
     request.thick = {};
     expectStops("slices to come", 10, [&](const Progress* wanted) {

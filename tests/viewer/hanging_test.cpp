@@ -11,7 +11,7 @@ TEST(Hangings, AreKeptWholeAndRubbishIsNotTakenForOne)
     mine.layout = ViewLayout::both_scans;
     mine.plane = SlicePlane::sagittal;
     mine.slices.window = {"by hand", 420, -35};
-    mine.slices.thick = {ThickSlice::Of::minimum, 10};
+    mine.slices.thick = {ThickSlice::Kind::minimum, 10};
     mine.slices.tracks = true;
     const Hanging usual = usualHangings()[1];
     const Hanging read = hangingFrom(toText(mine), usual);

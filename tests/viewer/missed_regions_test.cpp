@@ -78,7 +78,7 @@ TEST(ReviewRule, WallCountsUnderLessThan60DegreesAndWithThreePixelsAMillimetre)
 
 TEST(ReviewRule, WallCountsOnceItWasOnTheScreenForATenthOfASecondWithoutABreak)
 {
-    const double least_s = ReviewRule().least_s;
+    const double least_s = kLeastShown_s;
     ScanCoverage seen(std::vector<float>(10, 1.F));
     seen.show({1, 2, 3}, 5.0, least_s);
     EXPECT_EQ(seen.fraction(), 0);

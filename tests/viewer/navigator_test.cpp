@@ -108,7 +108,7 @@ TEST_F(Navigation, FreeFlightNeverPassesThroughTheWall)
                 least = std::min(least, navigator.state().clearance_mm);
                 ASSERT_TRUE(lumen.inside(navigator.state().pose.eye_mm));
             }
-            EXPECT_GE(least, std::min(first, SubmarineOptions{}.camera_radius_mm) - 1e-9);
+            EXPECT_GE(least, std::min(first, kCameraRadius_mm) - 1e-9);
             EXPECT_GT(distance(navigator.state().pose.eye_mm, begin), 1) << "it moves at all";
             navigator.steer({});
         }

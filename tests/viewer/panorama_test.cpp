@@ -67,7 +67,7 @@ Marker markerOn(Point3 p)
 SnapshotRequest cubeRequest(const test::TestColon& colon)
 {
     SnapshotRequest request;
-    request.view = SnapshotRequest::View::cube;
+    request.view = SnapshotView::cube;
     request.station_mm = colon.polyp_station_mm;
     request.width = 800;
     request.height = 600;
@@ -188,7 +188,7 @@ TEST_F(Panorama, TheWholeBandIsWrittenWithoutAWindowAndSeenWallIsPaintedInIt)
 {
     const PreparedScan files = scan();
     SnapshotRequest request;
-    request.view = SnapshotRequest::View::band;
+    request.view = SnapshotView::band;
     request.caption.patient_name = "Phantom^Anna";
     const auto file = folder / "band.png";
     renderSnapshot(files, request, file);
@@ -297,7 +297,7 @@ TEST_F(Panorama, WhereSomethingShouldLieIsShownFromInsideInCubeBandAndOnTheBodyT
     cube.priors = stretch;
     EXPECT_GT(all(drawSnapshot(files, cube).picture), 100);
     SnapshotRequest inside = cube;
-    inside.view = SnapshotRequest::View::endo;
+    inside.view = SnapshotView::endo;
     inside.priors = {stretchOf(files, station_mm, 2 * kSide_mm)};
     const DrawnSnapshot ahead = drawSnapshot(files, inside);
     writePng(folder / "ring.png", ahead.picture);

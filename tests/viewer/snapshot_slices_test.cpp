@@ -35,7 +35,7 @@ TEST_F(SliceSnapshots, OnAScreenOfTwiceThePixelsTextIsTwiceAsHigh)
     const PreparedScan of = scan();
     SliceRequest slice;
     SnapshotRequest overview;
-    overview.view = SnapshotRequest::View::overview;
+    overview.view = SnapshotView::overview;
     overview.caption.patient_name = slice.caption.patient_name = "Phantom^Anna";
     const auto written = [&](int scale) {
         slice.view = sliceThrough(of.volume().grid, SlicePlane::axial, colon.polyp_mm, 300 * scale, 300 * scale);
@@ -55,7 +55,7 @@ TEST_F(SliceSnapshots, CarryNameAndWarningOfLossyPixels)
 {
     const PreparedScan of = scan();
     SnapshotRequest request;
-    request.view = SnapshotRequest::View::slices;
+    request.view = SnapshotView::slices;
     request.width = request.height = 600;
     request.station_mm = 100;
     const Area caption{302, 302, 290, 200};

@@ -16,7 +16,7 @@ struct Course {
     FieldView exit_distance;
     const CellSurface& wall;
 
-    Submarine submarine(const SubmarineOptions& options = {}) const { return {path, lumen, exit_distance, options}; }
+    Submarine submarine() const { return {path, lumen, exit_distance}; }
     // Distance to the nearest point of the wall's surface, independent of the field that the camera steers by.
     double wallDistance(Point3 p) const
     {
@@ -35,7 +35,7 @@ struct Submarines : testing::Test {
     Lumen lumen{colon.inside, colon.wall_distance};
     Course course{path, lumen, colon.exit_distance, colon.cells};
 
-    Submarine submarine(const SubmarineOptions& options = {}) const { return course.submarine(options); }
+    Submarine submarine() const { return course.submarine(); }
 };
 
 inline Steering randomSteering(std::mt19937& random)
@@ -47,7 +47,7 @@ inline Steering randomSteering(std::mt19937& random)
 /// How near to the wall a camera may be: its radius or, while it is carried through a narrower part, what the path has.
 inline double leastClearance_mm(const Course& course, const SubmarineState& state)
 {
-    const double radius = SubmarineOptions().camera_radius_mm;
+    const double radius = kCameraRadius_mm;
     const double path = course.lumen.clearance_mm(course.path.at(state.station_mm).position_mm);
     constexpr double kRounding_mm = 1e-6;
     return (state.carried ? std::min(radius, path) : radius) - kRounding_mm;

@@ -250,17 +250,16 @@ TEST(SubmarinesInAHall, AdriftGoWhereTheDistanceFromTheExitGrowsAndNotAtAllWhere
 
 TEST(SubmarinesInAHall, AdriftAreHeldOffTheWallWhereBothPotentialsAreEqual)
 {
-    const SubmarineOptions options;
-    const double reach = options.wall_share * 17;
+    const double reach = Submarine::kWallShare * 17;
     const Vector3 slope = normalized(Vector3{1, 0, 0.4});
-    const double pulled = slope.x * options.cruise_mm_s * options.friction_per_s;
+    const double pulled = slope.x * Submarine::kCruise_mm_s * Submarine::kFriction_per_s;
     const auto push = [&](double wall) {
-        return 2 * options.wall_strength_mm2_s2 * (reach / wall - 1) * reach / (wall * wall);
+        return 2 * Submarine::kWallStrength_mm2_s2 * (reach / wall - 1) * reach / (wall * wall);
     };
-    double near = options.camera_radius_mm, far = reach;
+    double near = kCameraRadius_mm, far = reach;
     for (int n = 0; n < 60; ++n)
         (push((near + far) / 2) > pulled ? near : far) = (near + far) / 2;
-    ASSERT_GT(near, options.camera_radius_mm + 1);
+    ASSERT_GT(near, kCameraRadius_mm + 1);
     InAHall in([](double, double, double) { return false; });
     tilt(in.hall, slope);
     in.boat.placeAt(30, Heading::caecum);
@@ -273,15 +272,14 @@ TEST(SubmarinesInAHall, AdriftAreHeldOffTheWallWhereBothPotentialsAreEqual)
 
 TEST(SubmarinesInAHall, ArePushedOffTheWallAgainstTheHand)
 {
-    const SubmarineOptions options;
-    const double reach = options.wall_share * 17, hand = options.thrust_mm_s * options.friction_per_s;
+    const double reach = Submarine::kWallShare * 17, hand = Submarine::kThrust_mm_s * Submarine::kFriction_per_s;
     const auto push = [&](double wall) {  // the gradient of strength x (reach / wall - 1)^2
-        return 2 * options.wall_strength_mm2_s2 * (reach / wall - 1) * reach / (wall * wall);
+        return 2 * Submarine::kWallStrength_mm2_s2 * (reach / wall - 1) * reach / (wall * wall);
     };
-    double near = options.camera_radius_mm, far = reach;  // between them both forces are equal
+    double near = kCameraRadius_mm, far = reach;  // between them both forces are equal
     for (int n = 0; n < 60; ++n)
         (push((near + far) / 2) > hand ? near : far) = (near + far) / 2;
-    ASSERT_GT(near, options.camera_radius_mm + 1) << "farther than where it could not go on anyhow";
+    ASSERT_GT(near, kCameraRadius_mm + 1) << "farther than where it could not go on anyhow";
     InAHall in([](double, double, double) { return false; });
     in.boat.placeAt(60, Heading::caecum);
     in.steer({.thrust_right = 1}, 4);

@@ -32,8 +32,8 @@ TEST(ThickSlice, MeanAndMinimumAreThoseOfTheDensitiesAcrossIt)
         const HuVolume volume = steps(storage);
         const PlaneView view = sliceThrough(volume.grid, SlicePlane::axial, {0, 0, 2}, 11, 11, 6);
         for (const double thickness : {3.0, 5.0, 8.0}) {
-            const auto mean = thickSliceDensities(volume, nullptr, view, {ThickSlice::Of::mean, thickness});
-            const auto least = thickSliceDensities(volume, nullptr, view, {ThickSlice::Of::minimum, thickness});
+            const auto mean = thickSliceDensities(volume, nullptr, view, {ThickSlice::Kind::mean, thickness});
+            const auto least = thickSliceDensities(volume, nullptr, view, {ThickSlice::Kind::minimum, thickness});
             for (std::size_t n = 0; n < mean.size(); ++n) {
                 ASSERT_NEAR(mean[n], 20, 1) << storage.name << " of a ramp: its middle";
                 ASSERT_NEAR(least[n], 20 - 5 * thickness, 1) << storage.name;
@@ -48,17 +48,17 @@ TEST(ThickSlice, OfOnePlaneIsThePlane)
     const PlaneView view = sliceThrough(volume.grid, SlicePlane::coronal, {1, 2, 3}, 21, 17, 20);
     EXPECT_EQ(thickSliceDensities(volume, nullptr, view, {}), sliceDensities(volume, view));
     EXPECT_EQ(nameOf(ThickSlice{}), "");
-    EXPECT_EQ(nameOf(ThickSlice{ThickSlice::Of::minimum, 10}), "minimum of 10 mm");
+    EXPECT_EQ(nameOf(ThickSlice{ThickSlice::Kind::minimum, 10}), "minimum of 10 mm");
 }
 
 TEST(ThickSlice, WhatLiesOutsideTheScanDoesNotCount)
 {
     const HuVolume volume = steps(test::storages().front());
     const PlaneView last = sliceThrough(volume.grid, SlicePlane::axial, {0, 0, 14.5}, 5, 5, 4);
-    for (const float density : thickSliceDensities(volume, nullptr, last, {ThickSlice::Of::minimum, 6}))
+    for (const float density : thickSliceDensities(volume, nullptr, last, {ThickSlice::Kind::minimum, 6}))
         EXPECT_NEAR(density, 115, 1) << "3 mm below the last plane, and not the padding above it";
     const PlaneView away = sliceThrough(volume.grid, SlicePlane::axial, {0, 0, 60}, 5, 5, 4);
-    for (const float density : thickSliceDensities(volume, nullptr, away, {ThickSlice::Of::mean, 6}))
+    for (const float density : thickSliceDensities(volume, nullptr, away, {ThickSlice::Kind::mean, 6}))
         EXPECT_EQ(density, kPaddingHu);
 }
 
@@ -69,8 +69,8 @@ TEST(ThickSlice, ShowsADarkBubbleThatLiesBesideThePlane)
     volume.voxels[volume.grid.offset(volume.grid.indexAt({0.5, 0.5, 2.5}))] = -900;
     const PlaneView view = sliceThrough(volume.grid, SlicePlane::axial, {0.5, 0.5, 0.5}, 1, 1, 1);
     EXPECT_NEAR(thickSliceDensities(volume, nullptr, view, {})[0], 40, 1);
-    EXPECT_NEAR(thickSliceDensities(volume, nullptr, view, {ThickSlice::Of::minimum, 4})[0], -900, 1);
-    EXPECT_NEAR(thickSliceDensities(volume, nullptr, view, {ThickSlice::Of::minimum, 2})[0], 40, 1);
+    EXPECT_NEAR(thickSliceDensities(volume, nullptr, view, {ThickSlice::Kind::minimum, 4})[0], -900, 1);
+    EXPECT_NEAR(thickSliceDensities(volume, nullptr, view, {ThickSlice::Kind::minimum, 2})[0], 40, 1);
 }
 
 TEST(ThickSlice, TakesWhatWasCleansedWhereThatIsShown)
@@ -80,7 +80,7 @@ TEST(ThickSlice, TakesWhatWasCleansedWhereThatIsShown)
     std::fill(clean.voxels.begin(), clean.voxels.end(), std::int16_t(-1000));
     const PlaneView view = sliceThrough(volume.grid, SlicePlane::axial, {0, 0, 2}, 3, 3, 2);
     const HuView cleansed = clean;
-    for (const float density : thickSliceDensities(volume, &cleansed, view, {ThickSlice::Of::mean, 5}))
+    for (const float density : thickSliceDensities(volume, &cleansed, view, {ThickSlice::Kind::mean, 5}))
         EXPECT_NEAR(density, -1000, 1);
 }
 

@@ -49,7 +49,7 @@ struct Unseen : testing::Test {
     std::vector<UnseenPatch> patches(double least_mm2 = 28) const
     {
         return unseenPatches(colon.cells.points_mm, colon.cells.triangles, coverage, colon.skeleton, path, lumen,
-                             {least_mm2, {}});
+                             least_mm2);
     }
 };
 
@@ -128,7 +128,7 @@ TEST_F(Unseen, TheStationIsOneOfTheLoopThatIsLookedAt)
     with_loop.pieces.push_back(loop);
     ASSERT_GT(with_loop.nearest(place).station_mm, end_mm + 300);
     const auto found =
-        unseenPatches(colon.cells.points_mm, colon.cells.triangles, coverage, with_loop, path, lumen, {28, {}});
+        unseenPatches(colon.cells.points_mm, colon.cells.triangles, coverage, with_loop, path, lumen, 28);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_NEAR(found.front().station_mm, station_mm, 12);
 }

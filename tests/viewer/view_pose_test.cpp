@@ -13,12 +13,11 @@ struct ViewPoses : testing::Test {
     test::TestColon colon;
     PathFrames path{colon.skeleton};
     Lumen lumen{colon.inside, colon.wall_distance};
-    ViewPoseOptions options;
 
     void expectFlyable(const ViewPose& view) const
     {
         EXPECT_TRUE(lumen.inside(view.pose.eye_mm));
-        EXPECT_GE(lumen.clearance_mm(view.pose.eye_mm), options.camera_radius_mm);
+        EXPECT_GE(lumen.clearance_mm(view.pose.eye_mm), kCameraRadius_mm);
         EXPECT_NEAR(length(view.pose.forward), 1, 1e-9);
         EXPECT_NEAR(dot(view.pose.forward, view.pose.up), 0, 1e-9);
     }
@@ -45,8 +44,8 @@ TEST_F(ViewPoses, APolypIsInTheMiddleAndInPlainView)
     EXPECT_NEAR(p.at.x, 320, 1e-6);
     EXPECT_NEAR(p.at.y, 240, 1e-6);
     const double d = distance(view.pose.eye_mm, colon.polyp_mm);
-    EXPECT_GE(d, options.least_distance_mm / 2);
-    EXPECT_LE(d, 1.3 * options.most_distance_mm);
+    EXPECT_GE(d, kLeastDistance_mm / 2);
+    EXPECT_LE(d, 1.3 * kMostDistance_mm);
     // The line of sight is free up to the polyp's surface.
     const Vector3 direction = normalized(colon.polyp_mm - view.pose.eye_mm);
     for (double at = 0; at < d - colon.polyp_radius_mm - 2; at += 0.5)

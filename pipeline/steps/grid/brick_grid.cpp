@@ -11,7 +11,7 @@ namespace vicon::steps {
 
 constexpr std::array<std::array<BrickGrid::Step, 6>, BrickGrid::kVoxels> BrickGrid::steps()
 {
-    constexpr std::uint8_t kOwn = 6;
+    constexpr std::uint8_t kOwn = 6;  // the brick itself, after its six sides
     std::array<std::array<Step, 6>, kVoxels> all{};
     for (std::uint32_t n = 0; n < kVoxels; ++n) {
         std::uint32_t stride = 1;
@@ -26,6 +26,7 @@ constexpr std::array<std::array<BrickGrid::Step, 6>, BrickGrid::kVoxels> BrickGr
     return all;
 }
 
+// Geometry of a brick.
 constexpr std::array<std::array<BrickGrid::Step, 6>, BrickGrid::kVoxels> BrickGrid::kSteps = BrickGrid::steps();
 
 BrickGrid::BrickGrid(const InsideVolume& inside) : grid_(inside.grid)

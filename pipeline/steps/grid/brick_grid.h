@@ -15,6 +15,7 @@ namespace vicon::steps {
 /// the first one, whose places are kNowhere and on.
 class BrickGrid {
 public:
+    // A definition: 4 voxels an edge, and the place of what no brick holds.
     static constexpr std::uint32_t kEdge = 4, kVoxels = kEdge * kEdge * kEdge;
     static constexpr std::uint32_t kNowhere = 0;
 

@@ -79,7 +79,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kChildren = 4;
+    static constexpr std::size_t kChildren = 4;  // of a node of the heap: siblings lie in one cache line
 
     /// Puts a key at the top and lets it down to its place.
     void sink(Waiting key)

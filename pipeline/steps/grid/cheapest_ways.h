@@ -30,7 +30,7 @@ template <class Queue>
 class CheapestWays {
 public:
     using Cost = typename Queue::Cost;
-    static constexpr Cost kUnreached = std::numeric_limits<Cost>::infinity();
+    static constexpr Cost kUnreached = std::numeric_limits<Cost>::infinity();  ///< no way leads there
 
     /// @param count nodes, numbered from 0 on
     CheapestWays(std::size_t count, std::size_t start) : nodes_(count)
@@ -66,7 +66,7 @@ public:
     }
 
 private:
-    static constexpr auto kNone = ~std::uint32_t(0);
+    static constexpr auto kNone = ~std::uint32_t(0);  // no node
     struct Node {
         Cost cost = kUnreached;
         std::uint32_t before = kNone;

@@ -49,6 +49,7 @@ private:
     struct RowStep {
         int dj, dk;
     };
+    // Geometry: the rows already looked at that touch a row.
     static constexpr RowStep kEarlierRows[] = {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 
     Range row(int j, int k) const

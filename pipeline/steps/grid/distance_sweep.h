@@ -180,7 +180,7 @@ private:
     /// Without a root: most rows are not nearer in any lane.
     bool mayBeNearer(const Nearest& best, const std::array<std::size_t, 2>& rows, float step) const
     {
-        constexpr float kRounding = 1.00001F;
+        constexpr float kRounding = 1.00001F;  // more than floats lose in the products below
         const Lanes &before = before_[rows[0]], &behind = before_[rows[1]];
         const Lanes &place_before = place_[rows[0]], &place_behind = place_[rows[1]];
         std::array<int, kLanes> nearer;

@@ -11,7 +11,7 @@ namespace vicon::steps {
 /// spacings, axes or phases differ by more than a thousandth of a voxel.
 inline Index3 latticeOffset(const Grid& inner, const Grid& outer)
 {
-    constexpr double kSame = 1e-3;
+    constexpr double kSame = 1e-3;  // of a voxel; far above rounding, far below what a reader sees
     bool same = true;
     for (std::size_t d = 0; d < 3; ++d)
         same = same && std::abs(inner.spacing_mm[d] - outer.spacing_mm[d]) < kSame * outer.spacing_mm[d] / 100 &&

@@ -15,6 +15,7 @@ namespace vicon::steps {
 /// turns up later, so the fixed point is that of fast marching. Every voxel also carries a label.
 class LumenFront {
 public:
+    // Definitions: what stands where no time, or no label, can.
     static constexpr float kOutsideTime = -1;
     static constexpr float kUnreached = std::numeric_limits<float>::max();
     static constexpr std::uint16_t kNoLabel = 0;
@@ -24,7 +25,7 @@ public:
         adopt,   ///< a voxel takes the label of the neighbour that its front comes from
         fixed,   ///< labels stay, and a front passes only between labels that differ by at most kSpan
     };
-    static constexpr int kSpan = 2;
+    static constexpr int kSpan = 2;  ///< labels: a front may leave its stretch for the next one and that after it
 
     /// Throws Error{no_memory}. `inside` must outlive the front. Voxels are told by their offsets in it.
     explicit LumenFront(const InsideVolume& inside);

@@ -9,7 +9,7 @@
 namespace vicon::steps {
 namespace {
 
-constexpr float kInfinite = std::numeric_limits<float>::infinity();
+constexpr float kInfinite = std::numeric_limits<float>::infinity();  // no way is known yet
 
 /// Where a node lies in its block. What a front looks at most often is kept by itself, in the fewest bytes: the looks
 /// go all over the lumen, and each is a cache line that is not there.

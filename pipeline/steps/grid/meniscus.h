@@ -34,6 +34,7 @@ inline int binomial(int offset)
 {
     return offset == 0 ? 6 : offset == 1 || offset == -1 ? 4 : 1;
 }
+/// Of the weights binomial() in three dimensions.
 inline constexpr int kBinomialSum = 16 * 16 * 16;
 
 /// Smooths the wall beside the lines where gas, fluid and wall meet: near them each voxel goes to the side, lumen or

@@ -86,7 +86,7 @@ void addTo(RunComponent& component, const VoxelRun& run, int j, int k)
 
 void numberComponents(RunLabels& labels, DisjointSets& sets)
 {
-    constexpr auto kNone = ~std::uint32_t(0);
+    constexpr auto kNone = ~std::uint32_t(0);  // not numbered yet
     std::vector<std::uint32_t> number(labels.runs.size(), kNone);
     for (int k = 0; k < labels.size[2]; ++k)
         for (int j = 0; j < labels.size[1]; ++j) {

@@ -184,7 +184,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kNone = SIZE_MAX;
+    static constexpr std::size_t kNone = SIZE_MAX;  // no voxel
 
     struct Way {
         std::size_t open = kNone;  ///< the open voxel that it begins at

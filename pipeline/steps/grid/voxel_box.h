@@ -11,7 +11,7 @@ namespace vicon::steps {
 
 /// Part of a grid: voxels from `low` on, before `high`; at first nothing.
 struct VoxelBox {
-    static constexpr int kFar = 1 << 27;
+    static constexpr int kFar = 1 << 27;  ///< beyond any grid; twice of it is still an integer
     Index3 low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
 
     bool empty() const { return low.i >= high.i || low.j >= high.j || low.k >= high.k; }

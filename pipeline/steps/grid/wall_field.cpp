@@ -59,7 +59,7 @@ void WallField::measurePools()
         }
     for (std::size_t n = 0; n < all.size(); ++n) {
         auto& values = deep[n].empty() ? all[n] : deep[n];
-        constexpr std::size_t kOneSigma_percent = 84;
+        constexpr std::size_t kOneSigma_percent = 84;  // of a normal distribution
         const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
         std::nth_element(values.begin(), middle, values.end());
         pool_hu_.push_back(*middle);

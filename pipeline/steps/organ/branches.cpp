@@ -104,7 +104,7 @@ public:
     }
 
 private:
-    static constexpr float kUnreached = 1e30F;
+    static constexpr float kUnreached = 1e30F;  // above any cost
 
     void reach(std::int32_t n, float cost, std::int32_t from)
     {

@@ -41,7 +41,7 @@ Blocks blocksOf(const InsideVolume& inside)
     return blocks;
 }
 
-constexpr std::uint16_t kUnreached = std::numeric_limits<std::uint16_t>::max();
+constexpr std::uint16_t kUnreached = std::numeric_limits<std::uint16_t>::max();  // no station
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 namespace vicon::steps {
 namespace {
 
+// Voxels on either side. No case recorded; reason: a definition, the three lobes of the usual Lanczos window.
 constexpr unsigned kSincRadius = 3;
 // A voxel's weight in the coefficients of the cubic B-spline falls by 2 - sqrt(3) a voxel: after eight, 0.03 HU are
 // left of a thousand.
@@ -40,7 +41,7 @@ ItkFloat::Pointer resampled(const AcquiredSlab& acquired, const Sampling& sampli
 /// What the sinc makes of ones, at each new voxel along an axis.
 std::vector<float> gainsAlong(const std::vector<Tap>& taps)
 {
-    constexpr int kSize = 2 * int(kSincRadius) + 2;
+    constexpr int kSize = 2 * int(kSincRadius) + 2;  // voxels: the window around a place between two of them
     auto ones = ItkHu::New();
     ones->SetRegions(ItkHu::SizeType{kSize, kSize, kSize});
     ones->Allocate();

@@ -50,7 +50,7 @@ struct DetourStretch {
 std::vector<Offset> cheapest(const Polyline& line, const std::vector<Frame>& frames, const DetourStretch& stretch,
                              const DistanceProbe& wall)
 {
-    constexpr double kNever = std::numeric_limits<double>::infinity();
+    constexpr double kNever = std::numeric_limits<double>::infinity();  // a way through the wall
     const std::vector<Offset> all = offsets();
     const std::size_t count = stretch.to - stretch.from + 1;
     std::vector<std::vector<int>> before(count, std::vector<int>(all.size(), -1));

@@ -28,6 +28,7 @@ double weightFor(double scale_mm, double step_mm)
 // By its normal equations, whose matrix has three diagonals on either side of the middle.
 Polyline evened(const KnownLine& known)
 {
+    // Geometry: the third difference, and the diagonals that its square fills.
     constexpr std::size_t kBand = 4;
     constexpr std::array<double, kBand> kThird{-1, 3, -3, 1};
     const std::size_t count = known.points.size();

@@ -27,6 +27,7 @@ using Matrix = std::array<Terms, kTerms>;
 struct Term {
     std::size_t wave = 0, power = 0;
 };
+/// A definition: the higher the wave, the fewer powers.
 constexpr std::array<Term, kTerms> kTerm{{{0, 0},
                                           {0, 1},
                                           {0, 2},
@@ -195,7 +196,7 @@ double quantile(const std::vector<double>& values, double share)
 {
     if (values.empty())
         return 0;
-    constexpr std::size_t kBins = 256;
+    constexpr std::size_t kBins = 256;  // for speed alone: the value is exact
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     const double low = *least, scale = double(kBins) / std::max(*most - low, 1e-9);
     const auto binOf = [&](double value) { return std::min(kBins - 1, std::size_t((value - low) * scale)); };
@@ -303,7 +304,7 @@ private:
 /// The centroid of the fitted section in the middle of the stretch, across the line.
 std::array<double, 2> centroid(const Terms& fit)
 {
-    constexpr std::size_t kAngles = 64;
+    constexpr std::size_t kAngles = 64;  // for waves up to the third many times enough
     const Waves ring = onRing(fit, 0);
     double area = 0, x = 0, y = 0;
     for (const Harmonics& waves : raysOf(kAngles).harmonics) {

@@ -117,7 +117,7 @@ CellSurface arrange(const Contour& contour, const std::vector<std::uint16_t>& ta
                     std::vector<std::uint32_t>& point_source)
 {
     const std::vector<std::uint32_t> order = drawingOrder(contour, tags);
-    constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
+    constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();  // a corner of no triangle yet
     std::vector<std::uint32_t> renumbered(contour.pointCount(), kUnused);
     CellSurface surface;
     surface.triangles.reserve(contour.triangles.size());

@@ -142,7 +142,7 @@ struct DividedEdge {
 std::vector<DividedEdge> edgesOff(const SmoothField& field, const Contour& contour,
                                   const std::vector<std::uint32_t>& triangles)
 {
-    constexpr std::size_t kAtOnce = 4096;
+    constexpr std::size_t kAtOnce = 4096;  // triangles a task, for speed alone: parts are joined in order
     std::vector<std::vector<DividedEdge>> parts((triangles.size() + kAtOnce - 1) / kAtOnce, std::vector<DividedEdge>{});
     tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t part) {
         for (std::size_t n = part * kAtOnce; n < std::min(triangles.size(), (part + 1) * kAtOnce); ++n)
@@ -202,7 +202,7 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t kNone = ~std::uint32_t(0);
+    static constexpr std::uint32_t kNone = ~std::uint32_t(0);  // the edge is not divided
 
     std::uint32_t middleOf(std::uint32_t p, std::uint32_t q) const
     {

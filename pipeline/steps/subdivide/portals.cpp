@@ -199,7 +199,7 @@ Portal portalOf(std::pair<int, int> between, const Contact& contact, const Grid&
 
 bool followAlongSkeleton(const LabelledPiece& a, const LabelledPiece& b)
 {
-    constexpr double kSame_mm = 1e-6;
+    constexpr double kSame_mm = 1e-6;  // stations differ by rounding alone
     return a.piece >= 0 && a.piece == b.piece && a.from_station_mm <= b.to_station_mm + kSame_mm &&
            b.from_station_mm <= a.to_station_mm + kSame_mm;
 }

@@ -26,6 +26,7 @@ struct View {
     Vector3 right, down;  ///< LPS directions of growing column and row; the viewer looks along right x down
 };
 
+// Definitions.
 constexpr std::array<View, 3> kViews{
     View{"coronal", {1, 0, 0}, {0, 0, -1}},    // from the front: the patient's left (+x) on the right
     View{"transverse", {1, 0, 0}, {0, 1, 0}},  // from the feet: front (-y) up, left (+x) on the right

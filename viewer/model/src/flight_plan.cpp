@@ -11,8 +11,7 @@ namespace {
 constexpr double kSame_mm = 1e-6;
 }  // namespace
 
-std::vector<ViewPose> planFlight(const PathFrames& path, const Lumen& lumen, double step_mm, Heading heading,
-                                 const ViewPoseOptions& options)
+std::vector<ViewPose> planFlight(const PathFrames& path, const Lumen& lumen, double step_mm, Heading heading)
 {
     if (!path.isPath())
         throw Error(ErrorCode::wrong_use, "no path leads through the organ: it is flown freely", {},
@@ -25,8 +24,8 @@ std::vector<ViewPose> planFlight(const PathFrames& path, const Lumen& lumen, dou
     std::vector<ViewPose> poses;
     for (int n = 0; n <= steps; ++n) {
         const double station = std::min(n * step_mm, length);
-        const ViewPose view = poseAtStation(path, lumen, ahead, heading == Heading::caecum ? station : length - station,
-                                            heading, options);
+        const ViewPose view =
+            poseAtStation(path, lumen, ahead, heading == Heading::caecum ? station : length - station, heading);
         // A station that cannot be flown gets the pose of a neighbour. Where that is nearer to the next station, it has
         // had its turn or will have it.
         const double moved_mm = std::abs(view.station_mm - (heading == Heading::caecum ? station : length - station));

@@ -32,7 +32,7 @@ Vector3 FreeFlight::pushOffWall(Point3 eye_mm) const
     const double wall = std::max(lumen_.clearance_mm(eye_mm), kLeastWall_mm);
     if (wall >= reach)
         return {};
-    const double slope = 2 * options_.wall_strength_mm2_s2 * (reach / wall - 1) * reach / (wall * wall);
+    const double slope = 2 * Submarine::kWallStrength_mm2_s2 * (reach / wall - 1) * reach / (wall * wall);
     return lumen_.clearanceGradient(eye_mm) * slope;
 }
 
@@ -47,8 +47,8 @@ void FreeFlight::backOff(Point3& eye_mm) const
 void FreeFlight::tick(Pose& pose, const Steering& steering, double speed_mm_s)
 {
     if (steering.turns())
-        pose = withViewTurned(pose, steering, radians(options_.turning_deg_s) * kDt);
-    const FreeSpace free(lumen_, options_.camera_radius_mm);
+        pose = withViewTurned(pose, steering, radians(Submarine::kTurning_deg_s) * kDt);
+    const FreeSpace free(lumen_, kCameraRadius_mm);
     if (!free.holds(pose.eye_mm)) {
         stop();
         backOff(pose.eye_mm);
@@ -58,7 +58,7 @@ void FreeFlight::tick(Pose& pose, const Steering& steering, double speed_mm_s)
         (pose.forward * steering.thrust_forward + pose.right() * steering.thrust_right + pose.up * steering.thrust_up) *
         speed_mm_s;
     // The wall's push is a force, the thrust a speed that friction lets it reach.
-    const double left = std::exp(-options_.friction_per_s * kDt);
+    const double left = std::exp(-Submarine::kFriction_per_s * kDt);
     velocity_mm_s_ = velocity_mm_s_ * left + thrust * (1 - left) + pushOffWall(pose.eye_mm) * kDt;
     if (!steering.thrusts() && length(velocity_mm_s_) < kAtRest_mm_s)
         stop();
@@ -67,7 +67,7 @@ void FreeFlight::tick(Pose& pose, const Steering& steering, double speed_mm_s)
 
 void FreeFlight::moveBy(Pose& pose, Vector3 way_mm)
 {
-    const FreeSpace free(lumen_, options_.camera_radius_mm);
+    const FreeSpace free(lumen_, kCameraRadius_mm);
     const int steps = std::max(1, int(std::ceil(length(way_mm) / FreeSpace::kMostStep_mm)));
     stop();
     for (int n = 0; n < steps; ++n) {

@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kLeastStep_mm = 0.1;
 constexpr std::int32_t kUnseen = -1, kBlocked = -2;
-constexpr int kMoves[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+// Geometry: from a voxel to its six neighbours.
+constexpr int kFaceSteps[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
 
 /// A cube of places a voxel apart around a point; each knows the one that it was reached from.
 class Lattice {
@@ -105,7 +106,7 @@ FreeSpace::Way FreeSpace::wayTo(const std::vector<Point3>& goals, Point3 from, d
         const auto end = std::lower_bound(ends.begin(), ends.end(), std::pair{here, std::size_t{0}});
         if (end != ends.end() && end->first == here)
             return {backFrom(lattice, here, goals[end->second]), end->second};
-        for (const auto& move : kMoves) {
+        for (const auto& move : kFaceSteps) {
             const std::int32_t there = lattice.neighbour(here, move);
             if (there < 0 || lattice.reachedFrom(there) != kUnseen)
                 continue;

@@ -59,7 +59,7 @@ std::string toText(const Hanging& hanging)
                           {"width_hu", window.width_hu},
                           {"level_hu", window.level_hu},
                           {"unit", window.unit},
-                          {"of", int(hanging.slices.thick.of)},
+                          {"of", int(hanging.slices.thick.kind)},
                           {"thickness_mm", hanging.slices.thick.thickness_mm},
                           {"tracks", hanging.slices.tracks}}
         .dump();
@@ -74,7 +74,7 @@ Hanging hangingFrom(const std::string& text, const Hanging& otherwise)
         read.plane = choice(json, "plane", SlicePlane::across);
         read.slices.window = {json.at("window").get<std::string>(), number(json, "width_hu", kLeastWidth_hu, kMostHu),
                               number(json, "level_hu", -kMostHu, kMostHu), json.value("unit", "HU")};
-        read.slices.thick = {choice(json, "of", ThickSlice::Of::minimum),
+        read.slices.thick = {choice(json, "of", ThickSlice::Kind::minimum),
                              number(json, "thickness_mm", 0, kMostThick_mm)};
         read.slices.tracks = json.at("tracks").get<bool>();
         return read;

@@ -13,11 +13,15 @@ constexpr double kNode_mm = 2;       // distance of the places from which sights
 constexpr double kFirstLook_mm = 4;  // what is nearer says nothing about the way
 constexpr double kReach = 2.5;       // of the smoothing, in sigmas
 constexpr int kRings = 3, kRaysARing = 12;
+// Chosen on bent tubes of 8 to 25 mm radius with folds and on a real prone scan: the way on is looked at so many of the
+// lumen's radii ahead, within these bounds; around it, what is open draws the view to itself; and it is smoothed along
+// the path (sigma), so that a fold that is passed does not jerk the view.
+constexpr double kAheadRadii = 4, kLeastAhead_mm = 30, kMostAhead_mm = 80;
+constexpr double kOpen_deg = 45, kSmoothing_mm = 8;
 
 }  // namespace
 
-LookAhead::LookAhead(const PathFrames& path, const Lumen& lumen, const LookAheadOptions& options)
-    : path_(&path), lumen_(lumen), options_(options)
+LookAhead::LookAhead(const PathFrames& path, const Lumen& lumen) : path_(&path), lumen_(lumen)
 {
     for (auto& nodes : nodes_)
         nodes.resize(std::size_t(path.length_mm() / kNode_mm) + 2);
@@ -25,7 +29,7 @@ LookAhead::LookAhead(const PathFrames& path, const Lumen& lumen, const LookAhead
 
 double LookAhead::farthest_mm(const PathFrame& here) const
 {
-    return std::clamp(options_.far_radii * here.radius_mm, options_.least_far_mm, options_.most_far_mm);
+    return std::clamp(kAheadRadii * here.radius_mm, kLeastAhead_mm, kMostAhead_mm);
 }
 
 double LookAhead::sightFrom(const PathFrame& here, double station_mm, double sign) const
@@ -59,7 +63,7 @@ Vector3 LookAhead::openFrom(const PathFrame& here, Vector3 way) const
     Vector3 sum = weighted(way);
     for (int ring = 1; ring <= kRings; ++ring)
         for (int n = 0; n < kRaysARing; ++n) {
-            const double off = radians(options_.open_deg) * ring / kRings;
+            const double off = radians(kOpen_deg) * ring / kRings;
             const double turn = 2 * std::numbers::pi * n / kRaysARing;
             const Vector3 aside = right * std::cos(turn) + up * std::sin(turn);
             sum += weighted(way * std::cos(off) + aside * std::sin(off));
@@ -101,13 +105,13 @@ double LookAhead::turn_rad_mm(double station_mm, Heading heading) const
 
 Vector3 LookAhead::direction(double station_mm, Point3 eye_mm, Heading heading) const
 {
-    const double reach_mm = kReach * options_.smoothing_mm;
+    const double reach_mm = kReach * kSmoothing_mm;
     const int first = std::max(0, int(std::ceil((station_mm - reach_mm) / kNode_mm)));
     const int last = int(std::floor(std::min(station_mm + reach_mm, path_->length_mm()) / kNode_mm));
     Vector3 ways;
     double sights = 0, weights = 0;
     for (int n = first; n <= last; ++n) {
-        const double off = (n * kNode_mm - station_mm) / options_.smoothing_mm, weight = std::exp(-off * off / 2);
+        const double off = (n * kNode_mm - station_mm) / kSmoothing_mm, weight = std::exp(-off * off / 2);
         const Node& node = nodeAt(n, heading);
         ways += node.way * weight;
         sights += node.sight_mm * weight;

@@ -13,12 +13,11 @@ Heading opposite(Heading heading)
 
 }  // namespace
 
-Navigator::Navigator(const PathFrames& path, const Lumen& lumen, const std::optional<FieldView>& exit_distance,
-                     const SubmarineOptions& options)
-    : path_(&path), lumen_(lumen), ahead_(path, lumen), options_(options), free_flight_(lumen_, options)
+Navigator::Navigator(const PathFrames& path, const Lumen& lumen, const std::optional<FieldView>& exit_distance)
+    : path_(&path), lumen_(lumen), ahead_(path, lumen), free_flight_(lumen_)
 {
     if (path.isPath())
-        submarine_.emplace(path, lumen_, exit_distance.value(), options);
+        submarine_.emplace(path, lumen_, exit_distance.value());
     else
         mode_ = NavigationMode::free;
     jumpTo(0);
@@ -151,13 +150,13 @@ void Navigator::advancePlanned(double seconds)
 void Navigator::tickFree()
 {
     if (steering_.turns())
-        free_ = withViewTurned(free_, steering_, radians(options_.turning_deg_s) * Submarine::kTick_s);
+        free_ = withViewTurned(free_, steering_, radians(Submarine::kTurning_deg_s) * Submarine::kTick_s);
     if (!steering_.thrusts())
         return;
     Vector3 way = (free_.forward * steering_.thrust_forward + free_.right() * steering_.thrust_right +
                    free_.up * steering_.thrust_up) *
                   (speed_mm_s_ * Submarine::kTick_s);
-    const auto fits = [&](Point3 p) { return lumen_.clearance_mm(p) >= options_.camera_radius_mm; };
+    const auto fits = [&](Point3 p) { return lumen_.clearance_mm(p) >= kCameraRadius_mm; };
     const bool leaves_wall = lumen_.clearance_mm(free_.eye_mm + way) > lumen_.clearance_mm(free_.eye_mm);
     if (!fits(free_.eye_mm + way) && !leaves_wall) {  // slide along the wall
         const Vector3 off = normalized(lumen_.clearanceGradient(free_.eye_mm));

@@ -6,10 +6,10 @@ namespace vicon::viewer {
 
 std::vector<std::uint32_t> wellShown(const std::vector<float>& points_mm, const std::vector<std::uint32_t>& triangles,
                                      const std::vector<std::uint32_t>& shown, const Pose& pose, const Lens& lens,
-                                     double pixel_ratio, const ReviewRule& rule)
+                                     double pixel_ratio)
 {
-    const double least_cosine = std::cos(radians(rule.most_incidence_deg));
-    const double farthest_mm = lens.focal_px() / (rule.least_px_per_mm * pixel_ratio);
+    const double least_cosine = std::cos(radians(kMostIncidence_deg));
+    const double farthest_mm = lens.focal_px() / (kLeastScale_px_mm * pixel_ratio);
     const auto point = [&](std::uint32_t triangle, std::size_t corner) {
         const float* p = &points_mm[3 * std::size_t(triangles[3 * std::size_t(triangle) + corner])];
         return Point3{p[0], p[1], p[2]};

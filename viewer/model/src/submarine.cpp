@@ -21,9 +21,8 @@ constexpr double kAtRest_mm_s = 0.01, kAtRest_rad_s = 1e-4;
 
 }  // namespace
 
-Submarine::Submarine(const PathFrames& path, const Lumen& lumen, const FieldView& exit_distance,
-                     const SubmarineOptions& options)
-    : path_(&path), lumen_(lumen), ahead_(path, lumen), exit_(exit_distance), options_(options)
+Submarine::Submarine(const PathFrames& path, const Lumen& lumen, const FieldView& exit_distance)
+    : path_(&path), lumen_(lumen), ahead_(path, lumen), exit_(exit_distance)
 {
     placeAt(0, Heading::caecum);
     const double length = path.length_mm();
@@ -35,7 +34,7 @@ Submarine::Submarine(const PathFrames& path, const Lumen& lumen, const FieldView
 
 FreeSpace Submarine::space() const
 {
-    return {lumen_, options_.camera_radius_mm};
+    return {lumen_, kCameraRadius_mm};
 }
 
 bool Submarine::openAt(double station_mm) const
@@ -133,12 +132,11 @@ bool Submarine::startCarry()
 // was off the path fades first, then it goes on.
 void Submarine::carry(double direction)
 {
-    const double onward = std::clamp(now_.station_mm + direction * options_.cruise_mm_s * kDt, first_mm_, last_mm_);
+    const double onward = std::clamp(now_.station_mm + direction * kCruise_mm_s * kDt, first_mm_, last_mm_);
     const Vector3 off = now_.position_mm - path_->at(now_.station_mm).position_mm;
     const auto allowed = [&](double station, double share) {
         const Point3 on_path = path_->at(station).position_mm;
-        return lumen_.clearance_mm(on_path + off * share) >=
-               std::min(options_.camera_radius_mm, lumen_.clearance_mm(on_path));
+        return lumen_.clearance_mm(on_path + off * share) >= std::min(kCameraRadius_mm, lumen_.clearance_mm(on_path));
     };
     constexpr double kNothing_mm = 0.01;
     const auto shrunk = [&](double share) { return share * length(off) > kNothing_mm ? share : 0; };
@@ -187,7 +185,7 @@ Vector3 Submarine::pull() const
     // The path's own direction keeps the pull from the field's steps between voxels, which would shake the picture.
     const Vector3 along = path_->at(now_.station_mm).forward;
     const Vector3 mixed = along * 2 + normalized(direction) * (dot(direction, along) > 0 ? 1 : 0);
-    return normalized(mixed) * (towards_caecum * options_.cruise_mm_s * options_.friction_per_s);
+    return normalized(mixed) * (towards_caecum * kCruise_mm_s * kFriction_per_s);
 }
 
 /// As strong as the field is steep, which is one millimetre to a millimetre of way.
@@ -199,7 +197,7 @@ Vector3 Submarine::drift() const
     Vector3 slope = exitSlope(std::max(1, int(std::lround(kArm_mm / voxel_mm))));
     if (const double steep = length(slope); steep > 1)
         slope = slope / steep;
-    return slope * (steering_.drift * sign() * options_.cruise_mm_s * options_.friction_per_s);
+    return slope * (steering_.drift * sign() * kCruise_mm_s * kFriction_per_s);
 }
 
 /// Not where the potentials hold it fast: before a fold the distance from the exit may grow into a pouch. Then the path
@@ -226,11 +224,11 @@ bool Submarine::isAdrift()
 
 Vector3 Submarine::pushOffWall() const
 {
-    const double reach = options_.wall_share * path_->at(now_.station_mm).radius_mm;
+    const double reach = kWallShare * path_->at(now_.station_mm).radius_mm;
     const double wall = std::max(lumen_.clearance_mm(now_.position_mm), 0.5);
     if (wall >= reach)
         return {};
-    const double slope = 2 * options_.wall_strength_mm2_s2 * (reach / wall - 1) * reach / (wall * wall);
+    const double slope = 2 * kWallStrength_mm2_s2 * (reach / wall - 1) * reach / (wall * wall);
     return lumen_.clearanceGradient(now_.position_mm) * slope;
 }
 
@@ -242,9 +240,9 @@ void Submarine::move()
     if (steering_.thrusts())
         force +=
             (now_.forward * steering_.thrust_forward + right * steering_.thrust_right + now_.up * steering_.thrust_up) *
-            (options_.thrust_mm_s * options_.friction_per_s);
-    const double speed_left = std::exp(-options_.friction_per_s * kDt);
-    now_.velocity_mm_s = now_.velocity_mm_s * speed_left + force * ((1 - speed_left) / options_.friction_per_s);
+            (kThrust_mm_s * kFriction_per_s);
+    const double speed_left = std::exp(-kFriction_per_s * kDt);
+    now_.velocity_mm_s = now_.velocity_mm_s * speed_left + force * ((1 - speed_left) / kFriction_per_s);
     if (steering_.thrusts() || adrift) {
         now_.velocity_mm_s += pushOffWall() * kDt;
         way_home_.clear();
@@ -268,14 +266,14 @@ void Submarine::turn()
 {
     const Vector3 right = cross(now_.forward, now_.up);
     if (steering_.turns()) {
-        const double rate = radians(options_.turning_deg_s);
+        const double rate = radians(kTurning_deg_s);
         const Vector3 wanted = right * (steering_.turn_up * rate) - now_.up * (steering_.turn_right * rate);
         now_.spin_rad_s += (wanted - now_.spin_rad_s) * (1 - std::exp(-kSteerRate_per_s * kDt));
     } else {
         const Vector3 forward = wayOn();
         const Vector3 up = uprightOn(forward, path_->at(now_.station_mm).up);
         const Vector3 error = rotationBetween(now_.forward, now_.up, forward, up);
-        const double w = options_.righting_per_s, fade = std::exp(-w * kDt);
+        const double w = kRighting_per_s, fade = std::exp(-w * kDt);
         now_.spin_rad_s = (now_.spin_rad_s + (error * w - now_.spin_rad_s) * (w * kDt)) * fade;
         if (length(now_.spin_rad_s) < kAtRest_rad_s)
             now_.spin_rad_s = {};

@@ -63,7 +63,7 @@ void Submarine::home()
         off = off - foot.forward * dot(off, foot.forward);
     const Vector3 along = slides ? foot.forward * dot(now_.velocity_mm_s, foot.forward) : Vector3{};
     const Vector3 across = now_.velocity_mm_s - along;
-    const double w = options_.homing_per_s, fade = std::exp(-w * kTick_s);
+    const double w = kHoming_per_s, fade = std::exp(-w * kTick_s);
     const Vector3 mixed = across + off * w;
     now_.velocity_mm_s = along + (across - mixed * (w * kTick_s)) * fade;
 }

@@ -18,7 +18,7 @@ std::vector<float> planeAt(const HuView& volume, const HuView* cleansed, PlaneVi
     return cleansed ? sliceDensities(volume, *cleansed, view, wanted) : sliceDensities(volume, view, wanted);
 }
 
-float together(const std::vector<std::vector<float>>& planes, std::size_t pixel, ThickSlice::Of of)
+float together(const std::vector<std::vector<float>>& planes, std::size_t pixel, ThickSlice::Kind kind)
 {
     float sum = 0, least = 0;
     int count = 0;
@@ -32,23 +32,23 @@ float together(const std::vector<std::vector<float>>& planes, std::size_t pixel,
     }
     if (count == 0)
         return float(kPaddingHu);
-    return of == ThickSlice::Of::mean ? sum / float(count) : least;
+    return kind == ThickSlice::Kind::mean ? sum / float(count) : least;
 }
 
 }  // namespace
 
 std::string nameOf(const ThickSlice& thick)
 {
-    if (thick.of == ThickSlice::Of::one_plane)
+    if (thick.kind == ThickSlice::Kind::one_plane)
         return {};
-    return (thick.of == ThickSlice::Of::mean ? "mean of " : "minimum of ") +
+    return (thick.kind == ThickSlice::Kind::mean ? "mean of " : "minimum of ") +
            std::to_string(std::lround(thick.thickness_mm)) + " mm";
 }
 
 std::vector<float> thickSliceDensities(const HuView& volume, const HuView* cleansed, const PlaneView& view,
                                        const ThickSlice& thick, const Progress* wanted)
 {
-    if (thick.of == ThickSlice::Of::one_plane)
+    if (thick.kind == ThickSlice::Kind::one_plane)
         return planeAt(volume, cleansed, view, 0, wanted);
     const auto& spacing = volume.grid.spacing_mm;
     const double voxel_mm = *std::min_element(spacing.begin(), spacing.end());
@@ -59,7 +59,7 @@ std::vector<float> thickSliceDensities(const HuView& volume, const HuView* clean
     });
     std::vector<float> densities(planes.front().size());
     for (std::size_t n = 0; n < densities.size(); ++n)
-        densities[n] = together(planes, n, thick.of);
+        densities[n] = together(planes, n, thick.kind);
     return densities;
 }
 

@@ -33,7 +33,7 @@ void TurnedView::move(Pixel by_mm)
     from_front_ = false;
 }
 
-void TurnedView::enlarge(int notches, Pixel at_mm)
+void TurnedView::zoom(int notches, Pixel at_mm)
 {
     constexpr double kNotch = 1.2;
     const double before = zoom_;

@@ -111,7 +111,7 @@ std::vector<double> unseenAreas_mm2(const std::vector<std::uint32_t>& triangles,
 
 std::vector<UnseenPatch> unseenPatches(const std::vector<float>& points_mm, const std::vector<std::uint32_t>& triangles,
                                        const Coverage& coverage, const Skeleton& skeleton, const PathFrames& path,
-                                       const Lumen& lumen, const UnseenOptions& options, const Progress* wanted)
+                                       const Lumen& lumen, double least_area_mm2, const Progress* wanted)
 {
     requireSameSurface(triangles, coverage);
     std::vector<UnseenPatch> patches;
@@ -122,7 +122,7 @@ std::vector<UnseenPatch> unseenPatches(const std::vector<float>& points_mm, cons
             patch.area_mm2 += coverage.area_mm2(t);
             moment += (middleOf(points_mm, triangles, t) - Point3{}) * coverage.area_mm2(t);
         }
-        if (patch.area_mm2 < options.least_area_mm2 || !(patch.area_mm2 > 0))
+        if (patch.area_mm2 < least_area_mm2 || !(patch.area_mm2 > 0))
             continue;
         const Point3 middle = Point3{} + moment / patch.area_mm2;
         const auto off = [&](std::uint32_t t) { return distance(middleOf(points_mm, triangles, t), middle); };
@@ -137,7 +137,7 @@ std::vector<UnseenPatch> unseenPatches(const std::vector<float>& points_mm, cons
     for (UnseenPatch& patch : patches) {
         if (wanted)
             wanted->check();
-        patch.view = poseForPoint(skeleton, path, lumen, patch.centre_mm, options.pose);
+        patch.view = poseForPoint(skeleton, path, lumen, patch.centre_mm);
         patch.station_mm = stationOf(patch, skeleton);
     }
     return patches;

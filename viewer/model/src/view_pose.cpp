@@ -9,6 +9,8 @@ namespace vicon::viewer {
 namespace {
 
 constexpr double kLookStep_mm = 1;
+// Wanted distance over the lumen's radius: folds lie in front, the point is not grazed. Chosen as kCameraRadius_mm.
+constexpr double kDistancePerRadius = 1.7;
 constexpr double kAnchorReach_mm = 15;    // a marker lies at most this far from the lumen: large polyps' middles
 constexpr double kSightSlack_mm = 1.5;    // about a voxel: the wall's own blur before a point on it
 constexpr double kFromBehindCost = 0.35;  // of the wanted distance: looking back towards the rectum is second choice
@@ -17,7 +19,6 @@ constexpr double kGrazingCosine = 0.35;   // below it a wall is seen too flat
 struct Scene {
     const PathFrames& path;
     const Lumen& lumen;
-    const ViewPoseOptions& options;
 };
 
 /// What the eye keeps from the wall where the path is at a station; `room_mm` where nothing is narrow.
@@ -62,8 +63,7 @@ Place nearestPlace(const Scene& scene, double station_mm)
     const double length = scene.path.length_mm();
     const double at = std::clamp(station_mm, 0.0, length);
     constexpr double kNear_mm = 40;  // further off, a narrow place at hand is better than a wide one
-    const std::pair<double, double> tries[] = {{scene.options.camera_radius_mm, kNear_mm},
-                                               {scene.lumen.halfDiagonal_mm(), length}};
+    const std::pair<double, double> tries[] = {{kCameraRadius_mm, kNear_mm}, {scene.lumen.halfDiagonal_mm(), length}};
     for (const auto& [room, reach] : tries)
         for (double d = 0; d <= reach; d += kLookStep_mm)
             for (const double station : {at - d, at + d})
@@ -100,9 +100,9 @@ struct Candidate {
 void consider(std::vector<Candidate>& candidates, const Scene& scene, const Target& target, Place place)
 {
     const double d = distance(place.eye_mm, target.point_mm);
-    if (d < scene.options.least_distance_mm / 2 || d > 1.3 * scene.options.most_distance_mm)
+    if (d < kLeastDistance_mm / 2 || d > 1.3 * kMostDistance_mm)
         return;
-    if (scene.lumen.clearance_mm(place.eye_mm) < roomAt(scene, place.station_mm, scene.options.camera_radius_mm) ||
+    if (scene.lumen.clearance_mm(place.eye_mm) < roomAt(scene, place.station_mm, kCameraRadius_mm) ||
         !scene.lumen.inside(place.eye_mm))
         return;
     if (scene.lumen.sees(place.eye_mm, target.point_mm, target.allowance_mm))
@@ -123,7 +123,7 @@ std::vector<Candidate> besidePath(const Scene& scene, const Target& target)
     std::vector<Candidate> candidates;
     for (double s = 0; s <= scene.path.length_mm(); s += 2 * kLookStep_mm) {
         const PathFrame frame = scene.path.at(s);
-        if (frame.on_bridge || distance(frame.position_mm, target.point_mm) > 2 * scene.options.most_distance_mm)
+        if (frame.on_bridge || distance(frame.position_mm, target.point_mm) > 2 * kMostDistance_mm)
             continue;
         const Vector3 right = cross(frame.forward, frame.up);
         for (const double share : {0.3, 0.55, 0.75})
@@ -143,9 +143,8 @@ const Candidate& bestOf(const std::vector<Candidate>& candidates, const Scene& s
     const auto nearest = std::min_element(candidates.begin(), candidates.end(),
                                           [](const auto& a, const auto& b) { return a.distance_mm < b.distance_mm; });
     const double foot = nearest->place.station_mm;
-    const ViewPoseOptions& o = scene.options;
     const double wanted =
-        std::clamp(o.distance_per_radius * scene.path.at(foot).radius_mm, o.least_distance_mm, o.most_distance_mm);
+        std::clamp(kDistancePerRadius * scene.path.at(foot).radius_mm, kLeastDistance_mm, kMostDistance_mm);
     const auto cost = [&](const Candidate& c) {
         const double cosine = dot(normalized(c.place.eye_mm - target.point_mm), target.facing);
         return std::abs(c.distance_mm - wanted) / wanted + (c.place.station_mm > foot ? kFromBehindCost : 0) +
@@ -161,12 +160,12 @@ std::optional<Point3> aboveWall(const Scene& scene, const Target& target)
     constexpr double kClimb_mm = 0.5;
     Point3 p = target.anchor_mm;
     std::optional<Point3> best;
-    while (distance(p, target.point_mm) < scene.options.least_distance_mm) {
+    while (distance(p, target.point_mm) < kLeastDistance_mm) {
         const Point3 next = p + normalized(scene.lumen.clearanceGradient(p)) * kClimb_mm;
         if (!scene.lumen.inside(next) || scene.lumen.clearance_mm(next) <= scene.lumen.clearance_mm(p))
             break;
         p = next;
-        const bool roomy = scene.lumen.clearance_mm(p) >= scene.options.camera_radius_mm;
+        const bool roomy = scene.lumen.clearance_mm(p) >= kCameraRadius_mm;
         if (roomy && scene.lumen.sees(p, target.point_mm, target.allowance_mm))
             best = p;
     }
@@ -182,24 +181,22 @@ ViewPose viewOf(const Scene& scene, const Place& place, Point3 point, bool sees)
 }  // namespace
 
 ViewPose poseAtStation(const PathFrames& path, const Lumen& lumen, const LookAhead& ahead, double station_mm,
-                       Heading heading, const ViewPoseOptions& options)
+                       Heading heading)
 {
-    const Place place = nearestPlace({path, lumen, options}, station_mm);
+    const Place place = nearestPlace({path, lumen}, station_mm);
     const Vector3 forward = ahead.direction(place.station_mm, place.eye_mm, heading);
     const Pose pose{place.eye_mm, forward, uprightOn(forward, path.at(place.station_mm).up)};
     return {pose, place.station_mm, lumen.clearance_mm(place.eye_mm), true};
 }
 
-ViewPose poseAtStation(const PathFrames& path, const Lumen& lumen, double station_mm, Heading heading,
-                       const ViewPoseOptions& options)
+ViewPose poseAtStation(const PathFrames& path, const Lumen& lumen, double station_mm, Heading heading)
 {
-    return poseAtStation(path, lumen, LookAhead(path, lumen), station_mm, heading, options);
+    return poseAtStation(path, lumen, LookAhead(path, lumen), station_mm, heading);
 }
 
-ViewPose poseForPoint(const Skeleton& skeleton, const PathFrames& path, const Lumen& lumen, Point3 point_mm,
-                      const ViewPoseOptions& options)
+ViewPose poseForPoint(const Skeleton& skeleton, const PathFrames& path, const Lumen& lumen, Point3 point_mm)
 {
-    const Scene scene{path, lumen, options};
+    const Scene scene{path, lumen};
     const Target target = targetAt(lumen, point_mm);
     auto candidates = onPath(scene, target);
     if (candidates.empty())

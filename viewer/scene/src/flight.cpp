@@ -32,8 +32,8 @@ std::vector<Leg> legsOf(const PreparedScan& scan, const FlightRequest& request)
     const Lumen lumen = scan.lumen();
     std::vector<Leg> legs;
     for (const Heading heading : {Heading::caecum, Heading::rectum}) {
-        const bool wanted = request.direction == FlightRequest::Direction::both ||
-                            (request.direction == FlightRequest::Direction::to_caecum) == (heading == Heading::caecum);
+        const bool wanted = request.direction == FlightDirection::both ||
+                            (request.direction == FlightDirection::to_caecum) == (heading == Heading::caecum);
         if (wanted)
             legs.push_back({heading, planFlight(scan.frames(), lumen, step, heading)});
     }
@@ -192,10 +192,8 @@ void addCoverage(FlightReport& report, const FlightRenderer& renderer)
     report.seen_mm2 = renderer.coverage.seenArea_mm2();
     report.whole_mm2 = renderer.coverage.wholeArea_mm2();
     report.parts = scan.parts();
-    UnseenOptions options;
-    options.least_area_mm2 = renderer.request.least_unseen_mm2;
     report.unseen = unseenPatches(scan.cells().points_mm, scan.cells().triangles, renderer.coverage, scan.skeleton(),
-                                  scan.frames(), scan.lumen(), options);
+                                  scan.frames(), scan.lumen(), renderer.request.least_unseen_mm2);
 }
 
 const char* endName(const FlightReport& report, bool towards_caecum)

@@ -261,15 +261,15 @@ void ReadingPictures::chooseBy(std::shared_ptr<const CellVisibility> visibility)
     p.offscreen->draw(kSmall, kSmall);
 }
 
-void ReadingPictures::countSeen(ScanCoverage& seen, double now_s, const ReviewRule& rule)
+void ReadingPictures::countSeen(ScanCoverage& seen, double now_s)
 {
     Parts& p = *parts_;
     if (!p.shown)
         return;
     const CellSurface& cells = p.scan.cells();
     seen.show(wellShown(cells.points_mm, cells.triangles, p.pictureCoverage().triangles(), p.shown->pose, p.shown->lens,
-                        p.shown->pixel_ratio, rule),
-              now_s, rule.least_s);
+                        p.shown->pixel_ratio),
+              now_s, kLeastShown_s);
 }
 
 ReadingPictures::Overview ReadingPictures::overview(const SnapshotRequest& request, const SnapshotResult& place,

@@ -14,7 +14,7 @@ Picture SlicePictures::draw(const std::shared_ptr<const PreparedScan>& scan, con
     scan_ = scan;
     earlier_plane_ = plane_;
     plane_ = SliceSlab::planeOf(scan->volume().grid, request.view);
-    const bool thin = request.thick.of == ThickSlice::Of::one_plane;
+    const bool thin = request.thick.kind == ThickSlice::Kind::one_plane;
     const bool held = thin && plane_ && slab_ && slab_->holds(*plane_);
     const InsideView inside = request.tracks ? scan->inside() : InsideView();
     return slicePicture(held ? HuView(slab_->volume()) : scan->volume(), request, scan->cleansed(), &inside, wanted);

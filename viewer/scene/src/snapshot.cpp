@@ -15,7 +15,7 @@ namespace {
 SnapshotRequest completed(const PreparedScan& scan, SnapshotRequest request)
 {
     constexpr double kNarrowest_deg = 20, kWidest_deg = 150;
-    const bool overview = request.view == SnapshotRequest::View::overview;
+    const bool overview = request.view == SnapshotView::overview;
     if (request.width == 0)
         request.width = 1024;
     if (request.height == 0)
@@ -76,31 +76,16 @@ Caption captionFor(const CaseRecord& a_case, const ScanRecord& scan)
             scan.series.lossy};
 }
 
-SnapshotRequest::View snapshotViewFrom(const std::string& name)
-{
-    if (name == "endo")
-        return SnapshotRequest::View::endo;
-    if (name == "slices")
-        return SnapshotRequest::View::slices;
-    if (name == "overview")
-        return SnapshotRequest::View::overview;
-    if (name == "cube")
-        return SnapshotRequest::View::cube;
-    if (name == "band")
-        return SnapshotRequest::View::band;
-    throw Error(ErrorCode::wrong_use, "a view must be endo, slices, overview, cube or band", "'" + name + "'");
-}
-
 SnapshotResult placeOf(const PreparedScan& scan, const SnapshotRequest& request)
 {
     const Lumen lumen = scan.lumen();
     ViewPose view;
     double station = request.station_mm;
     if (request.look_at_mm) {
-        view = poseForPoint(scan.skeleton(), scan.frames(), lumen, *request.look_at_mm, request.pose);
+        view = poseForPoint(scan.skeleton(), scan.frames(), lumen, *request.look_at_mm);
         station = scan.skeleton().nearest(*request.look_at_mm).station_mm;
     } else {
-        view = poseAtStation(scan.frames(), lumen, request.station_mm, Heading::caecum, request.pose);
+        view = poseAtStation(scan.frames(), lumen, request.station_mm, Heading::caecum);
         station = view.station_mm;
     }
     return {view.pose, station, view.clearance_mm, view.sees_target};
@@ -139,15 +124,15 @@ DrawnSnapshot drawSnapshot(const PreparedScan& scan, const SnapshotRequest& requ
     const SnapshotRequest whole = completed(scan, request);
     const SnapshotResult place = placeOf(scan, whole);
     switch (whole.view) {
-        case SnapshotRequest::View::slices:
+        case SnapshotView::slices:
             return {slicesPicture(scan, whole, place), place};
-        case SnapshotRequest::View::overview:
+        case SnapshotView::overview:
             return {overviewPicture(scan, whole, place), place};
-        case SnapshotRequest::View::band:
+        case SnapshotView::band:
             return {bandSnapshot(scan, whole, place), place};
-        case SnapshotRequest::View::cube:
+        case SnapshotView::cube:
             return {EndoscopicPictures(scan).drawCube(whole, place), place};
-        case SnapshotRequest::View::endo:
+        case SnapshotView::endo:
             break;
     }
     return {EndoscopicPictures(scan).draw(whole, place), place};

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "vicon/core/enum_names.h"
+#include "vicon/core/option_names.h"
 #include "vicon/ingest/tls.h"
 
 namespace vicon::ingest {
@@ -18,6 +18,10 @@ struct WebAccess {
 enum class RetrieveMethod { get, move };
 inline constexpr EnumNames<RetrieveMethod, 2> kRetrieveMethodNames{
     {{RetrieveMethod::get, "get"}, {RetrieveMethod::move, "move"}}};
+constexpr const auto& optionNames(RetrieveMethod /*value*/)
+{
+    return kRetrieveMethodNames;
+}
 
 /// A DICOM application on the network, and what it may do here.
 struct Peer {

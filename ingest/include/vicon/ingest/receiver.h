@@ -19,7 +19,7 @@ struct ReceiverOptions {
     std::string ae_title = "VICON";
     bool any_called_title = false;
     std::string allow;
-    std::string tls = "off";
+    TlsUse tls = TlsUse::off;
     /// Between two associations of one study a scanner pauses for a second or two.
     double quiet_s = 5;
     /// A sender that keeps its association open between images pauses for less than a second.
@@ -47,8 +47,7 @@ struct ReceiverOptions {
         v("receive.allow", allow, "",
           "Who may call: TITLE, TITLE@HOST, @HOST, peers for all of [peers], or anybody; separated by commas. Empty: "
           "anybody where receive.address is this machine alone, else peers.");
-        v("receive.tls", tls, "", "Whether callers speak TLS, with the files of [tls].",
-          {-1e300, 1e300, {"off", "offered", "required"}});
+        v("receive.tls", tls, "", "Whether callers speak TLS, with the files of [tls].", choicesOf(tls));
         v("receive.quiet_s", quiet_s, "s",
           "A study is handed over when its associations are over and no more of it came for so long.", {0, 3600});
         v("receive.idle_s", idle_s, "s", "A study is handed over when its open association was silent for so long.",

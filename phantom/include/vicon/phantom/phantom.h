@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vicon/core/colon_parts.h"
+#include "vicon/core/option_names.h"
 #include "vicon/core/options.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/skeleton.h"
@@ -15,14 +16,50 @@
 
 namespace vicon::phantom {
 
+/// The reconstruction's point spread: sigma of 0.8 to 1.1 mm, 0.5 to 0.8, or 0.45 to 0.6 with edges that overshoot.
+enum class Kernel { smooth, usual, sharp };
+inline constexpr EnumNames<Kernel, 3> kKernelNames{
+    {{Kernel::smooth, "smooth"}, {Kernel::usual, "usual"}, {Kernel::sharp, "sharp"}}};
+constexpr const auto& optionNames(Kernel /*value*/)
+{
+    return kKernelNames;
+}
+
+/// What the hips do to the slices through them. streaks: too few photons pass both; metal: the right one replaced too.
+enum class Hips { quiet, streaks, metal };
+inline constexpr EnumNames<Hips, 3> kHipsNames{
+    {{Hips::quiet, "quiet"}, {Hips::streaks, "streaks"}, {Hips::metal, "metal"}}};
+constexpr const auto& optionNames(Hips /*value*/)
+{
+    return kHipsNames;
+}
+
+/// On which side the patient lies in a scan beside supine and prone.
+enum class Decubitus { none, left, right };
+inline constexpr EnumNames<Decubitus, 3> kDecubitusNames{
+    {{Decubitus::none, "none"}, {Decubitus::left, "left"}, {Decubitus::right, "right"}}};
+constexpr const auto& optionNames(Decubitus /*value*/)
+{
+    return kDecubitusNames;
+}
+
+/// none: CT; else MR colonography with such a lumen, all of it filled alike.
+enum class MrLumen { none, dark, bright };
+inline constexpr EnumNames<MrLumen, 3> kMrLumenNames{
+    {{MrLumen::none, "none"}, {MrLumen::dark, "dark"}, {MrLumen::bright, "bright"}}};
+constexpr const auto& optionNames(MrLumen /*value*/)
+{
+    return kMrLumenNames;
+}
+
 /// What scanner and protocol make of the same patient.
 struct Protocol {
-    std::string kernel = "usual";  ///< "smooth": sigma of 0.8 to 1.1 mm; "sharp": 0.45 to 0.6, and edges overshoot
-    double thickness_mm = 0;       ///< of the slices, side by side; 0: thin ones of slice_spacing_mm
-    double tagging_hu = 0;         ///< of every pool; 0: drawn from 300 to 900
-    int bubbles = 0;               ///< of gas in the pools, 2 to 6 mm, right below their levels
-    bool contrast = false;         ///< medium in the veins: wall of 120 HU, vessels of 160, organs too
-    std::string hips = "quiet";    ///< "streaks": too few photons pass both hips; "metal": the right one replaced too
+    Kernel kernel = Kernel::usual;
+    double thickness_mm = 0;  ///< of the slices, side by side; 0: thin ones of slice_spacing_mm
+    double tagging_hu = 0;    ///< of every pool; 0: drawn from 300 to 900
+    int bubbles = 0;          ///< of gas in the pools, 2 to 6 mm, right below their levels
+    bool contrast = false;    ///< medium in the veins: wall of 120 HU, vessels of 160, organs too
+    Hips hips = Hips::quiet;
 };
 
 /// What to synthesise. The same options give the same study, bit for bit, on any number of threads.
@@ -32,7 +69,7 @@ struct PhantomOptions {
     std::array<double, 3> spacing_mm{0, 0, 0};  ///< 0: as it takes to cover 379 x 379 x 430 mm, where the patient fits
     bool supine = true;
     bool prone = true;
-    std::string decubitus = "none";  ///< "none", "left", "right": one scan more, lying on that side
+    Decubitus decubitus = Decubitus::none;  ///< one scan more, lying on that side
     bool stretch = false;  ///< the wall is drawn out by 0.7 to 1.4 from one position to another, turned and distended
     bool feet_first = false;
     double oblique_deg = 0;     ///< the slices are turned by this about the patient's left-right axis
@@ -48,9 +85,8 @@ struct PhantomOptions {
     bool ileum = false;         ///< a valve of 3 to 5 mm that gas or fluid has gone through into the terminal ileum
     double noise_hu = -1;       ///< standard deviation in soft tissue; below 0: drawn from 15 to 40
     bool low_dose = false;      ///< noise drawn from 50 to 80 HU when noise_hu is below 0
-    double blur_mm = 0;         ///< sigma of the point spread; 0: drawn, "usual" from 0.5 to 0.8
-    std::string mr =
-        "none";  ///< "none": CT; "dark", "bright": MR colonography with such a lumen, all of it filled alike
+    double blur_mm = 0;         ///< sigma of the point spread; 0: drawn as the kernel has it
+    MrLumen mr = MrLumen::none;
     Protocol protocol;
     bool extras = true;  ///< a localizer and a dose sheet beside the scans (writeStudy)
 
@@ -66,8 +102,7 @@ struct PhantomOptions {
         v("phantom.slice_spacing_mm", spacing_mm[2], "mm", "Slice spacing; 0: the patient fits.", {0, 20});
         v("phantom.supine", supine, "", "Make a supine scan.");
         v("phantom.prone", prone, "", "Make a prone scan.");
-        v("phantom.decubitus", decubitus, "", "Make a scan lying on this side.",
-          {.choices = {"none", "left", "right"}});
+        v("phantom.decubitus", decubitus, "", "Make a scan lying on this side.", choicesOf(decubitus));
         v("phantom.stretch", stretch, "",
           "The wall is drawn out by 0.7 to 1.4 from one position to another, turned by up to 80 degrees and "
           "distended.");
@@ -87,17 +122,15 @@ struct PhantomOptions {
         v("phantom.low_dose", low_dose, "", "Noise drawn from 50 to 80 HU.");
         v("phantom.blur_mm", blur_mm, "mm", "Sigma of the point spread; 0: drawn as the kernel has it.", {0, 3});
         v("phantom.kernel", protocol.kernel, "", "Smooth, usual, or sharp with edges that overshoot.",
-          {.choices = {"smooth", "usual", "sharp"}});
+          choicesOf(protocol.kernel));
         v("phantom.thickness_mm", protocol.thickness_mm, "mm", "Thickness of the slices, side by side; 0: thin ones.",
           {0, 5});
         v("phantom.tagging_hu", protocol.tagging_hu, "HU", "Density of the pools; 0: drawn from 300 to 900 HU.",
           {0, 2000});
         v("phantom.bubbles", protocol.bubbles, "", "Bubbles of 2 to 6 mm below the levels of the pools.", {0, 200});
         v("phantom.contrast", protocol.contrast, "", "Contrast medium in wall, vessels and organs.");
-        v("phantom.hips", protocol.hips, "", "What the hips do to the slices through them.",
-          {.choices = {"quiet", "streaks", "metal"}});
-        v("phantom.mr", mr, "", "Make MR images in place of CT, with a lumen like this.",
-          {.choices = {"none", "dark", "bright"}});
+        v("phantom.hips", protocol.hips, "", "What the hips do to the slices through them.", choicesOf(protocol.hips));
+        v("phantom.mr", mr, "", "Make MR images in place of CT, with a lumen like this.", choicesOf(mr));
         v("phantom.extras", extras, "", "Write a localizer and a dose sheet too.");
     }
 };

@@ -15,7 +15,7 @@
 namespace vicon::steps {
 namespace {
 
-constexpr std::uint8_t kUndecided = 9;
+constexpr std::uint8_t kUndecided = 9;  // a definition: none of the labels of an InsideVolume
 
 /// What a density alone says.
 std::uint8_t labelOf(std::int16_t hu, double wall_hu, double fluid_hu)

@@ -35,7 +35,6 @@ Point3 upperCorner(Point3 a, Point3 b)
     return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
 
-/// What a piece looks like, from its width, its length and its place in the body.
 void judge(Candidate& c, const Body& body)
 {
     const double middle_x = (body.lower_mm.x + body.upper_mm.x) / 2;
@@ -43,10 +42,10 @@ void judge(Candidate& c, const Body& body)
     const double height = (centre.z - body.lower_mm.z) / std::max(1.0, body.upper_mm.z - body.lower_mm.z);
     const bool short_for_width = c.length_mm < 6 * c.max_radius_mm;
     if (c.max_radius_mm < kSmallBowelRadius_mm) {
-        c.kind = "narrow, small bowel or a collapsed part";
+        c.kind = CandidateKind::narrow;
         c.colon_likeness = 0;  // taken only as a stepping stone over a collapsed part
     } else if (short_for_width && c.max_radius_mm > 20 && centre.x > middle_x && height > 0.55) {
-        c.kind = "stomach";
+        c.kind = CandidateKind::stomach;
         c.colon_likeness = 0.1;
     }
     if (c.volume_ml > 0 && c.fluid_ml / c.volume_ml > 0.95)

@@ -1,15 +1,23 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "grid/lumen_graph.h"
 #include "grid/run_labels.h"
 #include "segment/body.h"
+#include "vicon/core/enum_names.h"
 #include "vicon/core/progress.h"
 #include "vicon/core/volume.h"
 
 namespace vicon::steps {
+
+/// What a candidate looks like, from its width, its length and its place in the body.
+enum class CandidateKind { colon, narrow, stomach };
+inline constexpr EnumNames<CandidateKind, 3> kCandidateKindNames{{
+    {CandidateKind::colon, "colon"},
+    {CandidateKind::narrow, "narrow, small bowel or a collapsed part"},
+    {CandidateKind::stomach, "stomach"},
+}};
 
 /// A part of gas and fluid that may be a piece of the colon: a connected one, or what is left of it without the
 /// contacts of its loops.
@@ -24,7 +32,7 @@ struct Candidate {
     Point3 lower_mm;                   ///< bounding box
     Point3 upper_mm;
     double colon_likeness = 1;  ///< 0 to 1, from shape and place
-    std::string kind = "colon";
+    CandidateKind kind = CandidateKind::colon;
     /// Of the component with the rim of fluid that belongs to it, at half resolution.
     LumenGraph graph;
     std::vector<std::uint8_t> barred;  ///< nodes of the graph in contacts or of other candidates; empty: none

@@ -71,7 +71,7 @@ nlohmann::json describe(const std::vector<Candidate>& candidates, const Ordering
                        {"fluid_ml", c.fluid_ml},
                        {"length_mm", c.length_mm},
                        {"max_radius_mm", c.max_radius_mm},
-                       {"looks_like", c.kind},
+                       {"looks_like", nameIn(kCandidateKindNames, c.kind)},
                        {"place_in_colon", at == ordering.pieces.end() ? 0 : at - ordering.pieces.begin() + 1}});
     }
     return out;

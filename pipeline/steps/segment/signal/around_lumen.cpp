@@ -73,7 +73,7 @@ HuVolume onLumenScaleAround(const HuVolume& signal, const HuVolume& scaled, cons
         if (out.voxels[n] != kPaddingHu)
             out.voxels[n] = std::max(out.voxels[n], kLeastBeyond);
     });
-    constexpr int kNear_voxels = 2;
+    constexpr int kNear_voxels = 2;  // no case recorded; reason: the blurred edge of a lumen
     forEachOfLumen(place, [&](Index3 v) {
         out.at(v) = own.at(v);
         for (const Index3 way : kFaces)

@@ -34,7 +34,7 @@ double medianBetween(const HuVolume& signal, double above, double most)
 /// The median of what gives no signal within the body, of means over blocks: less noise, which no magnitude is free of.
 double medianOfHoles(const HuVolume& signal, double below)
 {
-    constexpr double kBlock_mm = 4;
+    constexpr double kBlock_mm = 4;  // no case recorded; reason: air in the body is wider
     const HuVolume blocks = meanOfBlocks(signal, std::max(1, int(std::lround(kBlock_mm / signal.grid.spacing_mm[0]))));
     InsideVolume body(blocks.grid);
     for (std::size_t n = 0; n < blocks.voxels.size(); ++n)
@@ -74,7 +74,7 @@ bool touches(const InsideVolume& mask, Index3 v, int steps)
 
 SignalLevels levelsOf(const HuVolume& signal, LumenContrast contrast, const SignalOptions& options)
 {
-    constexpr double kHighest = 32767;
+    constexpr double kHighest = 32767;  // of 16 bits
     SignalLevels levels{.contrast = contrast};
     const std::vector<double> limits = classLimits(signal, classesOf(contrast) - 1);
     levels.air_below = limits[0];

@@ -42,6 +42,7 @@ RunLabels componentsBelow(const HuVolume& volume, double limit)
 /// Lungs give no signal either, and leave the scan through its upper end. Bowel does not, in a scan of a colon.
 void fillLungs(HuVolume& scaled)
 {
+    // No case recorded; reason: air alone is as dark, lungs reach the uppermost slices and are never as small.
     constexpr double kCore_hu = -800, kTop_mm = 8, kLungSize_ml = 10;
     const RunLabels dark = componentsBelow(scaled, kCore_hu);
     const Grid& grid = scaled.grid;

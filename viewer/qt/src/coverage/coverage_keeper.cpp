@@ -59,11 +59,9 @@ void CoverageKeeper::findUnseen(std::shared_ptr<OpenScan> scan, double least_mm2
 {
     worker_.giveUp(kSearch);
     worker_.post(kSearch, [this, scan = std::move(scan), least_mm2](Written&, const Progress& wanted) -> Worker::Work {
-        UnseenOptions options;
-        options.least_area_mm2 = least_mm2;
         const auto& cells = scan->files.cells();
         auto patches = unseenPatches(cells.points_mm, cells.triangles, scan->coverage.coverage(),
-                                     scan->files.skeleton(), scan->files.frames(), scan->lumen, options, &wanted);
+                                     scan->files.skeleton(), scan->files.frames(), scan->lumen, least_mm2, &wanted);
         return [this, scan, patches = std::move(patches)] { emit found(patches, scan); };
     });
 }

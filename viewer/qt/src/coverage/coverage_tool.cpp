@@ -32,7 +32,7 @@ CoverageTool::CoverageTool(Reading& reading)
       panel_(new CoveragePanel),
       seen_text_(new QLabel),
       still_timer_(
-          int(ReviewRule().least_s * 1000), [this] { countStill(); }, Qt::PreciseTimer)
+          int(kLeastShown_s * 1000), [this] { countStill(); }, Qt::PreciseTimer)
 {
     seen_text_->setObjectName("seenText");
     seen_text_->setToolTip(tr("Share of the wall reviewed so far"));
@@ -248,7 +248,7 @@ void CoverageTool::countStill()
 {
     if (!reading_.scan())
         return;
-    reading_.scan()->coverage.stillShown(now_s(), ReviewRule().least_s);
+    reading_.scan()->coverage.stillShown(now_s(), kLeastShown_s);
     showSeen();
     reading_.drawOverview(true);
 }

@@ -193,7 +193,7 @@ void SliceTool::dragWindow(QPointF by)
 void SliceTool::nextOf()
 {
     constexpr int kWays = 3;
-    wanted_.thick.of = ThickSlice::Of((int(wanted_.thick.of) + 1) % kWays);
+    wanted_.thick.kind = ThickSlice::Kind((int(wanted_.thick.kind) + 1) % kWays);
     show();
 }
 
@@ -201,7 +201,7 @@ void SliceTool::nextThickness()
 {
     const auto* next = std::upper_bound(kThicknesses_mm.begin(), kThicknesses_mm.end(), wanted_.thick.thickness_mm);
     wanted_.thick.thickness_mm = next == kThicknesses_mm.end() ? kThicknesses_mm.front() : *next;
-    if (wanted_.thick.of == ThickSlice::Of::one_plane)
+    if (wanted_.thick.kind == ThickSlice::Kind::one_plane)
         reading_.say(tr("Slab of %1 mm; Y chooses mean or minimum.").arg(wanted_.thick.thickness_mm));
     show();
 }

@@ -63,7 +63,7 @@ void TurningTool::dragged(QPointF by, Qt::MouseButton button)
 
 void TurningTool::enlarge(int steps)
 {
-    view_.enlarge(steps, {});
+    view_.zoom(steps, {});
     turnedBy(false);
 }
 

@@ -18,13 +18,6 @@ struct BandPlace {
     double around_rad = 0;
 };
 
-struct BandOptions {
-    /// Over how much wall places are evened out, so that the band does not tear where the wall's nearest place on the
-    /// path leaps, and what leans over is laid down. Chosen among 2, 4, 9 and 14 on ctc-prone: below 14 there are
-    /// holes where the wall of a narrow place does not go around the path.
-    double even_mm = 14;
-};
-
 /// The wall of a whole colon, cut open and laid flat: each triangle has one place in the band. A corner's place is the
 /// nearest one of the path in its own loop, which the distance from the exit tells, and the angle around it, both
 /// evened out over the wall (after Haker's flattening and Yao's reversible unfolding: S. Haker et al., IEEE TMI 19(7),
@@ -34,8 +27,7 @@ public:
     /// @param surface and `path` must outlive it; of an organ that is one way from end to end
     /// @param exit_distance of the same scan
     /// Throws Error{cancelled}. Takes some seconds for a colon.
-    BandMap(const CellSurface& surface, const PathFrames& path, const FieldView& exit_distance, Progress& progress,
-            const BandOptions& options = {});
+    BandMap(const CellSurface& surface, const PathFrames& path, const FieldView& exit_distance, Progress& progress);
 
     const CellSurface& surface() const { return *surface_; }
     const PathFrames& path() const { return *path_; }

@@ -16,8 +16,8 @@ public:
     /// balance full thrust brings the eye to 4 mm at 30 mm/s and to 2.7 mm at the most.
     static constexpr double kWallReach_mm = 8;
 
-    /// The lumen's voxels must outlive it. Of the options those of the path mean nothing.
-    explicit FreeFlight(const Lumen& lumen, const SubmarineOptions& options = {}) : lumen_(lumen), options_(options) {}
+    /// The lumen's voxels must outlive it.
+    explicit FreeFlight(const Lumen& lumen) : lumen_(lumen) {}
 
     void stop() { velocity_mm_s_ = {}; }
     /// @param speed_mm_s at full thrust, far from the wall
@@ -30,7 +30,6 @@ private:
     void backOff(Point3& eye_mm) const;
 
     Lumen lumen_;
-    SubmarineOptions options_;
     Vector3 velocity_mm_s_;
 };
 

@@ -11,16 +11,6 @@ namespace vicon::viewer {
 /// Which way along the path.
 enum class Heading { caecum, rectum };
 
-/// How far a camera on the path looks ahead. Chosen on bent tubes of 8 to 25 mm radius with folds and on a real prone
-/// scan.
-struct LookAheadOptions {
-    double far_radii = 4;      ///< the way on is looked at this many radii ahead at most,
-    double least_far_mm = 30;  ///< but not less than this,
-    double most_far_mm = 80;   ///< and not more
-    double open_deg = 45;      ///< around the way on, what is open draws the view to itself
-    double smoothing_mm = 8;   ///< of path, sigma: so that a fold that is passed does not jerk the view
-};
-
 /// Where a camera that follows the path looks: to where the lumen opens. That is about the farthest place of the path
 /// ahead that is in plain view without a gap before it; where a fold stands before a part of the lumen there, rather
 /// into the open than at the fold's rim. Remembers what it found out about the path; not for several threads
@@ -28,7 +18,7 @@ struct LookAheadOptions {
 class LookAhead {
 public:
     /// The path, and the voxels of the lumen, must outlive it.
-    LookAhead(const PathFrames& path, const Lumen& lumen, const LookAheadOptions& options = {});
+    LookAhead(const PathFrames& path, const Lumen& lumen);
 
     /// A unit vector. Continuous along the path.
     /// @param eye_mm at or beside the path at this station
@@ -52,7 +42,6 @@ private:
 
     const PathFrames* path_;
     Lumen lumen_;
-    LookAheadOptions options_;
     mutable std::array<std::vector<Node>, 2> nodes_;  // along the path, by heading
 };
 

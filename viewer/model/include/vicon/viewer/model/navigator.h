@@ -27,8 +27,7 @@ public:
 
     /// Everything must outlive it. Throws Error{unusable_scan} when no station of the path is wide enough.
     /// @param exit_distance nothing where `path` is none
-    Navigator(const PathFrames& path, const Lumen& lumen, const std::optional<FieldView>& exit_distance,
-              const SubmarineOptions& options = {});
+    Navigator(const PathFrames& path, const Lumen& lumen, const std::optional<FieldView>& exit_distance);
 
     /// Whether a path leads through the organ.
     bool hasPath() const { return path_->isPath(); }
@@ -84,7 +83,6 @@ private:
     const PathFrames* path_;
     Lumen lumen_;
     LookAhead ahead_;
-    SubmarineOptions options_;
     std::optional<Submarine> submarine_;  ///< nothing without a path
     FreeFlight free_flight_;
     NavigationMode mode_ = NavigationMode::planned;

@@ -8,20 +8,6 @@ namespace vicon::viewer {
 
 class FreeSpace;
 
-/// How the guided camera moves. Defaults chosen on bent tubes of 8 to 25 mm radius with folds, and on a real prone
-/// scan.
-struct SubmarineOptions {
-    double camera_radius_mm = 2;        ///< the eye never comes nearer to the wall
-    double wall_share = 0.6;            ///< the wall pushes below this part of the lumen's radius
-    double wall_strength_mm2_s2 = 100;  ///< how hard the wall pushes
-    double cruise_mm_s = 30;            ///< speed at full pull
-    double thrust_mm_s = 30;            ///< speed at full thrust by the user
-    double friction_per_s = 4;          ///< how fast speed fades
-    double homing_per_s = 6;            ///< how fast a camera that was let go is back on its path
-    double turning_deg_s = 90;          ///< speed of turning at full steering
-    double righting_per_s = 4;          ///< how fast the view turns back along the path
-};
-
 /// What the user does with mouse and keys; each from -1 to 1. All zero: let go.
 struct Steering {
     double pull = 0;        ///< along path and exit potential, 1: the way the camera heads, -1: back
@@ -52,15 +38,24 @@ struct SubmarineState {
 /// the two potentials moves it, and the path leads on only where they hold it fast. It moves in fixed steps of 1/240 s
 /// whatever the frame rate; where it is between two steps is interpolated. Bridges and parts narrower than the camera
 /// are crossed along the path, and the state says so; there it is never nearer to the wall than the path itself,
-/// elsewhere never nearer than its radius. Its way back leads round folds and to where the path is wide enough for it.
+/// elsewhere never nearer than kCameraRadius_mm. Its way back leads round folds and to where the path is wide enough
+/// for it.
 class Submarine {
 public:
     static constexpr double kTick_s = 1.0 / 240;
+    // How it moves; chosen on bent tubes of 8 to 25 mm radius with folds, and on a real prone scan.
+    static constexpr double kWallShare = 0.6;            ///< the wall pushes below this part of the lumen's radius
+    static constexpr double kWallStrength_mm2_s2 = 100;  ///< how hard the wall pushes
+    static constexpr double kCruise_mm_s = 30;           ///< speed at full pull
+    static constexpr double kThrust_mm_s = 30;           ///< speed at full thrust by the user
+    static constexpr double kFriction_per_s = 4;         ///< how fast speed fades
+    static constexpr double kHoming_per_s = 6;           ///< how fast a camera that was let go is back on its path
+    static constexpr double kTurning_deg_s = 90;         ///< speed of turning at full steering
+    static constexpr double kRighting_per_s = 4;         ///< how fast the view turns back along the path
 
     /// Path, lumen and field must outlive it. Starts at the rectal end, heading for the caecum.
     /// Throws Error{unusable_scan} when no station of the path is wide enough.
-    Submarine(const PathFrames& path, const Lumen& lumen, const FieldView& exit_distance,
-              const SubmarineOptions& options = {});
+    Submarine(const PathFrames& path, const Lumen& lumen, const FieldView& exit_distance);
 
     /// Puts it on the path, at rest, at the wide enough station nearest to this one.
     void placeAt(double station_mm, Heading heading);
@@ -105,7 +100,6 @@ private:
     Lumen lumen_;
     LookAhead ahead_;
     FieldView exit_;
-    SubmarineOptions options_;
     Steering steering_;
     Moment now_, before_;
     double first_mm_ = 0, last_mm_ = 0;  // the stations between which the path can be flown

@@ -9,11 +9,11 @@
 
 namespace vicon::viewer {
 
-/// What a slice takes together across its plane: noise goes with the mean; what is dark, as a gas bubble or fat in a
-/// fold, comes out with the minimum.
+/// What a slice shows of the planes around its own: the mean reduces noise; the minimum brings out what is dark, such
+/// as a gas bubble or fat in a fold.
 struct ThickSlice {
-    enum class Of { one_plane, mean, minimum };
-    Of of = Of::one_plane;
+    enum class Kind { one_plane, mean, minimum };
+    Kind kind = Kind::one_plane;
     double thickness_mm = 5;
     friend bool operator==(const ThickSlice&, const ThickSlice&) = default;
 };

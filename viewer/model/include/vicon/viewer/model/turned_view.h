@@ -23,7 +23,7 @@ public:
     /// @param by_mm in the picture, to the right and down
     void move(Pixel by_mm);
     /// By notches of a wheel; what is at `at_mm` from the picture's middle stays there.
-    void enlarge(int notches, Pixel at_mm);
+    void zoom(int notches, Pixel at_mm);
 
     /// The picture of a surface: it fits whole at a zoom of 1, however it is turned.
     PlaneView over(const CellSurface& surface, int width, int height) const;

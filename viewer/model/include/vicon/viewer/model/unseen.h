@@ -22,11 +22,8 @@ struct UnseenPatch {
 /// list of what is this large shows 97.9 % of the wall after 21 s more.
 inline constexpr double kMissedRegion_mm2 = 300;
 
-struct UnseenOptions {
-    /// Smaller pieces are left out. A polyp of 6 mm, the least that is reported, hides behind 28 mm2 (a disc of 6 mm).
-    double least_area_mm2 = 28;
-    ViewPoseOptions pose;
-};
+/// Smaller unseen pieces are not listed: a polyp of 6 mm, the least that is reported, hides behind a disc of 6 mm.
+inline constexpr double kLeastUnseen_mm2 = 28;
 
 /// The areas of the unseen pieces of a surface, in no order; quicker than unseenPatches(), and throws as that does.
 std::vector<double> unseenAreas_mm2(const std::vector<std::uint32_t>& triangles, const Coverage& coverage,
@@ -36,11 +33,12 @@ std::vector<double> unseenAreas_mm2(const std::vector<std::uint32_t>& triangles,
 /// cross the borders of cells, and single triangles too thin for any pixel do not join what lies around them.
 /// @param points_mm x, y, z of each point, LPS
 /// @param triangles three point numbers each, as many triangles as `coverage` has
+/// @param least_area_mm2 smaller pieces are left out
 /// Throws Error{bad_input} when the coverage is one of another surface, Error{cancelled} where `wanted`, if there is
 /// one, says so, and as poseForPoint() does.
 std::vector<UnseenPatch> unseenPatches(const std::vector<float>& points_mm, const std::vector<std::uint32_t>& triangles,
                                        const Coverage& coverage, const Skeleton& skeleton, const PathFrames& path,
-                                       const Lumen& lumen, const UnseenOptions& options = {},
+                                       const Lumen& lumen, double least_area_mm2 = kLeastUnseen_mm2,
                                        const Progress* wanted = nullptr);
 
 }  // namespace vicon::viewer

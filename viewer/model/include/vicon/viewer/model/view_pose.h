@@ -6,14 +6,11 @@
 
 namespace vicon::viewer {
 
-/// What a good view of a point asks for. Chosen on bent tubes with folds (radius 8 to 25 mm) and a real prone scan.
-struct ViewPoseOptions {
-    double camera_radius_mm = 2;    ///< the eye keeps this from the wall wherever the lumen is wide enough; on a way
-                                    ///< that tapers off half of the way's radius, where that is less
-    double least_distance_mm = 15;  ///< from eye to point, where there is room
-    double most_distance_mm = 45;
-    double distance_per_radius = 1.7;  ///< wanted distance over the lumen's radius: folds in front, point not grazed
-};
+/// An eye keeps this from the wall wherever the lumen is wide enough; on a way that tapers off half of the way's
+/// radius, where that is less. Chosen on bent tubes with folds (radius 8 to 25 mm) and on a real prone scan.
+inline constexpr double kCameraRadius_mm = 2;
+/// From eye to the point that is looked at, where there is room. Chosen on the same.
+inline constexpr double kLeastDistance_mm = 15, kMostDistance_mm = 45;
 
 /// An eye in the lumen and what is known of it.
 struct ViewPose {
@@ -26,17 +23,16 @@ struct ViewPose {
 /// Looking from a station to where the lumen opens ahead, as LookAhead says. On a bridge or where the lumen is narrower
 /// than the camera, from the nearest station that is not. Throws Error{unusable_scan} when no station of the path lies
 /// in the lumen.
-ViewPose poseAtStation(const PathFrames& path, const Lumen& lumen, double station_mm, Heading heading = Heading::caecum,
-                       const ViewPoseOptions& options = {});
+ViewPose poseAtStation(const PathFrames& path, const Lumen& lumen, double station_mm,
+                       Heading heading = Heading::caecum);
 /// The same for many stations of one path.
 /// @param ahead of the same path and lumen
 ViewPose poseAtStation(const PathFrames& path, const Lumen& lumen, const LookAhead& ahead, double station_mm,
-                       Heading heading, const ViewPoseOptions& options = {});
+                       Heading heading);
 
 /// Looking at a point on or near the wall, from the path before it (towards the rectum) where that sees it, else from
 /// behind it, else from beside the path, else from straight above the wall. The point projects to the middle.
 /// Throws Error{unusable_scan} when no station of the path lies in the lumen.
-ViewPose poseForPoint(const Skeleton& skeleton, const PathFrames& path, const Lumen& lumen, Point3 point_mm,
-                      const ViewPoseOptions& options = {});
+ViewPose poseForPoint(const Skeleton& skeleton, const PathFrames& path, const Lumen& lumen, Point3 point_mm);
 
 }  // namespace vicon::viewer

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "vicon/core/option_names.h"
 #include "vicon/core/progress.h"
 #include "vicon/viewer/model/flight_quality.h"
 #include "vicon/viewer/model/unseen.h"
@@ -11,21 +12,34 @@
 
 namespace vicon::viewer {
 
+/// Where a planned flight leads; of a tree from the root to a tip.
+enum class FlightDirection { to_caecum, to_rectum, both };
+inline constexpr EnumNames<FlightDirection, 5> kFlightDirectionNames{{
+    {FlightDirection::to_caecum, "caecum"},
+    {FlightDirection::to_caecum, "tip"},
+    {FlightDirection::to_rectum, "rectum"},
+    {FlightDirection::to_rectum, "root"},
+    {FlightDirection::both, "both"},
+}};
+constexpr const auto& optionNames(FlightDirection /*value*/)
+{
+    return kFlightDirectionNames;
+}
+
 /// A planned flight along the centreline.
 struct FlightRequest {
-    enum class Direction { to_caecum, to_rectum, both };
-    Direction direction = Direction::to_caecum;
+    FlightDirection direction = FlightDirection::to_caecum;
     double step_mm = 4;  ///< between poses, along the centreline
     int frames = 0;      ///< above 0: that many poses in each direction, instead of a step
     int width = 0;       ///< pixels of a frame; 0: 512
     int height = 0;      ///< 0: 512
     double view_angle_deg = 90;
     WallLook wall;
-    bool write_frames = true;      ///< frames as PNG, "frame-00001.png" and on
-    bool measure_coverage = true;  ///< which triangles are seen; costs a second rendering of each frame
-    bool cull = true;              ///< draw only cells that may be seen
-    double least_unseen_mm2 = UnseenOptions().least_area_mm2;  ///< smaller unseen patches are not listed
-    std::filesystem::path out;  ///< folder for frames and flight.json; empty: nothing is written
+    bool write_frames = true;                    ///< frames as PNG, "frame-00001.png" and on
+    bool measure_coverage = true;                ///< which triangles are seen; costs a second rendering of each frame
+    bool cull = true;                            ///< draw only cells that may be seen
+    double least_unseen_mm2 = kLeastUnseen_mm2;  ///< smaller unseen patches are not listed
+    std::filesystem::path out;                   ///< folder for frames and flight.json; empty: nothing is written
     std::vector<Marker> markers;
     Caption caption;
 };
@@ -55,7 +69,7 @@ struct FlightReport {
     bool tree = false;  ///< the organ branches: "to the caecum" is to the tip, "to the rectum" to the root
     std::size_t cells = 0, triangles = 0;  ///< of the whole surface
     double coverage = 0;  ///< part of the surface's area that was seen, 0 to 1; 0 where it is not measured
-    double reviewed = 0;  ///< part that was seen steeply and closely enough, see ReviewRule
+    double reviewed = 0;  ///< part that was seen steeply and closely enough, see review_rule.h
     double seen_mm2 = 0, whole_mm2 = 0;
     std::vector<UnseenPatch> unseen;  ///< the largest first; empty where coverage is not measured
     ColonPartRanges parts;            ///< by which the patches' stations are named

@@ -75,7 +75,7 @@ public:
     void chooseBy(std::shared_ptr<const CellVisibility> visibility);
     /// Tells what the last endoscopic picture on the screen shows well. Not where it was peeled: the wall is not in it.
     /// @param now_s see ScanCoverage::show()
-    void countSeen(ScanCoverage& seen, double now_s, const ReviewRule& rule = {});
+    void countSeen(ScanCoverage& seen, double now_s);
 
     /// The whole colon from the front, and which millimetres its pixels are.
     struct Overview {

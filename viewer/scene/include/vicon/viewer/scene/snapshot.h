@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vicon/cases/case_store.h"
+#include "vicon/core/option_names.h"
 #include "vicon/viewer/model/peeling.h"
 #include "vicon/viewer/model/prior_place.h"
 #include "vicon/viewer/model/view_pose.h"
@@ -41,10 +42,22 @@ struct PeelRequest {
     double circle_px = 0;            ///< its radius; 0: three tenths of the picture's smaller side
 };
 
+enum class SnapshotView { endo, slices, overview, cube, band };
+inline constexpr EnumNames<SnapshotView, 5> kSnapshotViewNames{{
+    {SnapshotView::endo, "endo"},
+    {SnapshotView::slices, "slices"},
+    {SnapshotView::overview, "overview"},
+    {SnapshotView::cube, "cube"},
+    {SnapshotView::band, "band"},
+}};
+constexpr const auto& optionNames(SnapshotView /*value*/)
+{
+    return kSnapshotViewNames;
+}
+
 /// A picture of a scan.
 struct SnapshotRequest {
-    enum class View { endo, slices, overview, cube, band };
-    View view = View::endo;
+    SnapshotView view = SnapshotView::endo;
     std::optional<Point3> look_at_mm;  ///< what to look at (a marker's position); empty: the place at `station_mm`
     double station_mm = 0;             ///< used without `look_at_mm`; beyond the ends: the end
     std::vector<Marker> markers;       ///< drawn where they are in view
@@ -62,15 +75,11 @@ struct SnapshotRequest {
     bool from_caecum = false;    ///< band: its rows begin there
     bool whole_band = true;      ///< band: all of it, in rows; else a single row around the place
     double slice_field_mm = 0;   ///< slices: how much to show around the point; 0: the whole scan
-    ViewPoseOptions pose;        ///< endo: where to put the eye
     PeelRequest peel;            ///< endo: the look below the wall
 
     static constexpr int kLeastSide = 200;
     static constexpr int kMostSide = 4096;
 };
-
-/// "endo", "slices", "overview", "cube" or "band". Throws Error{wrong_use} for any other name.
-SnapshotRequest::View snapshotViewFrom(const std::string& name);
 
 /// What a picture turned out to show.
 struct SnapshotResult {
