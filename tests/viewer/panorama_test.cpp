@@ -158,7 +158,7 @@ TEST_F(Panorama, ABandAroundAStationMarksIt)
 {
     const PreparedScan files = scan();
     SnapshotRequest request;
-    request.view = SnapshotRequest::View::band;
+    request.view = SnapshotView::band;
     request.width = 900;
     request.height = 300;
     request.station_mm = 200;
