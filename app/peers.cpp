@@ -15,16 +15,16 @@ namespace {
 void takeRoles(ingest::Peer& peer, const nlohmann::json& roles)
 {
     constexpr const char* kRemedy = "roles are \"store\" (it may store here), \"query\" (it is asked) and \"send\"";
-    constexpr std::pair<bool ingest::Peer::*, const char*> kRoles[] = {
+    constexpr std::pair<bool ingest::Peer::*, const char*> kPeerRoles[] = {
         {&ingest::Peer::stores, "store"},
         {&ingest::Peer::is_queried, "query"},
         {&ingest::Peer::is_sent, "send"},
     };
-    for (const auto& [member, name] : kRoles)
+    for (const auto& [member, name] : kPeerRoles)
         peer.*member = false;
     for (const nlohmann::json& role : roles) {
-        const auto known = std::ranges::find_if(kRoles, [&](const auto& one) { return role == one.second; });
-        if (known == std::end(kRoles))
+        const auto known = std::ranges::find_if(kPeerRoles, [&](const auto& one) { return role == one.second; });
+        if (known == std::end(kPeerRoles))
             wrong(peer.name, "not a role: " + role.dump(), kRemedy);
         peer.*known->first = true;
     }
