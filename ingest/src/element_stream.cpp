@@ -131,7 +131,7 @@ void ElementStream::take()
 
 void ElementStream::takeInSequence(const Head& head)
 {
-    const Open top = open_.back();
+    const Level top = open_.back();
     stayWithin(cost_.addPart());
     if (head.tag == kSequenceEnd && top.end == kOpenEnd) {
         open_.pop_back();

@@ -25,7 +25,7 @@ public:
 
 private:
     /// A place that holds elements or items.
-    struct Open {
+    struct Level {
         std::uint64_t end;
         bool sequence;
         Coding coding;
@@ -50,7 +50,7 @@ private:
     std::array<unsigned char, 16> head_{};
     std::size_t head_size_ = 0, wanted_ = 8;
     HeaderCost cost_;
-    std::vector<Open> open_;
+    std::vector<Level> open_;
     std::size_t depth_ = 0;  ///< of sequences
 };
 

@@ -9,6 +9,9 @@
 namespace vicon::ingest {
 namespace {
 
+/// More than anybody reads, or one study or day has; what a peer without an end would fill memory with.
+constexpr int kMostMatches = 100'000;
+
 /// A C-FIND that stops when told to, and hands every match over as it comes.
 class Finding : public PeerScu {
 public:
@@ -17,11 +20,14 @@ public:
     {
     }
     Uint16 last_status = 0;
+    int matches = 0;
 
     OFCondition handleFINDResponse(const T_ASC_PresentationContextID context, QRResponse* response,
                                    OFBool& wait_for_next) override
     {
         last_status = response->m_status;
+        if (DICOM_PENDING_STATUS(response->m_status) && ++matches > kMostMatches)
+            return EC_IllegalCall;
         if (response->m_dataset && DICOM_PENDING_STATUS(response->m_status))
             on_match_(*response->m_dataset);
         if (progress_.cancelled())
@@ -91,6 +97,9 @@ void find(const Peer& peer, const FindModel& model, DcmDataset& keys, const std:
         peerFailed(model.without, peer, NET_EC_NoAcceptablePresentationContexts);
     const OFCondition answered = scu.sendFINDRequest(context, &keys, nullptr);
     progress.check();
+    if (scu.matches > kMostMatches)
+        throw Error(ErrorCode::peer, "more than " + std::to_string(kMostMatches) + " match", nameOf(peer),
+                    "ask for less at a time, as by dates");
     if (answered.bad())
         peerFailed("the query broke off", peer, scu.reasonOf(answered));
     if (scu.last_status != STATUS_Success)

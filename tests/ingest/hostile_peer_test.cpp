@@ -90,6 +90,23 @@ TEST(HostilePeer, ThatAnswersAQueryWithNestedDataIsSaid)
     }
 }
 
+TEST(HostilePeer, WhoseMatchesDoNotEndIsLeft)
+{
+    const std::string match =
+        fragment(true, answer(kFindAnswer, kPending)) + fragment(false, element(0x20, 0xd, "1.2"));
+    std::string matches;
+    for (int n = 0; n < 100'100; ++n)
+        matches += match;
+    const Answering hostile(matches);
+    NoProgress quiet;
+    try {
+        findStudies(hostile.peer(), {}, "VICON", quiet);
+        ADD_FAILURE();
+    } catch (const Error& e) {
+        EXPECT_THAT(e.what(), HasSubstr("more than 100000 match"));
+    }
+}
+
 TEST(HostilePeer, ThatAnswersAQueryWithANestedCommandIsSaid)
 {
     const Answering hostile(fragments(true, answer(kFindAnswer, kPending) + nested(kDeep, false)));
