@@ -42,8 +42,9 @@ double standingShare(const HuView& volume, const Lumen& lumen, const Pose& pose,
     constexpr double kReach_mm = 500, kStands_mm = 3;  // more than a film of fluid, and than where the two walls differ
     int stands = 0;
     for (int n = 0; n < kRays * kRays; ++n) {
+        const int column = n % kRays, row = n / kRays;
         const Vector3 ray =
-            rayThrough(pose, lens, {lens.width * (n % kRays + 0.5) / kRays, lens.height * (n / kRays + 0.5) / kRays});
+            rayThrough(pose, lens, {lens.width * (column + 0.5) / kRays, lens.height * (row + 0.5) / kRays});
         const auto acquired_mm = distanceToAcquiredWall_mm(volume, lumen, pose.eye_mm, ray, kReach_mm);
         const auto wall_mm = distanceToWall_mm(lumen, pose.eye_mm, ray, kReach_mm);
         stands += acquired_mm && wall_mm && *acquired_mm < *wall_mm - kStands_mm ? 1 : 0;

@@ -103,8 +103,11 @@ void addStations(Overlay& overlay, const PreparedScan& scan, const BandPage& pag
             const double station = every_mm * (falls ? most - n : least + n);
             const double x = std::abs(station - page.rowBegin_mm(row)) / page.mm_per_pixel;
             overlay.lines.push_back({{{x, bottom - 0.4 * text_px}, {x, bottom}}, kTextColor, 1, 0});
-            const std::string part = partNameAt(scan.parts(), station), far = distanceLabel(station);
-            for (const std::string& words : {part.empty() ? far : far + "  " + part, far}) {
+            const std::string far = distanceLabel(station);
+            std::string whole = far;
+            if (const std::string part = partNameAt(scan.parts(), station); !part.empty())
+                whole += "  " + part;
+            for (const std::string& words : {whole, far}) {
                 const double width_px = widthOf(words, text_px);
                 const double at_px = std::min(x + gap_px, page.width - width_px - gap_px);
                 if (at_px < written_to_px + gap_px && at_px < x + gap_px)
