@@ -61,7 +61,7 @@ if(VICON_BUILD_TESTS)
 endif()
 if(VICON_BUILD_BENCHMARKS)
   vicon_itk(vicon_itk_rivals ITKAnisotropicSmoothing ITKCommon ITKConnectedComponents ITKDistanceMap ITKFastMarching
-            ITKImageFunction ITKImageGrid ITKMathematicalMorphology)
+            ITKImageFunction ITKImageGrid ITKMathematicalMorphology ITKSmoothing)
   vicon_itk(vicon_itk_chain ITKCommon ITKConnectedComponents ITKDistanceMap ITKFastMarching ITKImageGrid ITKIOGDCM
             ITKIOImageBase ITKThresholding)
 endif()

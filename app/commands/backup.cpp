@@ -10,7 +10,7 @@
 namespace vicon::app {
 namespace {
 
-void print(const Context& context, const Copied& copied)
+void print(const Context& context, const CopyCounts& copied)
 {
     constexpr double kBytesAGb = 1e9;
     if (context.json) {
@@ -29,7 +29,7 @@ void print(const Context& context, const Copied& copied)
 int backup(Context& context, const std::string& to)
 {
     ProgressLine progress("backup");
-    const Copied copied = backUp(context.existingStore(), to, progress);
+    const CopyCounts copied = backUp(context.existingStore(), to, progress);
     progress.clear();
     auditOperation(context.storePlace(), kStoreBackedUp, std::to_string(copied.cases) + " cases");
     print(context, copied);
@@ -40,7 +40,7 @@ int restoreFrom(Context& context, const std::string& from)
 {
     context.config();  // a wrong configuration is told before anything is made
     ProgressLine progress("restore");
-    const Copied copied = restore(from, context.storePlace(), progress);
+    const CopyCounts copied = restore(from, context.storePlace(), progress);
     progress.clear();
     auditOperation(context.storePlace(), kStoreRestored, std::to_string(copied.cases) + " cases");
     print(context, copied);

@@ -32,9 +32,9 @@ class Round {
 public:
     Round(const fs::path& from, const fs::path& to, Progress& progress) : from_(from), to_(to), progress_(progress) {}
 
-    Copied run(const std::string& name)
+    CopyCounts run(const std::string& name)
     {
-        Copied copied;
+        CopyCounts copied;
         progress_.report(0, name);
         for (const char* folder : kFolders)
             mirror(from_ / folder, to_ / folder, copied, progress_, [&](const fs::path&) { ++copied.files; });
@@ -46,7 +46,7 @@ private:
     Progress& progress_;
 };
 
-void add(Copied& sum, const Copied& round)
+void add(CopyCounts& sum, const CopyCounts& round)
 {
     sum.files = round.files;
     sum.copied += round.copied;
@@ -147,14 +147,14 @@ void restoreDatabase(const fs::path& backup, const StorePlace& place)
 
 }  // namespace
 
-Copied backUp(CaseStore& store, const fs::path& given, Progress& progress)
+CopyCounts backUp(CaseStore& store, const fs::path& given, Progress& progress)
 {
     const fs::path to = wholeNameOf(given);
     requirePlace(to, store.folder());
     requireUndamaged(store.database());  // before anything of an earlier backup changes
     makePrivateFolder(to);
     writeAbout(to, false, 0);
-    Copied sum;
+    CopyCounts sum;
     Round round(store.folder(), to, progress);
     add(sum, round.run("copying what is new"));
     const StoreLock lock(store.folder(), progress);
@@ -178,7 +178,7 @@ Copied backUp(CaseStore& store, const fs::path& given, Progress& progress)
     return sum;
 }
 
-Copied restore(const fs::path& backup, const StorePlace& given, Progress& progress)
+CopyCounts restore(const fs::path& backup, const StorePlace& given, Progress& progress)
 {
     const fs::path to = wholeNameOf(given.folder);
     if (!isWhole(backup))
@@ -193,7 +193,7 @@ Copied restore(const fs::path& backup, const StorePlace& given, Progress& progre
     fs::remove_all(making, none);
     try {
         makePrivateFolder(making);
-        Copied copied = Round(backup, making, progress).run("copying");
+        CopyCounts copied = Round(backup, making, progress).run("copying");
         restoreDatabase(backup, {making, given.database});
         {
             CaseStore store({making, given.database});

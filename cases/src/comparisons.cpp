@@ -68,7 +68,7 @@ const char* eventOf(const std::optional<Comparison>& after)
 }
 
 /// The diameter with its bounds, where the outlined one counts.
-void takeBounds(TakenSize& taken, const std::optional<double>& outlined, const std::optional<double>& least,
+void takeBounds(MeasuredSize& taken, const std::optional<double>& outlined, const std::optional<double>& least,
                 const std::optional<double>& most)
 {
     if (taken.size_mm && outlined == taken.size_mm) {
@@ -101,7 +101,7 @@ Comparison comparisonFromJson(const json& from)
     return understood("a comparison", [&] {
         Comparison c;
         c.confirmed = from.at("confirmed").get<bool>();
-        c.before = takenSizeFromJson(from.at("before"));
+        c.before = measuredSizeFromJson(from.at("before"));
         for (const auto& [key, text] : kComparisonTexts)
             c.*text = from.at(key).get<std::string>();
         return c;
@@ -194,13 +194,13 @@ std::optional<Comparison> editComparison(CaseStore& store, const std::string& ca
     return after;
 }
 
-TakenSize takenSizeOf(const Finding& finding, const FindingFacts& facts, const std::vector<ScanRecord>& scans,
-                      const Study& study)
+MeasuredSize measuredSizeOf(const Finding& finding, const FindingFacts& facts, const std::vector<ScanRecord>& scans,
+                            const Study& study)
 {
-    TakenSize taken{.size_mm = facts.size_mm,
-                    .from = facts.size_mm ? nameOf(facts.size_source) : "",
-                    .volume_ml = finding.volume_ml,
-                    .date = study.date};
+    MeasuredSize taken{.size_mm = facts.size_mm,
+                       .from = facts.size_mm ? nameOf(facts.size_source) : "",
+                       .volume_ml = finding.volume_ml,
+                       .date = study.date};
     const FindingSight* lead = facts.lead();
     if (!lead)
         return taken;

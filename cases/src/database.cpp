@@ -259,22 +259,22 @@ std::string Database::version()
 
 void Database::write(const std::function<void(soci::session&)>& work)
 {
-    transact(work, Beside::nobody);
+    transact(work, Writers::one);
 }
 
 void Database::writeRows(const std::function<void(soci::session&)>& work)
 {
-    transact(work, Beside::others);
+    transact(work, Writers::several);
 }
 
-void Database::transact(const std::function<void(soci::session&)>& work, Beside beside)
+void Database::transact(const std::function<void(soci::session&)>& work, Writers writers)
 {
     if (writing_)
         throw Error(ErrorCode::internal, "a transaction within a transaction");
-    const int runs = beside == Beside::others ? kMostRuns : 1;
+    const int runs = writers == Writers::several ? kMostRuns : 1;
     for (int run = 1;; ++run) {
         try {
-            begin(beside);
+            begin(writers);
             try {
                 work(*session_);
                 commit();
@@ -297,10 +297,10 @@ void Database::transact(const std::function<void(soci::session&)>& work, Beside 
 }
 
 /// Over a connection that broke while it idled as well: nothing was done yet.
-void Database::begin(Beside beside)
+void Database::begin(Writers writers)
 {
     const auto begin = [&] {
-        beside == Beside::nobody ? engine_->beginAlone(*session_) : engine_->beginBesideOthers(*session_);
+        writers == Writers::one ? engine_->beginAlone(*session_) : engine_->beginBesideOthers(*session_);
     };
     if (engine_->isLost(*session_))
         reconnect();

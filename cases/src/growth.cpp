@@ -54,7 +54,7 @@ std::optional<double> yearsBetween(const std::string& before, const std::string&
 }
 
 /// Why the two cannot be compared; empty where they can.
-std::string whyNot(const TakenSize& before, const TakenSize& now)
+std::string whyNot(const MeasuredSize& before, const MeasuredSize& now)
 {
     if (!before.size_mm)
         return "the earlier report gives no size";
@@ -82,13 +82,13 @@ std::string whyNot(const TakenSize& before, const TakenSize& now)
 }
 
 /// Between what a diameter lies, each way.
-double halfOf(const TakenSize& size)
+double halfOf(const MeasuredSize& size)
 {
     return size.least_mm && size.most_mm ? (*size.most_mm - *size.least_mm) / 2 : kEightInTen * kByHand_mm;
 }
 
 /// Of a volume, as a part of it: what its diameter's uncertainty makes of it, at least the published one.
-double volumeErrorOf(const TakenSize& size)
+double volumeErrorOf(const MeasuredSize& size)
 {
     constexpr int kDimensions = 3;
     return std::max(kEightInTen * kVolumeError, kDimensions * halfOf(size) / *size.size_mm);
@@ -99,7 +99,7 @@ Change around(double about, double half)
     return {about, about - half, about + half};
 }
 
-void addVolume(Growth& growth, const TakenSize& before, const TakenSize& now)
+void addVolume(Growth& growth, const MeasuredSize& before, const MeasuredSize& now)
 {
     if (!before.volume_ml || !now.volume_ml || *before.volume_ml <= 0)
         return;
@@ -136,7 +136,7 @@ std::string nameOf(GrowthVerdict verdict)
     return nameIn(kVerdictNames, verdict);
 }
 
-json toJson(const TakenSize& s)
+json toJson(const MeasuredSize& s)
 {
     json out = {{"from", s.from}, {"kernel", s.kernel}, {"slice_thickness_mm", s.slice_thickness_mm}, {"date", s.date}};
     putValue(out, "size_mm", s.size_mm);
@@ -146,7 +146,7 @@ json toJson(const TakenSize& s)
     return out;
 }
 
-TakenSize takenSizeFromJson(const json& from)
+MeasuredSize measuredSizeFromJson(const json& from)
 {
     return {number(from, "size_mm"),
             from.value("from", ""),
@@ -184,7 +184,7 @@ Growth growthFromJson(const json& from)
     return growth;
 }
 
-Growth growthBetween(const TakenSize& before, const TakenSize& now)
+Growth growthBetween(const MeasuredSize& before, const MeasuredSize& now)
 {
     Growth growth;
     growth.years = yearsBetween(before.date, now.date);

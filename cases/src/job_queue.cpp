@@ -122,7 +122,7 @@ std::optional<Job> JobQueue::claim(const std::string& owner)
 {
     std::optional<Job> claimed;
     database_.writeRows([&](soci::session& sql) {
-        capTimes(sql);
+        limitTimes(sql);
         dropLost(sql);
         const double now = nowIn(sql), lease_until = now + options_.lease_s;
         const std::string changed = nowUtc();
@@ -141,7 +141,7 @@ std::optional<Job> JobQueue::claim(const std::string& owner)
 }
 
 /// A clock that ran ahead leaves times that no lease and no back-off can have; they must not hide a job.
-void JobQueue::capTimes(soci::session& sql)
+void JobQueue::limitTimes(soci::session& sql)
 {
     const double latest_lease = nowIn(sql) + options_.lease_s, latest_start = nowIn(sql) + options_.longest_backoff_s;
     sql << "UPDATE jobs SET lease_until = :l WHERE state = 'running' AND lease_until > :limit", soci::use(latest_lease),

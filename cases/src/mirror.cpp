@@ -41,7 +41,7 @@ bool isSame(const fs::path& a, const fs::path& b)
 }
 
 /// Nothing where the file has gone meanwhile.
-void copyFile(const fs::path& from, const fs::path& to, Copied& copied)
+void copyFile(const fs::path& from, const fs::path& to, CopyCounts& copied)
 {
     const fs::path temporary = to.parent_path() / (std::string(kTemporaryPrefix) + to.filename().string());
     std::error_code trouble;
@@ -81,7 +81,7 @@ int filesBelow(const fs::path& place)
     return count;
 }
 
-void removeOthers(const fs::path& folder, const std::set<std::string>& names, Copied& copied)
+void removeOthers(const fs::path& folder, const std::set<std::string>& names, CopyCounts& copied)
 {
     removeTemporaries(folder);
     for (const std::string& name : namesIn(folder)) {
@@ -94,7 +94,7 @@ void removeOthers(const fs::path& folder, const std::set<std::string>& names, Co
 
 }  // namespace
 
-void mirror(const fs::path& from, const fs::path& to, Copied& copied, Progress& progress,
+void mirror(const fs::path& from, const fs::path& to, CopyCounts& copied, Progress& progress,
             const std::function<void(const fs::path&)>& seen)
 try {
     const std::set<std::string> names = namesIn(from);

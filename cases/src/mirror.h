@@ -11,7 +11,7 @@ namespace vicon {
 /// goes. A file never is there by halves. What disappears from `from` meanwhile is passed over, as are temporaries and
 /// locks. Throws Error{store}, Error{cancelled}.
 /// @param seen called with every file of `to`; may be empty
-void mirror(const std::filesystem::path& from, const std::filesystem::path& to, Copied& copied, Progress& progress,
+void mirror(const std::filesystem::path& from, const std::filesystem::path& to, CopyCounts& copied, Progress& progress,
             const std::function<void(const std::filesystem::path&)>& seen = {});
 
 /// Everything that was written to the disk of this folder so far is there when this returns. Throws Error{store}.

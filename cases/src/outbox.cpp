@@ -108,7 +108,7 @@ std::vector<OutboxItem> Outbox::claim(const std::string& owner, const OutboxFilt
     return claimed;
 }
 
-std::optional<OutboxItem> Outbox::findMine(soci::session& sql, const OutboxItem& item)
+std::optional<OutboxItem> Outbox::findClaimed(soci::session& sql, const OutboxItem& item)
 {
     auto there = findOutboxItem(sql, item.id);
     if (!there || there->state != DeliveryState::sending || there->fence != item.fence)
@@ -116,10 +116,10 @@ std::optional<OutboxItem> Outbox::findMine(soci::session& sql, const OutboxItem&
     return there;
 }
 
-OutboxItem Outbox::requireMine(soci::session& sql, const OutboxItem& item)
+OutboxItem Outbox::requireClaimed(soci::session& sql, const OutboxItem& item)
 {
-    if (const auto mine = findMine(sql, item))
-        return *mine;
+    if (const auto claimed = findClaimed(sql, item))
+        return *claimed;
     throw Error(ErrorCode::lease_lost, "another sender has this object now", item.object.sop_uid);
 }
 
@@ -143,40 +143,40 @@ void Outbox::settleAsStored(soci::session& sql, OutboxItem item)
 
 void Outbox::markStored(const OutboxItem& item)
 {
-    database_.write([&](soci::session& sql) { settleAsStored(sql, requireMine(sql, item)); });
+    database_.write([&](soci::session& sql) { settleAsStored(sql, requireClaimed(sql, item)); });
 }
 
 void Outbox::markStored(const std::vector<OutboxItem>& items)
 {
     database_.write([&](soci::session& sql) {
         for (const OutboxItem& item : items)
-            if (const auto mine = findMine(sql, item))
-                settleAsStored(sql, *mine);
+            if (const auto claimed = findClaimed(sql, item))
+                settleAsStored(sql, *claimed);
     });
 }
 
 void Outbox::refuse(const OutboxItem& item, const std::string& reason)
 {
     database_.write([&](soci::session& sql) {
-        OutboxItem mine = requireMine(sql, item);
-        mine.state = DeliveryState::refused;
-        mine.reason = reason;
-        settle(sql, mine);
+        OutboxItem claimed = requireClaimed(sql, item);
+        claimed.state = DeliveryState::refused;
+        claimed.reason = reason;
+        settle(sql, claimed);
     });
 }
 
 void Outbox::postpone(const OutboxItem& item, const std::string& reason)
 {
-    database_.write([&](soci::session& sql) { settleAsPostponed(sql, requireMine(sql, item), reason); });
+    database_.write([&](soci::session& sql) { settleAsPostponed(sql, requireClaimed(sql, item), reason); });
 }
 
 void Outbox::markUnconfirmed(const OutboxItem& item, const std::string& reason)
 {
     database_.write([&](soci::session& sql) {
-        OutboxItem mine = requireMine(sql, item);
-        mine.state = DeliveryState::unconfirmed;
-        mine.reason = reason;
-        settle(sql, mine);
+        OutboxItem claimed = requireClaimed(sql, item);
+        claimed.state = DeliveryState::unconfirmed;
+        claimed.reason = reason;
+        settle(sql, claimed);
     });
 }
 
@@ -186,7 +186,7 @@ std::vector<OutboxItem> Outbox::beginCommitment(const std::vector<OutboxItem>& i
     std::vector<OutboxItem> begun;
     database_.write([&](soci::session& sql) {
         for (const OutboxItem& item : items) {
-            auto there = findMine(sql, item);
+            auto there = findClaimed(sql, item);
             if (!there || !there->stored)
                 continue;
             there->transaction_uid = transaction_uid;
@@ -201,7 +201,7 @@ void Outbox::awaitCommitment(const std::vector<OutboxItem>& items)
 {
     database_.write([&](soci::session& sql) {
         for (const OutboxItem& item : items) {
-            auto there = findMine(sql, item);
+            auto there = findClaimed(sql, item);
             if (!there)
                 continue;  // its answer came already
             ++there->attempts;

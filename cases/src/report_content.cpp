@@ -50,7 +50,7 @@ std::vector<ComparedFinding> comparedFindings(CaseStore& store, const ReadCase& 
     for (Comparison& said : comparisons(store, read.record.id))
         for (const auto& [finding, facts] : read.findings)
             if (finding.id == said.finding_id) {
-                const TakenSize now = takenSizeOf(finding, facts, read.scans, read.record.study);
+                const MeasuredSize now = measuredSizeOf(finding, facts, read.scans, read.record.study);
                 const Growth growth = growthBetween(said.before, now);
                 out.push_back({std::move(said), now, growth});
                 break;

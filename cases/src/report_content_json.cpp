@@ -126,7 +126,7 @@ ReadCase readCaseFromContent(const json& from)
         read.loose_markers = from.at("loose_markers").get<std::vector<std::string>>();
         read.assessment = assessmentFromJson(from.at("assessment"));
         for (const json& entry : from.value("comparisons", json::array())) {  // of VICON before there were any: none
-            ComparedFinding compared{comparisonFromJson(entry), takenSizeFromJson(entry.at("now")),
+            ComparedFinding compared{comparisonFromJson(entry), measuredSizeFromJson(entry.at("now")),
                                      growthFromJson(entry.at("growth"))};
             read.comparisons.push_back(std::move(compared));
         }

@@ -38,7 +38,7 @@ void flagIdOnce(const ImportContext& context, const CaseRecord& flagged, const s
 std::string flagForLateScan(const ImportContext& context, const StoredStudy& stored,
                             const std::vector<AssembledScan>& scans, const AssembledScan& late)
 {
-    if (stored.spoken_of.empty())
+    if (stored.with_reader_input.empty())
         return {};
     const ScanRecord& record = late.record;
     const auto same_series = std::find_if(scans.begin(), scans.end(), [&](const AssembledScan& other) {

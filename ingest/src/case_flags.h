@@ -7,8 +7,8 @@
 
 namespace vicon::ingest {
 
-/// What comes after people have spoken of a case changes nothing of that, and they must hear of it: the flag's words.
-/// Empty when nobody need, or when a person took that flag away before.
+/// What arrives after readers have worked on a case changes nothing of their work, but they must be told: the words of
+/// the flag. Empty where there is nothing to tell, or where a person settled that flag before.
 std::string flagForLateScan(const ImportContext& context, const StoredStudy& stored,
                             const std::vector<AssembledScan>& scans, const AssembledScan& late);
 

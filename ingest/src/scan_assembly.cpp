@@ -32,7 +32,7 @@ std::set<const ImageObject*> objectsOf(const Stack& stack)
     return objects;
 }
 
-/// The id of a stack that no person has spoken of.
+/// The id of a stack that no reader has worked on.
 std::string freeScanId(const StoredStudy& stored, const std::string& series_uid, const Stack& stack)
 {
     std::string key = series_uid + stack.key;
@@ -126,7 +126,7 @@ void chooseRoles(std::vector<AssembledScan>& scans, const ImportOptions& options
             owners.push_back(&scan);
         }
     const std::vector<std::size_t> chosen = chooseScans(usable);
-    std::map<std::size_t, const AssembledScan*> fixed;  // by what would be chosen if nobody had spoken
+    std::map<std::size_t, const AssembledScan*> fixed;  // by what would be chosen had no reader worked on it
     for (std::size_t n = 0; n < chosen.size(); ++n)
         if (owners[n]->fixed)
             fixed.try_emplace(chosen[n], owners[n]);

@@ -44,7 +44,7 @@ StoredStudy loadStoredStudy(const ImportContext& context, const Patient& patient
             stored.emplace_back(std::move(instance), std::move(file));
         }
         if (hasReaderInput(context.store, scan))
-            found.spoken_of.insert(scan.id);
+            found.with_reader_input.insert(scan.id);
         found.scans[scan.id] = std::move(scan);
     }
     std::vector<Inspection> inspected(stored.size());

@@ -18,13 +18,13 @@ struct StoredStudy {
     };
     CaseRecord record;                           ///< new, where the store has nothing of the study
     std::map<std::string, ScanRecord> scans;     ///< by id
-    std::set<std::string> spoken_of;             ///< ids of scans that people have spoken of
+    std::set<std::string> with_reader_input;     ///< ids of scans; see hasReaderInput()
     std::map<std::string, ImageObject> objects;  ///< those that can be read, by SOP Instance UID
     std::map<std::string, Home> home;            ///< where those lie
     std::map<std::string, std::string> scan_of;  ///< where an object is recorded, damaged ones too
 
-    /// Whether its objects, its role and its words stay as they are, because people have spoken of it.
-    bool isFixed(const std::string& scan_id) const { return spoken_of.contains(scan_id); }
+    /// Whether its objects, its role and its words stay as they are, because a reader has worked on it.
+    bool isFixed(const std::string& scan_id) const { return with_reader_input.contains(scan_id); }
 };
 
 /// Where a scan's images lie.

@@ -141,7 +141,7 @@ std::string StudyImport::record(const AssembledScan& scan, const std::vector<Ins
     return flag;
 }
 
-/// A reader may have spoken of the scan since this import began.
+/// A reader may have worked on the scan since this import began.
 void StudyImport::requireNoReaderInput(const AssembledScan& scan) const
 {
     const auto old = stored_.scans.find(scan.record.id);

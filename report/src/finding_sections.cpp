@@ -54,7 +54,7 @@ double Sections::findingTableHeight() const
     const auto linesOf = [&](const std::string& text, TextStyle style) {
         return text.empty() ? 0.0 : double(flow_.type.lines(text, style, flow_.width()).size()) * leadingOf(style);
     };
-    const std::string of_none = looseMarkersSaid(content_.read.loose_markers);
+    const std::string of_none = unassignedMarkersSentence(content_.read.loose_markers);
     double height = leadingOf(look::kSection) + 8 + look::kGap + linesOf(of_none, look::kBody);
     if (content_.read.findings.empty())
         return height + leadingOf(look::kBody);
@@ -70,7 +70,7 @@ void Sections::drawFindingTable()
 {
     const auto& findings = content_.read.findings;
     drawSection(flow_, "Findings in the colon", 3 * leadingOf(look::kBody));
-    const std::string of_none = looseMarkersSaid(content_.read.loose_markers);
+    const std::string of_none = unassignedMarkersSentence(content_.read.loose_markers);
     if (!of_none.empty())
         flow_.paragraph(flow_.left(), flow_.width(), flow_.type.lines(of_none, look::kBody, flow_.width()), look::kBody,
                         look::kInk);

@@ -190,7 +190,7 @@ std::vector<Statement> findingStatements(const ReadCase& read, const FindingWith
     return out;
 }
 
-std::string looseMarkersSaid(const std::vector<std::string>& ids)
+std::string unassignedMarkersSentence(const std::vector<std::string>& ids)
 {
     if (ids.empty())
         return {};

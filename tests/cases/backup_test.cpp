@@ -43,8 +43,8 @@ protected:
         store_.addScan(store_.requireCase("c1"), marked_.scan, {{uid, "c1", "s1", sha256(content), uid + ".dcm"}},
                        true);
     }
-    Copied backUpNow() { return backUp(store_, to_, quiet_); }
-    Copied restoreNow() { return restore(to_, restored_, quiet_); }
+    CopyCounts backUpNow() { return backUp(store_, to_, quiet_); }
+    CopyCounts restoreNow() { return restore(to_, restored_, quiet_); }
 };
 
 TEST_F(SqliteBackup, GivesTheSameStoreBack)
@@ -53,7 +53,7 @@ TEST_F(SqliteBackup, GivesTheSameStoreBack)
     replaceFile(store_.folder() / "incoming" / "a" / "1.dcm", "received, not imported");
     for (const char* of_listener : {"receiver.lock", "arrivals-1.journal"})
         replaceFile(store_.folder() / "incoming" / of_listener, "");
-    const Copied made = backUpNow();
+    const CopyCounts made = backUpNow();
     EXPECT_EQ(made.cases, 1);
     EXPECT_EQ(made.copied, made.files);
     EXPECT_EQ(restoreNow().files, made.files);
@@ -69,13 +69,13 @@ TEST_F(SqliteBackup, GivesTheSameStoreBack)
 
 TEST_F(SqliteBackup, CopiesOnlyWhatIsNewAndForgetsWhatIsGone)
 {
-    const Copied first = backUpNow();
-    const Copied same = backUpNow();
+    const CopyCounts first = backUpNow();
+    const CopyCounts same = backUpNow();
     EXPECT_EQ(same.copied, 0);
     EXPECT_EQ(same.files, first.files);
     addObject("1.2.3.2", "second");
     fs::remove(store_.caseFolder("c1") / "markers.json");
-    const Copied changed = backUpNow();
+    const CopyCounts changed = backUpNow();
     EXPECT_EQ(changed.copied, 2) << "the object and scan.json";
     EXPECT_EQ(changed.removed, 1);
     EXPECT_EQ(readFile(to_ / "cases" / "c1" / "s1" / "dicom" / "1.2.3.2.dcm"), "second");

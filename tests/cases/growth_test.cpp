@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 
 /// Outlined, from thin slices of a soft kernel.
-TakenSize outlined(double size_mm, double half_mm, double volume_ml, const std::string& date)
+MeasuredSize outlined(double size_mm, double half_mm, double volume_ml, const std::string& date)
 {
     return {.size_mm = size_mm,
             .from = "surface",
@@ -29,7 +29,7 @@ double volumeOf_ml(double diameter_mm)
     return 3.14159265358979 / 6 * diameter_mm * diameter_mm * diameter_mm / 1000;
 }
 
-const TakenSize kThen = outlined(8, 0.4, volumeOf_ml(8), "20240101");
+const MeasuredSize kThen = outlined(8, 0.4, volumeOf_ml(8), "20240101");
 
 TEST(Growth, IsTheDifferenceWithItsIntervalAndItsRate)
 {
@@ -56,8 +56,8 @@ TEST(Growth, HasAVerdictByTwentyPercentAYearAndItsInterval)
                  {0.81, 0.2, GrowthVerdict::stable}, {0.5, 0.1, GrowthVerdict::shrank},
                  {1.0, 0.2, GrowthVerdict::stable},  {1.3, 1.0, GrowthVerdict::not_sure}};
     for (const auto& c : cases) {
-        const TakenSize now = outlined(8 * std::cbrt(c.factor), c.half_mm, volumeOf_ml(8) * c.factor, "20241231");
-        TakenSize then = kThen;
+        const MeasuredSize now = outlined(8 * std::cbrt(c.factor), c.half_mm, volumeOf_ml(8) * c.factor, "20241231");
+        MeasuredSize then = kThen;
         then.least_mm = 8 - c.half_mm;
         then.most_mm = 8 + c.half_mm;
         EXPECT_EQ(growthBetween(then, now).verdict, c.verdict)
@@ -67,8 +67,8 @@ TEST(Growth, HasAVerdictByTwentyPercentAYearAndItsInterval)
 
 TEST(Growth, OfAHandMeasuredSizeHasThePublishedSpread)
 {
-    TakenSize then = kThen, now = outlined(10, 0.3, volumeOf_ml(10), "20260101");
-    for (TakenSize* size : {&then, &now}) {
+    MeasuredSize then = kThen, now = outlined(10, 0.3, volumeOf_ml(10), "20260101");
+    for (MeasuredSize* size : {&then, &now}) {
         size->from = "best plane";
         size->least_mm.reset();
         size->most_mm.reset();
@@ -82,23 +82,23 @@ TEST(Growth, OfAHandMeasuredSizeHasThePublishedSpread)
 
 TEST(Growth, IsNotToldWhereTheScansDoNotAllowIt)
 {
-    const auto change = [](void (*how)(TakenSize&)) {
-        TakenSize size = outlined(10, 0.3, 0.5, "20260101");
+    const auto change = [](void (*how)(MeasuredSize&)) {
+        MeasuredSize size = outlined(10, 0.3, 0.5, "20260101");
         how(size);
         return growthBetween(kThen, size);
     };
     const struct {
-        void (*how)(TakenSize&);
+        void (*how)(MeasuredSize&);
         const char* why;
     } cases[] = {
-        {[](TakenSize& s) { s.kernel = "B70f"; }, "the kernels differ (then: B30f, now: B70f)"},
-        {[](TakenSize& s) { s.kernel.clear(); }, "the kernel now is not known"},
-        {[](TakenSize& s) { s.slice_thickness_mm = 0; }, "the slice thickness now is not known"},
-        {[](TakenSize& s) { s.slice_thickness_mm = 3; }, "slices of 3.0 mm are too thick"},
-        {[](TakenSize& s) { s.slice_thickness_mm = 1.5; }, "the slices differ (then: 1.0 mm, now: 1.5 mm)"},
-        {[](TakenSize& s) { s.from = "reader"; }, "taken in different ways (then: surface, now: reader)"},
-        {[](TakenSize& s) { s.least_mm.reset(), s.most_mm.reset(); }, "one size was outlined"},
-        {[](TakenSize& s) { s.size_mm.reset(); }, "no size was measured now"},
+        {[](MeasuredSize& s) { s.kernel = "B70f"; }, "the kernels differ (then: B30f, now: B70f)"},
+        {[](MeasuredSize& s) { s.kernel.clear(); }, "the kernel now is not known"},
+        {[](MeasuredSize& s) { s.slice_thickness_mm = 0; }, "the slice thickness now is not known"},
+        {[](MeasuredSize& s) { s.slice_thickness_mm = 3; }, "slices of 3.0 mm are too thick"},
+        {[](MeasuredSize& s) { s.slice_thickness_mm = 1.5; }, "the slices differ (then: 1.0 mm, now: 1.5 mm)"},
+        {[](MeasuredSize& s) { s.from = "reader"; }, "taken in different ways (then: surface, now: reader)"},
+        {[](MeasuredSize& s) { s.least_mm.reset(), s.most_mm.reset(); }, "one size was outlined"},
+        {[](MeasuredSize& s) { s.size_mm.reset(); }, "no size was measured now"},
     };
     for (const auto& c : cases) {
         const Growth g = change(c.how);
@@ -122,11 +122,11 @@ TEST(Growth, HasNoRateOverLessThanThreeMonthsOrWithoutDates)
 TEST(Growth, IsReadBackAsItWasWritten)
 {
     for (const std::string kernel : {"B30f", "B70f"}) {
-        TakenSize now = outlined(10, 0.3, volumeOf_ml(10), "20260101");
+        MeasuredSize now = outlined(10, 0.3, volumeOf_ml(10), "20260101");
         now.kernel = kernel;
         const Growth g = growthBetween(kThen, now);
         EXPECT_EQ(toJson(growthFromJson(toJson(g))), toJson(g));
-        const TakenSize back = takenSizeFromJson(toJson(now));
+        const MeasuredSize back = measuredSizeFromJson(toJson(now));
         EXPECT_EQ(toJson(back), toJson(now));
         EXPECT_EQ(back.size_mm, now.size_mm);
         EXPECT_EQ(back.least_mm, now.least_mm);

@@ -4,6 +4,7 @@
 
 namespace vicon::steps {
 
+/// Along each line: a bubble of twice as many across is enclosed. No case recorded.
 inline constexpr int kEnclosed_voxels = 4;
 /// Of the 13 lines through a voxel; of those through a fold 4 lie in its own plane.
 inline constexpr int kLinesOfEnclosed = 12;

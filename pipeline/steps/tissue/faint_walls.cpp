@@ -11,6 +11,7 @@
 namespace vicon::steps {
 namespace {
 
+/// The least fraction of tissue in a hole that is closed: halfway from the lumen's edge to tissue.
 constexpr float kClosed = 0.75F;
 /// The layer of a level in coarse voxels, on both sides of its middle.
 constexpr int kLevel_voxels = 4;

@@ -103,7 +103,7 @@ private:
         return found;
     }
 
-    static constexpr std::uint8_t kAllTissue = 255;
+    static constexpr std::uint8_t kAllTissue = 255;  // a definition
     const Mixture& mixture_;
     const DownAxis& down_;
     const LevelVoxels& voxels_;

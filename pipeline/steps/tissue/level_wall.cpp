@@ -18,7 +18,6 @@ namespace {
 
 // Chosen in two dimensions, on walls at 20 to 150 degrees, folds, balls and tubes at a level, at a blur of a voxel and
 // a noise of 20 HU; kUncertain and kRounds on ctc-prone at 350 to 550 mm. Held by tissue_levels_test.
-
 constexpr int kRounds = 4;
 /// The fraction's rise over a voxel that makes a wall.
 constexpr double kLevelWallSlope = 0.08;
@@ -246,7 +245,7 @@ private:
                 y += dj * wk * sum;
                 z += dk * wj * sum;
             }
-        constexpr double kUnit = 1 / (32 * double(kWhole));
+        constexpr double kUnit = 1 / (32 * double(kWhole));  // of the weights above, for a rise a voxel
         return {x * kUnit, y * kUnit, z * kUnit};
     }
 

@@ -86,7 +86,7 @@ double MeniscusFit::places() const
 /// Between heights by a parabola, beyond them that of the last.
 double MeniscusFit::missOf_hu(std::size_t lean, double rise_mm) const
 {
-    constexpr std::size_t kLast = MeniscusPlace::kHeights - 1;
+    constexpr std::size_t kLast = MeniscusPlace::kHeights - 1;  // of the heights tried
     const double at = std::clamp((rise_mm - MeniscusPlace::kLowest_mm) / MeniscusPlace::kStep_mm, 0.0, double(kLast));
     const auto middle = std::clamp(std::size_t(std::lround(at)), std::size_t(1), kLast - 1);
     const auto& misses_hu = misses_hu_[lean];

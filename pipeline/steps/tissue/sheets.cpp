@@ -107,7 +107,7 @@ public:
     }
 
 private:
-    static constexpr std::uint8_t kStool = 3;
+    static constexpr std::uint8_t kStool = 3;  // a definition, beside the labels of an InsideVolume
 
     /// Whether it lies between lumen and lumen along a line, and is level along all.
     bool isRidge(std::size_t n) const
@@ -211,8 +211,8 @@ Flanks flanksOf(const SparseVoxels& middles)
     const Grid& grid = middles.grid();
     const auto [nx, ny, nz] = grid.size;
     const auto slice = std::size_t(nx) * std::size_t(ny);
-    constexpr std::uint32_t kNone = ~0U;
-    constexpr int kNumberBits = 28;  // below the squared distance: the nearest middle is the least
+    constexpr std::uint32_t kNone = ~0U;  // no middle is near
+    constexpr int kNumberBits = 28;       // below the squared distance: the nearest middle is the least
     std::vector<std::vector<std::size_t>> voxels(std::size_t(nz), std::vector<std::size_t>{});
     std::vector<std::vector<std::uint32_t>> numbers(std::size_t(nz), std::vector<std::uint32_t>{});
     tbb::parallel_for(tbb::blocked_range<int>(0, nz), [&, nx = nx, ny = ny](const tbb::blocked_range<int>& slices) {
@@ -303,7 +303,7 @@ public:
     float of(float height) const { return scales_[std::size_t(std::lround(height * kSteps))]; }
 
 private:
-    static constexpr int kSteps = 256;
+    static constexpr int kSteps = 256;  // of a height from 0 to 1: finer than the bytes of a fraction
     std::array<float, kSteps + 1> scales_{};
 };
 

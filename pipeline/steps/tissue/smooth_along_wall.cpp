@@ -58,7 +58,7 @@ struct Around {
         float j, k;
         Lanes weight;  ///< of a binomial mean
     };
-    static constexpr Lanes kI = {-1, 0, 1, 0};
+    static constexpr Lanes kI = {-1, 0, 1, 0};  // of a row's three voxels; the fourth lane counts nothing
     std::array<Row, 9> rows{};
 };
 

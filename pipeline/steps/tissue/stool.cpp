@@ -56,6 +56,7 @@ public:
     }
 
 private:
+    // Definitions: what is known of a voxel.
     static constexpr std::uint8_t kNone = 0, kGrowing = 1, kRefused = 2, kStool = 3;
 
     /// Bright voxels right behind gas, no wall between.

@@ -92,7 +92,7 @@ double blurOf(const FluidLevels& levels, const DownAxis& down, const Grid& grid,
 /// Tagging is brighter than tissue by this, and by so many times the noise that none of that is taken for it.
 double brightOfStool_hu(double tissue_hu, double noise_hu, const TissueOptions& options)
 {
-    constexpr double kNoises = 3;
+    constexpr double kNoises = 3;  // standard deviations: one in 700 of normal noise is brighter
     return tissue_hu + std::max(options.tag_contrast_hu, kNoises * noise_hu);
 }
 

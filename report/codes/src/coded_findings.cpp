@@ -39,9 +39,9 @@ public:
     {
         if (!change)
             return;
-        number(ours(value, of), change->about, unit);
-        number(ours(std::string(value) + "_LEAST", of + ", least"), change->least, unit);
-        number(ours(std::string(value) + "_MOST", of + ", most"), change->most, unit);
+        number(privateCode(value, of), change->about, unit);
+        number(privateCode(std::string(value) + "_LEAST", of + ", least"), change->least, unit);
+        number(privateCode(std::string(value) + "_MOST", of + ", most"), change->most, unit);
     }
     void text(const Code& name, const std::string& text)
     {
@@ -52,10 +52,10 @@ public:
 
 Code sizeSourceCode(SizeSource source)
 {
-    return ours(source == SizeSource::reader  ? "READER"
-                : source == SizeSource::plane ? "BEST_PLANE"
-                                              : "SURFACE",
-                nameOf(source));
+    return privateCode(source == SizeSource::reader  ? "READER"
+                       : source == SizeSource::plane ? "BEST_PLANE"
+                                                     : "SURFACE",
+                       nameOf(source));
 }
 
 }  // namespace
@@ -65,22 +65,22 @@ CodedFacts factsOfWhole(const FindingWithFacts& one)
     const auto& [finding, facts] = one;
     Facts f;
     f.number(sct("373197004", "Largest dimension"), facts.size_mm, millimetre());
-    f.wordIf(facts.size_mm.has_value(), ours("SIZE_FROM", "Largest dimension taken from"),
+    f.wordIf(facts.size_mm.has_value(), privateCode("SIZE_FROM", "Largest dimension taken from"),
              sizeSourceCode(facts.size_source));
-    f.number(ours("HEIGHT", "Height above the wall"), finding.height_mm, millimetre());
+    f.number(privateCode("HEIGHT", "Height above the wall"), finding.height_mm, millimetre());
     f.number(sct("118565006", "Volume"), finding.volume_ml, ucum("ml", "milliliter"));
     if (const auto& far = facts.endoscope) {
         const std::string name = "Estimated endoscope distance from anus";
-        f.number(ours("ENDOSCOPE_ABOUT", name), far->about_mm, millimetre());
-        f.number(ours("ENDOSCOPE_LEAST", name + ", least"), far->least_mm, millimetre());
-        f.number(ours("ENDOSCOPE_MOST", name + ", most"), far->most_mm, millimetre());
+        f.number(privateCode("ENDOSCOPE_ABOUT", name), far->about_mm, millimetre());
+        f.number(privateCode("ENDOSCOPE_LEAST", name + ", least"), far->least_mm, millimetre());
+        f.number(privateCode("ENDOSCOPE_MOST", name + ", most"), far->most_mm, millimetre());
     }
-    f.word(ours("MORPHOLOGY", "Morphology"), finding.morphology);
-    f.word(ours("ATTENUATION", "Attenuation"), finding.attenuation);
-    f.word(ours("CONFIDENCE", "Confidence of the reader"), finding.confidence);
-    const Code extent = ours("EXTENT", "Extent");
-    f.wordIf(finding.narrows_lumen, extent, ours("NARROWS_LUMEN", "Narrows the lumen"));
-    f.wordIf(finding.invades, extent, ours("INVADES", "Reaches beyond the wall"));
+    f.word(privateCode("MORPHOLOGY", "Morphology"), finding.morphology);
+    f.word(privateCode("ATTENUATION", "Attenuation"), finding.attenuation);
+    f.word(privateCode("CONFIDENCE", "Confidence of the reader"), finding.confidence);
+    const Code extent = privateCode("EXTENT", "Extent");
+    f.wordIf(finding.narrows_lumen, extent, privateCode("NARROWS_LUMEN", "Narrows the lumen"));
+    f.wordIf(finding.invades, extent, privateCode("INVADES", "Reaches beyond the wall"));
     f.text(dcm("121106", "Comment"), finding.note);
     return f.out;
 }
@@ -89,19 +89,20 @@ CodedFacts factsOfSight(const FindingSight& sight)
 {
     Facts f;
     f.number(dcm("112233", "Distance from anus"), sight.station_mm, millimetre());
-    f.number(ours("FROM_CAECUM", "Distance from caecum"), sight.from_caecum_mm, millimetre());
-    f.number(ours("FRACTION", "Fraction of the colon's length from the anus"), sight.fraction, ucum("1", "no units"));
-    f.number(ours("SIZE_2D", "Largest diameter in the best plane"), sight.size_2d_mm, millimetre());
-    f.number(ours("SIZE_3D", "Largest diameter on the surface"), sight.size_3d_mm, millimetre());
-    f.number(ours("PART_FRACTION", "Fraction of the part's length from its anal end"), sight.part_fraction,
+    f.number(privateCode("FROM_CAECUM", "Distance from caecum"), sight.from_caecum_mm, millimetre());
+    f.number(privateCode("FRACTION", "Fraction of the colon's length from the anus"), sight.fraction,
              ucum("1", "no units"));
-    f.number(ours("OUTLINE_LEAST", "Diameter of the outline, least"), sight.size_least_mm, millimetre());
-    f.number(ours("OUTLINE_MOST", "Diameter of the outline, most"), sight.size_most_mm, millimetre());
-    f.number(ours("OUTLINE_HEIGHT", "Height of the outline"), sight.height_mm, millimetre());
-    f.number(ours("OUTLINE_VOLUME", "Volume of the outline"), sight.volume_ml, ucum("ml", "milliliter"));
+    f.number(privateCode("SIZE_2D", "Largest diameter in the best plane"), sight.size_2d_mm, millimetre());
+    f.number(privateCode("SIZE_3D", "Largest diameter on the surface"), sight.size_3d_mm, millimetre());
+    f.number(privateCode("PART_FRACTION", "Fraction of the part's length from its anal end"), sight.part_fraction,
+             ucum("1", "no units"));
+    f.number(privateCode("OUTLINE_LEAST", "Diameter of the outline, least"), sight.size_least_mm, millimetre());
+    f.number(privateCode("OUTLINE_MOST", "Diameter of the outline, most"), sight.size_most_mm, millimetre());
+    f.number(privateCode("OUTLINE_HEIGHT", "Height of the outline"), sight.height_mm, millimetre());
+    f.number(privateCode("OUTLINE_VOLUME", "Volume of the outline"), sight.volume_ml, ucum("ml", "milliliter"));
     f.number(sct("112031007", "Mean density"), sight.mean_hu, ucum("[hnsf'U]", "Hounsfield unit"));
     if (sight.clock_hour)
-        f.text(ours("CLOCK_FACE", "Clock-face position, seen from the anal side"),
+        f.text(privateCode("CLOCK_FACE", "Clock-face position, seen from the anal side"),
                std::to_string(*sight.clock_hour) + " o'clock");
     return f.out;
 }
@@ -111,20 +112,20 @@ CodedFacts factsOfComparison(const ComparedFinding& compared)
     const auto& [said, now, growth] = compared;
     const Code percent = ucum("%", "percent");
     Facts f;
-    f.number(ours("PRIOR_SIZE", "Largest dimension then"), said.before.size_mm, millimetre());
+    f.number(privateCode("PRIOR_SIZE", "Largest dimension then"), said.before.size_mm, millimetre());
     f.change("DIAMETER_CHANGE", "Change of the largest dimension", growth.diameter_mm, millimetre());
     f.change("VOLUME_CHANGE", "Change of the volume", growth.volume_percent, percent);
     f.change("VOLUME_A_YEAR", "Change of the volume a year", growth.percent_a_year, percent);
-    f.number(ours("PRIOR_INTERVAL", "Years between the examinations"), growth.years, ucum("a", "year"));
-    f.text(ours("PRIOR_NAME", "Tracking Identifier there"), said.prior_name);
-    f.text(ours("PRIOR_DATE", "Date of the earlier examination"), said.before.date);
-    f.text(ours("GROWTH", "Growth"), growthWords(growth));
+    f.number(privateCode("PRIOR_INTERVAL", "Years between the examinations"), growth.years, ucum("a", "year"));
+    f.text(privateCode("PRIOR_NAME", "Tracking Identifier there"), said.prior_name);
+    f.text(privateCode("PRIOR_DATE", "Date of the earlier examination"), said.before.date);
+    f.text(privateCode("GROWTH", "Growth"), growthWords(growth));
     return f.out;
 }
 
 Code comparisonConcept()
 {
-    return ours("COMPARISON", "Comparison with an earlier report");
+    return privateCode("COMPARISON", "Comparison with an earlier report");
 }
 
 std::vector<ComparedFinding> confirmedComparisons(const ReadCase& read, const Finding& finding)
@@ -140,22 +141,22 @@ CodedFacts factsOfStudy(const Assessment& said)
     Facts f;
     if (const auto& chosen = said.colon_category) {
         f.word(dcm("112222", "Colon Overall Assessment"), std::optional(chosen->category));
-        f.text(ours("COLON_WHY", "Why not the proposed colon category"), chosen->why);
+        f.text(privateCode("COLON_WHY", "Why not the proposed colon category"), chosen->why);
     }
     if (const auto& chosen = said.extracolonic_category) {
         f.word(extracolonicConcept(), std::optional(chosen->category));
-        f.text(ours("EXTRACOLONIC_WHY", "Why not the proposed extracolonic category"), chosen->why);
+        f.text(privateCode("EXTRACOLONIC_WHY", "Why not the proposed extracolonic category"), chosen->why);
     }
-    f.word(ours("PREPARATION", "Preparation"), said.preparation);
-    f.word(ours("TAGGING", "Tagging"), said.tagging);
-    const Code limit = ours("LIMIT", "Limitation");
-    f.wordIf(said.inadequate, limit, ours("INADEQUATE", "A lesion of 10 mm or more cannot be excluded"));
-    f.wordIf(said.priors_awaited, limit, ours("PRIORS_AWAITED", "Prior studies are awaited"));
+    f.word(privateCode("PREPARATION", "Preparation"), said.preparation);
+    f.word(privateCode("TAGGING", "Tagging"), said.tagging);
+    const Code limit = privateCode("LIMIT", "Limitation");
+    f.wordIf(said.inadequate, limit, privateCode("INADEQUATE", "A lesion of 10 mm or more cannot be excluded"));
+    f.wordIf(said.priors_awaited, limit, privateCode("PRIORS_AWAITED", "Prior studies are awaited"));
     f.wordIf(said.extracolonic_limited, limit,
-             ours("EXTRACOLONIC_LIMITED", "What lies outside the colon cannot be judged"));
+             privateCode("EXTRACOLONIC_LIMITED", "What lies outside the colon cannot be judged"));
     f.number(dcm("113838", "CT Dose Length Product Total"), said.dose_mgy_cm, ucum("mGy.cm", "mGy.cm"));
-    f.number(ours("COVERAGE", "Wall that was reviewed"), said.coverage_percent, ucum("%", "percent"));
-    f.number(ours("READING_TIME", "Reading time"), said.reading_minutes, ucum("min", "minute"));
+    f.number(privateCode("COVERAGE", "Wall that was reviewed"), said.coverage_percent, ucum("%", "percent"));
+    f.number(privateCode("READING_TIME", "Reading time"), said.reading_minutes, ucum("min", "minute"));
     return f.out;
 }
 

@@ -15,7 +15,7 @@ std::string valueFrom(std::string words)
 
 Code oursFor(const std::string& name)
 {
-    return ours(valueFrom(name), name);
+    return privateCode(valueFrom(name), name);
 }
 
 }  // namespace
@@ -23,13 +23,13 @@ Code oursFor(const std::string& name)
 Code procedureReported(Quantity quantity)
 {
     if (quantity == Quantity::signal)  // LOINC has none for MR of the colon
-        return ours("MR_COLONOGRAPHY", "MR colonography");
+        return privateCode("MR_COLONOGRAPHY", "MR colonography");
     return loinc("60515-4", "CT Colon and Rectum W air contrast PR");
 }
 
 Code extracolonicConcept()
 {
-    return ours("EXTRACOLONIC", "Extracolonic category (C-RADS)");
+    return privateCode("EXTRACOLONIC", "Extracolonic category (C-RADS)");
 }
 
 Code findingSiteConcept()
@@ -44,7 +44,7 @@ Code seriesConcept()
 
 Code patientPositionConcept()
 {
-    return ours("PATIENT_POSITION", "Patient Position");
+    return privateCode("PATIENT_POSITION", "Patient Position");
 }
 
 Code sliceThicknessConcept()
@@ -54,12 +54,12 @@ Code sliceThicknessConcept()
 
 Code kernelConcept()
 {
-    return ours("KERNEL", "Convolution Kernel");
+    return privateCode("KERNEL", "Convolution Kernel");
 }
 
 Code otherLumenConcept()
 {
-    return ours("OTHER_LUMEN", "Lumen made by another program");
+    return privateCode("OTHER_LUMEN", "Lumen made by another program");
 }
 
 Code dcm(const char* value, const char* meaning)
@@ -77,7 +77,7 @@ Code loinc(const char* value, const char* meaning)
     return {value, "LN", meaning};
 }
 
-Code ours(const std::string& value, const std::string& meaning)
+Code privateCode(const std::string& value, const std::string& meaning)
 {
     return {value, kPrivateScheme, meaning};
 }
@@ -183,12 +183,12 @@ Code codeOf(ColonCategory category)
         case ColonCategory::c2b:
             break;
     }
-    return ours(nameOf(category), nameOf(category));
+    return privateCode(nameOf(category), nameOf(category));
 }
 
 Code codeOf(ExtracolonicCategory category)
 {
-    return ours(valueFrom(nameOf(category)), nameOf(category));
+    return privateCode(valueFrom(nameOf(category)), nameOf(category));
 }
 
 Code codeOf(Distension distension)

@@ -120,7 +120,7 @@ private:
     void addParts()
     {
         for (const PartState& state : read_.parts) {
-            json part = observed(ours("DISTENSION", "Distension"), {});
+            json part = observed(privateCode("DISTENSION", "Distension"), {});
             part["valueCodeableConcept"] = fhir::codeable(codeOf(state.distension));
             part["bodySite"] = fhir::codeable(codeOf(state.part));
             part["note"] = {{{"text", scanLabel(read_, state.scan_id)}}};

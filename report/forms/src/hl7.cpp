@@ -198,7 +198,7 @@ private:
         for (std::size_t n = 0; n < one.facts.sights.size(); ++n) {
             const FindingSight& sight = one.facts.sights[n];
             const std::string of_sight = about + "." + std::to_string(n + 1);
-            observe("ST", ours("MARKER", "Marker"), of_sight, escaped(sight.marker_id));
+            observe("ST", privateCode("MARKER", "Marker"), of_sight, escaped(sight.marker_id));
             if (sight.part)
                 observe("CWE", findingSiteConcept(), of_sight, codeField(codeOf(*sight.part)));
             addFacts(factsOfSight(sight), of_sight);

@@ -11,7 +11,7 @@ void addSight(SrTree& tree, const ReadCase& read, const FindingSight& sight, con
 {
     const auto scan =
         std::find_if(read.scans.begin(), read.scans.end(), [&](const ScanRecord& s) { return s.id == sight.scan_id; });
-    tree.text(kContains, ours("MARKER", "Marker"), sight.marker_id);
+    tree.text(kContains, privateCode("MARKER", "Marker"), sight.marker_id);
     if (scan != read.scans.end() && !scan->series.frame_of_reference_uid.empty())
         tree.point(dcm("111010", "Center"), sight.position_mm, scan->series.frame_of_reference_uid);
     if (const auto image = images.find(sight.marker_id); image != images.end()) {
@@ -26,8 +26,8 @@ void addComparison(SrTree& tree, const ComparedFinding& compared)
 {
     const Comparison& said = compared.said;
     tree.container(kContains, comparisonConcept(), nullptr, [&] {
-        tree.object(ours("PRIOR_REPORT", "Earlier report"), said.report_class, said.report_uid);
-        tree.uid(kContains, ours("PRIOR_TRACKING", "Tracking Unique Identifier there"), said.prior_uid);
+        tree.object(privateCode("PRIOR_REPORT", "Earlier report"), said.report_class, said.report_uid);
+        tree.uid(kContains, privateCode("PRIOR_TRACKING", "Tracking Unique Identifier there"), said.prior_uid);
         tree.facts(factsOfComparison(compared));
     });
 }

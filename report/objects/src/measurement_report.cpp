@@ -71,12 +71,12 @@ void addWords(SrTree& tree, const Assessment& said)
 void addParts(SrTree& tree, const ReadCase& read)
 {
     for (const PartState& state : read.parts)
-        tree.container(kContains, ours("PART", "Part of the colon in a scan"), nullptr, [&] {
+        tree.container(kContains, privateCode("PART", "Part of the colon in a scan"), nullptr, [&] {
             tree.code(kMeaning, findingSiteConcept(), codeOf(state.part));
             for (const ScanRecord& scan : read.scans)
                 if (scan.id == state.scan_id)
                     tree.uid(kObserved, seriesConcept(), scan.series.uid);
-            tree.code(kContains, ours("DISTENSION", "Distension"), codeOf(state.distension));
+            tree.code(kContains, privateCode("DISTENSION", "Distension"), codeOf(state.distension));
         });
 }
 
@@ -99,8 +99,8 @@ void addOtherLumens(SrTree& tree, const ReadCase& read)
 void addExtracolonic(SrTree& tree, const Assessment& said)
 {
     for (const ExtracolonicFinding& finding : said.extracolonic)
-        tree.container(kContains, ours("EXTRACOLONIC_FINDING", "Extracolonic finding"), nullptr, [&] {
-            tree.textWhereGiven(ours("ORGAN", "Organ"), finding.organ);
+        tree.container(kContains, privateCode("EXTRACOLONIC_FINDING", "Extracolonic finding"), nullptr, [&] {
+            tree.textWhereGiven(privateCode("ORGAN", "Organ"), finding.organ);
             tree.textWhereGiven(dcm("121071", "Finding"), finding.text);
             tree.code(kContains, extracolonicConcept(), codeOf(finding.category));
         });

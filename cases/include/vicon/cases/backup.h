@@ -11,7 +11,7 @@
 namespace vicon {
 
 /// What a backup or a restore did.
-struct Copied {
+struct CopyCounts {
     int cases = 0;
     int files = 0;    ///< that there are now
     int copied = 0;   ///< of them, those that were not there or had changed
@@ -23,12 +23,12 @@ struct Copied {
 /// that it speaks of. What lies there from an earlier backup is not copied again. Imports and deletions wait during the
 /// last, short round. A backup that was broken off cannot be restored; the next one continues it.
 /// Throws Error{store}, Error{database}, Error{cancelled}; Error{wrong_use} where `to` holds something else.
-Copied backUp(CaseStore& store, const std::filesystem::path& to, Progress& progress);
+CopyCounts backUp(CaseStore& store, const std::filesystem::path& to, Progress& progress);
 
 /// Makes a store of a backup; where the database of the one that was backed up lies on a server, into an empty database
 /// there, which keeps what it was given when an object is found damaged afterwards. Throws Error{bad_input} where that
 /// is no whole one, or an object or a report is not what its record says; Error{wrong_use} where there is a store
 /// already; Error{store}, Error{database}, Error{cancelled}. The store is not there then.
-Copied restore(const std::filesystem::path& backup, const StorePlace& to, Progress& progress);
+CopyCounts restore(const std::filesystem::path& backup, const StorePlace& to, Progress& progress);
 
 }  // namespace vicon

@@ -22,7 +22,7 @@ struct Comparison {
     std::string prior_uid, prior_name;
     std::string prior_what;   ///< "polyp", or in the report's words
     std::string prior_place;  ///< "sigmoid", or in the report's words; empty: not said
-    TakenSize before;
+    MeasuredSize before;
     std::string person, at;  ///< who said so, when (UTC)
 };
 nlohmann::json toJson(const Comparison& comparison);
@@ -45,13 +45,13 @@ std::optional<Comparison> editComparison(CaseStore& store, const std::string& ca
                                          const std::optional<Comparison>& before, std::optional<Comparison> after);
 
 /// The size of a finding of today, and how it was measured.
-TakenSize takenSizeOf(const Finding& finding, const FindingFacts& facts, const std::vector<ScanRecord>& scans,
-                      const Study& study);
+MeasuredSize measuredSizeOf(const Finding& finding, const FindingFacts& facts, const std::vector<ScanRecord>& scans,
+                            const Study& study);
 
 /// A comparison with what follows from it.
 struct ComparedFinding {
     Comparison said;
-    TakenSize now;
+    MeasuredSize now;
     Growth growth;
 };
 

@@ -16,7 +16,7 @@ namespace vicon {
 class DatabaseEngine;
 
 /// The state of a store: one connection to its database, migrated to this VICON's schema version. SQLite or PostgreSQL;
-/// a connection to a server that broke is made anew. One object serves one thread at a time.
+/// a broken connection to a server is made again. One object serves one thread at a time.
 class Database {
 public:
     static constexpr int kSchemaVersion = 9;
@@ -31,13 +31,13 @@ public:
 
     const std::string& where() const { return where_; }
 
-    /// The connection itself, made anew when it broke. Its errors name the statement and its values: whoever reads for
-    /// VICON takes read().
+    /// The connection itself, made again after it broke. SOCI's errors name the statement and its values, which may be
+    /// a patient's: code of VICON reads by read().
     soci::session& session();
 
-    /// For reading: returns what `work` returns. It is run again when the connection broke meanwhile; within write()
-    /// and writeRows() it is a part of their transaction. Database errors, and rows that cannot be understood, become
-    /// Error{database}.
+    /// Runs `work`, which only reads, and returns what it returns. It is run again when the connection breaks; within
+    /// write() and writeRows() it is part of their transaction. Throws Error{database} where the database fails, or a
+    /// row makes no sense.
     template <class Work>
     auto read(const Work& work)
     {
@@ -51,33 +51,33 @@ public:
         }
     }
 
-    /// The same again as long as nobody changed anything, over this connection or another; to be compared with what
-    /// this object said before.
+    /// A text that stays the same until somebody changes the database, over this connection or another. Only texts of
+    /// one object can be compared.
     std::string version();
 
-    /// Throws Error{database} where a table cannot be read at its beginning: in milliseconds, and so not all of the
-    /// damage that damage() finds. A server says so by itself.
+    /// Throws Error{database} where the beginning of a table cannot be read. Takes milliseconds, and so misses damage
+    /// that damage() finds. Does nothing on a server, which tells of damage itself.
     void requireReadable();
 
-    /// Reads all of it: what is damaged, in the database's words; empty where nothing is.
+    /// Reads the whole database and returns what is damaged, in the database's words; empty where nothing is.
     std::string damage();
 
-    /// Runs `work` in a transaction that nobody else's write() runs beside, so what it reads stays as it is; rolled
-    /// back when it throws. Database errors become Error{database}: then nothing was saved.
+    /// Runs `work` in a transaction. No other write() runs at the same time, so what `work` reads stays as it is.
+    /// Rolled back when it throws. Throws Error{database} where the database fails; then nothing was saved.
     void write(const std::function<void(soci::session&)>& work);
 
-    /// Like write(), for what happens often: on a server others write beside it, and only rows that `work` has updated
-    /// are safe from them. `work` is run again when the connection broke, or when it gave way to another that wrote
-    /// the same rows, so it must not mind that.
+    /// Like write(), for what happens often: on a server others write at the same time, and only the rows that `work`
+    /// has updated are safe from them. `work` may run more than once: after the connection broke, or after it gave way
+    /// to another writer of the same rows.
     void writeRows(const std::function<void(soci::session&)>& work);
 
 private:
-    enum class Beside { nobody, others };
+    enum class Writers { one, several };  // at the same time
     void migrate();
     void readAgain(const std::function<void(soci::session&)>& work);
     void reconnect();
-    void transact(const std::function<void(soci::session&)>& work, Beside beside);
-    void begin(Beside beside);
+    void transact(const std::function<void(soci::session&)>& work, Writers writers);
+    void begin(Writers writers);
     void commit();
     bool wasCommitted(const std::string& name);
     void rollBack();

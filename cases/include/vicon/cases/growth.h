@@ -7,7 +7,7 @@
 namespace vicon {
 
 /// A size, and how it was measured.
-struct TakenSize {
+struct MeasuredSize {
     std::optional<double> size_mm;
     std::string from;                         ///< "best plane", "surface", "reader", ...
     std::optional<double> least_mm, most_mm;  ///< eight in ten lie between; absent: measured by hand
@@ -16,9 +16,9 @@ struct TakenSize {
     double slice_thickness_mm = 0;  ///< 0: not said
     std::string date;               ///< of the examination, YYYYMMDD
 };
-nlohmann::json toJson(const TakenSize& size);
+nlohmann::json toJson(const MeasuredSize& size);
 /// Throws nlohmann::json::exception.
-TakenSize takenSizeFromJson(const nlohmann::json& json);
+MeasuredSize measuredSizeFromJson(const nlohmann::json& json);
 
 /// A difference with its interval of 80 %.
 struct Change {
@@ -45,7 +45,7 @@ Growth growthFromJson(const nlohmann::json& json);
 /// Sizes are compared only where they were taken in the same way from slices of the same kernel and thickness, which
 /// are thin enough; else `why_not` says what differs. A volume that changed by 20 % a year or more grew or shrank,
 /// where no change lies outside its interval (Pickhardt et al., Lancet Oncol 2013, PMC4018232).
-Growth growthBetween(const TakenSize& before, const TakenSize& now);
+Growth growthBetween(const MeasuredSize& before, const MeasuredSize& now);
 
 /// "+2.1 mm (0.9 to 3.3), volume +88 % (31 to 145), 59 % a year (21 to 97) in 1.5 years: grew"; else why it is not
 /// told.

@@ -115,7 +115,7 @@ public:
 
 private:
     double nowIn(soci::session& sql) const;
-    void capTimes(soci::session& sql);
+    void limitTimes(soci::session& sql);
     void dropLost(soci::session& sql);
     void settle(soci::session& sql, const Job& job, JobState state, double not_before, const std::string& reason,
                 int attempts);

@@ -145,8 +145,8 @@ private:
     double nowIn(soci::session& sql) const;
     void dropLost(soci::session& sql);
     /// As it is now; nothing where another sender has it.
-    static std::optional<OutboxItem> findMine(soci::session& sql, const OutboxItem& item);
-    static OutboxItem requireMine(soci::session& sql, const OutboxItem& item);
+    static std::optional<OutboxItem> findClaimed(soci::session& sql, const OutboxItem& item);
+    static OutboxItem requireClaimed(soci::session& sql, const OutboxItem& item);
     void settleAsStored(soci::session& sql, OutboxItem item);
     void settle(soci::session& sql, const OutboxItem& item);
     void settleAsPostponed(soci::session& sql, OutboxItem item, const std::string& reason);

@@ -8,10 +8,10 @@
 
 namespace vicon {
 
-/// What an account may do; who may sign is SigningOptions'.
+/// What an account may be allowed to do. Signing is apart: see SigningOptions.
 enum class Role {
-    read,     ///< look at cases, and write reports that are drafts
-    mark,     ///< say something of a case: markers, findings, categories, corrections
+    read,     ///< look at cases, and write draft reports
+    mark,     ///< add to a case: markers, findings, categories, corrections
     operate,  ///< receive, fetch, send, work on the queue, delete, back up
 };
 
@@ -27,13 +27,13 @@ struct RoleOptions {
     }
 };
 
-/// Whether an account is one of these, or in a group of theirs ("@GROUP").
+/// Whether the account is listed, by its own name or through one of its groups ("@GROUP").
 bool isAmong(const std::string& account, const std::vector<std::string>& entries);
 
-/// By these rules requireRole() goes from now on; before, everybody may do everything.
+/// The rules that requireRole() follows from now on. Until then everybody may do everything.
 /// @param on_refusal told what an account may not, before requireRole() throws
 void setRoles(const RoleOptions& options, std::function<void(const std::string& what)> on_refusal = {});
-/// Throws Error{bad_input} where whoever runs this may not.
+/// Throws Error{bad_input} unless the account that runs this program has the role.
 void requireRole(Role role);
 
 }  // namespace vicon

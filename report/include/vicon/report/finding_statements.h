@@ -32,7 +32,7 @@ std::string otherProgramsLumen(const LumenOrigin& origin);
 std::vector<Statement> findingStatements(const ReadCase& read, const FindingWithFacts& finding);
 
 /// That there are markers of no finding; empty where there are none.
-std::string looseMarkersSaid(const std::vector<std::string>& ids);
+std::string unassignedMarkersSentence(const std::vector<std::string>& ids);
 /// The reader's; else one line for each finding that is not benign, or that there is none.
 std::string impressionText(const ReadCase& read);
 /// The reader's, else the usual one of the chosen category.

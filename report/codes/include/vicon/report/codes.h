@@ -42,7 +42,7 @@ Code otherLumenConcept();  ///< that another program made the lumen
 Code dcm(const char* value, const char* meaning);
 Code sct(const char* value, const char* meaning);
 Code loinc(const char* value, const char* meaning);
-Code ours(const std::string& value, const std::string& meaning);
+Code privateCode(const std::string& value, const std::string& meaning);
 Code ucum(const char* unit, const char* meaning);
 
 }  // namespace vicon::report
