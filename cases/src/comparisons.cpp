@@ -77,6 +77,17 @@ void takeBounds(MeasuredSize& taken, const std::optional<double>& outlined, cons
     }
 }
 
+/// The outlined one with its bounds, where the finding says none.
+template <class Sight>
+void takeVolume(TakenSize& taken, const Sight& lead)
+{
+    if (taken.volume_ml)
+        return;
+    taken.volume_ml = lead.volume_ml;
+    taken.volume_least_ml = lead.volume_least_ml;
+    taken.volume_most_ml = lead.volume_most_ml;
+}
+
 }  // namespace
 
 void putComparison(soci::session& sql, const std::string& case_id, const Comparison& one)
@@ -126,8 +137,7 @@ Comparison comparisonWith(const std::string& finding_id, const PriorReport& repo
         return c;
     c.prior_place = lead->part ? nameOf(*lead->part) : lead->site;
     takeBounds(c.before, lead->size_3d_mm, lead->size_least_mm, lead->size_most_mm);
-    if (!c.before.volume_ml)
-        c.before.volume_ml = lead->volume_ml;
+    takeVolume(c.before, *lead);
     for (const std::vector<PriorScan>* scans : {&known, &report.scans})  // what the report says goes before
         for (const PriorScan& scan : *scans)
             if (scan.series_uid == lead->series_uid && !lead->series_uid.empty()) {
@@ -205,8 +215,7 @@ MeasuredSize measuredSizeOf(const Finding& finding, const FindingFacts& facts, c
     if (!lead)
         return taken;
     takeBounds(taken, lead->size_3d_mm, lead->size_least_mm, lead->size_most_mm);
-    if (!taken.volume_ml)
-        taken.volume_ml = lead->volume_ml;
+    takeVolume(taken, *lead);
     for (const ScanRecord& scan : scans)
         if (scan.id == lead->scan_id) {
             taken.kernel = scan.series.kernel;

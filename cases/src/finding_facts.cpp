@@ -42,6 +42,8 @@ void takeOutline(FindingSight& sight, const PolypSize& polyp)
     sight.size_most_mm = roundedSize_mm(polyp.most_mm);
     sight.height_mm = polyp.height_mm;
     sight.volume_ml = polyp.volume_ml;
+    sight.volume_least_ml = polyp.volume_least_ml;
+    sight.volume_most_ml = polyp.volume_most_ml;
 }
 
 FindingSight sightOf(const Marker& marker, const std::map<std::string, Skeleton>& skeletons,
@@ -102,7 +104,10 @@ void takeSize(FindingFacts& facts, const Finding& finding)
         facts.size_source = SizeSource::reader;
     } else {
         facts.size_mm = larger(facts.size_2d_mm, facts.size_3d_mm);
-        const bool by_plane = facts.size_2d_mm && facts.size_2d_mm >= facts.size_3d_mm.value_or(0);
+        // An outline's is the largest of all planes: its best one is beside it, and never leads.
+        const bool by_plane = std::any_of(facts.sights.begin(), facts.sights.end(), [&](const FindingSight& sight) {
+            return sight.size_2d_mm && sight.size_2d_mm == facts.size_mm && !sight.size_least_mm;
+        });
         facts.size_source = by_plane ? SizeSource::plane : SizeSource::surface;
     }
 }

@@ -13,9 +13,10 @@ constexpr EnumNames<SizeSource, 3> kSizeSourceNames = {
     {{SizeSource::reader, "reader"}, {SizeSource::plane, "best plane"}, {SizeSource::surface, "surface"}}};
 
 constexpr std::pair<const char*, std::optional<double> FindingSight::*> kOfPartAndOutline[] = {
-    {"part_fraction", &FindingSight::part_fraction}, {"size_least_mm", &FindingSight::size_least_mm},
-    {"size_most_mm", &FindingSight::size_most_mm},   {"height_mm", &FindingSight::height_mm},
-    {"volume_ml", &FindingSight::volume_ml},
+    {"part_fraction", &FindingSight::part_fraction},   {"size_least_mm", &FindingSight::size_least_mm},
+    {"size_most_mm", &FindingSight::size_most_mm},     {"height_mm", &FindingSight::height_mm},
+    {"volume_ml", &FindingSight::volume_ml},           {"volume_least_ml", &FindingSight::volume_least_ml},
+    {"volume_most_ml", &FindingSight::volume_most_ml},
 };
 
 SizeSource sizeSourceFrom(const std::string& name)

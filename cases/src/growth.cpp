@@ -87,11 +87,14 @@ double halfOf(const MeasuredSize& size)
     return size.least_mm && size.most_mm ? (*size.most_mm - *size.least_mm) / 2 : kEightInTen * kByHand_mm;
 }
 
-/// Of a volume, as a part of it: what its diameter's uncertainty makes of it, at least the published one.
+/// Of a volume, as a part of it: its own, else what its diameter's uncertainty makes of it; at least the published one.
 double volumeErrorOf(const MeasuredSize& size)
 {
     constexpr int kDimensions = 3;
-    return std::max(kEightInTen * kVolumeError, kDimensions * halfOf(size) / *size.size_mm);
+    const bool own = size.volume_least_ml && size.volume_most_ml && *size.volume_ml > 0;
+    const double part = own ? (*size.volume_most_ml - *size.volume_least_ml) / 2 / *size.volume_ml
+                            : kDimensions * halfOf(size) / *size.size_mm;
+    return std::max(kEightInTen * kVolumeError, part);
 }
 
 Change around(double about, double half)
@@ -143,18 +146,16 @@ json toJson(const MeasuredSize& s)
     putValue(out, "least_mm", s.least_mm);
     putValue(out, "most_mm", s.most_mm);
     putValue(out, "volume_ml", s.volume_ml);
+    putValue(out, "volume_least_ml", s.volume_least_ml);
+    putValue(out, "volume_most_ml", s.volume_most_ml);
     return out;
 }
 
 MeasuredSize measuredSizeFromJson(const json& from)
 {
-    return {number(from, "size_mm"),
-            from.value("from", ""),
-            number(from, "least_mm"),
-            number(from, "most_mm"),
-            number(from, "volume_ml"),
-            from.value("kernel", ""),
-            from.value("slice_thickness_mm", 0.0),
+    return {number(from, "size_mm"),        from.value("from", ""),    number(from, "least_mm"),
+            number(from, "most_mm"),        number(from, "volume_ml"), number(from, "volume_least_ml"),
+            number(from, "volume_most_ml"), from.value("kernel", ""),  from.value("slice_thickness_mm", 0.0),
             from.value("date", "")};
 }
 

@@ -1,5 +1,6 @@
 #include "vicon/cases/marker_measures.h"
 
+#include "json_fields.h"
 #include "vicon/core/geometry_json.h"
 #include "vicon/core/json_text.h"
 
@@ -22,9 +23,12 @@ PlaneSize planeSizeFromJson(const json& json)
 
 json toJson(const PolypSize& s)
 {
-    return {{"diameter_mm", s.diameter_mm}, {"least_mm", s.least_mm}, {"most_mm", s.most_mm},
-            {"from_mm", s.from_mm},         {"to_mm", s.to_mm},       {"height_mm", s.height_mm},
-            {"volume_ml", s.volume_ml},     {"rim_mm", s.rim_mm}};
+    json out = {{"diameter_mm", s.diameter_mm}, {"least_mm", s.least_mm}, {"most_mm", s.most_mm},
+                {"from_mm", s.from_mm},         {"to_mm", s.to_mm},       {"height_mm", s.height_mm},
+                {"volume_ml", s.volume_ml},     {"rim_mm", s.rim_mm}};
+    putValue(out, "volume_least_ml", s.volume_least_ml);
+    putValue(out, "volume_most_ml", s.volume_most_ml);
+    return out;
 }
 
 PolypSize polypSizeFromJson(const json& json)
@@ -32,7 +36,8 @@ PolypSize polypSizeFromJson(const json& json)
     return {json.at("diameter_mm").get<double>(), json.at("least_mm").get<double>(),
             json.at("most_mm").get<double>(),     json.at("from_mm").get<Point3>(),
             json.at("to_mm").get<Point3>(),       json.at("height_mm").get<double>(),
-            json.at("volume_ml").get<double>(),   json.at("rim_mm").get<std::vector<Point3>>()};
+            json.at("volume_ml").get<double>(),   number(json, "volume_least_ml"),
+            number(json, "volume_most_ml"),       json.at("rim_mm").get<std::vector<Point3>>()};
 }
 
 json toJson(const MarkerSize& s)

@@ -8,11 +8,19 @@ namespace vicon {
 /// A click this near to a polyp means it.
 inline constexpr double kPolypCatch_mm = 2;
 
-/// Length of a section from the polyp's axis, in a patch as large.
-inline constexpr double kPolypSection_mm = 40;
+/// Of the surface that is looked at, from the point where that begins.
+inline constexpr double kPolypPatch_mm = 40;
+
+/// What was made out at one place of the wall.
+struct TriedOutline {
+    PolypOutline outline;
+    bool decided = false;  ///< outlined, or refused for what lies around it: no other place of the wall need be tried
+};
 
 /// Outlines what stands at a point of the wall, if its head holds `place` or lies within kPolypCatch_mm of it.
 /// @param from one of the patch's points
-PolypOutline outlineFrom(const SurfacePatch& patch, Point3 from, Point3 place, double blur_mm, const Progress* wanted);
+/// @param lumen the scan's; its axes are those of the planes
+TriedOutline outlineFrom(const SurfacePatch& patch, const InsideView& lumen, Point3 from, Point3 place, double blur_mm,
+                         const Progress* wanted);
 
 }  // namespace vicon

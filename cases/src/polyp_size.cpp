@@ -14,19 +14,20 @@ namespace {
 constexpr double kSamePatch_mm = 5;  // so much of a patch may be missing on the other side: a polyp's reach is far less
 }
 
-PolypOutline outlinePolyp(const CellSurface& surface, Point3 at, double blur_mm, const Progress* wanted)
+PolypOutline outlinePolyp(const CellSurface& surface, const InsideView& lumen, Point3 at, double blur_mm,
+                          const Progress* wanted)
 {
-    PolypOutline nearest{std::nullopt, "no wall lies near enough"};
+    PolypOutline nearest{{}, {}, "no wall lies near enough"};
     std::optional<SurfacePatch> patch;
     for (const Point3 from : surfaceAround(surface, at, kPolypReach_mm, kPolypCatch_mm)) {
         const bool first = !patch;
         if (first || distance(patch->nearest_mm(), from) > kSamePatch_mm || !patch->holds(from))
-            patch.emplace(surface, from, kPolypSection_mm, kPolypCatch_mm);
-        PolypOutline outline = outlineFrom(*patch, from, at, blur_mm, wanted);
-        if (outline.size)
-            return outline;
+            patch.emplace(surface, from, kPolypPatch_mm, kPolypCatch_mm);
+        TriedOutline tried = outlineFrom(*patch, lumen, from, at, blur_mm, wanted);
+        if (tried.decided)
+            return tried.outline;
         if (first)
-            nearest = std::move(outline);
+            nearest = std::move(tried.outline);
     }
     return nearest;
 }
@@ -37,9 +38,14 @@ double blurOfScan_mm(const std::filesystem::path& scan_folder)
     return results.tissue ? results.tissue->blur_mm.value_or(kUsualBlur_mm) : kUsualBlur_mm;
 }
 
-MarkerSize sizeOf(const PolypSize& polyp)
+MarkerSize sizeOf(const PolypOutline& outline)
 {
-    return {.straight_mm = polyp.diameter_mm, .from_mm = polyp.from_mm, .to_mm = polyp.to_mm, .polyp = polyp};
+    const PolypSize& polyp = outline.size.value();
+    return {.straight_mm = polyp.diameter_mm,
+            .from_mm = polyp.from_mm,
+            .to_mm = polyp.to_mm,
+            .plane = outline.plane,
+            .polyp = polyp};
 }
 
 }  // namespace vicon

@@ -41,6 +41,8 @@ json sightJson(const PriorSight& s)
     putValue(out, "size_most_mm", s.size_most_mm);
     putValue(out, "height_mm", s.height_mm);
     putValue(out, "volume_ml", s.volume_ml);
+    putValue(out, "volume_least_ml", s.volume_least_ml);
+    putValue(out, "volume_most_ml", s.volume_most_ml);
     putValue(out, "mean_hu", s.mean_hu);
     return out;
 }

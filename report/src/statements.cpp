@@ -106,16 +106,22 @@ std::string densityWords(const DensitySample& sample)
 /// What the reader measured.
 std::string sizeWords(const MarkerSize& size)
 {
-    if (size.polyp)
-        return millimetres(size.polyp->diameter_mm, 1) + " outlined (" + number(size.polyp->least_mm, "%.1f") + " to " +
-               millimetres(size.polyp->most_mm, 1) + "), height " + millimetres(size.polyp->height_mm, 1) +
-               ", volume " + number(size.polyp->volume_ml, "%.2f") + " ml";
+    const std::string in_plane =
+        size.plane ? ", " + millimetres(size.plane->diameter_mm, 1) + " largest in the best plane" : "";
+    if (const auto& polyp = size.polyp) {
+        const char* pattern = volumeDecimals(polyp->volume_ml) == 2 ? "%.2f" : "%.3f";
+        std::string words = millimetres(polyp->diameter_mm, 1) + " outlined (" + number(polyp->least_mm, "%.1f") +
+                            " to " + millimetres(polyp->most_mm, 1) + ")" + in_plane + ", height " +
+                            millimetres(polyp->height_mm, 1) + ", volume " + number(polyp->volume_ml, pattern) + " ml";
+        if (polyp->volume_least_ml && polyp->volume_most_ml)
+            words += " (" + number(*polyp->volume_least_ml, pattern) + " to " +
+                     number(*polyp->volume_most_ml, pattern) + " ml)";
+        return words;
+    }
     std::string words = millimetres(size.straight_mm, 1) + " straight";
     if (size.along_mm)
         words += ", " + millimetres(*size.along_mm, 1) + " along the wall";
-    if (size.plane)
-        words += ", " + millimetres(size.plane->diameter_mm, 1) + " largest in the best plane";
-    return words;
+    return words + in_plane;
 }
 
 }  // namespace

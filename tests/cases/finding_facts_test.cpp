@@ -110,6 +110,25 @@ TEST_F(Facts, TakeTheLargestOfAllSightsAndItsPlace)
     EXPECT_EQ(facts().lead()->marker_id, "m1") << "of equal ones the first";
 }
 
+TEST_F(Facts, OfAnOutlineHaveItsBoundsAndItsBestPlaneBesideTheDiameter)
+{
+    const PolypSize polyp{.diameter_mm = 7.3,
+                          .least_mm = 7.1,
+                          .most_mm = 7.5,
+                          .volume_ml = 0.2,
+                          .volume_least_ml = 0.18,
+                          .volume_most_ml = 0.22};
+    markers_[0].size = MarkerSize{.straight_mm = 7.3, .plane = PlaneSize{.diameter_mm = 7.29}, .polyp = polyp};
+    EXPECT_EQ(facts().size_source, SizeSource::surface) << "of an outline the largest in space leads";
+    EXPECT_THAT(facts().size_2d_mm, Optional(DoubleEq(7.3)));
+    EXPECT_EQ(facts().lead()->volume_least_ml, 0.18);
+    EXPECT_EQ(factsFromJson(toJson(facts())).lead()->volume_most_ml, 0.22);
+    EXPECT_EQ(markerSizeFromJson(toJson(*markers_[0].size)).polyp->volume_most_ml, 0.22);
+    auto without = toJson(*markers_[0].size);
+    without["polyp"].erase("volume_least_ml");
+    EXPECT_FALSE(markerSizeFromJson(without).polyp->volume_least_ml) << "as outlines were kept before";
+}
+
 TEST_F(Facts, LetTheReadersSizeCount)
 {
     markers_[1].size = MarkerSize{.straight_mm = 12};

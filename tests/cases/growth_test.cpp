@@ -46,6 +46,18 @@ TEST(Growth, IsTheDifferenceWithItsIntervalAndItsRate)
     EXPECT_THAT(growthWords(g), HasSubstr("in 2.0 years: grew"));
 }
 
+TEST(Growth, OfAVolumeHasTheIntervalThatItWasMeasuredWith)
+{
+    TakenSize then = kThen, now = outlined(10, 0.1, volumeOf_ml(10), "20260101");
+    const double ratio = volumeOf_ml(10) / volumeOf_ml(8);
+    for (TakenSize* size : {&then, &now}) {
+        size->volume_least_ml = 0.7 * *size->volume_ml;
+        size->volume_most_ml = 1.3 * *size->volume_ml;
+    }
+    const Growth g = growthBetween(then, now);
+    EXPECT_NEAR(g.volume_percent->most - g.volume_percent->about, 100 * ratio * std::sqrt(2.0) * 0.3, 1e-6);
+}
+
 TEST(Growth, HasAVerdictByTwentyPercentAYearAndItsInterval)
 {
     const struct {
@@ -124,6 +136,8 @@ TEST(Growth, IsReadBackAsItWasWritten)
     for (const std::string kernel : {"B30f", "B70f"}) {
         MeasuredSize now = outlined(10, 0.3, volumeOf_ml(10), "20260101");
         now.kernel = kernel;
+        now.volume_least_ml = 0.4;
+        now.volume_most_ml = 0.6;
         const Growth g = growthBetween(kThen, now);
         EXPECT_EQ(toJson(growthFromJson(toJson(g))), toJson(g));
         const MeasuredSize back = measuredSizeFromJson(toJson(now));
@@ -132,6 +146,7 @@ TEST(Growth, IsReadBackAsItWasWritten)
         EXPECT_EQ(back.least_mm, now.least_mm);
         EXPECT_EQ(back.most_mm, now.most_mm);
         EXPECT_EQ(back.volume_ml, now.volume_ml);
+        EXPECT_EQ(back.volume_most_ml, now.volume_most_ml);
     }
 }
 

@@ -38,6 +38,8 @@ TEST(PriorReport, AFindingsJsonHoldsAllThatIsKnownOfIt)
                               .size_most_mm = 8,
                               .height_mm = 3.25,
                               .volume_ml = 0.125,
+                              .volume_least_ml = 0.0625,
+                              .volume_most_ml = 0.25,
                               .mean_hu = 41});
     finding.others = {{"Depth", 2.5, "mm"}};
     const json expected = json::parse(R"({
@@ -49,7 +51,8 @@ TEST(PriorReport, AFindingsJsonHoldsAllThatIsKnownOfIt)
                     "position_mm": [1.0, 2.0, 3.0], "part": "sigmoid", "site": "Sigmoid colon",
                     "station_mm": 300.0, "from_caecum_mm": 1200.0, "fraction": 0.2, "part_fraction": 0.5,
                     "clock_hour": 4, "size_2d_mm": 7.0, "size_3d_mm": 7.25, "size_least_mm": 6.5, "size_most_mm": 8.0,
-                    "height_mm": 3.25, "volume_ml": 0.125, "mean_hu": 41.0}]})");
+                    "height_mm": 3.25, "volume_ml": 0.125,
+                    "volume_least_ml": 0.0625, "volume_most_ml": 0.25, "mean_hu": 41.0}]})");
     EXPECT_EQ(toJson(finding), expected) << toJson(finding).dump(1);
     const json bare = toJson(PriorFinding{.uid = "1.2"});
     EXPECT_FALSE(bare.contains("size_mm"));

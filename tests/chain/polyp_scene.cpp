@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <random>
+#include <utility>
+#include <vector>
 
 #include "vicon/core/progress.h"
 #include "vicon/core/volume.h"
@@ -12,7 +16,8 @@
 namespace vicon {
 namespace {
 
-constexpr double kGasHu = -1000, kTissueHu = 40, kVoxel_mm = 0.7;
+constexpr double kGasHu = -1000, kTissueHu = 40, kFluidHu = 500, kVoxel_mm = 0.7;
+constexpr Vector3 kGravity{0, 1, 0};
 constexpr int kFine = 2;  // samples of a voxel's edge
 
 /// The scene in its own frame: the wall at z = 0, tissue below, the polyp around the z axis.
@@ -33,28 +38,80 @@ public:
         }
         return 0;
     }
-    bool isTissue(Point3 p) const { return isWall(p) || isPolyp(p); }
+    bool isTissue(Point3 p) const
+    {
+        return isWall(p) || isPolyp(p) ||
+               (scene_.apart > 0 && isPolyp(p - Vector3{scene_.apart * scene_.diameter_mm, 0, 0}));
+    }
+
     Point3 placeInHead(std::mt19937& random) const
     {
         const double lowest_mm = base_mm() + (scene_.shape == PolypShape::stalked ? stalk_mm() : 0);
-        std::uniform_real_distribution<double> aside(-radius_mm_, radius_mm_), up(lowest_mm, top_mm());
+        const double half_mm = scene_.longer * radius_mm_;
+        std::uniform_real_distribution<double> aside(-half_mm, half_mm), up(lowest_mm, top_mm());
         for (;;)
             if (const Point3 p{aside(random), aside(random), up(random)}; isPolyp(p))
                 return p;
     }
+    /// Until where a line over the head from its top is out of the wall, and how wide it is there; the stalk apart.
+    double widest_mm(double angle) const
+    {
+        constexpr int kSteps = 720;
+        double most = 0;
+        for (int n = 0; n <= kSteps; ++n) {
+            const double down = std::numbers::pi * n / kSteps, out = radius_mm_ * std::sin(down);
+            const Point3 p{scene_.longer * out * std::cos(angle), out * std::sin(angle),
+                           headMiddle_mm() + headHeight_mm() * std::cos(down)};
+            if (isWall(p))
+                break;
+            most = std::max(most, 2 * std::hypot(p.x, p.y));
+        }
+        return most;
+    }
+    /// Of the head out of the wall.
+    double volume_ml() const
+    {
+        constexpr int kSteps = 80;
+        const Vector3 half{scene_.longer * radius_mm_, radius_mm_, headHeight_mm()};
+        const auto at = [](int n) { return (n + 0.5) * 2 / kSteps - 1; };
+        std::size_t inside = 0;
+        for (int i = 0; i < kSteps; ++i)
+            for (int j = 0; j < kSteps; ++j)
+                for (int k = 0; k < kSteps; ++k) {
+                    const Point3 p{half.x * at(i), half.y * at(j), headMiddle_mm() + half.z * at(k)};
+                    inside += at(i) * at(i) + at(j) * at(j) + at(k) * at(k) < 1 && !isWall(p) ? 1 : 0;
+                }
+        return double(inside) * 8 * half.x * half.y * half.z / std::pow(kSteps, 3) / 1000;
+    }
 
 private:
-    static constexpr double kTubeRadius_mm = 18, kFoldHeight_mm = 8, kFoldHalf_mm = 1.5, kStalk_mm = 5;
+    static constexpr double kTubeRadius_mm = 18, kBend_mm = 40, kFoldHeight_mm = 8, kFoldHalf_mm = 1.5, kStalk_mm = 5;
+    static constexpr double kRoom = 0.8;  // a tube's radius over what stands in it, at least
 
+    double headMiddle_mm() const
+    {
+        return base_mm() + (scene_.shape == PolypShape::stalked ? stalk_mm() + radius_mm_ : 0);
+    }
+    double headHeight_mm() const { return scene_.shape == PolypShape::flat ? flatHeight_mm() : radius_mm_; }
     double flatHeight_mm() const { return std::min(3.0, scene_.diameter_mm / 3); }
     double stalk_mm() const { return kStalk_mm; }
+    double tubeRadius_mm() const { return std::max(kTubeRadius_mm, kRoom * top_mm()); }
+    /// Of a tube around a circle in the plane of x and z.
+    bool isOutsideOfBend(Point3 p, double middle_mm) const
+    {
+        return std::hypot(std::hypot(p.x, p.z - middle_mm) - kBend_mm, p.y) > tubeRadius_mm();
+    }
     bool isWall(Point3 p) const
     {
         switch (scene_.wall) {
             case WallShape::plane:
                 return p.z < 0;
             case WallShape::tube:
-                return std::hypot(p.y, p.z - kTubeRadius_mm) > kTubeRadius_mm;
+                return std::hypot(p.y, p.z - tubeRadius_mm()) > tubeRadius_mm();
+            case WallShape::outside_bend:
+                return isOutsideOfBend(p, tubeRadius_mm() + kBend_mm);
+            case WallShape::inside_bend:
+                return isOutsideOfBend(p, tubeRadius_mm() - kBend_mm);
             case WallShape::fold:
                 return p.z < 0 || (std::abs(p.x) < kFoldHalf_mm && p.z < kFoldHeight_mm);
         }
@@ -62,6 +119,7 @@ private:
     }
     bool isPolyp(Point3 p) const
     {
+        p.x /= scene_.longer;
         const double z = p.z - base_mm();
         switch (scene_.shape) {
             case PolypShape::sessile:
@@ -128,7 +186,12 @@ void blurAlong(std::vector<float>& values, int count, std::size_t stride, double
     }
 }
 
-HuVolume scanned(const PolypScene& scene, const Solid& solid, const Place& place, int size, std::mt19937& random)
+struct Scanned {
+    HuVolume hu;
+    InsideVolume inside;
+};
+
+Scanned scanned(const PolypScene& scene, const Solid& solid, const Place& place, int size, std::mt19937& random)
 {
     const double half_mm = (size - 1) * kVoxel_mm / 2;
     const Grid grid{.size = {size, size, size},
@@ -136,26 +199,41 @@ HuVolume scanned(const PolypScene& scene, const Solid& solid, const Place& place
                     .spacing_mm = {kVoxel_mm, kVoxel_mm, kVoxel_mm}};
     const int fine = kFine * size;
     const auto row = std::size_t(fine), slice = row * row;
-    std::vector<float> tissue(slice * row);
-    for (std::size_t n = 0; n < tissue.size(); ++n) {
+    const auto isFluid = [&](Point3 p) { return dot(p - Point3{}, kGravity) > scene.fluid_from_mm; };
+    std::vector<float> clean(slice * row);
+    for (std::size_t n = 0; n < clean.size(); ++n) {
         const ContinuousIndex3 at{double(n % row) / kFine, double(n / row % row) / kFine, double(n / slice) / kFine};
-        tissue[n] = solid.isTissue(place.toScene(grid.pointAt(at))) ? 1 : 0;
+        const Point3 p = grid.pointAt(at);
+        clean[n] = float(solid.isTissue(place.toScene(p)) ? kTissueHu : isFluid(p) ? kFluidHu : kGasHu);
     }
     for (const std::size_t stride : {std::size_t(1), row, slice})
-        blurAlong(tissue, fine, stride, scene.blur_mm / kVoxel_mm * kFine);
-    HuVolume hu(grid);
+        blurAlong(clean, fine, stride, scene.blur_mm / kVoxel_mm * kFine);
+    Scanned scan{HuVolume(grid), InsideVolume(grid, kOutside)};
+    const bool has_fluid = std::isfinite(scene.fluid_from_mm);
     std::normal_distribution<double> noise(0, std::max(scene.noise_hu, 1e-9));
-    for (std::size_t n = 0; n < hu.voxels.size(); ++n) {
+    for (std::size_t n = 0; n < scan.hu.voxels.size(); ++n) {
         const Index3 v = grid.indexOf(n);
         const auto i = std::size_t(kFine * v.i), j = std::size_t(kFine * v.j), k = std::size_t(kFine * v.k);
-        const double s = double(tissue[i + row * j + slice * k]);
-        hu.voxels[n] =
-            std::int16_t(std::lround(kGasHu + s * (kTissueHu - kGasHu) + (scene.noise_hu > 0 ? noise(random) : 0)));
+        const double hu = double(clean[i + row * j + slice * k]) + (scene.noise_hu > 0 ? noise(random) : 0);
+        scan.hu.voxels[n] = std::int16_t(std::lround(hu));
+        const Point3 p = grid.pointAt(v);
+        if (has_fluid ? !solid.isTissue(place.toScene(p)) : hu < (kGasHu + kTissueHu) / 2)
+            scan.inside.voxels[n] = isFluid(p) ? kFluid : kGas;
     }
-    return hu;
+    return scan;
 }
 
 }  // namespace
+
+PolypTruth truthOf(const PolypScene& scene)
+{
+    constexpr int kDirections = 36;
+    const Solid solid(scene);
+    PolypTruth truth{0, solid.volume_ml()};
+    for (int n = 0; n < kDirections; ++n)
+        truth.diameter_mm = std::max(truth.diameter_mm, solid.widest_mm(std::numbers::pi * n / kDirections));
+    return truth;
+}
 
 PolypOnWall wallOf(const PolypScene& scene)
 {
@@ -163,16 +241,15 @@ PolypOnWall wallOf(const PolypScene& scene)
     std::mt19937 random(scene.seed);
     const Solid solid(scene);
     const Place place(random, solid.top_mm() / 2);
-    const int size = int((std::max(scene.diameter_mm, solid.top_mm()) + 2 * kAround_mm) / kVoxel_mm);
-    const HuVolume hu = scanned(scene, solid, place, size, random);
-    InsideVolume inside(hu.grid, kOutside);
-    std::transform(hu.voxels.begin(), hu.voxels.end(), inside.voxels.begin(),
-                   [](std::int16_t v) { return std::uint8_t(v < (kGasHu + kTissueHu) / 2 ? kGas : kOutside); });
+    const double wide_mm = scene.diameter_mm * std::max(scene.longer, 1 + 2 * scene.apart);
+    const int size = int((std::max(wide_mm, solid.top_mm()) + 2 * kAround_mm) / kVoxel_mm);
+    const Scanned scan = scanned(scene, solid, place, size, random);
     NoProgress quiet;
-    const steps::TissueResult found =
-        steps::findTissue(hu, inside, {0, 1, 0}, {}, std::max(10.0, scene.noise_hu), quiet);
-    const SegmentVolume one(hu.grid, 1);
-    PolypOnWall wall{steps::LumenSurface(found.tissue, found.lumen, quiet).cellsOf(one, quiet), {}};
+    steps::TissueResult found =
+        steps::findTissue(scan.hu, scan.inside, kGravity, {}, std::max(10.0, scene.noise_hu), quiet);
+    const SegmentVolume one(scan.hu.grid, 1);
+    CellSurface surface = steps::LumenSurface(found.tissue, found.lumen, quiet).cellsOf(one, quiet);
+    PolypOnWall wall{std::move(surface), std::move(found.lumen), {}, {}, place.x, place.z};
     std::normal_distribution<double> aside(0, scene.diameter_mm / 10);
     const Point3 meant = place.toScan({aside(random), aside(random), solid.top_mm()});
     double nearest = std::numeric_limits<double>::infinity();

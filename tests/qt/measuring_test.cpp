@@ -350,6 +350,12 @@ TEST_F(Outlining, OneClickMeasuresAPolypAndAnEndThatIsDraggedMakesItTheReadersOw
     const PolypSize polyp = outlined().value();
     EXPECT_NEAR(polyp.diameter_mm, 2 * colon_.polyp_radius_mm, kVoxel_mm);
     EXPECT_TRUE(said().contains("outlined")) << said().toStdString();
+    EXPECT_TRUE(said().contains("mm in the best plane")) << said().toStdString();
+    const QString bounds =
+        QString("(%1 to %2)").arg(*polyp.volume_least_ml, 0, 'f', 3).arg(*polyp.volume_most_ml, 0, 'f', 3);
+    EXPECT_TRUE(said().contains(" ml " + bounds)) << said().toStdString();
+    ASSERT_TRUE(stored()[0].size->plane);
+    EXPECT_LE(stored()[0].size->plane->diameter_mm, polyp.diameter_mm);
     EXPECT_EQ(cell(0, 5), QString::number(polyp.diameter_mm, 'f', 1));
     key(Qt::Key_Z, Qt::ControlModifier);
     EXPECT_TRUE(eventually([&] { return !stored()[0].size && settled(); }));

@@ -51,6 +51,8 @@ protected:
         size.plane = PlaneSize{.diameter_mm = 7.1};
         size.polyp =
             PolypSize{.diameter_mm = 7.3, .least_mm = 6.6, .most_mm = 8.1, .height_mm = 3.2, .volume_ml = 0.17};
+        size.polyp->volume_least_ml = 0.15;
+        size.polyp->volume_most_ml = 0.19;
         marker.size = size;
         return store.saveMarker(case_id_, marker);
     }

@@ -99,7 +99,10 @@ CodedFacts factsOfSight(const FindingSight& sight)
     f.number(privateCode("OUTLINE_LEAST", "Diameter of the outline, least"), sight.size_least_mm, millimetre());
     f.number(privateCode("OUTLINE_MOST", "Diameter of the outline, most"), sight.size_most_mm, millimetre());
     f.number(privateCode("OUTLINE_HEIGHT", "Height of the outline"), sight.height_mm, millimetre());
-    f.number(privateCode("OUTLINE_VOLUME", "Volume of the outline"), sight.volume_ml, ucum("ml", "milliliter"));
+    const Code millilitre = ucum("ml", "milliliter");
+    f.number(privateCode("OUTLINE_VOLUME", "Volume of the outline"), sight.volume_ml, millilitre);
+    f.number(privateCode("OUTLINE_VOLUME_LEAST", "Volume of the outline, least"), sight.volume_least_ml, millilitre);
+    f.number(privateCode("OUTLINE_VOLUME_MOST", "Volume of the outline, most"), sight.volume_most_ml, millilitre);
     f.number(sct("112031007", "Mean density"), sight.mean_hu, ucum("[hnsf'U]", "Hounsfield unit"));
     if (sight.clock_hour)
         f.text(privateCode("CLOCK_FACE", "Clock-face position, seen from the anal side"),

@@ -67,6 +67,8 @@ constexpr Place kPlaces[] = {
     {"OUTLINE_MOST", inMillimetres, &PriorSight::size_most_mm, nullptr},
     {"OUTLINE_HEIGHT", inMillimetres, &PriorSight::height_mm, nullptr},
     {"OUTLINE_VOLUME", inMillilitres, &PriorSight::volume_ml, nullptr},
+    {"OUTLINE_VOLUME_LEAST", inMillilitres, &PriorSight::volume_least_ml, nullptr},
+    {"OUTLINE_VOLUME_MOST", inMillilitres, &PriorSight::volume_most_ml, nullptr},
     {"112031007", asItStands, &PriorSight::mean_hu, nullptr},
 };
 /// Of a finding whose largest dimension is not given: what other makers measure, the best first.

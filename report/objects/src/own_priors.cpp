@@ -25,6 +25,8 @@ PriorSight sightFrom(const FindingSight& sight, const ReadCase& read)
                    .size_most_mm = sight.size_most_mm,
                    .height_mm = sight.height_mm,
                    .volume_ml = sight.volume_ml,
+                   .volume_least_ml = sight.volume_least_ml,
+                   .volume_most_ml = sight.volume_most_ml,
                    .mean_hu = sight.mean_hu};
     for (const ScanRecord& scan : read.scans)
         if (scan.id == sight.scan_id) {

@@ -53,8 +53,9 @@ struct FindingSight {
     std::optional<double> size_3d_mm;  ///< between two points of the wall
     std::optional<double> mean_hu;
     std::optional<double> part_fraction;  ///< how far along its part it lies, from the part's anal end; 0 to 1
-    std::optional<double> size_least_mm, size_most_mm;  ///< of an outlined one: eight in ten diameters lie between
-    std::optional<double> height_mm, volume_ml;         ///< of an outlined one
+    std::optional<double> size_least_mm, size_most_mm;      ///< of an outlined one: eight in ten diameters lie between
+    std::optional<double> height_mm, volume_ml;             ///< of an outlined one
+    std::optional<double> volume_least_ml, volume_most_ml;  ///< of an outlined one: eight in ten volumes lie between
 };
 
 /// Which size counts.

@@ -12,6 +12,7 @@ struct MeasuredSize {
     std::string from;                         ///< "best plane", "surface", "reader", ...
     std::optional<double> least_mm, most_mm;  ///< eight in ten lie between; absent: measured by hand
     std::optional<double> volume_ml;
+    std::optional<double> volume_least_ml, volume_most_ml;  ///< likewise; absent: by the diameter's
     std::string kernel;
     double slice_thickness_mm = 0;  ///< 0: not said
     std::string date;               ///< of the examination, YYYYMMDD

@@ -11,11 +11,12 @@ namespace vicon {
 // What a marker may carry. Each has one JSON form, described in docs/dev/schemas/markers.schema.json; the readers throw
 // nlohmann::json::exception for anything else.
 
-/// A finding's size in a plane through the two points that a reader clicked on its edges.
+/// A finding's size in a plane through the two points that a reader clicked on its edges; of an outlined polyp in the
+/// axial, coronal or sagittal plane that shows it largest.
 struct PlaneSize {
     double diameter_mm = 0;  ///< the largest of its cross-section
     Point3 from_mm, to_mm;   ///< the ends of that diameter
-    double area_mm2 = 0;     ///< of the cross-section above the line between the clicked points
+    double area_mm2 = 0;     ///< of the cross-section above the line between the clicked points, or the rim's
     Point3 middle_mm;        ///< of that line
     Vector3 along, up;       ///< unit vectors in the plane: along the line; into the lumen
 };
@@ -24,13 +25,19 @@ PlaneSize planeSizeFromJson(const nlohmann::json& json);
 
 /// A polyp's size, found from one point on it, corrected for the scan's blur.
 struct PolypSize {
-    double diameter_mm = 0;            ///< of the head, the largest in space
-    double least_mm = 0, most_mm = 0;  ///< eight in ten true diameters lie between them
-    Point3 from_mm, to_mm;             ///< the ends of the diameter
-    double height_mm = 0;              ///< over the middle of its rim
-    double volume_ml = 0;              ///< of the head over its rim
-    std::vector<Point3> rim_mm;        ///< around it, where it ends on the wall or at its stalk
+    double diameter_mm = 0;                                 ///< of the head, the largest in space
+    double least_mm = 0, most_mm = 0;                       ///< eight in ten true diameters lie between them
+    Point3 from_mm, to_mm;                                  ///< the ends of the diameter
+    double height_mm = 0;                                   ///< over the middle of its rim
+    double volume_ml = 0;                                   ///< of the head over its rim
+    std::optional<double> volume_least_ml, volume_most_ml;  ///< eight in ten true volumes lie between them
+    std::vector<Point3> rim_mm;                             ///< around it, where it ends on the wall or at its stalk
 };
+/// Decimals that a polyp's volume and its bounds are told with: one of 6 mm has 0.057 ml.
+inline int volumeDecimals(double volume_ml)
+{
+    return volume_ml < 1 ? 3 : 2;
+}
 nlohmann::json toJson(const PolypSize& size);
 PolypSize polypSizeFromJson(const nlohmann::json& json);
 

@@ -7,13 +7,15 @@
 #include "vicon/cases/marker_measures.h"
 #include "vicon/core/cell_surface.h"
 #include "vicon/core/progress.h"
+#include "vicon/core/volume_view.h"
 
 namespace vicon {
 
 /// Either a size, or why there is none.
 struct PolypOutline {
     std::optional<PolypSize> size;
-    std::string trouble;  ///< for a reader: "it has no edge all around"; empty with a size
+    std::optional<PlaneSize> plane;  ///< with a size: in the axial, coronal or sagittal plane that shows it largest
+    std::string trouble;             ///< for a reader: "it has no edge all around"; empty with a size
 };
 
 /// From the surface to the middle of a polyp of 30 mm.
@@ -21,20 +23,22 @@ inline constexpr double kPolypReach_mm = 15;
 
 /// Outlines the polyp under a point of the wall, or around a point in its tissue, as one clicks in a slice: along
 /// sections of the surface through its axis, to where each turns concave the most, at the wall or at its stalk. After
-/// the rings of curvature of Summers et al., Radiology 2000. On a fold there is no outline: its edge is not the
-/// polyp's. Figures: docs/evaluation/measuring.md.
-/// Begins at the surface nearest to the point; where that gives no outline that holds the point, at the surface in
-/// other directions from it.
+/// the rings of curvature of Summers et al., Radiology 2000. On a fold, against another polyp and under fluid there is
+/// no outline: its edge is not the polyp's, or not well known. Figures: docs/evaluation/measuring.md. Begins at the
+/// surface nearest to the point; where that gives no outline that holds the point, at the surface in other directions
+/// from it.
 /// @param surface the wall, with normals into the lumen
+/// @param lumen the scan's; its axes are those of the planes
 /// @param at in the polyp, within kPolypReach_mm of its surface, or 2 mm beside it
 /// @param blur_mm standard deviation of the scan's blur
 /// Throws Error{cancelled} where `wanted`, if there is one, says so.
-PolypOutline outlinePolyp(const CellSurface& surface, Point3 at, double blur_mm, const Progress* wanted = nullptr);
+PolypOutline outlinePolyp(const CellSurface& surface, const InsideView& lumen, Point3 at, double blur_mm,
+                          const Progress* wanted = nullptr);
 
 /// The blur that the tissue step measured at the scan's fluid levels, in scan.json; a usual one where there are none.
 double blurOfScan_mm(const std::filesystem::path& scan_folder);
 
-/// An outlined polyp's as a marker's size.
-MarkerSize sizeOf(const PolypSize& polyp);
+/// An outlined polyp's as a marker's size. Only with a size.
+MarkerSize sizeOf(const PolypOutline& outline);
 
 }  // namespace vicon

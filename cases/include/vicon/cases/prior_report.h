@@ -35,8 +35,9 @@ struct PriorSight {
     std::optional<double> part_fraction;  ///< of its part's length, from the part's anal end
     std::optional<int> clock_hour;
     std::optional<double> size_2d_mm, size_3d_mm;
-    std::optional<double> size_least_mm, size_most_mm;  ///< of an outlined one: eight in ten lie between them
-    std::optional<double> height_mm, volume_ml;         ///< as it was outlined
+    std::optional<double> size_least_mm, size_most_mm;      ///< of an outlined one: eight in ten lie between them
+    std::optional<double> height_mm, volume_ml;             ///< as it was outlined
+    std::optional<double> volume_least_ml, volume_most_ml;  ///< eight in ten lie between them
     std::optional<double> mean_hu;
 };
 

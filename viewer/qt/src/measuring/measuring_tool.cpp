@@ -170,7 +170,7 @@ void MeasuringTool::outlined(const std::string& scan_id, const PolypOutline& out
                           .arg(QString::fromStdString(outline.trouble)));
         return;
     }
-    shown_ = Shown{scan_id, sizeOf(*outline.size), {outline.size->from_mm, outline.size->to_mm}, {}};
+    shown_ = Shown{scan_id, sizeOf(outline), {outline.size->from_mm, outline.size->to_mm}, {}};
     finish();
 }
 

@@ -16,20 +16,27 @@ inline QString lengthText(double length_mm)
 /// The size that counts, then what was measured: "5.9 mm largest diameter; 5.5 mm straight, ..."
 inline QString sizeText(const MarkerSize& size)
 {
-    if (size.polyp)
-        return QObject::tr("%1 outlined (%2 to %3), height %4, volume %5 ml")
-            .arg(lengthText(size.polyp->diameter_mm))
-            .arg(size.polyp->least_mm, 0, 'f', 1)
-            .arg(size.polyp->most_mm, 0, 'f', 1)
-            .arg(lengthText(size.polyp->height_mm))
-            .arg(size.polyp->volume_ml, 0, 'f', 2);
+    const QString in_plane =
+        size.plane ? QObject::tr(", %1 in the best plane").arg(lengthText(size.plane->diameter_mm)) : QString();
+    if (const auto& polyp = size.polyp) {
+        const int decimals = volumeDecimals(polyp->volume_ml);
+        QString text = QObject::tr("%1 outlined (%2 to %3)%4, height %5, volume %6 ml")
+                           .arg(lengthText(polyp->diameter_mm))
+                           .arg(polyp->least_mm, 0, 'f', 1)
+                           .arg(polyp->most_mm, 0, 'f', 1)
+                           .arg(in_plane, lengthText(polyp->height_mm))
+                           .arg(polyp->volume_ml, 0, 'f', decimals);
+        if (polyp->volume_least_ml && polyp->volume_most_ml)
+            text += QObject::tr(" (%1 to %2)")
+                        .arg(*polyp->volume_least_ml, 0, 'f', decimals)
+                        .arg(*polyp->volume_most_ml, 0, 'f', decimals);
+        return text;
+    }
     QString text = QObject::tr("%1 largest diameter; %2 straight")
                        .arg(lengthText(largestDiameter_mm(size)), lengthText(size.straight_mm));
     if (size.along_mm)
         text += QObject::tr(", %1 along the wall").arg(lengthText(*size.along_mm));
-    if (size.plane)
-        text += QObject::tr(", %1 in the best plane").arg(lengthText(size.plane->diameter_mm));
-    return text;
+    return text + in_plane;
 }
 
 }  // namespace vicon::viewer
