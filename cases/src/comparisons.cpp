@@ -79,7 +79,7 @@ void takeBounds(MeasuredSize& taken, const std::optional<double>& outlined, cons
 
 /// The outlined one with its bounds, where the finding says none.
 template <class Sight>
-void takeVolume(TakenSize& taken, const Sight& lead)
+void takeVolume(MeasuredSize& taken, const Sight& lead)
 {
     if (taken.volume_ml)
         return;

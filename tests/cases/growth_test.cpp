@@ -48,9 +48,9 @@ TEST(Growth, IsTheDifferenceWithItsIntervalAndItsRate)
 
 TEST(Growth, OfAVolumeHasTheIntervalThatItWasMeasuredWith)
 {
-    TakenSize then = kThen, now = outlined(10, 0.1, volumeOf_ml(10), "20260101");
+    MeasuredSize then = kThen, now = outlined(10, 0.1, volumeOf_ml(10), "20260101");
     const double ratio = volumeOf_ml(10) / volumeOf_ml(8);
-    for (TakenSize* size : {&then, &now}) {
+    for (MeasuredSize* size : {&then, &now}) {
         size->volume_least_ml = 0.7 * *size->volume_ml;
         size->volume_most_ml = 1.3 * *size->volume_ml;
     }
