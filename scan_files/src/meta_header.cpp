@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 namespace vicon::scan_files {
 namespace {
 
-constexpr const char* kFirst = "ObjectType = Image\nNDims = 3\n";
 constexpr const char* kVoxelsFollow = "ElementDataFile = LOCAL\n";
 /// Zlib packs no better.
 constexpr std::size_t kBestPacking = 1032;
@@ -34,20 +33,6 @@ std::string line(const char* key, std::initializer_list<double> numbers)
         text += word;
     }
     return text + "\n";
-}
-
-/// The lines of a header behind the first ones.
-/// @param packing those that say whether the voxels are packed
-std::string linesOf(const Grid& grid, const std::string& type, const std::string& packing)
-{
-    const auto& [x, y, z] = grid.axis;
-    return "BinaryData = True\nBinaryDataByteOrderMSB = False\n" + packing +
-           line("TransformMatrix", {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z}) +
-           line("Offset", {grid.origin_mm.x, grid.origin_mm.y, grid.origin_mm.z}) +
-           "CenterOfRotation = 0 0 0\nAnatomicalOrientation = RAI\n" +
-           line("ElementSpacing", {grid.spacing_mm[0], grid.spacing_mm[1], grid.spacing_mm[2]}) +
-           line("DimSize", {double(grid.size[0]), double(grid.size[1]), double(grid.size[2])}) +
-           "ElementType = " + type + "\n" + kVoxelsFollow;
 }
 
 /// One line of a header, "Name = value".
@@ -108,17 +93,18 @@ std::optional<Header> headerIn(const fs::path& file)
 
 std::string rawHeader(const Grid& grid, const std::string& type)
 {
-    const std::string lines = linesOf(grid, type, "CompressedData = False\n");
-    const std::string first = std::string(kFirst) + "Comment = voxels are aligned ";
+    const auto& [x, y, z] = grid.axis;
+    const std::string lines = "BinaryData = True\nBinaryDataByteOrderMSB = False\nCompressedData = False\n" +
+                              line("TransformMatrix", {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z}) +
+                              line("Offset", {grid.origin_mm.x, grid.origin_mm.y, grid.origin_mm.z}) +
+                              "CenterOfRotation = 0 0 0\nAnatomicalOrientation = RAI\n" +
+                              line("ElementSpacing", {grid.spacing_mm[0], grid.spacing_mm[1], grid.spacing_mm[2]}) +
+                              line("DimSize", {double(grid.size[0]), double(grid.size[1]), double(grid.size[2])}) +
+                              "ElementType = " + type + "\n" + kVoxelsFollow;
+    const std::string first = "ObjectType = Image\nNDims = 3\nComment = voxels are aligned ";
     const std::size_t least = first.size() + 1 + lines.size();
     const std::size_t missing = (kVoxelAlignment - least % kVoxelAlignment) % kVoxelAlignment;
     return first + std::string(missing, '.') + "\n" + lines;
-}
-
-std::string packedHeader(const Grid& grid, const std::string& type, std::size_t packed_bytes)
-{
-    return kFirst +
-           linesOf(grid, type, "CompressedData = True\nCompressedDataSize = " + std::to_string(packed_bytes) + "\n");
 }
 
 bool isPlainHeader(const fs::path& file)

@@ -13,8 +13,6 @@ constexpr std::size_t kVoxelAlignment = 64;
 /// The header of a MetaImage whose raw voxels follow in the same file, a multiple of kVoxelAlignment bytes long.
 /// @param type the format's name of the voxel type, "MET_SHORT"
 std::string rawHeader(const Grid& grid, const std::string& type);
-/// The same where a zlib stream of them follows, of so many bytes.
-std::string packedHeader(const Grid& grid, const std::string& type, std::size_t packed_bytes);
 
 /// Whether a file's header is as plain as those that ITK and VICON write: printed characters, nothing said twice, three
 /// dimensions, the voxels in the same file, as binary numbers, the lowest byte first. MetaIO reads two thousand million
