@@ -116,7 +116,7 @@ template CommandOption CommandLine::option(const std::string&, std::uint64_t&, c
 template CommandOption CommandLine::option(const std::string&, std::vector<std::string>&, const std::string&);
 
 CommandOption CommandLine::choice(const std::string& name, const std::vector<std::string>& words,
-                                  std::function<void(const std::string&)> take, const std::string& help,
+                                  const std::function<void(const std::string&)>& take, const std::string& help,
                                   const std::string& usual)
 {
     CLI::Option* const option = app_->add_option_function<std::string>(name, take, help);

@@ -81,7 +81,7 @@ public:
 
 private:
     CommandOption choice(const std::string& name, const std::vector<std::string>& words,
-                         std::function<void(const std::string&)> take, const std::string& help,
+                         const std::function<void(const std::string&)>& take, const std::string& help,
                          const std::string& usual);
 
     CLI::App* app_;

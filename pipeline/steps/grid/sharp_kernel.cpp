@@ -73,14 +73,14 @@ std::vector<float> gaussianHalf(double sigma_voxels)
 /// Blurs a line of values that lie `apart` from each other; beyond its ends the last ones go on.
 void blurLine(float* values, int count, std::ptrdiff_t apart, const std::vector<float>& half, std::vector<float>& line)
 {
-    const int reach = int(half.size()) - 1;
-    line.resize(std::size_t(count + 2 * reach));
-    for (int n = 0; n < count + 2 * reach; ++n)
-        line[std::size_t(n)] = values[std::clamp(n - reach, 0, count - 1) * apart];
-    for (int n = 0; n < count; ++n) {
-        const float* at = &line[std::size_t(n + reach)];
+    const auto reach = std::ptrdiff_t(half.size()) - 1;
+    line.clear();
+    for (std::ptrdiff_t n = -reach; n < count + reach; ++n)
+        line.push_back(values[std::clamp<std::ptrdiff_t>(n, 0, count - 1) * apart]);
+    for (std::ptrdiff_t n = 0; n < count; ++n) {
+        const float* at = line.data() + n + reach;
         float sum = half[0] * at[0];
-        for (int m = 1; m <= reach; ++m)
+        for (std::ptrdiff_t m = 1; m <= reach; ++m)
             sum += half[std::size_t(m)] * (at[-m] + at[m]);
         values[n * apart] = sum;
     }
