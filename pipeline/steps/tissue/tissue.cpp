@@ -36,7 +36,6 @@ namespace {
 constexpr int kTagged_voxels = 4;
 /// Two sigma beyond the lumen a fiftieth of its contrast is left.
 constexpr int kShining_voxels = 2;
-/// Of the cleansed densities, as the field has them, whatever the options say of the wall: gas and tissue.
 
 /// @param near_fluid what is near fluid
 std::vector<std::uint8_t> nearGasToo(const InsideVolume& inside, const std::vector<std::uint8_t>& near_fluid)
