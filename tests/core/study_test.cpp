@@ -33,5 +33,16 @@ TEST(ScanRole, HasAName)
     EXPECT_THROW(scanRoleFrom("scout"), Error);
 }
 
+TEST(Series, IsReadFromJson)
+{
+    const Series series{.uid = "1.2.3", .number = 7, .description = "colon", .kvp = 120, .lossy = true};
+    const nlohmann::json json = series;
+    EXPECT_EQ(json.get<Series>().number, 7);
+    EXPECT_EQ(json.get<Series>().description, "colon");
+    EXPECT_EQ(nlohmann::json::object().get<Series>().number, Series{}.number) << "what is missing is as by default";
+    for (const double bad : {2e23, -2e23, 3e9})
+        EXPECT_THROW((void)nlohmann::json({{"number", bad}}).get<Series>(), nlohmann::json::exception) << bad;
+}
+
 }  // namespace
 }  // namespace vicon
