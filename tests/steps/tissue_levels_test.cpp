@@ -65,6 +65,63 @@ TEST_P(Risen, FluidIsNoLedgeOfTheWall)
 
 INSTANTIATE_TEST_SUITE_P(Walls, Risen, testing::Values(60.0, 90.0, 120.0, 135.0));
 
+/// Gas lies flat under a ceiling, and its ends are round, as fluid draws them: what remains of the lumen there is a
+/// wedge of fluid that is thinner than the blur.
+struct FlatGas {
+    double ceiling_mm;  ///< radius of the tube
+    double height_mm;   ///< of the gas
+    double round_mm;    ///< radius of its ends
+
+    bool isTissue(Point3 p) const { return std::hypot(p.x, p.y - middle_mm()) > ceiling_mm; }
+    bool isGas(Point3 p) const { return std::hypot(p.x - nearest(p).x, p.y - nearest(p).y) < round_mm; }
+    Point3 end() const
+    {
+        const double r = ceiling_mm - round_mm, y = middle_mm() - kLevel_mm + round_mm;
+        return {std::sqrt(r * r - y * y), kLevel_mm - round_mm, 0};
+    }
+
+private:
+    double middle_mm() const { return kLevel_mm + ceiling_mm - height_mm; }
+    /// Of the places that are the end's radius within the gas.
+    Point3 nearest(Point3 p) const
+    {
+        const double r = ceiling_mm - round_mm, off = std::hypot(p.x, p.y - middle_mm());
+        const double top = kLevel_mm - round_mm;
+        const Point3 on = off > r ? Point3{p.x * r / off, middle_mm() + (p.y - middle_mm()) * r / off, 0} : p;
+        if (on.y <= top)
+            return on;
+        if (std::hypot(p.x, top - middle_mm()) <= r)
+            return {p.x, top, 0};
+        return {std::copysign(end().x, p.x), top, 0};
+    }
+    static constexpr double kLevel_mm = 0.1;
+};
+
+class FlatGasUnderACeiling : public testing::TestWithParam<FlatGas> {};
+
+TEST_P(FlatGasUnderACeiling, LeavesNoRidgeAtItsEnds)
+{
+    const FlatGas gas = GetParam();
+    for (const double noise_hu : {0.0, 20.0}) {
+        const Scene scene([&](Point3 p) { return gas.isTissue(p); },
+                          std::function([&](Point3 p) { return gas.isGas(p) ? 1e3 : -1e3; }), noise_hu);
+        const TissueResult result = scene.find();
+        double squares = 0;
+        int count = 0;
+        scene.forEach(result.tissue, kMargin_mm, [&](Point3 p, double found, double truth) {
+            if (std::hypot(std::abs(p.x) - gas.end().x, p.y - gas.end().y) < 3 + gas.round_mm) {
+                squares += (found - truth) * (found - truth);
+                ++count;
+            }
+        });
+        EXPECT_LT(std::sqrt(squares / count), 0.05) << noise_hu << " HU of noise";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ends, FlatGasUnderACeiling,
+                         testing::Values(FlatGas{20, 5, 2}, FlatGas{20, 5, 1}, FlatGas{20, 3, 1.4}, FlatGas{14, 5, 2},
+                                         FlatGas{14, 8, 2}, FlatGas{30, 5, 2.4}));
+
 /// What crosses a level or is half sunk keeps its shape.
 TEST(Tissue, FoldsAndBallsAtALevelKeepTheirShape)
 {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -137,21 +137,17 @@ TissueShare tissueBeside(const Mixture& mixture, double hu, double content_hu, d
             std::min(1.0, off_hu * off_hu / (telling_hu * telling_hu))};
 }
 
-std::vector<LevelVoxel> applyLevels(const Mixture& mixture, const DownAxis& down, const FluidLevels& levels,
-                                    double noise_hu, TissueVolume& tissue)
+std::size_t applyLevels(const Mixture& mixture, const DownAxis& down, const FluidLevels& levels, double noise_hu,
+                        TissueVolume& tissue)
 {
     // Columns are taken one after the other where two levels' layers overlap: the later one, farther from its level's
     // own gas and fluid, must not undo the earlier.
     Layer layer(mixture, down, noise_hu);
-    std::unordered_map<std::size_t, std::uint32_t> column_of;
-    column_of.reserve(levels.columns.size() * 8);
+    std::unordered_set<std::size_t> voxels;
+    voxels.reserve(levels.columns.size() * 8);
     for (std::size_t n = levels.columns.size(); n-- > 0;)
-        layer.set(levels.columns[n], tissue, [&](Index3 v) { column_of[tissue.grid.offset(v)] = std::uint32_t(n); });
-    std::vector<LevelVoxel> voxels;
-    voxels.reserve(column_of.size());
-    for (const auto& [offset, column] : column_of)
-        voxels.push_back({tissue.grid.indexOf(offset), column});
-    return voxels;
+        layer.set(levels.columns[n], tissue, [&](Index3 v) { voxels.insert(tissue.grid.offset(v)); });
+    return voxels.size();
 }
 
 }  // namespace vicon::steps

@@ -49,12 +49,6 @@ std::optional<double> crossingNear(const Mixture& mixture, const DownAxis& down,
 /// Where the middle of the step lies when it passes tissue's density at `crossing`.
 double planeOf(double crossing, const LevelColumn& column, const Mixture& mixture);
 
-/// A voxel of a level's blurred layer.
-struct LevelVoxel {
-    Index3 at;
-    std::uint32_t column = 0;  ///< whose plane it has
-};
-
 /// What a voxel's density says of the tissue in it, if all else has another density.
 struct TissueShare {
     double fraction = 0;
@@ -64,8 +58,8 @@ TissueShare tissueBeside(const Mixture& mixture, double hu, double content_hu, d
 
 /// Sets the fraction of tissue in the blurred layers of the levels: gas and fluid share what is not tissue as the
 /// blurred plane does.
-/// @return the voxels set, in no order; where two layers overlap, each once
-std::vector<LevelVoxel> applyLevels(const Mixture& mixture, const DownAxis& down, const FluidLevels& levels,
-                                    double noise_hu, TissueVolume& tissue);
+/// @return how many voxels were set; where two layers overlap, each once
+std::size_t applyLevels(const Mixture& mixture, const DownAxis& down, const FluidLevels& levels, double noise_hu,
+                        TissueVolume& tissue);
 
 }  // namespace vicon::steps

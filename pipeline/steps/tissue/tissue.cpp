@@ -14,7 +14,7 @@
 #include "grid/voxel_lists.h"
 #include "tissue/edge_model.h"
 #include "tissue/faint_walls.h"
-#include "tissue/level_wall.h"
+#include "tissue/junctions.h"
 #include "tissue/levels.h"
 #include "tissue/lumen_of_tissue.h"
 #include "tissue/mottled.h"
@@ -46,6 +46,20 @@ std::vector<std::uint8_t> nearGasToo(const InsideVolume& inside, const std::vect
             near[n] = near[n] && near_fluid[n] ? 1 : 0;
     });
     return near;
+}
+
+/// The density of stool is not known as that of fluid is: its blur takes it from a film.
+std::vector<std::uint8_t> awayFromStool(std::vector<std::uint8_t> mask, const Stool& stool, const Grid& grid)
+{
+    constexpr int kAway = kTagged_voxels;
+    for (const std::size_t n : stool.dense) {
+        const Index3 v = grid.indexOf(n);
+        const int first = std::max(0, v.i - kAway), last = std::min(grid.size[0] - 1, v.i + kAway);
+        for (int k = std::max(0, v.k - kAway); k <= std::min(grid.size[2] - 1, v.k + kAway); ++k)
+            for (int j = std::max(0, v.j - kAway); j <= std::min(grid.size[1] - 1, v.j + kAway); ++j)
+                std::fill_n(&mask[grid.offset({first, j, k})], last - first + 1, std::uint8_t(0));
+    }
+    return mask;
 }
 
 /// The densities, and those of the fraction where the lumen's tagging is or shines: as far as that is from the lumen
@@ -146,16 +160,6 @@ void setBesideStool(const Mixture& mixture, const Stool& stool, TissueVolume& ti
         tissue.voxels[n] = stored(mixture.fraction(mixture.hu(tissue.grid.indexOf(n)), mixture.gas_hu));
 }
 
-/// Sets the fraction in the levels' layers: column by column, and beside the wall along it.
-/// @return the number of voxels
-std::size_t modelLevels(const Mixture& mixture, const DownAxis& down, double noise_hu, const FluidLevels& levels,
-                        TissueVolume& tissue)
-{
-    const LevelVoxels voxels(applyLevels(mixture, down, levels, noise_hu, tissue), tissue.grid, down);
-    refineAtWall(mixture, down, levels, voxels, noise_hu, tissue);
-    return voxels.size();
-}
-
 }  // namespace
 
 TissueResult findTissue(const HuVolume& acquired_hu, const InsideVolume& labels, Vector3 gravity,
@@ -173,14 +177,17 @@ TissueResult findTissue(const HuVolume& acquired_hu, const InsideVolume& labels,
     const FluidDensity fluid(mixture, noise_hu, options.tag_contrast_hu);
     progress.check();
     progress.report(0.2, "tissue");
+    const double blur_voxels = blur_mm / inside.grid.spacing_mm[std::size_t(down.axis)];
     TissueResult result;
-    result.tissue = fractionAtEdges(mixture, fluid, down, blur_mm / inside.grid.spacing_mm[std::size_t(down.axis)]);
+    result.tissue = fractionAtEdges(mixture, fluid, down, blur_voxels);
     progress.check();
     progress.report(0.5, "tissue");
     setBesideStool(mixture, stool, result.tissue);
-    const std::size_t in_levels = modelLevels(mixture, down, noise_hu, levels, result.tissue);
-    const auto near_fluid = nearMask(inside, kFluid, kTagged_voxels);
-    smoothAlongWall(nearGasToo(inside, near_fluid), result.tissue);
+    const std::size_t in_levels = applyLevels(mixture, down, levels, noise_hu, result.tissue);
+    const auto near_both = nearGasToo(inside, nearMask(inside, kFluid, kTagged_voxels));
+    settleJunctions(mixture, fluid, down, awayFromStool(near_both, stool, inside.grid), blur_voxels, noise_hu,
+                    result.tissue);
+    smoothAlongWall(near_both, result.tissue);
     const SheetsFound sheets = keepSheets(inside, stool, down, FractionNoise(mixture, fluid, noise_hu), result.tissue);
     setBesideStool(mixture, stool, result.tissue);  // what passes through the densities of tissue looks like a sheet
     progress.check();
