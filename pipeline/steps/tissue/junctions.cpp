@@ -149,7 +149,7 @@ private:
     /// @return whether there is any
     bool setFluid(Index3 first, Subvoxels& box) const
     {
-        constexpr int kBlock = 4, kBlocks = Subvoxels::kEdge / kBlock;
+        constexpr int kBlock = 4, kBlocks = Subvoxels::kEdge / kBlock;  // voxels, and blocks in a box: 2.8 mm
         std::array<float, std::size_t(kBlocks) * kBlocks * kBlocks> blocks{};
         float sum = 0;
         int count = 0;
@@ -165,7 +165,8 @@ private:
         if (count == 0)
             return false;
         forBox(0, [&](int i, int j, int k) {
-            const float hu = blocks[std::size_t(i / kBlock + kBlocks * (j / kBlock + kBlocks * (k / kBlock)))];
+            const int block = i / kBlock + kBlocks * (j / kBlock + kBlocks * (k / kBlock));
+            const float hu = blocks[std::size_t(block)];
             box.at(i, j, k).fluid_hu = hu > 0 ? hu : sum / float(count);
         });
         return true;

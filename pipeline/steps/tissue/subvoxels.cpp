@@ -51,11 +51,11 @@ Subvoxels::Subvoxels(const Scan& scan)
 {
     const double blur2 = std::max(kLeastBlur2, scan.blur_voxels * scan.blur_voxels - kOfPart);
     for (std::size_t upper = 0; upper < 2; ++upper) {
-        double sum = 0;
-        for (int d = -kReach; d <= kReach; ++d) {
-            const double off = d - (upper ? 0.25 : -0.25);
-            kernel_[upper][std::size_t(d + kReach)] = float(std::exp(-0.5 * off * off / blur2));
-            sum += double(kernel_[upper][std::size_t(d + kReach)]);
+        double sum = 0, off = -kReach - (upper ? 0.25 : -0.25);
+        for (float& weight : kernel_[upper]) {
+            weight = float(std::exp(-0.5 * off * off / blur2));
+            sum += double(weight);
+            ++off;
         }
         for (float& weight : kernel_[upper])
             weight /= float(2 * sum);
@@ -157,6 +157,13 @@ void Subvoxels::blurParts()
         residual_hu_[v] = voxels_[v].is_solved ? residual_hu_[v] - voxels_[v].hu : 0;
 }
 
+/// What a part gives a voxel along an axis, by their places there.
+float Subvoxels::weightOf(int part, int voxel) const
+{
+    const int upper = part % 2, off = voxel - part / 2 + kReach;
+    return kernel_[std::size_t(upper)][std::size_t(off)];
+}
+
 /// Along one axis after the other, from parts to voxels.
 template <class ValueOf>
 void Subvoxels::blur(std::vector<float>& out, ValueOf valueOf)
@@ -171,7 +178,7 @@ void Subvoxels::blur(std::vector<float>& out, ValueOf valueOf)
             for (int i = 0; i < kParts; ++i)
                 row[std::size_t(i)] = needed[i / 2] ? valueOf(part(i, j, k), voxel(i / 2, j / 2, k / 2)) : 0.0F;
             for (int to = std::max(0, k / 2 - kReach); to <= std::min(kEdge - 1, k / 2 + kReach); ++to) {
-                const float weight = kernel_[std::size_t(k % 2)][std::size_t(to - k / 2 + kReach)];
+                const float weight = weightOf(k, to);
                 float* sums =
                     &by_slices_[std::size_t(kParts) * (std::size_t(j) + std::size_t(kParts) * std::size_t(to))];
                 for (std::size_t i = 0; i < kParts; ++i)
@@ -182,7 +189,7 @@ void Subvoxels::blur(std::vector<float>& out, ValueOf valueOf)
     for (int k = 0; k < kEdge; ++k)
         for (int j = 2; j < kParts - 2; ++j)
             for (int to = std::max(0, j / 2 - kReach); to <= std::min(kEdge - 1, j / 2 + kReach); ++to) {
-                const float weight = kernel_[std::size_t(j % 2)][std::size_t(to - j / 2 + kReach)];
+                const float weight = weightOf(j, to);
                 const float* from =
                     &by_slices_[std::size_t(kParts) * (std::size_t(j) + std::size_t(kParts) * std::size_t(k))];
                 float* sums = &by_rows_[std::size_t(kParts) * (std::size_t(to) + std::size_t(kEdge) * std::size_t(k))];
@@ -194,9 +201,8 @@ void Subvoxels::blur(std::vector<float>& out, ValueOf valueOf)
             const float* from = &by_rows_[std::size_t(kParts) * (std::size_t(j) + std::size_t(kEdge) * std::size_t(k))];
             for (int i = kBorder; i < kEdge - kBorder; ++i) {
                 float sum = 0;
-                for (int d = -kReach; d <= kReach; ++d)
-                    for (int upper = 0; upper < 2; ++upper)
-                        sum += kernel_[std::size_t(upper)][std::size_t(kReach - d)] * from[2 * (i + d) + upper];
+                for (int n = 2 * (i - kReach); n < 2 * (i + kReach + 1); ++n)
+                    sum += weightOf(n, i) * from[n];
                 out[voxel(i, j, k)] = sum;
             }
         }
@@ -208,7 +214,7 @@ void Subvoxels::blur(std::vector<float>& out, ValueOf valueOf)
 int Subvoxels::sweep(int number)
 {
     int changed = 0;
-    constexpr int kFirst = kBorder, kLast = kEdge - kBorder - 1;
+    constexpr int kFirst = kBorder, kLast = kEdge - kBorder - 1;  // that may be solved
     const auto ofSweep = [number](int n) { return number % 2 ? n : kFirst + kLast - n; };
     for (int k = kFirst; k <= kLast; ++k)
         for (int j = kFirst; j <= kLast; ++j)
@@ -232,7 +238,7 @@ bool Subvoxels::settle(int i, int j, int k, int number)
 {
     const std::size_t n = part(i, j, k);
     const std::uint8_t own = parts_[n];
-    constexpr std::size_t kRow = kParts, kSlice = std::size_t(kParts) * kParts;
+    constexpr std::size_t kRow = kParts, kSlice = std::size_t(kParts) * kParts;  // between parts side by side
     std::array<bool, 3> is_beside{};
     for (const std::size_t step : {std::size_t(1), kRow, kSlice})
         is_beside[parts_[n - step]] = is_beside[parts_[n + step]] = true;
@@ -266,11 +272,13 @@ std::array<float, 3> Subvoxels::surfaceOf(std::size_t n) const
 {
     std::array<float, 3> any{};
     float fluid_of_gas = 0, gas_of_fluid = 0;
+    constexpr std::ptrdiff_t kRow = kParts;  // between parts side by side
     std::size_t place = 0;
     for (int dk = -1; dk <= 1; ++dk)
         for (int dj = -1; dj <= 1; ++dj)
             for (int di = -1; di <= 1; ++di, ++place) {
-                const std::uint8_t other = parts_[std::size_t(std::ptrdiff_t(n) + di + kParts * (dj + kParts * dk))];
+                const std::ptrdiff_t step = di + kRow * (dj + kRow * dk);
+                const std::uint8_t other = parts_[std::size_t(std::ptrdiff_t(n) + step)];
                 any[other] += beside_[place];
                 fluid_of_gas += other == fluid ? fluid_beside_[place] : 0;
                 gas_of_fluid += other == gas ? gas_beside_[place] : 0;

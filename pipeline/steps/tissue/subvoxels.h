@@ -58,6 +58,7 @@ private:
     void markNeeded();
     void setParts(int i, int j, int k);
     void blurParts();
+    float weightOf(int part, int voxel) const;
     template <class ValueOf>
     void blur(std::vector<float>& out, ValueOf valueOf);
     int sweep(int number);

@@ -51,12 +51,11 @@ std::vector<std::uint8_t> nearGasToo(const InsideVolume& inside, const std::vect
 /// The density of stool is not known as that of fluid is: its blur takes it from a film.
 std::vector<std::uint8_t> awayFromStool(std::vector<std::uint8_t> mask, const Stool& stool, const Grid& grid)
 {
-    constexpr int kAway = kTagged_voxels;
     for (const std::size_t n : stool.dense) {
         const Index3 v = grid.indexOf(n);
-        const int first = std::max(0, v.i - kAway), last = std::min(grid.size[0] - 1, v.i + kAway);
-        for (int k = std::max(0, v.k - kAway); k <= std::min(grid.size[2] - 1, v.k + kAway); ++k)
-            for (int j = std::max(0, v.j - kAway); j <= std::min(grid.size[1] - 1, v.j + kAway); ++j)
+        const int first = std::max(0, v.i - kTagged_voxels), last = std::min(grid.size[0] - 1, v.i + kTagged_voxels);
+        for (int k = std::max(0, v.k - kTagged_voxels); k <= std::min(grid.size[2] - 1, v.k + kTagged_voxels); ++k)
+            for (int j = std::max(0, v.j - kTagged_voxels); j <= std::min(grid.size[1] - 1, v.j + kTagged_voxels); ++j)
                 std::fill_n(&mask[grid.offset({first, j, k})], last - first + 1, std::uint8_t(0));
     }
     return mask;
