@@ -103,7 +103,7 @@ private:
         bool any = false;
         forBox(Subvoxels::kBorder, [&](int i, int j, int k) {
             const Index3 v{first.i + i, first.j + j, first.k + k};
-            if (!isInner(v) || !near_[tissue_.grid.offset(v)] || !isBesideWall(box, i, j, k) || isBetweenGas(v))
+            if (!isInner(v) || near_[tissue_.grid.offset(v)] != 1 || !isBesideWall(box, i, j, k) || isBetweenGas(v))
                 return;
             box.at(i, j, k).is_solved = true;
             any = true;

@@ -48,17 +48,17 @@ std::vector<std::uint8_t> nearGasToo(const InsideVolume& inside, const std::vect
     return near;
 }
 
-/// The density of stool is not known as that of fluid is: its blur takes it from a film.
-std::vector<std::uint8_t> awayFromStool(std::vector<std::uint8_t> mask, const Stool& stool, const Grid& grid)
+/// Marks what is near stool with 2: its density is not known as that of fluid is, for blur takes it from a film.
+void markNearStool(std::vector<std::uint8_t>& near, const Stool& stool, const Grid& grid)
 {
     for (const std::size_t n : stool.dense) {
         const Index3 v = grid.indexOf(n);
         const int first = std::max(0, v.i - kTagged_voxels), last = std::min(grid.size[0] - 1, v.i + kTagged_voxels);
         for (int k = std::max(0, v.k - kTagged_voxels); k <= std::min(grid.size[2] - 1, v.k + kTagged_voxels); ++k)
             for (int j = std::max(0, v.j - kTagged_voxels); j <= std::min(grid.size[1] - 1, v.j + kTagged_voxels); ++j)
-                std::fill_n(&mask[grid.offset({first, j, k})], last - first + 1, std::uint8_t(0));
+                for (std::size_t m = grid.offset({first, j, k}); m <= grid.offset({last, j, k}); ++m)
+                    near[m] = near[m] ? 2 : 0;
     }
-    return mask;
 }
 
 /// The densities, and those of the fraction where the lumen's tagging is or shines: as far as that is from the lumen
@@ -183,9 +183,9 @@ TissueResult findTissue(const HuVolume& acquired_hu, const InsideVolume& labels,
     progress.report(0.5, "tissue");
     setBesideStool(mixture, stool, result.tissue);
     const std::size_t in_levels = applyLevels(mixture, down, levels, noise_hu, result.tissue);
-    const auto near_both = nearGasToo(inside, nearMask(inside, kFluid, kTagged_voxels));
-    settleJunctions(mixture, fluid, down, awayFromStool(near_both, stool, inside.grid), blur_voxels, noise_hu,
-                    result.tissue);
+    auto near_both = nearGasToo(inside, nearMask(inside, kFluid, kTagged_voxels));
+    markNearStool(near_both, stool, inside.grid);
+    settleJunctions(mixture, fluid, down, near_both, blur_voxels, noise_hu, result.tissue);
     smoothAlongWall(near_both, result.tissue);
     const SheetsFound sheets = keepSheets(inside, stool, down, FractionNoise(mixture, fluid, noise_hu), result.tissue);
     setBesideStool(mixture, stool, result.tissue);  // what passes through the densities of tissue looks like a sheet
