@@ -22,6 +22,8 @@ constexpr float kSomeWall = 0.4F;
 constexpr int kBesideWall_voxels = 3;
 /// What has gas so near on both sides along an axis is thin: 1.4 mm each. More leaves out polyps of 6 mm.
 constexpr int kThin_voxels = 2;
+/// Gas that is not labelled is that of a bubble: so far from it nothing is solved. Chosen on phantom 402 with bubbles.
+constexpr int kBesideBubble_voxels = 4;
 /// Voxels so near to the border of the scan are left as they are.
 constexpr int kBorder_voxels = 4;
 
@@ -100,15 +102,43 @@ private:
             const Index3 v{first.i + i, first.j + j, first.k + k};
             box.at(i, j, k) = {.hu = float(mixture_.hu(v)), .tissue = float(tissue_.valueOr(v, 255)) / kWhole};
         });
+        const std::vector<std::uint8_t> is_beside_bubble = besideBubbles(first, box);
         bool any = false;
         forBox(Subvoxels::kBorder, [&](int i, int j, int k) {
             const Index3 v{first.i + i, first.j + j, first.k + k};
-            if (!isInner(v) || near_[tissue_.grid.offset(v)] != 1 || !isBesideWall(box, i, j, k) || isBetweenGas(v))
+            if (is_beside_bubble[inBox(i, j, k)] || !isInner(v) || near_[tissue_.grid.offset(v)] != 1 ||
+                !isBesideWall(box, i, j, k) || isBetweenGas(v))
                 return;
             box.at(i, j, k).is_solved = true;
             any = true;
         });
         return any && setFluid(first, box);
+    }
+
+    static std::size_t inBox(int i, int j, int k)
+    {
+        constexpr std::size_t kEdge = Subvoxels::kEdge;  // so that nothing is multiplied as an int
+        return std::size_t(i) + kEdge * (std::size_t(j) + kEdge * std::size_t(k));
+    }
+
+    /// 1 near gas that is not the lumen's: over a bubble fluid hangs without a wall.
+    std::vector<std::uint8_t> besideBubbles(Index3 first, Subvoxels& box) const
+    {
+        constexpr int kLast = Subvoxels::kEdge - 1;  // voxel of a row
+        const double bubble_hu = (3 * mixture_.gas_hu + mixture_.tissue_hu) / 4;
+        std::vector<std::uint8_t> is_beside(inBox(kLast, kLast, kLast) + 1);
+        forBox(0, [&](int i, int j, int k) {
+            const Index3 v{first.i + i, first.j + j, first.k + k};
+            if (double(box.at(i, j, k).hu) > bubble_hu || mixture_.inside.valueOr(v, kGas) != kOutside)
+                return;
+            const int begin = std::max(0, i - kBesideBubble_voxels), end = std::min(kLast, i + kBesideBubble_voxels);
+            for (int bk = std::max(0, k - kBesideBubble_voxels); bk <= std::min(kLast, k + kBesideBubble_voxels); ++bk)
+                for (int bj = std::max(0, j - kBesideBubble_voxels); bj <= std::min(kLast, j + kBesideBubble_voxels);
+                     ++bj)
+                    for (int bi = begin; bi <= end; ++bi)
+                        is_beside[inBox(bi, bj, bk)] = 1;
+        });
+        return is_beside;
     }
 
     bool isInner(Index3 v) const
