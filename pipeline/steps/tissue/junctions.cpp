@@ -106,7 +106,7 @@ private:
         bool any = false;
         forBox(Subvoxels::kBorder, [&](int i, int j, int k) {
             const Index3 v{first.i + i, first.j + j, first.k + k};
-            if (is_beside_bubble[inBox(i, j, k)] || !isInner(v) || near_[tissue_.grid.offset(v)] != 1 ||
+            if (is_beside_bubble[Subvoxels::voxel(i, j, k)] || !isInner(v) || near_[tissue_.grid.offset(v)] != 1 ||
                 !isBesideWall(box, i, j, k) || isBetweenGas(v))
                 return;
             box.at(i, j, k).is_solved = true;
@@ -115,18 +115,12 @@ private:
         return any && setFluid(first, box);
     }
 
-    static std::size_t inBox(int i, int j, int k)
-    {
-        constexpr std::size_t kEdge = Subvoxels::kEdge;  // so that nothing is multiplied as an int
-        return std::size_t(i) + kEdge * (std::size_t(j) + kEdge * std::size_t(k));
-    }
-
     /// 1 near gas that is not the lumen's: over a bubble fluid hangs without a wall.
     std::vector<std::uint8_t> besideBubbles(Index3 first, Subvoxels& box) const
     {
         constexpr int kLast = Subvoxels::kEdge - 1;  // voxel of a row
         const double bubble_hu = (3 * mixture_.gas_hu + mixture_.tissue_hu) / 4;
-        std::vector<std::uint8_t> is_beside(inBox(kLast, kLast, kLast) + 1);
+        std::vector<std::uint8_t> is_beside(Subvoxels::voxel(kLast, kLast, kLast) + 1);
         forBox(0, [&](int i, int j, int k) {
             const Index3 v{first.i + i, first.j + j, first.k + k};
             if (double(box.at(i, j, k).hu) > bubble_hu || mixture_.inside.valueOr(v, kGas) != kOutside)
@@ -136,7 +130,7 @@ private:
                 for (int bj = std::max(0, j - kBesideBubble_voxels); bj <= std::min(kLast, j + kBesideBubble_voxels);
                      ++bj)
                     for (int bi = begin; bi <= end; ++bi)
-                        is_beside[inBox(bi, bj, bk)] = 1;
+                        is_beside[Subvoxels::voxel(bi, bj, bk)] = 1;
         });
         return is_beside;
     }
@@ -175,7 +169,8 @@ private:
         return false;
     }
 
-    /// The same in small blocks, as it changes little; where it is not known that of the fluid around.
+    /// Sets the density of fluid, in small blocks, as it changes little; where it is not known that of the fluid
+    /// around.
     /// @return whether there is any
     bool setFluid(Index3 first, Subvoxels& box) const
     {

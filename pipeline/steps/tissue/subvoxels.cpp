@@ -9,7 +9,7 @@ namespace {
 
 // Chosen on tissue_levels_test and tissue_polyps_at_levels_test, at a blur of a voxel and a noise of 0 and 20 HU, and
 // on ctc-prone at 473 to 498 mm, where gas lies flat under a ceiling, and at 1,575 to 1,725 mm, where films lie on
-// folds. Half and double of kSurface change the error of the fraction in the tests by less than 0.02.
+// folds. A kSurface of 0.2 or 0.5 changes the error of the fraction in the tests by 0.011 or less.
 
 /// What a surface between two parts costs, beside half a squared misfit in standard deviations.
 constexpr float kSurface = 0.3F;
@@ -21,7 +21,7 @@ constexpr double kLeastMisfit_hu = 25;
 /// What misses by more, or by so many times the noise, is not explained: a sheet that is thinner than a part.
 constexpr float kUnexplained_hu = 150;
 constexpr double kUnexplainedNoises = 5;
-/// Usually six or seven change something.
+/// It ends earlier where nothing changes. No case recorded.
 constexpr int kMostSweeps = 10;
 /// A part is half a voxel, whose own width adds to the blur; squared, in voxels.
 constexpr double kOfPart = 1.0 / 48;

@@ -34,6 +34,11 @@ public:
 
     explicit Subvoxels(const Scan& scan);
 
+    /// The number of a voxel of the box.
+    static constexpr std::size_t voxel(int i, int j, int k)
+    {
+        return std::size_t(i) + kEdge * (std::size_t(j) + kEdge * std::size_t(k));
+    }
     Voxel& at(int i, int j, int k) { return voxels_[voxel(i, j, k)]; }
     void solve();
     /// Whether the parts found, blurred, have nearly the density of a voxel and of those beside it.
@@ -46,10 +51,6 @@ private:
     static constexpr int kParts = 2 * kEdge;  // along an axis
     static constexpr std::size_t kLanes = 8;  // of the blur's five numbers, with three that are 0
 
-    static constexpr std::size_t voxel(int i, int j, int k)
-    {
-        return std::size_t(i) + kEdge * (std::size_t(j) + kEdge * std::size_t(k));
-    }
     static constexpr std::size_t part(int i, int j, int k)
     {
         return std::size_t(i) + kParts * (std::size_t(j) + kParts * std::size_t(k));
