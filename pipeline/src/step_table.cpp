@@ -139,7 +139,7 @@ std::vector<Step> stepsOfLumen()
          runResample},
         {"segment", 17, 0.3, 0.55, {"resample"}, Densities::whole, segmentFiles, segmentParameters, runSegment},
         {"tissue",
-         14,
+         15,
          0.55,
          0.6,
          {"resample", "segment"},

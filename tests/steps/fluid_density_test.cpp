@@ -31,6 +31,39 @@ TEST(FluidDensity, InSedimentIsThatOfWhatLiesOnBothSides)
     EXPECT_NEAR(density.besides({12, 22, 12}), kSedimentHu - 0.1 * kFluidHu - 4 * kNoise_hu, 1);
 }
 
+TEST(FluidDensity, InAThinFoldWithSedimentOnOneSideLiesBetweenBothSides)
+{
+    // On ctc-prone a fold in the caecum was torn there: it is nearly as dense as the fluid on its other side.
+    constexpr int kFoldHu = 560;
+    const InsideVolume inside(Grid{.size = {24, 24, 24}}, kFluid);
+    HuVolume hu(inside.grid, kFluidHu);
+    for (std::size_t n = 0; n < hu.voxels.size(); ++n) {
+        const Index3 v = hu.grid.indexOf(n);
+        if ((v.i == 12 || v.i == 13) && v.j >= 20)
+            hu.voxels[n] = kSedimentHu;
+        if (v.i == 11 && v.j >= 8)
+            hu.voxels[n] = kFoldHu;
+    }
+    const Mixture mixture(hu, inside, {});
+    const FluidDensity density(mixture, kNoise_hu, TissueOptions{}.tag_contrast_hu);
+    EXPECT_GT(density.besides({11, 22, 12}), density.at({11, 22, 12}) + 80);
+    EXPECT_LT(density.besides({11, 22, 12}), (kFluidHu + kSedimentHu) / 2);
+    for (const Index3 beside : {Index3{11, 14, 12}, Index3{9, 22, 12}})
+        EXPECT_NEAR(density.besides(beside), density.at(beside), 1) << beside.i;
+}
+
+TEST(FluidDensity, OfAPoolIsNotThatOfTheFaintFoldInIt)
+{
+    const InsideVolume inside(Grid{.size = {24, 24, 24}}, kFluid);
+    HuVolume hu(inside.grid, kFluidHu);
+    for (std::size_t n = 0; n < hu.voxels.size(); ++n)
+        if (const int off = std::abs(hu.grid.indexOf(n).i - 12); off < 2)
+            hu.voxels[n] = std::int16_t(off == 0 ? 380 : 560);
+    const Mixture mixture(hu, inside, {});
+    const FluidDensity density(mixture, kNoise_hu, TissueOptions{}.tag_contrast_hu);
+    EXPECT_NEAR(density.at({12, 12, 12}), kFluidHu, 1);
+}
+
 TEST(FluidDensity, OfPoolsBehindAWallAreEachItsOwn)
 {
     InsideVolume inside(Grid{.size = {40, 20, 20}}, kFluid);

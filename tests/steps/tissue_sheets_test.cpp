@@ -68,6 +68,8 @@ TEST_P(Sheets, StayWholeHoweverMuchBlurTakesFromThem)
 INSTANTIATE_TEST_SUITE_P(Thin, Sheets,
                          testing::Values(SheetCase{"gas", 1.5, 20, 0}, SheetCase{"gas, thinner than half", 0.8, 20, 0},
                                          SheetCase{"gas, noise", 1, 20, 30}, SheetCase{"fluid", 1.5, -20, 0},
+                                         SheetCase{"fluid, thinner than half", 0.8, -20, 0},
+                                         SheetCase{"fluid, half", 1.2, -20, 20},
                                          SheetCase{"through the level", 2, 0.1, 0},
                                          SheetCase{"through the level, noise", 2, 0.1, 30}),
                          [](const auto& info) { return std::to_string(info.index); });
@@ -169,6 +171,26 @@ TEST(Tissue, AFoldInSedimentStaysWhole)
             EXPECT_GE(found.tissue.voxels[n], 128) << p.y << " " << p.z;
         }
     }
+}
+
+TEST(Tissue, AThickFoldWithSedimentOnOneSideKeepsItsWidth)
+{
+    constexpr double kThick_mm = 4;
+    Scene scene([](Point3 p) { return std::abs(p.y) > 13 || std::abs(p.z) > 13 || std::abs(p.x) < kThick_mm / 2; },
+                -20);
+    for (std::size_t n = 0; n < scene.grid.voxelCount(); ++n) {
+        const Point3 p = scene.grid.pointAt(scene.grid.indexOf(n));
+        const double sediment = std::erfc((p.x + kThick_mm / 2) / (std::sqrt(2) * kSigma_mm)) / 2;
+        if (std::abs(p.y) < 11 && std::abs(p.z) < 11)
+            scene.hu.voxels[n] = std::int16_t(
+                std::lround(scene.hu.voxels[n] + sediment * kFluidHu * std::clamp((p.y - 4) / 2, 0.0, 1.0)));
+    }
+    double sum = 0, truth_sum = 0;
+    scene.forEach(scene.find().tissue, 6, [&](Point3 p, double fraction, double truth) {
+        sum += p.y > 6 ? fraction : 0;
+        truth_sum += p.y > 6 ? truth : 0;
+    });
+    EXPECT_NEAR(kThick_mm * sum / truth_sum, kThick_mm, 0.1);
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ public:
 
     /// HU at a voxel; 0 where no fluid is near, or it is too faint to be told from tissue.
     double at(Index3 v) const;
-    /// The same, in a layer of sediment that of what lies on both sides of the voxel.
+    /// The same, in a layer of sediment that of what lies on both sides of the voxel; in a thin fold with sediment on
+    /// one side up to the mean of both.
     double besides(Index3 v) const;
 
 private:
@@ -24,7 +25,6 @@ private:
     {
         return std::size_t(i) + std::size_t(size_[0]) * (std::size_t(j) + std::size_t(size_[1]) * std::size_t(k));
     }
-    double dense(Index3 v) const;
     void spreadBrightest();
     void smooth();
     void smoothBlock(Index3 block, const std::vector<float>& sum, const std::vector<float>& weight);
