@@ -58,13 +58,16 @@ std::vector<CaseRecord> found(soci::session& sql, const std::vector<std::string>
     }
 }
 
-/// Where the cases are read from that have a job in this state: from the jobs where there are few, else along all
-/// cases, so that the newest are found soon.
+/// Where the cases are read from that may be in this state. Those that have a job in it: from the jobs where there are
+/// few, else along all cases, so that the newest are found soon.
 std::string casesWith(soci::session& sql, const std::optional<WorkState>& state)
 {
-    const bool known = state && *state != WorkState::kept && *state != WorkState::refused;
-    if (!known)
+    if (!state)
         return "cases c WHERE TRUE";
+    if (*state == WorkState::kept || *state == WorkState::refused)  // of their scans none is worked on
+        return "cases c WHERE NOT EXISTS (SELECT 1 FROM jobs JOIN scans ON scans.case_id = jobs.case_id AND"
+               " scans.id = jobs.scan_id WHERE jobs.case_id = c.id AND scans.role <> '" +
+               nameOf(ScanRole::refused) + "')";
     const std::string jobs = "jobs WHERE state = '" + nameOf(*state) + "'";
     int count = kMostLookedAt;
     if (*state != WorkState::done)  // mostly nearly all, and in no index

@@ -29,6 +29,12 @@ protected:
         makePrivateFolder(store_.scanFolder(id, "s1"));
         store_.addScan(a_case, {.id = "s1", .case_id = id}, {}, true);
     }
+    void setRole(const std::string& id, ScanRole role)
+    {
+        store_.database().write([&](soci::session& sql) {
+            sql << "UPDATE scans SET role = :role WHERE case_id = :id", soci::use(nameOf(role)), soci::use(id);
+        });
+    }
     static std::vector<std::string> idsOf(const WorklistPage& page)
     {
         std::vector<std::string> ids;
@@ -147,6 +153,22 @@ TEST_F(WorklistPages, GiveOnlyCasesThatAreInTheWantedState)
     const WorklistPage last = makeWorklistPage(store_, {}, {.most = 1, .after = "c5", .state = WorkState::queued});
     EXPECT_THAT(idsOf(last), ElementsAre("c4"));
     EXPECT_FALSE(last.more);
+}
+
+TEST_F(WorklistPages, GiveCasesThatNoStepIsDoneOnWhateverWasDoneBefore)
+{
+    for (const char* id : {"c1", "c2", "c3", "c4"})
+        add(id, {});
+    JobQueue queue(store_.database(), {});
+    queue.complete(*queue.claim(thisOwner()));
+    setRole("c1", ScanRole::refused);  // late images spoilt it
+    store_.database().write([&](soci::session& sql) { sql << "DELETE FROM jobs WHERE case_id IN ('c2', 'c4')"; });
+    setRole("c2", ScanRole::kept);
+    setRole("c4", ScanRole::kept);
+    const auto in = [&](WorkState state) { return idsOf(makeWorklistPage(store_, {}, {.state = state})); };
+    EXPECT_THAT(in(WorkState::refused), ElementsAre("c1"));
+    EXPECT_THAT(in(WorkState::kept), ElementsAre("c4", "c2"));
+    EXPECT_THAT(in(WorkState::queued), ElementsAre("c3"));
 }
 
 TEST(WorklistSearch, FindsCasesOfAStoreThatAnEarlierViconMade)
