@@ -21,7 +21,8 @@ constexpr double kBelowHead = 5;  ///< of the table
 /// What the numbers and colours of the chart mean.
 std::string stripLegend(const std::vector<const ScanEntry*>& scans, bool marked)
 {
-    std::string out = "The colon laid straight, as wide as the disc of its cross-section. Blue: tagged fluid.";
+    std::string out =
+        "From the rectum, laid straight and as wide as the disc of its cross-section. Blue: tagged fluid.";
     for (const ScanEntry* entry : scans)
         if (!entry->quality->along.collapsed.empty()) {
             out += " Red: collapsed, under " +

@@ -221,18 +221,17 @@ void StripChart::drawAxis(PageFlow& flow) const
     const double y = flow.y() + kPanelGap;
     flow.pdf.line(flow.page(), xAt(0), y, xAt(longest_mm_), y, kHair, look::kMuted);
     double free_from = 0;
-    const TextLine unit = flow.type.line("cm from the rectum", kLabel);
-    const double unit_left = look::kMargin + width_ - unit.width;
     for (double station_mm = 0; station_mm <= longest_mm_; station_mm += kTicks_mm) {
         const double x = xAt(station_mm);
         flow.pdf.line(flow.page(), x, y, x, y - kTick, kHair, look::kMuted);
         const TextLine figure = flow.type.line(std::to_string(std::lround(station_mm / 10)), kLabel);
-        if (x - figure.width / 2 < free_from || x + figure.width / 2 + kWordGap > unit_left)
+        const double left = std::min(x - figure.width / 2, look::kMargin + width_ - figure.width);
+        if (left < free_from)
             continue;
-        free_from = x + figure.width / 2 + kWordGap;
-        flow.put(x - figure.width / 2, y - kTick, figure, look::kMuted);
+        free_from = left + figure.width + kWordGap;
+        flow.put(left, y - kTick, figure, look::kMuted);
     }
-    flow.put(unit_left, y - kTick, unit, look::kMuted);
+    flow.put(flow.left(), y - kTick, flow.type.line("cm", kLabel), look::kMuted);
 }
 
 }  // namespace vicon::report

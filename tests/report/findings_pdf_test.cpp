@@ -249,7 +249,7 @@ TEST_F(PdfOfFindings, ShowsTheColonLaidStraightWithItsPartsAndWhereFindingsLie)
         return text.find("Distension and fluid along the colon") != std::string::npos;
     });
     ASSERT_NE(page, pages.end());
-    EXPECT_THAT(*page, AllOf(HasSubstr("under 3.0 mm of radius"), HasSubstr("cm from the rectum"), HasSubstr("30 mm")));
+    EXPECT_THAT(*page, AllOf(HasSubstr("under 3.0 mm of radius"), HasSubstr("From the rectum"), HasSubstr("30 mm")));
     std::vector<samples::Word> words = samples::wordsByPage(pdf_).at(std::size_t(page - pages.begin()));
     const auto unit = std::find_if(words.begin(), words.end(), [](const auto& w) { return w.text == "tagged"; });
     std::erase_if(words, [top = unit->top](const samples::Word& w) {
