@@ -143,7 +143,7 @@ void addPolypSize(CaseStore& store, const std::string& case_id, Marker& marker)
     const fs::path folder = store.scanFolder(case_id, marker.scan_id);
     const PolypOutline outline = outlinePolyp(scan_files::readCells(folder / "cells.vtp"),
                                               scan_files::readVolume<std::uint8_t>(folder / "inside.mha"),
-                                              marker.position_mm, blurOfScan_mm(folder));
+                                              marker.position_mm, blurAndNoiseOf(folder));
     if (!outline.size)
         throw Error(ErrorCode::wrong_use, "the polyp cannot be outlined: " + outline.trouble, case_id,
                     "measure it between two clicks in 'vicon read'");

@@ -7,34 +7,42 @@
 namespace vicon {
 namespace {
 
-// What follows was chosen on 1,208 outlined synthetic polyps: 4 to 30 mm, on planes, in tubes and in bends, at a blur
-// of 0.5 to 0.9 mm and a noise of 0 to 80 HU (chain_polyp_size_test's scenes, seeds 74001 to 83100).
+// What follows was chosen on 1,986 outlined synthetic polyps: 4 to 30 mm, on planes, in tubes and in bends, at a blur
+// of 0.5 to 0.9 mm and a noise of 0 to 80 HU (chain_polyp_size_test's scenes, seeds 91001 to 95540).
 
 /// The tissue step's evening out along the wall, as a blur: it rounds corners too.
 constexpr double kSmoothed_mm = 0.5;
 /// How far a corner moves outwards along the wall, in blurs; what the head's height adds, as a low one has no corner of
 /// two long sides; and what a rising wall takes from that.
-constexpr double kCorner = 0.305, kLow = 0.44, kLowOnRise = 0.13;
+constexpr double kCorner = 0.281, kLow = 0.44, kLowOnRise = 0.13;
 /// The largest of 24 chords over a rough rim is too long by so much of its roughness: 24 normal deviates reach 1.95, a
 /// chord has two ends, and the four beside a point deviate too. Not fitted.
 constexpr double kLargestOfRough = 1.98;
 /// The same of the four or so chords that differ in the best plane and those beside it: four deviates reach 1.03.
 constexpr double kLargestInPlane = 1.05;
-// Eight in ten diameters err by less: a part that is always there on the wall, the rim's roughness, part of what low
-// heads and rising walls are corrected by, and what grows with the square of the chord, over which no wall is even.
-constexpr double kAlways_mm = 0.06, kOfRough = 1, kOfLow = 0.235, kOfRise = 0.2, kOfChord_per_mm = 1.55e-4;
-constexpr double kOfRoughOnStalk = 0.82;
+/// What noise adds: it moves the wall in long waves, which are no roughness. By its square, for the largest is taken.
+constexpr double kLonger_per_mm = 6.2e-5;
+// Eight in ten diameters err by less: a part that is always there, the rim's roughness, noise, and on the wall part of
+// what low heads and rising walls are corrected by, and what grows with the square of the chord, over which no wall is
+// even.
+constexpr double kAlways_mm = 0.07, kOfNoise = 0.0048, kOfNoiseOnStalk = 0.0038;
+constexpr double kOfRough = 0.78, kOfRoughOnStalk = 0.52;
+constexpr double kOfLow = 0.133, kOfRise = 0.49, kOfChord_per_mm = 2.7e-4;
+/// Below 6.5 mm blur leaves less of a head than these say: the interval is wider by so much, fully a millimetre below.
+constexpr double kWiderOfSmall = 0.45, kSmall_mm = 6.5;
 
 /// What a volume on the wall gains: between the rim's cone and a wall that rises (a paraboloid's would be 1/4 of the
 /// rise at the rim, which is less than behind it) and at the rounded corner, less what the rim lies outside of the
-/// head. On a stalk: the corner's skirt, and the shell that a ball lost all around.
-constexpr double kSag = 0.22, kRounded = 0.695, kBeyondHead = 0.1, kSkirt = 0.29, kShell = 6.05;
-/// Parts that eight in ten volumes err by. On the wall: always, by low heads, rough rims and large heads, below which
-/// the wall's course is not seen. On a stalk: always, and by the height.
-constexpr double kVolumeOnWall = 0.0215, kVolumeOfLow = 0.13, kVolumeOfRough = 0.1, kVolumeOfRadius_per_mm = 0.0072;
-constexpr double kVolumeOnStalk = 0.0075, kVolumeOfHeight = 0.183;
-/// Below 6 mm blur leaves less of a head than these say: both intervals are wider by so much, fully from 5 mm on.
-constexpr double kWiderOfSmall = 0.35, kSmall_mm = 6;
+/// head; and what blur takes from small ones. On a stalk: the corner's skirt, and the shell that a ball lost all
+/// around, the smallest more.
+constexpr double kSag = 0.208, kRounded = 0.559, kBeyondHead = 0.077, kOfSmallHead = 0.373;
+constexpr double kSkirt = 0.447, kShell = 1.06, kOfSmallBall = 113;
+/// Parts that eight in ten volumes err by: by blur in small heads, by the size of large ones, below which the wall's
+/// course is not seen, and on the wall by rough rims and by noise; on a stalk some always.
+constexpr double kVolumeOfBlur = 0.29, kVolumeOfRough = 0.183, kVolumeOfNoise = 0.0028, kVolumeOfLarge = 0.051;
+constexpr double kVolumeOnStalk = 0.0072, kVolumeOfBlurOnStalk = 0.154, kVolumeOfLargeOnStalk = 0.009;
+constexpr double kLarge_mm = 10;  ///< radius
+constexpr double kSizePower = 1.5;
 
 constexpr double kLeastHeight_mm = 0.3;  // of a head; less is the wall's unevenness
 
@@ -50,7 +58,9 @@ double widerOfSmall(double diameter_mm)
 
 /// What blur and noise made of a head, for all that is corrected.
 struct Distorted {
-    double blur_mm = 0, roughness_mm = 0;
+    double blur_mm = 0;
+    double waves_mm = 0;  ///< noise as it moves a blurred wall: HU and the square of the blur in mm
+    double roughness_mm = 0;
     double height_mm = 0;      ///< as it is seen
     double wall_rise_rad = 0;  ///< wallRise_rad()
 
@@ -71,42 +81,45 @@ struct Distorted {
     {
         const double shrunk = (4 - chord.ends_at_rim) * blur_mm * blur_mm / std::max(chord.length_mm, 1.0);
         return chord.length_mm + shrunk - chord.ends_at_rim * kCorner * roundingBlur_mm(blur_mm) - low_mm(chord) -
-               onRise_mm(chord) - of_rough * roughness_mm;
+               onRise_mm(chord) - of_rough * roughness_mm - kLonger_per_mm * waves_mm * waves_mm;
     }
     double within_mm(const HeadChord& chord) const
     {
         if (!chord.onWall())
-            return kOfRoughOnStalk * roughness_mm;
+            return std::hypot(kAlways_mm, kOfRoughOnStalk * roughness_mm, kOfNoiseOnStalk * waves_mm);
         const double corrected = std::hypot(kOfLow * low_mm(chord), kOfRise * onRise_mm(chord));
-        return std::hypot(std::hypot(kAlways_mm, kOfRough * roughness_mm), corrected,
-                          kOfChord_per_mm * chord.length_mm * chord.length_mm);
+        const double seen = std::hypot(kAlways_mm, kOfRough * roughness_mm, kOfNoise * waves_mm);
+        return std::hypot(seen, corrected, kOfChord_per_mm * chord.length_mm * chord.length_mm);
     }
 };
 
-Distorted distortedOf(const TracedPolyp& polyp, double blur_mm)
+Distorted distortedOf(const TracedPolyp& polyp, const BlurAndNoise& scan)
 {
     const std::vector<Point3> rim = polyp.rimPoints();
     double height_mm = 0;
     for (const Point3& p : rim)
         height_mm += dot(polyp.top - p, polyp.axis) / double(rim.size());
-    return {blur_mm, roughness_mm(rim), std::max(height_mm, kLeastHeight_mm), wallRise_rad(polyp)};
+    return {scan.blur_mm, scan.noise_hu * scan.blur_mm * scan.blur_mm, roughness_mm(rim),
+            std::max(height_mm, kLeastHeight_mm), wallRise_rad(polyp)};
 }
 
 void addVolume(PolypSize& size, const HeadChord& chord, const Distorted& by, double seen_mm3)
 {
     constexpr double kMm3OfMl = 1000;
     const double rounding = roundingBlur_mm(by.blur_mm), radius_mm = size.diameter_mm / 2;
+    const double of_blur = rounding / std::pow(radius_mm, kSizePower);
+    const double of_size = std::pow(radius_mm / kLarge_mm, kSizePower);
     double added_mm = 0, part = 0;  // over the head's base; of the volume
     if (chord.onWall()) {
         added_mm = kSag * by.wall_rise_rad * radius_mm + kRounded * std::sqrt(rounding * by.height_mm) -
-                   kBeyondHead * radius_mm;
-        part = std::hypot(std::hypot(kVolumeOnWall, kVolumeOfLow * std::pow(rounding / by.height_mm, 2)),
-                          kVolumeOfRough * by.roughness_mm / by.height_mm, kVolumeOfRadius_per_mm * radius_mm);
+                   kBeyondHead * radius_mm + kOfSmallHead * rounding * rounding / radius_mm;
+        part = std::hypot(std::hypot(kVolumeOfBlur * of_blur, kVolumeOfRough * by.roughness_mm / by.height_mm),
+                          kVolumeOfNoise * by.waves_mm / radius_mm, kVolumeOfLarge * of_size);
     } else {
-        added_mm = chord.ends_at_rim * kSkirt * rounding + kShell * by.blur_mm * by.blur_mm / size.diameter_mm;
-        part = std::hypot(kVolumeOnStalk, kVolumeOfHeight * rounding / by.height_mm);
+        added_mm = chord.ends_at_rim * kSkirt * rounding + kShell * by.blur_mm * by.blur_mm / size.diameter_mm +
+                   kOfSmallBall * std::pow(rounding, 4) / std::pow(size.diameter_mm, 3);
+        part = std::hypot(kVolumeOnStalk, kVolumeOfBlurOnStalk * of_blur, kVolumeOfLargeOnStalk * of_size);
     }
-    part *= widerOfSmall(size.diameter_mm);
     size.volume_ml = std::max(0.0, seen_mm3 + std::numbers::pi * radius_mm * radius_mm * added_mm) / kMm3OfMl;
     size.volume_least_ml = std::max(0.0, size.volume_ml * (1 - part));
     size.volume_most_ml = size.volume_ml * (1 + part);
@@ -121,9 +134,10 @@ void shortenTo(double length_mm, const HeadChord& chord, Point3& from, Point3& t
 
 }  // namespace
 
-PolypSize figuresOf(const TracedPolyp& polyp, const HeadChord& chord, Point3 middle, double blur_mm)
+PolypSize figuresOf(const TracedPolyp& polyp, const HeadChord& chord, Point3 middle, const BlurAndNoise& scan)
 {
-    const Distorted by = distortedOf(polyp, blur_mm);
+    const Distorted by = distortedOf(polyp, scan);
+    const double blur_mm = scan.blur_mm;
     PolypSize size;
     size.diameter_mm = std::max(by.unblurred_mm(chord), chord.length_mm / 2);
     shortenTo(size.diameter_mm, chord, size.from_mm, size.to_mm);
@@ -140,10 +154,10 @@ PolypSize figuresOf(const TracedPolyp& polyp, const HeadChord& chord, Point3 mid
 }
 
 std::optional<PlaneSize> bestPlaneOf(const TracedPolyp& polyp, const PolypSize& size,
-                                     const std::array<Vector3, 3>& axes, double blur_mm)
+                                     const std::array<Vector3, 3>& axes, const BlurAndNoise& scan)
 {
     constexpr double kBetween_mm = 0.5;  // planes: less than voxels are
-    const Distorted by = distortedOf(polyp, blur_mm);
+    const Distorted by = distortedOf(polyp, scan);
     const int reach = int(std::ceil(2 * size.most_mm / kBetween_mm));
     HeadChord best;
     HeadCut cut_of_best;

@@ -121,8 +121,8 @@ TriedOutline refused(std::string why)
 
 }  // namespace
 
-TriedOutline outlineFrom(const SurfacePatch& patch, const InsideView& lumen, Point3 from, Point3 place, double blur_mm,
-                         const Progress* wanted)
+TriedOutline outlineFrom(const SurfacePatch& patch, const InsideView& lumen, Point3 from, Point3 place,
+                         const BlurAndNoise& scan, const Progress* wanted)
 {
     Point3 top = from;
     Outline outline = outlineAround(patch, top, patch.normalNear(top, kAroundClick_mm));
@@ -155,8 +155,8 @@ TriedOutline outlineFrom(const SurfacePatch& patch, const InsideView& lumen, Poi
         return {refused(kNotItsOwnEdge).outline, true};
     if (std::string trouble = fluidTrouble(outline, lumen); !trouble.empty())
         return {refused(std::move(trouble)).outline, true};
-    const PolypSize size = figuresOf(outline, chord, middle, blur_mm);
-    return {{size, bestPlaneOf(outline, size, lumen.grid.axis, blur_mm), ""}, true};
+    const PolypSize size = figuresOf(outline, chord, middle, scan);
+    return {{size, bestPlaneOf(outline, size, lumen.grid.axis, scan), ""}, true};
 }
 
 }  // namespace vicon

@@ -20,7 +20,7 @@ struct TriedOutline {
 /// Outlines what stands at a point of the wall, if its head holds `place` or lies within kPolypCatch_mm of it.
 /// @param from one of the patch's points
 /// @param lumen the scan's; its axes are those of the planes
-TriedOutline outlineFrom(const SurfacePatch& patch, const InsideView& lumen, Point3 from, Point3 place, double blur_mm,
-                         const Progress* wanted);
+TriedOutline outlineFrom(const SurfacePatch& patch, const InsideView& lumen, Point3 from, Point3 place,
+                         const BlurAndNoise& scan, const Progress* wanted);
 
 }  // namespace vicon

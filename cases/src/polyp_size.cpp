@@ -6,7 +6,6 @@
 #include "polyp_outline.h"
 #include "surface_around.h"
 #include "vicon/cases/step_results.h"
-#include "vicon/core/scanner_blur.h"
 #include "vicon/scan_files/description_file.h"
 
 namespace vicon {
@@ -14,7 +13,7 @@ namespace {
 constexpr double kSamePatch_mm = 5;  // so much of a patch may be missing on the other side: a polyp's reach is far less
 }
 
-PolypOutline outlinePolyp(const CellSurface& surface, const InsideView& lumen, Point3 at, double blur_mm,
+PolypOutline outlinePolyp(const CellSurface& surface, const InsideView& lumen, Point3 at, const BlurAndNoise& scan,
                           const Progress* wanted)
 {
     PolypOutline nearest{{}, {}, "no wall lies near enough"};
@@ -23,7 +22,7 @@ PolypOutline outlinePolyp(const CellSurface& surface, const InsideView& lumen, P
         const bool first = !patch;
         if (first || distance(patch->nearest_mm(), from) > kSamePatch_mm || !patch->holds(from))
             patch.emplace(surface, from, kPolypPatch_mm, kPolypCatch_mm);
-        TriedOutline tried = outlineFrom(*patch, lumen, from, at, blur_mm, wanted);
+        TriedOutline tried = outlineFrom(*patch, lumen, from, at, scan, wanted);
         if (tried.decided)
             return tried.outline;
         if (first)
@@ -32,10 +31,15 @@ PolypOutline outlinePolyp(const CellSurface& surface, const InsideView& lumen, P
     return nearest;
 }
 
-double blurOfScan_mm(const std::filesystem::path& scan_folder)
+BlurAndNoise blurAndNoiseOf(const std::filesystem::path& scan_folder)
 {
     const StepResults results = resultsOf(scan_files::readDescription(scan_folder).steps);
-    return results.tissue ? results.tissue->blur_mm.value_or(kUsualBlur_mm) : kUsualBlur_mm;
+    BlurAndNoise scan;
+    if (results.tissue)
+        scan.blur_mm = results.tissue->blur_mm.value_or(scan.blur_mm);
+    if (results.segment)
+        scan.noise_hu = results.segment->usualNoise_hu().value_or(scan.noise_hu);
+    return scan;
 }
 
 MarkerSize sizeOf(const PolypOutline& outline)

@@ -9,6 +9,7 @@
 #include "vicon/core/error.h"
 #include "vicon/core/geometry_json.h"
 #include "vicon/core/json_text.h"
+#include "vicon/core/usual_densities.h"
 
 using nlohmann::json;
 
@@ -120,6 +121,14 @@ json toJson(const SegmentFound& found)
     for (const Bridge& bridge : found.bridges)
         bridges.push_back(toJson(bridge));
     return out;
+}
+
+std::optional<double> SegmentFound::usualNoise_hu() const
+{
+    const auto percent = measures.find("noise_percent");
+    if (noise_hu || percent == measures.end() || !percent->is_number())
+        return noise_hu;
+    return percent->get<double>() / 100 * (kUsualTissue_hu - kUsualAir_hu);
 }
 
 SegmentFound segmentFoundFromJson(const json& json)

@@ -2,20 +2,12 @@
 
 #include "step_parameters.h"
 #include "vicon/cases/step_results.h"
-#include "vicon/steps/lumen_contrast.h"
 #include "vicon/steps/tissue.h"
 
 using nlohmann::json;
 
 namespace vicon::pipeline {
 namespace {
-
-/// On the scale that the tissue step reads.
-double noiseOf(const SegmentFound& segment)
-{
-    return segment.noise_hu ? *segment.noise_hu
-                            : segment.measures.value("noise_percent", 0.0) / 100 * steps::kLumenToTissue;
-}
 
 constexpr const char* kNoTagging = "none: MR";  // nothing is cleansed then
 
@@ -49,9 +41,9 @@ json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords
     auto options = inputs.config.get<steps::TissueOptions>();
     options.leave_out_other_bowel = !segment.given;
     options.find_stool = inputs.quantity == Quantity::density;
-    steps::TissueResult found =
-        steps::findTissue(results.densitiesAroundLumen(), results.mask(), inputs.gravity,
-                          inputs.config.get<steps::WallDensities>(), noiseOf(segment), progress, options);
+    steps::TissueResult found = steps::findTissue(results.densitiesAroundLumen(), results.mask(), inputs.gravity,
+                                                  inputs.config.get<steps::WallDensities>(),
+                                                  segment.usualNoise_hu().value_or(0), progress, options);
     results.dropMask();
     TissueFound told{
         .blur_mm = found.blur_mm, .untrusted = std::move(found.untrusted), .measures = std::move(found.found)};

@@ -26,7 +26,7 @@ constexpr const char *kAll = "all", *kInHead = "anywhere in the head";
 
 PolypOutline outlineOf(const PolypOnWall& wall, double blur_mm)
 {
-    return outlinePolyp(wall.surface, wall.lumen, wall.click_mm, blur_mm);
+    return outlinePolyp(wall.surface, wall.lumen, wall.click_mm, {blur_mm, 0});
 }
 
 /// What was found of many polyps.
@@ -82,13 +82,14 @@ Tallies talliesOf(const Sizes& diameters_mm, unsigned seed)
     const auto add = [&](const PolypScene& scene, const char* shape, const char* wall_shape) {
         const PolypTruth truth = truthOf(scene);
         const PolypOnWall wall = wallOf(scene);
-        const PolypOutline outline = outlinePolyp(wall.surface, wall.lumen, wall.click_mm, scene.blur_mm);
+        const PolypOutline outline =
+            outlinePolyp(wall.surface, wall.lumen, wall.click_mm, {scene.blur_mm, scene.noise_hu});
         for (const std::string& name :
              {std::string(kAll), std::string(shape), std::string(wall_shape),
               std::to_string(std::lround(scene.diameter_mm)) + " mm", kernelName(scene.blur_mm)})
             tallies[name].add(truth, outline);
         for (const Point3 place : wall.in_head_mm)
-            tallies[kInHead].add(truth, outlinePolyp(wall.surface, wall.lumen, place, scene.blur_mm));
+            tallies[kInHead].add(truth, outlinePolyp(wall.surface, wall.lumen, place, {scene.blur_mm, scene.noise_hu}));
     };
     for (const double diameter_mm : diameters_mm)
         for (const auto& [shape, shape_name] : kShapes)
@@ -261,10 +262,10 @@ TEST(PolypSize, OfABareWallIsNone)
         if (const double d = distance(wall.surface.point(n), wall.click_mm);
             d < 11 && d > distance(farthest, wall.click_mm))
             farthest = wall.surface.point(n);
-    const PolypOutline outline = outlinePolyp(wall.surface, wall.lumen, farthest, scene.blur_mm);
+    const PolypOutline outline = outlinePolyp(wall.surface, wall.lumen, farthest, {scene.blur_mm, scene.noise_hu});
     EXPECT_FALSE(outline.size && outline.size->diameter_mm < 5) << "no polyp is made up";
     const Point3 far_away = wall.click_mm + Vector3{0, 0, 100};
-    EXPECT_FALSE(outlinePolyp(wall.surface, wall.lumen, far_away, scene.blur_mm).size);
+    EXPECT_FALSE(outlinePolyp(wall.surface, wall.lumen, far_away, {}).size);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "vicon/cases/marker_measures.h"
 #include "vicon/core/cell_surface.h"
 #include "vicon/core/progress.h"
+#include "vicon/core/scanner_blur.h"
 #include "vicon/core/volume_view.h"
 
 namespace vicon {
@@ -30,13 +31,13 @@ inline constexpr double kPolypReach_mm = 15;
 /// @param surface the wall, with normals into the lumen
 /// @param lumen the scan's; its axes are those of the planes
 /// @param at in the polyp, within kPolypReach_mm of its surface, or 2 mm beside it
-/// @param blur_mm standard deviation of the scan's blur
 /// Throws Error{cancelled} where `wanted`, if there is one, says so.
-PolypOutline outlinePolyp(const CellSurface& surface, const InsideView& lumen, Point3 at, double blur_mm,
+PolypOutline outlinePolyp(const CellSurface& surface, const InsideView& lumen, Point3 at, const BlurAndNoise& scan,
                           const Progress* wanted = nullptr);
 
-/// The blur that the tissue step measured at the scan's fluid levels, in scan.json; a usual one where there are none.
-double blurOfScan_mm(const std::filesystem::path& scan_folder);
+/// As the steps measured them, in scan.json: the blur at fluid levels, the noise in soft tissue; of MR the noise as
+/// densities between gas and tissue would have it. Usual ones where they are not known.
+BlurAndNoise blurAndNoiseOf(const std::filesystem::path& scan_folder);
 
 /// An outlined polyp's as a marker's size. Only with a size.
 MarkerSize sizeOf(const PolypOutline& outline);

@@ -44,6 +44,9 @@ struct SegmentFound {
 
     /// "colon", "unsure" or "no colon".
     std::string verdictText() const { return vicon::verdictText(verdict, organ_title); }
+    /// The noise where air and tissue have CT's usual densities: of MR on that scale. Nothing where it was not
+    /// measured.
+    std::optional<double> usualNoise_hu() const;
 };
 nlohmann::json toJson(const SegmentFound& found);
 SegmentFound segmentFoundFromJson(const nlohmann::json& json);

@@ -56,7 +56,7 @@ void CaseSession::outlinePolyp(const std::string& scan_id, Point3 at)
     loader_.giveUp(kOutline);
     loader_.postTask(kOutline, [this, scan = of, at](const Progress& wanted) -> Worker::Work {
         const PolypOutline outline = vicon::outlinePolyp(scan->files.cells(), scan->files.inside(), at,
-                                                         blurOfScan_mm(scan->files.folder()), &wanted);
+                                                         blurAndNoiseOf(scan->files.folder()), &wanted);
         return [this, scan, outline] {
             if (scan == openScan(scan->record.id))
                 emit outlined(scan->record.id, outline);
