@@ -148,7 +148,7 @@ std::vector<Step> stepsOfLumen()
          tissueParameters,
          runTissue},
         {"skeleton",
-         13,
+         14,
          0.6,
          0.65,
          {"segment", "tissue"},

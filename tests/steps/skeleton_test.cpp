@@ -205,6 +205,32 @@ TEST(Skeleton, StaysInTheMiddleBesideACollapsedPartInABend)
             }
 }
 
+/// Folds on one side of a wide tube and on the other by turns, as in the second phantom's ascending colon.
+InsideVolume wideWithFolds(double apart_mm, double radius_mm)
+{
+    constexpr double kDepth_mm = 17, kHalf_mm = 2, kHalfLength_mm = 105;
+    return drawMask(centredGrid({60, 60, 220}, 1), [&](Point3 p) {
+        const double fold = std::round(p.z / apart_mm);
+        const double side = int(fold) % 2 == 0 ? 1 : -1;
+        const bool in_fold = std::abs(p.z - fold * apart_mm) < kHalf_mm && side * p.x > radius_mm - kDepth_mm;
+        return std::hypot(p.x, p.y) < radius_mm && std::abs(p.z) < kHalfLength_mm && !in_fold;
+    });
+}
+
+TEST(Skeleton, DoesNotSwingBetweenFoldsOfAWideLumen)
+{
+    for (const double apart_mm : {20.0, 24.0, 27.0}) {  // it did by 6.6, 8.1 and 0.2 mm
+        const InsideVolume mask = wideWithFolds(apart_mm, 26);
+        NoProgress progress;
+        const SkeletonResult result = findSkeleton(mask, planForMask(mask), {}, progress);
+        ASSERT_EQ(result.curve.pieces.size(), 1U);
+        for (const SkeletonPoint& p : result.curve.pieces.front().points)
+            if (std::abs(p.position_mm.z) < 70) {
+                EXPECT_LT(std::hypot(p.position_mm.x, p.position_mm.y), 1) << apart_mm << " " << p.position_mm.z;
+            }
+    }
+}
+
 TEST(Skeleton, OfNothingIsEmpty)
 {
     const InsideVolume mask(centredGrid({10, 10, 10}, 1));

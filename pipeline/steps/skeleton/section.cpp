@@ -25,7 +25,6 @@ constexpr double kRegular = 0.09, kIrregular = 0.13;
 // Of the scanner (0.5 to 0.8 mm), of voxels 0.7 to 1 mm wide and of the mask made of them, together; chosen on phantoms
 // 3 and 302 to 304.
 constexpr double kBlur_mm = 0.8;
-constexpr double kBend_mm = 10;    // of the line on either side, for its curvature
 constexpr double kTightest = 0.9;  // of radius x curvature; at 1 the inner wall would be a point
 
 // On the inner side of a bend sections crowd to 1 - radius x curvature of their distance: so much less wall does each
@@ -62,15 +61,6 @@ SectionRange about(std::size_t middle, double half_mm, double apart_mm, std::siz
 {
     const auto half = std::size_t(half_mm / apart_mm);
     return {middle > half ? middle - half : 0, std::min(middle + half, count - 1)};
-}
-
-/// Curvature of the line towards its centre, 1/mm; none near an end.
-Vector3 bendAt(const Polyline& line, std::size_t n, double step_mm)
-{
-    const auto off = std::size_t(kBend_mm / step_mm);
-    if (n < off || n + off >= line.size())
-        return {};
-    return (normalized(line[n + off] - line[n]) - normalized(line[n] - line[n - off])) / (double(off) * step_mm);
 }
 
 /// How far each ray of a section can be relied on.

@@ -10,6 +10,7 @@
 #include "skeleton/mean_line.h"
 #include "skeleton/path_balls.h"
 #include "skeleton/section.h"
+#include "skeleton/swings.h"
 #include "skeleton/unwind.h"
 
 namespace vicon::steps {
@@ -26,6 +27,10 @@ constexpr int kOwnBase = 8;              // of the recentrings, the last so many
 // 4, but the wriggles that it lacks then shorten the curve by 0.1 %: phantom 274's farthest polyp lies 2.03 mm off.
 constexpr int kWholeWay = 2;  // the first so many recentrings go all the way
 constexpr int kAveraged = 3;  // of the recentrings, the last so many
+/// Of the line, for its curvature; chosen on phantoms 3 and 302 to 304.
+constexpr double kBend_mm = 10;
+/// Of the line where it swings. With 8 mm a tube with folds by turns (skeleton_test) still swings by 3 mm.
+constexpr double kSwingSmoothing_mm = 12;
 
 Vector3 tangentAt(const Polyline& line, std::size_t n, std::size_t reach)
 {
@@ -33,11 +38,18 @@ Vector3 tangentAt(const Polyline& line, std::size_t n, std::size_t reach)
     return normalized(line[to] - line[from]);
 }
 
-/// The smoothed line, held inside the lumen: points that smoothing moved out of it go back towards the line.
+/// The smoothed line, smoother where it swings, and held inside the lumen: points that smoothing moved out of it go
+/// back towards the line.
 Polyline smoothedInside(const Polyline& line, double sigma_mm, const DistanceProbe& wall,
                         const SkeletonOptions& options)
 {
     Polyline out = smoothed(line, sigma_mm, options.step_mm);
+    if (sigma_mm < kSwingSmoothing_mm) {
+        const Polyline smoother = smoothed(line, kSwingSmoothing_mm, options.step_mm);
+        const std::vector<double> swings = swingsOf(line, wall, options.step_mm);
+        for (std::size_t n = 0; n < out.size(); ++n)
+            out[n] = interpolate(out[n], smoother[n], swings[n]);
+    }
     for (std::size_t n = 0; n < out.size(); ++n)
         out[n] = keptInside(out[n], line[n], wall);
     return out;
@@ -104,6 +116,14 @@ Point3 onCurve(const Polyline& line, std::size_t n, double t)
 }
 
 }  // namespace
+
+Vector3 bendAt(const Polyline& line, std::size_t n, double step_mm)
+{
+    const auto off = std::size_t(kBend_mm / step_mm);
+    if (n < off || n + off >= line.size())
+        return {};
+    return (normalized(line[n + off] - line[n]) - normalized(line[n] - line[n - off])) / (double(off) * step_mm);
+}
 
 Point3 keptInside(Point3 wanted, Point3 inside, const DistanceProbe& wall)
 {

@@ -50,6 +50,9 @@ Polyline resampled(const Polyline& line, double step_mm, Between between = Betwe
 /// sampled every `step_mm`; its ends stay.
 Polyline smoothed(const Polyline& line, double sigma_mm, double step_mm);
 
+/// Curvature of the line towards its centre, 1/mm, over 10 mm on either side; none near an end.
+Vector3 bendAt(const Polyline& line, std::size_t n, double step_mm);
+
 /// The point itself, or as near to it as the lumen allows on the way from a point inside.
 Point3 keptInside(Point3 wanted, Point3 inside, const DistanceProbe& wall);
 
