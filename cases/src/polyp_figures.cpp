@@ -21,7 +21,7 @@ constexpr double kLargestOfRough = 1.98;
 /// The same of the four or so chords that differ in the best plane and those beside it: four deviates reach 1.03.
 constexpr double kLargestInPlane = 1.05;
 /// What noise adds: it moves the wall in long waves, which are no roughness. By its square, for the largest is taken.
-constexpr double kLonger_per_mm = 6.2e-5;
+constexpr double kLongerByNoise = 6.2e-5;
 // Eight in ten diameters err by less: a part that is always there, the rim's roughness, noise, and on the wall part of
 // what low heads and rising walls are corrected by, and what grows with the square of the chord, over which no wall is
 // even.
@@ -59,7 +59,7 @@ double widerOfSmall(double diameter_mm)
 /// What blur and noise made of a head, for all that is corrected.
 struct Distorted {
     double blur_mm = 0;
-    double waves_mm = 0;  ///< noise as it moves a blurred wall: HU and the square of the blur in mm
+    double noise_hu_mm2 = 0;  ///< times the square of the blur: so it moves a wall
     double roughness_mm = 0;
     double height_mm = 0;      ///< as it is seen
     double wall_rise_rad = 0;  ///< wallRise_rad()
@@ -81,14 +81,14 @@ struct Distorted {
     {
         const double shrunk = (4 - chord.ends_at_rim) * blur_mm * blur_mm / std::max(chord.length_mm, 1.0);
         return chord.length_mm + shrunk - chord.ends_at_rim * kCorner * roundingBlur_mm(blur_mm) - low_mm(chord) -
-               onRise_mm(chord) - of_rough * roughness_mm - kLonger_per_mm * waves_mm * waves_mm;
+               onRise_mm(chord) - of_rough * roughness_mm - kLongerByNoise * noise_hu_mm2 * noise_hu_mm2;
     }
     double within_mm(const HeadChord& chord) const
     {
         if (!chord.onWall())
-            return std::hypot(kAlways_mm, kOfRoughOnStalk * roughness_mm, kOfNoiseOnStalk * waves_mm);
+            return std::hypot(kAlways_mm, kOfRoughOnStalk * roughness_mm, kOfNoiseOnStalk * noise_hu_mm2);
         const double corrected = std::hypot(kOfLow * low_mm(chord), kOfRise * onRise_mm(chord));
-        const double seen = std::hypot(kAlways_mm, kOfRough * roughness_mm, kOfNoise * waves_mm);
+        const double seen = std::hypot(kAlways_mm, kOfRough * roughness_mm, kOfNoise * noise_hu_mm2);
         return std::hypot(seen, corrected, kOfChord_per_mm * chord.length_mm * chord.length_mm);
     }
 };
@@ -114,7 +114,7 @@ void addVolume(PolypSize& size, const HeadChord& chord, const Distorted& by, dou
         added_mm = kSag * by.wall_rise_rad * radius_mm + kRounded * std::sqrt(rounding * by.height_mm) -
                    kBeyondHead * radius_mm + kOfSmallHead * rounding * rounding / radius_mm;
         part = std::hypot(std::hypot(kVolumeOfBlur * of_blur, kVolumeOfRough * by.roughness_mm / by.height_mm),
-                          kVolumeOfNoise * by.waves_mm / radius_mm, kVolumeOfLarge * of_size);
+                          kVolumeOfNoise * by.noise_hu_mm2 / radius_mm, kVolumeOfLarge * of_size);
     } else {
         added_mm = chord.ends_at_rim * kSkirt * rounding + kShell * by.blur_mm * by.blur_mm / size.diameter_mm +
                    kOfSmallBall * std::pow(rounding, 4) / std::pow(size.diameter_mm, 3);
