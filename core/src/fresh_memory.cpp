@@ -1,29 +1,18 @@
 #include "vicon/core/fresh_memory.h"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <atomic>
-#include <cstdint>
 #include <system_error>
 #include <thread>
 
 namespace vicon {
 namespace {
 
+// Not in pages of 2 MiB: on a virtual machine those come from memory that the host took back, at three times the cost.
 constexpr std::size_t kPage = 4096;
-constexpr std::size_t kHugePage = 2U << 20;
 constexpr std::size_t kPart = 2U << 20;
 constexpr std::size_t kLarge = 8U << 20;  // less is brought in sooner than a thread starts
 constexpr unsigned kMostThreads = 4;      // more wait for each other in the kernel
-
-/// Asks for pages of 2 MiB, where the system gives them to who asks: a page costs about the same whatever its size.
-void useHugePages(void* begin, std::size_t bytes)
-{
-    const std::size_t before = (kHugePage - reinterpret_cast<std::uintptr_t>(begin) % kHugePage) % kHugePage;
-    if (before + kHugePage <= bytes)  // where the system cannot, small ones do
-        ::madvise(static_cast<char*>(begin) + before, (bytes - before) / kHugePage * kHugePage, MADV_HUGEPAGE);
-}
 
 }  // namespace
 
@@ -31,7 +20,6 @@ void touchPages(void* begin, std::size_t bytes)
 {
     if (bytes < kLarge)
         return;
-    useHugePages(begin, bytes);
     auto* first = static_cast<volatile char*>(begin);
     std::atomic<std::size_t> next = 0;
     const auto touch = [&] {

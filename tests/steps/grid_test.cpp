@@ -6,6 +6,7 @@
 #include <set>
 
 #include "grid/cheapest_ways.h"
+#include "grid/cube_opening.h"
 #include "grid/mask.h"
 #include "grid/neighbours.h"
 #include "vicon/core/disjoint_sets.h"
@@ -34,6 +35,39 @@ InsideVolume randomMask(const Grid& grid, double share, unsigned seed)
     for (std::uint8_t& label : mask.voxels)
         label = random() < share * double(std::mt19937::max()) ? kGas : kOutside;
     return mask;
+}
+
+/// What lies in a cube of 2 x 2 x 2 voxels of the mask, by looking at each cube.
+InsideVolume inCubes(const InsideVolume& mask)
+{
+    InsideVolume kept(mask.grid);
+    const std::array<int, 3> size = mask.grid.size;
+    for (int k = 0; k + 1 < size[2]; ++k)
+        for (int j = 0; j + 1 < size[1]; ++j)
+            for (int i = 0; i + 1 < size[0]; ++i) {
+                std::vector<Index3> cube;
+                for (int n = 0; n < 8; ++n)
+                    cube.push_back({i + (n & 1), j + (n >> 1 & 1), k + (n >> 2)});
+                if (std::all_of(cube.begin(), cube.end(), [&](Index3 v) { return mask.at(v) != kOutside; }))
+                    for (const Index3 v : cube)
+                        kept.at(v) = kGas;
+            }
+    return kept;
+}
+
+TEST(CubeOpening, KeepsWhatLiesInACubeOfTwoVoxels)
+{
+    for (const std::array<int, 3> size : {std::array{9, 7, 5}, std::array{1, 7, 5}, std::array{9, 1, 5},
+                                          std::array{9, 7, 1}, std::array{2, 2, 2}, std::array{150, 90, 4}}) {
+        Grid grid = obliqueGrid();
+        grid.size = size;
+        for (const double share : {0.5, 0.8, 0.95, 1.0}) {
+            InsideVolume mask = randomMask(grid, share, unsigned(1000 * share));
+            const InsideVolume wanted = inCubes(mask);
+            openByCubes(mask);
+            EXPECT_EQ(mask.voxels, wanted.voxels) << size[0] << " x " << size[1] << " x " << size[2] << ", " << share;
+        }
+    }
 }
 
 TEST(NearestVoxel, IsTheOneThatLookingAtAllFinds)

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "grid/cube_opening.h"
 #include "grid/neighbours.h"
 #include "grid/run_labels.h"
 #include "grid/sparse_voxels.h"
@@ -37,15 +38,15 @@ class OpenLumen {
 public:
     OpenLumen(const Volume<std::uint8_t>& fraction, const InsideVolume& lumen) : open_(lumen.grid, kOutside)
     {
-        const auto isLow = [&](Index3 v) {
-            return lumen.valueOr(v, kOutside) != kOutside && fraction.at(v) <= kOpenLevel;
-        };
+        const auto slice = std::ptrdiff_t(lumen.grid.size[0]) * lumen.grid.size[1];
         tbb::parallel_for(0, lumen.grid.size[2], [&](int k) {
-            for (int j = 0; j < lumen.grid.size[1]; ++j)
-                for (int i = 0; i < lumen.grid.size[0]; ++i)
-                    if (isLow({i, j, k}) && inLowCube({i, j, k}, isLow))
-                        open_.at({i, j, k}) = kGas;
+            const auto from = lumen.voxels.begin() + slice * k;
+            std::transform(from, from + slice, fraction.voxels.begin() + slice * k, open_.voxels.begin() + slice * k,
+                           [](std::uint8_t label, std::uint8_t share) {
+                               return std::uint8_t(label != kOutside && share <= kOpenLevel ? kGas : kOutside);
+                           });
         });
+        openByCubes(open_);
         parts_ = labelLumen(open_, Neighbours::faces);
         for (int axis = 0; axis < 3; ++axis)
             reach_[std::size_t(axis)] =
@@ -67,21 +68,6 @@ public:
     }
 
 private:
-    /// Of the eight cubes that hold a voxel.
-    template <class IsLow>
-    static bool inLowCube(Index3 v, const IsLow& isLow)
-    {
-        for (int cube = 0; cube < 8; ++cube) {
-            const Index3 first{v.i - (cube & 1), v.j - (cube >> 1 & 1), v.k - (cube >> 2)};
-            bool is_low = true;
-            for (int corner = 0; is_low && corner < 8; ++corner)
-                is_low = isLow(shifted(first, {corner & 1, corner >> 1 & 1, corner >> 2}));
-            if (is_low)
-                return true;
-        }
-        return false;
-    }
-
     /// Whether an open way leads from one voxel to another along one axis after the other: so do nearly all.
     bool joinedAlongAxes(std::size_t from, std::size_t to) const
     {

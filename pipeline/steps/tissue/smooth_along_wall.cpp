@@ -39,28 +39,67 @@ inline float sumOf(const Lanes& lanes)
     return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
-/// The nine rows of 3 x 3 x 3 voxels around one, each with the voxel behind it, which weighs nothing: four at a time.
-struct Around {
-    explicit Around(const Grid& grid)
-    {
-        const std::ptrdiff_t row = grid.size[0], slice = row * grid.size[1];
-        std::size_t n = 0;
-        for (int dk = -1; dk <= 1; ++dk)
-            for (int dj = -1; dj <= 1; ++dj, ++n) {
-                rows[n] = {dj * row + dk * slice - 1, float(dj), float(dk), Lanes{}};
-                for (int di = -1; di <= 1; ++di)
-                    rows[n].weight[std::size_t(di + 1)] = float((2 - di * di) * (2 - dj * dj) * (2 - dk * dk)) / 64;
-            }
-    }
+/// The nine rows of 3 x 3 x 3 voxels around one, j before k, each with the voxel behind it, which weighs nothing: four
+/// at a time. Row 8 - n is row n seen from the other side.
+using NineRows = std::array<Lanes, 9>;
 
-    struct Row {
-        std::ptrdiff_t begin;
-        float j, k;
-        Lanes weight;  ///< of a binomial mean
-    };
-    static constexpr Lanes kI = {-1, 0, 1, 0};  // of a row's three voxels; the fourth lane counts nothing
-    std::array<Row, 9> rows{};
+/// A row's weights in a binomial mean.
+constexpr Lanes binomial(int row)
+{
+    const int dj = row % 3 - 1, dk = row / 3 - 1, share = (2 - dj * dj) * (2 - dk * dk);
+    return Lanes{1, 2, 1, 0} * (float(share) / 64);
+}
+/// Of all nine.
+constexpr NineRows kBinomial = {binomial(0), binomial(1), binomial(2), binomial(3), binomial(4),
+                                binomial(5), binomial(6), binomial(7), binomial(8)};
+
+/// The slope of the fraction.
+struct Slope {
+    float x = 0, y = 0, z = 0;
 };
+
+/// Where rows begin, from the voxel in the middle.
+std::array<std::ptrdiff_t, 9> rowsAround(const Grid& grid)
+{
+    const std::ptrdiff_t row = grid.size[0], slice = row * grid.size[1];
+    std::array<std::ptrdiff_t, 9> rows{};
+    for (std::size_t n = 0; n < rows.size(); ++n)
+        rows[n] = (std::ptrdiff_t(n) % 3 - 1) * row + (std::ptrdiff_t(n) / 3 - 1) * slice - 1;
+    return rows;
+}
+
+Slope slopeOf(const NineRows& values)
+{
+    NineRows part;
+    Lanes x{};
+    for (std::size_t n = 0; n < part.size(); ++n) {
+        part[n] = kBinomial[n] * values[n];
+        x += part[n];
+    }
+    return {x[2] - x[0], sumOf(part[2] - part[0] - part[3] + part[5] - part[6] + part[8]),
+            sumOf(part[6] - (part[0] + part[1] + part[2]) + part[7] + part[8])};
+}
+
+/// Of a voxel and those beside it in the plane across `unit`, which is as long as one over the depth that counts for a
+/// quarter; of all where it is 0.
+float meanAcross(const Slope& unit, const NineRows& values)
+{
+    const Lanes along = Lanes{-1, 0, 1, 0} * unit.x;
+    const float y = unit.y, z = unit.z;
+    const std::array<float, 5> depths = {-y - z, -z, y - z, -y, 0};
+    NineRows weights;
+    for (std::size_t n = 0; n < depths.size(); ++n) {
+        const Lanes depth = along + depths[n], off = 1 + depth * depth;
+        weights[n] = kBinomial[n] / (off * off);
+        weights[8 - n] = __builtin_shufflevector(weights[n], weights[n], 2, 1, 0, 3);
+    }
+    Lanes sum{}, all{};
+    for (std::size_t n = 0; n < values.size(); ++n) {
+        sum += weights[n] * values[n];
+        all += weights[n];
+    }
+    return sumOf(sum) / sumOf(all);
+}
 
 /// A voxel's new value.
 struct Changed {
@@ -71,7 +110,7 @@ struct Changed {
 class Smoothing {
 public:
     Smoothing(const std::vector<std::uint8_t>& of_three, const TissueVolume& tissue)
-        : tissue_(tissue), of_three_(of_three), around_(tissue.grid)
+        : tissue_(tissue), of_three_(of_three), rows_(rowsAround(tissue.grid))
     {
     }
 
@@ -102,40 +141,23 @@ private:
         return eight == 0 || eight == ~std::uint64_t(0);
     }
 
-    /// Of a voxel and those beside it in the plane across the slope; of all where there is none.
     float meanAlongWall(const std::uint8_t* at) const
     {
-        std::array<Lanes, 9> values;
-        Lanes x{}, y{}, z{};
-        for (std::size_t r = 0; r < values.size(); ++r) {
-            const Around::Row& row = around_.rows[r];
+        NineRows values;
+        for (std::size_t n = 0; n < values.size(); ++n) {
             Bytes four;
-            std::memcpy(&four, at + row.begin, sizeof four);
-            values[r] = __builtin_convertvector(four, Lanes);
-            const Lanes weighted = row.weight * values[r];
-            x += weighted;
-            y += row.j * weighted;
-            z += row.k * weighted;
+            std::memcpy(&four, at + rows_[n], sizeof four);
+            values[n] = __builtin_convertvector(four, Lanes);
         }
-        const float gx = x[2] - x[0], gy = sumOf(y), gz = sumOf(z);
-        const float slope = std::sqrt(gx * gx + gy * gy + gz * gz);
+        const auto [x, y, z] = slopeOf(values);
+        const float slope = std::sqrt(x * x + y * y + z * z);
         const float unit = slope > kLeastWallSlope / 2 * kWhole ? 1 / (slope * kAcrossWall_voxels) : 0;
-        const Lanes along = Around::kI * (gx * unit);
-        const float uy = gy * unit, uz = gz * unit;
-        Lanes sum{}, weights{};
-        for (std::size_t r = 0; r < values.size(); ++r) {
-            const Around::Row& row = around_.rows[r];
-            const Lanes depth = along + (row.j * uy + row.k * uz), off = 1 + depth * depth;
-            const Lanes weight = row.weight / (off * off);
-            sum += weight * values[r];
-            weights += weight;
-        }
-        return sumOf(sum) / sumOf(weights);
+        return meanAcross({x * unit, y * unit, z * unit}, values);
     }
 
     const TissueVolume& tissue_;
     const std::vector<std::uint8_t>& of_three_;
-    Around around_;
+    std::array<std::ptrdiff_t, 9> rows_;
 };
 
 }  // namespace
