@@ -155,7 +155,7 @@ TEST_F(Panoramas, TheBandRunsTheWayThatIsFlown)
     EXPECT_TRUE(changesFrom("band", to_caecum));
 }
 
-TEST_F(Panoramas, AMarkerIsSetInCubeAndBandAndNothingIsMeasuredInTheBand)
+TEST_F(Panoramas, AMarkerIsSetInCubeAndBand)
 {
     key(Qt::Key_U);
     ASSERT_TRUE(isShown("cube"));
@@ -174,9 +174,41 @@ TEST_F(Panoramas, AMarkerIsSetInCubeAndBandAndNothingIsMeasuredInTheBand)
         EXPECT_EQ(marker.scan_id, test::kSupine);
         EXPECT_GT(marker.station_mm, 0);
     }
+}
+
+TEST_F(Panoramas, ALengthIsMeasuredInTheBandAndItsEndsAreDraggedThere)
+{
+    key(Qt::Key_B, Qt::ShiftModifier);
+    ASSERT_TRUE(isShown("band"));
+    waitUntilQuiet();
+    auto* band = the<PictureView>("band");
+    const QPoint first = band->rect().center() + QPoint(10, 10), second = first + QPoint(25, 0);
     key(Qt::Key_M);
-    click("band", QPoint(band->width() / 2 + 40, band->height() / 2));
-    EXPECT_NE(warning().find("stretched"), std::string::npos);
+    click("band", first);
+    ASSERT_TRUE(eventually([&] { return band->calliper().has_value(); })) << "the first end is shown";
+    click("band", second);
+    const auto said = [] { return window()->statusBar()->currentMessage(); };
+    ASSERT_TRUE(eventually([&] { return said().contains("along"); })) << said().toStdString() << warning();
+    waitUntilQuiet();
+    screenshot("measured_in_band");
+    ASSERT_TRUE(band->calliper() && band->calliper()->grips[0] && band->calliper()->grips[1]);
+    EXPECT_TRUE(band->calliper()->text.contains("stretched"));
+    const auto end = [&](std::size_t which) {
+        const QPointF at = band->calliper().value().grips[which].value();
+        return band->toWidget({at.x(), at.y()}).toPoint();
+    };
+    constexpr int kCorner_px = 16;  // to the nearest corner of this coarse wall
+    EXPECT_LT((end(0) - first).manhattanLength(), kCorner_px);
+    EXPECT_LT((end(1) - second).manhattanLength(), kCorner_px);
+    const double before = said().section(' ', 0, 0).toDouble();
+    const QPoint to = end(1) + QPoint(25, 0);
+    dragBy(band, end(1), QPoint(25, 0));
+    EXPECT_TRUE(eventually([&] { return said().section(' ', 0, 0).toDouble() > 1.3 * before; }))
+        << said().toStdString();
+    waitUntilQuiet();
+    EXPECT_LT((end(1) - to).manhattanLength(), kCorner_px);
+    key(Qt::Key_Escape);
+    EXPECT_TRUE(eventually([&] { return !band->calliper(); }));
 }
 
 /// How many pixels became greener, and how many changed otherwise, by more than rounding.

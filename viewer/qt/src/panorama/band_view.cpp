@@ -23,11 +23,15 @@ BandView::BandView(QWidget* parent) : PictureView(tr("Band: the colon cut open")
     setObjectName("band");
     setToolTip(
         tr("Click: look there. Wheel: along. Control and wheel, or double click: all of it, and back. Shift and click: "
-           "marker. Hatched: areas are off by more than a factor of two; measure elsewhere."));
+           "marker. Hatched: areas are off by more than a factor of two; a length is the wall's, not the picture's."));
     connect(this, &PictureView::resized, this, [this] { draw(true); });
     connect(this, &PictureView::turned, this, &BandView::scroll);
     connect(this, &PictureView::enlargeWanted, this, [this] { setWhole(!whole_); });
     connect(this, &PictureView::clicked, this, &BandView::clickedAt);
+    connect(this, &PictureView::endDragged, this, [this](int end, Pixel at, bool released) {
+        if (const auto point = shown_ ? shown_->picture.pointAt(*shown_->band, at) : std::nullopt)
+            emit endMoved(end, *point, released);
+    });
     connect(worker_.worker(), &Worker::failed, this, [this](const QString& message) {
         clearPicture(message);
         update();
@@ -74,6 +78,7 @@ void BandView::leave(const QString& words)
     band_wanted_.reset();
     scan_.reset();
     shown_.reset();
+    placed_line_.reset();
     middle_mm_.reset();
     eye_before_mm_.reset();
     clearPicture(words);
@@ -162,6 +167,43 @@ void BandView::show(const Shown& shown)
     if (!whole_ && page.rows == 1)
         middle_mm_ = page.rowLeast_mm(0) + page.rowLength_mm() / 2;
     showPicture(shown.picture.picture);
+    drawLine();
+    if (!placed_line_)
+        placeLine();
+}
+
+void BandView::setLine(const std::optional<MeasuredLine>& line)
+{
+    line_ = line;
+    placeLine();
+}
+
+/// The line of before stays until the places of this one are found.
+void BandView::placeLine()
+{
+    if (!line_ || line_->way_mm.empty() || !scan_ || !shown_ || line_->scan_id != scan_->record.id) {
+        placed_line_.reset();
+        drawLine();
+        return;
+    }
+    worker_.post("line", [this, scan = scan_, band = shown_->band, line = *line_](Opened&) -> Worker::Work {
+        PlacedLine placed{line, {band->placeOf(line.way_mm.front())}};
+        if (line.way_mm.size() > 1)
+            placed.ends.push_back(band->placeOf(line.way_mm.back()));
+        return [this, scan, placed = std::move(placed)] {
+            if (scan != scan_ || !line_)
+                return;
+            placed_line_ = placed;
+            drawLine();
+        };
+    });
+}
+
+void BandView::drawLine()
+{
+    setCalliper(placed_line_ && shown_
+                    ? inBand(placed_line_->line, placed_line_->ends, *shown_->band, shown_->picture.page)
+                    : std::nullopt);
 }
 
 void BandView::clickedAt(Pixel at, Qt::KeyboardModifiers modifiers)

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "session/open_scan.h"
+#include "slices/measured_line.h"
 #include "vicon/viewer/scene/band_picture.h"
 #include "widgets/picture_view.h"
 #include "widgets/wanted.h"
@@ -33,12 +34,16 @@ public:
     void leave(const QString& words);
     /// Nothing is drawn any more.
     void stop();
+    /// What is measured, when it lies in the scan that is shown.
+    void setLine(const std::optional<MeasuredLine>& line);
     void setWhole(bool whole);
     bool whole() const { return whole_; }
 
 signals:
     /// A point of the wall.
     void pointClicked(vicon::Point3 point, Qt::KeyboardModifiers modifiers);
+    /// An end of the line is dragged to a point of the wall.
+    void endMoved(int end, vicon::Point3 to, bool released);
     /// Beside the wall.
     void groundClicked();
     void failed(const QString& message);
@@ -58,6 +63,14 @@ private:
         BandPicture picture;
     };
 
+    /// The line with the places of its ends, which take their time to find.
+    struct PlacedLine {
+        MeasuredLine line;
+        std::vector<BandPlace> ends;
+    };
+
+    void placeLine();
+    void drawLine();
     void draw(bool still);
     BandRequest requestNow(bool still) const;
     void show(const Shown& shown);
@@ -71,6 +84,8 @@ private:
     std::optional<double> middle_mm_;  // of the stretch; nothing: where the eye is
     std::optional<double> eye_before_mm_;
     std::optional<Shown> shown_;
+    std::optional<MeasuredLine> line_;
+    std::optional<PlacedLine> placed_line_;
     std::shared_ptr<Wanted> band_wanted_, picture_wanted_;
     WorkerWith<Opened> worker_{this};
 };

@@ -87,6 +87,11 @@ void PanoramaTool::addBand(ReadingLayout& layout)
         drawBand(true);
     });
     connect(band_, &BandView::pointClicked, this, &PanoramaTool::clickedBand);
+    connect(&reading_, &Reading::lineChanged, band_, [this] { band_->setLine(reading_.line()); });
+    connect(band_, &BandView::endMoved, this, [this](int end, Point3 to, bool released) {
+        if (reading_.navigator())
+            emit reading_.lineDragged(end, bandPoint(to), released);
+    });
     connect(band_, &BandView::groundClicked, this, [this] {
         if (reading_.navigator())
             reading_.rememberPlace();  // a double click here takes nothing back
@@ -207,28 +212,28 @@ void PanoramaTool::clickedCube(Pixel at, Qt::KeyboardModifiers modifiers)
         return;
     reading_.rememberPlace();
     if (const auto point = cubePointAt(at, modifiers))
-        clickedWall(point->from, point->at_mm, modifiers, point->on_wall);
+        clickedWall(*point);
+}
+
+ClickedPoint PanoramaTool::bandPoint(Point3 point, Qt::KeyboardModifiers modifiers) const
+{
+    const OpenScan& scan = *reading_.scan();
+    const ViewPose view = poseForPoint(scan.files.skeleton(), scan.files.frames(), scan.lumen, point);
+    return {scan, {view.pose, view.station_mm, view.clearance_mm, view.sees_target}, point, modifiers, true};
 }
 
 void PanoramaTool::clickedBand(Point3 point, Qt::KeyboardModifiers modifiers)
 {
-    if (!reading_.navigator())
-        return;
-    if (reading_.interaction().inUse<Measure>()) {
-        reading_.warn(tr("The band is stretched: measure in the view from inside or in a slice."));
-        return;
-    }
-    const OpenScan& scan = *reading_.scan();
-    const ViewPose view = poseForPoint(scan.files.skeleton(), scan.files.frames(), scan.lumen, point);
-    clickedWall({view.pose, view.station_mm, view.clearance_mm, view.sees_target}, point, modifiers, true);
+    if (reading_.navigator())
+        clickedWall(bandPoint(point, modifiers));
 }
 
-void PanoramaTool::clickedWall(const SnapshotResult& from, Point3 point, Qt::KeyboardModifiers modifiers, bool on_cells)
+void PanoramaTool::clickedWall(const ClickedPoint& point)
 {
     const bool measuring = reading_.interaction().inUse<Measure>();
     reading_.rememberPlace();
-    if (!reading_.click({*reading_.scan(), from, point, modifiers, on_cells}) && !measuring)
-        reading_.lookAt(point);
+    if (!reading_.click(point) && !measuring)
+        reading_.lookAt(point.at_mm);
 }
 
 }  // namespace vicon::viewer

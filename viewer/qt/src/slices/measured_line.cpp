@@ -121,4 +121,43 @@ std::optional<Calliper> inCube(const MeasuredLine& line, const Pose& pose, const
     return made;
 }
 
+std::optional<Calliper> inBand(const MeasuredLine& line, const std::vector<BandPlace>& ends, const BandMap& band,
+                               const BandPage& page)
+{
+    if (ends.empty())
+        return std::nullopt;
+    const int row = page.rowOf(ends.front().station_mm);
+    const auto isShown = [&](const BandPlace& place) {
+        return place.station_mm >= page.rowLeast_mm(row) && place.station_mm <= page.rowMost_mm(row) &&
+               std::abs(place.around_rad) <= BandPage::kTurn_rad / 2 + BandPage::kBeyond_rad;
+    };
+    // The short way around; where that leaves the band at one edge, the same at the other.
+    BandPlace from = ends.front(), to = ends.back();
+    to.around_rad += BandPage::kTurn_rad * std::round((from.around_rad - to.around_rad) / BandPage::kTurn_rad);
+    if (!isShown(to)) {
+        const double turn = std::copysign(BandPage::kTurn_rad, -to.around_rad);
+        from.around_rad += turn;
+        to.around_rad += turn;
+        if (!isShown(from) || !isShown(to)) {
+            from.around_rad -= turn;
+            to.around_rad -= turn;
+        }
+    }
+    Calliper made;
+    made.dashed = true;
+    const QPointF first = toQt(page.toPixel(band, from, row)), last = toQt(page.toPixel(band, to, row));
+    if (isShown(from))
+        made.grips[0] = first;
+    if (ends.size() > 1 && isShown(to))
+        made.grips[1] = last;
+    if (!made.grips[0] && !made.grips[1])
+        return std::nullopt;
+    if (ends.size() < 2)
+        return made;
+    made.lines << QLineF(first, last);
+    made.label_at = first.x() > last.x() ? first : last;
+    made.text = QObject::tr("%1; the band is stretched").arg(line.text);
+    return made;
+}
+
 }  // namespace vicon::viewer

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vicon/core/volume.h"
+#include "vicon/viewer/model/band_page.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/cube.h"
 #include "vicon/viewer/model/peeling.h"
@@ -39,5 +40,11 @@ std::optional<Calliper> inEndoscopy(const MeasuredLine& line, const Pose& pose, 
 
 /// The line on the faces of an unfolded cube around the eye, cut where it goes from one face to another.
 std::optional<Calliper> inCube(const MeasuredLine& line, const Pose& pose, const CubeLayout& layout);
+
+/// The line on a band, straight between the places of its ends: dashed, as the band is stretched. Nothing where neither
+/// end is shown.
+/// @param ends their places, one while the other is missing
+std::optional<Calliper> inBand(const MeasuredLine& line, const std::vector<BandPlace>& ends, const BandMap& band,
+                               const BandPage& page);
 
 }  // namespace vicon::viewer
