@@ -128,7 +128,7 @@ std::optional<double> SegmentFound::usualNoise_hu() const
     const auto percent = measures.find("noise_percent");
     if (noise_hu || percent == measures.end() || !percent->is_number())
         return noise_hu;
-    return percent->get<double>() / 100 * (kUsualTissue_hu - kUsualAir_hu);
+    return percent->get<double>() / 100 * kUsualLumenToTissue_hu;
 }
 
 SegmentFound segmentFoundFromJson(const json& json)
