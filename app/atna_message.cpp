@@ -7,7 +7,7 @@
 #include <pugixml.hpp>
 #include <sstream>
 
-#include "operation_audit.h"
+#include "vicon/cases/audit_event.h"
 
 namespace vicon::app {
 namespace {
@@ -19,37 +19,39 @@ struct Kind {
     const char *type = "", *type_meaning = "", *outcome = "0";
 };
 
-/// What is of no case.
-std::optional<Kind> kindOfOperation(const std::string& event)
-{
-    static const std::map<std::string, Kind> kKinds{
-        {kApplicationStarted, {"110100", "Application Activity", "E", "110120", "Application Start"}},
-        {kApplicationStopped, {"110100", "Application Activity", "E", "110121", "Application Stop"}},
-        {kFilesImported, {"110107", "Import", "C"}},
-        {kStoreRestored, {"110107", "Import", "C"}},
-        {kStoreBackedUp, {"110106", "Export", "R"}},
-        {kPeerAsked, {"110112", "Query", "E"}},
-        {kCallerRefused, {"110113", "Security Alert", "E", "110126", "Node Authentication", "4"}},
-        {kAccountRefused, {"110113", "Security Alert", "E", "110132", "Use of Restricted Function", "4"}}};
-    const auto found = kKinds.find(event);
-    return found == kKinds.end() ? std::nullopt : std::optional(found->second);
-}
-
+/// An event that another version of VICON wrote is told as a change of the case.
 Kind kindOf(const std::string& event)
 {
-    if (const auto kind = kindOfOperation(event))
-        return *kind;
-    if (event == "imported")
-        return {"110104", "DICOM Instances Transferred", "C"};
-    if (event == "queued for a peer" || event.starts_with("object "))
-        return {"110104", "DICOM Instances Transferred", "R"};
-    if (event == "case opened")
-        return {"110103", "DICOM Instances Accessed", "R"};
-    if (event == "case deleted" || event == "scan removed")
-        return {"110105", "DICOM Study Deleted", "D"};
-    if (event == "case written without names" || event == "report exported" || event == "picture saved")
-        return {"110106", "Export", "R"};
-    return {"110110", "Patient Record", "U"};
+    static const Kind kTaken{"110104", "DICOM Instances Transferred", "C"},
+        kSent{"110104", "DICOM Instances Transferred", "R"}, kSeen{"110103", "DICOM Instances Accessed", "R"},
+        kDeleted{"110105", "DICOM Study Deleted", "D"}, kExported{"110106", "Export", "R"},
+        kImported{"110107", "Import", "C"}, kChanged{"110110", "Patient Record", "U"};
+    static const std::map<AuditEvent, Kind> kKinds{
+        {AuditEvent::application_started, {"110100", "Application Activity", "E", "110120", "Application Start"}},
+        {AuditEvent::application_stopped, {"110100", "Application Activity", "E", "110121", "Application Stop"}},
+        {AuditEvent::peer_asked, {"110112", "Query", "E"}},
+        {AuditEvent::caller_refused, {"110113", "Security Alert", "E", "110126", "Node Authentication", "4"}},
+        {AuditEvent::account_refused, {"110113", "Security Alert", "E", "110132", "Use of Restricted Function", "4"}},
+        {AuditEvent::files_imported, kImported},
+        {AuditEvent::store_restored, kImported},
+        {AuditEvent::store_backed_up, kExported},
+        {AuditEvent::case_written_without_names, kExported},
+        {AuditEvent::report_exported, kExported},
+        {AuditEvent::picture_saved, kExported},
+        {AuditEvent::imported, kTaken},
+        {AuditEvent::object_queued, kSent},
+        {AuditEvent::object_committed, kSent},
+        {AuditEvent::object_unconfirmed, kSent},
+        {AuditEvent::object_refused, kSent},
+        {AuditEvent::object_queued_again, kSent},
+        {AuditEvent::object_taken_out, kSent},
+        {AuditEvent::case_opened, kSeen},
+        {AuditEvent::case_deleted, kDeleted},
+        {AuditEvent::scan_removed, kDeleted},
+    };
+    const std::optional<AuditEvent> known = auditEventFrom(event);
+    const auto found = known ? kKinds.find(*known) : kKinds.end();
+    return found == kKinds.end() ? kChanged : found->second;
 }
 
 void addCode(pugi::xml_node parent, const char* name, const char* code, const char* system, const char* meaning)

@@ -6,29 +6,29 @@
 
 namespace vicon::app {
 
-void auditOperation(const StorePlace& place, const std::string& event, const std::string& detail)
+void auditOperation(const StorePlace& place, AuditEvent event, const std::string& detail)
 try {
     if (place.holdsStore())
         CaseStore(place).audit(event, "", "", detail);
 } catch (const Error& e) {
-    spdlog::error("'{}' is not in the audit trail: {}", event, e.what());
+    spdlog::error("'{}' is not in the audit trail: {}", nameOf(event), e.what());
 }
 
 void auditRefusedAccount(const StorePlace& place, const std::string& what)
 try {
     if (place.holdsStore())
-        CaseStore(place).audit(kAccountRefused, "", "", what);
+        CaseStore(place).audit(AuditEvent::account_refused, "", "", what);
 } catch (const Error&) {  // the refusal itself is what is told
 }
 
 AuditedRun::AuditedRun(StorePlace place, std::string program) : place_(std::move(place)), program_(std::move(program))
 {
-    auditOperation(place_, kApplicationStarted, program_);
+    auditOperation(place_, AuditEvent::application_started, program_);
 }
 
 AuditedRun::~AuditedRun()
 {
-    auditOperation(place_, kApplicationStopped, program_);
+    auditOperation(place_, AuditEvent::application_stopped, program_);
 }
 
 RefusedCallers::RefusedCallers(StorePlace place, Clock clock) : place_(std::move(place)), clock_(std::move(clock)) {}
@@ -51,7 +51,7 @@ void RefusedCallers::note(const std::string& host, const std::string& line)
     Host& told = hosts_[host];
     const std::string more = told.untold == 0 ? "" : "; before, " + std::to_string(told.untold) + " more of this host";
     told = {now, 0};
-    auditOperation(place_, kCallerRefused, line + more);
+    auditOperation(place_, AuditEvent::caller_refused, line + more);
 }
 
 }  // namespace vicon::app

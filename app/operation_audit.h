@@ -10,17 +10,9 @@
 
 namespace vicon::app {
 
-/// Events of the audit trail that are of no case; what an audit message makes of them is in atna_message.cpp.
-/// @{
-inline constexpr const char *kApplicationStarted = "application started", *kApplicationStopped = "application stopped",
-                            *kFilesImported = "files imported", *kStoreBackedUp = "store backed up",
-                            *kStoreRestored = "store restored", *kPeerAsked = "peer asked",
-                            *kCallerRefused = "caller refused", *kAccountRefused = "account refused";
-/// @}
-
 /// Writes a line that is of no case into the trail of a store, where there is one. Where it cannot be written the log
 /// says so, and what was done goes on.
-void auditOperation(const StorePlace& place, const std::string& event, const std::string& detail);
+void auditOperation(const StorePlace& place, AuditEvent event, const std::string& detail);
 
 /// The same of an account that the roles refuse: that is told in any case, also where no line can be written, as by an
 /// account that may not write into the store.

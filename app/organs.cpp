@@ -29,7 +29,7 @@ void setOrgan(CaseStore& store, const Config& config, const std::string& organ, 
     (void)pipeline::withOrgan(config, Organ(organ));
     const auto say = [&](const ScanRecord& scan) {
         writeOrgan(store.scanFolder(scan.case_id, scan.id), Organ(organ));
-        store.audit("organ", scan.case_id, scan.id, organ);
+        store.audit(AuditEvent::organ_named, scan.case_id, scan.id, organ);
     };
     if (!scan_id.empty() && case_id.empty())
         throw Error(ErrorCode::wrong_use, "a scan is named without its case", "--scan", "name it with --case");

@@ -17,9 +17,9 @@ std::vector<std::string> cellsOf(const std::string& scan, const pipeline::Subdiv
         return formatNumber(row.statistics.value(key, 0.0), decimals);
     };
     const auto cost = [&](const char* key) { return row.statistics.contains(key) ? number(key, 2) : std::string("-"); };
-    const bool thesis = row.options.method == steps::SubdivideMethod::thesis;
+    const bool thesis = row.options.method == SubdivideMethod::thesis;
     return {scan,
-            nameIn(steps::kSubdivideMethodNames, row.options.method),
+            nameIn(kSubdivideMethodNames, row.options.method),
             thesis ? nameIn(steps::kSegmentSizeNames, row.options.size) : "-",
             thesis ? nameIn(steps::kPortalEffectivenessNames, row.options.effectiveness) : "-",
             number("segments", 0) + " / " + number("specified_segments", 0),

@@ -31,7 +31,7 @@ int backup(Context& context, const std::string& to)
     ProgressLine progress("backup");
     const CopyCounts copied = backUp(context.existingStore(), to, progress);
     progress.clear();
-    auditOperation(context.storePlace(), kStoreBackedUp, std::to_string(copied.cases) + " cases");
+    auditOperation(context.storePlace(), AuditEvent::store_backed_up, std::to_string(copied.cases) + " cases");
     print(context, copied);
     return 0;
 }
@@ -42,7 +42,7 @@ int restoreFrom(Context& context, const std::string& from)
     ProgressLine progress("restore");
     const CopyCounts copied = restore(from, context.storePlace(), progress);
     progress.clear();
-    auditOperation(context.storePlace(), kStoreRestored, std::to_string(copied.cases) + " cases");
+    auditOperation(context.storePlace(), AuditEvent::store_restored, std::to_string(copied.cases) + " cases");
     print(context, copied);
     return 0;
 }

@@ -59,7 +59,7 @@ int exportObjects(CaseStore& store, const std::string& case_id, const std::optio
         throw Error(ErrorCode::bad_input, "only a signed report has DICOM objects", case_id,
                     "'vicon sign " + case_id + "' signs it");
     fs::create_directories(folder);
-    store.audit("report exported", case_id, "", "dicom");
+    store.audit(AuditEvent::report_exported, case_id, "", "dicom");
     for (const fs::path& object : versionObjects(store, case_id, version->version)) {
         const fs::path copy = folder / object.filename();
         replaceFile(copy, readFile(object));
@@ -100,7 +100,7 @@ int exportReport(Context& context, const ExportArguments& a)
         version ? nlohmann::json::parse(version->content) : reportContent(readCase(store, case_id));
     const ExportForm form = context.json ? ExportForm::json : a.form;
     const std::string text = formOf(form, version, content);
-    store.audit("report exported", case_id, "", nameIn(kExportFormNames, form));
+    store.audit(AuditEvent::report_exported, case_id, "", nameIn(kExportFormNames, form));
     if (a.out.empty()) {
         std::fwrite(text.data(), 1, text.size(), stdout);
         return 0;

@@ -55,7 +55,8 @@ int import(Context& context, const ImportArguments& arguments)
         ingest::importPaths(context.store(), {arguments.paths.begin(), arguments.paths.end()},
                             context.config().get<ingest::ImportOptions>(), progress);
     progress.clear();
-    auditOperation(context.storePlace(), kFilesImported, std::to_string(report.scans_stored) + " scans new or grown");
+    auditOperation(context.storePlace(), AuditEvent::files_imported,
+                   std::to_string(report.scans_stored) + " scans new or grown");
     print(context, report.lines);
     return report.anythingStored() ? 0 : 1;
 }

@@ -56,7 +56,7 @@ int queryWorklist(Context& context, const std::string& peer_name, const ingest::
 {
     NoProgress quiet;
     const ingest::Peer peer = requirePeer(context.config(), peer_name, PeerUse::query);
-    auditOperation(context.storePlace(), kPeerAsked, peer_name + " for scheduled studies");
+    auditOperation(context.storePlace(), AuditEvent::peer_asked, peer_name + " for scheduled studies");
     const auto steps =
         ingest::findScheduledSteps(peer, query, context.config().get<ingest::ReceiverOptions>().ae_title, quiet);
     if (context.json) {
@@ -78,7 +78,7 @@ int query(Context& context, const std::string& peer_name, const ingest::StudyQue
 {
     NoProgress quiet;
     const ingest::Peer peer = requirePeer(context.config(), peer_name, PeerUse::query);
-    auditOperation(context.storePlace(), kPeerAsked, peer_name + " for studies");
+    auditOperation(context.storePlace(), AuditEvent::peer_asked, peer_name + " for studies");
     const auto studies =
         ingest::findStudies(peer, query, context.config().get<ingest::ReceiverOptions>().ae_title, quiet);
     if (context.json) {

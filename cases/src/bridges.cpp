@@ -12,6 +12,16 @@
 using nlohmann::json;
 
 namespace vicon {
+namespace {
+
+AuditEvent eventOf(const std::optional<BridgeReview>& review)
+{
+    if (!review)
+        return AuditEvent::bridge_unjudged;
+    return review->verdict == BridgeVerdict::confirmed ? AuditEvent::bridge_confirmed : AuditEvent::bridge_rejected;
+}
+
+}  // namespace
 
 std::string nameOf(BridgeVerdict verdict)
 {
@@ -71,7 +81,7 @@ void reviewBridge(CaseStore& store, const ScanRecord& scan, const ReviewedBridge
         reviews.push_back({given.bridge, told});
     writeBridgeReviews(folder, reviews);
     const std::string verdict = given.review ? nameOf(told.verdict) : "";
-    store.audit("bridge " + (verdict.empty() ? "unjudged" : verdict), scan.case_id, scan.id,
+    store.audit(eventOf(given.review), scan.case_id, scan.id,
                 bridgeReviewJson(given.bridge, verdict, told.by, told.at).dump());
 }
 

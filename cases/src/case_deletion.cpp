@@ -244,7 +244,7 @@ void deleteCase(CaseStore& store, const std::string& case_id, bool accept_losses
     try {
         store.database().write([&](soci::session& sql) {
             requireNoDoubts(store, case_id, accept_losses);
-            putAudit(sql, "case deleted", case_id, "", why + ": " + inBrief(store, case_id));
+            putAudit(sql, AuditEvent::case_deleted, case_id, "", why + ": " + inBrief(store, case_id));
             const auto reports = deleteKeptReports(store, sql, case_id);
             deleteRows(sql, deletion);
             moveAside(store, deletion, reports);  // last: what is left to fail is the commit

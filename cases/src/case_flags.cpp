@@ -30,7 +30,7 @@ void CaseStore::flag(const std::string& case_id, const std::string& line)
             return;
         flags.push_back(line);
         putFlags(sql, case_id, flags);
-        putAudit(sql, "flagged", case_id, "", line);
+        putAudit(sql, AuditEvent::flagged, case_id, "", line);
     });
 }
 
@@ -43,15 +43,16 @@ void CaseStore::settleFlag(const std::string& case_id, const std::string& line)
             throw Error(ErrorCode::not_found, "the case has no such flag", case_id,
                         "'vicon show " + case_id + "' lists them");
         putFlags(sql, case_id, flags);
-        putAudit(sql, "flag settled", case_id, "", line);
+        putAudit(sql, AuditEvent::flag_settled, case_id, "", line);
     });
 }
 
 bool CaseStore::wasFlagged(const std::string& case_id, const std::string& line)
 {
+    const std::string event = nameOf(AuditEvent::flagged);
     int count = 0;
     database_.read([&](soci::session& sql) {
-        sql << "SELECT COUNT(*) FROM audit WHERE event = 'flagged' AND case_id = :c AND detail = :line",
+        sql << "SELECT COUNT(*) FROM audit WHERE event = :event AND case_id = :c AND detail = :line", soci::use(event),
             soci::use(case_id), soci::use(line), soci::into(count);
     });
     return count > 0;

@@ -95,7 +95,7 @@ void putInstances(soci::session& sql, const std::vector<InstanceRecord>& instanc
     }
 }
 
-void putAudit(soci::session& sql, const std::string& event, const std::string& case_id, const std::string& scan_id,
+void putAudit(soci::session& sql, AuditEvent event, const std::string& case_id, const std::string& scan_id,
               const std::string& detail)
 {
     putAudit(sql, {event, case_id, scan_id, detail, "", ""});
@@ -103,11 +103,11 @@ void putAudit(soci::session& sql, const std::string& event, const std::string& c
 
 void putAudit(soci::session& sql, const AuditedChange& change)
 {
-    const std::string now = nowUtc(), person = thisPerson();
+    const std::string now = nowUtc(), person = thisPerson(), event = nameOf(change.event);
     sql << "INSERT INTO audit (at, person, event, case_id, scan_id, detail, old_value, new_value)"
            " VALUES (:at, :person, :event, :case, :scan, :detail, :old, :new)",
-        soci::use(now), soci::use(person), soci::use(change.event), soci::use(change.case_id),
-        soci::use(change.scan_id), soci::use(change.subject), soci::use(change.before), soci::use(change.after);
+        soci::use(now), soci::use(person), soci::use(event), soci::use(change.case_id), soci::use(change.scan_id),
+        soci::use(change.subject), soci::use(change.before), soci::use(change.after);
 }
 
 int takeNumber(soci::session& sql, const std::string& name)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "vicon/cases/audit_event.h"
 #include "vicon/cases/records.h"
 
 namespace vicon {
@@ -32,11 +33,12 @@ void putCase(soci::session& sql, const CaseRecord& c);
 void putScan(soci::session& sql, const ScanRecord& s);
 void putInstances(soci::session& sql, const std::vector<InstanceRecord>& instances);
 /// A line of the audit trail, by who works here, now.
-void putAudit(soci::session& sql, const std::string& event, const std::string& case_id, const std::string& scan_id,
+void putAudit(soci::session& sql, AuditEvent event, const std::string& case_id, const std::string& scan_id,
               const std::string& detail);
 /// What was there before a change of `subject`, and what is after it: JSON; empty: nothing was, or is, there.
 struct AuditedChange {
-    std::string event, case_id, scan_id, subject, before, after;
+    AuditEvent event;
+    std::string case_id, scan_id, subject, before, after;
 };
 void putAudit(soci::session& sql, const AuditedChange& change);
 /// Next value of a counter, starting with 1.

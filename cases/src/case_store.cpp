@@ -237,7 +237,7 @@ void CaseStore::addScan(const CaseRecord& a_case, const ScanRecord& scan, const 
             enqueueJob(sql, scan.case_id, scan.id, scan.ingest.value(kIngestSender, ""));
         else if (scan.role != ScanRole::scan)
             withdrawJob(sql, scan.case_id, scan.id);
-        putAudit(sql, "imported", scan.case_id, scan.id, std::to_string(instances.size()) + " objects");
+        putAudit(sql, AuditEvent::imported, scan.case_id, scan.id, std::to_string(instances.size()) + " objects");
     });
     writeScanFile(scan.case_id, scan.id);
 }
@@ -255,7 +255,7 @@ void CaseStore::removeScan(const std::string& case_id, const std::string& scan_i
             sql << std::string("DELETE FROM ") + table + " WHERE case_id = :c AND scan_id = :s", soci::use(case_id),
                 soci::use(scan_id);
         sql << "DELETE FROM scans WHERE case_id = :c AND id = :s", soci::use(case_id), soci::use(scan_id);
-        putAudit(sql, "scan removed", case_id, scan_id, "");
+        putAudit(sql, AuditEvent::scan_removed, case_id, scan_id, "");
     });
     std::error_code ignored;  // what stays belongs to no scan any more
     if (markers == 0)
@@ -299,7 +299,7 @@ int CaseStore::nextNumber(const std::string& name)
     return value;
 }
 
-void CaseStore::audit(const std::string& event, const std::string& case_id, const std::string& scan_id,
+void CaseStore::audit(AuditEvent event, const std::string& case_id, const std::string& scan_id,
                       const std::string& detail)
 {
     database_.write([&](soci::session& sql) { putAudit(sql, event, case_id, scan_id, detail); });

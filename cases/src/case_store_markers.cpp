@@ -87,14 +87,14 @@ public:
         sql_ << "INSERT INTO markers (case_id, id, scan_id, content) VALUES (:case, :id, :scan, :content)"
                 " ON CONFLICT (case_id, id) DO UPDATE SET scan_id = excluded.scan_id, content = excluded.content",
             soci::use(case_id_), soci::use(marker.id), soci::use(marker.scan_id), soci::use(content);
-        putAudit(sql_,
-                 {"marker saved", case_id_, marker.scan_id, marker.id, before ? toJson(*before).dump() : "", content});
+        putAudit(sql_, {AuditEvent::marker_saved, case_id_, marker.scan_id, marker.id,
+                        before ? toJson(*before).dump() : "", content});
     }
 
     void remove(const Marker& marker)
     {
         sql_ << "DELETE FROM markers WHERE case_id = :c AND id = :id", soci::use(case_id_), soci::use(marker.id);
-        putAudit(sql_, {"marker removed", case_id_, marker.scan_id, marker.id, toJson(marker).dump(), ""});
+        putAudit(sql_, {AuditEvent::marker_removed, case_id_, marker.scan_id, marker.id, toJson(marker).dump(), ""});
     }
 
     void apply(MarkerEdit& edit)

@@ -62,9 +62,11 @@ void requireUnconfirmed(const std::vector<Comparison>& all, const Comparison& wa
     }
 }
 
-const char* eventOf(const std::optional<Comparison>& after)
+AuditEvent eventOf(const std::optional<Comparison>& after)
 {
-    return !after ? "comparison taken back" : after->confirmed ? "comparison confirmed" : "comparison rejected";
+    if (!after)
+        return AuditEvent::comparison_taken_back;
+    return after->confirmed ? AuditEvent::comparison_confirmed : AuditEvent::comparison_rejected;
 }
 
 /// The diameter with its bounds, where the outlined one counts.

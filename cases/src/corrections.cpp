@@ -76,7 +76,7 @@ void replaceCorrections(CaseStore& store, const QueueOptions& options, const Sca
     requireColon(store, scan);
     requireInside(folder, all);
     writeCorrections(folder, all);
-    store.audit("corrections", scan.case_id, scan.id, toJson(all).dump());
+    store.audit(AuditEvent::corrections_changed, scan.case_id, scan.id, toJson(all).dump());
     retryWhereFailed(store, options, scan);
 }
 

@@ -71,7 +71,7 @@ void putFinding(soci::session& sql, const std::string& case_id, FindingEdit& edi
     sql << "INSERT INTO findings (case_id, id, content) VALUES (:case, :id, :content)"
            " ON CONFLICT (case_id, id) DO UPDATE SET content = excluded.content",
         soci::use(case_id), soci::use(finding.id), soci::use(content);
-    putAudit(sql, {edit.before ? "finding changed" : "finding added", case_id, "", finding.id,
+    putAudit(sql, {edit.before ? AuditEvent::finding_changed : AuditEvent::finding_added, case_id, "", finding.id,
                    edit.before ? toJson(*edit.before).dump() : "", content});
 }
 
@@ -121,7 +121,7 @@ std::vector<FindingEdit> editFindings(CaseStore& store, const std::string& case_
                 putFinding(sql, case_id, edit);
             } else if (edit.before) {
                 sql << "DELETE FROM findings WHERE case_id = :c AND id = :id", soci::use(case_id), soci::use(id);
-                putAudit(sql, {"finding removed", case_id, "", id, toJson(*edit.before).dump(), ""});
+                putAudit(sql, {AuditEvent::finding_removed, case_id, "", id, toJson(*edit.before).dump(), ""});
             }
         }
     });
@@ -166,7 +166,7 @@ void saveAssessment(CaseStore& store, const std::string& case_id, const Assessme
         sql << "INSERT INTO assessments (case_id, content) VALUES (:case, :content)"
                " ON CONFLICT (case_id) DO UPDATE SET content = excluded.content",
             soci::use(case_id), soci::use(content);
-        putAudit(sql, {"assessment changed", case_id, "", "", stored, content});
+        putAudit(sql, {AuditEvent::assessment_changed, case_id, "", "", stored, content});
     });
 }
 

@@ -100,7 +100,7 @@ void giveLumen(CaseStore& store, const QueueOptions& options, const ScanRecord& 
     said["mask_sha256"] = sha256OfFile(folder / name);
     replaceFile(folder / kLumenFile, said.dump(2) + "\n");
     removeOtherMasks(folder, name);
-    store.audit("lumen given", scan.case_id, scan.id, toJson(origin).dump());
+    store.audit(AuditEvent::lumen_given, scan.case_id, scan.id, toJson(origin).dump());
     retryWhereFailed(store, options, scan);
 }
 
@@ -113,7 +113,7 @@ bool takeBackLumen(CaseStore& store, const QueueOptions& options, const ScanReco
         return false;
     flushToDisk(folder);
     removeOtherMasks(folder, {});
-    store.audit("lumen taken back", scan.case_id, scan.id, "");
+    store.audit(AuditEvent::lumen_taken_back, scan.case_id, scan.id, "");
     retryWhereFailed(store, options, scan);
     return true;
 }

@@ -58,7 +58,7 @@ void keepReport(CaseStore& store, const KeptReport& report)
             soci::use(report.sop_uid), soci::use(report.sop_class), soci::use(report.series_uid),
             soci::use(report.study.uid), soci::use(report.study.date), soci::use(report.patient.id), soci::use(patient),
             soci::use(study), soci::use(report.sha256), soci::use(report.file), soci::use(report.created);
-        putAudit(sql, "report kept", "", "", report.sop_uid);
+        putAudit(sql, AuditEvent::report_kept, "", "", report.sop_uid);
     });
 }
 

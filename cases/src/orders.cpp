@@ -61,7 +61,7 @@ void keepOrder(CaseStore& store, const CaseRecord& with, Order order, const std:
         sql << "UPDATE cases SET study = :study, flags = :flags WHERE id = :c", soci::use(study), soci::use(flags),
             soci::use(with.id);
         putSearchWords(sql, with);
-        putAudit(sql, {"order taken", with.id, "", order.peer, before, study});
+        putAudit(sql, {AuditEvent::order_taken, with.id, "", order.peer, before, study});
     });
     for (const ScanRecord& scan : store.scans(with.id))
         store.writeScanFile(with.id, scan.id);

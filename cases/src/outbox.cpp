@@ -21,6 +21,14 @@ double backOff(const OutboxOptions& options, int attempts)
                     options.first_backoff_s * std::pow(2, std::clamp(attempts - 1, 0, kMostDoublings)));
 }
 
+/// Of one that nothing more is done about.
+AuditEvent eventOf(const OutboxItem& item)
+{
+    if (item.state == DeliveryState::committed)
+        return AuditEvent::object_committed;
+    return item.delivered() ? AuditEvent::object_unconfirmed : AuditEvent::object_refused;
+}
+
 OutboxItem requireItem(soci::session& sql, int id)
 {
     if (const auto item = findOutboxItem(sql, id))
@@ -49,7 +57,7 @@ void Outbox::settle(soci::session& sql, const OutboxItem& item)
 {
     updateOutboxItem(sql, item);
     if (item.delivered() || item.state == DeliveryState::refused)
-        putAudit(sql, "object " + nameOf(item.state), item.case_id, "",
+        putAudit(sql, eventOf(item), item.case_id, "",
                  item.peer + " " + item.object.sop_uid + (item.reason.empty() ? "" : ": " + item.reason));
 }
 
@@ -271,7 +279,7 @@ void Outbox::retry(int id)
         item.attempts = 0;
         item.not_before = 0;
         settle(sql, item);
-        putAudit(sql, "object to be sent again", item.case_id, "", item.peer + " " + item.object.sop_uid);
+        putAudit(sql, AuditEvent::object_queued_again, item.case_id, "", item.peer + " " + item.object.sop_uid);
     });
 }
 
@@ -280,7 +288,7 @@ void Outbox::drop(int id)
     database_.write([&](soci::session& sql) {
         const OutboxItem item = requireItem(sql, id);
         sql << "DELETE FROM outbox WHERE id = :id", soci::use(id);
-        putAudit(sql, "object taken out of the outbox", item.case_id, "",
+        putAudit(sql, AuditEvent::object_taken_out, item.case_id, "",
                  item.peer + " " + item.object.sop_uid + ", " + nameOf(item.state));
     });
 }

@@ -152,7 +152,7 @@ std::vector<OutboxItem> queueObjects(CaseStore& store, soci::session& sql, const
                         object.sop_uid, "'vicon outbox --drop " + std::to_string(there->id) + "' takes it out");
         if (!there) {
             addOutboxItem(sql, item);
-            putAudit(sql, "queued for a peer", case_id, "", peer + " " + object.sop_uid);
+            putAudit(sql, AuditEvent::object_queued, case_id, "", peer + " " + object.sop_uid);
         }
         items.push_back(*findOutboxItem(sql, peer, object.sop_uid));
     }

@@ -102,7 +102,7 @@ WrittenDraft writeDraft(CaseStore& store, const std::string& case_id, const fs::
             if (!is_next)
                 return;
             takeNumber(sql, draftCounter(case_id));
-            putAudit(sql, "report written", case_id, "", "number " + std::to_string(number));
+            putAudit(sql, AuditEvent::report_written, case_id, "", "number " + std::to_string(number));
             // Last: a kill before the commit leaves a file that the report that takes its number replaces.
             if (out.empty())
                 replaceFile(file, pdf);

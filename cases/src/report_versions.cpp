@@ -47,7 +47,7 @@ void requireSigner(CaseStore& store, const std::string& case_id, const SigningOp
     const std::string person = thisPerson();
     if (isAmong(person, options.signers))
         return;
-    store.audit("account refused", case_id, "", "may not sign reports");
+    store.audit(AuditEvent::account_refused, case_id, "", "may not sign reports");
     throw Error(ErrorCode::bad_input, "this account may not sign reports", "'" + person + "'",
                 "who runs VICON here names those who may in the configuration: [roles] sign = [\"" + person + "\"]");
 }
@@ -86,6 +86,20 @@ int lastSigned(const std::vector<ReportVersion>& versions)
     return last;
 }
 
+AuditEvent eventOf(ReportState state)
+{
+    switch (state) {
+        case ReportState::final:
+            return AuditEvent::report_signed;
+        case ReportState::amended:
+            return AuditEvent::report_amended;
+        case ReportState::draft:  // no version is one
+        case ReportState::preliminary:
+            break;
+    }
+    return AuditEvent::report_preliminary;
+}
+
 void putVersion(soci::session& sql, const std::string& case_id, const ReportVersion& v)
 {
     const std::string state = nameOf(v.state), file = v.file.filename().string();
@@ -95,7 +109,7 @@ void putVersion(soci::session& sql, const std::string& case_id, const ReportVers
         soci::use(case_id), soci::use(v.version), soci::use(state), soci::use(v.replaces), soci::use(v.reason),
         soci::use(v.person), soci::use(v.at), soci::use(v.software), soci::use(v.digest), soci::use(v.content),
         soci::use(file), soci::use(v.file_sha256);
-    putAudit(sql, {"report " + state, case_id, "", "version " + std::to_string(v.version), "", toJson(v).dump()});
+    putAudit(sql, {eventOf(v.state), case_id, "", "version " + std::to_string(v.version), "", toJson(v).dump()});
 }
 
 /// In place of what a kill left of another try at this version. All at once: the disk flushes many files in the time of
@@ -231,7 +245,7 @@ void beginAmendment(CaseStore& store, const SigningOptions& options, const std::
         const std::string person = thisPerson(), now = nowUtc();
         sql << "INSERT INTO amendments (case_id, reason, person, at) VALUES (:case, :reason, :person, :at)",
             soci::use(case_id), soci::use(reason), soci::use(person), soci::use(now);
-        putAudit(sql, "amendment begun", case_id, "", reason);
+        putAudit(sql, AuditEvent::amendment_begun, case_id, "", reason);
     });
 }
 
@@ -264,7 +278,7 @@ void cancelAmendment(CaseStore& store, const SigningOptions& options, const std:
                         {"assessment", content.at("assessment")}}
                 .dump();
         };
-        putAudit(sql, {"amendment cancelled", case_id, "", "", said(before), said(signed_content)});
+        putAudit(sql, {AuditEvent::amendment_cancelled, case_id, "", "", said(before), said(signed_content)});
     });
 }
 

@@ -128,7 +128,7 @@ std::optional<double> SegmentFound::usualNoise_hu() const
     const auto percent = measures.find("noise_percent");
     if (noise_hu || percent == measures.end() || !percent->is_number())
         return noise_hu;
-    return percent->get<double>() / 100 * (kUsualTissue_hu - kUsualAir_hu);
+    return percent->get<double>() / 100 * kUsualLumenToTissue_hu;
 }
 
 SegmentFound segmentFoundFromJson(const json& json)
@@ -220,7 +220,7 @@ QualityFound qualityFoundFromJson(const json& json)
 json toJson(const SubdivideFound& found)
 {
     json out = found.measures;
-    out["method"] = found.method;
+    out["method"] = nameOf(found.method);
     out["triangles"] = found.triangles;
     return out;
 }
@@ -228,7 +228,8 @@ json toJson(const SubdivideFound& found)
 SubdivideFound subdivideFoundFromJson(const json& json)
 {
     SubdivideFound found;
-    take(json, "method", found.method);
+    if (json.contains("method"))
+        found.method = subdivideMethodFrom(json["method"]);
     if (json.contains("triangles"))
         found.triangles = wholeCount(json["triangles"]);
     found.measures = without(json, {"method", "triangles"});

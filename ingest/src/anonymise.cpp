@@ -86,7 +86,7 @@ Anonymised anonymise(CaseStore& store, const std::string& case_id, const fs::pat
         Anonymised made = writeCase(store, record, making, progress);
         fs::remove(out, none);
         fs::rename(making, out);
-        store.audit("case written without names", case_id, "", std::to_string(made.written) + " objects");
+        store.audit(AuditEvent::case_written_without_names, case_id, "", std::to_string(made.written) + " objects");
         return made;
     } catch (const fs::filesystem_error& e) {
         fs::remove_all(making, none);

@@ -58,7 +58,7 @@ std::string flagForLateScan(const ImportContext& context, const StoredStudy& sto
 
 void tellFlag(const ImportContext& context, const std::string& case_id, const std::string& line)
 {
-    context.store.audit("flagged", case_id, {}, line);
+    context.store.audit(AuditEvent::flagged, case_id, {}, line);
     reportFlag(context, case_id, line);
 }
 

@@ -35,7 +35,7 @@ void quarantine(const ImportContext& context, const CaseRecord& of_case, const s
         if (copies.empty())
             continue;
         copyDurably(target, copies, context.progress);
-        context.store.audit("quarantined", of_case.id, "", folder);
+        context.store.audit(AuditEvent::quarantined, of_case.id, "", folder);
     }
 }
 

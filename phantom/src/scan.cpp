@@ -13,6 +13,7 @@
 #include "pools.h"
 #include "scene.h"
 #include "slices.h"
+#include "sound_lumen.h"
 #include "stool.h"
 #include "topology.h"
 #include "vicon/core/error.h"
@@ -141,12 +142,6 @@ void measure(PhantomTruth& truth)
     truth.fluid_ml = double(fluid) * voxel_ml;
 }
 
-bool hasTopology(const InsideVolume& inside, const LumenField& field, int euler_number)
-{
-    return eulerNumber26(inside, field.low, field.size) == euler_number &&
-           eulerNumber6(inside, field.low, field.size) == euler_number;
-}
-
 /// What fills the lumen of a CT.
 void drawContents(const PhantomOptions& options, const Course& course, const Wall& wall, Position position,
                   PhantomTruth& truth)
@@ -204,33 +199,6 @@ HuVolume scanned(const HuVolume& painted, const PhantomOptions& options, std::ui
     if (options.protocol.hips != Hips::quiet)
         addHipArtefacts(hu, seed, progress);
     return hu;
-}
-
-/// The lumen's voxels, rounded off until they have the lumen's own topology.
-InsideVolume soundLumen(const Grid& grid, const Scene& scene, LumenField& field, const PhantomTruth& truth,
-                        Progress& progress)
-{
-    constexpr int kRounds = 6;
-    for (int round = 0; round < kRounds; ++round) {
-        progress.check();
-        // A polyp keeps its shape unless its foot is what the voxels cannot show.
-        roundOff(field, grid, round < kRounds / 2 ? truth.polyps : std::vector<Polyp>());
-        InsideVolume inside = labelLumen(grid, scene, field, truth);
-        if (field.cropped)
-            return inside;
-        if (hasTopology(inside, field, truth.euler_number))
-            return inside;
-        const std::vector<Index3> out = partAtCorners(inside, field.low, field.size, truth.euler_number);
-        // A tunnel too many can hide a piece too many; a contact of loops may join what a gap parts.
-        const int pieces = hasTopology(inside, field, truth.euler_number) ? countPieces(inside) : -1;
-        if (pieces < truth.euler_number || pieces > int(truth.gaps.size()) + 1)
-            continue;
-        for (const Index3 v : out)
-            field.lumen[field.offset(v)] = 0;
-        return inside;
-    }
-    throw Error(ErrorCode::internal, "the lumen cannot be shown on so coarse a grid", {},
-                "use another seed or smaller voxels");
 }
 
 }  // namespace

@@ -101,14 +101,14 @@ EulerNumbers around(const InsideVolume& volume, Index3 v)
     return sum;
 }
 
-/// Takes a voxel out if that helps.
-bool takenOut(InsideVolume& volume, Index3 v, int wanted, EulerNumbers& all)
+/// Takes a voxel out, or puts it in, if that helps.
+bool isChanged(InsideVolume& volume, Index3 v, std::uint8_t to, int wanted, EulerNumbers& all)
 {
     const EulerNumbers before = around(volume, v);
     if (before.touching == 0)
         return false;
     const std::uint8_t was = volume.at(v);
-    volume.at(v) = kOutside;
+    volume.at(v) = to;
     const EulerNumbers after = around(volume, v);
     const EulerNumbers changed{all.as26 + (after.as26 - before.as26) / 8, all.as6 + (after.as6 - before.as6) / 8};
     if (after.touching < before.touching && changed.misses(wanted) <= all.misses(wanted)) {
@@ -117,6 +117,20 @@ bool takenOut(InsideVolume& volume, Index3 v, int wanted, EulerNumbers& all)
     }
     volume.at(v) = was;
     return false;
+}
+
+/// All that help, of those that are in the lumen, or of those that are not.
+std::vector<Index3> changedAtCorners(InsideVolume& volume, Index3 low, std::array<int, 3> size, bool put_in, int wanted)
+{
+    const std::uint8_t to = put_in ? kGas : kOutside;
+    EulerNumbers all{eulerNumber26(volume, low, size), eulerNumber6(volume, low, size)};
+    std::vector<Index3> changed;
+    for (int k = low.k; k < low.k + size[2]; ++k)
+        for (int j = low.j; j < low.j + size[1]; ++j)
+            for (int i = low.i; i < low.i + size[0] && all.misses(wanted) > 0; ++i)
+                if ((volume.at({i, j, k}) == kOutside) == put_in && isChanged(volume, {i, j, k}, to, wanted, all))
+                    changed.push_back({i, j, k});
+    return changed;
 }
 
 void emptyPiece(InsideVolume& volume, Index3 first)
@@ -149,14 +163,12 @@ int eulerNumber6(const InsideVolume& volume, Index3 low, std::array<int, 3> size
 
 std::vector<Index3> partAtCorners(InsideVolume& volume, Index3 low, std::array<int, 3> size, int wanted)
 {
-    EulerNumbers all{eulerNumber26(volume, low, size), eulerNumber6(volume, low, size)};
-    std::vector<Index3> changed;
-    for (int k = low.k; k < low.k + size[2]; ++k)
-        for (int j = low.j; j < low.j + size[1]; ++j)
-            for (int i = low.i; i < low.i + size[0] && all.misses(wanted) > 0; ++i)
-                if (volume.at({i, j, k}) != kOutside && takenOut(volume, {i, j, k}, wanted, all))
-                    changed.push_back({i, j, k});
-    return changed;
+    return changedAtCorners(volume, low, size, false, wanted);
+}
+
+std::vector<Index3> fillAtCorners(InsideVolume& volume, Index3 low, std::array<int, 3> size, int wanted)
+{
+    return changedAtCorners(volume, low, size, true, wanted);
 }
 
 int countPieces(InsideVolume volume)

@@ -60,7 +60,7 @@ json runSkeleton(const StepInputs& inputs, ScanResults& results, const StepRecor
             },
         .paths_found =
             [&](const std::vector<std::vector<Index3>>& paths) {
-                if (inputs.config.get<steps::SubdivideOptions>().method == steps::SubdivideMethod::flood)
+                if (inputs.config.get<steps::SubdivideOptions>().method == SubdivideMethod::flood)
                     results.keepFlood(std::async(std::launch::async, [&inside = results.inside(), paths] {
                         return steps::floodFromPaths(inside, paths);
                     }));

@@ -174,7 +174,7 @@ void StepRunner::work(Task& task, const StepRecords& records)
 void StepRunner::report(Task& task, double fraction, std::string_view what)
 {
     const std::lock_guard lock(mutex_);
-    task.fraction = std::clamp(fraction, 0.0, 1.0);
+    task.fraction = std::max(task.fraction, std::clamp(fraction, 0.0, 1.0));  // a step may do a part of its work again
     context_.report(whole(), what);
 }
 

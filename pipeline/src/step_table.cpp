@@ -74,7 +74,7 @@ steps::Subdivided divide(const StepInputs& inputs, ScanResults& results, Progres
         return steps::undivided(results.inside(), options, progress);
     const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));
     if (!tree.empty())
-        options.method = steps::SubdivideMethod::flood;  // planes across one path do not part branches
+        options.method = SubdivideMethod::flood;  // planes across one path do not part branches
     return steps::subdivide(results.inside(), tree.empty() ? results.skeleton() : tree.allBranches(),
                             scan_files::readSkeletonVoxels(results.source("skeleton_voxels.vtp")), options, progress,
                             results.takeFlood());

@@ -14,11 +14,11 @@ namespace {
 std::vector<steps::SubdivideOptions> allWays(const steps::SubdivideOptions& configured, bool branches)
 {
     steps::SubdivideOptions way = configured;
-    way.method = steps::SubdivideMethod::flood;
+    way.method = SubdivideMethod::flood;
     std::vector<steps::SubdivideOptions> all{way};
     if (branches)
         return all;
-    way.method = steps::SubdivideMethod::thesis;
+    way.method = SubdivideMethod::thesis;
     for (const auto& [size, size_name] : steps::kSegmentSizeNames)
         for (const auto& [effectiveness, name] : steps::kPortalEffectivenessNames) {
             way.size = size;

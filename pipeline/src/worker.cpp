@@ -116,7 +116,7 @@ public:
     void report(double fraction, std::string_view what) override
     {
         const std::lock_guard lock(mutex_);
-        whole_ = from_ + (to_ - from_) * std::clamp(fraction, 0.0, 1.0);
+        whole_ = std::max(whole_, from_ + (to_ - from_) * std::clamp(fraction, 0.0, 1.0));
         tell(whole_, what);
     }
     bool cancelled() const override { return stop_ || heartbeat_.leaseLost(); }

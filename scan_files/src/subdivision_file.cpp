@@ -69,11 +69,24 @@ SegmentInfo segmentFrom(const json& j)
             .upper_mm = j.at("upper_mm").get<Point3>()};
 }
 
+Subdivision subdivisionFrom(const json& in)
+{
+    Subdivision subdivision;
+    subdivision.method = subdivideMethodFrom(in.at("method"));
+    subdivision.parameters = in.at("parameters");
+    subdivision.statistics = in.at("statistics");
+    for (const json& segment : in.at("segments"))
+        subdivision.segments.push_back(segmentFrom(segment));
+    for (const json& portal : in.at("portals"))
+        subdivision.portals.push_back(portalFrom(portal));
+    return subdivision;
+}
+
 }  // namespace
 
 void writeSubdivision(const fs::path& file, const Subdivision& subdivision)
 {
-    json out = {{"method", subdivision.method},
+    json out = {{"method", nameOf(subdivision.method)},
                 {"parameters", subdivision.parameters},
                 {"statistics", subdivision.statistics},
                 {"segments", json::array()},
@@ -88,19 +101,12 @@ void writeSubdivision(const fs::path& file, const Subdivision& subdivision)
 Subdivision readSubdivision(const fs::path& file)
 {
     const json in = parsedJson(readFile(file));
-    Subdivision subdivision;
     try {
-        subdivision.method = in.at("method");
-        subdivision.parameters = in.at("parameters");
-        subdivision.statistics = in.at("statistics");
-        for (const json& segment : in.at("segments"))
-            subdivision.segments.push_back(segmentFrom(segment));
-        for (const json& portal : in.at("portals"))
-            subdivision.portals.push_back(portalFrom(portal));
-    } catch (const json::exception&) {
-        throw Error(ErrorCode::bad_input, "is not a subdivision", file.string(), "run 'vicon work' to make it anew");
+        return subdivisionFrom(in);
+    } catch (const json::exception&) {  // both: told below
+    } catch (const Error&) {
     }
-    return subdivision;
+    throw Error(ErrorCode::bad_input, "is not a subdivision", file.string(), "run 'vicon work' to make it anew");
 }
 
 }  // namespace vicon::scan_files

@@ -94,8 +94,8 @@ TEST_F(AuditForwarding, SendsEachLineOnce)
     EXPECT_THAT(message, HasSubstr(R"(ParticipantObjectID="1.2.3")"));
     EXPECT_THAT(message, HasSubstr("4711 &lt;&amp;&quot;"));
     EXPECT_EQ(forwardAudit(store_, options_), 0);
-    store_.audit("case deleted", "c0", "", "a case that is gone");
-    store_.audit("case opened", "c1", "", "");
+    store_.audit(AuditEvent::case_deleted, "c0", "", "a case that is gone");
+    store_.audit(AuditEvent::case_opened, "c1", "", "");
     EXPECT_EQ(forwardAudit(store_, options_), 2);
     const auto later = syslog.packets();
     ASSERT_EQ(later.size(), 2u);
@@ -109,37 +109,45 @@ TEST_F(AuditForwarding, SendsWhatIsOfNoCaseByItsOwnCode)
     const Listening syslog(options_.syslog);
     forwardAudit(store_, options_);
     ASSERT_EQ(syslog.packets().size(), 1u);
-    const std::map<std::string, std::pair<std::string, std::string>> codes = {
-        {kApplicationStarted, {"110100", "110120"}},
-        {kApplicationStopped, {"110100", "110121"}},
-        {kFilesImported, {"110107", ""}},
-        {kStoreRestored, {"110107", ""}},
-        {kStoreBackedUp, {"110106", ""}},
-        {kPeerAsked, {"110112", ""}},
-        {kCallerRefused, {"110113", "110126"}},
-        {kAccountRefused, {"110113", "110132"}},
+    const std::map<AuditEvent, std::pair<std::string, std::string>> codes = {
+        {AuditEvent::application_started, {"110100", "110120"}},
+        {AuditEvent::application_stopped, {"110100", "110121"}},
+        {AuditEvent::files_imported, {"110107", ""}},
+        {AuditEvent::store_restored, {"110107", ""}},
+        {AuditEvent::store_backed_up, {"110106", ""}},
+        {AuditEvent::peer_asked, {"110112", ""}},
+        {AuditEvent::caller_refused, {"110113", "110126"}},
+        {AuditEvent::account_refused, {"110113", "110132"}},
     };
     for (const auto& [event, code] : codes) {
         auditOperation(store_.place(), event, "why <so>");
         forwardAudit(store_, options_);
         const auto packets = syslog.packets();
-        ASSERT_EQ(packets.size(), 1u) << event;
+        ASSERT_EQ(packets.size(), 1u) << nameOf(event);
         const std::string message = checked(packets[0]);
-        EXPECT_THAT(message, HasSubstr("<EventID csd-code=\"" + code.first + "\"")) << event;
+        EXPECT_THAT(message, HasSubstr("<EventID csd-code=\"" + code.first + "\"")) << nameOf(event);
         EXPECT_EQ(message.find("<EventTypeCode csd-code=\"" + code.second + "\"") != std::string::npos,
                   !code.second.empty())
-            << event;
-        EXPECT_THAT(message, HasSubstr("why &lt;so&gt;")) << event;
+            << nameOf(event);
+        EXPECT_THAT(message, HasSubstr("why &lt;so&gt;")) << nameOf(event);
         const bool is_alert = code.first == "110113";
         EXPECT_THAT(message, HasSubstr(is_alert ? R"(EventOutcomeIndicator="4")" : R"(EventOutcomeIndicator="0")"));
     }
-    for (const char* event : {"report exported", "picture saved", "case written without names"}) {
+    for (const AuditEvent event :
+         {AuditEvent::report_exported, AuditEvent::picture_saved, AuditEvent::case_written_without_names}) {
         store_.audit(event, "c1", "", "");
         forwardAudit(store_, options_);
         const auto packets = syslog.packets();
-        ASSERT_EQ(packets.size(), 1u) << event;
-        EXPECT_THAT(checked(packets[0]), HasSubstr(R"(<EventID csd-code="110106")")) << event;
+        ASSERT_EQ(packets.size(), 1u) << nameOf(event);
+        EXPECT_THAT(checked(packets[0]), HasSubstr(R"(<EventID csd-code="110106")")) << nameOf(event);
     }
+}
+
+TEST_F(AuditForwarding, TellsWhatAnotherVersionWroteAsAChangeOfTheCase)
+{
+    const std::string told = atnaMessage({1, "c1", {.at = "2026-01-02T03:04:05Z", .event = "dreamt of"}}, {}, "here");
+    EXPECT_THAT(told, HasSubstr(R"(<EventID csd-code="110110")"));
+    EXPECT_THAT(told, HasSubstr(R"(type="event" value="ZHJlYW10IG9m")"));
 }
 
 TEST_F(AuditForwarding, KeepsALineOfTheRunOfAProgramAndNoneWhereThereIsNoStore)
@@ -150,10 +158,10 @@ TEST_F(AuditForwarding, KeepsALineOfTheRunOfAProgramAndNoneWhereThereIsNoStore)
     }
     const auto lines = auditAfter(store_, before, 1000);
     ASSERT_EQ(lines.size(), 2u);
-    EXPECT_EQ(lines[0].line.event, kApplicationStarted);
-    EXPECT_EQ(lines[1].line.event, kApplicationStopped);
+    EXPECT_EQ(lines[0].line.event, "application started");
+    EXPECT_EQ(lines[1].line.event, "application stopped");
     EXPECT_EQ(lines[1].line.detail, "receive");
-    auditOperation(StorePlace(folder_ / "none"), kPeerAsked, "main");
+    auditOperation(StorePlace(folder_ / "none"), AuditEvent::peer_asked, "main");
     EXPECT_FALSE(fs::exists(folder_ / "none"));
 }
 
@@ -169,7 +177,7 @@ TEST_F(AuditForwarding, KeepsOfACallerThatIsRefusedAgainAndAgainALineAMinute)
     refused.note("10.1.1.1", "refused 'Z' at 10.1.1.1: because");
     const auto lines = auditAfter(store_, before, 1000);
     ASSERT_EQ(lines.size(), 3u);
-    EXPECT_EQ(lines[0].line.event, kCallerRefused);
+    EXPECT_EQ(lines[0].line.event, "caller refused");
     EXPECT_EQ(lines[1].line.detail, "refused 'Y' at 10.1.1.2: because");
     EXPECT_EQ(lines[2].line.detail, "refused 'Z' at 10.1.1.1: because; before, 499 more of this host");
 }
@@ -177,7 +185,7 @@ TEST_F(AuditForwarding, KeepsOfACallerThatIsRefusedAgainAndAgainALineAMinute)
 TEST_F(AuditForwarding, LosesNothingWhileSyslogIsAway)
 {
     for (int n = 0; n < 150; ++n)
-        store_.audit("flagged", "c1", "", std::to_string(n));
+        store_.audit(AuditEvent::flagged, "c1", "", std::to_string(n));
     EXPECT_THROW(forwardAudit(store_, options_), Error);
     const Listening syslog(options_.syslog);
     std::size_t came = 0;

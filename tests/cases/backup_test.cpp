@@ -96,8 +96,9 @@ TEST_F(SqliteBackup, IsConsistentWhileOthersWriteToTheStore)
                 own.addScan(own.requireCase("c1"), marked_.scan, {{uid, "c1", "s1", sha256(uid), uid + ".dcm"}}, true);
             }
             added = n;
-            own.audit("between two imports", "c1", "", "");
-            own.audit("of which each waits for the disk", "c1", "", "");
+            // Between two imports, of which each waits for the disk.
+            own.audit(AuditEvent::case_opened, "c1", "", "");
+            own.audit(AuditEvent::case_opened, "c1", "", "");
         }
     });
     for (int round = 0; round < 3; ++round) {

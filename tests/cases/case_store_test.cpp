@@ -47,10 +47,10 @@ TEST_F(Store, SaysWhetherAnybodyChangedAnything)
     const std::string first = store_.database().version();
     store_.cases();
     EXPECT_EQ(store_.database().version(), first) << "nothing was changed";
-    store_.audit("opened", "c1", "s1", "");
+    store_.audit(AuditEvent::case_opened, "c1", "s1", "");
     const std::string second = store_.database().version();
     EXPECT_NE(second, first) << "changed over this connection";
-    CaseStore(store_.place()).audit("opened", "c1", "s1", "");
+    CaseStore(store_.place()).audit(AuditEvent::case_opened, "c1", "s1", "");
     const std::string third = store_.database().version();
     EXPECT_NE(third, second) << "changed over another one";
     EXPECT_EQ(store_.database().version(), third);

@@ -61,13 +61,13 @@ protected:
 TEST_F(PostgresqlBackup, GivesTheSameStoreBack)
 {
     EXPECT_EQ(backUp(store_, to_, quiet_).cases, 1);
-    store_.audit("after the backup", "c1", "", "");
+    store_.audit(AuditEvent::case_opened, "c1", "", "");
     EXPECT_EQ(restore(to_, {restored_, to_database_}, quiet_).cases, 1);
     CaseStore again(StorePlace(restored_, to_database_));
     EXPECT_EQ(again.requireCase("c1").patient.id, "P1");
     EXPECT_EQ(readFile(object(again)), "an object");
     EXPECT_EQ(readFile(keptReportsFolder(again) / keptReportsOf(again, "P1").at(0).file), "a report");
-    again.audit("it is worked with", "c1", "", "");
+    again.audit(AuditEvent::case_opened, "c1", "", "");
     EXPECT_THROW(again.database().write([](soci::session& sql) { sql << "DELETE FROM audit"; }), Error)
         << "triggers as well";
     EXPECT_EQ(backUp(store_, to_, quiet_).copied, 0) << "the next one copies what is new";

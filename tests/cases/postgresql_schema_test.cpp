@@ -72,7 +72,7 @@ TEST(Schema, OfEveryEarlierVersionIsBroughtUpToDate)
         SCOPED_TRACE(version);
         const support::TemporaryFolder folder;
         CaseStore store(support::storeOfVersion(version, folder / "store"));
-        store.audit("opened", "c1", "", "");
+        store.audit(AuditEvent::case_opened, "c1", "", "");
         EXPECT_TRUE(store.cases().empty());
     }
 }

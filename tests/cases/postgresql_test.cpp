@@ -60,8 +60,8 @@ TEST(PostgresqlServer, StartedAnewIsUsedAgainWithoutAWord)
     tellServer("restart -m fast");
     EXPECT_EQ(fake.store.scans("c").size(), 1u);
     tellServer("restart -m immediate");
-    fake.store.audit("opened", "c", "s0", "");
-    EXPECT_EQ(auditTrail(fake.store, "c").back().event, "opened");
+    fake.store.audit(AuditEvent::case_opened, "c", "s0", "");
+    EXPECT_EQ(auditTrail(fake.store, "c").back().event, "case opened");
 }
 
 TEST(PostgresqlServer, ThatBreaksOffInAChangeSavesNothingAndSaysSoInOneLine)
@@ -103,7 +103,7 @@ TEST(PostgresqlServer, ThatIsAwayIsOneClearLineWithoutUserAndAnswersLater)
     EXPECT_THAT(said, AllOf(HasSubstr("cannot be reached"), HasSubstr("PostgreSQL database 'postgres'"),
                             Not(HasSubstr("vicon@")), Not(HasSubstr("\n"))));
     std::thread starter([] { tellServer("start"); });
-    EXPECT_NO_THROW(fake.store.audit("opened", "c", "", "")) << "it waits while the server starts";
+    EXPECT_NO_THROW(fake.store.audit(AuditEvent::case_opened, "c", "", "")) << "it waits while the server starts";
     starter.join();
 }
 
@@ -126,7 +126,7 @@ protected:
 TEST_F(CutLine, AfterACommitReachedTheServerIsASuccessDoneOnce)
 {
     proxy_.cutAfter("COMMIT");
-    EXPECT_NO_THROW(store_.audit("signed", "c", "", ""));
+    EXPECT_NO_THROW(store_.audit(AuditEvent::report_signed, "c", "", ""));
     EXPECT_EQ(proxy_.cuts(), 1);
     EXPECT_EQ(auditTrail(store_, "c").size(), 1u);
 }
@@ -134,7 +134,8 @@ TEST_F(CutLine, AfterACommitReachedTheServerIsASuccessDoneOnce)
 TEST_F(CutLine, BeforeACommitReachedTheServerSavesNothing)
 {
     proxy_.cutBefore("COMMIT");
-    EXPECT_THAT(messageOf([&] { store_.audit("signed", "c", "", ""); }), HasSubstr("nothing was saved"));
+    EXPECT_THAT(messageOf([&] { store_.audit(AuditEvent::report_signed, "c", "", ""); }),
+                HasSubstr("nothing was saved"));
     EXPECT_EQ(proxy_.cuts(), 1);
     EXPECT_TRUE(auditTrail(store_, "c").empty());
 }

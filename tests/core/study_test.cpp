@@ -4,6 +4,7 @@
 
 #include "vicon/core/error.h"
 #include "vicon/core/scan_records.h"
+#include "vicon/core/subdivision.h"
 
 namespace vicon {
 namespace {
@@ -31,6 +32,16 @@ TEST(ScanRole, HasAName)
     for (const ScanRole role : {ScanRole::scan, ScanRole::kept, ScanRole::refused})
         EXPECT_EQ(scanRoleFrom(nameOf(role)), role);
     EXPECT_THROW(scanRoleFrom("scout"), Error);
+}
+
+TEST(SubdivideMethod, HasAName)
+{
+    for (const auto& [method, name] : std::vector<std::pair<std::optional<SubdivideMethod>, std::string>>{
+             {SubdivideMethod::flood, "flood"}, {SubdivideMethod::thesis, "thesis"}, {{}, "none"}}) {
+        EXPECT_EQ(nameOf(method), name);
+        EXPECT_EQ(subdivideMethodFrom(name), method);
+    }
+    EXPECT_THROW(subdivideMethodFrom(""), Error);
 }
 
 TEST(Series, IsReadFromJson)

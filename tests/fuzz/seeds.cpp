@@ -114,7 +114,7 @@ void writeJson(const fs::path& out)
     const ScanRecord scan = store.scans(store.cases().at(0).id).at(0);
     save(out / "scan_json" / "scan", readFile(store.scanFolder(scan.case_id, scan.id) / "scan.json"));
     Subdivision subdivision;
-    subdivision.method = "planes";
+    subdivision.method = SubdivideMethod::thesis;
     subdivision.segments.push_back({1, 0, 30, 1000, 100, 50, 200, {0, 0, 0}, {9, 9, 9}});
     subdivision.portals.emplace_back();
     scan_files::writeSubdivision(out / "scan_json" / "subdivision", subdivision);
@@ -132,7 +132,7 @@ void writeJson(const fs::path& out)
          R"(?[{"0020000D":{"vr":"UI","Value":["1.2","1.3"]},"00100010":{"vr":"PN","Value":[{"Alphabetic":"A^B"}]}}])");
     save(out / "scan_json" / "segment",
          R"({"verdict":"colon","confidence":0.9,"reason":"r","organ":"colon","noise_hu":12.5,"plan":{},)"
-         R"("bridges":[{"from_mm":[0,0,0],"to_mm":[0,0,9],"length_mm":9,"confidence":0.5}],"method":"planes",)"
+         R"("bridges":[{"from_mm":[0,0,0],"to_mm":[0,0,9],"length_mm":9,"confidence":0.5}],"method":"thesis",)"
          R"("triangles":7,"length_mm":1500,"size":[4,4,4],"acquired_size":[4,4,4],"acquired_spacing_mm":[1,1,1],)"
          R"("parts":[{"name":"rectum","from_mm":0,"to_mm":150}]})");
     Marker marker;

@@ -31,6 +31,15 @@ void expectSound(const PhantomOptions& options, const std::string& position)
     EXPECT_NEAR(scan.hu.grid.spacing_mm[2], 1, 1e-9);
 }
 
+/// Its folds touch by a corner, however often the lumen is rounded off.
+TEST(FullSizeOfOneSeed, IsSoundWhereFoldsTouch)
+{
+    PhantomOptions options;
+    options.seed = 402;
+    options.thin_walls = true;
+    expectSound(options, "HFP");
+}
+
 TEST_P(FullSize, IsSoundSupineAndProne)
 {
     PhantomOptions options;

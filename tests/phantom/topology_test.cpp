@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "euler.h"
 
@@ -115,6 +117,25 @@ TEST(PartAtCorners, LeavesASoundVolumeAlone)
     const InsideVolume before = ball;
     EXPECT_TRUE(partAtCorners(ball, {0, 0, 0}, ball.grid.size, 1).empty());
     EXPECT_EQ(ball.voxels, before.voxels);
+}
+
+/// Two folds reach into the lumen from both sides. Taking more of the lumen out would join them.
+TEST(FillAtCorners, PartsFoldsThatTouchByAnEdgeOfOneVoxelOrACornerAlone)
+{
+    for (const int z : {-2, -3}) {
+        InsideVolume volume = filled(25, [&](int x, int y, int k) {
+            const bool right = x >= 0 && y >= 0 && y < 3 && k >= 0 && k < 3;
+            const bool left = x < 0 && y >= -3 && y < 0 && k >= z && k < z + 3;
+            return std::max({std::abs(x), std::abs(y), std::abs(k)}) < 8 && !right && !left;
+        });
+        ASSERT_EQ(euler26(volume), 1);
+        ASSERT_EQ(euler6(volume), 0) << "round the folds";
+        partAtCorners(volume, {0, 0, 0}, volume.grid.size, 1);
+        EXPECT_NE(euler6(volume), 1);
+        EXPECT_FALSE(fillAtCorners(volume, {0, 0, 0}, volume.grid.size, 1).empty());
+        EXPECT_EQ(euler26(volume), 1);
+        EXPECT_EQ(euler6(volume), 1);
+    }
 }
 
 TEST(CountPieces, CountsWhatHangsTogetherOverFaces)

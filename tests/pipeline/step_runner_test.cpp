@@ -28,6 +28,7 @@ public:
         last_ = fraction;
     }
     bool cancelled() const override { return stop; }
+    double last() const { return last_; }
 
     std::vector<std::string> entered;
     std::atomic<bool> stop = false;
@@ -90,6 +91,19 @@ TEST(StepRunner, RunsStepsTogetherWhenNeitherReadsTheOther)
     EXPECT_EQ(bench.recorded.front(), "first");
     EXPECT_EQ(bench.recorded.back(), "last");
     EXPECT_THAT(bench.context.entered, testing::Contains("left, right"));
+}
+
+/// The context holds every report against the last one.
+TEST(StepRunner, KeepsTheProgressOfAStepThatDoesAPartOfItsWorkAgain)
+{
+    Bench bench;
+    bench.add("doubts", {}, [](Progress& progress) {
+        for (const double fraction : {0.9, 0.8, 0.95})
+            progress.report(fraction, "order of the pieces");
+        return json{};
+    });
+    bench.run();
+    EXPECT_NEAR(bench.context.last(), 0.095, 1e-12);
 }
 
 TEST(StepRunner, RunsOneAtATimeInTheTablesOrderWhenTold)

@@ -138,6 +138,26 @@ TEST(Worker, ShowsStepAndProgressInTheTable)
         events);
 }
 
+TEST(Worker, NeverShowsLessProgressThanBefore)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    std::vector<double> shown;
+    WorkerEvents events;
+    events.progress = [&](const Job&, double f, const std::string&) { shown.push_back(f); };
+    work(
+        fake,
+        [](JobContext& context) {
+            context.enterStep("segment", 0, 0.5);
+            context.report(0.9, "a doubt");
+            context.report(0.8, "once more");
+            context.enterStep("skeleton", 0.4, 1);
+            context.report(1, "done");
+        },
+        events);
+    EXPECT_THAT(shown, testing::ElementsAre(0, 0.45, 0.45, 0.45, 1));
+}
+
 TEST(Worker, TellsItsWatcherOfReportsOneAtATimeWhereverTheyComeFrom)
 {
     FakeStore fake;

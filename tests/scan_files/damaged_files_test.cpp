@@ -241,8 +241,10 @@ TEST_F(DamagedFile, SubdivisionsWithoutSenseAreRefused)
     ASSERT_NO_THROW(readSubdivision(file));
     replace("\"parameters\": {}", "\"parameters\": " + std::string(1000000, '['));
     EXPECT_TRUE(isRefused([&] { readSubdivision(file); })) << "too deep to copy";
+    replaceFile(file, R"({"method":"planes","parameters":{},"statistics":{},"segments":[],"portals":[]})");
+    EXPECT_TRUE(isRefused([&] { readSubdivision(file); })) << "nothing is divided so";
     replaceFile(file,
-                R"({"method":"","parameters":{},"statistics":{},"segments":[],"portals":[{"between":[1e300,2]}]})");
+                R"({"method":"none","parameters":{},"statistics":{},"segments":[],"portals":[{"between":[1e300,2]}]})");
     EXPECT_TRUE(isRefused([&] { readSubdivision(file); })) << "no whole number";
 }
 

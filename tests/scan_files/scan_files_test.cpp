@@ -211,12 +211,14 @@ TEST(SubdivisionFile, GivesBackSegmentsAndPortals)
 {
     const support::TemporaryFolder folder;
     Subdivision s;
-    s.method = "flood";
+    s.method = SubdivideMethod::flood;
     s.segments.push_back({.number = 1, .to_station_mm = 30, .triangles = 12});
     s.portals.push_back(
         {.segment_a = 1, .segment_b = 2, .centre_mm = {1, 2, 3}, .area_mm2 = 4, .along_skeleton = false});
     writeSubdivision(folder / "s.json", s);
+    EXPECT_EQ(nlohmann::json::parse(readFile(folder / "s.json"))["method"], "flood");
     const Subdivision back = readSubdivision(folder / "s.json");
+    EXPECT_EQ(back.method, SubdivideMethod::flood);
     EXPECT_EQ(back.segments[0].triangles, 12u);
     EXPECT_EQ(back.portals[0].centre_mm, s.portals[0].centre_mm);
     EXPECT_FALSE(back.portals[0].along_skeleton);

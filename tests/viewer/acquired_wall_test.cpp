@@ -1,6 +1,8 @@
 // The wall as acquired: tagged fluid stands where it stood.
 #include "vicon/viewer/model/acquired_wall.h"
+
 #include "snapshot_fixture.h"
+#include "vicon/scan_files/description_file.h"
 #include "vicon/viewer/model/camera.h"
 #include "vicon/viewer/model/peeling.h"
 #include "vicon/viewer/scene/surface_scene.h"
@@ -78,7 +80,8 @@ TEST_F(AcquiredWall, IsMetByARayWhereThePictureShowsIt)
     const PreparedScan filled = scan(colon, "filled");
     const Lumen lumen = filled.lumen();
     const auto alongRay = [&](Vector3 way) {
-        return distanceToAcquiredWall_mm(filled.volume(), lumen, eye.eye_mm, way, kReach_mm).value_or(0);
+        return distanceToAcquiredWall_mm(filled.volume(), filled.gasEnds_hu(), lumen, eye.eye_mm, way, kReach_mm)
+            .value_or(0);
     };
     const double voxel_mm = lumen.voxel_mm();
     EXPECT_NEAR(alongRay(eye.forward), kAhead_mm, voxel_mm);
@@ -86,9 +89,34 @@ TEST_F(AcquiredWall, IsMetByARayWhereThePictureShowsIt)
     const double to_side_mm = distanceToWall_mm(lumen, eye.eye_mm, eye.right(), kReach_mm).value_or(0);
     EXPECT_NEAR(alongRay(eye.right()), to_side_mm, voxel_mm) << "where there is no fluid, the wall";
     fillAhead(eye, -20);
-    EXPECT_EQ(distanceToAcquiredWall_mm(scan(colon, "under").volume(), lumen, eye.eye_mm, eye.forward, kReach_mm),
+    EXPECT_EQ(distanceToAcquiredWall_mm(scan(colon, "under").volume(), filled.gasEnds_hu(), lumen, eye.eye_mm,
+                                        eye.forward, kReach_mm),
               std::nullopt)
         << "from under fluid nothing is seen";
+}
+
+/// segment.wall_hu, as the step that made the surface had it.
+TEST_F(AcquiredWall, StandsWhereTheScansOptionsHadIt)
+{
+    constexpr double kReach_mm = 500;
+    const Pose eye = place().pose;
+    request.wall.acquired = true;
+    const Picture usual = shoot(scan(), request);
+    const auto toWall_mm = [&](const PreparedScan& of) {
+        return distanceToAcquiredWall_mm(of.volume(), of.gasEnds_hu(), of.lumen(), eye.eye_mm, eye.right(), kReach_mm)
+            .value_or(0);
+    };
+    for (const double wall_hu : {-480.0, -900.0}) {
+        const std::string name = std::to_string(int(wall_hu));
+        colon.write(folder / name);
+        scan_files::writeDescription(folder / name,
+                                     {.steps = {{.step = "segment", .parameters = {{"segment.wall_hu", wall_hu}}}}});
+        const PreparedScan of = PreparedScan::open(folder / name);
+        EXPECT_EQ(of.gasEnds_hu(), wall_hu);
+        const bool same = wall_hu == scan().gasEnds_hu();
+        EXPECT_EQ(differing(usual, shoot(of, request), 0) == 0, same) << name;
+        EXPECT_EQ(toWall_mm(of) < toWall_mm(scan()) - 0.2, !same) << "gas ends earlier in the blur of the wall";
+    }
 }
 
 TEST_F(AcquiredWall, SaysWhereFluidFillsTheView)
@@ -102,7 +130,7 @@ TEST_F(AcquiredWall, SaysWhereFluidFillsTheView)
     fillAhead(eye.pose, 12);  // between it and the eye the wall is seen
     const Lens lens{request.view_angle_deg, 600, 600};
     const PreparedScan in_part = scan(colon, "in part");
-    const double share = standingShare(in_part.volume(), in_part.lumen(), eye.pose, lens);
+    const double share = standingShare(in_part.volume(), in_part.gasEnds_hu(), in_part.lumen(), eye.pose, lens);
     EXPECT_GT(share, 0.05);
     EXPECT_LT(share, 0.9);
     EXPECT_EQ(orange("in part"), 0);

@@ -184,7 +184,7 @@ TestColon::TestColon(const Storage& storage, double voxel_mm)
     cells = surfaceOf(
         grid, values, [&](Point3 p) { return body.field(p); },
         [&](Point3 p) { return 1 + int(skeleton.nearest(p).station_mm / kSegment_mm); });
-    subdivision.method = "test";
+    subdivision.method = SubdivideMethod::flood;
     subdivision.portals = portalsOf(segments);
 }
 

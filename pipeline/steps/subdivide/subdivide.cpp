@@ -42,10 +42,11 @@ nlohmann::json statisticsOf(const Subdivided& result, int specified)
 }
 
 /// Portals, description and statistics of numbered segments.
-Subdivided describe(NumberedSegments numbered, std::string method, const SubdivideOptions& options, int specified)
+Subdivided describe(NumberedSegments numbered, std::optional<SubdivideMethod> method, const SubdivideOptions& options,
+                    int specified)
 {
     Subdivided result;
-    result.description.method = std::move(method);
+    result.description.method = method;
     result.description.parameters = toJson(options);
     result.description.portals = findPortals(numbered);
     result.description.segments = std::move(numbered.infos);
@@ -63,7 +64,7 @@ Subdivided undivided(const InsideVolume& inside, const SubdivideOptions& options
                    [](std::uint8_t voxel) { return std::uint16_t(voxel != kOutside); });
     if (std::find(label.begin(), label.end(), 1) == label.end())
         throw Error(ErrorCode::bad_input, "nothing is inside");
-    Subdivided result = describe(numberSegments(inside, label, {LabelledPiece{}}, {}), "none", options, 1);
+    Subdivided result = describe(numberSegments(inside, label, {LabelledPiece{}}, {}), {}, options, 1);
     progress.report(1, "subdividing");
     return result;
 }
@@ -93,8 +94,7 @@ Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const
     progress.check();
     progress.report(0.8, "subdividing");
 
-    Subdivided result =
-        describe(std::move(numbered), nameIn(kSubdivideMethodNames, options.method), options, specified);
+    Subdivided result = describe(std::move(numbered), options.method, options, specified);
     result.description.statistics.update(pieces.measures);
     progress.report(1, "subdividing");
     return result;

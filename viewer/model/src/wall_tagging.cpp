@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "density_sampler.h"
+#include "recorded_option.h"
 
 namespace vicon::viewer {
 namespace {
@@ -111,16 +112,8 @@ void addFaint(std::vector<float>& tagging, const std::vector<float>& points_mm, 
 TagDensities tagDensitiesOf(const std::vector<StepRecord>& steps)
 {
     TagDensities densities;
-    for (const StepRecord& step : steps) {
-        const auto take = [&](const char* option, double& value) {
-            if (const auto said = step.parameters.find(option); said != step.parameters.end() && said->is_number())
-                value = said->get<double>();
-        };
-        if (!step.parameters.is_object())
-            continue;
-        take("segment.tissue_hu", densities.tissue_hu);
-        take("tissue.tag_contrast_hu", densities.contrast_hu);
-    }
+    takeRecorded(steps, "segment.tissue_hu", densities.tissue_hu);
+    takeRecorded(steps, "tissue.tag_contrast_hu", densities.contrast_hu);
     return densities;
 }
 

@@ -10,18 +10,18 @@ namespace {
 
 // Opacity rises over the width that the scanner's blur gives an edge: where it rose at once, the steps of the rays
 // would be seen as rings.
-constexpr double kFirstSeen_hu = -650, kOpaque_hu = -380;
+constexpr double kFirstSeenBelow_hu = 170, kOpaqueAbove_hu = 100;  // from where gas ends
 constexpr double kStepOfOpaque = 0.5;  // of the usual one: a wall that stops a ray at once shows how far apart they are
 
 /// Nothing of gas, all of what is denser.
-TransferFunction solid(WallColors colors)
+TransferFunction solid(WallColors colors, double gas_ends_hu)
 {
     const auto& [red, green, blue] = wallColor(colors);
     return {"as-acquired",
             "As acquired",
-            {{kFirstSeen_hu, red, green, blue, 0},
-             {kGasEnds_hu, red, green, blue, 0.9},
-             {kOpaque_hu, red, green, blue, 1}}};
+            {{gas_ends_hu - kFirstSeenBelow_hu, red, green, blue, 0},
+             {gas_ends_hu, red, green, blue, 0.9},
+             {gas_ends_hu + kOpaqueAbove_hu, red, green, blue, 1}}};
 }
 
 /// Each pixel as a square of pixels.
@@ -87,12 +87,12 @@ void castWall(Picture& picture, const PreparedScan& scan, const SnapshotRequest&
         castOver(picture, scan, all, place, transferFunction("soft-tissue"), options, 1, wanted);
         return;
     }
-    if (!startsInGas(scan.volume(), place.pose.eye_mm))
+    if (!startsInGas(scan.volume(), scan.gasEnds_hu(), place.pose.eye_mm))
         return;
     options.begin = PeelingOptions::Begin::eye;
     options.reach_mm = kBehindWall_mm;
     options.step_mm *= kStepOfOpaque;
-    castOver(picture, scan, all, place, solid(request.wall.colors), options, 1, wanted);
+    castOver(picture, scan, all, place, solid(request.wall.colors, scan.gasEnds_hu()), options, 1, wanted);
 }
 
 }  // namespace vicon::viewer

@@ -62,7 +62,7 @@ std::vector<OverlayText> linesOfPicture(const PreparedScan& scan, const Snapshot
     for (const OverlayText& of_wall : linesOfWall(scan, request.wall, place))
         lines.push_back(of_wall);
     constexpr double kFills = 0.9;  // of the picture: no lumen is seen, and no wall
-    if (request.wall.acquired && standingShare(scan.volume(), scan.lumen(), place.pose,
+    if (request.wall.acquired && standingShare(scan.volume(), scan.gasEnds_hu(), scan.lumen(), place.pose,
                                                {request.view_angle_deg, request.width, request.height}) > kFills) {
         line.text = "fluid or stool fills the view: no wall is seen";
         line.color = kWarningColor;
@@ -87,7 +87,7 @@ std::vector<OverlayText> linesOfWall(const PreparedScan& scan, const WallLook& l
         line.color = kTextColor;
         lines.push_back(line);
     }
-    if (look.acquired && !startsInGas(scan.volume(), place.pose.eye_mm)) {
+    if (look.acquired && !startsInGas(scan.volume(), scan.gasEnds_hu(), place.pose.eye_mm)) {
         line.text = "the eye is not in gas: as acquired there is nothing to see";
         line.color = kWarningColor;
         lines.push_back(line);

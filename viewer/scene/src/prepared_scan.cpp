@@ -16,6 +16,7 @@
 #include "vicon/scan_files/skeleton_file.h"
 #include "vicon/scan_files/stored_volume.h"
 #include "vicon/scan_files/subdivision_file.h"
+#include "vicon/viewer/model/acquired_wall.h"
 #include "vicon/viewer/model/home_place.h"
 #include "vicon/viewer/model/openness.h"
 #include "vicon/viewer/model/wall_tagging.h"
@@ -80,6 +81,7 @@ struct PreparedScan::Files {
     Lazy<OrganWords> words;
     Lazy<StepResults> results;
     Lazy<Quantity> quantity;
+    Lazy<double> gas_ends_hu;
     Lazy<std::unique_ptr<const DensityBricks>> bricks;
     Lazy<std::vector<float>> openness, tagging;
 
@@ -296,6 +298,11 @@ WindowLevel PreparedScan::window(const std::string& name) const
 const DensityBricks& PreparedScan::bricks() const
 {
     return *files_->bricks.get([&] { return std::make_unique<const DensityBricks>(volume()); });
+}
+
+double PreparedScan::gasEnds_hu() const
+{
+    return files_->gas_ends_hu.get([&] { return gasEndsOf_hu(scan_files::readDescription(files_->folder).steps); });
 }
 
 bool PreparedScan::hasOpenness() const

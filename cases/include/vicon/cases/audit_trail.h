@@ -12,7 +12,7 @@ namespace vicon {
 struct AuditLine {
     std::string at;      ///< UTC
     std::string person;  ///< local account; empty: written by a VICON that did not keep it
-    std::string event;   ///< "finding changed", "report signed", ...
+    std::string event;   ///< name of an AuditEvent, or what another version of VICON wrote
     std::string scan_id;
     std::string detail;
     nlohmann::json before, after;  ///< of what was changed; null where nothing was, or is, there

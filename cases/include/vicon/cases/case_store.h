@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "vicon/cases/audit_event.h"
 #include "vicon/cases/database.h"
 #include "vicon/cases/marker.h"
 #include "vicon/cases/records.h"
@@ -117,8 +118,7 @@ public:
 
     /// Next value of a counter that belongs to `name`, starting with 1.
     int nextNumber(const std::string& name);
-    void audit(const std::string& event, const std::string& case_id, const std::string& scan_id,
-               const std::string& detail);
+    void audit(AuditEvent event, const std::string& case_id, const std::string& scan_id, const std::string& detail);
 
 private:
     void makeSearchWords();

@@ -12,6 +12,7 @@
 #include "vicon/core/colon_parts.h"
 #include "vicon/core/organ.h"
 #include "vicon/core/scan_quality.h"
+#include "vicon/core/subdivision.h"
 #include "vicon/core/untrusted_wall.h"
 #include "vicon/core/verdict.h"
 
@@ -77,7 +78,7 @@ nlohmann::json toJson(const QualityFound& found);
 QualityFound qualityFoundFromJson(const nlohmann::json& json);
 
 struct SubdivideFound {
-    std::string method;
+    std::optional<SubdivideMethod> method;
     std::size_t triangles = 0;
     nlohmann::json measures = nlohmann::json::object();  ///< the subdivision's statistics
 };

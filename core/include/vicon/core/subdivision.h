@@ -2,12 +2,29 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "vicon/core/enum_names.h"
 #include "vicon/core/geometry.h"
 
 namespace vicon {
+
+/// How the lumen is divided.
+enum class SubdivideMethod { flood, thesis };
+inline constexpr EnumNames<SubdivideMethod, 2> kSubdivideMethodNames{{
+    {SubdivideMethod::flood, "flood"},
+    {SubdivideMethod::thesis, "thesis"},
+}};
+constexpr const auto& optionNames(SubdivideMethod /*value*/)
+{
+    return kSubdivideMethodNames;
+}
+/// As files and records have it: the method's name; of nothing "none".
+std::string nameOf(const std::optional<SubdivideMethod>& method);
+/// Throws Error{bad_input} for any other name.
+std::optional<SubdivideMethod> subdivideMethodFrom(const std::string& name);
 
 /// The passage between two segments that touch. Its gate is the rectangle with these corners, in order around it; it
 /// encloses the portal and is already dilated by a voxel diagonal, so that what lies behind the portal is seen through
@@ -40,7 +57,7 @@ struct SegmentInfo {
 };
 
 struct Subdivision {
-    std::string method;
+    std::optional<SubdivideMethod> method;  ///< nothing: a cavity without a path, which is not divided
     nlohmann::json parameters = nlohmann::json::object();
     std::vector<SegmentInfo> segments;  ///< in order of number
     std::vector<Portal> portals;

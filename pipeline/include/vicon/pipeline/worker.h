@@ -11,7 +11,8 @@
 
 namespace vicon::pipeline {
 
-/// What the work on one job may use: progress that also renews the lease, and the way to record a finished step.
+/// What the work on one job may use: progress that also renews the lease and never goes back, and the way to record a
+/// finished step.
 class JobContext : public Progress {
 public:
     virtual const Job& job() const = 0;

@@ -3,6 +3,7 @@
 #include "segment/as_is.h"
 #include "segment/verdict.h"
 #include "vicon/core/error.h"
+#include "vicon/core/usual_densities.h"
 #include "vicon/steps/lumen_contrast.h"
 
 namespace vicon::steps {
@@ -31,7 +32,7 @@ std::string inWordsOfMr(std::string reason)
 void tellLevels(const SignalLevels& levels, Segmentation& found)
 {
     if (const auto noise = found.measures.find("noise_hu"); noise != found.measures.end()) {
-        found.measures["noise_percent"] = 100 * noise->get<double>() / kLumenToTissue;
+        found.measures["noise_percent"] = 100 * noise->get<double>() / kUsualLumenToTissue_hu;
         found.measures.erase("noise_hu");
     }
     for (const char* of_fluid : {"fluid_levels", "fluid_faintest_hu", "fluid_brightest_hu"})

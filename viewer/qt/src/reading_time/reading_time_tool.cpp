@@ -87,7 +87,7 @@ void ReadingTimeTool::scanLeft()
 void ReadingTimeTool::writeLeft()
 {
     if (const auto left = std::exchange(left_, {}))
-        reading_.session().log("scan read", left->scan_id, left->words);
+        reading_.session().log(AuditEvent::scan_read, left->scan_id, left->words);
 }
 
 }  // namespace vicon::viewer

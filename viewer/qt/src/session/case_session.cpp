@@ -37,7 +37,7 @@ CaseSession::CaseSession(const ReadingServices& services, const WorklistCase& ro
     connect(&loader_, &Worker::failed, this, &CaseSession::warned);
     books_.postAlways([this](Books& books) -> Worker::Work {
         books.in_use.emplace(services_.store.folder, row_.record.id);
-        books.store().audit("case opened", row_.record.id, {}, {});
+        books.store().audit(AuditEvent::case_opened, row_.record.id, {}, {});
         return [] {};
     });
     refresh();
@@ -263,12 +263,12 @@ void CaseSession::savePicture(const QImage& picture)
         for (int y = 0; y < out.height; ++y)
             std::copy_n(picture.constScanLine(y), 3 * out.width, out.rgb.begin() + std::ptrdiff_t(y) * 3 * out.width);
         writePng(file, out);
-        books.store().audit("picture saved", row_.record.id, "", file.filename().string());
+        books.store().audit(AuditEvent::picture_saved, row_.record.id, "", file.filename().string());
         return [this, name = QString::fromStdString(file.string())] { emit saved(tr("Picture saved: %1").arg(name)); };
     });
 }
 
-void CaseSession::log(const std::string& event, const std::string& scan_id, const QString& words)
+void CaseSession::log(AuditEvent event, const std::string& scan_id, const QString& words)
 {
     books_.postAlways([this, event, scan_id, words](Books& books) -> Worker::Work {
         books.store().audit(event, row_.record.id, scan_id, words.toStdString());

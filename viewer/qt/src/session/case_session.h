@@ -9,6 +9,7 @@
 #include "session/open_scan.h"
 #include "session/own_store.h"
 #include "session/scan_maps.h"
+#include "vicon/cases/audit_event.h"
 #include "vicon/cases/density_sample.h"
 #include "vicon/cases/polyp_size.h"
 #include "vicon/cases/store_locks.h"
@@ -91,7 +92,7 @@ public:
     void placeAnew(const QString& what);
     void writeReport();
     /// Into the audit trail.
-    void log(const std::string& event, const std::string& scan_id, const QString& words);
+    void log(AuditEvent event, const std::string& scan_id, const QString& words);
     /// Between two points of the wall of a scan that is open, seen from `eye`; measured() follows, or warned().
     void measure(const std::string& scan_id, Point3 from, Point3 to, Point3 eye);
     /// The polyp of a scan that is open under a point of the wall or around one in its tissue; outlined() follows.

@@ -26,7 +26,8 @@ std::optional<double> ShownPicture::distanceToWall_mm(Vector3 ray) const
     if (!of)
         return std::nullopt;
     const Point3 eye_mm = place.pose.eye_mm;
-    return acquired ? distanceToAcquiredWall_mm(of->files.volume(), of->lumen, eye_mm, ray, kReach_mm)
+    return acquired ? distanceToAcquiredWall_mm(of->files.volume(), of->files.gasEnds_hu(), of->lumen, eye_mm, ray,
+                                                kReach_mm)
                     : viewer::distanceToWall_mm(of->lumen, eye_mm, ray, kReach_mm);
 }
 

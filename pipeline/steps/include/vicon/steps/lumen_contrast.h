@@ -69,9 +69,6 @@ SignalLevels levelsOf(const HuVolume& signal, LumenContrast contrast, const Sign
 /// @param lumen 1 in the lumen, on any lattice in LPS mm
 SignalLevels levelsWithin(const HuVolume& signal, const InsideVolume& lumen, const SignalOptions& options);
 
-/// From what fills the lumen to tissue on the lumen's scale.
-inline constexpr double kLumenToTissue = kUsualTissue_hu - kUsualAir_hu;
-
 /// The signal on the scale on which a lumen is found and its wall placed: what fills the lumen is -1000, tissue 40, as
 /// gas and tissue are in CT, half-way in between. Not densities, and never shown as such. What is brighter than tissue
 /// (a dark lumen) or darker (a bright one) is 40 to 110; the air around the body is -1000.

@@ -14,17 +14,6 @@
 
 namespace vicon::steps {
 
-/// How the lumen is divided.
-enum class SubdivideMethod { flood, thesis };
-inline constexpr EnumNames<SubdivideMethod, 2> kSubdivideMethodNames{{
-    {SubdivideMethod::flood, "flood"},
-    {SubdivideMethod::thesis, "thesis"},
-}};
-constexpr const auto& optionNames(SubdivideMethod /*value*/)
-{
-    return kSubdivideMethodNames;
-}
-
 /// thesis: what measures a segment's size.
 enum class SegmentSize { surface, inside, triangles };
 inline constexpr EnumNames<SegmentSize, 3> kSegmentSizeNames{{
@@ -136,7 +125,7 @@ Subdivided subdivide(const InsideVolume& inside, const Skeleton& skeleton, const
                      const SubdivideOptions& options, Progress& progress, std::optional<PathFlood> flood = {});
 
 /// A cavity without a path: one segment, and one of its own for every part that is not 26-connected to the largest;
-/// method "none", stations 0. Throws Error{bad_input} when nothing is inside.
+/// no method, stations 0. Throws Error{bad_input} when nothing is inside.
 Subdivided undivided(const InsideVolume& inside, const SubdivideOptions& options, Progress& progress);
 
 }  // namespace vicon::steps

@@ -66,6 +66,7 @@ public:
     WindowLevel window(const std::string& name) const;
     bool canBeCleansed() const;           ///< cleansed() is something
     const DensityBricks& bricks() const;  ///< of the volume
+    double gasEnds_hu() const;            ///< where the wall as acquired stands, see gasEndsOf_hu()
     bool hasOpenness() const;             ///< openness() answers at once
     /// Of the points of cells(), see opennessOf().
     const std::vector<float>& openness(const Progress* wanted = nullptr) const;
