@@ -63,6 +63,23 @@ TEST_F(Reading, TheMouseLeavesTheKeyboardInThePictureAndSoDoesANumber)
     EXPECT_TRUE(eventually([] { return QApplication::focusWidget() == the<QWidget>("endoscopic"); }));
 }
 
+TEST_F(Reading, TheKeyThatGoesToTheListGoesOnToTheNextOneThatCanBeUsed)
+{
+    openCase();
+    auto* lists = the<QTabWidget>("lists");
+    lists->setTabEnabled(2, false);
+    std::vector<int> shown;
+    for (int n = 0; n <= lists->count(); ++n) {
+        type(Qt::Key_L);
+        shown.push_back(lists->currentIndex());
+        EXPECT_TRUE(lists->currentWidget()->isAncestorOf(QApplication::focusWidget())) << shown.back();
+    }
+    EXPECT_EQ(shown, (std::vector<int>{0, 1, 3, 4, 0, 1}));
+    key(Qt::Key_Escape);
+    type(Qt::Key_L);
+    EXPECT_EQ(lists->currentIndex(), 1) << "back to where the reader was";
+}
+
 TEST_F(Reading, TheListOfKeysFitsOnALowScreen)
 {
     openCase();

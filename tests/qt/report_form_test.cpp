@@ -135,6 +135,42 @@ TEST_F(Form, MakesAFindingOfMarkersAndKeepsWhatIsSaidOfIt)
     EXPECT_EQ(stored().size(), 1U) << "its marker stays";
 }
 
+TEST_F(Form, CountsEveryClickOnANumbersArrowHoweverFast)
+{
+    key(Qt::Key_1);
+    click("endoscopic", middle("endoscopic") + QPoint(90, 60));
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    press(window(), "findingAdd");
+    ASSERT_TRUE(eventually([] { return the<QTableWidget>("findings")->rowCount() == 1 && ready(); })) << warning();
+    auto* size = the<QDoubleSpinBox>("findingSize");
+    for (int n = 1; n <= 8; ++n) {
+        size->stepUp();
+        QCoreApplication::processEvents();  // what was saved meanwhile is shown
+    }
+    ASSERT_TRUE(eventually(ready));
+    EXPECT_EQ(found().at(0).read_size_mm, 8);
+    EXPECT_EQ(size->value(), 8);
+}
+
+TEST_F(Form, LeadsFromTheMeasuredSizeToWholeMillimetres)
+{
+    key(Qt::Key_1);
+    click("endoscopic", middle("endoscopic") + QPoint(90, 60));
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    CaseStore store(store_);
+    const Marker before = stored()[0];
+    Marker after = before;
+    after.size = MarkerSize{.straight_mm = 7.2, .from_mm = before.position_mm, .to_mm = before.position_mm};
+    store.editMarkers(test::kCase, {{before, after}});
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    press(window(), "findingAdd");
+    auto* size = the<QDoubleSpinBox>("findingSize");
+    ASSERT_TRUE(eventually([&] { return ready() && size->text().contains("7.2"); })) << size->text().toStdString();
+    size->stepUp();
+    EXPECT_EQ(size->value(), 8);
+}
+
 TEST_F(Form, AsksWhyWhereTheChosenCategoryIsNotTheProposedOne)
 {
     ASSERT_NO_FATAL_FAILURE(openForm());

@@ -130,18 +130,7 @@ TEST_F(RealScan, IsReadFromWorklistToAnAmendedReportInTheArchiveAndAllIsBackAfte
 
 class Phantom : public WholeWay {
 protected:
-    void openPhantom()
-    {
-        const fs::path study = fs::path(VICON_READING_STORES) / "phantom-study";
-        const fs::path whole = fs::path(VICON_READING_STORES) / "phantom-study-is-whole";
-        if (!fs::exists(whole)) {
-            fs::create_directories(study.parent_path());
-            const auto made = support::runVicon("phantom " + study.string() + " --size 256x256x220");
-            ASSERT_EQ(made.exit_code, 0) << made.output;
-            replaceFile(whole, "");
-        }
-        open("phantom", "phantom", study);
-    }
+    void openPhantom() { open("phantom", "phantom", phantomStudy()); }
     /// What was marked in the first scan, in the second.
     void pairWithOther()
     {

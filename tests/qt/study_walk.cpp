@@ -12,6 +12,7 @@
 #include <QSettings>
 #include <QSlider>
 #include <QTableWidget>
+#include <set>
 
 #include "command.h"
 #include "reading_services.h"
@@ -23,14 +24,29 @@ namespace vicon::viewer::test {
 
 fs::path preparedStore(const std::string& name, const fs::path& source, const fs::path& copy)
 {
+    static std::set<std::string> up_to_date;
     const fs::path kept = fs::path(VICON_READING_STORES) / name;
     fs::create_directories(kept);
-    for (const std::string& arguments : {"import " + source.string(), std::string("work --until-idle")}) {
-        const auto result = support::runVicon(arguments + " --store " + kept.string());
-        EXPECT_EQ(result.exit_code, 0) << "vicon " << arguments << "\n" << result.output;
-    }
+    if (up_to_date.insert(name).second)
+        for (const std::string& arguments : {"import " + source.string(), std::string("work --until-idle")}) {
+            const auto result = support::runVicon(arguments + " --store " + kept.string());
+            EXPECT_EQ(result.exit_code, 0) << "vicon " << arguments << "\n" << result.output;
+        }
     fs::copy(kept, copy, fs::copy_options::recursive);
     return copy;
+}
+
+fs::path phantomStudy()
+{
+    const fs::path study = fs::path(VICON_READING_STORES) / "phantom-study";
+    const fs::path whole = fs::path(VICON_READING_STORES) / "phantom-study-is-whole";
+    if (!fs::exists(whole)) {
+        fs::create_directories(study.parent_path());
+        const auto made = support::runVicon("phantom " + study.string() + " --size 256x256x220");
+        EXPECT_EQ(made.exit_code, 0) << made.output;
+        replaceFile(whole, "");
+    }
+    return study;
 }
 
 void StudyReader::openStore(const fs::path& store, const std::string& name, const fs::path& config)

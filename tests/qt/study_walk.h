@@ -16,6 +16,7 @@ protected:
     void openStore(const std::filesystem::path& store, const std::string& name,
                    const std::filesystem::path& config = {});
     void screenshot(const std::string& step) const { Reader::screenshot((name_ + "-" + step).c_str()); }
+    void screenshotNow(const std::string& step) const { Reader::screenshotNow((name_ + "-" + step).c_str()); }
     void fastest() const;
     void jumpTo(double station_mm) const;
     /// From the rectum to the caecum and back, along the path, at the greatest speed.
@@ -54,9 +55,11 @@ protected:
 };
 
 /// A prepared store that tests may change: a copy of what the build folder keeps, made by the built command on first
-/// use and brought up to date by `vicon work` later.
+/// use and brought up to date by `vicon work` later, once a process.
 /// @param source what is imported
 std::filesystem::path preparedStore(const std::string& name, const std::filesystem::path& source,
                                     const std::filesystem::path& copy);
+/// The phantom's study, supine and prone, made on first use.
+std::filesystem::path phantomStudy();
 
 }  // namespace vicon::viewer::test

@@ -6,6 +6,7 @@
 #include "scan_fixture.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/slice_image.h"
+#include "vicon/viewer/model/transfer_function.h"
 
 namespace vicon::viewer {
 namespace {
@@ -202,6 +203,26 @@ TEST_P(CaptionsOfSmallViews, KeepTheTextsSizeInTheViewFromInside)
         texts = overlay.texts.size();
     }
     EXPECT_GE(texts, 13U) << "four letters, five around the eye and more, place and direction";
+}
+
+TEST_P(CaptionsOfSmallViews, KeepTheTextsSizeWhereALineIsLongerThanTheViewIsWide)
+{
+    const PreparedScan of = scan();
+    SnapshotRequest request;
+    request.caption = caption();
+    request.text_px = kText_px;
+    request.width = GetParam();
+    SnapshotResult place = placeOf(of, request);
+    place.sees_target = false;  // "the marker lies behind the wall seen here"
+    request.peel.preset = transferFunctions().front().name;
+    for (request.height = 220; request.height <= 400; request.height += 20) {
+        SCOPED_TRACE(request.height);
+        const Overlay overlay = endoscopicOverlay(of, request, place);
+        expectWholeText(overlay, kText_px);
+        const std::vector<Area> areas = textAreas(overlay);
+        for (const Area& text : areas)
+            EXPECT_LE(text.x + text.width, request.width);
+    }
 }
 
 TEST_P(CaptionsOfSmallViews, KeepTheTextsSizeInASlice)

@@ -170,6 +170,19 @@ void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>
     }
 }
 
+std::vector<OverlayText> broken(const std::vector<OverlayText>& lines, double width_px, double text_px)
+{
+    constexpr double kLetter = 0.55;       // width of a usual letter in heights of the text
+    constexpr std::size_t kMostLines = 3;  // of each
+    std::vector<OverlayText> all;
+    for (OverlayText line : lines)
+        for (const std::string& words : wrapped(line.text, std::size_t(width_px / (kLetter * text_px)), kMostLines)) {
+            line.text = words;
+            all.push_back(line);
+        }
+    return all;
+}
+
 Area captionArea(double width_px, double height_px, double text_px, double longest_line)
 {
     constexpr double kLetter = 1.6, kBeside = 0.47;  // of the text's height, and of the width

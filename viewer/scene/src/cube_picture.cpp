@@ -14,16 +14,8 @@ namespace {
 /// Into the corner below the left face.
 void addWallLines(Overlay& overlay, const CubeLayout& layout, const std::vector<OverlayText>& lines, double text_px)
 {
-    constexpr double kLetter = 0.55;       // width of a usual letter in heights of the text
-    constexpr std::size_t kMostLines = 3;  // of each
     const Pixel face = layout.cornerOf(CubeFace::bottom);
-    std::vector<OverlayText> broken;
-    for (OverlayText line : lines)
-        for (const std::string& words : wrapped(line.text, std::size_t(face.x / (kLetter * text_px)), kMostLines)) {
-            line.text = words;
-            broken.push_back(line);
-        }
-    addLines(overlay, {0, face.y, face.x, face.x}, broken, text_px);
+    addLines(overlay, {0, face.y, face.x, face.x}, broken(lines, face.x, text_px), text_px);
 }
 
 /// What a face shows of a line through space, in as few lines as it can.

@@ -59,8 +59,9 @@ std::vector<OverlayText> linesOfPicture(const PreparedScan& scan, const Snapshot
         line.color = kTextColor;
         lines.push_back(line);
     }
-    for (const OverlayText& of_wall : linesOfWall(scan, request.wall, place))
-        lines.push_back(of_wall);
+    if (request.captioned)
+        for (const OverlayText& of_wall : linesOfWall(scan, request.wall, place))
+            lines.push_back(of_wall);
     constexpr double kFills = 0.9;  // of the picture: no lumen is seen, and no wall
     if (request.wall.acquired && standingShare(scan.volume(), scan.gasEnds_hu(), scan.lumen(), place.pose,
                                                {request.view_angle_deg, request.width, request.height}) > kFills) {
@@ -131,21 +132,29 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
     for (const PriorPlace& expected : request.priors)
         addPriorRings(overlay, expected, scan.frames(), scan.lumen(), place.pose, lens, text_px);
     addMarkersInView(overlay, scan, request, place.pose, lens, text_px);
-    addLetters(overlay, area, place.pose.right(), -place.pose.up, text_px);
+    if (request.captioned || request.text_px > 0)  // a picture of a list is too small for letters
+        addLetters(overlay, area, place.pose.right(), -place.pose.up, text_px);
     const bool tall = area.height >= kLeastForTriad * text_px;
-    if (request.captioned && (tall || request.text_px == 0))  // a picture of a list is too small for it
+    if (request.captioned && (tall || request.text_px == 0))
         addTriad(overlay, {4.2 * text_px, area.height - 4.2 * text_px}, 2.4 * text_px, place.pose, 0.9 * text_px);
     auto lines = request.captioned ? linesOfPlace(scan, request, place) : std::vector<OverlayText>();
-    const auto more = linesOfPicture(scan, request, place);
+    auto more = linesOfPicture(scan, request, place);
     const double above_letter_px = area.height / 2 - text_px;  // the one in the middle of the left edge
     const bool window = request.text_px > 0;
     const Area caption = captionArea(area.width, area.height, text_px, window ? kLongestLine : kLongestLineOfPicture);
-    if (window)  // the lines that go are said by other views
-        leaveOut(lines, linesIn(above_letter_px - caption.y, text_px) - int(more.size()));
+    const int room = linesIn(above_letter_px - caption.y, text_px);
+    if (window) {  // the lines that go are said by other views
+        lines = broken(lines, caption.width, text_px);
+        more = broken(more, caption.width, text_px);
+        leaveOut(lines, room - int(more.size()));
+    }
     lines.insert(lines.end(), more.begin(), more.end());
     if (request.peel.middle_only && !request.peel.preset.empty())
         overlay.discs.push_back({peeledCircle(request).centre, peeledCircle(request).radius_px, kTextColor, 1.5});
-    addLines(overlay, caption, lines, std::min(text_px, heightOfText(lines.size(), above_letter_px - caption.y)));
+    if (window)
+        leaveOut(lines, room);
+    const double fitting_px = heightOfText(lines.size(), above_letter_px - caption.y);
+    addLines(overlay, caption, lines, window ? text_px : std::min(text_px, fitting_px));
     return overlay;
 }
 

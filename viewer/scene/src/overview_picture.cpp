@@ -29,7 +29,8 @@ double wordsHeight(const SnapshotRequest& request)
     return std::max(textHeightFor(request.width, request.height, request.pixel_ratio), kLeast_px * request.pixel_ratio);
 }
 
-constexpr double kMostCaptionShare = 0.47;  // of the width
+// Of the width; in a window, whose text keeps its size, the lines below the letter of the upper edge may pass it.
+constexpr double kMostCaptionShare = 0.47, kMostCaptionShareInWindow = 0.95;
 
 /// What the caption takes of a corner, wherever the eye is.
 TextSize captionSize(const PreparedScan& scan, const SnapshotRequest& request)
@@ -45,7 +46,8 @@ TextSize captionSize(const PreparedScan& scan, const SnapshotRequest& request)
         line.height_px = line_px;
         size.width_px = std::max(size.width_px, textSize(line).width_px + line_px);
     }
-    size.width_px = std::min(size.width_px, kMostCaptionShare * request.width);
+    const double most = request.text_px > 0 ? kMostCaptionShareInWindow : kMostCaptionShare;
+    size.width_px = std::min(size.width_px, most * request.width);
     return size;
 }
 

@@ -22,9 +22,17 @@ BesideView::BesideView(QWidget* parent) : QSplitter(Qt::Vertical, parent)
     addWidget(slice_);
     addWidget(overview_);
     setStretchFactor(0, 0);
-    setStretchFactor(1, 3);
-    setStretchFactor(2, 2);
     setStretchFactor(3, 2);
+    favour(false);
+}
+
+void BesideView::favour(bool slice)
+{
+    constexpr int kPart_px = 100;
+    const int inside = slice ? 2 : 3, plane = slice ? 3 : 2, projection = 2;
+    setStretchFactor(1, inside);
+    setStretchFactor(2, plane);
+    setSizes({place_->sizeHint().height(), inside * kPart_px, plane * kPart_px, projection * kPart_px});
 }
 
 void BesideView::sayPlace(const QString& words, const QString& more)

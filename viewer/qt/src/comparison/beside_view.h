@@ -16,6 +16,8 @@ public:
     PictureView* endoscopic() const { return endoscopic_; }
     SliceView* slice() const { return slice_; }
     PictureView* overview() const { return overview_; }
+    /// Makes the slice the larger one of the pictures, or the view from inside.
+    void favour(bool slice);
     /// How surely it is the same place; empty: nothing is said.
     void sayPlace(const QString& words, const QString& more);
 

@@ -110,8 +110,11 @@ void ComparisonTool::annotate(SnapshotRequest& request, const OpenScan& scan) co
 /// A layout of both scans has the other one, and takes it along when it goes.
 void ComparisonTool::followLayout()
 {
+    const ViewLayout layout = reading_.views().layoutNow();
     view_->slice()->setPlane(reading_.views().plane());
-    const bool wanted = reading_.views().layoutNow() == ViewLayout::both_scans;
+    if (layout != ViewLayout::both_scans)  // which makes them alike
+        view_->favour(layout != ViewLayout::three_d_first);
+    const bool wanted = layout == ViewLayout::both_scans;
     if (wanted && !on_->isChecked()) {
         by_layout_ = true;
         compare(true);

@@ -192,6 +192,7 @@ void CoverageTool::drawPicture(int region)
     const NavigationState at{patch.view.pose, patch.view.station_mm, patch.view.clearance_mm, false, false};
     EndoscopicRequest request = reading_.requestFor(*reading_.scan(), at, CoveragePanel::pictureSize(), true);
     request.snapshot.captioned = false;
+    request.snapshot.text_px = 0;
     request.snapshot.markers.clear();
     request.snapshot.priors.clear();
     request.missed = std::make_shared<const std::vector<std::uint8_t>>(

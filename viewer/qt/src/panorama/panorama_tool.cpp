@@ -1,6 +1,7 @@
 #include "panorama/panorama_tool.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QDockWidget>
 #include <QMainWindow>
 #include <cmath>
@@ -101,10 +102,12 @@ void PanoramaTool::addBand(ReadingLayout& layout)
 }
 
 /// With a share of the window that shows something; the reader may change it.
-void PanoramaTool::showDock(QDockWidget* dock, bool on, Qt::Orientation along, double share)
+void PanoramaTool::showDock(QDockWidget* dock, bool on, Qt::Orientation along, double share) const
 {
     if (on == !dock->isHidden())
         return;
+    if (!on && dock->isAncestorOf(QApplication::focusWidget()))
+        reading_.views().takeKeyboard();  // else some control would have it, and swallow the next key
     dock->setVisible(on);
     auto* window = qobject_cast<QMainWindow*>(dock->parentWidget());
     const int whole = along == Qt::Horizontal ? window->width() : window->height();

@@ -28,7 +28,7 @@ public:
 private:
     void addCube(ReadingLayout& layout);
     void addBand(ReadingLayout& layout);
-    static void showDock(QDockWidget* dock, bool on, Qt::Orientation along, double share);
+    void showDock(QDockWidget* dock, bool on, Qt::Orientation along, double share) const;
     void drawCube(bool still);
     void drawBand(bool still);
     /// What is measured, over the cube.

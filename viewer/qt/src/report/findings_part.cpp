@@ -17,7 +17,7 @@ namespace vicon::viewer {
 namespace {
 
 enum Column { kNumber, kWhat, kPart, kSize, kSeenIn, kColumns };
-constexpr int kLeastFindings = 3, kPicture_px = 180;
+constexpr int kLeastFindings = 3;
 constexpr double kMostSize_mm = 300;
 
 QString words(const std::string& utf8)
@@ -257,8 +257,8 @@ void FindingsPart::showChosen()
     attenuation_->setValue(nameIn(f.attenuation));
     confidence_->setValue(nameIn(f.confidence));
     const bool measured = one->facts.size_mm && one->facts.size_source != SizeSource::reader;
-    size_->setSpecialValueText(measured ? tr("as measured: %1 mm").arg(*one->facts.size_mm, 0, 'f', 1)
-                                        : tr("not measured"));
+    size_->setNone(measured ? tr("as measured: %1 mm").arg(*one->facts.size_mm, 0, 'f', 1) : tr("not measured"),
+                   measured ? one->facts.size_mm : std::nullopt);
     size_->show(f.read_size_mm);
     height_->show(f.height_mm);
     narrows_->setChecked(f.narrows_lumen);

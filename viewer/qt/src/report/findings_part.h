@@ -28,6 +28,7 @@ public:
     void showPicture(const QString& finding, const QImage& picture);
     /// pictureWanted() follows where a finding is chosen: a scan was opened that may show it.
     void askForPicture();
+    static constexpr int kPicture_px = 180;  ///< how wide it is shown
     /// Words that are not saved yet.
     bool unsaved() const;
     /// Nothing can be changed; the list leads to places still.

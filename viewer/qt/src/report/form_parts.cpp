@@ -2,6 +2,7 @@
 
 #include <QLineEdit>
 #include <QWheelEvent>
+#include <cmath>
 
 namespace vicon::viewer {
 
@@ -59,6 +60,20 @@ void FormNumber::show(const std::optional<double>& number)
     const bool blocked = blockSignals(true);
     setValue(number.value_or(0));
     blockSignals(blocked);
+}
+
+void FormNumber::setNone(const QString& words, const std::optional<double>& number)
+{
+    setSpecialValueText(words);
+    none_is_ = number;
+}
+
+void FormNumber::stepBy(int steps)
+{
+    if (number() || !none_is_)
+        QDoubleSpinBox::stepBy(steps);
+    else
+        setValue((steps > 0 ? std::floor(*none_is_) : std::ceil(*none_is_)) + steps);
 }
 
 void FormNumber::wheelEvent(QWheelEvent* event)

@@ -37,9 +37,15 @@ public:
     std::optional<double> number() const;
     /// Not while the reader types.
     void show(const std::optional<double>& number);
+    /// What none stands for, where that is a number: the arrows lead on from it, to whole ones.
+    void setNone(const QString& words, const std::optional<double>& number);
+    void stepBy(int steps) override;
 
 protected:
     void wheelEvent(QWheelEvent* event) override;
+
+private:
+    std::optional<double> none_is_;
 };
 
 /// Words of a few lines. What the reader typed of one thing stays until it is what is saved of it.

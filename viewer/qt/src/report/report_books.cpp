@@ -58,7 +58,7 @@ void ReportBooks::change(const QString& done, Change change)
             trouble = trouble.empty() ? e.what() : trouble;
         }
         return [this, done, trouble, page] {
-            if (page)
+            if (page && under_way_ == 1)  // else what the reader has said meanwhile would be taken from the form
                 emit shown(*page);
             end();
             if (!trouble.empty())

@@ -5,7 +5,6 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QVBoxLayout>
 
 #include "report/category_part.h"
@@ -14,12 +13,11 @@
 #include "report/findings_part.h"
 #include "report/study_part.h"
 #include "vicon/cases/printed.h"
+#include "widgets/controls_area.h"
 #include "widgets/panel_parts.h"
 
 namespace vicon::viewer {
 namespace {
-
-constexpr int kLeastWidth_px = 400;
 
 template <class Category>
 CategoryPart::State stateOf(const Proposal<Category>& proposal, const std::optional<Chosen<Category>>& chosen)
@@ -65,7 +63,6 @@ std::vector<std::string> outsideNames()
 ReportForm::ReportForm(const ReportTexts& texts, QWidget* parent) : QWidget(parent), texts_(texts)
 {
     setObjectName("reportForm");
-    setMinimumWidth(kLeastWidth_px);
     build();
     connectParts();
 }
@@ -94,11 +91,8 @@ void ReportForm::build()
 
 QWidget* ReportForm::buildScrolled()
 {
-    auto* area = new QScrollArea(this);
-    area->setWidgetResizable(true);
-    area->setFocusPolicy(Qt::NoFocus);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    auto* inside = new QWidget(area);
+    auto* inside = new QWidget;
+    auto* area = new ControlsArea(inside);  // never narrower than what it holds
     auto* column = new QVBoxLayout(inside);
     const auto group = [&](const QString& title, std::initializer_list<QWidget*> parts) {
         auto* box = new QGroupBox(title, inside);
@@ -119,7 +113,6 @@ QWidget* ReportForm::buildScrolled()
     group(tr("Study"), {study_});
     group(tr("Distension"), {distension_});
     column->addStretch(1);
-    area->setWidget(inside);
     return area;
 }
 
@@ -230,6 +223,8 @@ void ReportForm::orderTabs()
 void ReportForm::showState(const ReportPage& page)
 {
     const bool open = page.status.open();
+    if (!open && hasKeyboard() && !qobject_cast<QPushButton*>(window()->focusWidget()))
+        setFocus();  // its controls are disabled
     QString state = tr("Report: %1").arg(QString::fromStdString(textOf(page.status)));
     if (!page.delivery.empty())
         state += tr("; PACS: %1").arg(QString::fromStdString(page.delivery));
@@ -259,10 +254,20 @@ void ReportForm::showState(const ReportPage& page)
 void ReportForm::setBusy(bool busy)
 {
     busy_ = busy;
+    // What is pressed is disabled while it acts: the next control that is not would be the choice of the scan.
+    if (auto* pressed = qobject_cast<QPushButton*>(window()->focusWidget()); busy && pressed && hasKeyboard()) {
+        pressed_ = pressed;
+        setFocus();
+    }
     for (QPushButton* button : {preview_, text_, amend_, cancel_})
         button->setEnabled(!busy);
     if (!page_.read.record.id.empty())
         showState(page_);
+    if (busy)
+        return;
+    if (pressed_ && hasFocus() && pressed_->isEnabled() && pressed_->isVisible())
+        pressed_->setFocus();
+    pressed_ = nullptr;
 }
 
 void ReportForm::setMissed(const QString& words)
@@ -281,8 +286,13 @@ void ReportForm::setDelivery(const QString& brief)
 
 void ReportForm::commit()
 {
-    if (QWidget* focus = focusWidget())
-        focus->clearFocus();
+    if (hasKeyboard())
+        setFocus();
+}
+
+bool ReportForm::hasKeyboard() const
+{
+    return isAncestorOf(window()->focusWidget());
 }
 
 QString ReportForm::summary() const

@@ -68,10 +68,12 @@ private:
     KnownStudy knownWith(const ReaderWork& work) const;
     void orderTabs();
     void showState(const ReportPage& page);
+    bool hasKeyboard() const;
 
     const ReportTexts texts_;
     ReportPage page_;
     bool busy_ = false;
+    QPushButton* pressed_ = nullptr;  ///< had the keyboard, and gets it back
     QLabel *state_, *missed_, *missing_;
     FindingsPart* findings_;
     ExtracolonicPart* extracolonic_;

@@ -2,12 +2,14 @@
 
 #include <QPdfView>
 #include <QVBoxLayout>
+#include <algorithm>
 
 namespace vicon::viewer {
 
 ReportPreview::ReportPreview(const QByteArray& pdf, QWidget* parent) : QDialog(parent), bytes_(pdf), buffer_(&bytes_)
 {
-    constexpr int kWidth_px = 820, kHeight_px = 1000;
+    constexpr int kLeastWidth_px = 820;  // less makes small letters of a page
+    constexpr double kShape = 0.78;      // wider than a page is: its foot is scrolled to anyway
     setObjectName("reportPreview");
     setAttribute(Qt::WA_DeleteOnClose);
     buffer_.open(QIODevice::ReadOnly);
@@ -22,7 +24,8 @@ ReportPreview::ReportPreview(const QByteArray& pdf, QWidget* parent) : QDialog(p
     auto* all = new QVBoxLayout(this);
     all->setContentsMargins(0, 0, 0, 0);
     all->addWidget(view);
-    resize(kWidth_px, kHeight_px);
+    const int height = parent->height();
+    resize(std::min(parent->width(), std::max(kLeastWidth_px, int(kShape * height))), height);
 }
 
 }  // namespace vicon::viewer

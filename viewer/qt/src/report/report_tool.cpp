@@ -3,7 +3,9 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QDockWidget>
+#include <QFontInfo>
 #include <QInputDialog>
+#include <QMainWindow>
 #include <QMessageBox>
 #include <QPushButton>
 #include <utility>
@@ -159,13 +161,25 @@ void ReportTool::toggle()
     }
     if (dock_->isVisible() && form_->isAncestorOf(QApplication::focusWidget())) {
         leave();
+        width_px_ = dock_->width();
         dock_->hide();
         return;
     }
     dock_->show();
+    takeWidth();
     books_.refresh();
     coverage_.sumUp();
     form_->takeKeyboard();
+}
+
+/// As the reader left it; else its fields need not be long. Not as wide as what was beside the views before.
+void ReportTool::takeWidth()
+{
+    constexpr int kUsual_px = 480, kPartOfWindow = 4;  // a quarter of a large window
+    auto* window = qobject_cast<QMainWindow*>(dock_->parentWidget());
+    const int usual_px = window->width() / kPartOfWindow < kUsual_px ? form_->minimumSizeHint().width() : kUsual_px;
+    if (!dock_->isFloating())
+        window->resizeDocks({dock_}, {width_px_ > 0 ? width_px_ : usual_px}, Qt::Horizontal);
 }
 
 void ReportTool::leave()
@@ -190,6 +204,8 @@ void ReportTool::drawFinding(const QString& finding, const QStringList& markers)
             at.clearance_mm = view.clearance_mm;
             EndoscopicRequest request = reading_.requestFor(*scan, at, QSize(kSide_px, kSide_px), true);
             request.snapshot.captioned = false;  // it is small, and the form is this patient's
+            constexpr double kShrunk = double(FindingsPart::kPicture_px) / kSide_px;
+            request.snapshot.text_px = QFontInfo(form_->font()).pixelSize() / kShrunk;
             request.snapshot.markers = {*marker};
             request.snapshot.priors.clear();
             request.snapshot.peel.preset.clear();

@@ -33,6 +33,7 @@ private:
     void connectBooks();
     void connectForm();
     void toggle();
+    void takeWidth();
     void leave();
     /// Of the first of these markers whose scan is open.
     void drawFinding(const QString& finding, const QStringList& markers);
@@ -48,6 +49,7 @@ private:
     const ReadingTimeTool& time_;
     ReportBooks books_;
     ReportForm* form_;
+    int width_px_ = 0;  ///< of the form as it was left; none yet
     QDockWidget* dock_ = nullptr;
     bool has_report_ = true;
     std::vector<UseWork> waiting_;  ///< until it is known

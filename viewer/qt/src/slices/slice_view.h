@@ -49,6 +49,8 @@ public:
     void setSampled(const std::optional<SampledBall>& ball);
     /// The scan is no longer read.
     void leave(const QString& words);
+    /// Where the lines cross in the picture that is shown, which may still be that of an earlier place.
+    QPoint home() const override;
 
 signals:
     void pointClicked(vicon::Point3 point, Qt::KeyboardModifiers modifiers);
@@ -60,8 +62,6 @@ signals:
     void failed(const QString& message);
 
 protected:
-    /// Where the lines cross in the picture that is shown, which may still be that of an earlier place.
-    QPoint home() const override;
     void showEvent(QShowEvent* event) override;
     void mouseMoveEvent(QMouseEvent* event) override;
     void leaveEvent(QEvent* event) override;

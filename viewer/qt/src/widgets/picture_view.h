@@ -53,6 +53,8 @@ public:
     double textHeight_px() const;
     /// From picture pixels to the widget's place.
     QPointF toWidget(Pixel at) const;
+    /// Where the keyboard's cross is at first; in the widget.
+    virtual QPoint home() const { return rect().center(); }
 
 signals:
     void clicked(vicon::viewer::Pixel at, Qt::KeyboardModifiers modifiers);
@@ -67,8 +69,6 @@ signals:
     void circled(vicon::viewer::Pixel centre, double radius_px);  ///< in the picture's pixels
 
 protected:
-    /// Where the keyboard's cross is at first; in the widget.
-    virtual QPoint home() const { return rect().center(); }
     void keyPressEvent(QKeyEvent* event) override;
     void focusInEvent(QFocusEvent* event) override;
     void focusOutEvent(QFocusEvent* event) override;

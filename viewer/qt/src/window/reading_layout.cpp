@@ -1,6 +1,7 @@
 #include "window/reading_layout.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QDockWidget>
 #include <QFrame>
 #include <QHBoxLayout>
@@ -222,10 +223,23 @@ void ReadingLayout::enableList(QWidget* list, bool on, const QString& tip)
 
 void ReadingLayout::goToList()
 {
+    if (lists_->currentWidget()->isAncestorOf(QApplication::focusWidget()))
+        showNextList();
     auto* list = lists_->currentWidget()->findChild<QTableWidget*>();
     if (list->rowCount() > 0 && list->selectionModel()->selectedRows().empty())
         list->selectRow(0);
     list->setFocus(Qt::ShortcutFocusReason);
+}
+
+void ReadingLayout::showNextList()
+{
+    for (int n = 1; n < lists_->count(); ++n) {
+        const int next = (lists_->currentIndex() + n) % lists_->count();
+        if (lists_->isTabEnabled(next)) {
+            lists_->setCurrentIndex(next);
+            return;
+        }
+    }
 }
 
 int ReadingLayout::shownList() const

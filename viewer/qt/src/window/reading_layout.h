@@ -56,7 +56,7 @@ public:
     void notice(const QString& message);
     void showList(QWidget* list);
     void enableList(QWidget* list, bool on, const QString& tip);
-    /// The keyboard goes to the list that is shown.
+    /// The keyboard goes to the list that is shown; to the next one, where it is there already.
     void goToList();
     int shownList() const;
     void showList(int which);
@@ -68,6 +68,7 @@ private:
     QWidget* buildTop();
     QWidget* buildControls();
     QMenu* menuOf(ReadingMenu menu);
+    void showNextList();
     void orderTabs();
 
     QMainWindow& window_;
