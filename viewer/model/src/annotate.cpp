@@ -170,13 +170,13 @@ void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>
     }
 }
 
-std::vector<OverlayText> broken(const std::vector<OverlayText>& lines, double width_px, double text_px)
+std::vector<OverlayText> broken(const std::vector<OverlayText>& lines, double width_px, double text_px,
+                                std::size_t most)
 {
-    constexpr double kLetter = 0.55;       // width of a usual letter in heights of the text
-    constexpr std::size_t kMostLines = 3;  // of each
+    constexpr double kLetter = 0.55;  // width of a usual letter in heights of the text
     std::vector<OverlayText> all;
     for (OverlayText line : lines)
-        for (const std::string& words : wrapped(line.text, std::size_t(width_px / (kLetter * text_px)), kMostLines)) {
+        for (const std::string& words : wrapped(line.text, std::size_t(width_px / (kLetter * text_px)), most)) {
             line.text = words;
             all.push_back(line);
         }

@@ -145,7 +145,8 @@ Overlay endoscopicOverlay(const PreparedScan& scan, const SnapshotRequest& reque
     const int room = linesIn(above_letter_px - caption.y, text_px);
     if (window) {  // the lines that go are said by other views
         lines = broken(lines, caption.width, text_px);
-        more = broken(more, caption.width, text_px);
+        const auto whole = broken(more, caption.width, text_px);
+        more = int(whole.size()) < room ? whole : broken(more, caption.width, text_px, 1);
         leaveOut(lines, room - int(more.size()));
     }
     lines.insert(lines.end(), more.begin(), more.end());

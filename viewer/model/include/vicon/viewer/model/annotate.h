@@ -37,8 +37,9 @@ void addTriad(Overlay& overlay, Pixel centre, double radius_px, const Pose& pose
 
 /// Lines of text from the upper left corner of `area`, none wider than it.
 void addLines(Overlay& overlay, const Area& area, const std::vector<OverlayText>& lines, double text_px);
-/// The same lines at that height, those that are too long going on in the next.
-std::vector<OverlayText> broken(const std::vector<OverlayText>& lines, double width_px, double text_px);
+/// The same lines at that height, those that are too long going on in the next, to `most` of each; then "…".
+std::vector<OverlayText> broken(const std::vector<OverlayText>& lines, double width_px, double text_px,
+                                std::size_t most = 3);
 /// Where a caption lies: beside the letter in the middle of the upper edge; below it in a picture too narrow for that.
 /// @param longest_line in heights of the text
 Area captionArea(double width_px, double height_px, double text_px, double longest_line);
