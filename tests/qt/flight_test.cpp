@@ -66,6 +66,25 @@ TEST_F(Reading, GuidedFlightIsSteeredByKeysAndComesBackWhenReleased)
     EXPECT_LT(std::abs(station() - released), 40) << "nothing pulls it any more";
 }
 
+/// Let go of, it would come back to the path for two seconds.
+TEST_F(Reading, AGuidedEyeHoldsWhileALengthIsMeasured)
+{
+    openCase();
+    key(Qt::Key_G);
+    QTest::keyPress(window(), Qt::Key_W);
+    ASSERT_TRUE(eventually([] { return station() > 40; }));
+    QTest::keyRelease(window(), Qt::Key_W);
+    key(Qt::Key_M);
+    const double here = station();
+    waitUntilAtRest();
+    EXPECT_EQ(station(), here);
+    click("endoscopic", middle("endoscopic") + QPoint(90, 60));
+    waitUntilAtRest();
+    EXPECT_EQ(station(), here);
+    key(Qt::Key_Escape);
+    EXPECT_TRUE(eventually([&] { return station() != here; })) << "then it drifts on";
+}
+
 /// Space lets go of it: the distance from the exit leads it on, and no key.
 TEST_F(Reading, GuidedFlightIsPulledAlongByTheDistanceFromTheExit)
 {

@@ -143,7 +143,7 @@ void FlightTool::tick()
     clock_.restart();
     constexpr double kMost_s = 0.25;  // after a pause of the whole machine the flight does not leap
     const Pose before = navigator()->state().pose;
-    if (waitsForPicture())
+    if (waitsForPicture() || isHeld())
         return;
     navigator()->advance(std::min(seconds, kMost_s));
     const NavigationState now = navigator()->state();
@@ -151,6 +151,14 @@ void FlightTool::tick()
         navigator()->fly(0);
     if (!(now.pose.eye_mm == before.eye_mm) || !(now.pose.forward == before.forward))
         reading_.flewOn();
+}
+
+// No view moves by itself while a finding is measured in it.
+bool FlightTool::isHeld() const
+{
+    const Interaction& doing = reading_.interaction();
+    const bool measures = doing.inUse<Measure>() || doing.inUse<OutlinePolyp>() || doing.inUse<CircleFinding>();
+    return measures && !navigator()->isDriven();
 }
 
 // On a machine that draws slowly the flight is slower; wall that flies past unshown would be wall unread.

@@ -44,6 +44,7 @@ private:
     void takeKeptPlace();
     void tick();
     bool waitsForPicture() const;
+    bool isHeld() const;
     /// What the reader should know of the eye's place; empty: nothing.
     QString noticeHere() const;
     /// Where there is none says so.

@@ -48,6 +48,8 @@ public:
     int direction() const { return direction_; }
     /// Guided and free; stays in force until the next call.
     void steer(const Steering& steering) { steering_ = steering; }
+    /// Whether the reader has it fly or steers it; else it rests, or is adrift.
+    bool isDriven() const { return direction_ != 0 || steering_.turns() || steering_.thrusts(); }
 
     /// Goes to a station at once and stops there; without a path to the home place.
     void jumpTo(double station_mm);
