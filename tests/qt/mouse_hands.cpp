@@ -2,10 +2,12 @@
 #include <QAbstractItemView>
 #include <QAbstractScrollArea>
 #include <QComboBox>
+#include <QDialogButtonBox>
 #include <QDoubleSpinBox>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QPushButton>
 #include <QStyleOptionSpinBox>
 #include <QTableWidget>
 #include <QWheelEvent>
@@ -134,7 +136,8 @@ void ByMouse::sign(QWidget* question)
 void ByMouse::leafThrough(QWidget* pages)
 {
     wheel(pages->findChild<QAbstractScrollArea*>("reportPages")->viewport(), -8);
-    pages->close();  // by the cross in its title, which is the window system's
+    auto* close = pages->findChild<QDialogButtonBox*>("reportPreviewButtons")->button(QDialogButtonBox::Close);
+    QTest::mouseClick(close, Qt::LeftButton);
 }
 
 }  // namespace vicon::viewer::test

@@ -1,5 +1,6 @@
 #include "report/report_preview.h"
 
+#include <QDialogButtonBox>
 #include <QPdfView>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -10,6 +11,7 @@ ReportPreview::ReportPreview(const QByteArray& pdf, QWidget* parent) : QDialog(p
 {
     constexpr int kLeastWidth_px = 820;  // less makes small letters of a page
     constexpr double kShape = 0.78;      // wider than a page is: its foot is scrolled to anyway
+    constexpr int kMargin_px = 6;
     setObjectName("reportPreview");
     setAttribute(Qt::WA_DeleteOnClose);
     buffer_.open(QIODevice::ReadOnly);
@@ -24,6 +26,12 @@ ReportPreview::ReportPreview(const QByteArray& pdf, QWidget* parent) : QDialog(p
     auto* all = new QVBoxLayout(this);
     all->setContentsMargins(0, 0, 0, 0);
     all->addWidget(view);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+    buttons->setObjectName("reportPreviewButtons");
+    buttons->setContentsMargins(0, 0, kMargin_px, kMargin_px);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    all->addWidget(buttons);
+    view->setFocus();
     const int height = parent->height();
     resize(std::min(parent->width(), std::max(kLeastWidth_px, int(kShape * height))), height);
 }
