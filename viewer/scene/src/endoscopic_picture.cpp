@@ -59,7 +59,8 @@ std::vector<OverlayText> linesOfPicture(const PreparedScan& scan, const Snapshot
         line.color = kTextColor;
         lines.push_back(line);
     }
-    if (request.captioned)
+    constexpr int kInAList_px = 200;  // a picture as small as that has no room for words
+    if (request.width > kInAList_px)
         for (const OverlayText& of_wall : linesOfWall(scan, request.wall, place))
             lines.push_back(of_wall);
     constexpr double kFills = 0.9;  // of the picture: no lumen is seen, and no wall

@@ -29,8 +29,7 @@ double wordsHeight(const SnapshotRequest& request)
     return std::max(textHeightFor(request.width, request.height, request.pixel_ratio), kLeast_px * request.pixel_ratio);
 }
 
-// Of the width; in a window, whose text keeps its size, the lines below the letter of the upper edge may pass it.
-constexpr double kMostCaptionShare = 0.47, kMostCaptionShareInWindow = 0.95;
+constexpr double kMostCaptionShare = 0.47;  // of the width
 
 /// What the caption takes of a corner, wherever the eye is.
 TextSize captionSize(const PreparedScan& scan, const SnapshotRequest& request)
@@ -46,8 +45,7 @@ TextSize captionSize(const PreparedScan& scan, const SnapshotRequest& request)
         line.height_px = line_px;
         size.width_px = std::max(size.width_px, textSize(line).width_px + line_px);
     }
-    const double most = request.text_px > 0 ? kMostCaptionShareInWindow : kMostCaptionShare;
-    size.width_px = std::min(size.width_px, most * request.width);
+    size.width_px = std::min(size.width_px, kMostCaptionShare * request.width);
     return size;
 }
 

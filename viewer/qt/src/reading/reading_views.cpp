@@ -11,7 +11,7 @@ namespace vicon::viewer {
 namespace {
 
 constexpr int kPart_px = 150, kSideWidth_px = 430;  // of 96 to the inch, before the window is resized
-constexpr QSize kLeastOverview{200, 260};           // less shows no colon between its words
+constexpr int kLeastOverview_px = 200;              // less shows no colon between its words
 constexpr int kMostSideWidth_px = kSideWidth_px * 5 / 4;
 constexpr int kLeastBesideForm_px = 1000;  // of all columns; less leaves pictures that nobody can read
 
@@ -39,7 +39,7 @@ ReadingViews::ReadingViews(QWidget* parent) : QSplitter(Qt::Horizontal, parent)
     endoscopic_->setSteered();
     overview_ = new PictureView({});
     overview_->setObjectName("overview");
-    overview_->setMinimumSize(kLeastOverview);
+    overview_->setMinimumSize(kLeastOverview_px, kLeastOverview_px);
     overview_->setToolTip(tr("Click: go there. Double click: enlarge."));
     slices_ = {slice(SlicePlane::axial, "axial", tr("Axial slice")),
                slice(SlicePlane::coronal, "coronal", tr("Coronal slice")),
