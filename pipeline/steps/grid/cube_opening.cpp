@@ -49,12 +49,10 @@ void openByCubes(Volume<std::uint8_t>& voxels)
         const std::size_t count = part.size();
         std::uint8_t* const first = all + part.begin();
         for (std::size_t k = 0; k + 1 < nz; ++k)
-            for (std::size_t n = 0; n < count; ++n)
-                first[k * slice + n] &= first[(k + 1) * slice + n];
+            erode(first + k * slice, count, slice);
         std::fill_n(first + (nz - 1) * slice, count, std::uint8_t(0));
         for (std::size_t k = nz - 1; k > 0; --k)
-            for (std::size_t n = 0; n < count; ++n)
-                first[k * slice + n] |= first[(k - 1) * slice + n];
+            dilate(first + (k - 1) * slice, count, slice);
     });
     tbb::parallel_for(std::size_t(0), nz, [&](std::size_t k) {
         std::uint8_t* const at = all + k * slice;

@@ -156,9 +156,7 @@ void FlightTool::tick()
 // No view moves by itself while a finding is measured in it.
 bool FlightTool::isHeld() const
 {
-    const Interaction& doing = reading_.interaction();
-    const bool measures = doing.inUse<Measure>() || doing.inUse<OutlinePolyp>() || doing.inUse<CircleFinding>();
-    return measures && !navigator()->isDriven();
+    return reading_.interaction().measures() && !navigator()->isDriven();
 }
 
 // On a machine that draws slowly the flight is slower; wall that flies past unshown would be wall unread.

@@ -67,7 +67,7 @@ QStringList GuideTool::headings()
 QString GuideTool::headingHere() const
 {
     const Interaction& doing = reading_.interaction();
-    if (doing.inUse<Measure>() || doing.inUse<OutlinePolyp>() || doing.inUse<CircleFinding>())
+    if (doing.measures())
         return kMeasuring;
     if (doing.inUse<PlaceMarker>() || doing.inUse<MoveMarker>() || doing.inUse<PairMarker>())
         return kMarking;

@@ -62,7 +62,7 @@ void SliceTool::addCleansed(ReadingLayout& layout)
     cleansed_ = layout.addSwitch(ReadingMenu::slices, tr("Without tagging (cleansed)"), QKeySequence("K"));
     cleansed_->setObjectName("cleansed");
     connect(cleansed_, &QAction::toggled, this, [this](bool on) {
-        if (on && measures()) {
+        if (on && reading_.interaction().measures()) {
             showAcquired();
             return;
         }
@@ -76,15 +76,9 @@ void SliceTool::addCleansed(ReadingLayout& layout)
     });
 }
 
-bool SliceTool::measures() const
-{
-    const Interaction& next = reading_.interaction();
-    return next.inUse<Measure>() || next.inUse<OutlinePolyp>() || next.inUse<CircleFinding>();
-}
-
 void SliceTool::nextClickChanged()
 {
-    if (measures())
+    if (reading_.interaction().measures())
         showAcquired();
 }
 

@@ -32,7 +32,6 @@ private:
 
     void addKeys(ReadingLayout& layout);
     void addCleansed(ReadingLayout& layout);
-    bool measures() const;
     void showAcquired();
     void choose(const WindowLevel& window);
     void dragWindow(QPointF by);

@@ -106,6 +106,8 @@ public:
     {
         return std::get_if<Tool>(&tool_);
     }
+    /// Whether a finding is measured, outlined or circled.
+    bool measures() const { return inUse<Measure>() || inUse<OutlinePolyp>() || inUse<CircleFinding>(); }
     /// In a picture; a drawn circle begins with one, too.
     bool awaitsClick() const;
 
