@@ -48,6 +48,16 @@ inline double distanceTo(const SkeletonTree& tree, Point3 p)
     return least;
 }
 
+/// The truth's branches of some generations.
+inline SkeletonTree generations(const SkeletonTree& tree, int from, int to)
+{
+    SkeletonTree out;
+    for (const SkeletonBranch& branch : tree.branches)
+        if (branch.generation >= from && branch.generation <= to)
+            out.branches.push_back(branch);
+    return out;
+}
+
 struct TreeAgreement {
     int branches = 0;  ///< of the truth
     int found = 0;     ///< whose outer half, without the tip's ball, has a found skeleton all along

@@ -60,16 +60,6 @@ const Worked& aorta()
     return kWorked;
 }
 
-/// The truth's branches of some generations.
-SkeletonTree generations(const SkeletonTree& tree, int from, int to)
-{
-    SkeletonTree out;
-    for (const SkeletonBranch& branch : tree.branches)
-        if (branch.generation >= from && branch.generation <= to)
-            out.branches.push_back(branch);
-    return out;
-}
-
 void expectSoundTree(const Worked& worked)
 {
     const SkeletonTree& tree = worked.skeleton.tree;
@@ -109,7 +99,7 @@ TEST(Airway, IsFoundDownToBronchiOfTwoVoxels)
 {
     EXPECT_EQ(airway().found.verdict, Verdict::found) << airway().found.reason;
     EXPECT_GE(test::dice(airway().truth.inside, airway().found.inside), 0.88);
-    const auto thick = test::compare(generations(airway().truth.tree, 0, 3), airway().skeleton.tree);
+    const auto thick = test::compare(test::generations(airway().truth.tree, 0, 3), airway().skeleton.tree);
     EXPECT_EQ(thick.found, thick.branches);
     const auto all = test::compare(airway().truth.tree, airway().skeleton.tree);
     EXPECT_EQ(all.extra, 0) << "no leak into the lung, no spurs";
