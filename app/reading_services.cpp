@@ -67,12 +67,11 @@ std::string textOfReport(CaseStore& store, const std::string& case_id)
     return report::asText(readCaseFromContent(nlohmann::json::parse(versions.back().content)), versions.back());
 }
 
-std::string pdfOfReport(CaseStore& store, const Config& config, const std::string& case_id)
+std::string pdfOfReport(CaseStore& store, const Config& config, const std::string& case_id, Progress& progress)
 {
     const std::vector<ReportVersion> versions = reportVersions(store, case_id);
     if (!versions.empty() && !reportStatus(store, case_id).open())
         return readFile(versions.back().file);
-    NoProgress progress;
     return previewReport(store, config, case_id, progress);
 }
 
@@ -81,11 +80,10 @@ void addReportServices(viewer::ReportServices& services, const Config& config)
     services.texts = config.get<ReportTexts>();
     services.known = knownOf;
     services.text = textOfReport;
-    services.pdf = [&config](CaseStore& store, const std::string& case_id) {
-        return pdfOfReport(store, config, case_id);
+    services.pdf = [&config](CaseStore& store, const std::string& case_id, Progress& progress) {
+        return pdfOfReport(store, config, case_id, progress);
     };
-    services.sign = [&config](CaseStore& store, const std::string& case_id) {
-        NoProgress progress;
+    services.sign = [&config](CaseStore& store, const std::string& case_id, Progress& progress) {
         return giveOutReport(store, config, case_id, true, progress).version;
     };
     services.amend = [&config](CaseStore& store, const std::string& case_id, const std::string& reason) {
@@ -138,8 +136,7 @@ viewer::ReadingServices readingServices(const StorePlace& store, const Config& c
     addCorrectionServices(services, config);
     addReportServices(services.reporting, config);
     services.priors = {config.get<PriorOptions>(), priorsOf, imagedScans};
-    services.report = [&config](CaseStore& store, const std::string& case_id) {
-        NoProgress progress;
+    services.report = [&config](CaseStore& store, const std::string& case_id, Progress& progress) {
         return writeReport(store, config, case_id, {}, progress).file;
     };
     return services;

@@ -53,7 +53,7 @@ SnapshotRequest markerPicture(SnapshotView view, const ScanRecord& scan, const M
     return request;
 }
 
-ReportScans::ReportScans(CaseStore& store, const ReadCase& read)
+ReportScans::ReportScans(CaseStore& store, const ReadCase& read, const Progress& wanted) : wanted_(wanted)
 {
     for (const ScanRecord& scan : store.scans(read.record.id)) {
         const fs::path folder = store.scanFolder(read.record.id, scan.id);
@@ -70,16 +70,16 @@ ReportScans::ReportScans(CaseStore& store, const ReadCase& read)
 
 ReportScans::~ReportScans()
 {
-    given_up_ = true;
+    wanted_.giveUp();
 }
 
 void ReportScans::makeReady()
 {
     for (const auto& scan : scans_) {
-        if (scan->requests.empty() || given_up_)
+        if (scan->requests.empty())
             continue;
         try {
-            scan->sights.set_value(std::make_unique<viewer::KnownSnapshots>(*find(scan->id), scan->requests));
+            scan->sights.set_value(std::make_unique<viewer::KnownSnapshots>(*find(scan->id), scan->requests, &wanted_));
         } catch (...) {
             scan->sights.set_exception(std::current_exception());
         }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vicon/cases/case_store.h"
+#include "vicon/core/progress.h"
 #include "vicon/viewer/scene/known_snapshots.h"
 
 namespace vicon::app {
@@ -29,8 +30,9 @@ constexpr int kEndoscopicSide = 600;  ///< printed 144 points wide and less: a p
 class ReportScans {
 public:
     /// Begins. The environment must not change any more, as a viewer::Display that starts changes it.
-    ReportScans(CaseStore& store, const ReadCase& read);
-    /// Waits for what is under way.
+    /// @param wanted whether it still is; must outlive it
+    ReportScans(CaseStore& store, const ReadCase& read, const Progress& wanted);
+    /// Gives up what is under way.
     ~ReportScans();
     ReportScans(const ReportScans&) = delete;
     ReportScans& operator=(const ReportScans&) = delete;
@@ -49,12 +51,24 @@ private:
         std::optional<viewer::PreparedScan> prepared;
         std::promise<std::unique_ptr<viewer::KnownSnapshots>> sights;
     };
+    /// Until nobody wants the report, or it is there.
+    class StillWanted : public Progress {
+    public:
+        explicit StillWanted(const Progress& report) : report_(report) {}
+        void report(double, std::string_view) override {}
+        bool cancelled() const override { return given_up_ || report_.cancelled(); }
+        void giveUp() { given_up_ = true; }
+
+    private:
+        const Progress& report_;
+        std::atomic<bool> given_up_ = false;
+    };
     Scan* scanOf(const std::string& scan_id);
     void makeReady();
 
     std::vector<std::unique_ptr<Scan>> scans_;
     std::mutex mutex_;  ///< of the opening
-    std::atomic<bool> given_up_ = false;
+    StillWanted wanted_;
     std::future<void> making_;
 };
 

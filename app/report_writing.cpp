@@ -59,7 +59,7 @@ public:
     DraftDrawing(CaseStore& store, const Config& config, const std::string& case_id, Progress& progress)
         : options_(config.get<report::ReportOptions>()),
           content_(contentOfDraft(store, case_id)),
-          scans_(store, content_.read)
+          scans_(store, content_.read, progress)
     {
         drawPictures(store, content_, scans_, printed_, progress);
     }
@@ -174,7 +174,7 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
     const ReportFolder folder;
     report::PackedSights packed;
     const viewer::Display display;  // one for all pictures, before there are other threads
-    ReportScans scans(store, content.read);
+    ReportScans scans(store, content.read, progress);
     std::optional<report::ShownScans> shown;
     report::PrintPictures printed;
     const bool pictured = sign && std::find(kinds.begin(), kinds.end(), report::ObjectKind::picture) != kinds.end();

@@ -207,8 +207,8 @@ void addReporting(ReadingServices& services)
         return KnownStudy{.technique = "CT colonography, supine (120 kV).", .fluid = "supine 20 ml (2 %)"};
     };
     reporting.text = [](CaseStore&, const std::string& case_id) { return "the report of " + case_id; };
-    reporting.pdf = [](CaseStore&, const std::string&) { return readFile(VICON_A_PDF); };
-    reporting.sign = [](CaseStore& store, const std::string& case_id) {
+    reporting.pdf = [](CaseStore&, const std::string&, Progress&) { return readFile(VICON_A_PDF); };
+    reporting.sign = [](CaseStore& store, const std::string& case_id, Progress&) {
         const VersionDraft draft = draftVersion(store, signedHere(), case_id, true, "test");
         return keepVersion(store, case_id, draft, readFile(VICON_A_PDF));
     };
@@ -259,7 +259,7 @@ ReadingServices servicesFor(const fs::path& folder)
         marker.fraction = path.empty() ? 0 : foot.station_mm / path.length_mm();
         return marker;
     };
-    services.report = [](CaseStore& store, const std::string& case_id) {
+    services.report = [](CaseStore& store, const std::string& case_id, Progress&) {
         const fs::path file = store.caseFolder(case_id) / "1.pdf";
         replaceFile(file, "a report");
         return file;

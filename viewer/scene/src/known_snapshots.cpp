@@ -14,11 +14,13 @@ namespace vicon::viewer {
 namespace {
 
 /// Gates alone: sight lines choose better, and take longer to make than they spare for a few pictures.
-std::optional<CellVisibility> gatesFor(const PreparedScan& scan)
+std::optional<CellVisibility> gatesFor(const PreparedScan& scan, const Progress* wanted)
 {
     try {
-        return CellVisibility(scan, CellVisibility::Means::gates);
-    } catch (const Error&) {
+        return CellVisibility(scan, CellVisibility::Means::gates, wanted);
+    } catch (const Error& e) {
+        if (e.code() == ErrorCode::cancelled)
+            throw;
         return std::nullopt;
     }
 }
@@ -60,7 +62,7 @@ CellSurface cellsOf(const CellSurface& all, const std::vector<int>& segments)
 }
 
 SeenSurface seenFrom(const PreparedScan& scan, std::vector<SeenSurface::From> places,
-                     const std::optional<CellVisibility>& gates)
+                     const std::optional<CellVisibility>& gates, const Progress* wanted)
 {
     bool all = !gates;
     std::vector<int> segments;
@@ -72,23 +74,25 @@ SeenSurface seenFrom(const PreparedScan& scan, std::vector<SeenSurface::From> pl
     }
     SeenSurface seen{
         .cells = all ? scan.cells() : cellsOf(scan.cells(), segments), .openness = {}, .places = std::move(places)};
-    seen.openness = opennessOf(seen.cells.points_mm, seen.cells.normals, scan.lumen());
+    seen.openness = opennessOf(seen.cells.points_mm, seen.cells.normals, scan.lumen(), wanted);
     return seen;
 }
 
 }  // namespace
 
-KnownSnapshots::KnownSnapshots(PreparedScan scan, std::vector<SnapshotRequest> requests)
+KnownSnapshots::KnownSnapshots(PreparedScan scan, std::vector<SnapshotRequest> requests, const Progress* wanted)
     : scan_(std::move(scan)), requests_(std::move(requests))
 {
     std::optional<CellVisibility> gates;
-    tbb::parallel_invoke([&] { gates = gatesFor(scan_); }, [&] { scan_.cells(); }, [&] { scan_.lumen(); });
+    tbb::parallel_invoke([&] { gates = gatesFor(scan_, wanted); }, [&] { scan_.cells(); }, [&] { scan_.lumen(); });
+    if (wanted)
+        wanted->check();
     std::vector<SeenSurface::From> places;
     for (const SnapshotRequest& request : requests_) {
         places_.push_back(placeOf(scan_, request));
         places.push_back({places_.back().pose, {request.view_angle_deg, request.width, request.height}, {}});
     }
-    seen_ = std::make_shared<const SeenSurface>(seenFrom(scan_, std::move(places), gates));
+    seen_ = std::make_shared<const SeenSurface>(seenFrom(scan_, std::move(places), gates, wanted));
 }
 
 KnownSnapshots::~KnownSnapshots() = default;

@@ -9,6 +9,8 @@
 namespace vicon::viewer {
 namespace {
 
+constexpr const char* kPages = "pages";
+
 Finding findingSeen(const ReadCase& seen, const std::string& id)
 {
     for (const FindingWithFacts& one : seen.findings)
@@ -37,17 +39,20 @@ ReportPage ReportBooks::pageOf(Books& books) const
     return page;
 }
 
-void ReportBooks::change(const QString& done, Change change)
+void ReportBooks::change(const QString& done, Change change, Making what)
 {
-    if (++under_way_ == 1)
-        emit busyChanged(true);
-    books_.postAlways([this, done, change = std::move(change)](Books& books) -> Worker::Work {
+    begin();
+    books_.postAlways([this, done, change = std::move(change), what](Books& books) -> Worker::Work {
         std::string trouble;
+        bool given_up = false;
         std::optional<ReportPage> page;
         try {
             if (!books.seen)
                 books.seen = readCase(books.store(), case_id_);
             change(books.store(), *books.seen);
+        } catch (const Error& e) {
+            given_up = what != Making::nothing && e.code() == ErrorCode::cancelled;
+            trouble = given_up ? "" : e.what();
         } catch (const std::exception& e) {
             trouble = e.what();
         }
@@ -57,22 +62,38 @@ void ReportBooks::change(const QString& done, Change change)
         } catch (const std::exception& e) {
             trouble = trouble.empty() ? e.what() : trouble;
         }
-        return [this, done, trouble, page] {
+        return [this, done, trouble, page, what, given_up] {
             if (page && under_way_ == 1)  // else what the reader has said meanwhile would be taken from the form
                 emit shown(*page);
+            if (what != Making::nothing)
+                setMaking(Making::nothing);
             end();
             if (!trouble.empty())
                 emit warned(QString::fromStdString(trouble));
+            else if (given_up)
+                emit said(tr("Signing was given up; nothing was signed."));
             else if (!done.isEmpty())
                 emit said(done);
         };
     });
 }
 
+void ReportBooks::begin()
+{
+    if (++under_way_ == 1)
+        emit busyChanged(true);
+}
+
 void ReportBooks::end()
 {
     if (--under_way_ == 0)
         emit busyChanged(false);
+}
+
+void ReportBooks::setMaking(Making what)
+{
+    making_ = what;
+    emit makingChanged(what);
 }
 
 void ReportBooks::refresh()
@@ -137,15 +158,25 @@ void ReportBooks::removeFinding(const std::string& id)
     });
 }
 
+// A signature is no work that the window's closing gives up: the reader was asked, and said so.
 void ReportBooks::sign()
 {
-    change(tr("The report is signed"), [this](CaseStore& store, const ReadCase& seen) {
+    signature_wanted_ = std::make_shared<Wanted>();
+    setMaking(Making::signature);
+    const auto signIt = [this, wanted = signature_wanted_](CaseStore& store, const ReadCase& seen) {
         // What is signed is what was on the screen.
         if (reportContent(readCase(store, case_id_)) != reportContent(seen))
             throw Error(ErrorCode::bad_input, "the case was changed meanwhile; nothing was signed", case_id_,
                         "read the form again, then sign");
-        services_.sign(store, case_id_);
-    });
+        services_.sign(store, case_id_, *wanted);
+    };
+    change(tr("The report is signed"), signIt, Making::signature);
+}
+
+void ReportBooks::giveUpSigning()
+{
+    if (signature_wanted_)
+        signature_wanted_->giveUp();
 }
 
 void ReportBooks::amend(const QString& reason)
@@ -172,18 +203,41 @@ void ReportBooks::lookAtDelivery()
 
 void ReportBooks::makeText()
 {
-    books_.postAlways([this](Books& books) -> Worker::Work {
+    books_.post("text", [this](Books& books) -> Worker::Work {
         return [this, text = QString::fromStdString(services_.text(books.store(), case_id_))] { emit textMade(text); };
     });
 }
 
 void ReportBooks::makePdf()
 {
-    change({}, [this](CaseStore& store, const ReadCase&) {
-        const std::string pdf = services_.pdf(store, case_id_);
-        const QByteArray bytes(pdf.data(), int(pdf.size()));
-        QMetaObject::invokeMethod(this, [this, bytes] { emit pdfMade(bytes); });
+    setMaking(Making::pages);
+    begin();
+    books_.post(kPages, [this](Books& books, Progress& wanted) -> Worker::Work {
+        std::string pdf, trouble;
+        try {
+            pdf = services_.pdf(books.store(), case_id_, wanted);
+        } catch (const std::exception& e) {
+            wanted.check();
+            trouble = e.what();
+        }
+        return [this, trouble, bytes = QByteArray(pdf.data(), int(pdf.size()))] {
+            setMaking(Making::nothing);
+            end();
+            if (trouble.empty())
+                emit pdfMade(bytes);
+            else
+                emit warned(QString::fromStdString(trouble));
+        };
     });
+}
+
+void ReportBooks::giveUpPdf()
+{
+    if (!books_.giveUp(kPages))
+        return;
+    setMaking(Making::nothing);
+    end();
+    emit said(tr("The pages are not drawn."));
 }
 
 }  // namespace vicon::viewer

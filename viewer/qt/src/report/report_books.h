@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "session/own_store.h"
@@ -37,6 +38,8 @@ public:
     /// Its markers stay.
     void removeFinding(const std::string& id);
     void sign();
+    /// Until it is signed; what signs says so once it has ended.
+    void giveUpSigning();
     void amend(const QString& reason);
     void cancelAmendment();
     /// deliveryLookedAt() follows.
@@ -45,6 +48,10 @@ public:
     void makeText();
     /// pdfMade() follows, or warned().
     void makePdf();
+    void giveUpPdf();
+    /// What takes so long that it can be given up.
+    enum class Making { nothing, pages, signature };
+    Making making() const { return making_; }
     bool busy() const { return under_way_ > 0; }
 
 signals:
@@ -56,6 +63,7 @@ signals:
     void textMade(const QString& text);
     void pdfMade(const QByteArray& pdf);
     void busyChanged(bool busy);
+    void makingChanged(vicon::viewer::ReportBooks::Making what);
 
 private:
     struct Books {
@@ -66,14 +74,18 @@ private:
     };
     using Change = std::function<void(CaseStore&, const ReadCase& seen)>;
     /// @param done is said when it is done; may be empty
-    void change(const QString& done, Change change);
+    void change(const QString& done, Change change, Making what = Making::nothing);
+    void begin();
     void end();
+    void setMaking(Making what);
     ReportPage pageOf(Books& books) const;
 
     const ReportServices services_;
     const std::string case_id_;
     int under_way_ = 0;
-    WorkerWith<Books> books_;  // last: it ends first
+    Making making_ = Making::nothing;
+    std::shared_ptr<Wanted> signature_wanted_;  ///< while it is made
+    WorkerWith<Books> books_;                   // last: it ends first
 };
 
 }  // namespace vicon::viewer

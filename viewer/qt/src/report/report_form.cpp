@@ -248,18 +248,31 @@ void ReportForm::showState(const ReportPage& page)
                                : QString::fromStdString(page.read.colon_proposal.reason));
     fill_->setEnabled(!busy_);
     accept_->setEnabled(!busy_ && (page.read.colon_proposal.category || page.read.extracolonic_proposal.category));
-    sign_->setEnabled(!busy_ && missing.empty());
+    sign_->setEnabled(making_ == ReportBooks::Making::signature || (!busy_ && missing.empty()));
+}
+
+void ReportForm::setMaking(ReportBooks::Making what)
+{
+    using Making = ReportBooks::Making;
+    making_ = what;
+    preview_->setText(what == Making::pages ? tr("Sto&p") : tr("&Preview"));
+    preview_->setEnabled(!busy_ || what == Making::pages);
+    sign_->setText(what == Making::signature ? tr("Stop si&gning") : tr("Si&gn ..."));
+    if (!page_.read.record.id.empty())
+        showState(page_);
 }
 
 void ReportForm::setBusy(bool busy)
 {
     busy_ = busy;
     // What is pressed is disabled while it acts: the next control that is not would be the choice of the scan.
-    if (auto* pressed = qobject_cast<QPushButton*>(window()->focusWidget()); busy && pressed && hasKeyboard()) {
+    if (auto* pressed = qobject_cast<QPushButton*>(window()->focusWidget());
+        busy && pressed && hasKeyboard() && pressed != preview_) {
         pressed_ = pressed;
         setFocus();
     }
-    for (QPushButton* button : {preview_, text_, amend_, cancel_})
+    preview_->setEnabled(!busy || making_ == ReportBooks::Making::pages);
+    for (QPushButton* button : {text_, amend_, cancel_})
         button->setEnabled(!busy);
     if (!page_.read.record.id.empty())
         showState(page_);

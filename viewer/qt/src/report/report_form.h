@@ -28,6 +28,8 @@ public:
 
     void show(const ReportPage& page);
     void setBusy(bool busy);
+    /// What takes long says so on its button, which gives it up.
+    void setMaking(ReportBooks::Making what);
     /// How far the signed report is on its way to the PACS, as ReportPage has it.
     void setDelivery(const QString& brief);
     FindingsPart* findings() { return findings_; }
@@ -73,6 +75,7 @@ private:
     const ReportTexts texts_;
     ReportPage page_;
     bool busy_ = false;
+    ReportBooks::Making making_ = ReportBooks::Making::nothing;
     QPushButton* pressed_ = nullptr;  ///< had the keyboard, and gets it back
     QLabel *state_, *missed_, *missing_;
     FindingsPart* findings_;

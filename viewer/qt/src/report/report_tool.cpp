@@ -57,9 +57,11 @@ void ReportTool::addTo(ReadingLayout& layout)
     dock_ = layout.addForm(form_, tr("Report"));
     layout.addAction(ReadingMenu::a_case, tr("Report: findings, categories, signature"), QKeySequence("Ctrl+R"),
                      [this] { toggle(); });
-    layout.addAction(ReadingMenu::a_case, tr("Write report"), QKeySequence("Ctrl+P"), [this] {
-        reading_.say(tr("Writing the report ..."));
-        reading_.session().writeReport();
+    layout.addAction(ReadingMenu::a_case, tr("Write report (again: cancel)"), QKeySequence("Ctrl+P"), [this] {
+        if (!reading_.session().giveUpReport()) {
+            reading_.say(tr("Writing the report ..."));
+            reading_.session().writeReport();
+        }
     });
     connect(&reading_.session(), &CaseSession::reportWritten, this,
             [this](const QString& file) { reading_.say(tr("Report written: %1").arg(file)); });
@@ -72,6 +74,7 @@ void ReportTool::connectBooks()
 {
     connect(&books_, &ReportBooks::shown, form_, &ReportForm::show);
     connect(&books_, &ReportBooks::deliveryLookedAt, form_, &ReportForm::setDelivery);
+    connect(&books_, &ReportBooks::makingChanged, form_, &ReportForm::setMaking);
     connect(&books_, &ReportBooks::busyChanged, form_, &ReportForm::setBusy);
     connect(&books_, &ReportBooks::said, &reading_, &Reading::say);
     connect(&books_, &ReportBooks::warned, &reading_, &Reading::warn);
@@ -86,15 +89,16 @@ void ReportTool::connectForm()
 {
     connect(form_, &ReportForm::said, &books_, &ReportBooks::say);
     connect(form_, &ReportForm::textWanted, &books_, &ReportBooks::makeText);
-    connect(form_, &ReportForm::previewWanted, this, [this] {
-        reading_.say(tr("Drawing the pages ..."));
-        books_.makePdf();
-    });
+    connect(form_, &ReportForm::previewWanted, this, &ReportTool::makePages);
     connect(form_, &ReportForm::knownWanted, this,
             [this] { whenWorkIsKnown([this](const ReaderWork& work) { form_->fillKnown(work); }); });
     connect(form_, &ReportForm::normalWanted, this,
             [this] { whenWorkIsKnown([this](const ReaderWork& work) { form_->fillNormal(work); }); });
     connect(form_, &ReportForm::signWanted, this, [this] {
+        if (books_.making() == ReportBooks::Making::signature) {
+            books_.giveUpSigning();
+            return;
+        }
         form_->commit();
         whenWorkIsKnown([this](const ReaderWork& work) { confirmSigning(work); });
     });
@@ -243,6 +247,16 @@ void ReportTool::askWhyAmend()
     ask->setLabelText(tr("Why is it amended? The signed version stays, and the new one refers to it."));
     connect(ask, &QInputDialog::textValueSelected, &books_, &ReportBooks::amend);
     ask->open();
+}
+
+void ReportTool::makePages()
+{
+    if (books_.making() == ReportBooks::Making::pages) {
+        books_.giveUpPdf();
+        return;
+    }
+    reading_.say(tr("Drawing the pages ..."));
+    books_.makePdf();
 }
 
 void ReportTool::preview(const QByteArray& pdf)

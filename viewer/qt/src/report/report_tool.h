@@ -43,6 +43,8 @@ private:
     void workKnown(const std::vector<ReviewedScan>& scans);
     void confirmSigning(const ReaderWork& work);
     void askWhyAmend();
+    /// Or gives them up, while they are drawn.
+    void makePages();
     void preview(const QByteArray& pdf);
 
     CoverageTool& coverage_;

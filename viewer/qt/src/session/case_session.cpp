@@ -278,10 +278,31 @@ void CaseSession::log(AuditEvent event, const std::string& scan_id, const QStrin
 
 void CaseSession::writeReport()
 {
-    books_.postAlways([this](Books& books) -> Worker::Work {
-        const auto file = services_.report(books.store(), row_.record.id);
-        return [this, name = QString::fromStdString(file.string())] { emit reportWritten(name); };
+    report_wanted_ = std::make_shared<Wanted>();
+    books_.postAlways([this, wanted = report_wanted_](Books& books) -> Worker::Work {
+        QString file, trouble;
+        try {
+            file = QString::fromStdString(services_.report(books.store(), row_.record.id, *wanted).string());
+        } catch (const std::exception& e) {
+            trouble = e.what();
+        }
+        return [this, wanted, file, trouble] {
+            report_wanted_.reset();
+            if (!file.isEmpty())
+                emit reportWritten(file);
+            else if (wanted->cancelled())
+                emit saved(tr("The report was given up; nothing was written."));
+            else
+                emit warned(trouble);
+        };
     });
+}
+
+bool CaseSession::giveUpReport()
+{
+    if (report_wanted_)
+        report_wanted_->giveUp();
+    return report_wanted_ != nullptr;
 }
 
 }  // namespace vicon::viewer

@@ -90,7 +90,10 @@ public:
     /// The scan's skeleton was made anew: its markers get their stations on it, now and after an undo. What cannot be
     /// placed any more is warned of, and stays as it is. @param what is said then
     void placeAnew(const QString& what);
+    /// reportWritten() follows, or warned(). Also when the window closes meanwhile.
     void writeReport();
+    /// What is being written is given up; saved() says so. False where nothing is.
+    bool giveUpReport();
     /// Into the audit trail.
     void log(AuditEvent event, const std::string& scan_id, const QString& words);
     /// Between two points of the wall of a scan that is open, seen from `eye`; measured() follows, or warned().
@@ -177,6 +180,7 @@ private:
     ScanMaps maps_;
     bool markers_known_ = false;
     int edits_under_way_ = 0;
+    std::shared_ptr<Wanted> report_wanted_;  ///< while it is written
     Worker reads_on_{this};
     Worker loader_{this};      // ends before reads_on_, to which it speaks
     WorkerWith<Books> books_;  // last: it ends first

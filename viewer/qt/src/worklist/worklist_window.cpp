@@ -310,7 +310,8 @@ void WorklistWindow::updateButtons()
     older_->setEnabled(listed && more_);
     const WorklistCase* row = listed ? selected() : nullptr;
     open_->setEnabled(row && readable(*row));
-    report_->setEnabled(row && readable(*row));
+    report_->setEnabled(report_wanted_ || (row && readable(*row)));
+    report_->setText(report_wanted_ ? tr("Stop") : tr("Report"));
     retry_->setEnabled(row && (row->state == WorkState::failed || spoiled(*row)));
     reason_->setText(row ? wordsOf(*row, true) : QString());
 }
@@ -350,12 +351,26 @@ void WorklistWindow::retry()
 
 void WorklistWindow::report()
 {
+    if (report_wanted_) {
+        report_wanted_->giveUp();
+        return;
+    }
     message_->setText(tr("Writing the report ..."));
-    books_.postAlways([this, id = selected()->record.id](Books& books) -> Worker::Work {
-        const auto file = services_.report(books.store(), id);
-        return [this, name = QString::fromStdString(file.string())] {
-            message_->setText(tr("Report written: %1").arg(name));
+    report_wanted_ = std::make_shared<Wanted>();
+    updateButtons();
+    books_.postAlways([this, wanted = report_wanted_, id = selected()->record.id](Books& books) -> Worker::Work {
+        QString said;
+        try {
+            const auto file = services_.report(books.store(), id, *wanted);
+            said = tr("Report written: %1").arg(QString::fromStdString(file.string()));
+        } catch (const std::exception& e) {
+            said = wanted->cancelled() ? tr("The report was given up; nothing was written.") : QString(e.what());
+        }
+        return [this, said] {
+            report_wanted_.reset();
+            message_->setText(said);
             refresh();
+            updateButtons();
         };
     });
 }

@@ -86,6 +86,7 @@ private:
     QTimer timer_;
     std::map<std::string, ReadingWindow*> windows_;  ///< open ones, by case
     std::vector<QPointer<QWidget>> made_;            ///< with those that are closed but still saving
+    std::shared_ptr<Wanted> report_wanted_;          ///< while it is written
     Worker settings_worker_{this};
     WorkerWith<Books> books_;
 };

@@ -16,12 +16,14 @@
 #include "vicon/cases/report_versions.h"
 #include "vicon/cases/worklist.h"
 #include "vicon/core/corrections.h"
+#include "vicon/core/progress.h"
 
 class QWidget;
 
 namespace vicon::viewer {
 
-/// What the report's form needs from rooms it does not know, as below.
+/// What the report's form needs from rooms it does not know, as below. What takes a Progress throws Error{cancelled}
+/// once it is cancelled, and has then kept nothing.
 struct ReportServices {
     ReportTexts texts;
     /// What images and steps say of a case.
@@ -29,8 +31,8 @@ struct ReportServices {
     /// As plain text: the last version that was given out, or the draft while the report is open.
     std::function<std::string(CaseStore&, const std::string& case_id)> text;
     /// The bytes of the PDF of the same.
-    std::function<std::string(CaseStore&, const std::string& case_id)> pdf;
-    std::function<ReportVersion(CaseStore&, const std::string& case_id)> sign;
+    std::function<std::string(CaseStore&, const std::string& case_id, Progress&)> pdf;
+    std::function<ReportVersion(CaseStore&, const std::string& case_id, Progress&)> sign;
     std::function<void(CaseStore&, const std::string& case_id, const std::string& reason)> amend;
     std::function<void(CaseStore&, const std::string& case_id)> cancel_amendment;
 };
@@ -59,8 +61,8 @@ struct ReadingServices {
     std::function<void(CaseStore&, const std::string& case_id)> retry;
     /// Fills in a marker's stations and its part of the colon; throws where the point is not in the colon.
     std::function<Marker(CaseStore&, const std::string& case_id, Marker)> place;
-    /// Writes a report and returns its file.
-    std::function<std::filesystem::path(CaseStore&, const std::string& case_id)> report;
+    /// Writes a report and returns its file. Throws Error{cancelled} once it is, and has then written nothing.
+    std::function<std::filesystem::path(CaseStore&, const std::string& case_id, Progress&)> report;
     std::function<Corrections(CaseStore&, const ScanRecord&)> corrections;
     /// Keeps these as all corrections of a scan, and queues what has to be done again.
     std::function<void(CaseStore&, const ScanRecord&, const Corrections&)> correct;

@@ -12,9 +12,10 @@ namespace vicon::viewer {
 class KnownSnapshots {
 public:
     /// Reads and makes ready what needs no OpenGL, on all cores; any thread may do that. Where segments or subdivision
-    /// cannot be read, all cells are drawn. Throws as PreparedScan does.
+    /// cannot be read, all cells are drawn. Throws as PreparedScan does, and Error{cancelled} where `wanted`, if there
+    /// is one, says so.
     /// @param requests where to look from, and what all pictures from there have in common; of the view endo
-    KnownSnapshots(PreparedScan scan, std::vector<SnapshotRequest> requests);
+    KnownSnapshots(PreparedScan scan, std::vector<SnapshotRequest> requests, const Progress* wanted = nullptr);
     ~KnownSnapshots();
 
     /// As drawSnapshot() does, and on one thread; the last picture goes there too.
