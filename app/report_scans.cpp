@@ -79,6 +79,7 @@ void ReportScans::makeReady()
         if (scan->requests.empty())
             continue;
         try {
+            wanted_.check();  // else the next scan would still be read
             scan->sights.set_value(std::make_unique<viewer::KnownSnapshots>(*find(scan->id), scan->requests, &wanted_));
         } catch (...) {
             scan->sights.set_exception(std::current_exception());
