@@ -191,7 +191,32 @@ TEST_F(Reading, F1OpensTheGuideForPairsAndForTheSliceAcrossTheLumen)
 TEST(Guide, HasEveryHeadingThatF1Leads)
 {
     for (const QString& heading : GuideTool::headings())
-        EXPECT_TRUE(QString(kGuideText).contains("\n## " + heading + "\n")) << heading.toStdString();
+        EXPECT_EQ(guideText().count(QRegularExpression("(^|\n)#+ " + QRegularExpression::escape(heading) + "\n")), 1)
+            << heading.toStdString();
+}
+
+TEST_F(Reading, TheGuideBeginsWithAFirstCaseInTenStepsAndItsLinksLeadOn)
+{
+    openCase();
+    key(Qt::Key_F1);
+    ASSERT_TRUE(eventually([] { return window()->findChild<QDialog*>("guide") != nullptr; }));
+    auto* text = the<QTextBrowser>("guideText");
+    EXPECT_EQ(text->document()->begin().text(), "A first case in ten steps");
+    text->moveCursor(QTextCursor::Start);
+    EXPECT_TRUE(text->find("10. Report."));
+    ASSERT_TRUE(text->find("From marks to a signed report"));
+    EXPECT_GT(text->palette().color(QPalette::Link).lightness(), 128) << "on a dark ground";
+    QTest::mouseClick(text->viewport(), Qt::LeftButton, Qt::NoModifier, text->cursorRect().center() - QPoint(20, 0));
+    EXPECT_TRUE(eventually([] { return guideAt(window()) == "From marks to a signed report"; })) << guideAt(window());
+    EXPECT_GT(text->textCursor().blockFormat().headingLevel(), 0) << "the page itself";
+    the<QDialog>("guide")->grab().save(VICON_SCREENSHOTS "/guide_report.png");
+    text->verticalScrollBar()->setValue(0);
+    the<QDialog>("guide")->grab().save(VICON_SCREENSHOTS "/guide_first_case.png");
+    text->moveCursor(QTextCursor::Start);
+    window()->activateWindow();
+    key(Qt::Key_R, Qt::ControlModifier);
+    key(Qt::Key_F1);
+    EXPECT_TRUE(eventually([] { return guideAt(window()) == "From marks to a signed report"; })) << guideAt(window());
 }
 
 TEST_F(Reading, NothingMakesTheWindowLargerThanASmallScreen)

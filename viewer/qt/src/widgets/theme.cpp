@@ -40,6 +40,7 @@ void applyTheme()
     palette.setColor(QPalette::PlaceholderText, QColor(140, 140, 140));
     palette.setColor(QPalette::Highlight, accent);
     palette.setColor(QPalette::HighlightedText, Qt::white);
+    palette.setColor(QPalette::Link, QColor(120, 185, 235));
     for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
         palette.setColor(QPalette::Disabled, role, QColor(120, 120, 120));
     QApplication::setPalette(palette);
