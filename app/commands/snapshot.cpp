@@ -136,7 +136,8 @@ Subcommand snapshotCommand()
                 .check(range(-20.0, 20.0))
                 .needs(peel)
                 .captureDefault();
-            command.flag("--peel-middle", arguments->peel_middle, "Peel only a circle in the middle").needs(peel);
+            command.flag("--peel-middle", arguments->peel_middle, "Translucent only in a circle in the middle")
+                .needs(peel);
             command.flag("--peel-over", arguments->peel_over, "Lay it over the surface instead of in its place")
                 .needs(peel);
             return [arguments, station](Context& context) {

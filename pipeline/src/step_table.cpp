@@ -55,7 +55,7 @@ json runResample(const StepInputs& inputs, ScanResults& results, const StepRecor
 json runQuality(const StepInputs& inputs, ScanResults& results, const StepRecords& records, Progress& progress)
 {
     if (!isColon(inputs.config))
-        return toJson(QualityFound{.not_measured = "parts and quality are those of a colon"});
+        return toJson(QualityFound{.not_measured = "segments and quality are those of a colon"});
     const auto options = inputs.config.get<steps::QualityOptions>();
     const steps::FoundParts parts = steps::findColonParts(results.skeleton());
     QualityFound found{.parts = parts.ranges, .parts_unknown = parts.reason};

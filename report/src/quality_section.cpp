@@ -66,7 +66,7 @@ void Sections::drawParts(bool headed)
     if (measured.empty())
         return;
     if (headed)
-        drawSection(flow_, "Distension and fluid of each part", std::min(partRowsHeight(), flow_.wholePage() / 2));
+        drawSection(flow_, "Distension and fluid of each segment", std::min(partRowsHeight(), flow_.wholePage() / 2));
     drawPartHead();
     for (const ScanEntry* entry : measured) {
         if (scanRowsHeight(*entry) > flow_.room()) {

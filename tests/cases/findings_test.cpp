@@ -210,7 +210,7 @@ TEST_F(Findings, HaveNothingSaidWhereTheAssessmentIsSilent)
 
 TEST_F(Findings, AreJudgedWithoutQualityWhereNoneWasMeasured)
 {
-    case_.record("quality", toJson(QualityFound{.not_measured = "parts and quality are those of a colon"}));
+    case_.record("quality", toJson(QualityFound{.not_measured = "segments and quality are those of a colon"}));
     EXPECT_TRUE(readCase(store_, "c1").parts.empty());
 }
 

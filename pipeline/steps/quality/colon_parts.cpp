@@ -137,7 +137,7 @@ FoundParts findColonParts(const Skeleton& skeleton)
                                      length_mm};
     for (std::size_t n = 0; n + 1 < bounds.size(); ++n)
         if (bounds[n + 1] <= bounds[n])
-            return {{}, "the parts of the colon do not lie in the usual order"};
+            return {{}, "the segments of the colon do not lie in the usual order"};
     FoundParts found;
     for (std::size_t n = 0; n + 1 < bounds.size(); ++n)
         found.ranges.push_back({ColonPart(n), bounds[n], bounds[n + 1]});

@@ -14,7 +14,7 @@ constexpr double kSame_mm = 1e-6;
 std::vector<ViewPose> planFlight(const PathFrames& path, const Lumen& lumen, double step_mm, Heading heading)
 {
     if (!path.isPath())
-        throw Error(ErrorCode::wrong_use, "no path leads through the organ: it is flown freely", {},
+        throw Error(ErrorCode::wrong_use, "the organ has no centreline: it is flown freely", {},
                     "fly in the window, 'vicon read'");
     if (!(step_mm > 0))
         throw Error(ErrorCode::wrong_use, "a flight's step must be above 0 mm");

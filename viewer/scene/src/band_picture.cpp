@@ -262,7 +262,7 @@ BandMap bandOf(const PreparedScan& scan, Progress& progress)
         throw Error(ErrorCode::wrong_use, "an organ that branches cannot be opened into one band",
                     scan.words().organ.name(), "choose another view");
     if (!scan.hasPath())
-        throw Error(ErrorCode::wrong_use, "an organ without a path cannot be opened into a band",
+        throw Error(ErrorCode::wrong_use, "an organ without a centreline cannot be opened into a band",
                     scan.words().organ.name(), "choose another view");
     return {scan.cells(), scan.frames(), scan.exitDistance(), progress};
 }

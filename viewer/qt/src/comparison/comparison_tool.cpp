@@ -208,7 +208,7 @@ void ComparisonTool::drawBeside(bool still)
     if (!haveSamePlaces(*reading_.scan(), *scan)) {
         compare(false);
         reading_.warn(
-            tr("No path leads through the %1: the same place of another scan cannot be told.")
+            tr("The %1 has no centreline: the same place of another scan cannot be told.")
                 .arg(QString::fromStdString(
                     (reading_.scan()->files.hasPath() ? *scan : *reading_.scan()).files.words().organ.name())));
         return;

@@ -30,7 +30,7 @@ void FilmTool::startOrCancel()
         return;
     }
     if (!reading_.navigator()->hasPath()) {
-        reading_.say(tr("No path leads through the %1: there is no way to film.")
+        reading_.say(tr("The %1 has no centreline: there is no way to film.")
                          .arg(QString::fromStdString(reading_.organWords().organ.name())));
         return;
     }

@@ -176,7 +176,7 @@ bool FlightTool::hasPath()
 {
     if (navigator()->hasPath())
         return true;
-    reading_.say(tr("No path leads through the %1: it is flown freely; Home shows it from its middle.")
+    reading_.say(tr("The %1 has no centreline: it is flown freely; Home shows it from its middle.")
                      .arg(QString::fromStdString(reading_.organWords().organ.name())));
     return false;
 }

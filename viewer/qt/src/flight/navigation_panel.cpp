@@ -35,7 +35,7 @@ QString wayOfFlight(Heading heading, const OrganWords& words)
 {
     const bool to_last = heading == Heading::caecum;
     if (!words.has_path)
-        return QObject::tr("No path");
+        return QObject::tr("No centreline");
     if (words.organ.isColon())
         return to_last ? QObject::tr("Retrograde") : QObject::tr("Antegrade");
     return QObject::tr("Heading: %1").arg(QString::fromStdString(to_last ? words.last_end : words.first_end));

@@ -86,7 +86,7 @@ void MarkerTable::buildButtons()
     color_->setAccessibleName(tr("Colour of the marker"));
     color_->addItems({tr("red"), tr("yellow"), tr("green")});
     move_ = button(tr("Move"), "markerMove", tr("Then click on its new place in any view"));
-    pair_ = button(tr("Pair"), "markerPair", tr("Then choose the same finding in another scan; again: part them"));
+    pair_ = button(tr("Pair"), "markerPair", tr("Then choose the same finding in another scan; again: separate them"));
     remove_ = button(tr("Delete"), "markerRemove", tr("Delete the marker (Delete)"));
     undo_ = button(tr("Undo"), "undo", tr("Undo the last change (Ctrl+Z)"));
     redo_ = button(tr("Redo"), "redo", tr("Do it again (Ctrl+Y)"));
