@@ -15,6 +15,7 @@ namespace vicon::viewer {
 namespace {
 constexpr int kFrame_ms = 16;
 constexpr double kNarrowest_deg = 60, kWidest_deg = 120;
+constexpr const char* kMode = "mode";
 }  // namespace
 
 FlightTool::FlightTool(Reading& reading) : ReadingTool(reading), panel_(new NavigationPanel)
@@ -51,7 +52,8 @@ QVariantMap FlightTool::kept() const
         return values;
     values[keptKey(record, "to_rectum")] = navigator()->heading() == Heading::rectum;
     values[readerKey("speed_mm_s")] = navigator()->speed_mm_s();
-    values[keptKey(record, "mode")] = int(navigator()->mode());
+    if (navigator()->hasPath())  // without one there is one kind of flight, and nobody chose it
+        values[readerKey(kMode)] = int(navigator()->mode());
     values[keptKey(record, QString::fromStdString(reading_.scan()->record.id))] = navigator()->state().station_mm;
     return values;
 }
@@ -82,6 +84,8 @@ void FlightTool::takePlace(const Arrival& arrival, const OpenScan& left)
     const OpenScan& scan = *reading_.scan();
     navigator()->setHeading(left.navigator.heading());
     navigator()->setSpeed(left.navigator.speed_mm_s());
+    if (left.navigator.hasPath())
+        navigator()->setMode(left.navigator.mode());
     if (!haveSamePlaces(left, scan)) {
         if (std::holds_alternative<SamePlace>(arrival.place))
             navigator()->lookFrom(left.navigator.state().pose, 0);
@@ -90,10 +94,9 @@ void FlightTool::takePlace(const Arrival& arrival, const OpenScan& left)
         return;
     }
     if (const auto* other = std::get_if<CorrespondingPlace>(&arrival.place))
-        navigator()->jumpTo(reading_.session().mapBetween(left, scan).at(other->station_mm).station_mm);
+        comeTo(reading_.session().mapBetween(left, scan).at(other->station_mm).station_mm);
     else if (const auto* same = std::get_if<SamePlace>(&arrival.place))
-        navigator()->jumpTo(
-            scan.files.skeleton().nearest(same->point_mm.value_or(left.navigator.state().pose.eye_mm)).station_mm);
+        comeTo(scan.files.skeleton().nearest(same->point_mm.value_or(left.navigator.state().pose.eye_mm)).station_mm);
 }
 
 void FlightTool::takeKeptPlace()
@@ -103,10 +106,20 @@ void FlightTool::takeKeptPlace()
     };
     navigator()->setHeading(kept("to_rectum").toBool() ? Heading::rectum : Heading::caecum);
     navigator()->setSpeed(keptSetting(readerKey("speed_mm_s"), navigator()->speed_mm_s()).toDouble());
-    navigator()->jumpTo(kept(QString::fromStdString(reading_.scan()->record.id), 0).toDouble());
-    const int mode = kept("mode").toInt();
+    const int mode = keptSetting(readerKey(kMode), kept(kMode)).toInt();  // once it was kept with the case
     if (mode >= int(NavigationMode::planned) && mode <= int(NavigationMode::free))
         navigator()->setMode(NavigationMode(mode));
+    comeTo(kept(QString::fromStdString(reading_.scan()->record.id), 0).toDouble());
+}
+
+void FlightTool::comeTo(double station_mm)
+{
+    constexpr double kOff_mm = 5;
+    navigator()->jumpTo(station_mm);
+    if (std::abs(navigator()->state().station_mm - station_mm) <= kOff_mm)
+        return;
+    navigator()->setMode(NavigationMode::planned);
+    navigator()->jumpTo(station_mm);
 }
 
 void FlightTool::placeShown()

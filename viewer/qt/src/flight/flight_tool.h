@@ -42,6 +42,8 @@ private:
 
     void takePlace(const Arrival& arrival, const OpenScan& left);
     void takeKeptPlace();
+    /// To the place of a scan that is opened; in planned flight where it is too narrow for the guided one.
+    void comeTo(double station_mm);
     void tick();
     bool waitsForPicture() const;
     bool isHeld() const;

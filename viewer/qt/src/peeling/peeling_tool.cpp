@@ -35,8 +35,10 @@ void PeelingTool::drawSoon()
 void PeelingTool::restore()
 {
     const CaseRecord& record = reading_.session().record();
-    panel_->choose(keptSetting(keptKey(record, "peel")).toString(), keptSetting(readerKey("peel_mm")).toDouble(),
-                   keptSetting(readerKey("peel_circle")).toBool(), keptSetting(readerKey("peel_over")).toBool());
+    const QVariant once_with_the_case = keptSetting(keptKey(record, "peel"));
+    panel_->choose(keptSetting(readerKey("peel"), once_with_the_case).toString(),
+                   keptSetting(readerKey("peel_mm")).toDouble(), keptSetting(readerKey("peel_circle")).toBool(),
+                   keptSetting(readerKey("peel_over")).toBool());
 }
 
 void PeelingTool::scanOpened(const Arrival&)
@@ -48,8 +50,7 @@ void PeelingTool::scanOpened(const Arrival&)
 
 QVariantMap PeelingTool::kept() const
 {
-    const CaseRecord& record = reading_.session().record();
-    return {{keptKey(record, "peel"), panel_->preset()},
+    return {{readerKey("peel"), panel_->preset()},
             {readerKey("peel_mm"), panel_->offset_mm()},
             {readerKey("peel_circle"), panel_->circleOnly()},
             {readerKey("peel_over"), panel_->overSurface()}};

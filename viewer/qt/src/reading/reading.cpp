@@ -310,6 +310,7 @@ void Reading::arrive(const Arrival& arrival)
     useWords(organWords());
     for (ReadingTool* tool : tools_)
         tool->scanOpened(arrival);
+    rememberFound();
     if (const auto marker = session_.marker(arrival.marker_id.value_or("")))
         showMarker(*marker);
     markersChanged();
@@ -343,22 +344,6 @@ void Reading::useWords(const OrganWords& words)
 bool Reading::redoesScan() const
 {
     return std::any_of(tools_.begin(), tools_.end(), [](const ReadingTool* tool) { return tool->redoesScan(); });
-}
-
-void Reading::restore()
-{
-    views_.restoreSizes();
-    for (ReadingTool* tool : tools_)
-        tool->restore();
-}
-
-void Reading::keep(const QVariantMap& more)
-{
-    QVariantMap values = more;
-    values.insert(views_.sizes());
-    for (const ReadingTool* tool : tools_)
-        values.insert(tool->kept());
-    keepSettings(settings_worker_, values);
 }
 
 void Reading::stop()

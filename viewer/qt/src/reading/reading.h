@@ -103,7 +103,7 @@ public:
     bool redoesScan() const;
     /// What was kept of an earlier reading.
     void restore();
-    /// @param more what else the reader finds again
+    /// What was changed since it was restored or kept. @param more what else the reader finds again
     void keep(const QVariantMap& more = {});
     /// What runs is stopped; nothing is drawn any more.
     void stop();
@@ -147,6 +147,8 @@ private:
     void centreSlices();
     /// Those of the scan that was read.
     void clearPictures();
+    QVariantMap kept() const;
+    void rememberFound();
     void sayWhatIsDrawn();
     void showPlace();
     SnapshotRequest snapshotOf(const OpenScan& scan, const QSize& size) const;
@@ -169,6 +171,8 @@ private:
     };
     std::optional<PlaceBefore> before_click_;
     std::optional<MeasuredLine> line_;
+    QVariantMap found_;  // as restored or kept last
+    bool scan_was_open_ = false;
     Interaction interaction_;
     RestTimer still_;
 };

@@ -115,12 +115,17 @@ void ReadingWindow::changeEvent(QEvent* event)
     QMainWindow::changeEvent(event);
 }
 
-void ReadingWindow::closeEvent(QCloseEvent* event)
+void ReadingWindow::keep()
 {
-    poll_.stop();
     reading_->keep({{kGeometry, saveGeometry()},
                     {kTwoWindows, two_windows_->isChecked()},
                     {readerKey(kList), layout_->shownList()}});
+}
+
+void ReadingWindow::closeEvent(QCloseEvent* event)
+{
+    poll_.stop();
+    keep();
     views_->hideSecondWindow();
     reading_->stop();
     endThreads();

@@ -29,6 +29,8 @@ public:
     /// As the worklist shows the case by now: scans that became ready are offered, one that was done again for another
     /// reader is shown anew.
     void renew(const WorklistCase& row);
+    /// What the reader set by now is found in the next case that is opened.
+    void keep();
 
 signals:
     /// The window is gone; it deletes itself when its threads have ended.

@@ -324,6 +324,8 @@ void WorklistWindow::open(const WorklistCase& row)
         window->second->activateWindow();
         return;
     }
+    for (const auto& [other, open] : windows_)
+        open->keep();
     auto* window = new ReadingWindow(services_, row);
     windows_[id] = window;
     made_.erase(std::remove(made_.begin(), made_.end(), nullptr), made_.end());
