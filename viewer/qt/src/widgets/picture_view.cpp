@@ -150,7 +150,7 @@ void PictureView::mouseMoveEvent(QMouseEvent* event)
 
 void PictureView::mouseReleaseEvent(QMouseEvent* event)
 {
-    const bool was_click = !dragging_ && button_ == Qt::LeftButton && event->button() == Qt::LeftButton;
+    const bool was_click = !dragging_ && button_ == event->button();
     if (dragging_ && grip_)
         dragGrip(event->pos(), true);
     else if (dragging_ && circling_)
@@ -160,8 +160,16 @@ void PictureView::mouseReleaseEvent(QMouseEvent* event)
     button_ = Qt::NoButton;
     dragging_ = false;
     grip_.reset();
-    if (was_click && !image_.isNull())
+    if (was_click && event->button() == Qt::RightButton)
+        emit menuWanted(event->globalPos());
+    else if (was_click && event->button() == Qt::LeftButton && !image_.isNull())
         emit clicked(toPicture(event->pos()), event->modifiers());
+}
+
+void PictureView::contextMenuEvent(QContextMenuEvent* event)
+{
+    if (event->reason() == QContextMenuEvent::Keyboard)  // the mouse's waits for the button: its drag is no click
+        emit menuWanted(mapToGlobal(rect().center()));
 }
 
 void PictureView::mouseDoubleClickEvent(QMouseEvent*)

@@ -62,6 +62,7 @@ signals:
     void endDragged(int end, vicon::viewer::Pixel at, bool released);
     void hovered(vicon::viewer::Pixel at);  ///< where setMouseTracking() is on
     void enlargeWanted();
+    void menuWanted(QPoint at);                        ///< on the screen
     void dragged(QPointF by, Qt::MouseButton button);  ///< in device pixels
     void dragEnded();
     void turned(int steps, Qt::KeyboardModifiers modifiers);
@@ -80,6 +81,7 @@ protected:
     void mouseReleaseEvent(QMouseEvent* event) override;
     void mouseDoubleClickEvent(QMouseEvent* event) override;
     void wheelEvent(QWheelEvent* event) override;
+    void contextMenuEvent(QContextMenuEvent* event) override;
 
 private:
     // picture_keys.cpp

@@ -160,8 +160,26 @@ QAction* ReadingLayout::addSwitch(ReadingMenu menu, const QString& title, const 
     return action;
 }
 
+// What is done in this kind of picture first, the rest one step away: the mouse need not leave the picture.
+void ReadingLayout::showMenuIn(const PictureView& view, QPoint at)
+{
+    const bool is_slice = dynamic_cast<const SliceView*>(&view) != nullptr;
+    const ReadingMenu first = is_slice ? ReadingMenu::slices : ReadingMenu::flight;
+    auto* menu = new QMenu(view.window());
+    menu->setObjectName("pictureMenu");
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->addActions(menuOf(first)->actions());
+    menu->addSeparator();
+    for (const ReadingMenu other : {ReadingMenu::edit, ReadingMenu::view, ReadingMenu::flight, ReadingMenu::slices})
+        if (other != first)
+            menu->addMenu(menuOf(other));
+    menu->popup(at);
+}
+
 void ReadingLayout::finish()
 {
+    for (auto* view : window_.findChildren<PictureView*>())
+        connect(view, &PictureView::menuWanted, this, [this, view](QPoint at) { showMenuIn(*view, at); });
     auto* keys = new ControlKeys(&window_, views_.first());
     orderTabs();
     connect(&views_, &ReadingViews::laidOut, this, [this, keys] {

@@ -18,6 +18,7 @@ class QVBoxLayout;
 namespace vicon::viewer {
 
 class ControlsArea;
+class PictureView;
 
 enum class ReadingMenu { a_case, edit, flight, view, slices, help };
 
@@ -68,6 +69,7 @@ private:
     QWidget* buildTop();
     QWidget* buildControls();
     QMenu* menuOf(ReadingMenu menu);
+    void showMenuIn(const PictureView& view, QPoint at);
     void showNextList();
     void orderTabs();
 
