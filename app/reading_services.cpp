@@ -130,8 +130,12 @@ viewer::ReadingServices readingServices(const StorePlace& store, const Config& c
     services.place = [&config](CaseStore& store, const std::string& case_id, Marker marker) {
         return placeMarker(store, config.get<MarkOptions>(), case_id, std::move(marker));
     };
-    services.import_markers = [&config](CaseStore& store, const std::string& case_id, const fs::path& file) {
-        return importOf(store, config.get<MarkOptions>(), case_id, file);
+    services.import_markers = [&config](CaseStore& store, const std::string& case_id, const fs::path& file,
+                                        Progress& progress) {
+        return importOf(store, config.get<MarkOptions>(), case_id, file, progress);
+    };
+    services.renew_places = [&config](CaseStore& store, const std::string& case_id) {
+        return renewPlaces(store, config.get<MarkOptions>(), case_id);
     };
     addCorrectionServices(services, config);
     addReportServices(services.reporting, config);

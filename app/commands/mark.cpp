@@ -5,6 +5,7 @@
 
 #include "../command.h"
 #include "../point_argument.h"
+#include "../progress_line.h"
 #include "../text_table.h"
 #include "vicon/cases/finding_facts.h"
 #include "vicon/cases/pair_proposals.h"
@@ -75,7 +76,8 @@ struct MarkersArguments {
 /// All or nothing. An id that the case has is replaced.
 void importMarkers(CaseStore& store, const MarkOptions& options, const std::string& case_id, const std::string& file)
 {
-    store.editMarkers(case_id, importOf(store, options, case_id, file));
+    ProgressLine progress("markers");
+    store.editMarkers(case_id, importOf(store, options, case_id, file, progress));
 }
 
 void changeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id,

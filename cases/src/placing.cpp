@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <memory>
+#include <utility>
 
+#include "snapping.h"
 #include "vicon/cases/density_sample.h"
 #include "vicon/cases/polyp_size.h"
 #include "vicon/cases/step_results.h"
@@ -53,51 +56,92 @@ ColonPartRanges partsOf(CaseStore& store, const ScanRecord& scan)
     return resultsOf(store.steps(scan.case_id, scan.id)).parts();
 }
 
-Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id, Marker marker)
+struct MarkerPlacer::Scan {
+    ScanRecord record;
+    std::unique_ptr<ScanPlaces> places;    // none: not read yet
+    std::optional<ColonPartRanges> parts;  // likewise
+};
+
+struct MarkerPlacer::Found {
+    Scan* scan;
+    SnappedPoint place;
+};
+
+MarkerPlacer::MarkerPlacer(CaseStore& store, const MarkOptions& options, std::string case_id)
+    : store_(store), options_(options), case_id_(std::move(case_id))
 {
-    std::vector<std::pair<std::string, SnappedPoint>> places;
-    for (const ScanRecord& scan : store.scans(case_id)) {
-        const fs::path folder = store.scanFolder(case_id, scan.id);
-        const bool named = !marker.scan_id.empty() && scan.id.starts_with(marker.scan_id);
-        if (marker.scan_id.empty() ? !isPrepared(folder) : !named)
+    for (const ScanRecord& scan : store.scans(case_id_))
+        scans_.push_back({scan, {}, {}});
+}
+
+MarkerPlacer::~MarkerPlacer() = default;
+
+const ScanPlaces& MarkerPlacer::placesOf(Scan& scan)
+{
+    if (!scan.places)
+        scan.places = std::make_unique<ScanPlaces>(store_.scanFolder(case_id_, scan.record.id));
+    return *scan.places;
+}
+
+MarkerPlacer::Found MarkerPlacer::find(const Marker& marker)
+{
+    std::vector<Found> found;
+    for (Scan& scan : scans_) {
+        const std::string& id = scan.record.id;
+        const bool named = !marker.scan_id.empty() && id.starts_with(marker.scan_id);
+        if (marker.scan_id.empty() ? !isPrepared(store_.scanFolder(case_id_, id)) : !named)
             continue;
-        if (const auto place = snapToSkeleton(folder, marker.position_mm, options.most_distance_mm))
-            places.emplace_back(scan.id, *place);
+        if (const auto place = placesOf(scan).at(marker.position_mm, options_.most_distance_mm))
+            found.push_back({&scan, *place});
     }
-    if (places.empty() && !marker.scan_id.empty())
-        store.requireScan(case_id, marker.scan_id);
-    if (places.empty())
+    if (found.empty() && !marker.scan_id.empty())
+        store_.requireScan(case_id_, marker.scan_id);
+    if (found.empty())
         throw Error(ErrorCode::bad_input,
                     "the point " + formatPoint(marker.position_mm) + " lies more than " +
-                        formatPoint({options.most_distance_mm, 0, 0}).substr(0, 4) +
+                        formatPoint({options_.most_distance_mm, 0, 0}).substr(0, 4) +
                         " mm outside the lumen of every prepared scan",
-                    case_id, "give LPS millimetres inside the lumen; 'vicon show " + case_id + "' shows the scans");
+                    case_id_, "give LPS millimetres inside the lumen; 'vicon show " + case_id_ + "' shows the scans");
     // A point in the lumen of one scan and merely near that of another belongs to the first.
-    const auto inside = [](const auto& place) { return place.second.outside_mm == 0; };
-    if (places.size() > 1 && std::count_if(places.begin(), places.end(), inside) == 1)
-        places = {*std::find_if(places.begin(), places.end(), inside)};
-    if (places.size() > 1)
-        throw Error(ErrorCode::wrong_use, "the point lies in the lumen of several scans", case_id,
-                    "name one with --scan; 'vicon show " + case_id + "' lists them");
-    const auto& [scan_id, place] = places.front();
-    marker.scan_id = scan_id;
+    const auto inside = [](const Found& f) { return f.place.outside_mm == 0; };
+    if (found.size() > 1 && std::count_if(found.begin(), found.end(), inside) == 1)
+        found = {*std::find_if(found.begin(), found.end(), inside)};
+    if (found.size() > 1)
+        throw Error(ErrorCode::wrong_use, "the point lies in the lumen of several scans", case_id_,
+                    "name one with --scan; 'vicon show " + case_id_ + "' lists them");
+    return found.front();
+}
+
+Marker MarkerPlacer::place(Marker marker)
+{
+    const auto [scan, place] = find(marker);
+    marker.scan_id = scan->record.id;
     marker.station_mm = place.station_mm;
     marker.from_caecum_mm = place.length_mm - place.station_mm;
     marker.fraction = place.length_mm > 0 ? place.station_mm / place.length_mm : 0;
     forgetMeasuresElsewhere(marker);
-    const std::string part = partNameAt(partsOf(store, store.requireScan(case_id, scan_id)), place.station_mm);
+    if (!scan->parts)
+        scan->parts = partsOf(store_, scan->record);
+    const std::string part = partNameAt(*scan->parts, place.station_mm);
     marker.part = part.empty() ? std::nullopt : std::optional(colonPartFrom(part));
     marker.extra.erase("part");
     return marker;
 }
 
+Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id, Marker marker)
+{
+    return MarkerPlacer(store, options, case_id).place(std::move(marker));
+}
+
 std::vector<MarkerEdit> importOf(CaseStore& store, const MarkOptions& options, const std::string& case_id,
-                                 const fs::path& file)
+                                 const fs::path& file, Progress& progress)
 {
     const std::vector<Marker> known = store.markers(case_id);
+    MarkerPlacer placer(store, options, case_id);
     std::vector<MarkerEdit> edits;
     for (const Marker& marker : readMarkers(file)) {
-        const Marker placed = placeMarker(store, options, case_id, marker);
+        progress.check();
+        const Marker placed = placer.place(marker);
         const auto before =
             std::find_if(known.begin(), known.end(), [&](const Marker& m) { return m.id == placed.id; });
         edits.push_back({before == known.end() ? std::nullopt : std::optional(*before), placed});
@@ -105,19 +149,25 @@ std::vector<MarkerEdit> importOf(CaseStore& store, const MarkOptions& options, c
     return edits;
 }
 
-void renewPlaces(CaseStore& store, const MarkOptions& options, const std::string& case_id, const std::string& scan_id)
+std::vector<std::string> renewPlaces(CaseStore& store, const MarkOptions& options, const std::string& case_id,
+                                     const std::string& scan_id)
 {
+    std::vector<std::string> lost;
+    MarkerPlacer placer(store, options, case_id);
     for (const Marker& marker : store.markers(case_id)) {
-        if (marker.scan_id != scan_id)
+        if (!scan_id.empty() && marker.scan_id != scan_id)
             continue;
         try {
-            if (const Marker placed = placeMarker(store, options, case_id, marker); toJson(placed) != toJson(marker))
+            if (const Marker placed = placer.place(marker); toJson(placed) != toJson(marker))
                 store.editMarkers(case_id, {{marker, placed}});
         } catch (const Error& e) {
-            if (e.code() != ErrorCode::bad_input && e.code() != ErrorCode::not_ready)
+            if (e.code() == ErrorCode::bad_input)
+                lost.push_back(marker.id);
+            else if (e.code() != ErrorCode::not_ready)
                 throw;
         }
     }
+    return lost;
 }
 
 void addDensity(CaseStore& store, const std::string& case_id, Marker& marker, double radius_mm)

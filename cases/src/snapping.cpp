@@ -1,4 +1,6 @@
-#include <optional>
+#include "snapping.h"
+
+#include <algorithm>
 
 #include "vicon/cases/placing.h"
 #include "vicon/core/error.h"
@@ -33,24 +35,6 @@ std::optional<NearestSegment> segmentNear(const SegmentVolume& segments, Point3 
     return NearestSegment{segments.at(nearest->voxel), nearest->distance_mm};
 }
 
-/// The skeleton; of a tree the way from the root that passes nearest to the point.
-Skeleton wayThrough(const fs::path& file, Point3 point)
-{
-    const SkeletonTree tree = scan_files::readSkeletonTree(file);
-    if (tree.empty())
-        return scan_files::readSkeleton(file);
-    Skeleton best;
-    double least_mm = 1e300;
-    for (const int tip : tree.tips()) {
-        Skeleton way = tree.pathTo(tip);
-        if (const double away_mm = way.nearest(point).distance_mm; away_mm < least_mm) {
-            least_mm = away_mm;
-            best = std::move(way);
-        }
-    }
-    return best;
-}
-
 }  // namespace
 
 bool isPrepared(const fs::path& folder)
@@ -59,21 +43,37 @@ bool isPrepared(const fs::path& folder)
            fs::exists(folder / "subdivision.json");
 }
 
-std::optional<SnappedPoint> snapToSkeleton(const fs::path& folder, Point3 point, double within_mm)
+ScanPlaces::ScanPlaces(const fs::path& folder)
 {
     if (!isPrepared(folder))
         throw Error(ErrorCode::not_ready, "the scan has not been through the pipeline", folder.filename().string(),
                     "run 'vicon work --until-idle'");
-    const auto segments = scan_files::readVolume<std::uint16_t>(folder / "segments.mha");
-    const auto segment = segmentNear(segments, point, within_mm);
+    segments_ = scan_files::readVolume<std::uint16_t>(folder / "segments.mha");
+    subdivision_ = scan_files::readSubdivision(folder / "subdivision.json");
+    const SkeletonTree tree = scan_files::readSkeletonTree(folder / "skeleton.vtp");
+    if (tree.empty())
+        ways_.push_back(scan_files::readSkeleton(folder / "skeleton.vtp"));
+    for (const int tip : tree.tips())
+        ways_.push_back(tree.pathTo(tip));
+}
+
+const Skeleton& ScanPlaces::wayNear(Point3 point) const
+{
+    return *std::min_element(ways_.begin(), ways_.end(), [&](const Skeleton& a, const Skeleton& b) {
+        return a.nearest(point).distance_mm < b.nearest(point).distance_mm;
+    });
+}
+
+std::optional<SnappedPoint> ScanPlaces::at(Point3 point, double within_mm) const
+{
+    const auto segment = segmentNear(segments_, point, within_mm);
     if (!segment)
         return std::nullopt;
-    const Skeleton skeleton = wayThrough(folder / "skeleton.vtp", point);
-    const auto subdivision = scan_files::readSubdivision(folder / "subdivision.json");
-    const auto& info = subdivision.segments.at(std::size_t(segment->number) - 1);
+    const Skeleton& way = ways_.size() == 1 ? ways_.front() : wayNear(point);
+    const auto& info = subdivision_.segments.at(std::size_t(segment->number) - 1);
     const SkeletonFoot foot =
-        skeleton.nearest(point, info.from_station_mm - kSegmentMargin_mm, info.to_station_mm + kSegmentMargin_mm);
-    return SnappedPoint{segment->distance_mm, foot.station_mm, skeleton.length_mm()};
+        way.nearest(point, info.from_station_mm - kSegmentMargin_mm, info.to_station_mm + kSegmentMargin_mm);
+    return SnappedPoint{segment->distance_mm, foot.station_mm, way.length_mm()};
 }
 
 }  // namespace vicon

@@ -109,7 +109,7 @@ TEST(OrganOfTheCommand, AStomachGoesThroughTheStepsWithoutAPathAndWhatNeedsOneSa
           "snapshot " + scan.case_id + " --view band --out " + (folder / "band.png").string()}) {
         const auto refused = runVicon(needs_path + " --store " + store.string());
         EXPECT_EQ(refused.exit_code, 2) << refused.output;
-        EXPECT_THAT(refused.output, HasSubstr("path")) << needs_path;
+        EXPECT_THAT(refused.output, HasSubstr("centreline")) << needs_path;
         EXPECT_EQ(std::count(refused.output.begin(), refused.output.end(), '\n'), 1) << refused.output;
     }
     // Taken for an organ with a path, and for what it is again: what was made of the path is gone.

@@ -7,6 +7,8 @@
 #include <QPushButton>
 #include <QStatusBar>
 #include <QTableWidget>
+#include <atomic>
+#include <thread>
 
 #include "reading.h"
 #include "vicon/cases/finding_facts.h"
@@ -275,6 +277,53 @@ TEST_F(Reading, MarkersOfAFileAreLoadedInOneStepAndSaved)
     box->close();
     press(window(), "undo");
     EXPECT_TRUE(eventually([&] { return notes(""); })) << "one undo takes both back";
+}
+
+/// Its file of markers is never read to its end.
+class EndlessMarkerFile : public Reading {
+protected:
+    void SetUp() override
+    {
+        Reading::SetUp();
+        room_.reset();
+        services_.import_markers = [this](CaseStore&, const std::string&, const std::filesystem::path&,
+                                          Progress& wanted) {
+            begun_ = true;
+            while (!wanted.cancelled() && !over_)
+                std::this_thread::yield();
+            wanted.check();
+            return std::vector<MarkerEdit>();
+        };
+        openRoom(services_);
+    }
+    void TearDown() override
+    {
+        over_ = true;
+        Reading::TearDown();
+    }
+
+    std::atomic<bool> begun_ = false, over_ = false;
+};
+
+TEST_F(EndlessMarkerFile, IsGivenUpByEscAndMarkersStayAsTheyWere)
+{
+    openCase();
+    click("endoscopic", middle("endoscopic"), Qt::ShiftModifier);
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    const auto before = toJson(stored());
+    const std::filesystem::path file = store_ / "list.json";
+    replaceFile(file, before.dump());
+    key(Qt::Key_O, Qt::ControlModifier);
+    chooseFile("loadMarkers", file.c_str());
+    ASSERT_TRUE(eventually([&] { return begun_.load(); }));
+    EXPECT_FALSE(settled());
+    EXPECT_TRUE(window()->statusBar()->currentMessage().contains("Esc"));
+    window()->activateWindow();
+    key(Qt::Key_Escape);
+    EXPECT_TRUE(eventually([] { return settled(); })) << "markers can be changed again";
+    EXPECT_EQ(warning(), "");
+    EXPECT_EQ(window()->statusBar()->currentMessage(), "Given up; nothing was changed.");
+    EXPECT_EQ(toJson(stored()), before);
 }
 
 }  // namespace

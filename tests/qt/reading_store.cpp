@@ -181,14 +181,27 @@ void addWork(ReadingServices& services, const std::shared_ptr<Said>& state)
 void addMarkerFiles(ReadingServices& services)
 {
     services.import_markers = [place = services.place](CaseStore& store, const std::string& case_id,
-                                                       const fs::path& file) {
+                                                       const fs::path& file, Progress& wanted) {
         std::vector<MarkerEdit> edits;
         const auto all = nlohmann::json::parse(readFile(file));
         for (const auto& entry : all.at("markers")) {
+            wanted.check();
             const Marker marker = place(store, case_id, markerFromJson(entry));
             edits.push_back({store.requireMarker(case_id, marker.id), marker});
         }
         return edits;
+    };
+    services.renew_places = [place = services.place](CaseStore& store, const std::string& case_id) {
+        std::vector<std::string> lost;
+        for (const Marker& marker : store.markers(case_id))
+            try {
+                store.editMarkers(case_id, {{marker, place(store, case_id, marker)}});
+            } catch (const Error& e) {
+                if (e.code() != ErrorCode::bad_input)
+                    throw;
+                lost.push_back(marker.id);
+            }
+        return lost;
     };
 }
 

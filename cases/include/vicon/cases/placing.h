@@ -8,6 +8,7 @@
 #include "vicon/cases/case_store.h"
 #include "vicon/core/colon_parts.h"
 #include "vicon/core/options.h"
+#include "vicon/core/progress.h"
 
 namespace vicon {
 
@@ -22,34 +23,51 @@ struct MarkOptions {
     }
 };
 
-/// Where a point of space lies in a scan's colon.
-struct SnappedPoint {
-    double outside_mm = 0;  ///< distance to the nearest inside voxel; 0 within the lumen
-    double station_mm = 0;
-    double length_mm = 0;  ///< of the skeleton
-};
-
-/// Finds a point's place along the skeleton, without jumping to a neighbouring loop: the nearest inside voxel's segment
-/// says which part of the curve is meant. Nothing when the point is farther than `within_mm` from the lumen. Throws
-/// Error{not_ready} when the scan has not been through the pipeline.
-std::optional<SnappedPoint> snapToSkeleton(const std::filesystem::path& scan_folder, Point3 point, double within_mm);
-
 /// The parts of a scan's colon; empty where they are not known.
 ColonPartRanges partsOf(CaseStore& store, const ScanRecord& scan);
 
-/// Fills in a marker's scan, stations, fraction and part of the colon, and takes off it what was measured at another
-/// place. An empty scan id is found: the only scan whose lumen is near the point. Throws Error{bad_input} when the
-/// point is outside, Error{wrong_use} when it could be in several scans.
+class ScanPlaces;
+struct SnappedPoint;
+
+/// Places markers of a case, several at the cost of one: what it needs of a scan it reads once, when it first does.
+class MarkerPlacer {
+public:
+    MarkerPlacer(CaseStore& store, const MarkOptions& options, std::string case_id);
+    ~MarkerPlacer();
+    MarkerPlacer(const MarkerPlacer&) = delete;
+    MarkerPlacer& operator=(const MarkerPlacer&) = delete;
+
+    /// Fills in a marker's scan, stations, fraction and part of the colon, and takes off it what was measured at
+    /// another place. An empty scan id is found: the only scan whose lumen is near the point. Throws Error{bad_input}
+    /// when the point is outside, Error{wrong_use} when it could be in several scans, Error{not_ready} when its scan
+    /// has not been through the pipeline.
+    Marker place(Marker marker);
+
+private:
+    struct Scan;
+    struct Found;
+    const ScanPlaces& placesOf(Scan& scan);
+    Found find(const Marker& marker);
+
+    CaseStore& store_;
+    const MarkOptions options_;
+    const std::string case_id_;
+    std::vector<Scan> scans_;
+};
+
+/// One marker, as MarkerPlacer::place().
 Marker placeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id, Marker marker);
 
-/// The change that adds the markers of a file, {"markers": [...]}, each placed as placeMarker() does; an id that the
-/// case has is replaced. Throws Error{bad_input} when the file makes no sense, and as placeMarker().
+/// The change that adds the markers of a file, {"markers": [...]}, each placed as MarkerPlacer::place() does; an id
+/// that the case has is replaced. Throws Error{bad_input} when the file makes no sense, Error{cancelled} once it is,
+/// and as MarkerPlacer::place().
 std::vector<MarkerEdit> importOf(CaseStore& store, const MarkOptions& options, const std::string& case_id,
-                                 const std::filesystem::path& file);
+                                 const std::filesystem::path& file, Progress& progress);
 
-/// Places the markers of a scan anew, after its skeleton was made again. One that no longer lies in the colon, and what
-/// somebody changes at the same time, stays as it is.
-void renewPlaces(CaseStore& store, const MarkOptions& options, const std::string& case_id, const std::string& scan_id);
+/// Places markers anew, after a skeleton was made again: those of a scan, of all scans where `scan_id` is empty.
+/// Returns the ids of those that no longer lie in the colon: they stay as they are.
+std::vector<std::string> renewPlaces(CaseStore& store, const MarkOptions& options, const std::string& case_id,
+                                     const std::string& scan_id = {});
 
 /// Takes a sample of the tissue around a placed marker, of what circleWall() encloses, and keeps it with the marker.
 /// Throws Error{wrong_use} where the radius is out of range or the ball holds too little tissue, Error{bad_input} where

@@ -203,9 +203,20 @@ void MarkerTool::chooseFile(bool to_save)
         if (to_save)
             reading_.session().saveMarkers(file.toStdString());
         else
-            reading_.session().loadMarkers(file.toStdString());
+            load(file);
     });
     dialog->open();
+}
+
+void MarkerTool::load(const QString& file)
+{
+    reading_.say(tr("Markers are loaded ... Esc gives it up."));
+    reading_.session().loadMarkers(file.toStdString());
+}
+
+void MarkerTool::escape()
+{
+    reading_.session().giveUpLoadingMarkers();
 }
 
 std::optional<StepNumber> MarkerTool::toUndo() const

@@ -17,6 +17,7 @@ public:
     void useWords(const OrganWords& words) override;
     void markersChanged() override;
     bool act(const ClickMeaning& meaning, const ClickedPoint& point) override;
+    void escape() override;
 
     std::optional<StepNumber> toUndo() const override;
     std::optional<StepNumber> toRedo() const override;
@@ -37,6 +38,7 @@ private:
     void removeChosen();
     void refuseMove(const std::string& id);
     void chooseFile(bool to_save);
+    void load(const QString& file);
     // marker_information.cpp
     void showInformation();
 

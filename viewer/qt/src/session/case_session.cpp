@@ -82,12 +82,14 @@ void CaseSession::edit(const QString& what, Edit work)
         emit busyChanged(true);
     books_.postAlways([this, what, work = std::move(work)](Books& books) -> Worker::Work {
         std::string trouble, copy_trouble;
+        bool given_up = false;
         std::optional<std::vector<Marker>> markers;
         try {
             work(books);
             copy_trouble = books.store().markerFileTrouble();
         } catch (const Error& e) {
-            trouble = messageFor(books.store(), e);
+            given_up = e.code() == ErrorCode::cancelled;
+            trouble = given_up ? "" : messageFor(books.store(), e);
         } catch (const std::exception& e) {
             trouble = e.what();
         }
@@ -96,8 +98,8 @@ void CaseSession::edit(const QString& what, Edit work)
         } catch (const std::exception& e) {
             trouble = trouble.empty() ? e.what() : trouble;
         }
-        return [this, what, trouble, copy_trouble, markers = std::move(markers), undo = books.history.toUndo(),
-                redo = books.history.toRedo()] {
+        return [this, said = given_up ? tr("Given up; nothing was changed.") : what, trouble, copy_trouble,
+                markers = std::move(markers), undo = books.history.toUndo(), redo = books.history.toRedo()] {
             if (markers)
                 markers_ = *markers;
             else
@@ -106,7 +108,7 @@ void CaseSession::edit(const QString& what, Edit work)
             to_redo_ = redo;
             edited();
             if (trouble.empty())
-                emit saved(what);
+                emit saved(said);
             else
                 emit warned(QString::fromStdString(trouble));
             if (!copy_trouble.empty())
@@ -156,9 +158,16 @@ void CaseSession::partMarkers(const Marker& marker)
 
 void CaseSession::loadMarkers(const std::filesystem::path& file)
 {
-    edit(tr("Markers loaded"), [this, file](Books& books) {
-        books.history.changeAll(books.store(), services_.import_markers(books.store(), row_.record.id, file));
+    loading_wanted_ = std::make_shared<Wanted>();
+    edit(tr("Markers loaded"), [this, file, wanted = loading_wanted_](Books& books) {
+        books.history.changeAll(books.store(), services_.import_markers(books.store(), row_.record.id, file, *wanted));
     });
+}
+
+void CaseSession::giveUpLoadingMarkers()
+{
+    if (loading_wanted_)
+        loading_wanted_->giveUp();
 }
 
 void CaseSession::saveMarkers(const std::filesystem::path& file)
@@ -175,7 +184,7 @@ void CaseSession::takeBack(const QString& what, void (MarkerHistory::*step)(Case
     edit(what, [this, step](Books& books) {
         (books.history.*step)(books.store());
         if (books.skeleton_is_new)
-            renewPlaces(books.store());
+            services_.renew_places(books.store(), row_.record.id);
     });
 }
 
@@ -189,30 +198,16 @@ void CaseSession::redo()
     takeBack(tr("Done again"), &MarkerHistory::redo);
 }
 
-std::string CaseSession::renewPlaces(CaseStore& store) const
-{
-    std::string lost;
-    for (const Marker& marker : store.markers(row_.record.id)) {
-        try {
-            if (const Marker placed = services_.place(store, row_.record.id, marker); toJson(placed) != toJson(marker))
-                store.editMarkers(row_.record.id, {{marker, placed}});
-        } catch (const Error& e) {
-            if (e.code() != ErrorCode::bad_input)
-                throw;
-            lost += (lost.empty() ? "" : ", ") + marker.id;
-        }
-    }
-    return lost;
-}
-
 void CaseSession::placeAnew(const QString& what)
 {
     edit(what, [this](Books& books) {
         books.skeleton_is_new = true;
-        const std::string lost = renewPlaces(books.store());
+        QStringList lost;
+        for (const std::string& id : services_.renew_places(books.store(), row_.record.id))
+            lost << QString::fromStdString(id);
         if (!lost.empty())
-            throw Error(ErrorCode::wrong_use, "no longer in the colon; distances and segment stay as they were", lost,
-                        "move or delete them");
+            throw Error(ErrorCode::wrong_use, "no longer in the colon; distances and segment stay as they were",
+                        lost.join(", ").toStdString(), "move or delete them");
     });
 }
 
@@ -236,73 +231,6 @@ void CaseSession::refresh()
                     tr("Another reader changed the markers of this case; the list shows them as they are now."));
         };
     });
-}
-
-std::filesystem::path CaseSession::newPicture(CaseStore& store, const std::string& extension) const
-{
-    const std::string& id = row_.record.id;
-    store.requireCase(id);
-    const auto folder = store.caseFolder(id) / "pictures";
-    makePrivateFolder(folder);
-    return folder / (std::to_string(store.nextNumber("picture " + id)) + extension);
-}
-
-void CaseSession::nameFilm()
-{
-    books_.postAlways([this](Books& books) -> Worker::Work {
-        return
-            [this, name = QString::fromStdString(newPicture(books.store(), ".ogv").string())] { emit filmNamed(name); };
-    });
-}
-
-void CaseSession::savePicture(const QImage& picture)
-{
-    books_.postAlways([this, picture = picture.convertToFormat(QImage::Format_RGB888)](Books& books) -> Worker::Work {
-        const auto file = newPicture(books.store(), ".png");
-        Picture out(picture.width(), picture.height());
-        for (int y = 0; y < out.height; ++y)
-            std::copy_n(picture.constScanLine(y), 3 * out.width, out.rgb.begin() + std::ptrdiff_t(y) * 3 * out.width);
-        writePng(file, out);
-        books.store().audit(AuditEvent::picture_saved, row_.record.id, "", file.filename().string());
-        return [this, name = QString::fromStdString(file.string())] { emit saved(tr("Picture saved: %1").arg(name)); };
-    });
-}
-
-void CaseSession::log(AuditEvent event, const std::string& scan_id, const QString& words)
-{
-    books_.postAlways([this, event, scan_id, words](Books& books) -> Worker::Work {
-        books.store().audit(event, row_.record.id, scan_id, words.toStdString());
-        return {};
-    });
-}
-
-void CaseSession::writeReport()
-{
-    report_wanted_ = std::make_shared<Wanted>();
-    books_.postAlways([this, wanted = report_wanted_](Books& books) -> Worker::Work {
-        QString file, trouble;
-        try {
-            file = QString::fromStdString(services_.report(books.store(), row_.record.id, *wanted).string());
-        } catch (const std::exception& e) {
-            trouble = e.what();
-        }
-        return [this, wanted, file, trouble] {
-            report_wanted_.reset();
-            if (!file.isEmpty())
-                emit reportWritten(file);
-            else if (wanted->cancelled())
-                emit saved(tr("The report was given up; nothing was written."));
-            else
-                emit warned(trouble);
-        };
-    });
-}
-
-bool CaseSession::giveUpReport()
-{
-    if (report_wanted_)
-        report_wanted_->giveUp();
-    return report_wanted_ != nullptr;
 }
 
 }  // namespace vicon::viewer

@@ -77,6 +77,8 @@ public:
     void partMarkers(const Marker& marker);
     /// The markers of a file join those of the case: all in one step, or none.
     void loadMarkers(const std::filesystem::path& file);
+    /// Those of a file that is being loaded are not taken; saved() says so.
+    void giveUpLoadingMarkers();
     /// All markers of the case, as loadMarkers() and `vicon markers --import` take them.
     void saveMarkers(const std::filesystem::path& file);
     void undo();
@@ -146,8 +148,6 @@ private:
     using Edit = std::function<void(Books&)>;
     void edit(const QString& what, Edit work);
     void edited();
-    /// Names of the markers that no longer lie in the colon.
-    std::string renewPlaces(CaseStore& store) const;
     void takeBack(const QString& what, void (MarkerHistory::*step)(CaseStore&));
     std::filesystem::path newPicture(CaseStore& store, const std::string& extension) const;
     std::string messageFor(CaseStore& store, const Error& error) const;
@@ -180,7 +180,8 @@ private:
     ScanMaps maps_;
     bool markers_known_ = false;
     int edits_under_way_ = 0;
-    std::shared_ptr<Wanted> report_wanted_;  ///< while it is written
+    std::shared_ptr<Wanted> report_wanted_;   ///< while it is written
+    std::shared_ptr<Wanted> loading_wanted_;  ///< of the file of markers loaded last
     Worker reads_on_{this};
     Worker loader_{this};      // ends before reads_on_, to which it speaks
     WorkerWith<Books> books_;  // last: it ends first

@@ -71,9 +71,12 @@ struct ReadingServices {
     std::function<void(CaseStore&, const ScanRecord&, const ReviewedBridge&)> review_bridge;
     /// Runs the queue until it is empty or `stop` is set: what was under way then waits in the queue.
     std::function<void(CaseStore&, const std::atomic<bool>& stop)> work;
-    /// The change that adds the markers of a file, placed.
-    std::function<std::vector<MarkerEdit>(CaseStore&, const std::string& case_id, const std::filesystem::path&)>
+    /// The change that adds the markers of a file, placed. Throws Error{cancelled} once it is.
+    std::function<std::vector<MarkerEdit>(CaseStore&, const std::string& case_id, const std::filesystem::path&,
+                                          Progress&)>
         import_markers;
+    /// Places all markers of a case anew; returns the ids of those that no longer lie in the colon.
+    std::function<std::vector<std::string>(CaseStore&, const std::string& case_id)> renew_places;
     ReportServices reporting;
     PriorServices priors;
 };
