@@ -1,95 +1,21 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QMessageBox>
-#include <QMouseEvent>
 #include <QPushButton>
 #include <QStatusBar>
 #include <QTableWidget>
-#include <QWheelEvent>
 #include <cmath>
 
-#include "reading.h"
-#include "slices/slice_view.h"
-#include "test_colon.h"
-#include "vicon/cases/case_store.h"
+#include "measuring.h"
 #include "vicon/cases/finding_facts.h"
 #include "widgets/picture_view.h"
 
 namespace vicon::viewer {
 namespace {
 
-using test::Reading;
-
-const QColor kCalliper(255, 214, 102);
-
-/// Lengths in slices and on the wall, by the mouse.
-class Measuring : public Reading {
-protected:
-    void SetUp() override
-    {
-        Reading::SetUp();
-        openCase();
-        window()->resize(1600, 1000);
-        waitUntilQuiet();
-    }
-    /// One red marker where the eye looks.
-    void mark()
-    {
-        click("endoscopic", middle("endoscopic") + QPoint(90, 60), Qt::ShiftModifier);
-        ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
-        waitUntilQuiet();
-    }
-    static void zoom(const char* view, int notches)
-    {
-        auto* widget = the<QWidget>(view);
-        const QPointF at = widget->rect().center();
-        QWheelEvent event(at, widget->mapToGlobal(at.toPoint()), {}, {0, 120 * notches}, Qt::NoButton,
-                          Qt::ControlModifier, Qt::NoScrollPhase, false);
-        QApplication::sendEvent(widget, &event);
-        waitUntilQuiet();
-    }
-    static bool yellow(const QColor& c)
-    {
-        constexpr int kOff = 24;
-        return std::abs(c.red() - kCalliper.red()) < kOff && std::abs(c.green() - kCalliper.green()) < kOff &&
-               std::abs(c.blue() - kCalliper.blue()) < kOff;
-    }
-    /// Pixels of a calliper along the straight line between two places of a view, as a share.
-    static double calliperBetween(const char* view, QPoint a, QPoint b)
-    {
-        const QImage image = pictureOf(view);
-        constexpr int kSteps = 40;
-        int hits = 0;
-        for (int n = 0; n <= kSteps; ++n) {
-            const QPoint p = a + (b - a) * n / kSteps;
-            bool near = false;
-            for (int y = -2; y <= 2; ++y)
-                for (int x = -2; x <= 2; ++x)
-                    near = near || (image.valid(p + QPoint(x, y)) && yellow(image.pixelColor(p + QPoint(x, y))));
-            hits += near;
-        }
-        return double(hits) / (kSteps + 1);
-    }
-    static QString said() { return window()->statusBar()->currentMessage(); }
-    static double firstLength(const QString& text) { return text.section(' ', 0, 0).toDouble(); }
-    /// What the window says was measured between two clicks.
-    static double measuredBetween(const char* view, QPoint a, QPoint b)
-    {
-        key(Qt::Key_M);
-        click(view, a);
-        click(view, b);
-        EXPECT_TRUE(eventually([] { return said().contains("straight"); })) << said().toStdString();
-        return firstLength(said());
-    }
-    static void answer(const char* button)
-    {
-        ASSERT_TRUE(eventually([] { return window()->findChild<QMessageBox*>("replaceSize") != nullptr; }));
-        QTest::mouseClick(the<QPushButton>(button), Qt::LeftButton);
-        window()->activateWindow();
-        ASSERT_TRUE(eventually([] { return window()->isActiveWindow() && settled(); }));
-    }
-    double straight() const { return stored()[0].size.value().straight_mm; }
-};
+using test::Measuring;
+using test::MeasuringBeside;
+using test::Outlining;
 
 TEST_F(Measuring, ItsWordsNeverLieOverTheLineAlsoAtThePicturesEdge)
 {
@@ -150,6 +76,7 @@ TEST_F(Measuring, ASizeIsReplacedOnlyWhenTheReaderSaysSoAndUndoBringsItBack)
     click("endoscopic", first + QPoint(40, 0));
     ASSERT_TRUE(eventually([&] { return stored()[0].size.has_value() && settled(); }));
     const double kept = straight();
+    const QPoint end = endIn("endoscopic", 1);
     const auto again = [&] {
         key(Qt::Key_M);
         click("endoscopic", first);
@@ -169,8 +96,7 @@ TEST_F(Measuring, ASizeIsReplacedOnlyWhenTheReaderSaysSoAndUndoBringsItBack)
     EXPECT_EQ(cell(0, 5), QString::number(largestDiameter_mm(stored()[0].size.value()), 'f', 1));
     key(Qt::Key_Z, Qt::ControlModifier);
     ASSERT_TRUE(eventually([&] { return straight() == kept && settled(); }));
-    EXPECT_TRUE(eventually([&] { return calliperBetween("endoscopic", first, first + QPoint(40, 0)) > 0.5; }))
-        << "the callipers are the old ones again";
+    EXPECT_TRUE(eventually([&] { return endIn("endoscopic", 1) == end; })) << "the callipers are the old ones again";
 }
 
 TEST_F(Measuring, AnEndThatIsDraggedMeasuresAnewAndIsUndone)
@@ -194,7 +120,7 @@ TEST_F(Measuring, AnEndThatIsDraggedMeasuresAnewAndIsUndone)
     EXPECT_EQ(window()->findChild<QMessageBox*>("replaceSize"), nullptr) << "it was this size that was dragged";
     key(Qt::Key_Z, Qt::ControlModifier);
     ASSERT_TRUE(eventually([&] { return straight() == before && settled(); }));
-    EXPECT_TRUE(eventually([&] { return calliperBetween("coronal", first, second) > 0.9; }));
+    EXPECT_TRUE(eventually([&] { return (endIn("coronal", 1) - second).manhattanLength() <= kMouse_px; }));
     EXPECT_TRUE(said().startsWith("Undone")) << said().toStdString();
     key(Qt::Key_Escape);
     EXPECT_TRUE(eventually([&] { return calliperBetween("coronal", first, second) < 0.2; }));
@@ -202,18 +128,6 @@ TEST_F(Measuring, AnEndThatIsDraggedMeasuresAnewAndIsUndone)
     EXPECT_TRUE(eventually([&] { return calliperBetween("coronal", first, second) > 0.9; }))
         << "the marker that is chosen shows its size";
 }
-
-/// With the other scan beside. Both show the same colon in the same place: what is drawn in the wrong one is seen.
-class MeasuringBeside : public Measuring {
-protected:
-    void SetUp() override
-    {
-        Measuring::SetUp();
-        key(Qt::Key_C);
-        ASSERT_TRUE(eventually([] { return drawn("besideAxial") && drawn("besideEndoscopic"); }));
-        waitUntilQuiet();
-    }
-};
 
 TEST_F(MeasuringBeside, ALengthInTheOtherScansSliceIsDrawnDraggedAndKeptThereAlone)
 {
@@ -306,42 +220,7 @@ TEST_F(MeasuringBeside, ALineGoesAlongWithItsScanWhenTheTwoChangePlaces)
     EXPECT_TRUE(the<PictureView>("axial")->calliper());
 }
 
-/// A marker on the polyp of the colon is there from the beginning.
-class Outlining : public Measuring {
-protected:
-    void SetUp() override
-    {
-        Reading::SetUp();
-        colon_.write(store_ / "cases" / test::kCase / test::kSupine);
-        Marker marker;
-        marker.scan_id = test::kSupine;
-        const auto nearest = [&](Point3 p) { return path_.at(path_.nearest(p).station_mm).position_mm; };
-        const Vector3 inwards = normalized(nearest(colon_.polyp_mm) - colon_.polyp_mm);
-        marker.position_mm = colon_.polyp_mm + inwards * colon_.polyp_radius_mm;
-        marker.station_mm = colon_.polyp_station_mm;
-        CaseStore(store_).saveMarker(test::kCase, marker);
-        openCase();
-        window()->resize(1600, 1000);
-        waitUntilQuiet();
-        clickRow(markers(), 0);
-        ASSERT_TRUE(eventually([] { return pictureIsThere(); }));
-        waitUntilQuiet();
-    }
-    std::optional<PolypSize> outlined() const { return stored()[0].size ? stored()[0].size->polyp : std::nullopt; }
-
-    /// Where a slice shows a point of the scan, or what lies before or behind it.
-    static QPoint placeIn(const char* view, Point3 p)
-    {
-        const Pixel at = the<SliceView>(view)->shown().toPixel(p);
-        return {int(at.x), int(at.y)};
-    }
-
-    static constexpr double kVoxel_mm = 1;
-    const test::TestColon colon_{test::storages().front(), kVoxel_mm};
-    const Skeleton& path_ = colon_.skeleton;
-};
-
-TEST_F(Outlining, OneClickMeasuresAPolypAndAnEndThatIsDraggedMakesItTheReadersOwnSize)
+TEST_F(Outlining, OneClickMeasuresAPolyp)
 {
     key(Qt::Key_M, Qt::ShiftModifier);
     click("endoscopic", middle("endoscopic"));

@@ -121,8 +121,9 @@ void CaseSession::edit(const QString& what, Edit work)
 
 void CaseSession::edited()
 {
+    --edits_under_way_;  // first: what is shown of the markers waits for edits that are still to come, not for this one
     emit markersChanged();
-    if (--edits_under_way_ == 0)
+    if (edits_under_way_ == 0)
         emit busyChanged(false);
 }
 
