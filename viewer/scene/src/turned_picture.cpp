@@ -125,8 +125,7 @@ void addTurnedMarkers(Overlay& overlay, const CellSurface& surface, const Turned
     constexpr double kWall_mm = 12;  // a marker within the wall lies so far behind its outside at most
     for (const Marker& marker : markers) {
         const Pixel at = drawn.view.toPixel(marker.position_mm);
-        const auto before = drawn.pointAt(surface, at);
-        const bool hidden = before && drawn.view.depth_mm(*before) < drawn.view.depth_mm(marker.position_mm) - kWall_mm;
+        const bool hidden = drawn.hides(surface, marker.position_mm, kWall_mm);
         overlay.discs.push_back({at, 0.38 * text_px, colorOf(marker.color), hidden ? 0.12 * text_px : 0});
         overlay.texts.push_back({{at.x + 0.5 * text_px, at.y - 0.2 * text_px},
                                  marker.id,
@@ -170,6 +169,12 @@ std::optional<Point3> TurnedPicture::pointAt(const CellSurface& surface, Pixel a
         return std::nullopt;
     const auto hit = raster->at(x, y);
     return hit ? std::optional(pointOf(surface, *hit)) : std::nullopt;
+}
+
+bool TurnedPicture::hides(const CellSurface& surface, Point3 point, double within_mm) const
+{
+    const auto before = pointAt(surface, view.toPixel(point));
+    return before && view.depth_mm(*before) < view.depth_mm(point) - within_mm;
 }
 
 TurnedPicture turnedPicture(const PreparedScan& scan, const TurnedRequest& request, Progress& progress)

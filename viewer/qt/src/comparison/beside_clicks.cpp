@@ -35,17 +35,20 @@ void ComparisonTool::connectView()
 /// What is measured in the scan beside is drawn there, and its ends are dragged there.
 void ComparisonTool::connectLine()
 {
-    const auto drag = [this](int end, Point3 to, bool on_wall, bool released) {
-        if (const OpenScan* scan = reading_.session().beside())
-            emit reading_.lineDragged(end, {*scan, shown_.place, to, {}, on_wall}, released);
+    const auto drag = [this](int end, const std::optional<Point3>& to, bool on_wall, bool released) {
+        const OpenScan* scan = reading_.session().beside();
+        const bool there = to && scan;
+        emit reading_.lineDragged(
+            end, there ? std::optional(ClickedPoint{*scan, shown_.place, *to, {}, on_wall}) : std::nullopt, released);
     };
     connect(&reading_, &Reading::lineChanged, this, &ComparisonTool::drawLine);
     connect(view_->endoscopic(), &PictureView::endDragged, this, [this, drag](int end, Pixel at, bool released) {
-        const auto scan = reading_.session().sharedBeside();
-        if (!shown_.isOf(scan))
-            return;
-        if (const auto wall = shown_.wallAt(at))
-            drag(end, *wall, !shown_.acquired, released);
+        const bool there = shown_.isOf(reading_.session().sharedBeside());
+        drag(end, there ? shown_.wallAt(at) : std::nullopt, !shown_.acquired, released);
+    });
+    connect(view_->overview(), &PictureView::endDragged, this, [this](int, Pixel, bool released) {
+        if (released)
+            reading_.warn(tr("The projection has no depth: drag the end on the wall or in a slice."));
     });
     connect(view_->slice(), &SliceView::lineDragged, this,
             [drag](int end, Point3 to, bool released) { drag(end, to, false, released); });
@@ -55,6 +58,10 @@ void ComparisonTool::drawLine()
 {
     view_->slice()->setLine(reading_.line());
     view_->endoscopic()->setCalliper(lineFromInside(reading_.line(), reading_.session().sharedBeside(), shown_));
+    const auto& line = reading_.line();
+    const OpenScan* scan = reading_.session().beside();
+    const bool of_it = line && scan && line->scan_id == scan->record.id && shown_overview_;
+    view_->overview()->setCalliper(of_it ? inProjection(*line, *shown_overview_) : std::nullopt);
 }
 
 const OpenScan* ComparisonTool::clickableScan()

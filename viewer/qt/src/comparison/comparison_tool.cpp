@@ -46,6 +46,7 @@ void ComparisonTool::addTo(ReadingLayout& layout)
                     return;
                 shown_overview_ = view;
                 view_->overview()->showPicture(picture);
+                drawLine();
             });
     connect(&reading_.drawing(), &DrawingThread::besideDrawn, this,
             [this](const Picture& picture, const ShownPicture& shown) {

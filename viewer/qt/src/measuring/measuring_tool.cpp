@@ -45,16 +45,18 @@ void MeasuringTool::connectViews()
     connect(&reading_, &Reading::lineChanged, this, draw);
     connect(endoscopic, &PictureView::endDragged, this, [this](int end, Pixel at, bool released) {
         const ShownPicture& picture = reading_.shown();
-        if (reading_.scan() && picture.isOf(reading_.sharedScan()))
-            if (const auto wall = picture.wallAt(at))
-                emit reading_.lineDragged(end, {*reading_.scan(), picture.place, *wall, {}, !picture.acquired},
-                                          released);
+        const auto wall = picture.isOf(reading_.sharedScan()) ? picture.wallAt(at) : std::nullopt;
+        std::optional<ClickedPoint> to;
+        if (wall)
+            to.emplace(ClickedPoint{*reading_.scan(), picture.place, *wall, {}, !picture.acquired});
+        emit reading_.lineDragged(end, to, released);
     });
     for (SliceView* slice : reading_.views().slices()) {
         connect(&reading_, &Reading::lineChanged, slice, [this, slice] { slice->setLine(reading_.line()); });
         connect(slice, &SliceView::lineDragged, this, [this](int end, Point3 to, bool released) {
             if (reading_.scan())
-                emit reading_.lineDragged(end, {*reading_.scan(), reading_.place(), to, {}, false}, released);
+                emit reading_.lineDragged(end, ClickedPoint{*reading_.scan(), reading_.place(), to, {}, false},
+                                          released);
         });
     }
 }
@@ -135,6 +137,7 @@ void MeasuringTool::measure(Point3 from, Point3 to, bool on_wall, const ClickedP
         shown_.emplace();
     shown_->scan_id = last.scan.record.id;
     shown_->way_mm = {from, to};
+    shown_->dragged_mm.clear();
     shown_->size = {.straight_mm = distance(from, to), .from_mm = from, .to_mm = to};
     showLine();
     if (on_wall) {
@@ -230,23 +233,26 @@ void MeasuringTool::keep(const std::string& marker_id, const MarkerSize& size)
                                     tr("%1; kept with %2").arg(sizeText(size), QString::fromStdString(marker_id)));
 }
 
-void MeasuringTool::drag(int end, const ClickedPoint& to, bool released)
+void MeasuringTool::drag(int end, const std::optional<ClickedPoint>& to, bool released)
 {
-    if (!shown_ || shown_->way_mm.empty() || shown_->scan_id != to.scan.record.id)
-        return;
-    if (!to.on_wall)
-        shown_->size.along_mm.reset();  // in a slice, or where fluid stands as acquired, an end need not lie on it
-    const Point3 other = end == 0 ? shown_->way_mm.back() : shown_->way_mm.front();
-    const bool on_wall = shown_->size.along_mm.has_value();
-    const Point3 from = end == 0 ? to.at_mm : other, last = end == 0 ? other : to.at_mm;
-    if (released) {
-        measure(from, last, on_wall, to);
+    if (!shown_ || shown_->way_mm.empty())
+        return;  // given up meanwhile
+    if (!to || to->scan.record.id != shown_->scan_id) {
+        if (released) {
+            shown_->dragged_mm.clear();
+            showLine();
+            reading_.say(tr("No wall is shown there: the size stays as it was"));
+        }
         return;
     }
-    shown_->way_mm = {from, last};
-    shown_->size.straight_mm = distance(from, last);
-    shown_->size.plane.reset();
-    shown_->size.polyp.reset();
+    Point3 from = shown_->way_mm.front(), last = shown_->way_mm.back();
+    (end == 0 ? from : last) = to->at_mm;
+    if (released) {
+        // In a slice, or where fluid stands as acquired, an end need not lie on the wall.
+        measure(from, last, shown_->size.along_mm && to->on_wall, *to);
+        return;
+    }
+    shown_->dragged_mm = {from, last};
     showLine();
 }
 
@@ -283,6 +289,8 @@ std::optional<MeasuredLine> MeasuringTool::line() const
                                           : std::optional(MeasuredLine{under_way->scan_id, under_way->ends_mm, {}, {}});
     if (!shown_ || shown_->way_mm.empty())
         return std::nullopt;
+    if (const auto& ends = shown_->dragged_mm; !ends.empty())
+        return MeasuredLine{shown_->scan_id, ends, lengthText(distance(ends.front(), ends.back())), {}};
     const double largest_mm = largestDiameter_mm(shown_->size);
     QString text = lengthText(shown_->size.straight_mm);
     if (largest_mm > shown_->size.straight_mm + kWorthSaying_mm)

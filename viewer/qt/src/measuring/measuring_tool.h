@@ -33,6 +33,7 @@ private:
         MarkerSize size;
         std::vector<Point3> way_mm;  // from one end to the other
         std::string marker_id;
+        std::vector<Point3> dragged_mm = {};  // its two ends while one is dragged; else none
     };
     static Shown shownOf(const Marker& marker);
     void connectViews();
@@ -41,7 +42,8 @@ private:
     void start();
     void showLine();
     std::optional<MeasuredLine> line() const;
-    void drag(int end, const ClickedPoint& to, bool released);
+    /// @param to nothing where no wall is: an end that is let go there stays where it was
+    void drag(int end, const std::optional<ClickedPoint>& to, bool released);
     /// @param last in whose scan, and seen from where
     void measure(Point3 from, Point3 to, bool on_wall, const ClickedPoint& last);
     void startOutline();

@@ -29,8 +29,7 @@ BandView::BandView(QWidget* parent) : PictureView(tr("Band: the colon cut open")
     connect(this, &PictureView::enlargeWanted, this, [this] { setWhole(!whole_); });
     connect(this, &PictureView::clicked, this, &BandView::clickedAt);
     connect(this, &PictureView::endDragged, this, [this](int end, Pixel at, bool released) {
-        if (const auto point = shown_ ? shown_->picture.pointAt(*shown_->band, at) : std::nullopt)
-            emit endMoved(end, *point, released);
+        emit endMoved(end, shown_ ? shown_->picture.pointAt(*shown_->band, at) : std::nullopt, released);
     });
     connect(worker_.worker(), &Worker::failed, this, [this](const QString& message) {
         clearPicture(message);

@@ -60,10 +60,8 @@ void PanoramaTool::addCube(ReadingLayout& layout)
     });
     connect(cube_, &PictureView::turned, &reading_, [this](int steps) { emit reading_.stepWanted(steps); });
     connect(&reading_, &Reading::lineChanged, this, &PanoramaTool::drawLine);
-    connect(cube_, &PictureView::endDragged, this, [this](int end, Pixel at, bool released) {
-        if (const auto point = cubePointAt(at))
-            emit reading_.lineDragged(end, *point, released);
-    });
+    connect(cube_, &PictureView::endDragged, this,
+            [this](int end, Pixel at, bool released) { emit reading_.lineDragged(end, cubePointAt(at), released); });
     connect(&reading_.drawing(), &DrawingThread::cubeDrawn, this,
             [this](const Picture& picture, const ShownPicture& shown) {
                 cube_under_way_ = false;
@@ -89,9 +87,9 @@ void PanoramaTool::addBand(ReadingLayout& layout)
     });
     connect(band_, &BandView::pointClicked, this, &PanoramaTool::clickedBand);
     connect(&reading_, &Reading::lineChanged, band_, [this] { band_->setLine(reading_.line()); });
-    connect(band_, &BandView::endMoved, this, [this](int end, Point3 to, bool released) {
-        if (reading_.navigator())
-            emit reading_.lineDragged(end, bandPoint(to), released);
+    connect(band_, &BandView::endMoved, this, [this](int end, const std::optional<Point3>& to, bool released) {
+        const bool there = to && reading_.scan();
+        emit reading_.lineDragged(end, there ? std::optional(reading_.wallPoint(*to)) : std::nullopt, released);
     });
     connect(band_, &BandView::groundClicked, this, [this] {
         if (reading_.navigator())
@@ -218,17 +216,10 @@ void PanoramaTool::clickedCube(Pixel at, Qt::KeyboardModifiers modifiers)
         clickedWall(*point);
 }
 
-ClickedPoint PanoramaTool::bandPoint(Point3 point, Qt::KeyboardModifiers modifiers) const
-{
-    const OpenScan& scan = *reading_.scan();
-    const ViewPose view = poseForPoint(scan.files.skeleton(), scan.files.frames(), scan.lumen, point);
-    return {scan, {view.pose, view.station_mm, view.clearance_mm, view.sees_target}, point, modifiers, true};
-}
-
 void PanoramaTool::clickedBand(Point3 point, Qt::KeyboardModifiers modifiers)
 {
     if (reading_.navigator())
-        clickedWall(bandPoint(point, modifiers));
+        clickedWall(reading_.wallPoint(point, modifiers));
 }
 
 void PanoramaTool::clickedWall(const ClickedPoint& point)

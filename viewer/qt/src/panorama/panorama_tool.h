@@ -36,8 +36,6 @@ private:
     /// The point of the wall that the cube shows there.
     std::optional<ClickedPoint> cubePointAt(Pixel at, Qt::KeyboardModifiers modifiers = {}) const;
     void clickedCube(Pixel at, Qt::KeyboardModifiers modifiers);
-    /// A point of the wall, seen from the path.
-    ClickedPoint bandPoint(Point3 point, Qt::KeyboardModifiers modifiers = {}) const;
     void clickedBand(Point3 point, Qt::KeyboardModifiers modifiers);
     /// What a click on the wall does, in either view.
     void clickedWall(const ClickedPoint& point);

@@ -41,6 +41,13 @@ bool Reading::click(const ClickedPoint& point)
     return true;
 }
 
+ClickedPoint Reading::wallPoint(Point3 point, Qt::KeyboardModifiers modifiers) const
+{
+    const OpenScan& open = *scan();
+    const ViewPose view = poseForPoint(open.files.skeleton(), open.files.frames(), open.lumen, point);
+    return {open, {view.pose, view.station_mm, view.clearance_mm, view.sees_target}, point, modifiers, true};
+}
+
 void Reading::rememberPlace()
 {
     before_click_ = PlaceBefore{navigator()->place(), looked_at_mm_};

@@ -51,6 +51,7 @@ void Reading::connectSession()
                     return;
                 shown_overview_ = view;
                 views_.overview()->showPicture(picture);
+                emit overviewShown();
             });
 }
 

@@ -85,6 +85,8 @@ public:
     void takeBackClick();
     /// False where the click only shows the point.
     bool click(const ClickedPoint& point);
+    /// A point of the wall of the scan that is read, chosen from outside, seen from where the eye would look at it.
+    ClickedPoint wallPoint(Point3 point, Qt::KeyboardModifiers modifiers = {}) const;
     void giveUp();
 
     // Steps.
@@ -115,11 +117,14 @@ signals:
     /// In any view, or no longer.
     void awaitingClick(bool on);
     void endoscopicShown();
+    /// From the front, of the scan that is read.
+    void overviewShown();
     /// Of all slices.
     void sliceLookChanged(const vicon::viewer::SliceLook& look);
     void lineChanged();
-    /// An end of the line, 0 or 1, to a place in a view of its scan. @param released the mouse was let go there
-    void lineDragged(int end, const vicon::viewer::ClickedPoint& to, bool released);
+    /// An end of the line, 0 or 1, to a place in a view of its scan; nothing where that shows no wall.
+    /// @param released the mouse was let go there
+    void lineDragged(int end, const std::optional<vicon::viewer::ClickedPoint>& to, bool released);
     /// All slices show densities without tagging, where that was taken out, or as acquired.
     void cleansedChanged(bool cleansed);
     /// By notches of the mouse wheel.

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kNearSlice_mm = 5;  // as a marker's ring
 constexpr double kRimNearSlice_mm = 1;
-constexpr double kAtEye_mm = 1e-3;  // no direction leads there
+constexpr double kForeshortened_mm = 0.05;  // drawn shorter by this: more than a length of one decimal rounds off
+constexpr double kAtEye_mm = 1e-3;          // no direction leads there
 
 QPointF toQt(Pixel at)
 {
@@ -118,6 +119,32 @@ std::optional<Calliper> inCube(const MeasuredLine& line, const Pose& pose, const
         draw(made.rim, line.rim_mm[n], line.rim_mm[(n + 1) % line.rim_mm.size()]);
     made.label_at = made.grips[0]->x() > made.grips[1]->x() ? *made.grips[0] : *made.grips[1];
     made.text = line.text;
+    return made;
+}
+
+std::optional<Calliper> inProjection(const MeasuredLine& line, const PlaneView& view,
+                                     const std::function<bool(Point3)>& isHidden)
+{
+    if (line.way_mm.empty())
+        return std::nullopt;
+    const Point3 from = line.way_mm.front(), to = line.way_mm.back();
+    const QPointF first = toQt(view.toPixel(from)), last = toQt(view.toPixel(to));
+    Calliper made;
+    if (!isHidden(from))
+        made.grips[0] = first;
+    if (line.way_mm.size() < 2)
+        return made;
+    if (!isHidden(to))
+        made.grips[1] = last;
+    made.lines << QLineF(first, last);
+    addRim(
+        made, line.rim_mm, [&](Point3 p) { return view.toPixel(p); }, [&](Point3 p) { return !isHidden(p); });
+    const double drawn_mm = made.lines.front().length() * view.mm_per_pixel;
+    made.dashed = drawn_mm < distance(from, to) - kForeshortened_mm;
+    made.label_at = first.x() > last.x() ? first : last;
+    made.text = made.dashed ? QObject::tr("%1, foreshortened").arg(line.text) : line.text;
+    if (!made.grips[0] && !made.grips[1])
+        made.text = QObject::tr("%1, behind other wall").arg(made.text);
     return made;
 }
 

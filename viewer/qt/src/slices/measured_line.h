@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QString>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,13 @@ std::optional<Calliper> inEndoscopy(const MeasuredLine& line, const Pose& pose, 
 
 /// The line on the faces of an unfolded cube around the eye, cut where it goes from one face to another.
 std::optional<Calliper> inCube(const MeasuredLine& line, const Pose& pose, const CubeLayout& layout);
+
+/// The line in a parallel projection of the whole organ, straight from end to end: dashed and said to be foreshortened
+/// where it leaves the picture's plane. An end behind other wall has no grip.
+/// @param isHidden whether other wall lies before a point; of what is translucent none does
+std::optional<Calliper> inProjection(
+    const MeasuredLine& line, const PlaneView& view,
+    const std::function<bool(Point3)>& isHidden = [](Point3) { return false; });
 
 /// The line on a band, straight between the places of its ends: dashed, as the band is stretched. Nothing where neither
 /// end is shown.

@@ -70,8 +70,8 @@ void SliceTool::addCleansed(ReadingLayout& layout)
             slice->setCleansed(on);
         emit reading_.cleansedChanged(on);
     });
-    connect(&reading_, &Reading::lineDragged, this, [this](int, const ClickedPoint& to) {
-        if (!to.on_wall)
+    connect(&reading_, &Reading::lineDragged, this, [this](int, const std::optional<ClickedPoint>& to) {
+        if (to && !to->on_wall)
             showAcquired();
     });
 }

@@ -9,7 +9,8 @@
 namespace vicon::viewer {
 namespace {
 constexpr const char* kTurned = "turned";
-}
+constexpr double kOnWall_mm = 3;  // an end in a slice need not lie on the wall: as in the view from inside
+}  // namespace
 
 TurningTool::TurningTool(Reading& reading) : ReadingTool(reading)
 {
@@ -29,6 +30,9 @@ void TurningTool::addTo(ReadingLayout& layout)
     connect(overview, &PictureView::turned, this, &TurningTool::enlarge);
     connect(overview, &PictureView::clicked, this, &TurningTool::clicked);
     connect(overview, &PictureView::resized, this, [this] { draw(true); });
+    connect(overview, &PictureView::endDragged, this, &TurningTool::endDragged);
+    connect(&reading_, &Reading::lineChanged, this, &TurningTool::drawLine);
+    connect(&reading_, &Reading::overviewShown, this, &TurningTool::drawLine);
 }
 
 void TurningTool::scanLeft()
@@ -49,13 +53,18 @@ void TurningTool::giveUp()
     reading_.views().overview()->setNote({});
 }
 
+const TurnedPicture* TurningTool::shown() const
+{
+    return shown_ && reading_.scan() && shown_of_.lock() == reading_.sharedScan() ? &*shown_ : nullptr;
+}
+
 void TurningTool::dragged(QPointF by, Qt::MouseButton button)
 {
     const QSize size = reading_.views().overview()->pictureSize();
     if (button == Qt::LeftButton) {
         view_.turn({by.x(), by.y()}, std::min(size.width(), size.height()) / 2.0);
-    } else if (shown_) {
-        const double mm = shown_->view.mm_per_pixel;
+    } else if (const auto* drawn = shown()) {
+        const double mm = drawn->view.mm_per_pixel;
         view_.move({by.x() * mm, by.y() * mm});
     }
     turnedBy(false);
@@ -101,26 +110,31 @@ void TurningTool::draw(bool still)
     request.priors = now.snapshot.priors;
     request.caption = now.snapshot.caption;
     request.still = still;
-    if (!shown_)
+    if (!shown())
         overview->setNote(tr("being drawn ..."));
     if (still)
         worker_.giveUp(kTurned);  // what is drawn while the hand moves is shown, or the body would stand still
     worker_.postTask(kTurned, [this, scan = reading_.sharedScan(), request](Progress& wanted) mutable -> Worker::Work {
         request.seen = scan->coverage.seenTriangles();
         auto drawn = std::make_shared<TurnedPicture>(turnedPicture(scan->files, request, wanted));
-        return [this, drawn] {
+        return [this, scan, drawn] {
+            if (scan != reading_.sharedScan())
+                return;  // another one is read by now
             shown_ = *drawn;
+            shown_of_ = scan;
             reading_.views().overview()->setNote({});
             reading_.views().overview()->showPicture(drawn->picture);
+            drawLine();
         };
     });
 }
 
 void TurningTool::clicked(Pixel at, Qt::KeyboardModifiers modifiers)
 {
-    if (view_.fromFront() || !shown_ || !reading_.navigator())
+    const auto* drawn = shown();
+    if (view_.fromFront() || !drawn)
         return;
-    const auto point = shown_->pointAt(reading_.scan()->files.cells(), at);
+    const auto point = drawn->pointAt(reading_.scan()->files.cells(), at);
     if (!point)
         return;
     if (reading_.interaction().inUse<Measure>()) {
@@ -128,11 +142,37 @@ void TurningTool::clicked(Pixel at, Qt::KeyboardModifiers modifiers)
         return;
     }
     reading_.rememberPlace();
-    const OpenScan& scan = *reading_.scan();
-    const ViewPose view = poseForPoint(scan.files.skeleton(), scan.files.frames(), scan.lumen, *point);
-    const SnapshotResult from{view.pose, view.station_mm, view.clearance_mm, view.sees_target};
-    if (!reading_.click({scan, from, *point, modifiers, true}))
+    if (!reading_.click(reading_.wallPoint(*point, modifiers)))
         reading_.lookAt(*point);
+}
+
+// From the front the organ is translucent: a place of the picture is no point of the wall.
+void TurningTool::endDragged(int end, Pixel at, bool released)
+{
+    const auto* drawn = shown();
+    if (!drawn) {
+        if (released)
+            reading_.warn(tr("The projection has no depth: turn it, and drag the end there, or in another view."));
+        return;
+    }
+    const auto point = drawn->pointAt(reading_.scan()->files.cells(), at);
+    emit reading_.lineDragged(end, point ? std::optional(reading_.wallPoint(*point)) : std::nullopt, released);
+}
+
+void TurningTool::drawLine()
+{
+    PictureView* overview = reading_.views().overview();
+    const auto& line = reading_.line();
+    std::optional<Calliper> calliper;
+    if (line && reading_.scan() && line->scan_id == reading_.scan()->record.id) {
+        if (const auto* drawn = shown())
+            calliper = inProjection(*line, drawn->view, [&](Point3 p) {
+                return drawn->hides(reading_.scan()->files.cells(), p, kOnWall_mm);
+            });
+        else if (const auto& view = reading_.shownOverview())
+            calliper = inProjection(*line, *view);
+    }
+    overview->setCalliper(calliper);
 }
 
 }  // namespace vicon::viewer

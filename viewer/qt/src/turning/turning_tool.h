@@ -25,10 +25,16 @@ private:
     void turnedBy(bool still);
     void fromFront();
     void clicked(Pixel at, Qt::KeyboardModifiers modifiers);
+    void endDragged(int end, Pixel at, bool released);
+    /// What is measured, over the picture that is shown, turned or from the front.
+    void drawLine();
     void giveUp();
+    /// The model of the scan that is read; nothing while that is shown from the front, or still to come.
+    const TurnedPicture* shown() const;
 
     TurnedView view_;
     std::optional<TurnedPicture> shown_;
+    std::weak_ptr<OpenScan> shown_of_;
     Worker worker_{this};
 };
 

@@ -35,6 +35,8 @@ struct TurnedPicture {
 
     /// The point of the wall that a pixel shows.
     std::optional<Point3> pointAt(const CellSurface& surface, Pixel at) const;
+    /// Whether other wall lies before a point, by more than `within_mm`.
+    bool hides(const CellSurface& surface, Point3 point, double within_mm) const;
 };
 
 /// The wall seen from outside, opaque, nearer parts brighter; what of it was seen from inside painted, markers on it,
