@@ -58,13 +58,17 @@ std::optional<int> PictureView::gripAt(QPoint at) const
 {
     if (!calliper_ || picking_ || circling_)
         return std::nullopt;
+    std::optional<int> nearest;  // of a short line both may be in reach
+    double least_px = kGrasp_px;
     for (int n = 0; n < 2; ++n)
         if (const auto& grip = calliper_->grips[std::size_t(n)]) {
             const QPointF off = toWidget({grip->x(), grip->y()}) - QPointF(at);
-            if (std::hypot(off.x(), off.y()) <= kGrasp_px)
-                return n;
+            if (const double far_px = std::hypot(off.x(), off.y()); far_px <= least_px) {
+                least_px = far_px;
+                nearest = n;
+            }
         }
-    return std::nullopt;
+    return nearest;
 }
 
 void PictureView::dragGrip(QPoint to, bool released)
