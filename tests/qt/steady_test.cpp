@@ -216,19 +216,34 @@ TEST_F(Begun, DoesNotKeepTheWindow)
 TEST_F(Reading, APictureThatIsNotOfThisPlaceYetSaysSo)
 {
     openCase();
+    window()->resize(1900, 1050);  // all of them have room
     const auto note = [](const char* view) { return the<PictureView>(view)->note().toStdString(); };
     key(Qt::Key_U);
-    ASSERT_TRUE(eventually([] { return the<QWidget>("cube")->isVisible() && drawn("cube"); }));
+    key(Qt::Key_B, Qt::ShiftModifier);
+    key(Qt::Key_C);
+    const std::vector<const char*> views{"endoscopic", "axial",    "coronal",          "sagittal",    "cube",
+                                         "band",       "overview", "besideEndoscopic", "besideAxial", "besideOverview"};
+    const auto nothingIsSaid = [&](const char* view) { return note(view).empty(); };
+    for (const char* view : views)
+        ASSERT_TRUE(eventually([&] {
+            const auto* of = the<PictureView>(view);
+            return of->isVisible() && !of->image().isNull();
+        })) << view;
     waitUntilQuiet();
-    const std::vector<const char*> views{"endoscopic", "axial", "coronal", "sagittal", "cube"};
-    for (const char* view : views)
-        ASSERT_EQ(note(view), "") << view;
-    key(Qt::Key_End);
-    for (const char* view : views)
-        EXPECT_EQ(note(view), PictureView::notThisPlaceYet().toStdString()) << view;
-    EXPECT_TRUE(eventually([&] {
-        return pictureIsThere() && std::ranges::all_of(views, [&](const char* view) { return note(view).empty(); });
-    }));
+    for (const int to : {Qt::Key_End, Qt::Key_Home}) {
+        for (const char* view : views)
+            ASSERT_EQ(note(view), "") << view;
+        key(to);
+        for (const char* view : views)
+            EXPECT_EQ(note(view), PictureView::notThisPlaceYet().toStdString()) << view;
+        EXPECT_TRUE(eventually([&] { return pictureIsThere() && std::ranges::all_of(views, nothingIsSaid); }));
+        waitUntilQuiet();
+        drag("overview", middle("overview"), middle("overview") + QPoint(40, 10));  // and turned
+        waitUntilQuiet();
+    }
+    key(Qt::Key_Z);
+    EXPECT_EQ(note("overview"), "being drawn ...") << "from the front again";
+    EXPECT_TRUE(eventually([&] { return note("overview").empty(); }));
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ void ComparisonTool::drawLine()
     const auto& line = reading_.line();
     const OpenScan* scan = reading_.session().beside();
     const bool of_it = line && scan && line->scan_id == scan->record.id && shown_overview_;
-    view_->overview()->setCalliper(of_it ? inProjection(*line, *shown_overview_) : std::nullopt);
+    view_->overview()->setCalliper(of_it ? inProjection(*line, shown_overview_->view) : std::nullopt);
 }
 
 const OpenScan* ComparisonTool::clickableScan()
@@ -100,7 +100,7 @@ void ComparisonTool::clickedOverview(Pixel at)
     const PathFrames& path = scan->files.frames();
     double station = 0, least = 1e300;
     for (double s = 0; s <= path.length_mm(); s += 1) {
-        const Pixel p = shown_overview_->toPixel(path.at(s).position_mm);
+        const Pixel p = shown_overview_->view.toPixel(path.at(s).position_mm);
         if (const double d = std::hypot(p.x - at.x, p.y - at.y); d < least) {
             least = d;
             station = s;

@@ -45,10 +45,8 @@ void BesideView::sayPlace(const QString& words, const QString& more)
 void BesideView::clear(const QString& words)
 {
     slice_->leave(words);
-    for (PictureView* view : {endoscopic_, overview_}) {
+    for (PictureView* view : {endoscopic_, overview_})
         view->clearPicture(words);
-        view->setNote({});
-    }
 }
 
 }  // namespace vicon::viewer

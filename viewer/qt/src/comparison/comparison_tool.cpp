@@ -41,11 +41,12 @@ void ComparisonTool::addTo(ReadingLayout& layout)
         draw(true);
     });
     connect(&reading_.drawing(), &DrawingThread::overviewDrawn, this,
-            [this](const Picture& picture, const PlaneView& view, const std::shared_ptr<OpenScan>& of) {
-                if (of != reading_.session().sharedBeside())
+            [this](const Picture& picture, const ShownProjection& shown) {
+                if (!shown.isOf(reading_.session().sharedBeside()))
                     return;
-                shown_overview_ = view;
+                shown_overview_ = shown;
                 view_->overview()->showPicture(picture);
+                view_->overview()->noteWhereElsewhere(shown.eye_mm, eye_mm_);
                 drawLine();
             });
     connect(&reading_.drawing(), &DrawingThread::besideDrawn, this,
@@ -227,12 +228,15 @@ void ComparisonTool::drawBeside(bool still)
     reading_.drawing().drawBeside(scan, request);
     SnapshotRequest overview = request.snapshot;
     view_->slice()->look(scan, partner_ ? partner_->at_mm : at.pose.eye_mm, at.pose, overview.markers, overview.priors);
+    sayPlace(same);
     const QSize size = view_->overview()->pictureSize();
     overview.width = size.width();
     overview.height = size.height();
-    if (view_->overview()->height() > 0)
-        reading_.drawing().drawBesideOverview(scan, overview, request.place, still);
-    sayPlace(same);
+    if (view_->overview()->height() == 0)
+        return;
+    if (shown_overview_)
+        view_->overview()->noteWhereElsewhere(shown_overview_->eye_mm, eye_mm_);
+    reading_.drawing().drawBesideOverview(scan, overview, request.place, still);
 }
 
 void ComparisonTool::sayPlace(const StationInterval& place)

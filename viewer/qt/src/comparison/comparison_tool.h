@@ -64,8 +64,8 @@ private:
     std::optional<PriorPlace> came_to_;  // from the same place of another scan; until the eye moves on
     double came_to_mm_ = 0;
     ShownPicture shown_;
-    Point3 eye_mm_;                            // of the picture that is wanted by now
-    std::optional<PlaneView> shown_overview_;  // of the other scan's projection
+    Point3 eye_mm_;                                  // of the picture that is wanted by now
+    std::optional<ShownProjection> shown_overview_;  // of the other scan
 };
 
 }  // namespace vicon::viewer

@@ -32,6 +32,7 @@ BandView::BandView(QWidget* parent) : PictureView(tr("Band: the colon cut open")
         emit endMoved(end, shown_ ? shown_->picture.pointAt(*shown_->band, at) : std::nullopt, released);
     });
     connect(worker_.worker(), &Worker::failed, this, [this](const QString& message) {
+        shown_.reset();
         clearPicture(message);
         update();
         emit failed(message);
@@ -129,34 +130,42 @@ void BandView::draw(bool still)
         clearPicture(tr("The colon is being cut open ..."));
         update();
     }
+    sayWhereItIs();
     if (picture_wanted_)
         picture_wanted_->giveUp();
     picture_wanted_ = std::make_shared<Wanted>();
-    worker_.post("band",
-                 [this, scan = scan_, request = requestNow(still), paint = look_.paint_seen, band_wanted = band_wanted_,
-                  wanted = picture_wanted_](Opened& opened) mutable -> Worker::Work {
-                     try {
-                         if (opened.of.lock() != scan) {
-                             opened = {};
-                             const auto held =
-                                 std::make_shared<HeldBand>(HeldBand{scan->files, bandOf(scan->files, *band_wanted)});
-                             opened.band = {held, &held->band};
-                             opened.of = scan;
-                         }
-                         if (paint)
-                             request.seen = scan->coverage.seenTriangles();
-                         auto shown = std::make_shared<Shown>(
-                             Shown{opened.band, bandPicture(scan->files, *opened.band, request, *wanted)});
-                         return [this, shown, scan] {
-                             if (scan == scan_)
-                                 show(*shown);
-                         };
-                     } catch (const Error& e) {
-                         if (e.code() == ErrorCode::cancelled)
-                             return {};
-                         throw;
-                     }
-                 });
+    worker_.post(
+        "band",
+        [this, scan = scan_, request = requestNow(still), look = look_, band_wanted = band_wanted_,
+         wanted = picture_wanted_](Opened& opened) mutable -> Worker::Work {
+            try {
+                if (opened.of.lock() != scan) {
+                    opened = {};
+                    const auto held =
+                        std::make_shared<HeldBand>(HeldBand{scan->files, bandOf(scan->files, *band_wanted)});
+                    opened.band = {held, &held->band};
+                    opened.of = scan;
+                }
+                if (look.paint_seen)
+                    request.seen = scan->coverage.seenTriangles();
+                BandPicture picture = bandPicture(scan->files, *opened.band, request, *wanted);
+                auto shown = std::make_shared<Shown>(Shown{opened.band, std::move(picture), look.eye.pose.eye_mm});
+                return [this, shown, scan] {
+                    if (scan == scan_)
+                        show(*shown);
+                };
+            } catch (const Error& e) {
+                if (e.code() == ErrorCode::cancelled)
+                    return {};
+                throw;
+            }
+        });
+}
+
+void BandView::sayWhereItIs()
+{
+    if (shown_)
+        noteWhereElsewhere(shown_->eye_mm, look_.eye.pose.eye_mm);
 }
 
 void BandView::show(const Shown& shown)
@@ -166,6 +175,7 @@ void BandView::show(const Shown& shown)
     if (!whole_ && page.rows == 1)
         middle_mm_ = page.rowLeast_mm(0) + page.rowLength_mm() / 2;
     showPicture(shown.picture.picture);
+    sayWhereItIs();
     drawLine();
     if (!placed_line_)
         placeLine();

@@ -57,10 +57,11 @@ private:
         std::weak_ptr<OpenScan> of;
         std::shared_ptr<const BandMap> band;
     };
-    /// A picture with the band that it shows.
+    /// A picture with the band that it shows, and where it marks the eye.
     struct Shown {
         std::shared_ptr<const BandMap> band;
         BandPicture picture;
+        Point3 eye_mm;
     };
 
     /// The line with the places of its ends, which take their time to find.
@@ -72,6 +73,7 @@ private:
     void placeLine();
     void drawLine();
     void draw(bool still);
+    void sayWhereItIs();
     BandRequest requestNow(bool still) const;
     void show(const Shown& shown);
     void clickedAt(Pixel at, Qt::KeyboardModifiers modifiers);

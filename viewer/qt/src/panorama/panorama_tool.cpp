@@ -136,7 +136,6 @@ void PanoramaTool::scanOpened(const Arrival&)
     shown_cube_ = {};
     cube_under_way_ = cube_is_old_ = false;
     cube_->clearPicture(words);
-    cube_->setNote({});
     band_->leave(words);
     const bool one_way = reading_.scan()->files.tree().empty() && reading_.scan()->files.hasPath();
     band_on_->setEnabled(one_way);

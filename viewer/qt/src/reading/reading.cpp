@@ -46,11 +46,12 @@ void Reading::connectSession()
     connect(&drawing_, &DrawingThread::endoscopicDrawn, this, &Reading::showEndoscopic);
     connect(&drawing_, &DrawingThread::wallShaded, this, [this] { moved(true); });
     connect(&drawing_, &DrawingThread::overviewDrawn, this,
-            [this](const Picture& picture, const PlaneView& view, const std::shared_ptr<OpenScan>& of) {
-                if (of != sharedScan() || overview_turned_)
+            [this](const Picture& picture, const ShownProjection& shown) {
+                if (!shown.isOf(sharedScan()) || overview_turned_)
                     return;
-                shown_overview_ = view;
+                shown_overview_ = shown;
                 views_.overview()->showPicture(picture);
+                sayWhereOverviewIs();
                 emit overviewShown();
             });
 }
@@ -261,10 +262,21 @@ void Reading::setOverviewTurned(bool on)
     drawOverview(true);
 }
 
+void Reading::sayWhereOverviewIs()
+{
+    PictureView& view = *views_.overview();
+    if (shown_overview_)
+        view.noteWhereElsewhere(shown_overview_->eye_mm, place().pose.eye_mm);
+    else if (!view.image().isNull())
+        view.setNote(tr("being drawn ..."));  // it was turned
+}
+
 void Reading::drawOverview(bool still)
 {
-    if (scan() && !overview_turned_)
-        drawing_.drawOverview(sharedScan(), snapshotOf(*scan(), views_.overview()->pictureSize()), place(), still);
+    if (!scan() || overview_turned_)
+        return;
+    sayWhereOverviewIs();
+    drawing_.drawOverview(sharedScan(), snapshotOf(*scan(), views_.overview()->pictureSize()), place(), still);
 }
 
 void Reading::showPlace()

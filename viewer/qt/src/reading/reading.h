@@ -35,7 +35,7 @@ public:
     /// What the endoscopic picture that is shown was made of.
     const ShownPicture& shown() const { return shown_; }
     /// The projection's; nothing until it is drawn.
-    const std::optional<PlaneView>& shownOverview() const { return shown_overview_; }
+    const PlaneView* shownOverview() const { return shown_overview_ ? &shown_overview_->view : nullptr; }
 
     // Said to the reader.
     void say(const QString& message) { emit said(message); }
@@ -155,6 +155,7 @@ private:
     QVariantMap kept() const;
     void rememberFound();
     void sayWhatIsDrawn();
+    void sayWhereOverviewIs();
     void showPlace();
     SnapshotRequest snapshotOf(const OpenScan& scan, const QSize& size) const;
 
@@ -166,7 +167,7 @@ private:
     ShownPicture shown_;
     std::string asked_peel_;  // of the picture asked for last
     Point3 asked_eye_mm_;     // likewise
-    std::optional<PlaneView> shown_overview_;
+    std::optional<ShownProjection> shown_overview_;
     bool overview_turned_ = false;
     std::optional<Point3> looked_at_mm_;  // what was clicked; else the eye's place
     /// What the reader saw before the click in a view.

@@ -211,7 +211,9 @@ void DrawingThread::drawOverview(const char* work, std::shared_ptr<OpenScan> sca
                                                                        const Progress& wanted) -> Worker::Work {
                      auto drawn = std::make_shared<ReadingPictures::Overview>(
                          picturesOf(all, scan).overview(request, place, &scan->coverage, still, &wanted));
-                     return [this, drawn, scan] { emit overviewDrawn(drawn->picture, drawn->view, scan); };
+                     return [this, drawn, shown = ShownProjection{scan, place.pose.eye_mm, drawn->view}] {
+                         emit overviewDrawn(drawn->picture, shown);
+                     };
                  });
 }
 

@@ -47,6 +47,15 @@ struct ShownPicture {
     bool isOf(const std::shared_ptr<OpenScan>& which) const { return which && scan.lock() == which; }
 };
 
+/// What a projection that is shown was made of.
+struct ShownProjection {
+    std::weak_ptr<OpenScan> scan;
+    Point3 eye_mm;  ///< where it marks the eye
+    PlaneView view;
+
+    bool isOf(const std::shared_ptr<OpenScan>& which) const { return which && scan.lock() == which; }
+};
+
 /// Draws on a thread of its own, which holds the OpenGL context; what is asked for while it draws is answered with the
 /// newest request only.
 class DrawingThread : public QObject {
@@ -87,8 +96,7 @@ signals:
     void filmed(const std::shared_ptr<vicon::viewer::Film>& film, bool finished);
     void endoscopicDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownPicture& shown);
     void besideDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownPicture& shown);
-    void overviewDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::PlaneView& view,
-                       const std::shared_ptr<vicon::viewer::OpenScan>& of);
+    void overviewDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownProjection& shown);
     void cubeDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownPicture& shown);
     void findingDrawn(const QString& finding, const vicon::viewer::Picture& picture);
     void missedDrawn(const vicon::viewer::MissedRow& row, const vicon::viewer::Picture& picture,

@@ -35,7 +35,7 @@ void TurningTool::addTo(ReadingLayout& layout)
     connect(&reading_, &Reading::overviewShown, this, &TurningTool::drawLine);
 }
 
-void TurningTool::scanLeft()
+void TurningTool::scanOpened(const Arrival&)
 {
     giveUp();
 }
@@ -92,6 +92,15 @@ void TurningTool::fromFront()
     reading_.setOverviewTurned(false);
 }
 
+void TurningTool::sayWhereItIs()
+{
+    PictureView& view = *reading_.views().overview();
+    if (shown())
+        view.noteWhereElsewhere(shown_eye_mm_, reading_.place().pose.eye_mm);
+    else if (!view.image().isNull())
+        view.setNote(tr("being drawn ..."));
+}
+
 void TurningTool::draw(bool still)
 {
     PictureView* overview = reading_.views().overview();
@@ -110,20 +119,20 @@ void TurningTool::draw(bool still)
     request.priors = now.snapshot.priors;
     request.caption = now.snapshot.caption;
     request.still = still;
-    if (!shown())
-        overview->setNote(tr("being drawn ..."));
+    sayWhereItIs();
     if (still)
         worker_.giveUp(kTurned);  // what is drawn while the hand moves is shown, or the body would stand still
     worker_.postTask(kTurned, [this, scan = reading_.sharedScan(), request](Progress& wanted) mutable -> Worker::Work {
         request.seen = scan->coverage.seenTriangles();
         auto drawn = std::make_shared<TurnedPicture>(turnedPicture(scan->files, request, wanted));
-        return [this, scan, drawn] {
+        return [this, scan, drawn, eye_mm = request.eye.pose.eye_mm] {
             if (scan != reading_.sharedScan())
                 return;  // another one is read by now
             shown_ = *drawn;
             shown_of_ = scan;
-            reading_.views().overview()->setNote({});
+            shown_eye_mm_ = eye_mm;
             reading_.views().overview()->showPicture(drawn->picture);
+            sayWhereItIs();
             drawLine();
         };
     });
@@ -169,7 +178,7 @@ void TurningTool::drawLine()
             calliper = inProjection(*line, drawn->view, [&](Point3 p) {
                 return drawn->hides(reading_.scan()->files.cells(), p, kOnWall_mm);
             });
-        else if (const auto& view = reading_.shownOverview())
+        else if (const PlaneView* view = reading_.shownOverview())
             calliper = inProjection(*line, *view);
     }
     overview->setCalliper(calliper);

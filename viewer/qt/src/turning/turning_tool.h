@@ -15,7 +15,7 @@ public:
     explicit TurningTool(Reading& reading);
 
     void addTo(ReadingLayout& layout) override;
-    void scanLeft() override;
+    void scanOpened(const Arrival& arrival) override;
     void draw(bool still) override;
     void stop() override;
 
@@ -31,10 +31,12 @@ private:
     void giveUp();
     /// The model of the scan that is read; nothing while that is shown from the front, or still to come.
     const TurnedPicture* shown() const;
+    void sayWhereItIs();
 
     TurnedView view_;
     std::optional<TurnedPicture> shown_;
     std::weak_ptr<OpenScan> shown_of_;
+    Point3 shown_eye_mm_;  // marked there
     Worker worker_{this};
 };
 

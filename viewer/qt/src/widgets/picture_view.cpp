@@ -47,6 +47,7 @@ void PictureView::clearPicture(const QString& words)
 {
     image_ = {};
     waiting_ = words;
+    setNote({});
     setCalliper({});
     setRing({});
     setReadout({});
