@@ -250,25 +250,47 @@ TEST_F(Correcting, WhatIsDoneAgainWhileTheOtherScanIsReadIsNotReportedAsTheOneTh
 
 TEST_F(Correcting, NoTwoViewsShowDifferentScansWithoutSayingSo)
 {
-    // The other scan is another body: what a view shows tells which scan it is of.
-    test::TestColon mirrored(test::storages()[0], 2);
-    for (std::int16_t& hu : mirrored.volume.voxels)
+    // The other scan is another body of another wall: what a view shows tells which scan it is of.
+    test::TestColon other(test::storages()[0], 2.5);
+    for (std::int16_t& hu : other.volume.voxels)
         hu = std::int16_t(hu > -500 ? hu + 300 : hu);
-    mirrored.write(store_ / "cases" / test::kCase / test::kProne);
+    other.write(store_ / "cases" / test::kCase / test::kProne);
     openCase();
-    const QStringList views{"axial", "coronal", "sagittal", "overview", "endoscopic"};
-    std::map<QString, QImage> before;
-    for (const QString& view : views)
-        before[view] = pictureOf(view.toUtf8());
-    auto* scan = the<QComboBox>("scan");
-    key(Qt::Key_X);
-    // From the moment at which the scan is named no view shows the other one's picture.
-    ASSERT_TRUE(QTest::qWaitFor([&] { return !the<QWidget>("opening")->isVisible(); }, patience_ms));
-    ASSERT_TRUE(scan->currentText().startsWith("prone"));
-    for (const QString& view : views)
-        EXPECT_NE(pictureOf(view.toUtf8()), before[view]) << view.toStdString();
-    screenshot("other_scan_arrived");
-    waitForScan();
+    window()->resize(1900, 1050);
+    key(Qt::Key_U);
+    key(Qt::Key_B, Qt::ShiftModifier);
+    std::vector<const char*> views{"axial", "coronal", "sagittal", "overview", "endoscopic", "cube", "band"};
+    const auto change = [&](const char* to) {
+        std::map<std::string, QImage> before;
+        for (const char* view : views) {
+            ASSERT_TRUE(eventually([&] { return the<QWidget>(view)->isVisible() && drawn(view); })) << view;
+            before[view] = pictureOf(view);
+        }
+        const auto expectNoneOfBefore = [&] {
+            for (const char* view : views)
+                EXPECT_FALSE(pictureOf(view) == before[view]) << view << " when it is " << to;
+        };
+        key(Qt::Key_X);
+        // From the moment at which the scan is named no view shows the other one's picture.
+        ASSERT_TRUE(eventually([] { return !the<QWidget>("opening")->isVisible(); }));
+        ASSERT_TRUE(the<QComboBox>("scan")->currentText().startsWith(to));
+        expectNoneOfBefore();
+        screenshotNow((std::string("arrived_") + to).c_str());
+        waitForScan();
+        expectNoneOfBefore();
+    };
+    waitUntilQuiet();
+    ASSERT_NO_FATAL_FAILURE(change("prone"));
+    // The slice across the lumen has the room of the sagittal one, and the other scan is beside.
+    key(Qt::Key_F6);
+    for (int n = 0; n < 3; ++n)
+        key(Qt::Key_H);
+    key(Qt::Key_C);
+    views[2] = "across";
+    views.insert(views.end(), {"besideEndoscopic", "besideAxial", "besideOverview"});
+    waitUntilQuiet();
+    ASSERT_NO_FATAL_FAILURE(change("supine"));
+    ASSERT_NO_FATAL_FAILURE(change("prone"));
 }
 
 TEST_F(Correcting, WorkThatIsStoppedLeavesTheWindowAsItWas)
