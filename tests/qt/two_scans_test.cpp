@@ -262,5 +262,139 @@ TEST_F(ThreeScans, APairIsProposedWithTheThirdSightAndConfirmedToOneFinding)
         << partners(0) << "; " << partners(2);
 }
 
+/// Each of another tissue, by which a slice tells which scan it shows.
+class KeysOfThreeScans : public ThreeScans {
+protected:
+    void SetUp() override
+    {
+        ThreeScans::SetUp();
+        int lighter_hu = 0;
+        for (const char* scan : {test::kProne, kDecubitus}) {
+            lighter_hu += 150;
+            test::TestColon body;
+            for (std::int16_t& hu : body.volume.voxels)
+                hu = std::int16_t(hu > -500 ? hu + lighter_hu : hu);
+            body.write(store_ / "cases" / test::kCase / scan);
+        }
+        openCase();
+        window()->resize(1900, 1050);
+        grey_of_[0] = greyOf("axial");
+        for (std::size_t n = 1; n < 3; ++n) {
+            ASSERT_NO_FATAL_FAILURE(openNext());
+            grey_of_[n] = greyOf("axial");
+            ASSERT_NE(grey_of_[n], grey_of_[n - 1]);
+        }
+        ASSERT_NO_FATAL_FAILURE(openNext());
+    }
+    static void openNext()
+    {
+        the<QLabel>("where")->clear();
+        key(Qt::Key_X);
+        ASSERT_NO_FATAL_FAILURE(waitForScan());
+    }
+    /// That most of a slice has; lines and words aside.
+    static int greyOf(const char* slice)
+    {
+        const QImage picture = pictureOf(slice);
+        std::array<int, 256> count{};
+        for (int y = 0; y < picture.height(); ++y)
+            for (int x = 0; x < picture.width(); ++x)
+                ++count[std::size_t(qGray(picture.pixel(x, y)))];
+        count[0] = 0;
+        return int(std::max_element(count.begin(), count.end()) - count.begin());
+    }
+    /// The position of the scan that a slice shows.
+    std::string shownIn(const char* slice) const
+    {
+        const std::array<const char*, 3> names{"supine", "prone", "decubitus"};
+        const int grey = greyOf(slice);
+        for (std::size_t n = 0; n < names.size(); ++n)
+            if (grey_of_[n] == grey)
+                return names[n];
+        return "none";
+    }
+    /// What is read and what is beside it: when nothing changes any more.
+    std::string shown() const
+    {
+        waitUntilQuiet();
+        return shownIn("axial") + ", " + (the<QWidget>("beside")->isVisible() ? shownIn("besideAxial") : "alone");
+    }
+
+    std::array<int, 3> grey_of_{};
+};
+
+TEST_F(KeysOfThreeScans, XGoesRoundAllOfThemAndStaysAtTheSamePlace)
+{
+    for (int n = 0; n < 8; ++n)
+        key(Qt::Key_Period);
+    waitUntilQuiet();
+    const double there_mm = station();
+    ASSERT_GT(there_mm, 50);
+    for (const char* read : {"prone", "decubitus", "supine", "prone"}) {
+        ASSERT_NO_FATAL_FAILURE(openNext());
+        EXPECT_EQ(shown(), std::string(read) + ", alone");
+        EXPECT_THAT(the<QComboBox>("scan")->currentText().toStdString(), testing::HasSubstr(read));
+        EXPECT_NEAR(station(), there_mm, 10) << "of the same body";
+    }
+    // As fast as the keys come, it is as many scans on.
+    key(Qt::Key_X);
+    key(Qt::Key_X);
+    EXPECT_EQ(shown(), "supine, alone");
+}
+
+TEST_F(KeysOfThreeScans, CGoesRoundTheOthersAndThenTakesThemAway)
+{
+    for (const char* beside : {"prone", "decubitus", "alone", "prone"}) {
+        key(Qt::Key_C);
+        EXPECT_EQ(shown(), std::string("supine, ") + beside);
+    }
+    key(Qt::Key_X);
+    EXPECT_EQ(shown(), "prone, supine") << "they change places";
+    key(Qt::Key_X);
+    EXPECT_EQ(shown(), "decubitus, supine");
+    screenshot("third_beside_first");
+    key(Qt::Key_C);
+    EXPECT_EQ(shown(), "decubitus, prone");
+    key(Qt::Key_C);
+    EXPECT_EQ(shown(), "decubitus, alone");
+}
+
+TEST_F(KeysOfThreeScans, KeysThatDoNotWaitForThePicturesShowNoScanTwiceAndSkipNone)
+{
+    const auto press = [](std::initializer_list<int> keys) {
+        for (const int which : keys)
+            key(which);
+    };
+    press({Qt::Key_C, Qt::Key_C});
+    EXPECT_EQ(shown(), "supine, decubitus") << "the second of the others";
+    press({Qt::Key_C, Qt::Key_C});
+    EXPECT_EQ(shown(), "supine, prone") << "none, and the first";
+    press({Qt::Key_C, Qt::Key_C});
+    ASSERT_EQ(shown(), "supine, alone");
+    press({Qt::Key_X, Qt::Key_C});
+    EXPECT_EQ(shown(), "prone, supine") << "what was to be beside is read: they change places";
+    press({Qt::Key_C, Qt::Key_X});
+    EXPECT_EQ(shown(), "decubitus, prone") << "likewise";
+}
+
+TEST_F(KeysOfThreeScans, TheLayoutOfBothScansShowsAnyTwoOfThem)
+{
+    key(Qt::Key_F7);
+    EXPECT_EQ(shown(), "supine, prone");
+    key(Qt::Key_C);
+    EXPECT_EQ(shown(), "supine, decubitus");
+    screenshot("layout_of_both_third");
+    key(Qt::Key_X);
+    EXPECT_EQ(shown(), "prone, decubitus");
+    key(Qt::Key_X);
+    EXPECT_EQ(shown(), "decubitus, prone");
+    key(Qt::Key_C);
+    EXPECT_EQ(shown(), "decubitus, alone");
+    key(Qt::Key_F7);
+    EXPECT_EQ(shown(), "decubitus, supine") << "asked for again";
+    key(Qt::Key_F5);
+    EXPECT_EQ(shown(), "decubitus, alone") << "it came with the layout";
+}
+
 }  // namespace
 }  // namespace vicon::viewer

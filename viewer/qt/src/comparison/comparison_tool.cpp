@@ -110,11 +110,11 @@ void ComparisonTool::annotate(SnapshotRequest& request, const OpenScan& scan) co
 }
 
 /// A layout of both scans has the other one, and takes it along when it goes.
-void ComparisonTool::followLayout()
+void ComparisonTool::followLayout(bool elsewhere)
 {
     const ViewLayout layout = reading_.views().layoutNow();
     view_->slice()->setPlane(reading_.views().plane());
-    if (layout != ViewLayout::both_scans)  // which makes them alike
+    if (elsewhere && layout != ViewLayout::both_scans)  // which makes them alike
         view_->favour(layout != ViewLayout::three_d_first);
     const bool wanted = layout == ViewLayout::both_scans;
     if (wanted && !on_->isChecked()) {
@@ -132,13 +132,13 @@ void ComparisonTool::arrange()
     draw(true);
 }
 
-const ScanRecord* ComparisonTool::otherAfter(const OpenScan* beside) const
+const ScanRecord* ComparisonTool::otherAfter(const std::string& beside) const
 {
-    bool passed = !beside;
+    bool passed = beside.empty();
     for (const ScanRecord& other : reading_.session().scans()) {
         if (passed && other.id != reading_.scan()->record.id)
             return &other;
-        passed = passed || other.id == beside->record.id;
+        passed = passed || other.id == beside;
     }
     return nullptr;
 }
@@ -146,8 +146,8 @@ const ScanRecord* ComparisonTool::otherAfter(const OpenScan* beside) const
 void ComparisonTool::switched(bool on)
 {
     CaseSession& session = reading_.session();
-    const ScanRecord* next =
-        !on && reading_.scan() && session.beside() && !session.besideIsPrior() ? otherAfter(session.beside()) : nullptr;
+    const std::string beside = session.besideWanted();
+    const ScanRecord* next = !on && reading_.scan() && !beside.empty() ? otherAfter(beside) : nullptr;
     if (!next) {
         compare(on);
         return;
@@ -168,9 +168,9 @@ void ComparisonTool::compare(bool on)
     }
     if (session.besideIsPrior())
         session.closeBeside();
-    if (!reading_.scan() || session.beside())
+    if (!reading_.scan() || !session.besideWanted().empty())
         return;  // it follows when the leading scan is there
-    if (const ScanRecord* other = otherAfter(nullptr)) {
+    if (const ScanRecord* other = otherAfter({})) {
         reading_.say(tr("Reading the other scan ..."));
         session.openBeside(other->id);
         return;

@@ -38,9 +38,9 @@ private:
     /// The key: the other scan; of several the next one; after the last none.
     void switched(bool on);
     void compare(bool on);
-    /// Of the case's scans but the one that is read the next after this; nothing given: the first.
-    const ScanRecord* otherAfter(const OpenScan* beside) const;
-    void followLayout();
+    /// Of the case's scans but the one that is read the next after this; empty: the first.
+    const ScanRecord* otherAfter(const std::string& beside) const;
+    void followLayout(bool elsewhere);
     void arrange();
     /// Where the place that is read lies in the scan beside.
     StationInterval corresponding() const;

@@ -62,8 +62,8 @@ public:
 signals:
     /// Views were shown or hidden.
     void arranged();
-    /// They lie elsewhere.
-    void laidOut();
+    /// As was asked. @param elsewhere than before
+    void laidOut(bool elsewhere);
     void secondWindowClosed();
     /// To be kept for the next time; the second window goes.
     void sizesLeft(const QVariantMap& sizes);

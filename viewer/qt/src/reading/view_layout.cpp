@@ -98,8 +98,10 @@ void ReadingViews::fillColumns()
 void ReadingViews::layOut(ViewLayout layout, SlicePlane plane)
 {
     const bool other_columns = layout != layout_;
-    if (!other_columns && plane == plane_)
+    if (!other_columns && plane == plane_) {
+        emit laidOut(false);  // what was added beside may have been hidden since
         return;
+    }
     if (other_columns)
         left_sizes_.insert(sizes());
     layout_ = layout;
@@ -114,7 +116,7 @@ void ReadingViews::layOut(ViewLayout layout, SlicePlane plane)
         first_column_->setSizes(first_px);  // a slice takes the room of the one whose place it takes
         second_column_->setSizes(second_px);
     }
-    emit laidOut();
+    emit laidOut(true);
     emit arranged();
     takeKeyboard();
 }

@@ -44,13 +44,37 @@ void CaseSession::open(const std::string& scan_id, bool fresh, int branch)
             return;
         if (scan_ && scan_->record.id == made->record.id)
             made->coverage.unpack(scan_->coverage.packed());  // of the same wall; what was seen is still being written
-        scan_ = std::move(made);
-        emit opened();
+        lead(std::move(made));
     };
     if (const auto files = filesOf(scan_id))
         load(kOpen, *files, branch, take);
     if (loader_.giveUp(kOpenBeside))
         loadBeside();  // when this one is read
+}
+
+void CaseSession::lead(std::shared_ptr<OpenScan> made)
+{
+    const auto before = std::exchange(scan_, std::move(made));
+    if (before && before->record.id != scan_->record.id && besideWanted() == scan_->record.id) {
+        loader_.giveUp(kOpenBeside);
+        wanted_beside_ = filesOf(before->record.id);
+        beside_ = before;
+        emit opened();
+        emit besideOpened();
+        return;
+    }
+    emit opened();
+}
+
+std::string CaseSession::besideWanted() const
+{
+    return wanted_beside_ && wanted_beside_->record.id == row_.record.id ? wanted_beside_->scan.id : std::string();
+}
+
+void CaseSession::besideNotRead(const std::string& scan_id)
+{
+    if (besideWanted() == scan_id && !(beside_ && beside_->record.id == scan_id))
+        wanted_beside_.reset();
 }
 
 void CaseSession::cancelOpening()
@@ -151,9 +175,16 @@ void CaseSession::load(const char* work, const ScanFiles& files, int branch, Ope
                         maps_.between(*other, *made, &wanted);
                 return [made, then] { then(made); };
             } catch (...) {
-                if (leads && !wanted.cancelled())
+                if (!wanted.cancelled())
                     QMetaObject::invokeMethod(
-                        this, [this] { emit openingFailed(); }, Qt::QueuedConnection);
+                        this,
+                        [this, leads, id = of.scan.id] {
+                            if (leads)
+                                emit openingFailed();
+                            else
+                                besideNotRead(id);
+                        },
+                        Qt::QueuedConnection);
                 throw;
             }
         });

@@ -59,6 +59,8 @@ public:
     /// What is beside is of an earlier examination: it is looked at, not marked.
     bool besideIsPrior() const { return beside_ && beside_->record.case_id != row_.record.id; }
     OpenScan* beside() const { return beside_.get(); }
+    /// The scan of this case that is beside, or is being read to be; empty: none is.
+    std::string besideWanted() const;
     std::shared_ptr<OpenScan> sharedBeside() const { return beside_; }
     /// The stations of one open scan in another of the same patient.
     /// Only where haveSamePlaces().
@@ -167,6 +169,9 @@ private:
     /// Reads a scan's files on the loader's thread. `work` is the one that reads, or the one beside.
     void load(const char* work, const ScanFiles& files, int branch, Opened then);
     void loadBeside();
+    /// The scan is read from now on. Never is one scan beside itself: that of before takes its place.
+    void lead(std::shared_ptr<OpenScan> made);
+    void besideNotRead(const std::string& scan_id);
 
     const ReadingServices services_;
     WorklistCase row_;
