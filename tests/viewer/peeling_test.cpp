@@ -216,6 +216,127 @@ TEST(Peeling, AnOffsetTakesAwayWhatLiesBeforeIt)
     EXPECT_LT(opacityFrom(8.5), 5);
 }
 
+/// A tube along z. The density grows with the distance from its axis: what a ray shows tells where it begins.
+struct DensityTube {
+    static constexpr double kRadius_mm = 12, kVoxel_mm = 0.5, kPerMm_hu = 100;
+    HuVolume volume;
+    InsideVolume inside;
+    FieldVolume wall;
+
+    DensityTube()
+    {
+        Grid grid;
+        grid.size = {101, 101, 121};
+        grid.spacing_mm = {kVoxel_mm, kVoxel_mm, kVoxel_mm};
+        grid.origin_mm = {-25, -25, -30};
+        volume = HuVolume(grid);
+        inside = InsideVolume(grid, kOutside);
+        for (std::size_t n = 0; n < volume.voxels.size(); ++n) {
+            const Point3 p = grid.pointAt(grid.indexOf(n));
+            const double radius_mm = std::hypot(p.x, p.y);
+            volume.voxels[n] = std::int16_t(std::lround(kPerMm_hu * radius_mm) - 1000);
+            inside.voxels[n] = radius_mm < kRadius_mm ? kGas : kOutside;
+        }
+        wall = test::wallDistanceOf(inside);
+    }
+    /// How far from the axis a ray from its middle begins: its first sample stops all of the light.
+    double beginsAtRadius_mm(Vector3 direction, double offset_mm) const
+    {
+        constexpr double kMost_hu = 1000, kMostRed = 0.9, kExposure = 1.12;
+        PeelingOptions options;
+        options.offset_mm = offset_mm;
+        options.step_mm = 0.1;
+        options.shaded = false;
+        options.lamp_reach_mm = 1e6;  // as bright everywhere
+        const TransferFunction grey{"grey", "Grey", {{-1000, 0, 0, 0, 1}, {kMost_hu, kMostRed, 0, 0, 1}}};
+        const Pose pose{{0, 0, 0}, direction, {0, 0, 1}};
+        const auto picture = peel(volume, Lumen(inside, wall), pose, {10, 1, 1}, grey, options);
+        EXPECT_EQ(picture.rgba[3], 255);
+        return picture.rgba[0] / (255 * kMostRed * std::sqrt(kExposure)) * (kMost_hu + 1000) / kPerMm_hu;
+    }
+};
+
+TEST(Peeling, RaysBeginAtTheWallAndTheOffsetAlongThemAlsoBeforeIt)
+{
+    constexpr double kGreyAndStep_mm = 0.2;
+    const DensityTube tube;
+    for (const Vector3 direction : {Vector3{1, 0, 0}, Vector3{0.6, -0.8, 0}, normalized(Vector3{-1, 0.5, 0.6})}) {
+        const double outwards = std::hypot(direction.x, direction.y);  // of a millimetre along the ray
+        const auto wall_mm = distanceToWall_mm(Lumen(tube.inside, tube.wall), {0, 0, 0}, direction, 100);
+        ASSERT_TRUE(wall_mm);
+        EXPECT_NEAR(*wall_mm * outwards, DensityTube::kRadius_mm, DensityTube::kVoxel_mm) << "in closed form";
+        for (const double offset_mm : {-5.0, -2.0, 0.0, 2.0, 5.0}) {
+            const double begins_mm = tube.beginsAtRadius_mm(direction, offset_mm);
+            EXPECT_NEAR(begins_mm, (*wall_mm + offset_mm) * outwards, kGreyAndStep_mm) << offset_mm;
+            EXPECT_NEAR(begins_mm, DensityTube::kRadius_mm + offset_mm * outwards,
+                        DensityTube::kVoxel_mm + kGreyAndStep_mm)
+                << offset_mm << ", in closed form";
+        }
+    }
+}
+
+/// What a depth buffer holds: how far along a ray the nearest triangle is met, and how steeply.
+struct Met {
+    double depth_mm = 1e9, cosine = 0;
+};
+
+Met nearestTriangle(const CellSurface& surface, Point3 eye, Vector3 ray)
+{
+    Met nearest;
+    for (std::size_t t = 0; t < surface.triangleCount(); ++t) {
+        const std::uint32_t* corner = &surface.triangles[3 * t];
+        const Point3 a = surface.point(corner[0]);
+        const Vector3 ab = surface.point(corner[1]) - a, ac = surface.point(corner[2]) - a, to_eye = eye - a;
+        const Vector3 across = cross(ray, ac), turned = cross(to_eye, ab);
+        const double volume = dot(ab, across), depth_mm = dot(ac, turned) / volume;
+        const double u = dot(to_eye, across) / volume, v = dot(ray, turned) / volume;
+        if (u >= 0 && v >= 0 && u + v <= 1 && depth_mm > 0 && depth_mm < nearest.depth_mm)
+            nearest = {depth_mm, std::abs(dot(ray, normalized(cross(ab, ac))))};
+    }
+    return nearest;
+}
+
+TEST(Peeling, RaysBeginAtTheDepthOfTheSurfaceThatIsDrawn)
+{
+    const TestColon colon;
+    const Lumen lumen(colon.inside, colon.wall_distance);
+    const Lens lens{90, 12, 12};
+    std::vector<double> off_mm;  // across the wall: a ray that grazes it is off by more along itself
+    for (const double share : {0.1, 0.45, 0.8}) {
+        const Pose pose = poseInside(colon, share);
+        for (int n = 0; n < lens.width * lens.height; ++n) {
+            const Vector3 ray = rayThrough(pose, lens, {n % lens.width + 0.5, n / lens.width + 0.5});
+            const auto wall_mm = distanceToWall_mm(lumen, pose.eye_mm, ray, 500);
+            ASSERT_TRUE(wall_mm);
+            const Met met = nearestTriangle(colon.cells, pose.eye_mm, ray);
+            off_mm.push_back(std::abs(*wall_mm - met.depth_mm) * met.cosine);
+        }
+    }
+    std::sort(off_mm.begin(), off_mm.end());
+    EXPECT_LT(off_mm[off_mm.size() / 2], 0.75 * lumen.voxel_mm());
+    EXPECT_LT(off_mm[off_mm.size() * 9 / 10], 1.5 * lumen.voxel_mm()) << "some pass the edge of a fold";
+}
+
+TEST(Peeling, RaysThatWouldBeginBehindTheEyeBeginThereAndReachAsDeepAsOthers)
+{
+    const DensityTube tube;
+    for (const double offset_mm : {-DensityTube::kRadius_mm, -20.0, -1000.0})
+        EXPECT_NEAR(tube.beginsAtRadius_mm({1, 0, 0}, offset_mm), 0, 0.5) << offset_mm;
+    // Nothing before the wall has opacity: it is no matter where a ray begins.
+    const HollowCube cube(40);
+    PeelingOptions options;
+    options.reach_mm = 10;
+    const auto opacityFrom = [&](double offset_mm) {
+        options.offset_mm = offset_mm;
+        const Lumen lumen(cube.inside, cube.wall);
+        return peel(cube.volume, lumen, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {10, 1, 1}, evenOpacity(0.1), options)
+            .rgba[3];
+    };
+    for (const double offset_mm : {-2.0, -10.0, -20.0, -1000.0})
+        EXPECT_EQ(opacityFrom(offset_mm), opacityFrom(0)) << offset_mm;
+    EXPECT_GT(opacityFrom(0), 100);
+}
+
 TEST(Peeling, TaggedFluidIsLookedThroughFromTheWallAndSeenFromTheEye)
 {
     HollowCube cube(40);

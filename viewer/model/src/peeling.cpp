@@ -68,9 +68,9 @@ private:
         if (!wall)
             return light;
         const double begin = (options_.begin == PeelingOptions::Begin::wall ? *wall : 0) + options_.offset_mm;
-        const double end = *wall + options_.offset_mm + options_.reach_mm;
+        const double end = *wall + std::max(0.0, options_.offset_mm) + options_.reach_mm;
         const auto first = std::size_t(std::ceil(std::max(0.0, begin) / options_.step_mm));
-        const auto last = std::min(std::size_t(std::max(0.0, end) / options_.step_mm), fade_.size() - 1);
+        const auto last = std::min(std::size_t(end / options_.step_mm), fade_.size() - 1);
         const DensitySampler::Place unit = densities_.indexStep(direction);
         Brick brick;
         for (std::size_t n = first; n <= last && light.left >= float(options_.least_light); ++n) {

@@ -25,9 +25,11 @@ struct PeelingOptions {
     /// Where rays begin: at the wall, tagged fluid looked through; or at the eye, so that fluid is seen as well.
     enum class Begin { wall, eye };
     Begin begin = Begin::wall;
-    double offset_mm = 0;        ///< along the ray, from where it would begin: what lies before is peeled off
+    /// Along the ray, from where it would begin: what lies before is peeled off. Below 0 it begins earlier, at the
+    /// eye at most.
+    double offset_mm = 0;
     double step_mm = 0.5;        ///< between samples, 0.1 to 2. Half a voxel and more of clinical CT (0.6 to 0.9 mm)
-    double reach_mm = 60;        ///< how far below the wall a ray goes at most
+    double reach_mm = 60;        ///< how far below the wall a ray goes at most, or below an offset behind it
     double lamp_reach_mm = 45;   ///< the distance at which the lamp at the eye has lost half of its strength
     bool shaded = true;          ///< by the gradient of the density; else the colours of the transfer function, faded
     double shaded_from = 0.004;  ///< share of the light: samples that stop less are not shaded
