@@ -4,6 +4,8 @@
 #include "caption_panel.h"
 #include "pictures.h"
 #include "scan_fixture.h"
+#include "vicon/core/colon_parts.h"
+#include "vicon/core/file.h"
 #include "vicon/viewer/model/annotate.h"
 #include "vicon/viewer/model/slice_image.h"
 #include "vicon/viewer/model/transfer_function.h"
@@ -244,6 +246,46 @@ TEST_P(CaptionsOfSmallViews, KeepTheTextsSizeInASlice)
 }
 
 INSTANTIATE_TEST_SUITE_P(Widths, CaptionsOfSmallViews, testing::Values(226, 285, 400, 520, 640));
+
+TEST_F(Captions, OfTheViewFromInsideNameTheSegmentThatIsFlownThroughAndTheNextFromItsBorderOn)
+{
+    colon.write(folder / "parts");
+    nlohmann::json scan_json;
+    const ColonPartRanges parts{{ColonPart::rectum, 0, 80},
+                                {ColonPart::sigmoid, 80, 150},
+                                {ColonPart::descending, 150, 200},
+                                {ColonPart::caecum, 200, 400}};
+    scan_json["steps"]["quality"] = {{"version", 1},
+                                     {"digest", ""},
+                                     {"parameters", nlohmann::json::object()},
+                                     {"result", {{"parts", toJson(parts)}}},
+                                     {"seconds", 0},
+                                     {"finished", ""}};
+    replaceFile(folder / "parts" / "scan.json", scan_json.dump());
+    const PreparedScan of = PreparedScan::open(folder / "parts");
+    ASSERT_EQ(of.parts().size(), parts.size());
+    const auto namedAt = [&](double station_mm, double text_px) {
+        SnapshotRequest request;
+        request.station_mm = station_mm;
+        request.text_px = text_px;
+        request.width = request.height = 700;
+        const auto texts = endoscopicOverlay(of, request, placeOf(of, request)).texts;
+        std::string named;
+        for (const OverlayText& text : texts)
+            for (const ColonPartRange& range : parts)
+                if (text.text == nameOf(range.part))
+                    named += text.text;
+        return named;
+    };
+    for (const double text_px : {0.0, 13.0})  // of a picture that is kept, and in the window
+        for (std::size_t n = 1; n < parts.size(); ++n) {
+            const double border_mm = parts[n].from_mm;
+            for (const double before_mm : {40.0, 5.0, 0.1})
+                EXPECT_EQ(namedAt(border_mm - before_mm, text_px), nameOf(parts[n - 1].part)) << border_mm;
+            for (const double behind_mm : {0.1, 5.0, 40.0})
+                EXPECT_EQ(namedAt(border_mm + behind_mm, text_px), nameOf(parts[n].part)) << border_mm;
+        }
+}
 
 TEST_F(Captions, OfMarkersInTheProjectionMakeRoomForTheOnesOfItsParts)
 {
