@@ -213,6 +213,56 @@ TEST_F(Begun, DoesNotKeepTheWindow)
     }
 }
 
+TEST_F(Reading, ThePictureSaysWhileItIsNotAsTheListOfTranslucencySays)
+{
+    openCase();
+    auto* view = the<PictureView>("endoscopic");
+    std::vector<QImage> of_before{view->image()};
+    // What is shown without a word while this is changed by keys and until the picture follows.
+    const auto shownFrom = [&](const char* control, const std::vector<int>& keys) {
+        auto* changed = the<QWidget>(control);
+        changed->setFocus();
+        for (const int key : keys) {
+            QTest::keyClick(changed, Qt::Key(key));
+            EXPECT_FALSE(view->note().isEmpty()) << control << ": at once";
+        }
+        std::vector<QImage> shown;
+        EXPECT_TRUE(eventually([&] {
+            if (view->note().isEmpty() && (shown.empty() || shown.back() != view->image()))
+                shown.push_back(view->image());
+            return quiet();
+        }));
+        EXPECT_EQ(view->note(), "");
+        EXPECT_FALSE(shown.empty());
+        return shown;
+    };
+    const auto expectNoneOf = [](const std::vector<QImage>& old, const std::vector<QImage>& shown, const char* what) {
+        for (const QImage& image : shown)
+            EXPECT_EQ(std::count(old.begin(), old.end(), image), 0) << what;
+    };
+    const auto takeNew = [&](const std::vector<QImage>& shown) {
+        of_before.insert(of_before.end(), shown.begin(), shown.end());
+    };
+    ASSERT_EQ(view->note(), "");
+    const QImage plain = of_before.front();
+    auto shown = shownFrom("peel", {Qt::Key_Down});
+    expectNoneOf(of_before, shown, "off to the first");
+    takeNew(shown);
+    shown = shownFrom("peel", {Qt::Key_Down, Qt::Key_Down});  // the second is under way when the third is chosen
+    expectNoneOf(of_before, shown, "first to third");
+    takeNew(shown);
+    shown = shownFrom("peelOffset", {Qt::Key_PageDown});
+    expectNoneOf(of_before, shown, "begins before the wall");
+    takeNew(shown);
+    shown = shownFrom("peelOver", {Qt::Key_Space});
+    expectNoneOf(of_before, shown, "over the surface");
+    takeNew(shown);
+    of_before.erase(of_before.begin());
+    shown = shownFrom("peel", {Qt::Key_Home});  // off again
+    expectNoneOf(of_before, shown, "third to off");
+    EXPECT_EQ(shown.back(), plain);
+}
+
 TEST_F(Reading, APictureThatIsNotOfThisPlaceYetSaysSo)
 {
     openCase();

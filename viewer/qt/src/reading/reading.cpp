@@ -235,7 +235,7 @@ void Reading::drawEndoscopic(bool still)
     request.count_seen = view.isVisible();
     for (const ReadingTool* tool : tools_)
         tool->complete(request);
-    asked_peel_ = request.snapshot.peel.preset;
+    asked_peel_ = ChosenPeel::of(request.snapshot.peel);
     asked_eye_mm_ = request.place.pose.eye_mm;
     sayWhatIsDrawn();
     drawing_.drawEndoscopic(sharedScan(), request);
@@ -247,10 +247,10 @@ void Reading::sayWhatIsDrawn()
     const bool elsewhere =
         shown_.isOf(sharedScan()) && distance(shown_.place.pose.eye_mm, asked_eye_mm_) > PictureView::kElsewhere_mm;
     const bool agrees = shown_.peel == asked_peel_;
-    views_.endoscopic()->setNote(elsewhere             ? PictureView::notThisPlaceYet()
-                                 : agrees              ? QString()
-                                 : asked_peel_.empty() ? tr("the wall is being drawn ...")
-                                                       : tr("translucency: being drawn ..."));
+    views_.endoscopic()->setNote(elsewhere                    ? PictureView::notThisPlaceYet()
+                                 : agrees                     ? QString()
+                                 : asked_peel_.preset.empty() ? tr("the wall is being drawn ...")
+                                                              : tr("translucency: being drawn ..."));
 }
 
 void Reading::setOverviewTurned(bool on)

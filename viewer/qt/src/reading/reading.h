@@ -165,8 +165,8 @@ private:
     DrawingThread drawing_;
     Worker settings_worker_{this};
     ShownPicture shown_;
-    std::string asked_peel_;  // of the picture asked for last
-    Point3 asked_eye_mm_;     // likewise
+    ChosenPeel asked_peel_;  // of the picture asked for last
+    Point3 asked_eye_mm_;    // likewise
     std::optional<ShownProjection> shown_overview_;
     bool overview_turned_ = false;
     std::optional<Point3> looked_at_mm_;  // what was clicked; else the eye's place

@@ -13,6 +13,13 @@ constexpr std::chrono::milliseconds kBetweenLooks(1);
 constexpr double kReach_mm = 500;  // of a click into the endoscopic view
 }  // namespace
 
+ChosenPeel ChosenPeel::of(const PeelRequest& peel)
+{
+    if (peel.preset.empty())
+        return {};
+    return {peel.preset, peel.options.offset_mm, peel.middle_only, peel.over_surface};
+}
+
 std::optional<Point3> ShownPicture::wallAt(Pixel at) const
 {
     const Vector3 ray = rayThrough(place.pose, lens, at);
@@ -131,7 +138,7 @@ void DrawingThread::draw(Which which, std::shared_ptr<OpenScan> scan, const Endo
             const Lens lens{snapshot.view_angle_deg, snapshot.width, snapshot.height};
             const auto signal = which == Which::leading ? &DrawingThread::endoscopicDrawn : &DrawingThread::besideDrawn;
             return [this, picture, signal,
-                    shown = ShownPicture{scan, request.place, lens, request.snapshot.peel.preset, shaded,
+                    shown = ShownPicture{scan, request.place, lens, ChosenPeel::of(snapshot.peel), shaded,
                                          request.snapshot.wall.acquired}] { emit(this->*signal)(*picture, shown); };
         });
 }

@@ -31,12 +31,22 @@ struct MissedRow {
     int region = 0;  ///< its row
 };
 
+/// The look below the wall as a reader chooses it.
+struct ChosenPeel {
+    std::string preset = {};  ///< empty: none
+    double offset_mm = 0;
+    bool middle_only = false, over_surface = false;
+
+    static ChosenPeel of(const PeelRequest& peel);
+    bool operator==(const ChosenPeel&) const = default;
+};
+
 /// What a picture that is shown was made of: a click into it means that place, wherever the eye is by then.
 struct ShownPicture {
     std::weak_ptr<OpenScan> scan;
     SnapshotResult place;
     Lens lens;
-    std::string peel = {};  ///< the look below the wall; empty: none
+    ChosenPeel peel = {};
     bool shaded = false;    ///< with the ambient occlusion that was asked for; it comes a little later than the first
     bool acquired = false;  ///< the wall as acquired: fluid and stool stand
 
