@@ -103,7 +103,7 @@ bool MeasuringTool::act(const ClickMeaning& meaning, const ClickedPoint& point)
     if (std::holds_alternative<OutlineHere>(meaning)) {
         reading_.toolChanged();
         reading_.say(tr("Outlining ..."));
-        shown_ = Shown{point.scan.record.id, {}, {}, {}};
+        shown_ = Shown{point.scan.record.id, {}, {}, {}, {}};
         reading_.session().outlinePolyp(point.scan.record.id, point.at_mm);
         return true;
     }
@@ -173,7 +173,7 @@ void MeasuringTool::outlined(const std::string& scan_id, const PolypOutline& out
                           .arg(QString::fromStdString(outline.trouble)));
         return;
     }
-    shown_ = Shown{scan_id, sizeOf(outline), {outline.size->from_mm, outline.size->to_mm}, {}};
+    shown_ = Shown{scan_id, sizeOf(outline), {outline.size->from_mm, outline.size->to_mm}, {}, {}};
     finish();
 }
 
@@ -258,7 +258,7 @@ void MeasuringTool::drag(int end, const std::optional<ClickedPoint>& to, bool re
 
 MeasuringTool::Shown MeasuringTool::shownOf(const Marker& marker)
 {
-    return {marker.scan_id, *marker.size, {marker.size->from_mm, marker.size->to_mm}, marker.id};
+    return {marker.scan_id, *marker.size, {marker.size->from_mm, marker.size->to_mm}, marker.id, {}};
 }
 
 void MeasuringTool::markerShown(const Marker& marker)

@@ -33,7 +33,7 @@ private:
         MarkerSize size;
         std::vector<Point3> way_mm;  // from one end to the other
         std::string marker_id;
-        std::vector<Point3> dragged_mm = {};  // its two ends while one is dragged; else none
+        std::vector<Point3> dragged_mm;  // its two ends while one is dragged; else none
     };
     static Shown shownOf(const Marker& marker);
     void connectViews();
