@@ -98,12 +98,8 @@ TEST_F(ReadingOfAThinWall, ABiopsyIsRefusedWithItsReasonAndNothingIsKept)
     click("endoscopic", at, Qt::ShiftModifier);
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
     waitUntilQuiet();
-    auto* view = the<QWidget>("endoscopic");
     key(Qt::Key_T);
-    QTest::mousePress(view, Qt::LeftButton, {}, at);
-    for (int n = 1; n <= 5; ++n)
-        QTest::mouseMove(view, at + QPoint(22 * n, 0));
-    QTest::mouseRelease(view, Qt::LeftButton, {}, at + QPoint(110, 0));
+    drag("endoscopic", at, at + QPoint(110, 0));
     EXPECT_TRUE(eventually([] { return !warning().empty(); }));
     EXPECT_NE(warning().find("too little tissue between its surface and its far side"), std::string::npos) << warning();
     EXPECT_NE(warning().find("nothing was taken"), std::string::npos) << warning();

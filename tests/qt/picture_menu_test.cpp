@@ -90,11 +90,7 @@ TEST_F(PictureMenu, OfASliceBeginsWithSlicesAndADragWithTheRightButtonOpensNone)
     waitUntilQuiet();
     const Point3 before = slice->shown().pointAt({0, 0});
     const QPoint from = middle("axial");
-    auto* view = the<QWidget>("axial");
-    QTest::mousePress(view, Qt::RightButton, {}, from);
-    QTest::mouseMove(view, from + QPoint(20, 5));
-    QTest::mouseMove(view, from + QPoint(40, 10));
-    QTest::mouseRelease(view, Qt::RightButton, {}, from + QPoint(40, 10));
+    drag("axial", from, from + QPoint(40, 10), Qt::RightButton);
     waitUntilQuiet();
     EXPECT_EQ(menu(), nullptr);
     EXPECT_GT(distance(slice->shown().pointAt({0, 0}), before), 1) << "it pans";

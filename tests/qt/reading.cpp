@@ -130,16 +130,17 @@ void Reader::click(const char* view, QPoint at, Qt::KeyboardModifiers modifiers)
     QTest::mouseClick(the<QWidget>(view), Qt::LeftButton, modifiers, at);
 }
 
-void Reader::drag(const char* view, QPoint from, QPoint to)
+void Reader::drag(const char* view, QPoint from, QPoint to, Qt::MouseButton button)
 {
     auto* widget = the<QWidget>(view);
-    QTest::mousePress(widget, Qt::LeftButton, {}, from);
-    for (int n = 1; n <= 4; ++n) {  // QTest's own moves have no button down: a slice does not hear of them
+    QTest::mousePress(widget, button, {}, from);
+    // QTest's own moves have no button down, and come by way of the display: on a busy machine after the release.
+    for (int n = 1; n <= 4; ++n) {
         const QPoint at = from + (to - from) * n / 4;
-        QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, {});
+        QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, button, {});
         QApplication::sendEvent(widget, &move);
     }
-    QTest::mouseRelease(widget, Qt::LeftButton, {}, to);
+    QTest::mouseRelease(widget, button, {}, to);
 }
 
 void Reader::key(int which, Qt::KeyboardModifiers modifiers)

@@ -79,8 +79,8 @@ protected:
     }
     static void press(QWidget* in, const char* name);
     static void click(const char* view, QPoint at, Qt::KeyboardModifiers modifiers = {});
-    /// With the left button, in four moves.
-    static void drag(const char* view, QPoint from, QPoint to);
+    /// In four moves.
+    static void drag(const char* view, QPoint from, QPoint to, Qt::MouseButton button = Qt::LeftButton);
     static void key(int which, Qt::KeyboardModifiers modifiers = {});
     static QPoint middle(const char* view);
     /// The list of markers, of what was not seen, of the bridges: 0, 1, 2.

@@ -127,13 +127,9 @@ protected:
     }
     static void circle()
     {
-        auto* view = the<QWidget>("endoscopic");
         const QPoint at = middle("endoscopic") + QPoint(-150, 20);
         key(Qt::Key_T);
-        QTest::mousePress(view, Qt::LeftButton, {}, at);
-        for (int n = 1; n <= 5; ++n)
-            QTest::mouseMove(view, at + QPoint(22 * n, 0));
-        QTest::mouseRelease(view, Qt::LeftButton, {}, at + QPoint(110, 0));
+        drag("endoscopic", at, at + QPoint(110, 0));
     }
     /// Over the wall from one end of the colon to the other: no way is as short as is looked for, which takes longest.
     static void measureFar()
