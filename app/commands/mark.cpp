@@ -77,7 +77,9 @@ struct MarkersArguments {
 void importMarkers(CaseStore& store, const MarkOptions& options, const std::string& case_id, const std::string& file)
 {
     ProgressLine progress("markers");
-    store.editMarkers(case_id, importOf(store, options, case_id, file, progress));
+    const std::vector<MarkerEdit> edits = importOf(store, options, case_id, file, progress);
+    progress.clear();
+    store.editMarkers(case_id, edits);
 }
 
 void changeMarker(CaseStore& store, const MarkOptions& options, const std::string& case_id,

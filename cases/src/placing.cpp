@@ -139,8 +139,10 @@ std::vector<MarkerEdit> importOf(CaseStore& store, const MarkOptions& options, c
     const std::vector<Marker> known = store.markers(case_id);
     MarkerPlacer placer(store, options, case_id);
     std::vector<MarkerEdit> edits;
-    for (const Marker& marker : readMarkers(file)) {
+    const std::vector<Marker> markers = readMarkers(file);
+    for (const Marker& marker : markers) {
         progress.check();
+        progress.report(double(edits.size()) / double(markers.size()), "placing markers");
         const Marker placed = placer.place(marker);
         const auto before =
             std::find_if(known.begin(), known.end(), [&](const Marker& m) { return m.id == placed.id; });
