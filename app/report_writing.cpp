@@ -59,6 +59,7 @@ public:
     DraftDrawing(CaseStore& store, const Config& config, const std::string& case_id, Progress& progress)
         : options_(config.get<report::ReportOptions>()),
           content_(contentOfDraft(store, case_id)),
+          wanted_(progress),
           scans_(store, content_.read, progress)
     {
         drawPictures(store, content_, scans_, printed_, progress);
@@ -68,7 +69,7 @@ public:
     {
         content_.number = number;
         std::string pdf;
-        drawn_ = report::drawPdf(content_, pdf, options_, &printed_);
+        drawn_ = report::drawPdf(content_, pdf, options_, &printed_, wanted_);
         return pdf;
     }
     const report::ReportContent& content() const { return content_; }
@@ -77,6 +78,7 @@ public:
 private:
     report::ReportOptions options_;
     report::ReportContent content_;
+    const Progress& wanted_;
     viewer::Display display_;  // one for all pictures
     ReportScans scans_;
     report::PrintPictures printed_;
@@ -183,7 +185,8 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
             shown.emplace(store, content.read, kinds);
     });
     std::string pdf;
-    const report::PdfResult drawn = report::drawPdf(content, pdf, config.get<report::ReportOptions>(), &printed);
+    const report::PdfResult drawn =
+        report::drawPdf(content, pdf, config.get<report::ReportOptions>(), &printed, progress);
     if (drawn.unreadable_pictures > 0)
         throw Error(ErrorCode::store,
                     "a picture of the report could not be drawn (" + drawn.warnings.front() +

@@ -4,6 +4,7 @@ namespace vicon::report {
 
 void PageFlow::newPage()
 {
+    wanted_.check();
     page_ = pdf.addPage(paper_.width, paper_.height);
     y_ = paper_.height - paper_.top;
 }

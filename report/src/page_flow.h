@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pdf_document.h"
+#include "vicon/core/progress.h"
 
 namespace vicon::report {
 
@@ -36,7 +37,9 @@ public:
         double top = 0, bottom = 0;  ///< kept free for header and footer
     };
 
-    PageFlow(PdfDocument& pdf, Typesetter& typesetter, Paper paper) : pdf(pdf), type(typesetter), paper_(paper)
+    /// @param wanted asked at every page
+    PageFlow(PdfDocument& pdf, Typesetter& typesetter, Paper paper, const Progress& wanted)
+        : pdf(pdf), type(typesetter), paper_(paper), wanted_(wanted)
     {
         newPage();
     }
@@ -53,6 +56,7 @@ public:
     double wholePage() const { return paper_.height - paper_.top - paper_.bottom; }
     bool atTop() const { return y_ >= paper_.height - paper_.top; }
 
+    /// Throws Error{cancelled} once nobody wants the pages any more.
     void newPage();
     void skip(double height) { y_ -= height; }
     /// Starts a page unless this one is still empty.
@@ -73,6 +77,7 @@ public:
 
 private:
     Paper paper_;
+    const Progress& wanted_;
     int page_ = -1;
     double y_ = 0;
 };

@@ -39,7 +39,7 @@ std::string missingWords(char32_t c)
 }  // namespace
 
 PdfResult drawPdf(const ReportContent& content, std::string& pdf, const ReportOptions& options,
-                  const PrintPictures* begun)
+                  const PrintPictures* begun, const Progress& wanted)
 {
     text::FontSet fonts({options.font_folder}, text::FontSet::Medium::paper);
     if (!fonts.find(U'A'))
@@ -52,7 +52,7 @@ PdfResult drawPdf(const ReportContent& content, std::string& pdf, const ReportOp
     const PageFurniture furniture(content, typesetter, paper.width);
     paper.top = furniture.topHeight();
     paper.bottom = furniture.bottomHeight();
-    PageFlow flow(document, typesetter, paper);
+    PageFlow flow(document, typesetter, paper, wanted);
     Sections sections(content, {options.site, options.logo}, flow, begun);
     sections.draw();
     for (int page = 0; page < document.pages(); ++page)
@@ -63,6 +63,7 @@ PdfResult drawPdf(const ReportContent& content, std::string& pdf, const ReportOp
                      .pages = document.pages()};
     for (const char32_t c : typesetter.missing())
         result.warnings.push_back(missingWords(c));
+    wanted.check();
     pdf = document.finish();
     return result;
 }
@@ -71,7 +72,7 @@ PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pd
                    const PrintPictures* begun)
 {
     std::string bytes;
-    PdfResult result = drawPdf(content, bytes, options, begun);
+    PdfResult result = drawPdf(content, bytes, options, begun, NoProgress());
     replaceFile(pdf, bytes);
     return result;
 }

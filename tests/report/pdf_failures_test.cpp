@@ -82,5 +82,34 @@ TEST_F(PdfFailure, WithoutFontsItSaysWhatToInstall)
     EXPECT_FALSE(fs::exists(pdf_));
 }
 
+/// Is wanted until it was asked so often.
+class WantedForAWhile : public NoProgress {
+public:
+    explicit WantedForAWhile(int times) : left_(times) {}
+    bool cancelled() const override { return left_-- <= 0; }
+
+private:
+    mutable int left_;
+};
+
+TEST_F(PdfFailure, AtEveryPageItCanBeGivenUp)
+{
+    addMarkers(12);
+    std::string pdf;
+    const int pages = drawPdf(content_, pdf, {}, nullptr, NoProgress()).pages;
+    ASSERT_GT(pages, 3);
+    const int asked = pages + 1;  // before the file is put together, too
+    pdf = "the old report";
+    for (int times = 0; times < asked; ++times)
+        try {
+            drawPdf(content_, pdf, {}, nullptr, WantedForAWhile(times));
+            ADD_FAILURE() << times;
+        } catch (const Error& e) {
+            EXPECT_EQ(e.code(), ErrorCode::cancelled);
+            EXPECT_EQ(pdf, "the old report");
+        }
+    EXPECT_EQ(drawPdf(content_, pdf, {}, nullptr, WantedForAWhile(asked)).pages, pages);
+}
+
 }  // namespace
 }  // namespace vicon::report

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "vicon/core/progress.h"
 #include "vicon/report/content.h"
 #include "vicon/report/options.h"
 #include "vicon/report/print_pictures.h"
@@ -24,7 +25,8 @@ struct PdfResult {
 PdfResult writePdf(const ReportContent& content, const std::filesystem::path& pdf, const ReportOptions& options,
                    const PrintPictures* begun = nullptr);
 /// The same into memory: `pdf` becomes what would be written.
+/// @param wanted asked at every page; throws Error{cancelled} where it says so, and `pdf` is as it was
 PdfResult drawPdf(const ReportContent& content, std::string& pdf, const ReportOptions& options,
-                  const PrintPictures* begun = nullptr);
+                  const PrintPictures* begun, const Progress& wanted);
 
 }  // namespace vicon::report
