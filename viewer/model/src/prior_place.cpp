@@ -87,11 +87,14 @@ void addPriorDiamond(Overlay& overlay, const PlaneView& view, const PriorPlace& 
                              place.color,
                              2,
                              middle ? 0 : kDash_px});
-    overlay.texts.push_back({{c.x + radius_px * 0.6 + 2, c.y + radius_px * 0.6},
+    // Towards the picture's middle: in the right lower corner stands the scale bar.
+    const bool to_the_left = c.x > view.width / 2.0;
+    const double aside_px = radius_px * 0.6 + 2;
+    overlay.texts.push_back({{to_the_left ? c.x - aside_px : c.x + aside_px, c.y + radius_px * 0.6},
                              place.label,
                              text_px,
                              place.color,
-                             Across::left,
+                             to_the_left ? Across::right : Across::left,
                              Along::top,
                              1e9});
 }

@@ -51,7 +51,8 @@ void addPriorRings(Overlay& overlay, const PriorPlace& place, const PathFrames& 
                    const Pose& pose, const Lens& lens, double text_px);
 
 /// In a slice: a diamond where the stretch passes within `near_mm` of the plane, nearest to its middle; dashed where
-/// that is not the middle. Nothing where it does not. @param depth_mm of the plane, as the view has it
+/// that is not the middle. Nothing where it does not. Its label stands towards the picture's middle.
+/// @param depth_mm of the plane, as the view has it
 void addPriorDiamond(Overlay& overlay, const PlaneView& view, const PriorPlace& place, double depth_mm, double near_mm,
                      double radius_px, double text_px);
 
