@@ -20,6 +20,7 @@
 #include "vicon/scan_files/volume_file.h"
 #include "vicon/steps/cells.h"
 #include "vicon/steps/densities_around.h"
+#include "vicon/steps/largest.h"
 #include "vicon/steps/subdivide.h"
 #include "vicon/steps/tissue.h"
 #include "vicon/steps/wall_distance.h"
@@ -165,25 +166,34 @@ public:
         return surface_;
     }
 
-    /// Begins to measure the distances from the surface, if that was begun.
+    /// Begins to measure the distances from the surface, if that was begun, and then to write them: the disk has
+    /// nothing to do at that time.
     void beginWallDistance()
     {
         const std::lock_guard lock(mutex_);
         if (surface_.valid() && inside_)
-            wall_distance_ = std::async(std::launch::async, [surface = surface_, &lumen = *inside_] {
+            largest_wall_distance_ = std::async(std::launch::async, [this, surface = surface_, &lumen = *inside_] {
                 NoProgress quiet;
-                return steps::wallDistance(lumen, surface.get().nearWall(), quiet);
+                return putWallDistance(steps::wallDistance(lumen, surface.get().nearWall(), quiet));
             });
     }
-    /// The distances from the wall, when an earlier step began them; they are given away.
-    std::optional<FieldVolume> takeWallDistance() { return take(wall_distance_); }
+    /// The largest distance from the wall, when an earlier step began to measure them. They are being written then.
+    std::optional<double> takeLargestWallDistance() { return take(largest_wall_distance_); }
+    /// Begins to write the distances from the wall. Returns the largest.
+    double putWallDistance(FieldVolume from_wall_mm)
+    {
+        const double largest_mm = steps::largestOf(from_wall_mm);
+        write("wall_distance.mha", std::move(from_wall_mm));
+        return largest_mm;
+    }
 
     /// The lumen flooded from the skeleton's paths, when an earlier step began it; it is given away.
     std::optional<steps::PathFlood> takeFlood() { return take(flood_); }
+    /// Where one was begun of other paths, waits for its end.
     void keepFlood(std::future<steps::PathFlood> flood)
     {
         const std::lock_guard lock(mutex_);
-        flood_ = std::move(flood);
+        std::swap(flood_, flood);
     }
 
     /// Waits until these files are on the disk, whichever of them were begun, and whoever else waits for them. Throws
@@ -274,9 +284,9 @@ private:
     std::optional<SegmentVolume> segments_;
     std::optional<Skeleton> skeleton_;
     std::shared_future<steps::LumenSurface> surface_;          // reads around_lumen_, inside_ and tissue_
-    std::future<FieldVolume> wall_distance_;                   // reads surface_ and inside_
     std::future<steps::PathFlood> flood_;                      // reads inside_
-    std::map<std::string, std::shared_future<void>> writing_;  // last: what is written must outlive it
+    std::map<std::string, std::shared_future<void>> writing_;  // late: what is written must outlive it
+    std::future<double> largest_wall_distance_;                // reads surface_ and inside_, begins to write
 };
 
 }  // namespace vicon::pipeline

@@ -100,11 +100,11 @@ json runPotential(const StepInputs& inputs, ScanResults& results, const StepReco
 {
     PartOfProgress wall(progress, 0, 0.3), exit(progress, 0.3, 1);
     PotentialFound found;
-    std::optional<FieldVolume> from_wall_mm = results.takeWallDistance();
-    if (!from_wall_mm)
-        from_wall_mm = steps::wallDistance(results.inside(), surfaceOf(inputs.config, results).get().nearWall(), wall);
-    found.largest_wall_distance_mm = steps::largestOf(*from_wall_mm);
-    results.write("wall_distance.mha", *std::move(from_wall_mm));
+    const std::optional<double> ahead_mm = results.takeLargestWallDistance();
+    found.largest_wall_distance_mm =
+        ahead_mm ? *ahead_mm
+                 : results.putWallDistance(
+                       steps::wallDistance(results.inside(), surfaceOf(inputs.config, results).get().nearWall(), wall));
     if (!hasPath(inputs.config))
         return toJson(found);
     const SkeletonTree tree = scan_files::readSkeletonTree(results.source("skeleton.vtp"));

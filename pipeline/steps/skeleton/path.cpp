@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "grid/cheapest_ways.h"
 #include "grid/contact.h"
@@ -166,9 +167,11 @@ std::vector<Index3> refineAll(const FieldVolume& wall_mm, const LumenGraph& grap
     return voxels;
 }
 
+using TakeVoxels = std::function<void(const std::vector<Index3>&)>;
+
 /// The path in one graph; without voxels when the graph does not join the ends.
 LumenPath pathIn(const FieldVolume& wall_mm, const LumenGraph& graph, Point3 from, Point3 to,
-                 const SkeletonOptions& options, Progress& progress)
+                 const SkeletonOptions& options, Progress& progress, const TakeVoxels& take_first)
 {
     const std::int32_t a = graph.nearest(from), b = graph.nearest(to);
     LumenPath path;
@@ -181,7 +184,11 @@ LumenPath pathIn(const FieldVolume& wall_mm, const LumenGraph& graph, Point3 fro
     // Mostly the first path is the last: it is refined while another core looks at what it leaves aside.
     const NodePath first = coarse.nodes;
     tbb::parallel_invoke([&] { leadThroughWhole(search, coarse); },
-                         [&] { path.voxels = refineAll(wall_mm, graph, first); });
+                         [&] {
+                             path.voxels = refineAll(wall_mm, graph, first);
+                             if (!path.voxels.empty())
+                                 take_first(path.voxels);
+                         });
     if (coarse.nodes != first)
         path.voxels = refineAll(wall_mm, graph, coarse.nodes);
     path.uncovered_fraction = coarse.coverage.uncovered_fraction;
@@ -192,11 +199,11 @@ LumenPath pathIn(const FieldVolume& wall_mm, const LumenGraph& graph, Point3 fro
 }  // namespace
 
 LumenPath findPath(const FieldVolume& wall_mm, const LumenGraph& coarse, Point3 from, Point3 to,
-                   const SkeletonOptions& options, Progress& progress)
+                   const SkeletonOptions& options, Progress& progress, const TakeVoxels& first)
 {
-    LumenPath path = pathIn(wall_mm, coarse, from, to, options, progress);
+    LumenPath path = pathIn(wall_mm, coarse, from, to, options, progress, first);
     for (int block = coarse.block / 2; path.voxels.empty() && block >= 1; block /= 2)
-        path = pathIn(wall_mm, makeGraph(wall_mm, block, 0), from, to, options, progress);
+        path = pathIn(wall_mm, makeGraph(wall_mm, block, 0), from, to, options, progress, first);
     if (path.voxels.empty())
         throw Error(ErrorCode::bad_input, "the two ends of a piece of the lumen are not joined inside it", {},
                     "segment the scan again");

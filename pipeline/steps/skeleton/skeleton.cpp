@@ -4,7 +4,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <atomic>
 
 #include "grid/check_only.h"
 #include "skeleton/detour.h"
@@ -36,6 +36,43 @@ void append(Skeleton& skeleton, const Polyline& line, bool bridge, const Distanc
     skeleton.pieces.push_back(std::move(piece));
 }
 
+/// Hands the paths of the pieces on: the first ones once all have one, the last ones where they are others.
+class PathsFound {
+public:
+    PathsFound(std::size_t pieces, const SkeletonHooks& hooks) : voxels_(pieces), hooks_(hooks) {}
+
+    /// On any thread, but one for each piece. Of a piece that is sought in several graphs the first counts.
+    void takeFirst(std::size_t piece, const std::vector<Index3>& voxels)
+    {
+        if (!voxels_[piece].empty())
+            return;
+        voxels_[piece] = voxels;
+        if (++found_ == voxels_.size())
+            tell();
+    }
+    void takeLast(const std::vector<LumenPath>& paths)
+    {
+        bool same = found_ == paths.size();
+        for (std::size_t n = 0; n < paths.size(); ++n) {
+            same = same && voxels_[n] == paths[n].voxels;
+            voxels_[n] = paths[n].voxels;
+        }
+        if (!same)
+            tell();
+    }
+
+private:
+    void tell() const
+    {
+        if (hooks_.paths_found)
+            hooks_.paths_found(voxels_);
+    }
+
+    std::vector<std::vector<Index3>> voxels_;
+    std::atomic<std::size_t> found_ = 0;
+    const SkeletonHooks& hooks_;
+};
+
 }  // namespace
 
 SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, const SkeletonOptions& options,
@@ -50,12 +87,14 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
     FieldVolume over_tube_mm;
     CheckOnly check(progress);
     std::vector<LumenPath> paths(plan.pieces.size());
+    PathsFound found(paths.size(), hooks);
     tbb::parallel_invoke(
         [&] {
             const LumenGraph graph = makeGraph(wall_mm, kBlock, kLeast_mm);
             tbb::parallel_for(std::size_t(0), paths.size(), [&](std::size_t n) {
                 const LumenPiece& piece = plan.pieces[n];
-                paths[n] = findPath(wall_mm, graph, piece.rectal_end_mm, piece.caecal_end_mm, options, check);
+                paths[n] = findPath(wall_mm, graph, piece.rectal_end_mm, piece.caecal_end_mm, options, check,
+                                    [&](const std::vector<Index3>& voxels) { found.takeFirst(n, voxels); });
             });
         },
         [&] {
@@ -63,12 +102,7 @@ SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, c
             if (hooks.core_free)
                 hooks.core_free();
         });
-    if (hooks.paths_found) {
-        std::vector<std::vector<Index3>> found;
-        for (const LumenPath& path : paths)
-            found.push_back(path.voxels);
-        hooks.paths_found(found);
-    }
+    found.takeLast(paths);
     const DistanceProbe open(wall_mm, over_tube_mm);
     std::vector<Polyline> curves;
     for (std::size_t n = 0; n < plan.pieces.size(); ++n) {

@@ -47,7 +47,8 @@ struct SkeletonResult {
 /// What a caller may begin while the skeleton is being found; called on any thread.
 struct SkeletonHooks {
     std::function<void()> core_free;  ///< one core has nothing to do from here until the path is found
-    /// With the voxel path of each piece, before the curve is fitted to them.
+    /// With the voxel path of each piece, as soon as all have one; once more, where what these leave aside led to
+    /// others.
     std::function<void(const std::vector<std::vector<Index3>>&)> paths_found;
 };
 
