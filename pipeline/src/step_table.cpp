@@ -165,7 +165,7 @@ std::vector<Step> stepsOfResults()
     using namespace steps;
     return {
         {"quality",
-         6,
+         7,
          0.65,
          0.67,
          {"segment", "tissue", "skeleton"},

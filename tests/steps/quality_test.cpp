@@ -126,6 +126,25 @@ TEST_P(CollapsedTube, IsAdequateUnlessTheCollapseCouldHideALesionOf10Mm)
 INSTANTIATE_TEST_SUITE_P(Lengths, CollapsedTube,
                          testing::Values(Collapse{6, true}, Collapse{14, false}, Collapse{40, false}));
 
+TEST(Quality, ACollapseAcrossABorderOfPartsIsToldOfOne)
+{
+    for (const double border_mm : {797.5, 800.0}) {  // the collapse lies at 790 to 806 mm
+        const ColonPartRanges parts{{ColonPart::rectum, 0, border_mm}, {ColonPart::sigmoid, border_mm, 1200}};
+        const ScanQuality q = Tube(800, 816).measure(parts);
+        EXPECT_FALSE(q.whole.adequate);
+        EXPECT_NE(q.parts[0].adequate, q.parts[1].adequate) << border_mm;
+        EXPECT_NE(q.reason.find("collapsed"), std::string::npos) << q.reason;
+        EXPECT_NEAR(q.whole.longest_collapsed_mm, 16, 2);
+    }
+}
+
+TEST(Quality, EachMillimetreBelongsToOnePart)
+{
+    const ColonPartRanges parts{{ColonPart::rectum, 0, 400.4}, {ColonPart::sigmoid, 400.4, 1200}};
+    const ScanQuality q = Tube().measure(parts);
+    EXPECT_NEAR(q.parts[0].volume_ml + q.parts[1].volume_ml, q.whole.volume_ml, 1e-9);
+}
+
 TEST(Quality, AColonThatIsTooShortIsNotAdequate)
 {
     Tube tube;

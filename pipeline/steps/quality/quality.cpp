@@ -37,22 +37,55 @@ std::vector<double> radiiAlong(const Skeleton& skeleton, const LumenProfile& pro
     return radii;
 }
 
+/// Millimetres along the skeleton that are collapsed, one after the other.
+struct CollapsedRun {
+    std::size_t from = 0, to = 0;
+};
+
+std::vector<CollapsedRun> collapsedRuns(const std::vector<double>& radii, const QualityOptions& options)
+{
+    std::vector<CollapsedRun> runs;
+    for (std::size_t n = 0; n < radii.size(); ++n) {
+        if (radii[n] >= options.collapsed_radius_mm)
+            continue;
+        if (runs.empty() || runs.back().to != n)
+            runs.push_back({n, n});
+        runs.back().to = n + 1;
+    }
+    return runs;
+}
+
+/// The longest run in a stretch of whole millimetres. One that goes on beyond it counts whole where most of it lies, of
+/// halves where it begins, so that a border between parts hides none.
+double longestRun_mm(const std::vector<CollapsedRun>& runs, std::size_t from, std::size_t to)
+{
+    std::size_t longest = 0;
+    for (const CollapsedRun& run : runs) {
+        const std::size_t first = std::max(run.from, from), last = std::min(run.to, to);
+        if (first >= last)
+            continue;
+        const std::size_t here = 2 * (last - first), all = run.to - run.from;
+        longest = std::max(longest, here > all || (here == all && first == run.from) ? all : last - first);
+    }
+    return double(longest);
+}
+
 StretchQuality measureStretch(std::optional<ColonPart> part, double from_mm, double to_mm,
-                              const std::vector<double>& radii, const LumenProfile& profile,
-                              const QualityOptions& options)
+                              const std::vector<double>& radii, const std::vector<CollapsedRun>& runs,
+                              const LumenProfile& profile, const QualityOptions& options)
 {
     StretchQuality q{.part = part};
     std::vector<double> sorted;
-    double run_mm = 0;
-    for (auto n = std::size_t(from_mm); n < radii.size() && double(n) < to_mm; ++n) {
+    // A millimetre belongs to the part in which it begins.
+    const auto first = std::size_t(std::ceil(from_mm));
+    const std::size_t last = std::min(radii.size(), std::size_t(std::ceil(to_mm)));
+    for (std::size_t n = first; n < last; ++n) {
         q.volume_ml += profile.volume_mm3[n] / 1000;
         q.fluid_ml += profile.fluid_mm3[n] / 1000;
         sorted.push_back(radii[n]);
-        const bool collapsed = radii[n] < options.collapsed_radius_mm;
-        q.collapsed_mm += collapsed;
-        run_mm = collapsed ? run_mm + 1 : 0;
-        q.longest_collapsed_mm = std::max(q.longest_collapsed_mm, run_mm);
+        q.collapsed_mm += radii[n] < options.collapsed_radius_mm ? 1 : 0;
     }
+    q.longest_collapsed_mm = longestRun_mm(runs, first, last);
     if (!sorted.empty()) {
         const auto middle = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
         std::nth_element(sorted.begin(), middle, sorted.end());
@@ -72,26 +105,12 @@ double rounded(double value, double parts_of_one)
     return std::round(value * parts_of_one) / parts_of_one;
 }
 
-std::vector<StationRange> collapsedAlong(const std::vector<double>& radii, double length_mm,
-                                         const QualityOptions& options)
+LumenAlong lumenAlong(const std::vector<double>& radii, const std::vector<CollapsedRun>& runs,
+                      const LumenProfile& profile, double length_mm)
 {
-    std::vector<StationRange> out;
-    bool open = true;
-    for (std::size_t n = 0; n < radii.size(); ++n) {
-        const bool collapsed = radii[n] < options.collapsed_radius_mm;
-        if (collapsed && open)
-            out.push_back({double(n), 0});
-        if (collapsed)
-            out.back().to_mm = std::min(double(n + 1), length_mm);
-        open = !collapsed;
-    }
-    return out;
-}
-
-LumenAlong lumenAlong(const std::vector<double>& radii, const LumenProfile& profile, double length_mm,
-                      const QualityOptions& options)
-{
-    LumenAlong along{.step_mm = kAlongStep_mm, .collapsed = collapsedAlong(radii, length_mm, options)};
+    LumenAlong along{.step_mm = kAlongStep_mm};
+    for (const CollapsedRun& run : runs)
+        along.collapsed.push_back({double(run.from), std::min(double(run.to), length_mm)});
     for (std::size_t from = 0; from < radii.size(); from += kAlongStep_mm) {
         const std::size_t to = std::min(from + kAlongStep_mm, radii.size());
         double radius = 0, volume = 0, fluid = 0;
@@ -171,11 +190,12 @@ ScanQuality measureQuality(const InsideVolume& inside, const Skeleton& skeleton,
     ScanQuality quality;
     quality.noise_hu = noise_hu;
     const std::vector<double> radii = radiiAlong(skeleton, profile);
-    quality.whole = measureStretch(std::nullopt, 0, skeleton.length_mm(), radii, profile, options);
+    const std::vector<CollapsedRun> runs = collapsedRuns(radii, options);
+    quality.whole = measureStretch(std::nullopt, 0, skeleton.length_mm(), radii, runs, profile, options);
     for (const ColonPartRange& range : parts)
-        quality.parts.push_back(measureStretch(range.part, range.from_mm, range.to_mm, radii, profile, options));
+        quality.parts.push_back(measureStretch(range.part, range.from_mm, range.to_mm, radii, runs, profile, options));
     addUntrusted(quality, untrusted, skeleton, parts);
-    quality.along = lumenAlong(radii, profile, skeleton.length_mm(), options);
+    quality.along = lumenAlong(radii, runs, profile, skeleton.length_mm());
     quality.thresholds = vicon::toJson(options);
     judge(quality, skeleton.length_mm(), options);
     progress.report(1, "quality");
