@@ -185,11 +185,14 @@ void JobQueue::renew(const Job& job, const std::string& step, double progress)
     });
 }
 
-void JobQueue::underFence(const Job& job, const std::function<void()>& action)
+void JobQueue::withdrawSteps(const Job& job, const std::vector<std::string>& steps, const std::function<void()>& remove)
 {
     database_.writeRows([&](soci::session& sql) {
         requireFence(sql, job);
-        action();
+        for (const std::string& step : steps)
+            sql << "DELETE FROM steps WHERE case_id = :c AND scan_id = :s AND step = :step", soci::use(job.case_id),
+                soci::use(job.scan_id), soci::use(step);
+        remove();
     });
 }
 

@@ -153,7 +153,7 @@ public:
             .run();
         for (const Step& step : stepTable())
             if (endsHere(records_[step.name]))
-                context_.underFence([&] { removeFilesAfter(step); });
+                withdrawAfter(step);
         store_.writeScanFile(scan_.case_id, scan_.id);
     }
 
@@ -194,19 +194,23 @@ private:
                 fs::remove(folder_ / file);
     }
 
-    /// What an earlier run, with other parameters, had made of a scan whose organ is not found now.
-    void removeFilesAfter(const Step& last)
+    /// What an earlier run, with other parameters, had found in a scan whose organ is not found now.
+    void withdrawAfter(const Step& last)
     {
-        bool after = false;
+        std::vector<std::string> steps, files = last.outputs(json::object());
         const json kept = records_[last.name].result.value("files", json::object());
-        for (const Step& step : stepTable()) {
-            const bool ends = step.name == last.name;
-            if (after || ends)
-                for (const std::string& file : step.outputs(json::object()))
-                    if (!ends || !kept.contains(file))
-                        fs::remove(folder_ / file);
-            after = after || ends;
+        std::erase_if(files, [&](const std::string& file) { return kept.contains(file); });
+        const auto& table = stepTable();
+        auto step = std::find_if(table.begin(), table.end(), [&](const Step& s) { return s.name == last.name; });
+        for (++step; step != table.end(); ++step) {
+            steps.push_back(step->name);
+            const std::vector<std::string> made = step->outputs(json::object());
+            files.insert(files.end(), made.begin(), made.end());
         }
+        context_.withdrawSteps(steps, [&] {
+            for (const std::string& file : files)
+                fs::remove(folder_ / file);
+        });
     }
 
     CaseStore& store_;

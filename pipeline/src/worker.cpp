@@ -124,7 +124,10 @@ public:
     {
         queue_.commitStep(job_, step, publish);
     }
-    void underFence(const std::function<void()>& action) override { queue_.underFence(job_, action); }
+    void withdrawSteps(const std::vector<std::string>& steps, const std::function<void()>& remove) override
+    {
+        queue_.withdrawSteps(job_, steps, remove);
+    }
     void reserveMemory(double mb, double most_mb) override
     {
         if (!queue_.reserveMemory(job_, mb, most_mb))

@@ -165,6 +165,20 @@ TEST(VerdictOfTheCommand, MemoryThatCannotBeHadFailsTheJobWithItsReasonAndARetry
     EXPECT_EQ(listedScans(store).at(0).state, "done");
 }
 
+TEST(VerdictOfTheCommand, OfAColonThatIsNotFoundAnyMoreNothingIsTold)
+{
+    const TemporaryFolder folder;
+    const auto store = folder / "store";
+    ASSERT_EQ(runVicon("phantom " + (folder / "phantom").string() + " --supine --size 96x96x80 --seed 3").exit_code, 0);
+    ASSERT_TRUE(work(folder / "phantom", store).scan["steps"].contains("quality"));
+    const std::string case_id = listedScans(store).at(0).case_id;
+    viconOn(store, "work --until-idle --redo-outdated --case " + case_id + " --set segment.gas_below_hu=-1000");
+    const auto scan = viconJson(store, "show " + case_id)["scans"][0];
+    EXPECT_EQ(scan["steps"]["segment"]["result"]["verdict"], "no colon");
+    for (const std::string step : {"tissue", "skeleton", "quality", "subdivide", "potential"})
+        EXPECT_FALSE(scan["steps"].contains(step)) << step;
+}
+
 #if !defined(__SANITIZE_ADDRESS__)  // which reserves terabytes of addresses
 TEST(VerdictOfTheCommand, ALimitOfTheProcessFailsTheJobWithItsReason)
 {

@@ -273,10 +273,15 @@ TEST_F(Queue, PublishesUnderTheFenceAndNotForAWorkerThatLostItsJob)
     bool published = false;
     const StepRecord step{.step = "segment", .version = 1, .digest = "d"};
     EXPECT_EQ(codeOf([&] { queue_.commitStep(stale, step, [&] { published = true; }); }), ErrorCode::lease_lost);
-    EXPECT_EQ(codeOf([&] { queue_.underFence(stale, [&] { published = true; }); }), ErrorCode::lease_lost);
+    EXPECT_EQ(codeOf([&] { queue_.withdrawSteps(stale, {"segment"}, [&] { published = true; }); }),
+              ErrorCode::lease_lost);
     EXPECT_FALSE(published);
     queue_.commitStep(current, step, [&] { published = true; });
     EXPECT_TRUE(published);
+    bool removed = false;
+    queue_.withdrawSteps(current, {"skeleton", "segment"}, [&] { removed = true; });
+    EXPECT_TRUE(removed);
+    EXPECT_TRUE(fake_.store.steps(current.case_id, current.scan_id).empty());
 }
 
 TEST_F(Queue, ForgetsFailuresWhenAStepWasFinished)

@@ -21,7 +21,7 @@ public:
     const Job& job() const override { return job_; }
     void enterStep(const std::string& step, double, double) override { entered.push_back(step); }
     void commitStep(const StepRecord&, const std::function<void()>&) override {}
-    void underFence(const std::function<void()>&) override {}
+    void withdrawSteps(const std::vector<std::string>&, const std::function<void()>&) override {}
     void report(double fraction, std::string_view) override
     {
         EXPECT_GE(fraction, last_);

@@ -81,8 +81,9 @@ public:
     /// Records a finished step, if the job is still this worker's; its failures are forgotten, for it got on.
     /// `publish` runs before, in the same transaction: nobody else can take the job meanwhile.
     void commitStep(const Job& job, const StepRecord& step, const std::function<void()>& publish = {});
-    /// Runs something while nobody else can take the job. Throws Error{lease_lost} when it is not this worker's.
-    void underFence(const Job& job, const std::function<void()>& action);
+    /// Takes back what steps had found. `remove` takes their files away, while nobody else can take the job. Throws
+    /// Error{lease_lost} when it is not this worker's.
+    void withdrawSteps(const Job& job, const std::vector<std::string>& steps, const std::function<void()>& remove);
     void complete(const Job& job);
     /// @param permanent trying again cannot help
     void fail(const Job& job, const std::string& reason, bool permanent);

@@ -20,8 +20,8 @@ public:
     virtual void enterStep(const std::string& step, double from, double to) = 0;
     /// @param publish puts the step's files in their place; runs while nobody else can take the job
     virtual void commitStep(const StepRecord& step, const std::function<void()>& publish = {}) = 0;
-    /// Runs something while nobody else can take the job. Throws Error{lease_lost} when it is not this worker's.
-    virtual void underFence(const std::function<void()>& action) = 0;
+    /// Takes back what steps had found. @param remove takes their files away, while nobody else can take the job
+    virtual void withdrawSteps(const std::vector<std::string>& steps, const std::function<void()>& remove) = 0;
     /// Sets memory aside until the job ends; where the machine's other jobs take it, the job goes back into the queue
     /// and waits.
     virtual void reserveMemory(double mb, double most_mb) = 0;
