@@ -112,6 +112,11 @@ private:
     {
         if (rule_.priors == 0 || study.patient_id.empty() || study.date.empty())
             return true;
+        if (!ingest::isDicomDate(study.date)) {
+            spdlog::warn("case {}: the study's date is none; its priors are not looked for",
+                         CaseStore::caseIdFor(study.study_uid));
+            return true;
+        }
         auto priors = ingest::findStudies(
             peer_,
             {.patient_id = study.patient_id, .dates = "-" + study.date, .modality = ingest::modalityAsked(rule_)},

@@ -48,6 +48,12 @@ bool isDay(const std::string& date)
 
 }  // namespace
 
+bool isDicomDate(const std::string& date)
+{
+    constexpr std::size_t kDigits = 8;
+    return date.size() == kDigits && date.find_first_not_of("0123456789") == std::string::npos && isDay(date);
+}
+
 void put(DcmItem& keys, const DcmTagKey& tag, const std::string& value)
 {
     if (const OFCondition done = keys.putAndInsertString(tag, value.c_str()); done.bad())

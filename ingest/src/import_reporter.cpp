@@ -10,14 +10,14 @@ void Reporter::object(ImportLine::Kind kind, const std::string& shown, const std
                       const std::string& why, const std::string& case_id)
 {
     ++(kind == ImportLine::Kind::set_aside ? report_.set_aside : report_.refused);
-    const auto same = std::find_if(lines_.begin(), lines_.end(), [&](const Counted& counted) {
-        return !series_uid.empty() && counted.series_uid == series_uid && counted.line.kind == kind &&
-               counted.line.text == why;
-    });
-    if (same != lines_.end())
-        ++same->count;
-    else
-        lines_.push_back({{kind, shown, why, case_id, {}}, 1, series_uid});
+    if (!series_uid.empty()) {
+        const auto [same, is_new] = line_of_.try_emplace({series_uid, kind, why}, lines_.size());
+        if (!is_new) {
+            ++lines_[same->second].count;
+            return;
+        }
+    }
+    lines_.push_back({{kind, shown, why, case_id, {}}, 1, series_uid});
 }
 
 void Reporter::finish()
@@ -32,6 +32,7 @@ void Reporter::finish()
         report_.lines.push_back(std::move(counted.line));
     }
     lines_.clear();
+    line_of_.clear();
 }
 
 nlohmann::json noteOf(const std::string& object, const std::string& why)
@@ -41,8 +42,12 @@ nlohmann::json noteOf(const std::string& object, const std::string& why)
 
 void addNote(nlohmann::json& list, nlohmann::json note)
 {
-    if (std::find(list.begin(), list.end(), note) == list.end())
-        list.push_back(std::move(note));
+    constexpr std::size_t kMostNotes = 200;
+    if (list.size() > kMostNotes || std::find(list.begin(), list.end(), note) != list.end())
+        return;
+    if (list.size() == kMostNotes)
+        note = noteOf("...", "and more than these " + std::to_string(kMostNotes) + " objects");
+    list.push_back(std::move(note));
 }
 
 }  // namespace vicon::ingest

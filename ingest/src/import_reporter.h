@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "vicon/cases/case_store.h"
@@ -26,8 +28,11 @@ private:
         int count = 1;
         std::string series_uid;
     };
+    using Fate = std::tuple<std::string, ImportLine::Kind, std::string>;  // of a series' objects; the last is why
+
     ImportReport& report_;
     std::vector<Counted> lines_;
+    std::map<Fate, std::size_t> line_of_;
 };
 
 /// What one import works on, and whom it tells.
@@ -48,7 +53,8 @@ struct SeriesNotes {
 /// A note as scan.json has it.
 nlohmann::json noteOf(const std::string& object, const std::string& why);
 
-/// Adds a note to a list that does not have it.
+/// Adds a note to a list that does not have it. Of more than some hundred the last says that there are more: every page
+/// of the worklist reads them.
 void addNote(nlohmann::json& list, nlohmann::json note);
 
 }  // namespace vicon::ingest

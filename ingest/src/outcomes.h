@@ -20,6 +20,9 @@ struct Outcomes {
     }
 };
 
+/// Whether a status of C-STORE says that the peer has the object: success, with or without a warning, or that it had it
+/// before, as where an earlier answer was lost. Whether it has the same bytes, storage commitment says.
+bool isTaken(unsigned status);
 /// Whether a status of C-STORE says that the object is at fault, or the peer's rules, and not the moment (PS3.4 B.2.3).
 bool isForGood(unsigned status);
 

@@ -124,7 +124,7 @@ private:
         }
         Uint16 status = 0;
         const OFCondition sent = scu.sendSTORERequest(context, item.file.c_str(), nullptr, status);
-        const bool taken = sent.good() && (status == STATUS_Success || DICOM_WARNING_STATUS(status));
+        const bool taken = sent.good() && isTaken(status);
         outcomes_.add(
             {item.file, taken, !taken && sent.good() && isForGood(status), taken ? "" : reasonFor(sent, status)});
         if (sent.bad() && !scu.isConnected())
@@ -142,12 +142,18 @@ private:
 
 }  // namespace
 
+bool isTaken(unsigned status)
+{
+    constexpr unsigned kDuplicate = 0x0111;
+    return status == STATUS_Success || DICOM_WARNING_STATUS(status) || status == kDuplicate;
+}
+
 bool isForGood(unsigned status)
 {
     constexpr Uint16 kGroup = 0xff00, kDatasetMismatch = 0xa900, kCannotUnderstand = 0xc000, kFirstDigit = 0xf000;
-    constexpr Uint16 kNotAuthorized = 0x0124, kNoSuchClass = 0x0122, kDuplicate = 0x0111;
+    constexpr Uint16 kNotAuthorized = 0x0124, kNoSuchClass = 0x0122;
     return (status & kGroup) == kDatasetMismatch || (status & kFirstDigit) == kCannotUnderstand ||
-           status == kNotAuthorized || status == kNoSuchClass || status == kDuplicate;
+           status == kNotAuthorized || status == kNoSuchClass;
 }
 
 SendResult storeFiles(const Peer& peer, const std::vector<fs::path>& files, const std::string& our_ae_title,

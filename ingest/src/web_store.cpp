@@ -26,7 +26,9 @@ StoreOutcome outcomeOf(const fs::path& file, const WebClient::Answer& answer)
     if (reason >= 0) {
         char code[8];
         std::snprintf(code, sizeof code, "%04x", unsigned(reason) & 0xffffU);
-        return {file, false, isForGood(unsigned(reason)), std::string("the peer refused it (status ") + code + ")"};
+        const bool taken = isTaken(unsigned(reason));
+        return {file, taken, !taken && isForGood(unsigned(reason)),
+                taken ? "" : std::string("the peer refused it (status ") + code + ")"};
     }
     const bool for_good = answer.status >= kClientsFault && answer.status < kServersFault &&
                           answer.status != kTimeOut && answer.status != kTooManyRequests;
