@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <regex>
+#include <sstream>
 
 #include "pdf_fixture.h"
 #include "vicon/core/file.h"
@@ -269,6 +270,7 @@ TEST_F(Fhir, AResourceKeepsItsUrlWhenTheReportIsAmended)
 TEST_F(Forms, AsHl7AreReadBackByAnotherProgram)
 {
     content_.read.record.patient.name = "Yamada^Tarou^^Dr=山田^太郎";
+    content_.read.record.study.referring_physician = "Weiss^Anna^^Dr=x";
     content_.read.assessment.impression = "one | two ^ three & four ~ five \\ six\nseven";
     replaceFile(folder_ / "m.hl7", asHl7(read(), signedVersion(ReportState::amended)));
     const auto message = parsedHl7(folder_ / "m.hl7");
@@ -276,6 +278,7 @@ TEST_F(Forms, AsHl7AreReadBackByAnotherProgram)
     EXPECT_EQ(message["PID"][0][7], "19610412");
     EXPECT_EQ(message["MSH"][0][18], "UNICODE UTF-8");
     EXPECT_EQ(message["OBR"][0][25], "C");
+    EXPECT_EQ(message["OBR"][0][16], "^Weiss^Anna^^^Dr^^^^L^^^^^A") << "name type and representation of XCN";
     std::map<std::string, std::string> said;
     for (const auto& observation : message["OBX"]) {
         const std::string code = observation[3], name = code.substr(0, code.find('^'));
@@ -287,6 +290,24 @@ TEST_F(Forms, AsHl7AreReadBackByAnotherProgram)
     const FindingFacts& facts = read().findings[0].facts;
     EXPECT_EQ(std::stod(said["373197004/1"]), *facts.size_mm);
     EXPECT_NEAR(std::stod(said["112233/1.2"]), facts.sights[1].station_mm, 1e-5);
+}
+
+TEST_F(Forms, AsHl7HoldNothingThatEndsAMessageAndAreToldApartByTheirId)
+{
+    const auto idOf = [&](const std::string& message) {
+        std::istringstream fields(message);
+        std::string field;
+        for (int n = 0; n < 10; ++n)
+            std::getline(fields, field, '|');
+        return field;
+    };
+    const std::string first = asHl7(read(), std::nullopt);
+    content_.read.assessment.impression = "a block ends:\x1c\r and begins:\x0b";
+    const std::string then = asHl7(read(), std::nullopt);
+    EXPECT_EQ(then.find_first_of("\x0b\x1c"), std::string::npos);
+    EXPECT_NE(idOf(first), idOf(then)) << "else the second draft is dropped as the first one again";
+    EXPECT_EQ(idOf(then), idOf(asHl7(read(), std::nullopt)));
+    EXPECT_EQ(idOf(then).size(), 20U);
 }
 
 TEST_F(Forms, AsHl7NameALumenThatAnotherProgramMadeAsAnObservationOfItsOwn)

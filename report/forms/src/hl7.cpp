@@ -38,9 +38,10 @@ std::string escaped(const std::string& text)
             case '\n':
                 out += "\\.br\\";
                 break;
-            default:
-                if (c != '\r')
-                    out += c;
+            case '\r':
+                break;
+            default:  // control characters are none of a message's, and some end it on its way (MLLP)
+                out += c >= 0 && c < ' ' ? ' ' : c;
         }
     return out;
 }
@@ -62,6 +63,20 @@ std::string nameFrom(const std::string& dicom_name)
         out += "^L^" + kinds.substr(n, 1);
     }
     return out;
+}
+
+/// The same name, as it is written in letters, as XCN without an identifier.
+std::string providerFrom(const std::string& dicom_name)
+{
+    const std::string letters = dicom_name.substr(0, dicom_name.find('='));
+    if (letters.empty())
+        return "";
+    auto parts = split(letters, '^');
+    parts.resize(5);
+    std::string out;
+    for (const std::size_t part : {0, 1, 2, 4, 3})
+        out += "^" + escaped(parts[part]);
+    return out + "^^^^L^^^^^A";  // name type and representation are components 10 and 15
 }
 
 std::string codeField(const Code& code)
@@ -136,8 +151,8 @@ private:
     void addHeader()
     {
         const std::string at = version_ ? timeFrom(version_->at) : timeFrom(read_.record.created);
-        const std::string id =
-            uidFor("vicon hl7\n" + read_.record.study.uid + "\n" + (version_ ? version_->digest : "draft"));
+        const std::string id = uidFor("vicon hl7\n" + read_.record.study.uid + "\n" +
+                                      (version_ ? version_->digest : "draft\n" + asText(read_, version_)));
         out_ = "MSH|^~\\&|VICON|" + escaped(read_.record.study.institution) + "|||" + at + "||ORU^R01^ORU_R01|" +
                id.substr(id.size() - 20) + "|P|2.5.1||||||UNICODE UTF-8\r";
     }
@@ -153,12 +168,11 @@ private:
     void addOrder()
     {
         const Study& study = read_.record.study;
-        const std::string referrer = nameFrom(study.referring_physician);
         add("OBR", {{1, "1"},
                     {3, escaped(study.accession_number)},
                     {4, codeField(procedureReported(quantityOf(read_)))},
                     {7, escaped(study.date + study.time.substr(0, study.time.find('.')))},
-                    {16, referrer.empty() ? "" : std::string("^").append(referrer, 0, referrer.find('~'))},
+                    {16, providerFrom(study.referring_physician)},
                     {22, version_ ? timeFrom(version_->at) : ""},
                     {24, "RAD"},
                     {25, status_},
