@@ -1,6 +1,10 @@
 // A report's DICOM objects, as dciodvfy and pydicom read them.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+
 #include "dicom_writer.h"
 #include "store_fixture.h"
 #include "vicon/cases/findings.h"
@@ -61,6 +65,15 @@ protected:
                            .software = "0.1.0",
                            .digest = "d"};
     const std::string pdf_ = "%PDF-1.4 of an odd length";
+
+    ReportObjects() { setClock("UTC0"); }
+    ~ReportObjects() override { setClock("UTC0"); }
+    /// @param zone as POSIX writes it
+    static void setClock(const char* zone)
+    {
+        setenv("TZ", zone, 1);
+        tzset();
+    }
 
     void importScan(const SeriesSpec& spec)
     {
@@ -126,8 +139,7 @@ protected:
                                      {"PatientBirthDate", spec_.birth_date},
                                      {"StudyInstanceUID", spec_.study_uid},
                                      {"ContentDate", "20261123"},
-                                     {"ContentTime", "201530"},
-                                     {"TimezoneOffsetFromUTC", "+0000"}}},
+                                     {"ContentTime", "201530"}}},
                                    {"groups", groups_}}
                         .dump());
         const auto checked = support::runCommand("/usr/bin/python3 " VICON_CHECK_OBJECTS " " + where.string() + " " +
@@ -192,6 +204,43 @@ TEST_F(ReportObjects, HoldEveryMeasureOfAFinding)
     EXPECT_EQ(faults(folder / "out"), "");
     EXPECT_THAT(support::runCommand("dsrdump " + (folder / "out/version-1-sr.dcm").string()).output,
                 HasSubstr("größer als 2024"));
+}
+
+TEST_F(ReportObjects, GiveTheirTimesByTheClockOnTheWallAsTheStudyBesideThem)
+{
+    importScan({});
+    setClock("EST5EDT,M3.2.0,M11.1.0");
+    version_.at = "2026-07-01T02:15:30Z";
+    const auto objects = write(folder / "out");
+    ASSERT_FALSE(objects.empty());
+    for (const report::ReportObject& object : objects) {
+        const std::string dump = support::runCommand("dcmdump " + object.file.string()).output;
+        EXPECT_THAT(dump, HasSubstr("(0008,0023) DA [20260630]"));
+        EXPECT_THAT(dump, HasSubstr("(0008,0033) TM [221530]"));
+        EXPECT_THAT(dump, testing::Not(HasSubstr("(0008,0201)"))) << "it would be said of the study's time too";
+        if (dump.find("(0040,a030)") != std::string::npos) {
+            EXPECT_THAT(dump, HasSubstr("(0040,a030) DT [20260630221530]"));
+        }
+    }
+}
+
+TEST_F(ReportObjects, AreWrittenOfAStudyWhoseUidsAreNoneByAnAccountThatIsNoName)
+{
+    SeriesSpec spec;
+    spec.study_uid = "1.2.840.STUDY7.1";
+    spec.frame_of_reference_uid = "1.2.840.113619.FRAME.7";
+    importScan(spec);
+    const Marker marker = mark(5, 9, 7);
+    add({.kind = FindingKind::polyp, .markers = {marker.id}});
+    version_.person = "HOSP\\jdoe";
+    const auto objects = write(folder / "out");
+    EXPECT_TRUE(std::any_of(objects.begin(), objects.end(), [](const report::ReportObject& object) {
+        return object.file.filename() == "version-1-sr.dcm";
+    }));
+    const std::string sr = support::runCommand("dsrdump " + (folder / "out/version-1-sr.dcm").string()).output;
+    EXPECT_THAT(sr, HasSubstr("HOSP jdoe"));
+    const std::string dump = support::runCommand("dcmdump " + (folder / "out/version-1-sr.dcm").string()).output;
+    EXPECT_THAT(dump, HasSubstr("1.2.840.STUDY7.1")) << "it lies in the study all the same";
 }
 
 TEST_F(ReportObjects, AreTheSameForTheSameReportAndOthersForAnother)

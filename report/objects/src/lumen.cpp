@@ -13,6 +13,7 @@
 #include "shown_scans.h"
 #include "vicon/core/error.h"
 #include "vicon/core/uid.h"
+#include "vicon/dicom/proper_values.h"
 #include "vicon/scan_files/stored_volume.h"
 
 namespace vicon::report {
@@ -193,7 +194,8 @@ std::unique_ptr<DcmFileFormat> drawLumen(const ScanRecord& scan, const std::vect
     addGeometry(*segmentation, planes);
     if (addFrames(*segmentation, planes, LumenOnPlanes(inside.view()), maker) == 0)
         return nullptr;
-    require(segmentation->getFrameOfReference().setFrameOfReferenceUID(scan.series.frame_of_reference_uid.c_str()));
+    require(segmentation->getFrameOfReference().setFrameOfReferenceUID(
+        properUid(scan.series.frame_of_reference_uid).c_str()));
     require(segmentation->getStudy().setStudyInstanceUID(scan.series.uid.c_str()));  // writeLumen() says the true one
     require(segmentation->getSeries().setSeriesNumber("1"));
     segmentation->setCheckFGOnWrite(OFFalse);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "vicon/core/uid.h"
+#include "vicon/dicom/proper_values.h"
 
 namespace vicon::report {
 namespace {
@@ -26,7 +27,8 @@ void addComparison(SrTree& tree, const ComparedFinding& compared)
 {
     const Comparison& said = compared.said;
     tree.container(kContains, comparisonConcept(), nullptr, [&] {
-        tree.object(privateCode("PRIOR_REPORT", "Earlier report"), said.report_class, said.report_uid);
+        if (isUid(said.report_class) && isUid(said.report_uid))
+            tree.object(privateCode("PRIOR_REPORT", "Earlier report"), said.report_class, said.report_uid);
         tree.uid(kContains, privateCode("PRIOR_TRACKING", "Tracking Unique Identifier there"), said.prior_uid);
         tree.facts(factsOfComparison(compared));
     });

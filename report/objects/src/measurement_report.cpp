@@ -2,6 +2,7 @@
 
 #include "object_writing.h"
 #include "vicon/core/error.h"
+#include "vicon/dicom/proper_values.h"
 
 namespace vicon::report {
 namespace {
@@ -131,20 +132,27 @@ void fillTree(DSRDocumentTree& document, const ObjectContent& content, const Mar
     });
 }
 
-/// The images that a document refers to, by study and series.
+/// The images that a document refers to, by study and series. A study whose UID is none cannot be referred to.
 void addEvidence(DSRDocument& document, const ObjectContent& content, const MarkerImages& images)
 {
+    if (!isUid(content.read.record.study.uid))
+        return;
     for (const auto& [marker, image] : images)
         mustBeWritten(document.getCurrentRequestedProcedureEvidence().addItem(
             content.read.record.study.uid.c_str(), image.series_uid.c_str(), image.sop_class.c_str(),
             image.sop_uid.c_str()));
 }
 
+bool canBeReferredTo(const Comparison& said)
+{
+    return isUid(said.study_uid) && isUid(said.report_series_uid) && isUid(said.report_class) && isUid(said.report_uid);
+}
+
 /// The earlier reports that findings were compared with lie in other studies.
 void addPriors(DSRDocument& document, const ReadCase& read)
 {
     for (const ComparedFinding& compared : read.comparisons)
-        if (const Comparison& said = compared.said; said.confirmed)
+        if (const Comparison& said = compared.said; said.confirmed && canBeReferredTo(said))
             mustBeWritten(
                 document.getPertinentOtherEvidence().addItem(said.study_uid.c_str(), said.report_series_uid.c_str(),
                                                              said.report_class.c_str(), said.report_uid.c_str()));
@@ -155,7 +163,7 @@ void verify(DSRDocument& document, const ObjectContent& content)
     mustBeWritten(document.completeDocument("signed"));
     const DicomTime at = timeOf(content.version);
     const std::string& institution = content.read.record.study.institution;
-    mustBeWritten(document.verifyDocument(content.version.person.c_str(),
+    mustBeWritten(document.verifyDocument(properPersonName(content.version.person).c_str(),
                                           institution.empty() ? "not stated" : institution.c_str(),
                                           (at.date + at.time).c_str()));
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdio>
+#include <ctime>
 
 #include "vicon/core/error.h"
 #include "vicon/core/uid.h"
@@ -22,12 +23,15 @@ std::string uidOf(const ReportVersion& version, const std::string& what)
 
 DicomTime timeOf(const ReportVersion& version)
 {
-    std::string digits;
-    for (const char c : version.at)
-        if (c >= '0' && c <= '9')
-            digits += c;
-    constexpr std::size_t kDate = 8, kTime = 6;
-    return {digits.substr(0, kDate), digits.size() >= kDate + kTime ? digits.substr(kDate, kTime) : ""};
+    std::tm utc{}, local{};
+    if (!strptime(version.at.c_str(), "%Y-%m-%dT%H:%M:%SZ", &utc))
+        return {};
+    const std::time_t seconds = timegm(&utc);
+    localtime_r(&seconds, &local);
+    std::array<char, 9> date{}, time{};
+    std::strftime(date.data(), date.size(), "%Y%m%d", &local);
+    std::strftime(time.data(), time.size(), "%H%M%S", &local);
+    return {date.data(), time.data()};
 }
 
 std::string nameOf(ObjectKind kind)
@@ -97,7 +101,6 @@ void putCommon(DcmDataset& d, const ObjectContent& content, const ObjectName& na
     const ReportVersion& version = content.version;
     const DicomTime at = timeOf(version);
     put(d, DCM_SpecificCharacterSet, "ISO_IR 192");
-    put(d, DCM_TimezoneOffsetFromUTC, "+0000");
     put(d, DCM_SOPInstanceUID, objectUid(version, name.kind, name.which));
     put(d, DCM_InstanceCreationDate, at.date);
     put(d, DCM_InstanceCreationTime, at.time);

@@ -10,9 +10,12 @@
 namespace vicon::report {
 
 /// When a version was given out, as DICOM writes it, in UTC.
+/// By this machine's clock on the wall, as scanners give the times of the study beside it: a Timezone Offset From UTC
+/// would be said of those too.
 struct DicomTime {
     std::string date, time;
 };
+/// Nothing of a version that says no time.
 DicomTime timeOf(const ReportVersion& version);
 
 /// Of each kind a series of its own.

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "vicon/dicom/load_file.h"
+#include "vicon/dicom/proper_values.h"
 
 namespace vicon::report {
 namespace {
@@ -49,6 +50,10 @@ std::optional<ImagePlane> planeOf(const std::filesystem::path& file, const std::
         return std::nullopt;
     const auto spacing = numbers<2>(d, DCM_PixelSpacing).value_or(std::array<double, 2>{});
     const auto& a = *axes;
+    const SourceImage image{textOf(d, DCM_SeriesInstanceUID), textOf(d, DCM_SOPClassUID), sop_uid};
+    for (const std::string& uid : {image.series_uid, image.sop_class, image.sop_uid})
+        if (!isUid(uid))
+            return std::nullopt;  // no reference can name it
     return ImagePlane{{(*origin)[0], (*origin)[1], (*origin)[2]},
                       {a[0], a[1], a[2]},
                       {a[3], a[4], a[5]},
@@ -56,7 +61,7 @@ std::optional<ImagePlane> planeOf(const std::filesystem::path& file, const std::
                       spacing[0],
                       size(d, DCM_Rows),
                       size(d, DCM_Columns),
-                      {textOf(d, DCM_SeriesInstanceUID), textOf(d, DCM_SOPClassUID), sop_uid}};
+                      image};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "object_writing.h"
 #include "vicon/core/error.h"
+#include "vicon/dicom/proper_values.h"
 
 namespace vicon::report {
 namespace {
@@ -55,13 +56,13 @@ void SrTree::code(Relation relation, const Code& concept_name, const Code& value
 void SrTree::person(Relation relation, const Code& concept_name, const std::string& name)
 {
     add(relation, DSRTypes::VT_PName, concept_name);
-    close(item().setStringValue(name.c_str()), concept_name);
+    close(item().setStringValue(properPersonName(name).c_str()), concept_name);
 }
 
 void SrTree::uid(Relation relation, const Code& concept_name, const std::string& value)
 {
     add(relation, DSRTypes::VT_UIDRef, concept_name);
-    close(item().setStringValue(value.c_str()), concept_name);
+    close(item().setStringValue(properUid(value).c_str()), concept_name);
 }
 
 void SrTree::number(const Code& concept_name, double value, const Code& unit, Relation relation)
@@ -104,7 +105,7 @@ void SrTree::point(const Code& concept_name, Point3 position_mm, const std::stri
     add(DSRTypes::RT_contains, DSRTypes::VT_SCoord3D, concept_name);
     DSRSpatialCoordinates3DValue point(DSRTypes::GT3_Point);
     point.getGraphicDataList().addItem(Float32(position_mm.x), Float32(position_mm.y), Float32(position_mm.z));
-    check(point.setFrameOfReferenceUID(frame_of_reference_uid.c_str()), concept_name);
+    check(point.setFrameOfReferenceUID(properUid(frame_of_reference_uid).c_str()), concept_name);
     close(item().setSpatialCoordinates3D(point), concept_name);
 }
 
@@ -115,7 +116,7 @@ void SrTree::line(const Code& concept_name, const std::vector<Point3>& points_mm
     DSRSpatialCoordinates3DValue line(DSRTypes::GT3_Polyline);
     for (const Point3& p : points_mm)
         line.getGraphicDataList().addItem(Float32(p.x), Float32(p.y), Float32(p.z));
-    check(line.setFrameOfReferenceUID(frame_of_reference_uid.c_str()), concept_name);
+    check(line.setFrameOfReferenceUID(properUid(frame_of_reference_uid).c_str()), concept_name);
     close(item().setSpatialCoordinates3D(line), concept_name);
 }
 
