@@ -46,6 +46,16 @@ void takeOutline(FindingSight& sight, const PolypSize& polyp)
     sight.volume_most_ml = polyp.volume_most_ml;
 }
 
+void takeMeasured(FindingSight& sight, const MarkerSize& size)
+{
+    sight.size_in_slice = size.in_slice;
+    (size.in_slice ? sight.size_2d_mm : sight.size_3d_mm) = roundedSize_mm(size.straight_mm);
+    if (size.plane)
+        sight.size_2d_mm = roundedSize_mm(size.plane->diameter_mm);
+    if (size.polyp)
+        takeOutline(sight, *size.polyp);
+}
+
 FindingSight sightOf(const Marker& marker, const std::map<std::string, Skeleton>& skeletons,
                      const std::map<std::string, ColonPartRanges>& parts)
 {
@@ -59,14 +69,10 @@ FindingSight sightOf(const Marker& marker, const std::map<std::string, Skeleton>
                        {},
                        {},
                        {},
+                       {},
                        {}};
-    if (marker.size) {
-        sight.size_3d_mm = roundedSize_mm(marker.size->straight_mm);
-        if (marker.size->plane)
-            sight.size_2d_mm = roundedSize_mm(marker.size->plane->diameter_mm);
-        if (marker.size->polyp)
-            takeOutline(sight, *marker.size->polyp);
-    }
+    if (marker.size)
+        takeMeasured(sight, *marker.size);
     if (const auto known = parts.find(marker.scan_id); known != parts.end())
         sight.part_fraction = fractionIn(known->second, marker.part, marker.station_mm);
     if (marker.density && marker.density->voxels > 0)
@@ -96,6 +102,8 @@ std::size_t leadingOf(const std::vector<FindingSight>& sights)
 void takeSize(FindingFacts& facts, const Finding& finding)
 {
     for (const FindingSight& sight : facts.sights) {
+        if (sight.size_2d_mm && *sight.size_2d_mm > facts.size_2d_mm.value_or(0))
+            facts.size_in_slice = sight.size_in_slice;
         facts.size_2d_mm = larger(facts.size_2d_mm, sight.size_2d_mm);
         facts.size_3d_mm = larger(facts.size_3d_mm, sight.size_3d_mm);
     }
@@ -108,7 +116,9 @@ void takeSize(FindingFacts& facts, const Finding& finding)
         const bool by_plane = std::any_of(facts.sights.begin(), facts.sights.end(), [&](const FindingSight& sight) {
             return sight.size_2d_mm && sight.size_2d_mm == facts.size_mm && !sight.size_least_mm;
         });
-        facts.size_source = by_plane ? SizeSource::plane : SizeSource::surface;
+        facts.size_source = !by_plane             ? SizeSource::surface
+                            : facts.size_in_slice ? SizeSource::slice
+                                                  : SizeSource::plane;
     }
 }
 

@@ -9,8 +9,10 @@ using nlohmann::json;
 namespace vicon {
 namespace {
 
-constexpr EnumNames<SizeSource, 3> kSizeSourceNames = {
-    {{SizeSource::reader, "reader"}, {SizeSource::plane, "best plane"}, {SizeSource::surface, "surface"}}};
+constexpr EnumNames<SizeSource, 4> kSizeSourceNames = {{{SizeSource::reader, "reader"},
+                                                        {SizeSource::plane, "best plane"},
+                                                        {SizeSource::slice, "slice"},
+                                                        {SizeSource::surface, "surface"}}};
 
 constexpr std::pair<const char*, std::optional<double> FindingSight::*> kOfPartAndOutline[] = {
     {"part_fraction", &FindingSight::part_fraction},   {"size_least_mm", &FindingSight::size_least_mm},
@@ -36,6 +38,8 @@ json sightJson(const FindingSight& s)
     putValue(out, "clock_hour", s.clock_hour);
     putValue(out, "size_2d_mm", s.size_2d_mm);
     putValue(out, "size_3d_mm", s.size_3d_mm);
+    if (s.size_in_slice)
+        out["size_in_slice"] = true;
     putValue(out, "mean_hu", s.mean_hu);
     for (const auto& [key, figure] : kOfPartAndOutline)
         putValue(out, key, s.*figure);
@@ -56,6 +60,7 @@ FindingSight sightFromJson(const json& from)
         s.clock_hour = wholeNumber(from["clock_hour"]);
     s.size_2d_mm = number(from, "size_2d_mm");
     s.size_3d_mm = number(from, "size_3d_mm");
+    s.size_in_slice = from.value("size_in_slice", false);
     s.mean_hu = number(from, "mean_hu");
     for (const auto& [key, figure] : kOfPartAndOutline)
         s.*figure = number(from, key);
@@ -82,6 +87,8 @@ json toJson(const FindingFacts& facts)
     }
     putValue(out, "size_2d_mm", facts.size_2d_mm);
     putValue(out, "size_3d_mm", facts.size_3d_mm);
+    if (facts.size_in_slice)
+        out["size_in_slice"] = true;
     putValue(out, "mean_hu", facts.mean_hu);
     if (facts.endoscope)
         out["endoscope_mm"] = {{"about", facts.endoscope->about_mm},
@@ -103,6 +110,7 @@ FindingFacts factsFromJson(const json& from)
         facts.size_source = named(from, "size_source", sizeSourceFrom).value_or(SizeSource::reader);
         facts.size_2d_mm = number(from, "size_2d_mm");
         facts.size_3d_mm = number(from, "size_3d_mm");
+        facts.size_in_slice = from.value("size_in_slice", false);
         facts.mean_hu = number(from, "mean_hu");
         if (from.contains("endoscope_mm"))
             facts.endoscope = EndoscopeDistance{from["endoscope_mm"].at("about").get<double>(),

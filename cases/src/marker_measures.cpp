@@ -1,5 +1,7 @@
 #include "vicon/cases/marker_measures.h"
 
+#include <algorithm>
+
 #include "json_fields.h"
 #include "vicon/core/geometry_json.h"
 #include "vicon/core/json_text.h"
@@ -40,9 +42,17 @@ PolypSize polypSizeFromJson(const json& json)
             number(json, "volume_most_ml"),       json.at("rim_mm").get<std::vector<Point3>>()};
 }
 
+double outsideOf_mm(const MarkerSize& size, Point3 place)
+{
+    const double radius_mm = distance(size.from_mm, size.to_mm) / 2;
+    return std::max(0.0, distance(place, interpolate(size.from_mm, size.to_mm, 0.5)) - radius_mm);
+}
+
 json toJson(const MarkerSize& s)
 {
     json out = {{"straight_mm", s.straight_mm}, {"from_mm", s.from_mm}, {"to_mm", s.to_mm}};
+    if (s.in_slice)
+        out["in_slice"] = true;
     if (s.along_mm)
         out["along_mm"] = *s.along_mm;
     if (s.plane)
@@ -56,6 +66,7 @@ MarkerSize markerSizeFromJson(const json& json)
 {
     MarkerSize size;
     size.straight_mm = json.at("straight_mm").get<double>();
+    size.in_slice = json.value("in_slice", false);
     size.from_mm = json.at("from_mm").get<Point3>();
     size.to_mm = json.at("to_mm").get<Point3>();
     if (const auto along = json.find("along_mm"); along != json.end())

@@ -20,16 +20,12 @@ namespace fs = std::filesystem;
 namespace vicon {
 namespace {
 
-/// A density or a size belongs to a marker this near to where it was taken, as the reading room has it.
-constexpr double kMeasureNear_mm = 10;
-
 /// What was measured at another place is not this one's; what another program wrote under these names says no place.
 void forgetMeasuresElsewhere(Marker& marker)
 {
-    const auto near = [&](Point3 p) { return distance(marker.position_mm, p) <= kMeasureNear_mm; };
-    if (marker.density && !near(marker.density->centre_mm))
+    if (marker.density && distance(marker.position_mm, marker.density->centre_mm) > kMeasureNear_mm)
         marker.density.reset();
-    if (marker.size && !near(marker.size->from_mm) && !near(marker.size->to_mm))
+    if (marker.size && outsideOf_mm(*marker.size, marker.position_mm) > kMeasureNear_mm)
         marker.size.reset();
     for (const char* key : {"density", "size"})
         marker.extra.erase(key);
@@ -98,9 +94,9 @@ MarkerPlacer::Found MarkerPlacer::find(const Marker& marker)
         store_.requireScan(case_id_, marker.scan_id);
     if (found.empty())
         throw Error(ErrorCode::bad_input,
-                    "the point " + formatPoint(marker.position_mm) + " lies more than " +
-                        formatPoint({options_.most_distance_mm, 0, 0}).substr(0, 4) +
-                        " mm outside the lumen of every prepared scan",
+                    "the point " + formatPoint(marker.position_mm) +
+                        textOf(" lies more than %.3g mm outside the lumen of ", options_.most_distance_mm) +
+                        (marker.scan_id.empty() ? "every prepared scan" : "scan " + marker.scan_id),
                     case_id_, "give LPS millimetres inside the lumen; 'vicon show " + case_id_ + "' shows the scans");
     // A point in the lumen of one scan and merely near that of another belongs to the first.
     const auto inside = [](const Found& f) { return f.place.outside_mm == 0; };

@@ -22,6 +22,13 @@ std::string oneDigit(double value, const char* unit)
     return text.data();
 }
 
+std::string volumeWords(double volume_ml)
+{
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), "%.*f ml", volumeDecimals(volume_ml), volume_ml);
+    return text.data();
+}
+
 std::string noDigit(double value)
 {
     std::array<char, 48> text{};
@@ -37,17 +44,21 @@ std::string allSizes(const FindingWithFacts& f)
     if (facts.size_mm)
         out += facts.size_source == SizeSource::reader  ? " (the reader's)"
                : facts.size_source == SizeSource::plane ? " (largest diameter in the best plane)"
+               : facts.size_source == SizeSource::slice ? " (between two points of a slice)"
                                                         : " (between two points of the surface)";
     const auto other = [&](SizeSource source, std::optional<double> size_mm, const char* words) {
         if (size_mm && facts.size_source != source)
             out += ", " + std::string(words) + " " + oneDigit(*size_mm, "mm");
     };
-    other(SizeSource::plane, facts.size_2d_mm, "best plane");
+    if (facts.size_in_slice)
+        other(SizeSource::slice, facts.size_2d_mm, "slice");
+    else
+        other(SizeSource::plane, facts.size_2d_mm, "best plane");
     other(SizeSource::surface, facts.size_3d_mm, "surface");
     if (f.finding.height_mm)
         out += ", height " + oneDigit(*f.finding.height_mm, "mm");
     if (f.finding.volume_ml)
-        out += ", volume " + oneDigit(*f.finding.volume_ml, "ml");
+        out += ", volume " + volumeWords(*f.finding.volume_ml);
     return out;
 }
 
@@ -61,7 +72,7 @@ std::string sightWords(const ReadCase& read, const FindingSight& sight)
     out += millimetres(sight.station_mm) + " from the rectal end, " + millimetres(sight.from_caecum_mm) +
            " from the caecal end (" + percent(sight.fraction) + "); " + positionLetters(sight.position_mm);
     if (sight.size_2d_mm)
-        out += "; best plane " + oneDigit(*sight.size_2d_mm, "mm");
+        out += (sight.size_in_slice ? "; slice " : "; best plane ") + oneDigit(*sight.size_2d_mm, "mm");
     if (sight.size_3d_mm)
         out += "; surface " + oneDigit(*sight.size_3d_mm, "mm");
     if (sight.mean_hu)

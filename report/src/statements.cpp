@@ -118,7 +118,7 @@ std::string sizeWords(const MarkerSize& size)
                      number(*polyp->volume_most_ml, pattern) + " ml)";
         return words;
     }
-    std::string words = millimetres(size.straight_mm, 1) + " straight";
+    std::string words = millimetres(size.straight_mm, 1) + (size.in_slice ? " in a slice" : " straight");
     if (size.along_mm)
         words += ", " + millimetres(*size.along_mm, 1) + " along the wall";
     return words + in_plane;

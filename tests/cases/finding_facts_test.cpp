@@ -129,6 +129,22 @@ TEST_F(Facts, OfAnOutlineHaveItsBoundsAndItsBestPlaneBesideTheDiameter)
     EXPECT_FALSE(markerSizeFromJson(without).polyp->volume_least_ml) << "as outlines were kept before";
 }
 
+TEST_F(Facts, SayThatASizeLiesInASliceAndNotOnTheSurface)
+{
+    markers_[0].size = MarkerSize{.straight_mm = 7.04, .in_slice = true};
+    EXPECT_EQ(facts().size_source, SizeSource::slice);
+    EXPECT_THAT(facts().size_2d_mm, Optional(DoubleEq(7.0)));
+    EXPECT_FALSE(facts().size_3d_mm);
+    markers_[1].size = MarkerSize{.straight_mm = 7.3, .plane = PlaneSize{.diameter_mm = 6.9}};
+    EXPECT_EQ(facts().size_source, SizeSource::surface);
+    EXPECT_TRUE(facts().size_in_slice) << "the larger of the two in a plane";
+    const FindingFacts again = factsFromJson(toJson(facts()));
+    EXPECT_TRUE(again.sights[0].size_in_slice && !again.sights[1].size_in_slice && again.size_in_slice);
+    markers_[1].size->plane->diameter_mm = 7.5;
+    EXPECT_EQ(facts().size_source, SizeSource::plane);
+    EXPECT_TRUE(markerSizeFromJson(toJson(*markers_[0].size)).in_slice);
+}
+
 TEST_F(Facts, LetTheReadersSizeCount)
 {
     markers_[1].size = MarkerSize{.straight_mm = 12};

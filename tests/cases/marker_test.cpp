@@ -76,6 +76,17 @@ TEST(Marker, LeavesWhatOthersWroteUnderItsKeysAsItIs)
     EXPECT_EQ(toJson(markerFromJson(json))["part"], "stomach");
 }
 
+TEST(Marker, LiesInAMassWhereverItStandsOnIt)
+{
+    const MarkerSize mass{.straight_mm = 30, .from_mm = {-15, 0, 0}, .to_mm = {15, 0, 0}};
+    for (const Point3 on_it : {Point3{0, 0, 0}, Point3{0, 0, 15}, Point3{-15, 0, 0}, Point3{9, 0, 12}})
+        EXPECT_NEAR(outsideOf_mm(mass, on_it), 0, 1e-9);
+    EXPECT_NEAR(outsideOf_mm(mass, {25, 0, 0}), 10, 1e-9);
+    EXPECT_NEAR(outsideOf_mm(mass, {0, 27, 0}), 12, 1e-9);
+    const MarkerSize point{.from_mm = {1, 2, 3}, .to_mm = {1, 2, 3}};
+    EXPECT_NEAR(outsideOf_mm(point, {1, 2, 5}), 2, 1e-9);
+}
+
 TEST(Marker, RefusesWhatIsNone)
 {
     EXPECT_THROW(markerFromJson({{"color", "red"}}), Error);

@@ -131,10 +131,10 @@ TEST_F(PdfOfFindings, SaysEveryNumberOfAFinding)
     std::string text = samples::textOf(pdf_);
     std::replace(text.begin(), text.end(), '\n', ' ');
     for (const char* what :
-         {"6.7 mm (largest diameter in the best plane), surface 6.6 mm, height 2.5 mm, volume 0.4 ml", "20 mm from the",
-          "1580 mm from the", "40 mm from the", "best plane 6.4 mm", "surface 6.3 mm", "43 HU, mean", "42 HU",
-          "estimated: about 3 cm (1 to 4 cm)", "what f1 is like", "prone (series 3), m1", "prone (series 3), m2",
-          "From inside", "Below the wall, in the circle", "Slices: axial, coronal, sagittal"})
+         {"6.7 mm (largest diameter in the best plane), surface 6.6 mm, height 2.5 mm, volume 0.400 ml",
+          "20 mm from the", "1580 mm from the", "40 mm from the", "best plane 6.4 mm", "surface 6.3 mm", "43 HU, mean",
+          "42 HU", "estimated: about 3 cm (1 to 4 cm)", "what f1 is like", "prone (series 3), m1",
+          "prone (series 3), m2", "From inside", "Below the wall, in the circle", "Slices: axial, coronal, sagittal"})
         EXPECT_THAT(text, HasSubstr(what));
 }
 

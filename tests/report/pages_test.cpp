@@ -36,7 +36,7 @@ std::vector<std::string> numbersOf(const ReportContent& content)
         add(facts.size_2d_mm, 1, "mm");
         add(facts.size_3d_mm, 1, "mm");
         add(finding.height_mm, 1, "mm");
-        add(finding.volume_ml, 1, "ml");
+        add(finding.volume_ml, finding.volume_ml ? volumeDecimals(*finding.volume_ml) : 0, "ml");
         add(facts.mean_hu, 0, "HU");
         if (facts.endoscope)
             out.push_back(endoscopeWords(facts));

@@ -54,6 +54,7 @@ Code sizeSourceCode(SizeSource source)
 {
     return privateCode(source == SizeSource::reader  ? "READER"
                        : source == SizeSource::plane ? "BEST_PLANE"
+                       : source == SizeSource::slice ? "SLICE"
                                                      : "SURFACE",
                        nameOf(source));
 }
@@ -92,7 +93,9 @@ CodedFacts factsOfSight(const FindingSight& sight)
     f.number(privateCode("FROM_CAECUM", "Distance from caecum"), sight.from_caecum_mm, millimetre());
     f.number(privateCode("FRACTION", "Fraction of the colon's length from the anus"), sight.fraction,
              ucum("1", "no units"));
-    f.number(privateCode("SIZE_2D", "Largest diameter in the best plane"), sight.size_2d_mm, millimetre());
+    f.number(sight.size_in_slice ? privateCode("SIZE_IN_SLICE", "Distance between two points of a slice")
+                                 : privateCode("SIZE_2D", "Largest diameter in the best plane"),
+             sight.size_2d_mm, millimetre());
     f.number(privateCode("SIZE_3D", "Largest diameter on the surface"), sight.size_3d_mm, millimetre());
     f.number(privateCode("PART_FRACTION", "Fraction of the part's length from its anal end"), sight.part_fraction,
              ucum("1", "no units"));
@@ -157,7 +160,7 @@ CodedFacts factsOfStudy(const Assessment& said)
     f.wordIf(said.priors_awaited, limit, privateCode("PRIORS_AWAITED", "Prior studies are awaited"));
     f.wordIf(said.extracolonic_limited, limit,
              privateCode("EXTRACOLONIC_LIMITED", "What lies outside the colon cannot be judged"));
-    f.number(dcm("113838", "CT Dose Length Product Total"), said.dose_mgy_cm, ucum("mGy.cm", "mGy.cm"));
+    f.number(dcm("113813", "CT Dose Length Product Total"), said.dose_mgy_cm, ucum("mGy.cm", "mGy.cm"));
     f.number(privateCode("COVERAGE", "Wall that was reviewed"), said.coverage_percent, ucum("%", "percent"));
     f.number(privateCode("READING_TIME", "Reading time"), said.reading_minutes, ucum("min", "minute"));
     return f.out;

@@ -138,7 +138,8 @@ private:
     {
         constexpr double kAny = std::numeric_limits<double>::max();
         const std::tuple<const char*, std::optional<double>*, double> places[] = {
-            {"113838", &said.dose_mgy_cm, kAny},
+            {"113813", &said.dose_mgy_cm, kAny},
+            {"113838", &said.dose_mgy_cm, kAny},  // DLP of one event, and of reports of version 0.1 the whole
             {"COVERAGE", &said.coverage_percent, 100},
             {"READING_TIME", &said.reading_minutes, kAny}};
         for (const auto& [code, number, most] : places)

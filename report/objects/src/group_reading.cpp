@@ -62,6 +62,7 @@ constexpr Place kPlaces[] = {
     {"FRACTION", asFraction, &PriorSight::fraction, nullptr},
     {"PART_FRACTION", asFraction, &PriorSight::part_fraction, nullptr},
     {"SIZE_2D", inMillimetres, &PriorSight::size_2d_mm, nullptr},
+    {"SIZE_IN_SLICE", inMillimetres, &PriorSight::size_2d_mm, nullptr},
     {"SIZE_3D", inMillimetres, &PriorSight::size_3d_mm, nullptr},
     {"OUTLINE_LEAST", inMillimetres, &PriorSight::size_least_mm, nullptr},
     {"OUTLINE_MOST", inMillimetres, &PriorSight::size_most_mm, nullptr},

@@ -49,8 +49,9 @@ struct FindingSight {
     double station_mm = 0, from_caecum_mm = 0, fraction = 0;
     std::optional<ColonPart> part;
     std::optional<int> clock_hour;
-    std::optional<double> size_2d_mm;  ///< the largest diameter in the best plane
+    std::optional<double> size_2d_mm;  ///< the largest diameter in the best plane, or between two points of a slice
     std::optional<double> size_3d_mm;  ///< between two points of the wall
+    bool size_in_slice = false;        ///< size_2d_mm lies between two points of a slice
     std::optional<double> mean_hu;
     std::optional<double> part_fraction;  ///< how far along its part it lies, from the part's anal end; 0 to 1
     std::optional<double> size_least_mm, size_most_mm;      ///< of an outlined one: eight in ten diameters lie between
@@ -62,9 +63,10 @@ struct FindingSight {
 enum class SizeSource {
     reader,   ///< said by the reader
     plane,    ///< the largest diameter in the best plane
+    slice,    ///< between two points of a slice
     surface,  ///< between two points of the wall
 };
-/// "reader", "best plane", "surface".
+/// "reader", "best plane", "slice", "surface".
 std::string nameOf(SizeSource source);
 
 struct FindingFacts {
@@ -74,6 +76,7 @@ struct FindingFacts {
     std::optional<double> size_mm;  ///< the one that counts: the reader's, else the largest of all sights; rounded
     SizeSource size_source = SizeSource::reader;
     std::optional<double> size_2d_mm, size_3d_mm;  ///< the largest of all sights; rounded
+    bool size_in_slice = false;                    ///< of size_2d_mm, as of its sight
     std::optional<EndoscopeDistance> endoscope;  ///< from the least to the most of all sights, about the leading one's
     std::optional<double> mean_hu;               ///< of the leading sight, else of the first that has one
 

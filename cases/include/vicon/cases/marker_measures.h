@@ -41,14 +41,20 @@ inline int volumeDecimals(double volume_ml)
 nlohmann::json toJson(const PolypSize& size);
 PolypSize polypSizeFromJson(const nlohmann::json& json);
 
-/// A finding's size as a reader measured it between two points of the wall, or as it was outlined.
+/// A finding's size as a reader measured it between two points of the wall or of a slice, or as it was outlined.
 struct MarkerSize {
     double straight_mm = 0;          ///< between the two points
+    bool in_slice = false;           ///< the two points were clicked in a slice, and need not lie on the wall
     std::optional<double> along_mm;  ///< over the wall; absent where no way over it joins them
     Point3 from_mm, to_mm;
     std::optional<PlaneSize> plane;  ///< in the plane where the finding is largest
     std::optional<PolypSize> polyp;  ///< where the finding was outlined: then the two points are its diameter's ends
 };
+/// How far a place lies outside of what was measured, taken as the ball over the line between the two points: 0
+/// anywhere in a mass, which reaches as far above its base as that is wide.
+double outsideOf_mm(const MarkerSize& size, Point3 place);
+/// A density or a size belongs to a marker this near to where it was taken.
+inline constexpr double kMeasureNear_mm = 10;
 nlohmann::json toJson(const MarkerSize& size);
 MarkerSize markerSizeFromJson(const nlohmann::json& json);
 
