@@ -11,8 +11,6 @@
 namespace vicon {
 namespace {
 
-/// A server that is started anew answers again within this.
-constexpr std::chrono::seconds kReconnect{20};
 constexpr std::chrono::milliseconds kBetweenTries{100};
 /// What is run again after the connection broke.
 constexpr int kMostRuns = 3;
@@ -220,7 +218,7 @@ void Database::readAgain(const std::function<void(soci::session&)>& work)
 
 void Database::reconnect()
 {
-    const auto end = std::chrono::steady_clock::now() + kReconnect;
+    const auto end = std::chrono::steady_clock::now() + patience_;
     while (true) {
         try {
             session_->reconnect();
@@ -274,11 +272,11 @@ void Database::transact(const std::function<void(soci::session&)>& work, Writers
     const int runs = writers == Writers::several ? kMostRuns : 1;
     for (int run = 1;; ++run) {
         try {
-            begin(writers);
             try {
+                begin(writers);
                 work(*session_);
                 commit();
-            } catch (...) {
+            } catch (...) {  // also of begin(): the next change must find none begun
                 rollBack();
                 throw;
             }
@@ -308,10 +306,8 @@ void Database::begin(Writers writers)
     try {
         begin();
     } catch (const soci::soci_error&) {
-        if (!engine_->isLost(*session_)) {
-            rollBack();
+        if (!engine_->isLost(*session_))
             throw;
-        }
         reconnect();
         begin();
     }

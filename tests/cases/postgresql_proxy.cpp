@@ -69,13 +69,15 @@ void PostgresqlProxy::cutAfter(const std::string& words)
     const std::lock_guard lock(mutex_);
     words_ = words;
     after_ = true;
+    left_ = 1;
 }
 
-void PostgresqlProxy::cutBefore(const std::string& words)
+void PostgresqlProxy::cutBefore(const std::string& words, int times)
 {
     const std::lock_guard lock(mutex_);
     words_ = words;
     after_ = false;
+    left_ = times;
 }
 
 void PostgresqlProxy::accept()
@@ -93,15 +95,16 @@ void PostgresqlProxy::accept()
 bool PostgresqlProxy::takeToServer(const std::string& message, int server)
 {
     const std::lock_guard lock(mutex_);
-    if (words_.empty() || message.find(words_) == std::string::npos) {
+    if (left_ == 0 || message.find(words_) == std::string::npos) {
         writeTo(server, message);
         return false;
     }
-    words_.clear();
+    --left_;
     if (after_) {
         writeTo(server, message);
         readFrom(server);
     }
+    away_ = stays_away_.load();
     ++cuts_;
     return true;
 }
@@ -110,8 +113,8 @@ void PostgresqlProxy::serve(int client)
 {
     const int server = ::socket(AF_UNIX, SOCK_STREAM, 0);
     const sockaddr_un address = addressOf(server_);
-    bool open = ::connect(server, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
-    while (open && !over_) {
+    bool open = !away_ && ::connect(server, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    while (open && !over_ && !away_) {
         std::array<pollfd, 2> ends{
             {{.fd = client, .events = POLLIN, .revents = 0}, {.fd = server, .events = POLLIN, .revents = 0}}};
         if (::poll(ends.data(), ends.size(), kLook_ms) <= 0)

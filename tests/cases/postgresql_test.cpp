@@ -140,6 +140,30 @@ TEST_F(CutLine, BeforeACommitReachedTheServerSavesNothing)
     EXPECT_TRUE(auditTrail(store_, "c").empty());
 }
 
+TEST_F(CutLine, TwiceAtTheBeginningOfAChangeIsMadeAgainByTheNext)
+{
+    proxy_.cutBefore("BEGIN", 2);
+    EXPECT_THAT(messageOf([&] { store_.audit(AuditEvent::report_signed, "c", "", ""); }),
+                HasSubstr("nothing was saved"));
+    EXPECT_EQ(proxy_.cuts(), 2);
+    EXPECT_TRUE(auditTrail(store_, "c").empty());
+    EXPECT_NO_THROW(store_.audit(AuditEvent::report_signed, "c", "", ""));
+    EXPECT_EQ(auditTrail(store_, "c").size(), 1u);
+}
+
+TEST_F(CutLine, ForLongerThanItIsWaitedForIsForgottenWhenTheServerIsBack)
+{
+    store_.database().setPatience(std::chrono::milliseconds(0));
+    proxy_.stayAwayAfterCut();
+    proxy_.cutBefore("BEGIN");
+    EXPECT_THAT(messageOf([&] { store_.audit(AuditEvent::report_signed, "c", "", ""); }),
+                HasSubstr("cannot be reached"));
+    EXPECT_THAT(messageOf([&] { auditTrail(store_, "c"); }), HasSubstr("cannot be reached"));
+    proxy_.comeBack();
+    EXPECT_NO_THROW(store_.audit(AuditEvent::report_signed, "c", "", ""));
+    EXPECT_EQ(auditTrail(store_, "c").size(), 1u);
+}
+
 TEST_F(CutLine, InAWorkersCommitIsSavedOnceWhetherItArrivedOrNot)
 {
     int runs = 0;

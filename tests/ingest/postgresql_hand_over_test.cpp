@@ -12,7 +12,13 @@ namespace fs = std::filesystem;
 namespace vicon::test {
 namespace {
 
-class CutImport : public testing::TestWithParam<const char*> {
+/// Where the line is cut, and how many times in a row.
+struct Cut {
+    const char* before;
+    int times;
+};
+
+class CutImport : public testing::TestWithParam<Cut> {
 protected:
     support::TemporaryFolder folder_;
     StorePlace direct_ = support::storePlace(folder_ / "store");
@@ -35,11 +41,11 @@ TEST_P(CutImport, LosesNothingThatWasAcknowledged)
     RunningReceiver receiver(store.folder() / "incoming", {}, [&](const std::vector<fs::path>& received) {
         EXPECT_TRUE(ingest::importPaths(store, received, {}, quiet_).not_stored.empty());
     });
-    proxy_.cutBefore(GetParam());
+    proxy_.cutBefore(GetParam().before, GetParam().times);
     ASSERT_TRUE(ingest::storeFiles(receiver.peer(), files, "SENDER", quiet_).complete());
     EXPECT_EQ(receiver.waitFor(files.size()).size(), files.size());
     receiver.stop();
-    EXPECT_EQ(proxy_.cuts(), 1);
+    EXPECT_EQ(proxy_.cuts(), GetParam().times);
     CaseStore seen(direct_);
     const auto scans = seen.scans(seen.cases().at(0).id);
     EXPECT_EQ(seen.instances(scans.at(0).case_id, scans.at(0).id).size(), files.size());
@@ -47,8 +53,10 @@ TEST_P(CutImport, LosesNothingThatWasAcknowledged)
 }
 
 INSTANTIATE_TEST_SUITE_P(WhileItReadsAndWrites, CutImport,
-                         testing::Values("FROM cases WHERE study_uid", "FROM scans WHERE case_id",
-                                         "FROM instances WHERE sop_uid", "INSERT INTO scans", "COMMIT"));
+                         testing::Values(Cut{"FROM cases WHERE study_uid", 1}, Cut{"FROM scans WHERE case_id", 1},
+                                         Cut{"FROM instances WHERE sop_uid", 1}, Cut{"INSERT INTO scans", 1},
+                                         Cut{"COMMIT", 1}, Cut{"BEGIN", 2}),
+                         [](const auto& info) { return "Cut" + std::to_string(info.index); });
 
 }  // namespace
 }  // namespace vicon::test

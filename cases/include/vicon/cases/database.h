@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -30,6 +31,8 @@ public:
     Database& operator=(const Database&) = delete;
 
     const std::string& where() const { return where_; }
+    /// How long a server that does not answer is waited for.
+    void setPatience(std::chrono::milliseconds patience) { patience_ = patience; }
 
     /// The connection itself, made again after it broke. SOCI's errors name the statement and its values, which may be
     /// a patient's: code of VICON reads by read().
@@ -86,6 +89,7 @@ private:
     std::unique_ptr<DatabaseEngine> engine_;
     std::unique_ptr<soci::session> session_;
     bool writing_ = false;
+    std::chrono::milliseconds patience_ = std::chrono::seconds(20);  ///< a server started anew answers within this
 };
 
 }  // namespace vicon
