@@ -63,8 +63,8 @@ bool hold(soci::session& sql, const Job& job)
 {
     long long fence = 0;
     sql << "UPDATE jobs SET fence = fence WHERE case_id = :c AND scan_id = :s AND state = 'running' AND fence = :f"
-           " RETURNING fence",
-        soci::use(job.case_id), soci::use(job.scan_id), soci::use(job.fence), soci::into(fence);
+           " AND owner = :o RETURNING fence",
+        soci::use(job.case_id), soci::use(job.scan_id), soci::use(job.fence), soci::use(job.owner), soci::into(fence);
     return sql.got_data();
 }
 
@@ -122,6 +122,7 @@ std::optional<Job> JobQueue::claim(const std::string& owner)
 {
     std::optional<Job> claimed;
     database_.writeRows([&](soci::session& sql) {
+        claimed.reset();  // what an earlier run of this took was not saved
         limitTimes(sql);
         dropLost(sql);
         const double now = nowIn(sql), lease_until = now + options_.lease_s;

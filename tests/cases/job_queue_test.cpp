@@ -139,6 +139,17 @@ TEST_F(Queue, GivesEachJobToOneOfManyProcessesOnly)
     EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), 40u);
 }
 
+TEST_F(Queue, TakesNoWordFromAnotherThanTheOwnerOfAJob)
+{
+    fake_.addJobs(1);
+    const Job job = *queue_.claim("a");
+    Job with_the_same_fence = job;
+    with_the_same_fence.owner = "b";
+    EXPECT_EQ(codeOf([&] { queue_.renew(with_the_same_fence, "x", 0); }), ErrorCode::lease_lost);
+    EXPECT_EQ(codeOf([&] { queue_.complete(with_the_same_fence); }), ErrorCode::lease_lost);
+    EXPECT_NO_THROW(queue_.complete(job));
+}
+
 TEST_F(Queue, TakesAJobFromAWorkerWhoseLeaseLapsed)
 {
     fake_.addJobs(1);

@@ -182,6 +182,24 @@ TEST_F(CutLine, InAWorkersCommitIsSavedOnceWhetherItArrivedOrNot)
     EXPECT_EQ(countOf(store_.database(), "arrived") + countOf(store_.database(), "did not arrive"), 2);
 }
 
+TEST_F(CutLine, InAClaimGivesTheJobToWhoeverGotItMeanwhileAlone)
+{
+    makePrivateFolder(store_.scanFolder("c", "s0"));
+    store_.addScan({.id = "c", .study = {.uid = "1.2.3"}}, {.id = "s0", .case_id = "c"}, {}, true);
+    Database direct(direct_.database);
+    std::optional<Job> of_other;
+    // The clock is read in each run of the claim: in the second the other was faster.
+    JobQueue queue(store_.database(), {}, [&] {
+        if (proxy_.cuts() > 0 && !of_other)
+            of_other = JobQueue(direct, {}, [] { return 1000; }).claim("other");
+        return 1000;
+    });
+    proxy_.cutBefore("COMMIT");
+    EXPECT_FALSE(queue.claim("a"));
+    ASSERT_TRUE(of_other);
+    EXPECT_EQ(of_other->owner, "other");
+}
+
 TEST(PostgresqlServer, ThatBreaksDownDoesNotTakeALostTransactionForOneThatGotItsNumber)
 {
     FakeStore fake;
