@@ -10,6 +10,18 @@
 namespace vicon::app {
 namespace {
 
+/// Exit code of what was done but for the files that it lists: neither a success nor a failure, and told apart from
+/// both.
+constexpr int kNotWhole = 3;
+
+nlohmann::json faultsJson(const std::vector<FileFault>& faults)
+{
+    nlohmann::json out = nlohmann::json::array();
+    for (const FileFault& fault : faults)
+        out.push_back({{"case", fault.case_id}, {"file", fault.file.string()}, {"fault", nameOf(fault.kind)}});
+    return out;
+}
+
 void print(const Context& context, const CopyCounts& copied)
 {
     constexpr double kBytesAGb = 1e9;
@@ -18,12 +30,31 @@ void print(const Context& context, const CopyCounts& copied)
                                     {"files", copied.files},
                                     {"copied", copied.copied},
                                     {"removed", copied.removed},
-                                    {"bytes_copied", copied.bytes_copied}};
+                                    {"bytes_copied", copied.bytes_copied},
+                                    {"faults", faultsJson(copied.faults)}};
         std::printf("%s\n", out.dump(2).c_str());
         return;
     }
     std::printf("%d cases, %d files; %d of them copied (%s GB), %d removed\n", copied.cases, copied.files,
                 copied.copied, formatNumber(double(copied.bytes_copied) / kBytesAGb, 1).c_str(), copied.removed);
+    for (const FileFault& fault : copied.faults)
+        std::printf("  ! %s\n", textOf(fault).c_str());
+    if (!copied.faults.empty())
+        std::printf("not whole: %zu files lost or changed; the rest is there\n", copied.faults.size());
+}
+
+std::string detailOf(const CopyCounts& copied)
+{
+    return std::to_string(copied.cases) + " cases" +
+           (copied.faults.empty() ? "" : ", " + std::to_string(copied.faults.size()) + " files at fault");
+}
+
+/// What is not whole must show, also to a script.
+int end(const Context& context, AuditEvent event, const CopyCounts& copied)
+{
+    auditOperation(context.storePlace(), event, detailOf(copied));
+    print(context, copied);
+    return copied.faults.empty() ? 0 : kNotWhole;
 }
 
 int backup(Context& context, const std::string& to)
@@ -31,9 +62,7 @@ int backup(Context& context, const std::string& to)
     ProgressLine progress("backup");
     const CopyCounts copied = backUp(context.existingStore(), to, progress);
     progress.clear();
-    auditOperation(context.storePlace(), AuditEvent::store_backed_up, std::to_string(copied.cases) + " cases");
-    print(context, copied);
-    return 0;
+    return end(context, AuditEvent::store_backed_up, copied);
 }
 
 int restoreFrom(Context& context, const std::string& from)
@@ -42,9 +71,7 @@ int restoreFrom(Context& context, const std::string& from)
     ProgressLine progress("restore");
     const CopyCounts copied = restore(from, context.storePlace(), progress);
     progress.clear();
-    auditOperation(context.storePlace(), AuditEvent::store_restored, std::to_string(copied.cases) + " cases");
-    print(context, copied);
-    return 0;
+    return end(context, AuditEvent::store_restored, copied);
 }
 
 }  // namespace

@@ -3,16 +3,15 @@
 #include <soci/soci.h>
 
 #include <cstring>
-#include <map>
-#include <utility>
+#include <memory>
+#include <optional>
 
+#include "changed_cases.h"
 #include "database_backup.h"
 #include "database_engine.h"
 #include "mirror.h"
+#include "recorded_files.h"
 #include "vicon/cases/case_deletion.h"
-#include "vicon/cases/job_queue.h"
-#include "vicon/cases/kept_reports.h"
-#include "vicon/cases/report_versions.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/file_copy.h"
@@ -25,34 +24,51 @@ namespace {
 /// In a backup: when it was made, and whether it is whole.
 constexpr const char* kAboutName = "backup.json";
 /// What of a store cannot be made again, and the results.
-constexpr const char* kFolders[] = {"cases", "reports", "quarantine", "incoming"};
+constexpr const char* kFolders[] = {"cases", "reports", "quarantine", "incoming", "watch", "commitments"};
+/// By which a patient gets the same pseudonym again.
+constexpr const char* kFiles[] = {"anonymous.key"};
 
-/// Tells which case is being copied, of how many.
-class Round {
+/// Copies a store's files, in several rounds over what is there already.
+class Copying {
 public:
-    Round(const fs::path& from, const fs::path& to, Progress& progress) : from_(from), to_(to), progress_(progress) {}
+    Copying(const fs::path& from, const fs::path& to, Progress& progress) : from_(from), to_(to), progress_(progress) {}
 
-    CopyCounts run(const std::string& name)
+    /// What the store has lost, and the copy has: it stays there.
+    void keep(const std::vector<FileFault>& missing)
     {
-        CopyCounts copied;
-        progress_.report(0, name);
-        for (const char* folder : kFolders)
-            mirror(from_ / folder, to_ / folder, copied, progress_, [&](const fs::path&) { ++copied.files; });
-        return copied;
+        kept_.clear();
+        for (const FileFault& fault : missing)
+            for (fs::path place = to_ / fault.file; place != to_; place = place.parent_path())
+                kept_.insert(place);
     }
+    void copyAll(const std::string& name)
+    {
+        progress_.report(0, name);
+        counts_.files = 0;
+        for (const char* folder : kFolders)
+            mirror(from_ / folder, to_ / folder, kept_, counts_, progress_, [&](const fs::path&) { ++counts_.files; });
+        for (const char* file : kFiles)
+            if (fs::exists(from_ / file)) {
+                mirrorFile(from_ / file, to_ / file, counts_);
+                ++counts_.files;
+            }
+    }
+    void copyCases(const std::set<std::string>& cases)
+    {
+        for (const std::string& case_id : cases) {
+            progress_.report(0, "copying case " + case_id);
+            const fs::path folder = fs::path("cases") / case_id;
+            mirror(from_ / folder, to_ / folder, kept_, counts_, progress_);
+        }
+    }
+    CopyCounts& counts() { return counts_; }
 
 private:
     fs::path from_, to_;
     Progress& progress_;
+    KeptFiles kept_;
+    CopyCounts counts_;
 };
-
-void add(CopyCounts& sum, const CopyCounts& round)
-{
-    sum.files = round.files;
-    sum.copied += round.copied;
-    sum.removed += round.removed;
-    sum.bytes_copied += round.bytes_copied;
-}
 
 /// Without a slash at its end.
 fs::path wholeNameOf(const fs::path& folder)
@@ -71,20 +87,28 @@ void requirePlace(const fs::path& to, const fs::path& store)
                     "name an empty one, or that of an earlier backup");
 }
 
-void writeAbout(const fs::path& to, bool whole, int cases)
+/// @param missing files that the store has lost and no earlier backup had
+void writeAbout(const fs::path& to, bool whole, int cases, int missing)
 {
-    const nlohmann::json about = {
-        {"at", nowUtc()}, {"whole", whole}, {"cases", cases}, {"schema_version", Database::kSchemaVersion}};
+    const nlohmann::json about = {{"at", nowUtc()},
+                                  {"whole", whole},
+                                  {"cases", cases},
+                                  {"missing", missing},
+                                  {"schema_version", Database::kSchemaVersion}};
     replaceFile(to / kAboutName, about.dump(2) + "\n");
 }
 
-bool isWhole(const fs::path& backup)
+/// Whether it was brought to its end, also where the store had lost something.
+bool isFinished(const fs::path& backup)
 {
     std::error_code none;
     if (!fs::exists(backup / kAboutName, none))
         return false;
     const auto about = nlohmann::json::parse(readFile(backup / kAboutName), nullptr, false);
-    return about.is_object() && about.value("whole", nlohmann::json()) == true;
+    if (!about.is_object())
+        return false;
+    const auto missing = about.value("missing", nlohmann::json());
+    return about.value("whole", nlohmann::json()) == true || (missing.is_number_integer() && missing > 0);
 }
 
 int countCases(soci::session& sql)
@@ -94,27 +118,18 @@ int countCases(soci::session& sql)
     return cases;
 }
 
-/// Throws Error{bad_input} for the first object or report that is not what the database says.
-void requireWhole(CaseStore& store, Progress& progress)
+std::set<std::string> casesOf(const std::vector<FileFault>& faults)
 {
-    const auto require = [&](const fs::path& file, const std::string& digest) {
-        progress.check();
-        if (!fs::exists(file) || sha256OfFile(file) != digest)
-            throw Error(ErrorCode::bad_input, "the backup is damaged: an object is missing or not what it was",
-                        file.lexically_relative(store.folder()).string(), "restore an older backup");
-    };
-    const auto cases = store.cases();
-    int done = 0;
-    for (const CaseRecord& a_case : cases) {
-        progress.report(double(done++) / double(cases.size()), "checking case " + a_case.id);
-        for (const ScanRecord& scan : store.scans(a_case.id))
-            for (const InstanceRecord& instance : store.instances(a_case.id, scan.id))
-                require(store.scanFolder(a_case.id, scan.id) / "dicom" / instance.file, instance.sha256);
-        for (const ReportVersion& version : reportVersions(store, a_case.id))
-            require(version.file, version.file_sha256);
-        for (const KeptReport& report : keptReportsOf(store, a_case.patient.id))
-            require(keptReportsFolder(store) / report.file, report.sha256);
-    }
+    std::set<std::string> cases;
+    for (const FileFault& fault : faults)
+        cases.insert(fault.case_id);
+    return cases;
+}
+
+/// Those which are missing still: a case may have been deleted while its files were looked for.
+std::vector<FileFault> stillMissing(CaseStore& store, const std::vector<FileFault>& missing, Progress& progress)
+{
+    return missing.empty() ? missing : missingFiles(store, progress, casesOf(missing));
 }
 
 void requireDatabaseOf(const fs::path& backup, const std::string& address)
@@ -134,15 +149,40 @@ void copyDatabase(const fs::path& from, const fs::path& folder)
                     folder.string(), "see that the folder is yours and its disk not full, then restore again");
 }
 
-void restoreDatabase(const fs::path& backup, const StorePlace& place)
+/// Nothing where the database lies in the store's folder.
+std::optional<FilledDatabase> restoreDatabase(const fs::path& backup, const StorePlace& place)
 {
     const fs::path file = backup / backupNameOf(place.database);
     if (place.database.empty()) {
         copyDatabase(file, place.folder);
-        return;
+        return std::nullopt;
     }
     copyDatabase(backup / kServersDatabase, place.folder);
-    restoreServersDatabase(place.database, file);
+    return std::optional<FilledDatabase>(std::in_place, place.database, file);
+}
+
+/// What is done while imports and deletions wait; while nobody can write, only what was just changed is copied.
+std::unique_ptr<DatabaseSnapshot> copyTheRest(CaseStore& store, const fs::path& to, Copying& copying,
+                                              Progress& progress)
+{
+    CopyCounts& counts = copying.counts();
+    const StoreLock lock(store.folder(), progress);
+    finishDeletions(store, lock);
+    counts.faults = stillMissing(store, counts.faults, progress);
+    copying.keep(counts.faults);
+    ChangedCases since_all(store);
+    copying.copyAll("copying what came meanwhile");
+    if (!store.place().database.empty())
+        replaceFile(to / kServersDatabase, readFile(store.folder() / kServersDatabase));
+    ChangedCases since_those(store);
+    copying.copyCases(since_all.untilNow());
+    std::unique_ptr<DatabaseSnapshot> snapshot;
+    store.database().write([&](soci::session& sql) {
+        snapshot = std::make_unique<DatabaseSnapshot>(store.database());
+        counts.cases = countCases(sql);
+        copying.copyCases(since_those.untilNow());
+    });
+    return snapshot;
 }
 
 }  // namespace
@@ -153,36 +193,34 @@ CopyCounts backUp(CaseStore& store, const fs::path& given, Progress& progress)
     requirePlace(to, store.folder());
     requireUndamaged(store.database());  // before anything of an earlier backup changes
     makePrivateFolder(to);
-    writeAbout(to, false, 0);
-    CopyCounts sum;
-    Round round(store.folder(), to, progress);
-    add(sum, round.run("copying what is new"));
-    const StoreLock lock(store.folder(), progress);
-    finishDeletions(store, lock);
-    const std::string since = nowUtc();
-    add(sum, round.run("copying what came meanwhile"));
-    if (!store.place().database.empty())
-        replaceFile(to / kServersDatabase, readFile(store.folder() / kServersDatabase));
-    store.database().write([&](soci::session& sql) {
-        backUpDatabase(store.database(), to / backupNameOf(store.place().database));
-        sum.cases = countCases(sql);
-        // Only their results can be others than a moment ago.
-        for (const Job& job : JobQueue(store.database(), {}).workedOnSince(since)) {
-            const fs::path scan = fs::path("cases") / job.case_id / job.scan_id;
-            mirror(store.folder() / scan, to / scan, sum, progress);
-        }
-    });
-    requireUndamagedCopy(to / backupNameOf(store.place().database));  // its folders took long to copy
+    writeAbout(to, false, 0, 0);
+    Copying copying(store.folder(), to, progress);
+    CopyCounts& counts = copying.counts();
+    counts.faults = missingFiles(store, progress);
+    copying.keep(counts.faults);
+    copying.copyAll("copying what is new");
+    const fs::path database = to / backupNameOf(store.place().database);
+    auto snapshot = copyTheRest(store, to, copying, progress);
+    progress.report(1, "copying the database");
+    snapshot->writeTo(database);
+    snapshot.reset();
+    requireUndamagedCopy(database);  // the folders took long to copy
+    int missing = 0;
+    for (FileFault& fault : counts.faults) {
+        const bool is_kept = fs::exists(to / fault.file);
+        fault.kind = is_kept ? FileFault::Kind::kept : FileFault::Kind::missing;
+        missing += is_kept ? 0 : 1;
+    }
     flushDiskOf(to);
-    writeAbout(to, true, sum.cases);
-    return sum;
+    writeAbout(to, missing == 0, counts.cases, missing);
+    return counts;
 }
 
 CopyCounts restore(const fs::path& backup, const StorePlace& given, Progress& progress)
 {
     const fs::path to = wholeNameOf(given.folder);
-    if (!isWhole(backup))
-        throw Error(ErrorCode::bad_input, "there is no whole backup here", backup.string(),
+    if (!isFinished(backup))
+        throw Error(ErrorCode::bad_input, "there is no finished backup here", backup.string(),
                     "one that was broken off is gone on with by 'vicon backup'");
     requireDatabaseOf(backup, given.database);
     std::error_code none;
@@ -193,16 +231,20 @@ CopyCounts restore(const fs::path& backup, const StorePlace& given, Progress& pr
     fs::remove_all(making, none);
     try {
         makePrivateFolder(making);
-        CopyCounts copied = Round(backup, making, progress).run("copying");
-        restoreDatabase(backup, {making, given.database});
+        Copying copying(backup, making, progress);
+        copying.copyAll("copying");
+        auto filled = restoreDatabase(backup, {making, given.database});
+        CopyCounts& copied = copying.counts();
         {
             CaseStore store({making, given.database});
-            requireWhole(store, progress);
+            copied.faults = faultyFiles(store, progress);
             copied.cases = store.database().read(countCases);
         }
         flushDiskOf(making);
         fs::remove(to, none);
         fs::rename(making, to);
+        if (filled)
+            filled->keep();
         flushDiskOf(to);
         return copied;
     } catch (const fs::filesystem_error& e) {

@@ -81,40 +81,51 @@ int filesBelow(const fs::path& place)
     return count;
 }
 
-void removeOthers(const fs::path& folder, const std::set<std::string>& names, CopyCounts& copied)
+void removeOthers(const fs::path& folder, const std::set<std::string>& names, const KeptFiles& kept, CopyCounts& copied)
 {
     removeTemporaries(folder);
     for (const std::string& name : namesIn(folder)) {
+        const fs::path place = folder / name;
         if (names.contains(name))
             continue;
-        copied.removed += filesBelow(folder / name);
-        fs::remove_all(folder / name);
+        if (kept.contains(place)) {
+            if (fs::is_directory(place))
+                removeOthers(place, {}, kept, copied);
+            continue;
+        }
+        copied.removed += filesBelow(place);
+        fs::remove_all(place);
     }
 }
 
 }  // namespace
 
-void mirror(const fs::path& from, const fs::path& to, CopyCounts& copied, Progress& progress,
+void mirror(const fs::path& from, const fs::path& to, const KeptFiles& kept, CopyCounts& copied, Progress& progress,
             const std::function<void(const fs::path&)>& seen)
 try {
     const std::set<std::string> names = namesIn(from);
     if (names.empty() && !fs::exists(to))
         return;
     makePrivateFolder(to);
-    removeOthers(to, names, copied);
+    removeOthers(to, names, kept, copied);
     for (const std::string& name : names) {
         progress.check();
         if (fs::is_directory(from / name)) {
-            mirror(from / name, to / name, copied, progress, seen);
+            mirror(from / name, to / name, kept, copied, progress, seen);
             continue;
         }
-        if (!isSame(from / name, to / name))
-            copyFile(from / name, to / name, copied);
+        mirrorFile(from / name, to / name, copied);
         if (seen)
             seen(to / name);
     }
 } catch (const fs::filesystem_error& e) {
     throw failure("a folder cannot be copied", e.path1(), e.code().value());
+}
+
+void mirrorFile(const fs::path& from, const fs::path& to, CopyCounts& copied)
+{
+    if (!isSame(from, to))
+        copyFile(from, to, copied);
 }
 
 void flushDiskOf(const fs::path& folder)

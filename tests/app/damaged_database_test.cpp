@@ -85,6 +85,26 @@ TEST_F(DamagedDatabase, DoesNotTakeThePlaceOfAnEarlierBackup)
     viconOn(folder_ / "again", "restore " + backup_.string());
 }
 
+using LostObject = DamagedDatabase;
+
+TEST_F(LostObject, IsSaidByBackupAndRestoreWhichGoOnWithTheRest)
+{
+    const ListedScan scan = listedScans(store_).at(0);
+    fs::remove(fs::directory_iterator(scan.folder / "dicom")->path());
+    constexpr int kNotWhole = 3;
+    for (const std::string& line : {"backup " + backup_.string() + " --store " + store_.string(),
+                                    "restore " + backup_.string() + " --store " + (folder_ / "again").string()}) {
+        const CommandResult told = runVicon(line);
+        EXPECT_EQ(told.exit_code, kNotWhole) << line;
+        EXPECT_THAT(told.output, AllOf(HasSubstr("case " + scan.case_id + ": cases/" + scan.case_id),
+                                       HasSubstr(".dcm is missing\n"), HasSubstr("not whole: 1 files"), namesNobody()));
+    }
+    const std::string as_json = "2>/dev/null " + viconBinary() + " backup --json " + backup_.string();
+    expectSchema("backup", nlohmann::json::parse(runCommand(as_json + " --store " + store_.string()).output));
+    EXPECT_EQ(schemaFaults("about_backup", {backup_ / "backup.json"}), "");
+    EXPECT_EQ(listedScans(folder_ / "again").size(), 1u);
+}
+
 TEST_F(DamagedDatabase, CostsTheListenerNothingThatItAcknowledged)
 {
     const auto files = study("2");
