@@ -179,10 +179,11 @@ std::vector<std::string> deleteKeptReports(CaseStore& store, soci::session& sql,
     return files;
 }
 
+/// Alone with the database: a commit whose answer was lost may still be under way.
 bool holds(CaseStore& store, const Deletion& deletion)
 {
     int count = 0;
-    store.database().read([&](soci::session& sql) {
+    store.database().write([&](soci::session& sql) {
         sql << "SELECT COUNT(*) FROM deletions WHERE mark = :m", soci::use(deletion.mark), soci::into(count);
     });
     return count > 0;
@@ -196,6 +197,20 @@ void removeRest(CaseStore& store, const Deletion& deletion)
     if (!failed)
         store.database().write(
             [&](soci::session& sql) { sql << "DELETE FROM deletions WHERE mark = :m", soci::use(deletion.mark); });
+}
+
+/// After trouble: what was moved aside goes back, unless the deletion holds all the same. Where the database cannot be
+/// asked it stays aside: finishDeletions() asks again. Returns whether it holds.
+bool holdsAfterAll(CaseStore& store, const Deletion& deletion)
+{
+    try {
+        if (holds(store, deletion))
+            return true;
+    } catch (const Error&) {
+        return false;
+    }
+    moveBack(store, deletion);
+    return false;
 }
 
 }  // namespace
@@ -250,12 +265,12 @@ void deleteCase(CaseStore& store, const std::string& case_id, bool accept_losses
             moveAside(store, deletion, reports);  // last: what is left to fail is the commit
         });
     } catch (const fs::filesystem_error& e) {
-        moveBack(store, deletion);
-        throw Error(ErrorCode::store, "the case's folder cannot be moved (" + e.code().message() + ")", case_id,
-                    "check that the store is yours, and its disk not full");
+        if (!holdsAfterAll(store, deletion))
+            throw Error(ErrorCode::store, "the case's folder cannot be moved (" + e.code().message() + ")", case_id,
+                        "check that the store is yours, and its disk not full");
     } catch (...) {
-        moveBack(store, deletion);
-        throw;
+        if (!holdsAfterAll(store, deletion))
+            throw;
     }
     unused.forget();
     removeRest(store, deletion);

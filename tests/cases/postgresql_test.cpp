@@ -15,7 +15,9 @@
 #include "fake_jobs.h"
 #include "postgresql_proxy.h"
 #include "vicon/cases/audit_trail.h"
+#include "vicon/cases/case_deletion.h"
 #include "vicon/cases/job_queue.h"
+#include "vicon/cases/store_locks.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
@@ -198,6 +200,45 @@ TEST_F(CutLine, InAClaimGivesTheJobToWhoeverGotItMeanwhileAlone)
     EXPECT_FALSE(queue.claim("a"));
     ASSERT_TRUE(of_other);
     EXPECT_EQ(of_other->owner, "other");
+}
+
+/// A deletion during whose commit the server goes away for longer than it is waited for.
+class CutDeletion : public CutLine {
+protected:
+    NoProgress quiet_;
+
+    CutDeletion()
+    {
+        makePrivateFolder(store_.scanFolder("c", "s0"));
+        replaceFile(store_.scanFolder("c", "s0") / "mask.mha", "a mask");
+        store_.addScan({.id = "c", .study = {.uid = "1.2.3"}}, {.id = "s0", .case_id = "c"}, {}, false);
+        store_.database().setPatience(std::chrono::milliseconds(0));
+        proxy_.stayAwayAfterCut();
+    }
+    void deleteAndFinish()
+    {
+        EXPECT_THROW(deleteCase(store_, "c", true, "a test", quiet_), Error);
+        EXPECT_FALSE(fs::exists(store_.caseFolder("c"))) << "nobody knows yet whether it goes";
+        EXPECT_TRUE(hasBegunDeletions(store_));
+        proxy_.comeBack();
+        finishDeletions(store_, StoreLock(store_.folder(), quiet_));
+        EXPECT_FALSE(hasBegunDeletions(store_));
+        EXPECT_EQ(fs::exists(store_.scanFolder("c", "s0") / "mask.mha"), store_.findCase("c").has_value());
+    }
+};
+
+TEST_F(CutDeletion, ThatWasCommittedIsBroughtToAnEndWhenTheServerIsBack)
+{
+    proxy_.cutAfter("COMMIT");
+    deleteAndFinish();
+    EXPECT_FALSE(store_.findCase("c"));
+}
+
+TEST_F(CutDeletion, ThatWasNotCommittedGivesTheCaseBackWhenTheServerIsBack)
+{
+    proxy_.cutBefore("COMMIT");
+    deleteAndFinish();
+    EXPECT_TRUE(store_.findCase("c"));
 }
 
 TEST(PostgresqlServer, ThatBreaksDownDoesNotTakeALostTransactionForOneThatGotItsNumber)
