@@ -1,8 +1,6 @@
 // What a person must decide about a case.
 #include <soci/soci.h>
 
-#include <algorithm>
-
 #include "case_rows.h"
 #include "vicon/cases/case_store.h"
 #include "vicon/cases/roles.h"
@@ -11,26 +9,12 @@
 using nlohmann::json;
 
 namespace vicon {
-namespace {
-
-/// Within a transaction: nobody else's flag is lost.
-void putFlags(soci::session& sql, const std::string& case_id, const std::vector<std::string>& flags)
-{
-    const std::string text = json(flags).dump();
-    sql << "UPDATE cases SET flags = :flags WHERE id = :id", soci::use(text), soci::use(case_id);
-}
-
-}  // namespace
-
 void CaseStore::flag(const std::string& case_id, const std::string& line)
 {
     database_.write([&](soci::session& sql) {
-        auto flags = requireCase(case_id).flags;
-        if (std::find(flags.begin(), flags.end(), line) != flags.end())
-            return;
-        flags.push_back(line);
-        putFlags(sql, case_id, flags);
-        putAudit(sql, AuditEvent::flagged, case_id, "", line);
+        requireCase(case_id);
+        if (putFlag(sql, case_id, line))
+            putAudit(sql, AuditEvent::flagged, case_id, "", line);
     });
 }
 
@@ -42,7 +26,8 @@ void CaseStore::settleFlag(const std::string& case_id, const std::string& line)
         if (std::erase(flags, line) == 0)
             throw Error(ErrorCode::not_found, "the case has no such flag", case_id,
                         "'vicon show " + case_id + "' lists them");
-        putFlags(sql, case_id, flags);
+        const std::string text = json(flags).dump();
+        sql << "UPDATE cases SET flags = :flags WHERE id = :id", soci::use(text), soci::use(case_id);
         putAudit(sql, AuditEvent::flag_settled, case_id, "", line);
     });
 }

@@ -1,5 +1,7 @@
 #include "case_rows.h"
 
+#include <algorithm>
+
 #include "search_words.h"
 #include "this_person.h"
 #include "vicon/core/file.h"
@@ -62,11 +64,24 @@ void putCase(soci::session& sql, const CaseRecord& c)
     const std::string study = json(c.study).dump(), flags = json(c.flags).dump();
     sql << "INSERT INTO cases (id, study_uid, patient_id, patient_name, birth_date, sex, study, flags, created)"
            " VALUES (:id, :uid, :pid, :name, :birth, :sex, :study, :flags, :created)"
-           " ON CONFLICT (id) DO UPDATE SET flags = excluded.flags",
+           " ON CONFLICT (id) DO NOTHING",
         soci::use(c.id), soci::use(c.study.uid), soci::use(c.patient.id), soci::use(c.patient.name),
         soci::use(c.patient.birth_date), soci::use(c.patient.sex), soci::use(study), soci::use(flags),
         soci::use(c.created);
     putSearchWords(sql, c);
+}
+
+bool putFlag(soci::session& sql, const std::string& case_id, const std::string& line)
+{
+    std::string text;
+    sql << "SELECT flags FROM cases WHERE id = :id", soci::use(case_id), soci::into(text);
+    auto flags = json::parse(text).get<std::vector<std::string>>();
+    if (std::ranges::find(flags, line) != flags.end())
+        return false;
+    flags.push_back(line);
+    text = json(flags).dump();
+    sql << "UPDATE cases SET flags = :flags WHERE id = :id", soci::use(text), soci::use(case_id);
+    return true;
 }
 
 void putScan(soci::session& sql, const ScanRecord& s)

@@ -29,7 +29,10 @@ std::vector<Record> collect(Statement&& rows, Record (*from)(const soci::row&))
 /// Their ids as SQL's list: "('c1', 'c2')". Ids are VICON's own.
 std::string inList(const std::vector<CaseRecord>& cases);
 
+/// A case that is there stays as it is.
 void putCase(soci::session& sql, const CaseRecord& c);
+/// Adds a flag to those that the case has at this moment. Returns whether it did: the same line is kept once.
+bool putFlag(soci::session& sql, const std::string& case_id, const std::string& line);
 void putScan(soci::session& sql, const ScanRecord& s);
 void putInstances(soci::session& sql, const std::vector<InstanceRecord>& instances);
 /// A line of the audit trail, by who works here, now.

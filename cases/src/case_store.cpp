@@ -225,12 +225,14 @@ std::vector<InstanceRecord> CaseStore::instances(const std::string& case_id, con
 }
 
 void CaseStore::addScan(const CaseRecord& a_case, const ScanRecord& scan, const std::vector<InstanceRecord>& instances,
-                        bool queue, const std::function<void()>& require)
+                        bool queue, const std::function<void()>& require, const std::string& flag)
 {
     database_.write([&](soci::session& sql) {
         if (require)
             require();
         putCase(sql, a_case);
+        if (!flag.empty())
+            putFlag(sql, a_case.id, flag);
         putScan(sql, scan);
         putInstances(sql, instances);
         if (queue)

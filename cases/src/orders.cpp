@@ -51,15 +51,14 @@ std::optional<Order> orderOf(CaseStore& store, const std::string& case_id)
 void keepOrder(CaseStore& store, const CaseRecord& with, Order order, const std::function<void()>& require)
 {
     order.taken = nowUtc();
-    const std::string content = json(order).dump(), study = json(with.study).dump(), flags = json(with.flags).dump();
+    const std::string content = json(order).dump(), study = json(with.study).dump();
     const std::string before = json(store.requireCase(with.id).study).dump();
     store.database().write([&](soci::session& sql) {
         require();
         sql << "INSERT INTO orders (case_id, content) VALUES (:c, :content)"
                " ON CONFLICT (case_id) DO UPDATE SET content = excluded.content",
             soci::use(with.id), soci::use(content);
-        sql << "UPDATE cases SET study = :study, flags = :flags WHERE id = :c", soci::use(study), soci::use(flags),
-            soci::use(with.id);
+        sql << "UPDATE cases SET study = :study WHERE id = :c", soci::use(study), soci::use(with.id);
         putSearchWords(sql, with);
         putAudit(sql, {AuditEvent::order_taken, with.id, "", order.peer, before, study});
     });

@@ -133,9 +133,10 @@ std::string StudyImport::record(const AssembledScan& scan, const std::vector<Ins
     if (!flag.empty())
         stored_.record.flags.push_back(flag);  // saved with the scan: no kill parts them
     if (scan.fixed ? new_words : grew || new_words)
-        store.addScan(stored_.record, scan.record, instances,
-                      !scan.fixed && scan.record.role == ScanRole::scan && (grew || new_role),
-                      [&] { requireNoReaderInput(scan); });
+        store.addScan(
+            stored_.record, scan.record, instances,
+            !scan.fixed && scan.record.role == ScanRole::scan && (grew || new_role),
+            [&] { requireNoReaderInput(scan); }, flag);
     else if (!scan_files::isDescribedBy(store.scanFolder(case_id, scan_id), store.describeScan(case_id, scan_id)))
         store.writeScanFile(case_id, scan_id);  // killed between the commit and the copy
     return flag;

@@ -167,6 +167,18 @@ TEST_F(Store, ASettledFlagIsGoneAndStaysKnown)
     EXPECT_EQ(auditTrail(store_, "c1").size(), lines);
 }
 
+TEST_F(Store, BringsNoFlagBackThatAPersonTookAwayDuringAnImport)
+{
+    addScan("s1");
+    store_.flag("c1", "check the patient");
+    const CaseRecord before = store_.requireCase("c1");
+    const ScanRecord scan = store_.scans("c1").at(0);
+    store_.settleFlag("c1", "check the patient");
+    store_.flag("c1", "of another");
+    store_.addScan(before, scan, {}, false);
+    EXPECT_EQ(store_.requireCase("c1").flags, std::vector<std::string>{"of another"});
+}
+
 TEST_F(Store, RefusesADatabaseOfANewerVersion)
 {
     store_.database().session() << (support::usesPostgresql() ? "UPDATE store SET schema_version = 99"

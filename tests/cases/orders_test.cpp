@@ -16,11 +16,7 @@ protected:
     CaseRecord with_ = store_.requireCase("c1");
     const Order order_{"ris", "A1", "Weiss^Anna", "RP1", "CT colonography", "blood", {}};
 
-    Orders()
-    {
-        with_.study.accession_number = "A1";
-        with_.flags = {"look"};
-    }
+    Orders() { with_.study.accession_number = "A1"; }
     std::vector<CaseRecord> waiting(const std::string& created) { return casesWithoutOrder(store_, "", created); }
 };
 
@@ -32,12 +28,21 @@ TEST_F(Orders, AreKeptWithWhatTheCaseHasOfThem)
     EXPECT_EQ(kept.referring_physician + kept.procedure + kept.reason, "Weiss^AnnaCT colonographyblood");
     EXPECT_FALSE(kept.taken.empty());
     EXPECT_EQ(store_.requireCase("c1").study.accession_number, "A1");
-    EXPECT_EQ(store_.requireCase("c1").flags, with_.flags);
     EXPECT_EQ(auditTrail(store_, "c1").back().event, "order taken");
     Order again = order_;
     again.reason = "anaemia";
     keepOrder(store_, with_, again, [] {});
     EXPECT_EQ(orderOf(store_, "c1")->reason, "anaemia") << "the last one counts";
+}
+
+TEST_F(Orders, BringNoFlagBackThatAPersonTookAwayMeanwhile)
+{
+    store_.flag("c1", "look");
+    with_.flags = store_.requireCase("c1").flags;
+    store_.settleFlag("c1", "look");
+    store_.flag("c1", "another");
+    keepOrder(store_, with_, order_, [] {});
+    EXPECT_THAT(store_.requireCase("c1").flags, testing::ElementsAre("another"));
 }
 
 TEST_F(Orders, AreNotKeptWhenTheCaseIsNoLongerWhatItWas)

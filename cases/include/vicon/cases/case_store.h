@@ -80,12 +80,12 @@ public:
     std::optional<InstanceRecord> findInstance(const std::string& sop_uid);
     std::vector<InstanceRecord> instances(const std::string& case_id, const std::string& scan_id);
 
-    /// Adds or replaces a case, its scan and the scan's instances in one transaction, after their files were written;
-    /// then rewrites scan.json. `queue` puts a job for the scan into the queue; a scan whose role is no longer "scan"
-    /// leaves it unless its job is done. `require` runs first, within the transaction: when it throws, nothing is
-    /// written.
+    /// Adds a case, or to it, and adds or replaces its scan and the scan's instances in one transaction, after their
+    /// files were written; then rewrites scan.json. A case that is there keeps its flags, and gets `flag` unless that
+    /// is empty. `queue` puts a job for the scan into the queue; a scan whose role is no longer "scan" leaves it unless
+    /// its job is done. `require` runs first, within the transaction: when it throws, nothing is written.
     void addScan(const CaseRecord& a_case, const ScanRecord& scan, const std::vector<InstanceRecord>& instances,
-                 bool queue, const std::function<void()>& require = {});
+                 bool queue, const std::function<void()>& require = {}, const std::string& flag = {});
     /// Forgets a scan and removes its folder, unless a marker lies in it: then it stays as it is.
     void removeScan(const std::string& case_id, const std::string& scan_id);
     /// Adds a line for a person to the case; the same line is kept once.

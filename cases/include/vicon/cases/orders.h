@@ -25,7 +25,7 @@ std::optional<Order> orderOf(CaseStore& store, const std::string& case_id);
 
 /// Keeps the order of a case, and what the case has of it from now on, in one transaction; then rewrites its scan.json.
 /// An order that was kept before is replaced. Whoever calls holds the StoreLock.
-/// @param with the case with its study and flags as they shall be
+/// @param with the case with its study as it shall be; its flags stay as they are
 /// @param require runs first, within the transaction: when it throws, nothing is written
 /// @throws Error{database}, Error{store}
 void keepOrder(CaseStore& store, const CaseRecord& with, Order order, const std::function<void()>& require);
