@@ -205,7 +205,7 @@ Outcome doWork(const JobWork& work, Context& context)
     }
 }
 
-/// Does one job to its end and says how it ended; nothing when it is another worker's now.
+/// Does one job to its end and says how it ended; nothing when it is another worker's now, or gone with its case.
 std::optional<JobState> doJob(const Job& job, JobQueue& queue, const std::string& database, const JobWork& work,
                               const WorkerEvents& events, const std::atomic<bool>& stop)
 {
@@ -242,9 +242,11 @@ std::optional<JobState> doJob(const Job& job, JobQueue& queue, const std::string
             return std::nullopt;
         throw;
     }
-    const JobState now = queue.find(job.case_id, job.scan_id)->state;
-    events.ended(job, now, outcome.reason);
-    return now;
+    const auto ended = queue.find(job.case_id, job.scan_id);
+    if (!ended)  // its case was deleted since
+        return std::nullopt;
+    events.ended(job, ended->state, outcome.reason);
+    return ended->state;
 }
 
 bool othersWork(JobQueue& queue)

@@ -86,6 +86,23 @@ TEST(Worker, DoesNotRepeatWhatBadInputMadeFail)
     EXPECT_EQ(summary.failed, 1);
 }
 
+TEST(WorkerSqlite, SaysNothingOfAJobThatWentWithItsCaseWhenItEnded)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    // As a deletion does that comes between the job's end and the look at it.
+    fake.store.database().session() << "CREATE TRIGGER deleted AFTER UPDATE ON jobs WHEN NEW.state = 'done'"
+                                       " BEGIN DELETE FROM jobs WHERE case_id = NEW.case_id; END";
+    int told = 0;
+    WorkerEvents events;
+    events.ended = [&](const Job&, JobState, const std::string&) { ++told; };
+    EXPECT_EQ(work(
+                  fake, [](JobContext&) {}, events)
+                  .done,
+              0);
+    EXPECT_EQ(told, 0);
+}
+
 TEST(Worker, RenewsItsLeaseWhileItWorks)
 {
     FakeStore fake;
