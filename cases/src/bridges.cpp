@@ -1,8 +1,11 @@
 #include "vicon/cases/bridges.h"
 
+#include <soci/soci.h>
+
 #include <algorithm>
 
 #include "bridge_reviews_file.h"
+#include "case_rows.h"
 #include "this_person.h"
 #include "vicon/cases/roles.h"
 #include "vicon/cases/step_results.h"
@@ -75,14 +78,17 @@ void reviewBridge(CaseStore& store, const ScanRecord& scan, const ReviewedBridge
     if (told.at.empty())
         told.at = nowUtc();
     const auto folder = store.scanFolder(scan.case_id, scan.id);
-    std::vector<ReviewedBridge> reviews = readBridgeReviews(folder);
-    std::erase_if(reviews, same);
-    if (given.review)
-        reviews.push_back({given.bridge, told});
-    writeBridgeReviews(folder, reviews);
     const std::string verdict = given.review ? nameOf(told.verdict) : "";
-    store.audit(eventOf(given.review), scan.case_id, scan.id,
-                bridgeReviewJson(given.bridge, verdict, told.by, told.at).dump());
+    // Alone with the database: of two readers at once neither takes back what the other said.
+    store.database().write([&](soci::session& sql) {
+        std::vector<ReviewedBridge> reviews = readBridgeReviews(folder);
+        std::erase_if(reviews, same);
+        if (given.review)
+            reviews.push_back({given.bridge, told});
+        putAudit(sql, eventOf(given.review), scan.case_id, scan.id,
+                 bridgeReviewJson(given.bridge, verdict, told.by, told.at).dump());
+        writeBridgeReviews(folder, reviews);  // last: what is left to fail is the commit
+    });
 }
 
 }  // namespace vicon

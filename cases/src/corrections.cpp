@@ -1,8 +1,12 @@
 #include "vicon/cases/corrections.h"
 
+#include <soci/soci.h>
+
 #include <array>
 #include <cstdio>
+#include <functional>
 
+#include "case_rows.h"
 #include "retry_failed.h"
 #include "vicon/cases/organs.h"
 #include "vicon/cases/roles.h"
@@ -43,6 +47,22 @@ void requireColon(CaseStore& store, const ScanRecord& scan)
                     scan.id, "set organ.seed to a point inside it instead");
 }
 
+/// Alone with the database: of two readers at once neither takes back what the other said.
+void change(CaseStore& store, const QueueOptions& options, const ScanRecord& scan,
+            const std::function<Corrections()>& changed)
+{
+    requireRole(Role::mark);
+    const fs::path folder = store.scanFolder(scan.case_id, scan.id);
+    requireColon(store, scan);
+    store.database().write([&](soci::session& sql) {
+        const Corrections all = changed();
+        requireInside(folder, all);
+        putAudit(sql, AuditEvent::corrections_changed, scan.case_id, scan.id, toJson(all).dump());
+        writeCorrections(folder, all);  // last: what is left to fail is the commit
+    });
+    retryWhereFailed(store, options, scan);
+}
+
 }  // namespace
 
 Corrections readCorrections(const fs::path& scan_folder)
@@ -71,21 +91,17 @@ void writeCorrections(const fs::path& scan_folder, const Corrections& correction
 
 void replaceCorrections(CaseStore& store, const QueueOptions& options, const ScanRecord& scan, const Corrections& all)
 {
-    requireRole(Role::mark);
-    const fs::path folder = store.scanFolder(scan.case_id, scan.id);
-    requireColon(store, scan);
-    requireInside(folder, all);
-    writeCorrections(folder, all);
-    store.audit(AuditEvent::corrections_changed, scan.case_id, scan.id, toJson(all).dump());
-    retryWhereFailed(store, options, scan);
+    change(store, options, scan, [&] { return all; });
 }
 
 void addCorrections(CaseStore& store, const QueueOptions& options, const ScanRecord& scan, const Corrections& more)
 {
-    Corrections all = readCorrections(store.scanFolder(scan.case_id, scan.id));
-    for (const Correction kind : kCorrections)
-        all.of(kind).insert(all.of(kind).end(), more.of(kind).begin(), more.of(kind).end());
-    replaceCorrections(store, options, scan, all);
+    change(store, options, scan, [&] {
+        Corrections all = readCorrections(store.scanFolder(scan.case_id, scan.id));
+        for (const Correction kind : kCorrections)
+            all.of(kind).insert(all.of(kind).end(), more.of(kind).begin(), more.of(kind).end());
+        return all;
+    });
 }
 
 }  // namespace vicon

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <thread>
 
 #include "case_fixture.h"
 #include "vicon/core/error.h"
@@ -59,6 +60,26 @@ TEST_F(BridgesOfAScan, KeepWhoJudgedThemAndWhenInPlaceOfAnEarlierVerdict)
     reviewBridge(one_.store, one_.scan, judged);
     EXPECT_FALSE(bridges()[1].review);
     EXPECT_TRUE(file().empty());
+}
+
+TEST_F(BridgesOfAScan, JudgedByTwoReadersAtOnceKeepBothVerdicts)
+{
+    const auto judge = [&](ReviewedBridge bridge) {
+        CaseStore own(one_.store.place());
+        for (int n = 0; n < 20; ++n) {
+            bridge.review = {n % 2 ? BridgeVerdict::confirmed : BridgeVerdict::rejected, std::to_string(n), {}};
+            reviewBridge(own, one_.scan, bridge);
+            const auto now = reviewedBridges(own, one_.scan);
+            EXPECT_TRUE(std::any_of(now.begin(), now.end(), [&](const ReviewedBridge& other) {
+                return isSameBridge(other.bridge, bridge.bridge) && other.review &&
+                       other.review->by == bridge.review->by;
+            }));
+        }
+    };
+    const std::vector<ReviewedBridge> both = bridges();
+    std::thread other([&] { judge(both[0]); });
+    judge(both[1]);
+    other.join();
 }
 
 TEST_F(BridgesOfAScan, AreKnownByTheirEndsWithinHalfAMillimetre)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <thread>
 
 #include "case_fixture.h"
 #include "vicon/cases/organs.h"
@@ -33,6 +34,20 @@ TEST_F(CorrectionsOfAScan, AreKeptAddedAndForgotten)
     EXPECT_EQ(kept(), (Corrections{.drop = {{7, 8, 9}}}));
     replaceCorrections(one_.store, {}, one_.scan, {});
     EXPECT_FALSE(fs::exists(one_.scanFolder() / "corrections.json"));
+}
+
+TEST_F(CorrectionsOfAScan, OfTwoReadersAtOnceAreAllKept)
+{
+    constexpr int kOfEach = 20;
+    const auto correct = [&](double x) {
+        CaseStore own(one_.store.place());
+        for (int n = 0; n < kOfEach; ++n)
+            addCorrections(own, {}, one_.scan, {.cut = {{x, double(n), 0}}});
+    };
+    std::thread other([&] { correct(1); });
+    correct(2);
+    other.join();
+    EXPECT_EQ(kept().cut.size(), 2u * kOfEach);
 }
 
 TEST_F(CorrectionsOfAScan, OutsideTheScanAreRefusedAndChangeNothing)
