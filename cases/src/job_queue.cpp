@@ -227,11 +227,12 @@ void JobQueue::settle(soci::session& sql, const Job& job, JobState state, double
         soci::use(job.case_id), soci::use(job.scan_id);
 }
 
-void JobQueue::complete(const Job& job)
+void JobQueue::complete(const Job& job, const std::function<bool()>& is_current)
 {
     database_.writeRows([&](soci::session& sql) {
         requireFence(sql, job);
-        settle(sql, job, JobState::done, 0, "", 0);
+        const bool done = !is_current || is_current();
+        settle(sql, job, done ? JobState::done : JobState::queued, 0, "", 0);
     });
 }
 
@@ -282,6 +283,17 @@ std::optional<Job> JobQueue::find(const std::string& case_id, const std::string&
         const auto jobs = jobsOf((sql.prepare << "SELECT * FROM jobs WHERE case_id = :c AND scan_id = :s",
                                   soci::use(case_id), soci::use(scan_id)));
         found = jobs.empty() ? std::nullopt : std::optional(jobs.front());
+    });
+    return found;
+}
+
+std::optional<Job> JobQueue::findSettled(const std::string& case_id, const std::string& scan_id)
+{
+    std::optional<Job> found;
+    database_.writeRows([&](soci::session& sql) {
+        sql << "UPDATE jobs SET fence = fence WHERE case_id = :c AND scan_id = :s", soci::use(case_id),
+            soci::use(scan_id);
+        found = find(case_id, scan_id);
     });
     return found;
 }

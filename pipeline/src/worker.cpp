@@ -133,6 +133,8 @@ public:
         if (!queue_.reserveMemory(job_, mb, most_mb))
             throw NoRoom();
     }
+    void completeIf(std::function<bool()> is_current) override { is_current_ = std::move(is_current); }
+    const std::function<bool()>& isCurrent() const { return is_current_; }
 
 private:
     void tell(double whole, std::string_view what)
@@ -146,6 +148,7 @@ private:
     Heartbeat& heartbeat_;
     const WorkerEvents& events_;
     const std::atomic<bool>& stop_;
+    std::function<bool()> is_current_;
     std::mutex mutex_;  // of all below, and of the events
     std::string step_;
     double from_ = 0, to_ = 1, whole_ = 0;
@@ -210,17 +213,19 @@ std::optional<JobState> doJob(const Job& job, JobQueue& queue, const std::string
                               const WorkerEvents& events, const std::atomic<bool>& stop)
 {
     Outcome outcome;
+    std::function<bool()> is_current;
     {
         Heartbeat heartbeat(database, queue.options(), job);
         Context context(job, queue, heartbeat, events, stop);
         outcome = doWork(work, context);
+        is_current = context.isCurrent();
         if (outcome.kind == Outcome::Kind::stopped && heartbeat.leaseLost())
             outcome.kind = Outcome::Kind::lost;
     }
     try {
         switch (outcome.kind) {
             case Outcome::Kind::done:
-                queue.complete(job);
+                queue.complete(job, is_current);
                 break;
             case Outcome::Kind::failed:
                 queue.fail(job, outcome.reason, outcome.permanent);

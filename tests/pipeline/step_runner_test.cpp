@@ -18,6 +18,7 @@ using Run = std::function<json(Progress&)>;
 class FakeContext : public JobContext {
 public:
     void reserveMemory(double, double) override {}
+    void completeIf(std::function<bool()>) override {}
     const Job& job() const override { return job_; }
     void enterStep(const std::string& step, double, double) override { entered.push_back(step); }
     void commitStep(const StepRecord&, const std::function<void()>&) override {}

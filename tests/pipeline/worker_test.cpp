@@ -86,6 +86,22 @@ TEST(Worker, DoesNotRepeatWhatBadInputMadeFail)
     EXPECT_EQ(summary.failed, 1);
 }
 
+TEST(Worker, DoesAJobAgainThatIsOutdatedWhenItEnds)
+{
+    FakeStore fake;
+    fake.addJobs(1);
+    int runs = 0;
+    std::vector<JobState> ends;
+    WorkerEvents events;
+    events.ended = [&](const Job&, JobState state, const std::string&) { ends.push_back(state); };
+    const auto summary = work(
+        fake, [&](JobContext& context) { context.completeIf([is_current = ++runs == 2] { return is_current; }); },
+        events);
+    EXPECT_EQ(runs, 2);
+    EXPECT_EQ(summary.done, 1);
+    EXPECT_THAT(ends, testing::ElementsAre(JobState::queued, JobState::done));
+}
+
 TEST(WorkerSqlite, SaysNothingOfAJobThatWentWithItsCaseWhenItEnded)
 {
     FakeStore fake;

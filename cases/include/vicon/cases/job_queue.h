@@ -84,7 +84,9 @@ public:
     /// Takes back what steps had found. `remove` takes their files away, while nobody else can take the job. Throws
     /// Error{lease_lost} when it is not this worker's.
     void withdrawSteps(const Job& job, const std::vector<std::string>& steps, const std::function<void()>& remove);
-    void complete(const Job& job);
+    /// @param is_current asked while nobody else can take the job; where it does not hold, the job is queued again.
+    /// Empty: it holds
+    void complete(const Job& job, const std::function<bool()>& is_current = {});
     /// @param permanent trying again cannot help
     void fail(const Job& job, const std::string& reason, bool permanent);
     /// Gives a job back untouched: the worker is told to stop.
@@ -96,6 +98,8 @@ public:
     void retry(const std::string& case_id, const std::string& scan_id);
 
     std::optional<Job> find(const std::string& case_id, const std::string& scan_id);
+    /// The same, after whoever is just changing the job has done so.
+    std::optional<Job> findSettled(const std::string& case_id, const std::string& scan_id);
     std::vector<Job> jobs();
     std::vector<Job> jobs(JobState state);
     std::vector<Job> jobs(const std::vector<CaseRecord>& cases);

@@ -25,6 +25,8 @@ public:
     /// Sets memory aside until the job ends; where the machine's other jobs take it, the job goes back into the queue
     /// and waits.
     virtual void reserveMemory(double mb, double most_mb) = 0;
+    /// Asked at the job's end, while nobody else can take it: where it does not hold, the job goes back into the queue.
+    virtual void completeIf(std::function<bool()> is_current) = 0;
 };
 
 /// The work itself. Throws Error{cancelled} when told to stop, anything else to fail.
