@@ -57,10 +57,10 @@ ingest::Receiver::Files importReceived(CaseStore& store, const Config& config, c
 }
 
 /// Over a store connection of its own: reports come on the threads of associations.
-void takeCommitment(const StorePlace& place, const ingest::CommitmentReport& report)
+void takeCommitment(const StorePlace& place, const OutboxOptions& options, const ingest::CommitmentReport& report)
 {
     CaseStore store(place);
-    Outbox outbox(store.database(), {});
+    Outbox outbox(store.database(), options);
     const int concerned = ingest::noteCommitment(outbox, report);
     spdlog::info("a peer committed to {} objects and not to {}; {} wait in the outbox", report.committed.size(),
                  report.failed.size(), concerned);
@@ -95,7 +95,10 @@ int receive(Context& context, bool no_work)
         {.on_received = [&](const ingest::Receiver::Files& files) { return importReceived(store, config, files); },
          .on_trouble = [](const std::string& trouble) { spdlog::warn("{}", trouble); },
          .on_note = [](const std::string& note) { spdlog::info("{}", note); },
-         .on_commitment = [&](const ingest::CommitmentReport& report) { takeCommitment(store.place(), report); },
+         .on_commitment =
+             [&](const ingest::CommitmentReport& report) {
+                 takeCommitment(store.place(), config.get<OutboxOptions>(), report);
+             },
          .on_demand = [&](const ingest::CommitmentDemand& demand) { return giveCommitment(store.place(), demand); },
          .on_quiet = missing,
          .on_refused = [&](const std::string& host, const std::string& line) { refused.note(host, line); }},

@@ -189,7 +189,8 @@ Growth growthBetween(const MeasuredSize& before, const MeasuredSize& now)
 {
     Growth growth;
     growth.years = yearsBetween(before.date, now.date);
-    growth.why_not = whyNot(before, now);
+    growth.why_not =
+        growth.years && *growth.years < 0 ? "the earlier report is dated after this examination" : whyNot(before, now);
     if (!growth.why_not.empty())
         return growth;
     growth.diameter_mm = around(*now.size_mm - *before.size_mm, std::hypot(halfOf(before), halfOf(now)));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "case_rows.h"
 #include "job_owner.h"
@@ -27,6 +28,18 @@ AuditEvent eventOf(const OutboxItem& item)
     if (item.state == DeliveryState::committed)
         return AuditEvent::object_committed;
     return item.delivered() ? AuditEvent::object_unconfirmed : AuditEvent::object_refused;
+}
+
+/// A peer may answer the question of an hour ago after it was asked again: some of the last ones are kept.
+std::string withEarlier(const std::string& transaction_uid, const std::string& earlier)
+{
+    constexpr int kEarlier = 7;
+    std::string kept = transaction_uid;
+    std::istringstream uids(earlier);
+    std::string uid;
+    for (int n = 0; n < kEarlier && uids >> uid; ++n)
+        kept += " " + uid;
+    return kept;
 }
 
 OutboxItem requireItem(soci::session& sql, int id)
@@ -197,7 +210,7 @@ std::vector<OutboxItem> Outbox::beginCommitment(const std::vector<OutboxItem>& i
             auto there = findClaimed(sql, item);
             if (!there || !there->stored)
                 continue;
-            there->transaction_uid = transaction_uid;
+            there->transaction_uid = withEarlier(transaction_uid, there->transaction_uid);
             settle(sql, *there);
             begun.push_back(*there);
         }
@@ -225,13 +238,14 @@ int Outbox::report(const std::string& transaction_uid, const std::vector<std::st
                    const std::vector<Failed>& failed)
 {
     int concerned = 0;
-    if (transaction_uid.empty())
+    if (transaction_uid.empty() || transaction_uid.find_first_of("%_ ") != std::string::npos)
         return concerned;
+    const std::string among = "% " + transaction_uid + " %";
     database_.write([&](soci::session& sql) {
         const soci::rowset<soci::row> rows =
-            (sql.prepare << "SELECT * FROM outbox WHERE transaction_uid = :t AND stored = 1"
-                            " AND state IN ('sending', 'sent')",
-             soci::use(transaction_uid));
+            (sql.prepare << "SELECT * FROM outbox WHERE state IN ('sending', 'sent') AND stored = 1"
+                            " AND ' ' || transaction_uid || ' ' LIKE :t",
+             soci::use(among));
         for (OutboxItem& item : collect(rows, outboxItemFrom)) {
             const std::string& uid = item.object.sop_uid;
             const auto failure =

@@ -122,14 +122,28 @@ void makePrivateFolder(const fs::path& folder)
     flush(folder.has_parent_path() ? folder.parent_path() : fs::path("."));
 }
 
+namespace {
+
+/// A stream that ends at a fault of the disk is no shorter file.
+void requireWhole(const std::ifstream& in, const fs::path& file)
+{
+    if (in.bad())
+        throw Error(ErrorCode::store, "cannot be read to its end", file.string(), "see whether the disk is sound");
+}
+
+}  // namespace
+
 std::string readFile(const fs::path& file)
 {
     std::ifstream in(file, std::ios::binary);
     if (!in)
         throw Error(fs::exists(file) ? ErrorCode::store : ErrorCode::not_found, "cannot be opened", file.string());
-    std::ostringstream content;
-    content << in.rdbuf();
-    return std::move(content).str();
+    std::string content;
+    std::array<char, 1 << 16> block;
+    while (in.read(block.data(), block.size()) || in.gcount() > 0)
+        content.append(block.data(), std::size_t(in.gcount()));
+    requireWhole(in, file);
+    return content;
 }
 
 std::string sha256(std::string_view bytes)
@@ -148,6 +162,7 @@ std::string sha256OfFile(const fs::path& file)
     std::array<char, 1 << 16> block;
     while (in.read(block.data(), block.size()) || in.gcount() > 0)
         digest.add(block.data(), std::size_t(in.gcount()));
+    requireWhole(in, file);
     return digest.hex();
 }
 

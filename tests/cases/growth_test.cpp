@@ -94,6 +94,8 @@ TEST(Growth, OfAHandMeasuredSizeHasThePublishedSpread)
 
 TEST(Growth, IsNotToldWhereTheScansDoNotAllowIt)
 {
+    EXPECT_EQ(growthBetween(outlined(10, 0.3, volumeOf_ml(10), "20260101"), kThen).why_not,
+              "the earlier report is dated after this examination");
     const auto change = [](void (*how)(MeasuredSize&)) {
         MeasuredSize size = outlined(10, 0.3, 0.5, "20260101");
         how(size);

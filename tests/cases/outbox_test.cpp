@@ -163,6 +163,19 @@ TEST_F(OutboxRows, AnAnswerThatComesBeforeTheRequestEndedCounts)
     EXPECT_EQ(codeOf([&] { outbox_.postpone(claimed.at(0), "broke"); }), ErrorCode::lease_lost);
 }
 
+TEST_F(OutboxRows, AnAnswerToAnEarlierQuestionCountsToo)
+{
+    queue({"1.1", "1.2"});
+    for (int n = 1; n <= 12; ++n) {
+        ASSERT_EQ(ask("2.25." + std::to_string(n)).size(), 2U) << n;
+        now_ += 100;
+    }
+    EXPECT_EQ(outbox_.report("2.25.1", {"1.1"}, {}), 0) << "only the last eight are kept; nor is it 2.25.12";
+    EXPECT_EQ(outbox_.report("%", {"1.1"}, {}), 0);
+    EXPECT_EQ(outbox_.report("2.25.6", {"1.1"}, {}), 1);
+    EXPECT_EQ(outbox_.report("2.25.12", {"1.1", "1.2"}, {}), 1);
+}
+
 TEST_F(OutboxRows, AsksAgainWhenNoAnswerComes)
 {
     queue({"1.1"});

@@ -46,7 +46,8 @@ struct OutboxItem {
     bool stored = false;  ///< the peer took it; what is missing is its commitment
     int attempts = 0;     ///< without success since it was queued, or stored
     int fence = 0;        ///< grows with every claim
-    std::string owner, transaction_uid, reason;
+    std::string owner, reason;
+    std::string transaction_uid;  ///< under which it was asked for, before it the earlier ones, with spaces between
     double not_before = 0, lease_until = 0;
 
     /// Nothing more is done about it.
