@@ -73,14 +73,14 @@ TEST_F(Measuring, ASizeIsReplacedOnlyWhenTheReaderSaysSoAndUndoBringsItBack)
     const QPoint first = middle("endoscopic") + QPoint(90, 60);
     key(Qt::Key_M);
     click("endoscopic", first);
-    click("endoscopic", first + QPoint(40, 0));
+    click("endoscopic", first + QPoint(100, 0));
     ASSERT_TRUE(eventually([&] { return stored()[0].size.has_value() && settled(); }));
     const double kept = straight();
     const QPoint end = endIn("endoscopic", 1);
     const auto again = [&] {
         key(Qt::Key_M);
         click("endoscopic", first);
-        click("endoscopic", first + QPoint(12, 0));
+        click("endoscopic", first + QPoint(60, 0));
     };
     again();
     ASSERT_TRUE(eventually([] { return window()->findChild<QMessageBox*>("replaceSize") != nullptr; }));

@@ -195,6 +195,26 @@ TEST(Interaction, ASizeLiesBetweenTwoClicks)
     EXPECT_TRUE(interaction.inUse<Idle>());
 }
 
+TEST(Interaction, AnEndAtThePlaceOfTheFirstIsRefusedAndTheOtherOneStillAwaited)
+{
+    Interaction interaction;
+    interaction.begin(Measure{});
+    PickedPoint first = onWall(1), same = pointAt(1.6), other = onWall(1.8);
+    for (PickedPoint* point : {&first, &same, &other})
+        point->voxel_mm = 0.7;
+    EXPECT_TRUE(is<AwaitOtherEnd>(interaction.click(first)));
+    for (const PickedPoint& again : {first, same}) {
+        const ClickMeaning refused = interaction.click(again);
+        ASSERT_TRUE(is<Refuse>(refused));
+        EXPECT_EQ(std::get<Refuse>(refused).why, Refuse::Why::end_in_same_place);
+    }
+    const ClickMeaning size = interaction.click(other);
+    ASSERT_TRUE(is<MeasureBetween>(size));
+    EXPECT_EQ(std::get<MeasureBetween>(size).from_mm.x, 1);
+    EXPECT_EQ(std::get<MeasureBetween>(size).to_mm.x, 1.8);
+    EXPECT_TRUE(std::get<MeasureBetween>(size).on_wall) << "the refused one does not count";
+}
+
 TEST(Interaction, OneClickOutlinesAPolypOfTheScanThatIsReadOrOfTheOneBeside)
 {
     for (const PickedPoint& point : {onWall(1), beside()}) {

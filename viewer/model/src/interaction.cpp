@@ -16,6 +16,8 @@ ClickMeaning Interaction::measureAt(const PickedPoint& point)
         measure.scan_id = point.scan_id;
     else if (measure.scan_id != point.scan_id)
         return Refuse{Refuse::Why::end_in_other_scan, {}};
+    else if (distance(measure.ends_mm.front(), point.at_mm) < point.voxel_mm)
+        return Refuse{Refuse::Why::end_in_same_place, {}};
     measure.ends_mm.push_back(point.at_mm);
     measure.on_wall = measure.on_wall && point.on_wall;
     if (measure.ends_mm.size() < 2)

@@ -19,29 +19,29 @@ struct Page {
     const char* heading;
 };
 
-constexpr std::array kPages{Page{"markerTable", kMarking},
-                            Page{"coverage", "Coverage"},
-                            Page{"colonPanel", kColon},
-                            Page{"peeling", "Translucency"},
-                            Page{"priors", "Earlier reports"},
-                            Page{"reportFormDock", "From marks to a signed report"},
-                            Page{"cube", kPanorama},
-                            Page{"band", kPanorama},
-                            Page{"overview", kPanorama},
-                            Page{"window", kSlices},
-                            Page{"axial", kSlices},
-                            Page{"coronal", kSlices},
-                            Page{"sagittal", kSlices},
-                            Page{"across", kSlices},
-                            Page{"pairPanel", kTogether},
-                            Page{"beside", kTogether},
-                            Page{"endoscopic", kFlying},
-                            Page{"navigation", kFlying}};
+constexpr std::array kGuidePages{Page{"markerTable", kMarking},
+                                 Page{"coverage", "Coverage"},
+                                 Page{"colonPanel", kColon},
+                                 Page{"peeling", "Translucency"},
+                                 Page{"priors", "Earlier reports"},
+                                 Page{"reportFormDock", "From marks to a signed report"},
+                                 Page{"cube", kPanorama},
+                                 Page{"band", kPanorama},
+                                 Page{"overview", kPanorama},
+                                 Page{"window", kSlices},
+                                 Page{"axial", kSlices},
+                                 Page{"coronal", kSlices},
+                                 Page{"sagittal", kSlices},
+                                 Page{"across", kSlices},
+                                 Page{"pairPanel", kTogether},
+                                 Page{"beside", kTogether},
+                                 Page{"endoscopic", kFlying},
+                                 Page{"navigation", kFlying}};
 
 const char* headingOf(const QWidget* widget)
 {
     for (; widget; widget = widget->parentWidget())
-        for (const Page& page : kPages)
+        for (const Page& page : kGuidePages)
             if (widget->objectName() == page.part)
                 return page.heading;
     return nullptr;
@@ -58,7 +58,7 @@ void GuideTool::addTo(ReadingLayout& layout)
 QStringList GuideTool::headings()
 {
     QStringList all{kWindow, kMeasuring};
-    for (const Page& page : kPages)
+    for (const Page& page : kGuidePages)
         all << page.heading;
     return all;
 }

@@ -143,7 +143,7 @@ void MarkerTool::add(MarkerColor color, const ClickedPoint& point)
     marker.color = color;
     marker.view = viewOf(point.from);
     reading_.session().addMarker(marker);
-    reading_.endTool();
+    reading_.toolChanged();  // what is measured meanwhile goes on, and may be this marker's
     warnOffWall(marker, point.scan.lumen);
 }
 
@@ -164,7 +164,7 @@ void MarkerTool::warnOffWall(const Marker& marker, const Lumen& lumen)
 
 void MarkerTool::move(const std::string& id, const ClickedPoint& to)
 {
-    reading_.endTool();
+    reading_.toolChanged();
     const auto before = reading_.session().marker(id);
     if (!before)
         return;
@@ -177,7 +177,7 @@ void MarkerTool::move(const std::string& id, const ClickedPoint& to)
 
 void MarkerTool::refuseMove(const std::string& id)
 {
-    reading_.endTool();
+    reading_.toolChanged();
     reading_.warn(tr("%1 lies in the other scan and cannot be moved to this one.").arg(QString::fromStdString(id)));
 }
 

@@ -28,8 +28,8 @@ BandView::BandView(QWidget* parent) : PictureView(tr("Band: the colon cut open")
     connect(this, &PictureView::turned, this, &BandView::scroll);
     connect(this, &PictureView::enlargeWanted, this, [this] { setWhole(!whole_); });
     connect(this, &PictureView::clicked, this, &BandView::clickedAt);
-    connect(this, &PictureView::endDragged, this, [this](int end, Pixel at, bool released) {
-        emit endMoved(end, shown_ ? shown_->picture.pointAt(*shown_->band, at) : std::nullopt, released);
+    connect(this, &PictureView::endDragged, this, [this](int end, Pixel at, GripDrag drag) {
+        emit endMoved(end, shown_ ? shown_->picture.pointAt(*shown_->band, at) : std::nullopt, drag);
     });
     connect(worker_.worker(), &Worker::failed, this, [this](const QString& message) {
         shown_.reset();

@@ -43,7 +43,7 @@ signals:
     /// A point of the wall.
     void pointClicked(vicon::Point3 point, Qt::KeyboardModifiers modifiers);
     /// An end of the line is dragged to a point of the wall, or beside it.
-    void endMoved(int end, const std::optional<vicon::Point3>& to, bool released);
+    void endMoved(int end, const std::optional<vicon::Point3>& to, vicon::viewer::GripDrag drag);
     /// Beside the wall.
     void groundClicked();
     void failed(const QString& message);

@@ -61,7 +61,7 @@ void PanoramaTool::addCube(ReadingLayout& layout)
     connect(cube_, &PictureView::turned, &reading_, [this](int steps) { emit reading_.stepWanted(steps); });
     connect(&reading_, &Reading::lineChanged, this, &PanoramaTool::drawLine);
     connect(cube_, &PictureView::endDragged, this,
-            [this](int end, Pixel at, bool released) { emit reading_.lineDragged(end, cubePointAt(at), released); });
+            [this](int end, Pixel at, GripDrag drag) { emit reading_.lineDragged(end, cubePointAt(at), drag); });
     connect(&reading_.drawing(), &DrawingThread::cubeDrawn, this,
             [this](const Picture& picture, const ShownPicture& shown) {
                 cube_under_way_ = false;
@@ -87,9 +87,9 @@ void PanoramaTool::addBand(ReadingLayout& layout)
     });
     connect(band_, &BandView::pointClicked, this, &PanoramaTool::clickedBand);
     connect(&reading_, &Reading::lineChanged, band_, [this] { band_->setLine(reading_.line()); });
-    connect(band_, &BandView::endMoved, this, [this](int end, const std::optional<Point3>& to, bool released) {
+    connect(band_, &BandView::endMoved, this, [this](int end, const std::optional<Point3>& to, GripDrag drag) {
         const bool there = to && reading_.scan();
-        emit reading_.lineDragged(end, there ? std::optional(reading_.wallPoint(*to)) : std::nullopt, released);
+        emit reading_.lineDragged(end, there ? std::optional(reading_.wallPoint(*to)) : std::nullopt, drag);
     });
     connect(band_, &BandView::groundClicked, this, [this] {
         if (reading_.navigator())

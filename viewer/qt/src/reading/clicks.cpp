@@ -7,7 +7,6 @@ namespace vicon::viewer {
 
 void Reading::begin(const ToolInUse& tool, const QString& prompt)
 {
-    session_.giveUpMeasuring();
     interaction_.begin(tool);
     for (ReadingTool* each : tools_)
         each->nextClickChanged();
@@ -32,6 +31,7 @@ bool Reading::click(const ClickedPoint& point)
     picked.scan_id = point.scan.record.id;
     picked.on_wall = point.on_wall;
     picked.wants_marker = point.modifiers & Qt::ShiftModifier;
+    picked.voxel_mm = point.scan.voxel_mm();
     const ClickMeaning meaning = interaction_.click(picked);
     if (std::holds_alternative<ShowPoint>(meaning))
         return false;
@@ -106,6 +106,7 @@ void Reading::takeBackClick()
 void Reading::giveUp()
 {
     views_.takeKeyboard();
+    session_.giveUpMeasuring();
     endTool();
     for (ReadingTool* tool : tools_)
         tool->escape();

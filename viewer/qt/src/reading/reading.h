@@ -123,8 +123,7 @@ signals:
     void sliceLookChanged(const vicon::viewer::SliceLook& look);
     void lineChanged();
     /// An end of the line, 0 or 1, to a place in a view of its scan; nothing where that shows no wall.
-    /// @param released the mouse was let go there
-    void lineDragged(int end, const std::optional<vicon::viewer::ClickedPoint>& to, bool released);
+    void lineDragged(int end, const std::optional<vicon::viewer::ClickedPoint>& to, vicon::viewer::GripDrag drag);
     /// All slices show densities without tagging, where that was taken out, or as acquired.
     void cleansedChanged(bool cleansed);
     /// By notches of the mouse wheel.

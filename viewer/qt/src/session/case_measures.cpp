@@ -4,19 +4,60 @@
 
 namespace vicon::viewer {
 namespace {
-constexpr const char *kMeasure = "measure", *kOutline = "outline", *kBiopsy = "biopsy", *kMeasures = "measures";
+constexpr const char *kBiopsy = "biopsy", *kMeasures = "measures";
+
+std::string nameOf(int request)
+{
+    return "measure " + std::to_string(request);
+}
+
+}  // namespace
+
+void CaseSession::giveUpMeasuring(int request)
+{
+    loader_.giveUp(nameOf(request));
+    measuring_.erase(request);
 }
 
 void CaseSession::giveUpMeasuring()
 {
-    for (const char* name : {kMeasure, kOutline, kBiopsy})
-        loader_.giveUp(name);
+    while (!measuring_.empty())
+        giveUpMeasuring(*measuring_.begin());
+    loader_.giveUp(kBiopsy);
 }
 
 void CaseSession::giveUpMeasures()
 {
     giveUpMeasuring();
     loader_.giveUp(kMeasures);
+    emit measuringGivenUp();
+}
+
+void CaseSession::startMeasuring(int request, const std::shared_ptr<OpenScan>& scan, Measuring work)
+{
+    measuring_.insert(request);
+    loader_.postTask(nameOf(request),
+                     [this, request, scan, work = std::move(work)](const Progress& wanted) -> Worker::Work {
+                         const auto failed = [this, request] {
+                             measuring_.erase(request);
+                             emit notMeasured(request);
+                         };
+                         try {
+                             return [this, request, scan, failed, done = work(wanted)] {
+                                 if (scan == openScan(scan->record.id)) {
+                                     measuring_.erase(request);
+                                     done();
+                                 } else {
+                                     failed();
+                                     emit warned(tr("The scan was read anew meanwhile: measure in it once more."));
+                                 }
+                             };
+                         } catch (...) {
+                             if (!wanted.cancelled())
+                                 QMetaObject::invokeMethod(this, failed, Qt::QueuedConnection);
+                             throw;
+                         }
+                     });
 }
 
 std::shared_ptr<OpenScan> CaseSession::openScan(const std::string& id) const
@@ -27,40 +68,35 @@ std::shared_ptr<OpenScan> CaseSession::openScan(const std::string& id) const
     return {};
 }
 
-void CaseSession::measure(const std::string& scan_id, Point3 from, Point3 to, Point3 eye)
+void CaseSession::measure(int request, const std::string& scan_id, Point3 from, Point3 to, Point3 eye)
 {
-    const auto of = openScan(scan_id);
-    if (!of)
+    const auto scan = openScan(scan_id);
+    if (!scan)
         return;
-    loader_.giveUp(kMeasure);
-    loader_.postTask(kMeasure, [this, scan = of, from, to, eye](const Progress& wanted) -> Worker::Work {
+    startMeasuring(request, scan, [this, request, scan, from, to, eye](const Progress& wanted) -> Worker::Work {
         const auto& cells = scan->files.cells();
         const auto size = distanceOverWall(cells.points_mm, cells.triangles, from, to, &wanted);
         const auto plane = sizeOnBestPlane(scan->files.inside(), from, to, eye, &wanted);
-        return [this, scan, size, plane] {
-            if (scan != openScan(scan->record.id))
-                return;
-            if (size)
-                emit measured(scan->record.id, *size, plane);
-            else
+        return [this, request, size, plane] {
+            if (size) {
+                emit measured(request, *size, plane);
+            } else {
                 emit warned(tr("No way over the wall joins the two points; measure them straight, in a slice."));
+                emit notMeasured(request);
+            }
         };
     });
 }
 
-void CaseSession::outlinePolyp(const std::string& scan_id, Point3 at)
+void CaseSession::outlinePolyp(int request, const std::string& scan_id, Point3 at)
 {
-    const auto of = openScan(scan_id);
-    if (!of)
+    const auto scan = openScan(scan_id);
+    if (!scan)
         return;
-    loader_.giveUp(kOutline);
-    loader_.postTask(kOutline, [this, scan = of, at](const Progress& wanted) -> Worker::Work {
+    startMeasuring(request, scan, [this, request, scan, at](const Progress& wanted) -> Worker::Work {
         const PolypOutline outline = vicon::outlinePolyp(scan->files.cells(), scan->files.inside(), at,
                                                          blurAndNoiseOf(scan->files.folder()), &wanted);
-        return [this, scan, outline] {
-            if (scan == openScan(scan->record.id))
-                emit outlined(scan->record.id, outline);
-        };
+        return [this, request, outline] { emit outlined(request, outline); };
     });
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "session/open_scan.h"
 #include "session/own_store.h"
@@ -100,14 +101,17 @@ public:
     bool giveUpReport();
     /// Into the audit trail.
     void log(AuditEvent event, const std::string& scan_id, const QString& words);
-    /// Between two points of the wall of a scan that is open, seen from `eye`; measured() follows, or warned().
-    void measure(const std::string& scan_id, Point3 from, Point3 to, Point3 eye);
-    /// The polyp of a scan that is open under a point of the wall or around one in its tissue; outlined() follows.
-    void outlinePolyp(const std::string& scan_id, Point3 at);
+    /// Between two points of the wall of a scan that is open, seen from `eye`; measured() follows, or notMeasured().
+    /// @param request which one this is, of all that are measured and outlined
+    void measure(int request, const std::string& scan_id, Point3 from, Point3 to, Point3 eye);
+    /// The polyp of a scan that is open under a point of the wall or around one in its tissue; outlined() follows, or
+    /// notMeasured().
+    void outlinePolyp(int request, const std::string& scan_id, Point3 at);
     /// Of the open scan's tissue around a point, below a circled wall where there is one; biopsied() follows, or
     /// warned().
     void takeBiopsy(Point3 centre, double radius_mm, const std::optional<CircledWall>& wall);
-    /// What is being measured, outlined or sampled is given up.
+    /// What is being measured, outlined or sampled is given up: of one request, or all.
+    void giveUpMeasuring(int request);
     void giveUpMeasuring();
     /// What was measured of a marker of a scan that is open, as a picture; measuresDrawn() follows where there is any.
     void drawMeasures(const Marker& marker, int side_px);
@@ -129,9 +133,12 @@ signals:
     void busyChanged(bool busy);
     void saved(const QString& what);
     void warned(const QString& message);
-    void measured(const std::string& scan_id, const vicon::viewer::WallDistance& size,
-                  const std::optional<vicon::PlaneSize>& plane);
-    void outlined(const std::string& scan_id, const vicon::PolypOutline& outline);
+    void measured(int request, const vicon::viewer::WallDistance& size, const std::optional<vicon::PlaneSize>& plane);
+    void outlined(int request, const vicon::PolypOutline& outline);
+    /// It could not be; warned() says why.
+    void notMeasured(int request);
+    /// All requests, as another scan is read.
+    void measuringGivenUp();
     void biopsied(const vicon::DensitySample& biopsy);
     void measuresDrawn(const QString& marker, const vicon::viewer::Picture& picture);
     void filmNamed(const QString& file);
@@ -164,6 +171,8 @@ private:
     /// Of the case that is read; nothing where it has no such scan.
     std::optional<ScanFiles> filesOf(const std::string& scan_id) const;
     void readOn(const PreparedScan& files);
+    using Measuring = std::function<Worker::Work(const Progress& wanted)>;
+    void startMeasuring(int request, const std::shared_ptr<OpenScan>& scan, Measuring work);
     /// What is measured of the scan that was read, and drawn of it, does not hold up the next one.
     void giveUpMeasures();
     /// Reads a scan's files on the loader's thread. `work` is the one that reads, or the one beside.
@@ -185,6 +194,7 @@ private:
     ScanMaps maps_;
     bool markers_known_ = false;
     int edits_under_way_ = 0;
+    std::set<int> measuring_;                 ///< the requests
     std::shared_ptr<Wanted> report_wanted_;   ///< while it is written
     std::shared_ptr<Wanted> loading_wanted_;  ///< of the file of markers loaded last
     Worker reads_on_{this};

@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <QStringList>
+#include <algorithm>
 
 #include "session/saved_view.h"
 #include "vicon/cases/printed.h"
@@ -51,6 +52,12 @@ OpenScan::OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseReco
       navigator(files.frames(), lumen, files.hasPath() ? std::optional(files.exitDistance()) : std::nullopt),
       coverage(triangleAreas_mm2(files.cells().points_mm, files.cells().triangles))
 {
+}
+
+double OpenScan::voxel_mm() const
+{
+    const auto& spacing = files.inside().grid.spacing_mm;
+    return *std::min_element(spacing.begin(), spacing.end());
 }
 
 bool haveSamePlaces(const OpenScan& a, const OpenScan& b)

@@ -25,6 +25,8 @@ struct OpenScan {
     int branch = -1;                       ///< whose end the way leads to; below 0: to the farthest tip
 
     OpenScan(PreparedScan prepared, const ScanRecord& scan, const CaseRecord& a_case);
+    /// Along a voxel's shortest side: no length below it is known.
+    double voxel_mm() const;
     /// "Phantom, Anna - ID PH-1 - born 1960-01-02 - supine 2026-01-02".
     QString inWords() const;
 };

@@ -43,7 +43,7 @@ SliceView::SliceView(SlicePlane plane, const QString& name, QWidget* parent) : P
         draw();
     });
     connect(this, &PictureView::endDragged, this,
-            [this](int end, Pixel at, bool released) { emit lineDragged(end, shown_.pointAt(at), released); });
+            [this](int end, Pixel at, GripDrag drag) { emit lineDragged(end, shown_.pointAt(at), drag); });
     connect(this, &PictureView::clicked, this,
             [this](Pixel at, Qt::KeyboardModifiers modifiers) { emit pointClicked(shown_.pointAt(at), modifiers); });
 }

@@ -55,7 +55,7 @@ public:
 signals:
     void pointClicked(vicon::Point3 point, Qt::KeyboardModifiers modifiers);
     /// Of the measured line, to a place in the slice.
-    void lineDragged(int end, vicon::Point3 to, bool released);
+    void lineDragged(int end, vicon::Point3 to, vicon::viewer::GripDrag drag);
     /// The wheel was turned while the lumen is followed.
     void trackWanted(vicon::Vector3 across, int slices);
     void windowDragged(QPointF by);

@@ -156,16 +156,16 @@ void TurningTool::clicked(Pixel at, Qt::KeyboardModifiers modifiers)
 }
 
 // From the front the organ is translucent: a place of the picture is no point of the wall.
-void TurningTool::endDragged(int end, Pixel at, bool released)
+void TurningTool::endDragged(int end, Pixel at, GripDrag drag)
 {
     const auto* drawn = shown();
     if (!drawn) {
-        if (released)
+        if (drag == GripDrag::released)
             reading_.warn(tr("The projection has no depth: turn it, and drag the end there, or in another view."));
         return;
     }
     const auto point = drawn->pointAt(reading_.scan()->files.cells(), at);
-    emit reading_.lineDragged(end, point ? std::optional(reading_.wallPoint(*point)) : std::nullopt, released);
+    emit reading_.lineDragged(end, point ? std::optional(reading_.wallPoint(*point)) : std::nullopt, drag);
 }
 
 void TurningTool::drawLine()

@@ -25,7 +25,7 @@ private:
     void turnedBy(bool still);
     void fromFront();
     void clicked(Pixel at, Qt::KeyboardModifiers modifiers);
-    void endDragged(int end, Pixel at, bool released);
+    void endDragged(int end, Pixel at, GripDrag drag);
     /// What is measured, over the picture that is shown, turned or from the front.
     void drawLine();
     void giveUp();

@@ -9,6 +9,10 @@
 
 namespace vicon::viewer {
 
+/// What the mouse does to an end of a line: holds it, lets it go, or drops it before that, as where another button is
+/// pressed: then it goes back to where it was.
+enum class GripDrag { held, released, broken_off };
+
 /// A measured length over a picture, in the picture's pixels.
 struct Calliper {
     QVector<QLineF> lines;                        ///< from one end to the other; none while an end is missing

@@ -71,10 +71,26 @@ std::optional<int> PictureView::gripAt(QPoint at) const
     return nearest;
 }
 
-void PictureView::dragGrip(QPoint to, bool released)
+void PictureView::dragGrip(QPoint to, GripDrag drag)
 {
     const QPoint within(std::clamp(to.x(), 0, width() - 1), std::clamp(to.y(), 0, height() - 1));
-    emit endDragged(*grip_, toPicture(within), released);
+    emit endDragged(*grip_, toPicture(within), drag);
+}
+
+bool PictureView::breakOffDrag()
+{
+    if (!grip_ || !dragging_)
+        return false;
+    dragGrip(pressed_, GripDrag::broken_off);
+    grip_.reset();
+    dragging_ = false;
+    button_ = Qt::NoButton;
+    return true;
+}
+
+void PictureView::hideEvent(QHideEvent*)
+{
+    breakOffDrag();
 }
 
 void PictureView::drawCalliper(QPainter& painter) const

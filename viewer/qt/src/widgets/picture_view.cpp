@@ -115,6 +115,8 @@ void PictureView::mousePressEvent(QMouseEvent* event)
 {
     reached_ = false;
     update();
+    if (breakOffDrag())
+        return;  // by another button
     pressed_ = last_ = event->pos();
     button_ = event->button();
     dragging_ = false;
@@ -137,7 +139,7 @@ void PictureView::mouseMoveEvent(QMouseEvent* event)
     if (!dragging_)
         return;
     if (grip_) {
-        dragGrip(event->pos(), false);
+        dragGrip(event->pos(), GripDrag::held);
         return;
     }
     if (circling_) {
@@ -153,7 +155,7 @@ void PictureView::mouseReleaseEvent(QMouseEvent* event)
 {
     const bool was_click = !dragging_ && button_ == event->button();
     if (dragging_ && grip_)
-        dragGrip(event->pos(), true);
+        dragGrip(event->pos(), GripDrag::released);
     else if (dragging_ && circling_)
         emit circled(toPicture(pressed_), circleRadius() * devicePixelRatioF());
     else if (dragging_)

@@ -58,8 +58,8 @@ public:
 
 signals:
     void clicked(vicon::viewer::Pixel at, Qt::KeyboardModifiers modifiers);
-    /// Of the calliper, 0 or 1. @param released the mouse was let go there
-    void endDragged(int end, vicon::viewer::Pixel at, bool released);
+    /// Of the calliper, 0 or 1.
+    void endDragged(int end, vicon::viewer::Pixel at, vicon::viewer::GripDrag drag);
     void hovered(vicon::viewer::Pixel at);  ///< where setMouseTracking() is on
     void enlargeWanted();
     void menuWanted(QPoint at);                        ///< on the screen
@@ -73,6 +73,7 @@ protected:
     void keyPressEvent(QKeyEvent* event) override;
     void focusInEvent(QFocusEvent* event) override;
     void focusOutEvent(QFocusEvent* event) override;
+    void hideEvent(QHideEvent* event) override;
     void leaveEvent(QEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
@@ -94,7 +95,9 @@ private:
 
     // picture_calliper.cpp
     std::optional<int> gripAt(QPoint at) const;
-    void dragGrip(QPoint to, bool released);
+    void dragGrip(QPoint to, GripDrag drag);
+    /// An end that is dragged goes back to where it was. False where none is.
+    bool breakOffDrag();
     void drawCalliper(QPainter& painter) const;
     void drawCalliperText(QPainter& painter) const;
     void drawRing(QPainter& painter) const;

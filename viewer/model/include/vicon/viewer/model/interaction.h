@@ -46,6 +46,7 @@ struct PickedPoint {
     std::string scan_id;
     bool on_wall = false;  ///< chosen on the surface of the cells, in an endoscopic picture
     bool wants_marker = false;
+    double voxel_mm = 0;  ///< of the scan, along its shortest side: a shorter line is no size
 };
 
 // What a click means.
@@ -68,7 +69,7 @@ struct MeasureBetween {
 struct OutlineHere {};
 /// Nothing is done.
 struct Refuse {
-    enum class Why { end_in_other_scan, marker_of_other_scan } why = Why::end_in_other_scan;
+    enum class Why { end_in_other_scan, end_in_same_place, marker_of_other_scan } why = Why::end_in_other_scan;
     std::string marker_id;  ///< of marker_of_other_scan
 };
 
