@@ -1,7 +1,9 @@
 // A size that takes a while: what the reader does meanwhile, and drags that come to nothing.
+#include <QLineEdit>
 #include <algorithm>
 
 #include "measuring.h"
+#include "vicon/cases/finding_facts.h"
 
 namespace vicon::viewer {
 namespace {
@@ -142,6 +144,67 @@ TEST_F(LateSizes, AnEndThatIsDraggedOntoTheOtherLeavesTheSize)
     waitUntilQuiet();
     EXPECT_EQ(sizeOf(first), before);
     EXPECT_EQ(lengthsShown(), lengths);
+}
+
+/// A note is written in the list meanwhile; the mouse in a picture leaves the keyboard there.
+class LateSizesAndNotes : public LateSizes {
+protected:
+    static QLineEdit* beginNote()
+    {
+        key(Qt::Key_N);
+        auto* editor = markers()->findChild<QLineEdit*>();
+        EXPECT_NE(editor, nullptr);
+        return editor;
+    }
+};
+
+TEST_F(LateSizesAndNotes, ANoteIsWrittenOnWhileASizeIsKeptAndOnlySavedWhenItIsDone)
+{
+    show(first);
+    double before = sizeOf(first);
+    dragEndFromInside();
+    auto* editor = beginNote();
+    QTest::keyClicks(editor, "ses");
+    ASSERT_TRUE(eventually([&] { return sizeOf(first) != before; })) << said().toStdString() << warning();
+    waitUntilQuiet();
+    screenshot("note_written_on");
+    EXPECT_EQ(stored()[first].note, "");
+    ASSERT_EQ(markers()->findChild<QLineEdit*>(), editor);
+    EXPECT_EQ(editor->text(), "ses");
+    EXPECT_EQ(cell(first, 5), QString::number(largestDiameter_mm(stored()[first].size.value()), 'f', 1));
+    EXPECT_EQ(warning(), "");
+    QTest::keyClicks(editor, "sile");
+    QTest::keyClick(editor, Qt::Key_Return);
+    ASSERT_TRUE(eventually([&] { return stored()[first].note == "sessile" && settled(); })) << warning();
+    waitUntilQuiet();
+    before = sizeOf(first);
+    dragEndFromInside();
+    editor = beginNote();
+    QTest::keyClicks(editor, "no");
+    ASSERT_TRUE(eventually([&] { return sizeOf(first) != before; })) << said().toStdString() << warning();
+    waitUntilQuiet();
+    QTest::keyClick(editor, Qt::Key_Escape);
+    waitUntilQuiet();
+    EXPECT_EQ(stored()[first].note, "sessile");
+    EXPECT_EQ(cell(first, 6), "sessile");
+    EXPECT_EQ(warning(), "");
+}
+
+TEST_F(LateSizesAndNotes, ANoteThatIsDoneBeforeTheSizeIsSavedLosesNeither)
+{
+    show(first);
+    const double before = sizeOf(first);
+    auto* editor = beginNote();
+    QTest::keyClicks(editor, "sessile");
+    const QPoint end = endIn("coronal", 0);
+    drag("coronal", end, end + QPoint(25, 15));
+    EXPECT_EQ(editor->text(), "sessile");
+    QTest::keyClick(editor, Qt::Key_Return);
+    EXPECT_TRUE(eventually([&] { return stored()[first].note == "sessile" && sizeOf(first) != before && settled(); }))
+        << said().toStdString() << warning();
+    waitUntilQuiet();
+    EXPECT_EQ(warning(), "");
+    EXPECT_EQ(cell(first, 6), "sessile");
 }
 
 /// Between the ends of its first size the wall is cut through.

@@ -97,6 +97,34 @@ TEST_F(History, NeverOverwritesWhatAnotherReaderDid)
     EXPECT_EQ(notes(), Notes{}) << "what they deleted does not come back";
 }
 
+TEST_F(History, WhatElseWasChangedMeanwhileStays)
+{
+    const Marker added = history.add(store, aMarker());
+    Marker measured = added, noted = added;
+    measured.size = MarkerSize{.straight_mm = 6, .from_mm = {1, 2, 3}, .to_mm = {1, 2, 9}};
+    noted.note = "sessile";
+    history.change(store, added, measured);
+    const Marker both = history.change(store, added, noted);
+    EXPECT_EQ(both.note, "sessile");
+    EXPECT_EQ(both.size.value().straight_mm, 6);
+    history.undo(store);
+    EXPECT_EQ(notes(), Notes{"first"});
+    EXPECT_TRUE(store.requireMarker("c1", added.id).size);
+    history.undo(store);
+    EXPECT_FALSE(store.requireMarker("c1", added.id).size);
+}
+
+TEST_F(History, ASizeIsNotKeptWithAMarkerThatLiesElsewhereByNow)
+{
+    const Marker added = history.add(store, aMarker());
+    Marker moved = added, measured = added;
+    moved.position_mm = {100, 0, 0};
+    history.change(store, added, moved);
+    measured.size = MarkerSize{};
+    EXPECT_THROW(history.change(store, added, measured), Error);
+    EXPECT_FALSE(store.requireMarker("c1", added.id).size);
+}
+
 /// Two markers of one finding and a third one in the second scan.
 struct Pairs : History {
     Marker a = add("a", "s1"), b = add("b", "s2"), c = add("c", "s2");

@@ -17,6 +17,30 @@ std::vector<MarkerEdit> inverse(const std::vector<MarkerEdit>& step)
     return back;
 }
 
+/// The marker as it is stored, with what a change is about; nothing where others changed that, or the marker's place:
+/// what is known of a finding belongs to where it lies.
+std::optional<Marker> changed(const Marker& before, const Marker& after, const Marker& stored)
+{
+    if (!(before.position_mm == after.position_mm) || !(before.position_mm == stored.position_mm))
+        return std::nullopt;
+    const nlohmann::json seen = toJson(before), wanted = toJson(after);
+    nlohmann::json now = toJson(stored);
+    const auto at = [](const nlohmann::json& marker, const std::string& key) {
+        return marker.value(key, nlohmann::json());
+    };
+    for (const auto* each : {&seen, &wanted})
+        for (const auto& [key, content] : each->items()) {
+            if (at(seen, key) == at(wanted, key) || at(now, key) == at(wanted, key))
+                continue;
+            if (at(now, key) != at(seen, key))
+                return std::nullopt;
+            now.erase(key);
+            if (wanted.contains(key))
+                now[key] = wanted[key];
+        }
+    return markerFromJson(now);
+}
+
 }  // namespace
 
 const std::vector<MarkerEdit>& MarkerHistory::take(CaseStore& store, const std::vector<MarkerEdit>& edits)
@@ -45,6 +69,10 @@ Marker MarkerHistory::add(CaseStore& store, const Marker& marker)
 
 Marker MarkerHistory::change(CaseStore& store, const Marker& before, const Marker& after)
 {
+    for (const Marker& stored : store.markers(case_id_))
+        if (stored.id == before.id)
+            if (const auto wanted = changed(before, after, stored))
+                return *take(store, {{stored, *wanted}}).front().after;
     return *take(store, {{before, after}}).front().after;
 }
 

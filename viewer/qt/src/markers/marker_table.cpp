@@ -1,13 +1,16 @@
 #include "markers/marker_table.h"
 
+#include <QAbstractItemDelegate>
 #include <QApplication>
 #include <QComboBox>
 #include <QGridLayout>
 #include <QHeaderView>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QTableWidget>
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "vicon/cases/case_store.h"
 #include "vicon/cases/finding_facts.h"
@@ -105,6 +108,7 @@ void MarkerTable::connectTable()
             emit flyWanted(*marker);
     });
     connect(table_, &QTableWidget::cellChanged, this, &MarkerTable::noteEdited);
+    connect(table_->itemDelegate(), &QAbstractItemDelegate::closeEditor, this, &MarkerTable::writingEnded);
 }
 
 void MarkerTable::connectButtons()
@@ -134,35 +138,80 @@ void MarkerTable::connectButtons()
 void MarkerTable::show(const std::vector<Marker>& markers, const std::map<std::string, std::string>& positions)
 {
     const auto chosen = selected();
-    filling_ = true;
+    const auto written = rowWritten();
+    const auto seen = written ? std::optional(markers_[std::size_t(*written)]) : std::nullopt;
+    const bool stays = seen && *written < int(markers.size()) && markers[std::size_t(*written)].id == seen->id;
+    const auto* editor = seen ? table_->viewport()->findChild<QLineEdit*>() : nullptr;
+    const QString text_so_far = editor ? editor->text() : QString();
+    newer_.reset();
+    if (seen && !stays)
+        table_->closePersistentEditor(table_->item(*written, kNote));
     markers_ = markers;
+    positions_ = positions;
     table_->setRowCount(int(markers.size()));
-    for (int row = 0; row < int(markers.size()); ++row) {
-        const Marker& m = markers[std::size_t(row)];
-        const auto position = positions.find(m.scan_id);
-        const QStringList cells{text(m.id),
-                                position == positions.end() ? text(m.scan_id) : text(position->second),
-                                QString::number(m.station_mm, 'f', 0),
-                                m.part ? text(nameOf(*m.part)) : QString(),
-                                text(partnerNames(m)),
-                                sizeCell(m),
-                                text(m.note)};
-        for (int column = 0; column < kColumns; ++column) {
-            auto* item = new QTableWidgetItem(cells[column]);
-            if (column != kNote)
-                item->setFlags(item->flags() & ~Qt::ItemIsEditable);
-            if (column == kId)
-                item->setForeground(qtColor(m.color));
-            table_->setItem(row, column, item);
-        }
-    }
+    for (int row = 0; row < int(markers.size()); ++row)
+        fillRow(row, stays && row == *written);
     for (int column = 0; column < kNote; ++column)
         table_->resizeColumnToContents(column);
-    filling_ = false;
+    if (stays) {
+        newer_ = markers_[std::size_t(*written)];
+        markers_[std::size_t(*written)].note = seen->note;
+        updateButtons();
+        return;
+    }
     table_->clearSelection();  // where the chosen marker is gone, the next one is in its row
     if (chosen)
         select(chosen->id);
-    updateButtons();
+    for (int row = 0; row < int(markers.size()) && seen; ++row)
+        if (markers[std::size_t(row)].id == seen->id) {
+            editNote(row);
+            if (auto* again = table_->viewport()->findChild<QLineEdit*>())
+                again->setText(text_so_far);
+        }
+    updateEnabled();
+}
+
+void MarkerTable::fillRow(int row, bool written)
+{
+    const Marker& m = markers_[std::size_t(row)];
+    const auto position = positions_.find(m.scan_id);
+    const QStringList cells{text(m.id),
+                            position == positions_.end() ? text(m.scan_id) : text(position->second),
+                            QString::number(m.station_mm, 'f', 0),
+                            m.part ? text(nameOf(*m.part)) : QString(),
+                            text(partnerNames(m)),
+                            sizeCell(m),
+                            text(m.note)};
+    filling_ = true;
+    for (int column = 0; column < (written ? kNote : kColumns); ++column) {
+        auto* item = new QTableWidgetItem(cells[column]);
+        if (column != kNote)
+            item->setFlags(item->flags() & ~Qt::ItemIsEditable);
+        if (column == kId)
+            item->setForeground(qtColor(m.color));
+        table_->setItem(row, column, item);
+    }
+    filling_ = false;
+}
+
+/// Where nothing is being saved that would show it.
+void MarkerTable::writingEnded()
+{
+    const auto newer = std::exchange(newer_, {});
+    for (std::size_t row = 0; newer && !busy_ && row < markers_.size(); ++row)
+        if (markers_[row].id == newer->id) {
+            markers_[row] = *newer;
+            fillRow(int(row), false);
+        }
+    updateEnabled();
+}
+
+std::optional<int> MarkerTable::rowWritten() const
+{
+    for (int row = 0; row < table_->rowCount() && row < int(markers_.size()); ++row)
+        if (auto* note = table_->item(row, kNote); note && table_->isPersistentEditorOpen(note))
+            return row;
+    return std::nullopt;
 }
 
 void MarkerTable::setStationTip(const QString& tip)
@@ -179,13 +228,21 @@ void MarkerTable::setUndo(bool can_undo, bool can_redo)
 
 void MarkerTable::setBusy(bool busy)
 {
+    if (std::exchange(busy_, busy) == busy)
+        return;
     if (QWidget* focused = QApplication::focusWidget(); busy)
         had_focus_ = !focused || !isAncestorOf(focused) ? nullptr
                      : table_->isAncestorOf(focused)    ? table_  // the note's editor is gone by then
                                                         : focused;
-    setEnabled(!busy);
+    updateEnabled();
     if (!busy && had_focus_ && !QApplication::focusWidget())
         had_focus_->setFocus();
+}
+
+void MarkerTable::updateEnabled()
+{
+    setEnabled(!busy_ || rowWritten());  // disabled, the table would end what is being written, and save it
+    updateButtons();
 }
 
 std::optional<Marker> MarkerTable::selected() const
@@ -205,13 +262,17 @@ void MarkerTable::select(const std::string& id)
 
 void MarkerTable::writeNote()
 {
-    if (markers_.empty() || !isEnabled())
+    if (markers_.empty() || busy_)
         return;
     if (!selected())
         table_->selectRow(0);
-    const int row = table_->selectionModel()->selectedRows().front().row();
-    table_->setCurrentCell(row, kNote);
     table_->setFocus(Qt::ShortcutFocusReason);
+    editNote(table_->selectionModel()->selectedRows().front().row());
+}
+
+void MarkerTable::editNote(int row)
+{
+    table_->setCurrentCell(row, kNote);
     table_->editItem(table_->item(row, kNote));
 }
 
@@ -219,7 +280,7 @@ void MarkerTable::updateButtons()
 {
     const auto marker = selected();
     for (QWidget* widget : std::initializer_list<QWidget*>{go_, color_, move_, pair_, remove_})
-        widget->setEnabled(marker.has_value());
+        widget->setEnabled(marker.has_value() && !busy_);
     if (marker)
         color_->setCurrentIndex(int(marker->color));
 }

@@ -26,8 +26,10 @@ public:
     /// What the column of distances means; empty: there are none.
     void setStationTip(const QString& tip);
     void setUndo(bool can_undo, bool can_redo);
-    /// Nothing can be changed meanwhile; who had the keyboard gets it back.
+    /// Nothing can be changed meanwhile, but a note that is being written is written on; who had the keyboard gets it
+    /// back.
     void setBusy(bool busy);
+    bool isBusy() const { return busy_; }
     std::optional<Marker> selected() const;
     void select(const std::string& id);
     /// Begins to write the note of the chosen marker, else of the first.
@@ -48,10 +50,18 @@ private:
     void connectTable();
     void connectButtons();
     void updateButtons();
+    void updateEnabled();
     void noteEdited(int row, int column);
+    /// In which row a note is being written.
+    std::optional<int> rowWritten() const;
+    void editNote(int row);
+    void fillRow(int row, bool written);
+    void writingEnded();
 
-    std::vector<Marker> markers_;
-    bool filling_ = false;
+    std::vector<Marker> markers_;  // of a note that is being written the one that was seen when that began
+    std::map<std::string, std::string> positions_;
+    std::optional<Marker> newer_;  // the one as it is by now
+    bool filling_ = false, busy_ = false;
     QPointer<QWidget> had_focus_;
     QTableWidget* table_;
     QComboBox* color_;

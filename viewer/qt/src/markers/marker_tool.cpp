@@ -183,7 +183,7 @@ void MarkerTool::refuseMove(const std::string& id)
 
 void MarkerTool::removeChosen()
 {
-    if (const auto marker = table_->selected(); marker && table_->isEnabled())
+    if (const auto marker = table_->selected(); marker && !table_->isBusy())
         reading_.session().removeMarker(*marker);
 }
 

@@ -78,8 +78,7 @@ std::optional<Marker> CaseSession::marker(const std::string& id) const
 
 void CaseSession::edit(const QString& what, Edit work)
 {
-    if (++edits_under_way_ == 1)
-        emit busyChanged(true);
+    const bool first = ++edits_under_way_ == 1;
     books_.postAlways([this, what, work = std::move(work)](Books& books) -> Worker::Work {
         std::string trouble, copy_trouble;
         bool given_up = false;
@@ -117,6 +116,8 @@ void CaseSession::edit(const QString& what, Edit work)
                                 .arg(QString::fromStdString(copy_trouble)));
         };
     });
+    if (first)  // last: who hears it may have something to save, which comes after this
+        emit busyChanged(true);
 }
 
 void CaseSession::edited()

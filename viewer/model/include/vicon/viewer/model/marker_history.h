@@ -20,6 +20,7 @@ public:
     Marker add(CaseStore& store, const Marker& marker);
     /// Several changes as one step.
     void changeAll(CaseStore& store, const std::vector<MarkerEdit>& edits) { take(store, edits); }
+    /// What else of the marker was changed meanwhile stays as it is now.
     /// @param before the marker as the reader saw it
     Marker change(CaseStore& store, const Marker& before, const Marker& after);
     /// Takes the pair entry off the marker that it was paired with, too.
