@@ -94,7 +94,7 @@ void BranchTool::clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers)
         return;
     const SkeletonTree& tree = reading_.scan()->files.tree();
     const PlaceInTree nearest = nearestInPicture(tree, *reading_.shownOverview(), at);
-    if (reading_.click({*reading_.scan(), reading_.place(), nearest.point.position_mm, modifiers, false}))
+    if (reading_.click({*reading_.scan(), {}, nearest.point.position_mm, modifiers, false}))
         return;
     if (leadsThrough(tree, choice_->currentData().toInt(), nearest.branch)) {
         emit reading_.jumpWanted(nearest.point.station_mm);

@@ -20,7 +20,7 @@ void ComparisonTool::connectView()
     connect(slice, &SliceView::failed, &reading_, &Reading::warn);
     connect(slice, &SliceView::pointClicked, this, [this](Point3 point, Qt::KeyboardModifiers modifiers) {
         if (const OpenScan* scan = clickableScan())
-            reading_.click({*scan, shown_.place, point, modifiers, false});
+            reading_.click({*scan, {}, point, modifiers, false});
     });
     connect(&reading_, &Reading::sliceLookChanged, slice, &SliceView::setLook);
     connect(&reading_, &Reading::cleansedChanged, slice, &SliceView::setCleansed);

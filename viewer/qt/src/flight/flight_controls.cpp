@@ -115,7 +115,7 @@ void FlightTool::clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers)
         }
     }
     reading_.rememberPlace();
-    if (!reading_.click({*reading_.scan(), reading_.place(), path.at(station).position_mm, modifiers, false}))
+    if (!reading_.click({*reading_.scan(), {}, path.at(station).position_mm, modifiers, false}))
         jumpTo(station);
 }
 
@@ -129,7 +129,7 @@ void FlightTool::clickedCavity(Pixel at, Qt::KeyboardModifiers modifiers)
         return;
     }
     reading_.rememberPlace();
-    if (reading_.click({*reading_.scan(), reading_.place(), *place, modifiers, false}))
+    if (reading_.click({*reading_.scan(), {}, *place, modifiers, false}))
         return;
     const Pose now = navigator()->state().pose;
     navigator()->lookFrom({*place, now.forward, now.up}, 0);

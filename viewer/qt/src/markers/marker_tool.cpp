@@ -141,7 +141,8 @@ void MarkerTool::add(MarkerColor color, const ClickedPoint& point)
     marker.scan_id = point.scan.record.id;
     marker.position_mm = point.at_mm;
     marker.color = color;
-    marker.view = viewOf(point.from);
+    if (point.from)  // in a slice, wherever the eye is: what shows the place is sought when it is looked at
+        marker.view = viewOf(*point.from);
     reading_.session().addMarker(marker);
     reading_.toolChanged();  // what is measured meanwhile goes on, and may be this marker's
     warnOffWall(marker, point.scan.lumen);

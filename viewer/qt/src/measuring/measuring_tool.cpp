@@ -48,7 +48,7 @@ void MeasuringTool::connectViews()
         connect(&reading_, &Reading::lineChanged, slice, [this, slice] { slice->setLine(reading_.line()); });
         connect(slice, &SliceView::lineDragged, this, [this](int end, Point3 to, GripDrag drag) {
             if (reading_.scan())
-                emit reading_.lineDragged(end, ClickedPoint{*reading_.scan(), reading_.place(), to, {}, false}, drag);
+                emit reading_.lineDragged(end, ClickedPoint{*reading_.scan(), {}, to, {}, false}, drag);
         });
     }
 }
@@ -170,7 +170,7 @@ void MeasuringTool::measure(Point3 from, Point3 to, bool on_wall, const ClickedP
     giveUp(shown_->request);
     shown_->request = ++last_request_;
     shown_->dragged_mm.clear();
-    if (!on_wall) {
+    if (!on_wall || !last.from) {
         Shown result = *shown_;
         result.way_mm = {from, to};
         result.size = {.straight_mm = distance(from, to), .from_mm = from, .to_mm = to};
@@ -180,7 +180,7 @@ void MeasuringTool::measure(Point3 from, Point3 to, bool on_wall, const ClickedP
     requests_[last_request_] = {shown_->scan_id, shown_->marker_id, {from, to}};
     showLine();
     reading_.say(tr("Measuring ..."));
-    reading_.session().measure(last_request_, shown_->scan_id, from, to, last.from.pose.eye_mm);
+    reading_.session().measure(last_request_, shown_->scan_id, from, to, last.from->pose.eye_mm);
 }
 
 std::optional<MeasuringTool::Request> MeasuringTool::finished(int request)

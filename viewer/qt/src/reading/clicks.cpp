@@ -45,7 +45,8 @@ ClickedPoint Reading::wallPoint(Point3 point, Qt::KeyboardModifiers modifiers) c
 {
     const OpenScan& open = *scan();
     const ViewPose view = poseForPoint(open.files.skeleton(), open.files.frames(), open.lumen, point);
-    return {open, {view.pose, view.station_mm, view.clearance_mm, view.sees_target}, point, modifiers, true};
+    return {open, SnapshotResult{view.pose, view.station_mm, view.clearance_mm, view.sees_target}, point, modifiers,
+            true};
 }
 
 void Reading::rememberPlace()
@@ -82,7 +83,7 @@ void Reading::clickedSlice(SliceView& slice, Point3 point, Qt::KeyboardModifiers
         return;
     const bool measuring = interaction_.inUse<Measure>();
     rememberPlace();
-    if (!click({*scan(), place(), point, modifiers, false})) {
+    if (!click({*scan(), {}, point, modifiers, false})) {
         goTo(point);
         if (modifiers & Qt::ControlModifier)
             slice.toAcquiredAndBack();

@@ -18,7 +18,7 @@ class ReadingLayout;
 /// A point that was clicked in a view of a scan.
 struct ClickedPoint {
     const OpenScan& scan;
-    SnapshotResult from;  ///< the view in which it was chosen
+    std::optional<SnapshotResult> from;  ///< the view from inside in which it was chosen; nothing of a slice
     Point3 at_mm;
     Qt::KeyboardModifiers modifiers;
     bool on_wall = false;  ///< chosen in an endoscopic picture, and not as acquired
