@@ -322,6 +322,23 @@ TEST_F(Measuring, ADoubleClickEnlargesTheViewAndLeavesTheEyeWhereItWas)
     }
 }
 
+TEST_F(Measuring, ADoubleClickTakesNothingBackThatWasBeforeIt)
+{
+    click("endoscopic", middle("endoscopic") + QPoint(90, 60));
+    key(Qt::Key_End);
+    ASSERT_TRUE(eventually([] { return length() - station() < 2 && pictureIsThere(); }));
+    auto* overview = the<QWidget>("overview");
+    const QPoint background(20, overview->height() - 20);
+    drag("overview", background, background + QPoint(60, 0));
+    waitUntilQuiet();
+    const int width = overview->width();
+    QTest::mouseClick(overview, Qt::LeftButton, {}, background);
+    QTest::mouseDClick(overview, Qt::LeftButton, {}, background);
+    ASSERT_TRUE(eventually([&] { return overview->width() > width; }));
+    waitUntilQuiet();
+    EXPECT_LT(length() - station(), 2);
+}
+
 TEST_F(Measuring, ADoubleClickOnTheProjectionEnlargesItAndLeavesTheEyeWhereItWas)
 {
     auto* overview = the<QWidget>("overview");

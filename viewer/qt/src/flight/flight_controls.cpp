@@ -114,7 +114,6 @@ void FlightTool::clickedOverview(Pixel at, Qt::KeyboardModifiers modifiers)
             station = s;
         }
     }
-    reading_.rememberPlace();
     if (!reading_.click({*reading_.scan(), {}, path.at(station).position_mm, modifiers, false}))
         jumpTo(station);
 }
@@ -128,7 +127,6 @@ void FlightTool::clickedCavity(Pixel at, Qt::KeyboardModifiers modifiers)
         reading_.say(tr("The lumen is not there."));
         return;
     }
-    reading_.rememberPlace();
     if (reading_.click({*reading_.scan(), {}, *place, modifiers, false}))
         return;
     const Pose now = navigator()->state().pose;

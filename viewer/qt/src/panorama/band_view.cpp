@@ -221,8 +221,6 @@ void BandView::clickedAt(Pixel at, Qt::KeyboardModifiers modifiers)
         return;
     if (const auto point = shown_->picture.pointAt(*shown_->band, at))
         emit pointClicked(*point, modifiers);
-    else
-        emit groundClicked();
 }
 
 void BandView::scroll(int steps, Qt::KeyboardModifiers modifiers)

@@ -44,8 +44,6 @@ signals:
     void pointClicked(vicon::Point3 point, Qt::KeyboardModifiers modifiers);
     /// An end of the line is dragged to a point of the wall, or beside it.
     void endMoved(int end, const std::optional<vicon::Point3>& to, vicon::viewer::GripDrag drag);
-    /// Beside the wall.
-    void groundClicked();
     void failed(const QString& message);
 
 protected:

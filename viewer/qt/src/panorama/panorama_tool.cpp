@@ -52,8 +52,8 @@ void PanoramaTool::addCube(ReadingLayout& layout)
     });
     connect(cube_, &PictureView::resized, this, [this] { drawCube(true); });
     connect(cube_, &PictureView::clicked, this, &PanoramaTool::clickedCube);
+    reading_.takeBackClicksIn(cube_);
     connect(cube_, &PictureView::enlargeWanted, this, [this] {
-        reading_.takeBackClick();
         cube_dock_->setFloating(!cube_dock_->isFloating());
         if (cube_dock_->isFloating())
             cube_dock_->setGeometry(cube_dock_->parentWidget()->geometry());
@@ -91,11 +91,7 @@ void PanoramaTool::addBand(ReadingLayout& layout)
         const bool there = to && reading_.scan();
         emit reading_.lineDragged(end, there ? std::optional(reading_.wallPoint(*to)) : std::nullopt, drag);
     });
-    connect(band_, &BandView::groundClicked, this, [this] {
-        if (reading_.navigator())
-            reading_.rememberPlace();  // a double click here takes nothing back
-    });
-    connect(band_, &PictureView::enlargeWanted, &reading_, &Reading::takeBackClick);
+    reading_.takeBackClicksIn(band_);
     connect(band_, &BandView::failed, &reading_, &Reading::warn);
 }
 
@@ -210,7 +206,6 @@ void PanoramaTool::clickedCube(Pixel at, Qt::KeyboardModifiers modifiers)
 {
     if (!shown_cube_.isOf(reading_.sharedScan()))
         return;
-    reading_.rememberPlace();
     if (const auto point = cubePointAt(at, modifiers))
         clickedWall(*point);
 }
@@ -224,7 +219,6 @@ void PanoramaTool::clickedBand(Point3 point, Qt::KeyboardModifiers modifiers)
 void PanoramaTool::clickedWall(const ClickedPoint& point)
 {
     const bool measuring = reading_.interaction().inUse<Measure>();
-    reading_.rememberPlace();
     if (!reading_.click(point) && !measuring)
         reading_.lookAt(point.at_mm);
 }

@@ -49,9 +49,17 @@ ClickedPoint Reading::wallPoint(Point3 point, Qt::KeyboardModifiers modifiers) c
             true};
 }
 
+void Reading::takeBackClicksIn(const PictureView* view)
+{
+    connect(view, &PictureView::pressed, this, &Reading::rememberPlace);
+    connect(view, &PictureView::enlargeWanted, this, &Reading::takeBackClick);
+}
+
+/// At every press of the mouse, whatever comes of it: what was before an earlier click is long over.
 void Reading::rememberPlace()
 {
-    before_click_ = PlaceBefore{navigator()->place(), looked_at_mm_};
+    if (navigator())
+        before_click_ = PlaceBefore{navigator()->place(), looked_at_mm_};
 }
 
 void Reading::clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers)
@@ -69,7 +77,6 @@ void Reading::clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers)
         return;
     }
     const bool measuring = interaction_.inUse<Measure>();
-    rememberPlace();
     click({*scan(), shown_.place, *point, modifiers, !shown_.acquired});
     if (measuring)
         return;  // no view moves while a length is measured in it
@@ -82,7 +89,6 @@ void Reading::clickedSlice(SliceView& slice, Point3 point, Qt::KeyboardModifiers
     if (!navigator())
         return;
     const bool measuring = interaction_.inUse<Measure>();
-    rememberPlace();
     if (!click({*scan(), {}, point, modifiers, false})) {
         goTo(point);
         if (modifiers & Qt::ControlModifier)

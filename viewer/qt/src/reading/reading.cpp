@@ -60,14 +60,14 @@ void Reading::connectViews()
 {
     connect(views_.endoscopic(), &PictureView::resized, this, [this] { drawEndoscopic(true); });
     connect(views_.endoscopic(), &PictureView::clicked, this, &Reading::clickedEndoscopic);
-    connect(views_.endoscopic(), &PictureView::enlargeWanted, this, &Reading::takeBackClick);
+    takeBackClicksIn(views_.endoscopic());
     connect(views_.overview(), &PictureView::resized, this, [this] { drawOverview(true); });
-    connect(views_.overview(), &PictureView::enlargeWanted, this, &Reading::takeBackClick);
+    takeBackClicksIn(views_.overview());
     for (SliceView* slice : views_.slices()) {
         connect(slice, &SliceView::pointClicked, this, [this, slice](Point3 point, Qt::KeyboardModifiers modifiers) {
             clickedSlice(*slice, point, modifiers);
         });
-        connect(slice, &PictureView::enlargeWanted, this, &Reading::takeBackClick);
+        takeBackClicksIn(slice);
         connect(slice, &SliceView::failed, this, &Reading::warned);
         connect(slice, &SliceView::trackWanted, this, &Reading::trackWanted);
         connect(slice, &SliceView::windowDragged, this, &Reading::windowDragged);

@@ -79,10 +79,8 @@ public:
     void endTool() { begin(Idle{}, {}); }
     /// Views show whether a click is awaited.
     void toolChanged();
-    /// Before a click moves the eye: where it is a double click, the eye goes back there.
-    void rememberPlace();
-    /// After a double click in a view.
-    void takeBackClick();
+    /// A double click in the view leaves the eye where it was before the first of the two.
+    void takeBackClicksIn(const PictureView* view);
     /// False where the click only shows the point.
     bool click(const ClickedPoint& point);
     /// A point of the wall of the scan that is read, chosen from outside, seen from where the eye would look at it.
@@ -141,6 +139,8 @@ signals:
 private:
     void connectSession();
     void connectViews();
+    void rememberPlace();
+    void takeBackClick();
     void markersChanged();
     void showEndoscopic(const Picture& picture, const ShownPicture& shown);
     void clickedEndoscopic(Pixel at, Qt::KeyboardModifiers modifiers);

@@ -150,7 +150,6 @@ void TurningTool::clicked(Pixel at, Qt::KeyboardModifiers modifiers)
         reading_.warn(tr("From outside nothing is measured: measure in the view from inside or in a slice."));
         return;
     }
-    reading_.rememberPlace();
     if (!reading_.click(reading_.wallPoint(*point, modifiers)))
         reading_.lookAt(*point);
 }

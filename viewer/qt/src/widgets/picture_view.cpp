@@ -117,6 +117,7 @@ void PictureView::mousePressEvent(QMouseEvent* event)
     update();
     if (breakOffDrag())
         return;  // by another button
+    emit pressed();
     pressed_ = last_ = event->pos();
     button_ = event->button();
     dragging_ = false;

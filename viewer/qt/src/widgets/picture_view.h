@@ -57,6 +57,7 @@ public:
     virtual QPoint home() const { return rect().center(); }
 
 signals:
+    void pressed();  ///< by a button of the mouse; before whatever comes of it, a double click as well
     void clicked(vicon::viewer::Pixel at, Qt::KeyboardModifiers modifiers);
     /// Of the calliper, 0 or 1.
     void endDragged(int end, vicon::viewer::Pixel at, vicon::viewer::GripDrag drag);
