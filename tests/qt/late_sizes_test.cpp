@@ -199,7 +199,7 @@ TEST_F(LateSizesAndNotes, ANoteThatIsDoneBeforeTheSizeIsSavedLosesNeither)
     const QPoint end = endIn("coronal", 0);
     drag("coronal", end, end + QPoint(25, 15));
     EXPECT_EQ(editor->text(), "sessile");
-    QTest::keyClick(editor, Qt::Key_Return);
+    clickRow(markers(), second);  // the note is done
     EXPECT_TRUE(eventually([&] { return stored()[first].note == "sessile" && sizeOf(first) != before && settled(); }))
         << said().toStdString() << warning();
     waitUntilQuiet();
@@ -342,6 +342,9 @@ TEST_F(OutliningFirst, AMarkerIsMovedWhileAnotherIsOutlined)
 
 TEST_F(Outlining, WhatCannotBeOutlinedIsOnlySaidWhereAnotherMarkerIsChosenMeanwhile)
 {
+    key(Qt::Key_M, Qt::ShiftModifier);
+    click("endoscopic", middle("endoscopic"));
+    ASSERT_TRUE(eventually([&] { return outlined().has_value() && settled(); })) << said().toStdString() << warning();
     key(Qt::Key_Home);
     ASSERT_TRUE(eventually([] { return station() < 2 && pictureIsThere(); }));
     waitUntilQuiet();
