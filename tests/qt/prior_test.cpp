@@ -19,6 +19,7 @@ namespace vicon::viewer {
 namespace {
 
 using test::Reading;
+using test::type;
 
 constexpr const char* kEarlierCase = "c0";
 constexpr int kPriorList = 3;
@@ -85,6 +86,13 @@ protected:
         CaseStore store(store_);
         return comparisons(store, test::kCase);
     }
+    static Finding findingOf(CaseStore& store, const std::string& id)
+    {
+        for (const Finding& one : findings(store, test::kCase))
+            if (one.id == id)
+                return one;
+        throw std::runtime_error("no finding " + id);
+    }
     /// Pixels of a view that are of the colour of earlier findings.
     static int violet(const char* view)
     {
@@ -141,6 +149,64 @@ TEST_F(Priors, AreConfirmedRejectedAndTakenBack)
     press(window(), "priorTakeBack");
     ASSERT_TRUE(eventually([] { return table()->item(0, 4)->text() == "f1?"; })) << warning();
     EXPECT_TRUE(said().empty());
+}
+
+TEST_F(Priors, OfWhichTheChosenOneIsConfirmedForTheChosenFindingWhateverOthersChangeMeanwhile)
+{
+    PriorReport older = list_.reports[0];
+    older.sop_uid = "1.7";
+    older.study.date = "20190310";
+    list_.reports.push_back(older);
+    {
+        CaseStore store(store_);
+        for (const double off_mm : {0.0, 6.0}) {
+            Marker marker{.scan_id = test::kSupine, .part = ColonPart::transverse};
+            marker.station_mm = length_mm_ / 2 + off_mm;
+            marker.position_mm = test::TestColon().skeleton.at(marker.station_mm).position_mm;
+            store.saveMarker(test::kCase, marker);
+        }
+        editFindings(store, test::kCase,
+                     {{std::nullopt, Finding{.markers = {"m1"}, .read_size_mm = 8}},
+                      {std::nullopt, Finding{.markers = {"m2"}, .read_size_mm = 9}}});
+    }
+    ASSERT_NO_FATAL_FAILURE(open());
+    clickRow(table(), 1);
+    auto* today = the<QComboBox>("priorToday");
+    const auto chosen = [&] { return today->currentText().toStdString(); };
+    ASSERT_EQ(chosen(), "Finding f1");
+    today->setFocus();
+    type(Qt::Key_Down);
+    ASSERT_EQ(chosen(), "Finding f2");
+    // Another reader's marker, and another report that was found: all is listed anew.
+    PriorReport newest = list_.reports[0];
+    newest.sop_uid = "1.6";
+    newest.study.date = "20230310";
+    list_.reports.insert(list_.reports.begin(), newest);
+    const Marker other{.scan_id = test::kSupine, .position_mm = test::TestColon().skeleton.at(20).position_mm};
+    CaseStore(store_).saveMarker(test::kCase, other);
+    ASSERT_TRUE(eventually([] { return table()->rowCount() == 3; })) << table()->rowCount();
+    EXPECT_EQ(chosen(), "Finding f2");
+    screenshot("priors-kept");
+    press(window(), "priorConfirm");
+    ASSERT_TRUE(eventually([&] { return said().size() == 1; })) << warning();
+    EXPECT_EQ(said()[0].finding_id, "f2");
+    EXPECT_EQ(said()[0].report_uid, "1.7");
+    // The chosen finding is gone: no other one is taken for it.
+    clickRow(table(), 0);
+    today->setFocus();
+    type(Qt::Key_Down);
+    ASSERT_EQ(chosen(), "Finding f2");
+    {
+        CaseStore store(store_);
+        editFindings(store, test::kCase, {{findingOf(store, "f2"), std::nullopt}});
+        store.removeMarker(test::kCase, "m2");
+    }
+    ASSERT_TRUE(eventually([&] { return today->count() == 1; })) << today->count();
+    EXPECT_EQ(chosen(), "");
+    EXPECT_FALSE(the<QPushButton>("priorConfirm")->isEnabled());
+    today->setFocus();
+    type(Qt::Key_Down);
+    EXPECT_TRUE(the<QPushButton>("priorConfirm")->isEnabled()) << chosen();
 }
 
 TEST_F(Priors, ShowTheEarlierImagesAtTheSamePlaceWithoutAMarker)

@@ -6,6 +6,7 @@
 #include <QMouseEvent>
 #include <QPushButton>
 #include <QTableWidget>
+#include <map>
 
 #include "reading.h"
 #include "test_colon.h"
@@ -49,6 +50,14 @@ protected:
         Marker marker{.scan_id = scan, .position_mm = colon.polyp_mm};
         marker.station_mm = colon.polyp_station_mm;
         return store.saveMarker(test::kCase, marker).id;
+    }
+    /// On the path, by another reader. @param off_mm the second of a pair lies that far from the same place
+    std::string markAt(const char* scan, double station_mm, double off_mm) const
+    {
+        Marker marker{.scan_id = scan};
+        marker.station_mm = station_mm + off_mm;
+        marker.position_mm = test::TestColon().skeleton.at(marker.station_mm).position_mm;
+        return CaseStore(store_).saveMarker(test::kCase, marker).id;
     }
     /// Red in the middle of a picture: the circle of a marker stands there in what looks at it.
     static int circleIn(const char* view)
@@ -210,6 +219,33 @@ TEST_F(TwoScans, BothMarkersOfAProposedPairAreSeenSideBySide)
     ASSERT_TRUE(eventually([&] { return the<QComboBox>("scan")->currentText() != read; })) << "the other scan is read";
     EXPECT_TRUE(eventually([&] { return circleIn("endoscopic") > 100; }));
     EXPECT_TRUE(eventually([&] { return circleIn("besideEndoscopic") > 100; }));
+}
+
+TEST_F(TwoScans, TheChosenPairStaysChosenWhileTheListIsFilledAnewAndNoOtherIsChosenForIt)
+{
+    const std::string removed = markAt(test::kSupine, 20, 0);
+    markAt(test::kProne, 20, 0);
+    const std::string first = markAt(test::kSupine, 120, 0), second = markAt(test::kProne, 120, 1);
+    const std::string later = markAt(test::kSupine, 220, 0), last = markAt(test::kProne, 220, 2);
+    showList(kPairList);
+    auto* table = the<QTableWidget>("pairs");
+    ASSERT_TRUE(eventually([&] { return table->rowCount() == 3; })) << table->rowCount();
+    const auto named = [&](int row) { return table->item(row, 0)->text().toStdString(); };
+    ASSERT_EQ(named(1), first + " and " + second);
+    clickRow(table, 1);
+    ASSERT_TRUE(eventually([] { return the<QPushButton>("pairConfirm")->isEnabled(); }));
+    CaseStore(store_).removeMarker(test::kCase, removed);  // by another reader
+    ASSERT_TRUE(eventually([&] { return table->rowCount() == 2; })) << table->rowCount();
+    ASSERT_EQ(named(0), first + " and " + second) << "one row farther up";
+    press(window(), "pairConfirm");
+    ASSERT_TRUE(eventually([&] { return table->rowCount() == 1 && settled(); })) << table->rowCount();
+    screenshot("pair_of_three_confirmed");
+    std::map<std::string, std::string> partners;
+    for (const Marker& marker : stored())
+        partners[marker.id] = partnerNames(marker);
+    EXPECT_EQ(partners[first], second);
+    EXPECT_EQ(partners[later] + partners[last], "") << "not looked at";
+    EXPECT_FALSE(the<QPushButton>("pairConfirm")->isEnabled()) << "the next one is still to be looked at";
 }
 
 /// With the patient on the side as well.

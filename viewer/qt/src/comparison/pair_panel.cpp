@@ -5,6 +5,7 @@
 #include <QPushButton>
 #include <QTableWidget>
 #include <QVBoxLayout>
+#include <optional>
 
 #include "widgets/panel_parts.h"
 
@@ -54,6 +55,9 @@ PairPanel::PairPanel(QWidget* parent) : QWidget(parent)
 
 void PairPanel::show(std::vector<PairProposal> proposals)
 {
+    std::optional<PairProposal> before;
+    if (const PairProposal* proposal = chosen())
+        before = *proposal;
     proposals_ = std::move(proposals);
     table_->setRowCount(int(proposals_.size()));
     for (int row = 0; row < table_->rowCount(); ++row) {
@@ -65,18 +69,32 @@ void PairPanel::show(std::vector<PairProposal> proposals)
             table_->item(row, column)->setToolTip(cells[kPairWhy]);
         }
     }
+    table_->clearSelection();  // where the chosen pair is gone, another one is in its row
+    if (before)
+        select(*before);
     choose();
+}
+
+void PairPanel::select(const PairProposal& proposal)
+{
+    for (std::size_t row = 0; row < proposals_.size(); ++row)
+        if (proposals_[row].first == proposal.first && proposals_[row].second == proposal.second)
+            table_->selectRow(int(row));
 }
 
 const PairProposal* PairPanel::chosen() const
 {
-    const int row = table_->currentRow();
-    return row >= 0 && row < int(proposals_.size()) ? &proposals_[std::size_t(row)] : nullptr;
+    const auto rows = table_->selectionModel()->selectedRows();
+    if (rows.empty() || rows.front().row() >= int(proposals_.size()))
+        return nullptr;
+    return &proposals_[std::size_t(rows.front().row())];
 }
 
 void PairPanel::choose()
 {
     const PairProposal* proposal = chosen();
+    if (!proposal && confirm_->hasFocus())
+        table_->setFocus();  // the next pair is chosen there
     confirm_->setEnabled(proposal != nullptr);
     words_->setText(proposal             ? QString::fromStdString(proposal->reason)
                     : proposals_.empty() ? tr("No two markers of different scans may be one finding.")

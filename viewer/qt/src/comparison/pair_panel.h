@@ -17,6 +17,7 @@ class PairPanel : public QWidget {
 public:
     explicit PairPanel(QWidget* parent = nullptr);
 
+    /// The pair that was chosen stays so where it is still proposed; else none is.
     void show(std::vector<PairProposal> proposals);
 
 signals:
@@ -26,6 +27,7 @@ signals:
 
 private:
     const PairProposal* chosen() const;
+    void select(const PairProposal& proposal);
     void choose();
 
     std::vector<PairProposal> proposals_;

@@ -5,7 +5,9 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QTableWidget>
+#include <utility>
 
 #include "vicon/cases/printed.h"
 #include "widgets/panel_parts.h"
@@ -33,6 +35,7 @@ PriorPanel::PriorPanel(QWidget* parent) : QWidget(parent)
                 emit flyWanted(rows_[std::size_t(row)].report, *rows_[std::size_t(row)].finding);
         });
     connect(table_, &QTableWidget::itemSelectionChanged, this, &PriorPanel::choose);
+    connect(findings_, qOverload<int>(&QComboBox::activated), this, [this] { allow(); });
     for (const bool confirmed : {true, false})
         connect(confirmed ? confirm_ : reject_, &QPushButton::clicked, this, [this, confirmed] {
             if (const auto row = chosen(); row && row->finding)
@@ -86,7 +89,7 @@ void PriorPanel::fillRow(int row, const QStringList& cells)
 
 void PriorPanel::show(const PriorPage& page)
 {
-    const int before = table_->currentRow();
+    const auto before = chosenUids();
     page_ = page;
     rows_.clear();
     for (std::size_t r = 0; r < page.list.reports.size(); ++r) {
@@ -96,6 +99,7 @@ void PriorPanel::show(const PriorPage& page)
         if (findings == 0)
             rows_.push_back({r, {}});
     }
+    const QSignalBlocker filling(table_);  // until the chosen line is chosen again
     table_->setRowCount(int(rows_.size()));
     for (std::size_t n = 0; n < rows_.size(); ++n) {
         const PriorReport& report = page.list.reports[rows_[n].report];
@@ -110,16 +114,30 @@ void PriorPanel::show(const PriorPage& page)
                          todayOf(rows_[n])});
         table_->item(int(n), kPriorWhen)->setToolTip(QString::fromStdString(inBrief(report)));
     }
-    if (before >= 0 && before < table_->rowCount())
-        table_->setCurrentCell(before, 0);
+    table_->clearSelection();  // where the chosen finding is gone, another one is in its row
+    for (std::size_t n = 0; before && n < rows_.size(); ++n)
+        if (uidsOf(rows_[n]) == *before)
+            table_->selectRow(int(n));
     choose();
+}
+
+PriorPanel::Uids PriorPanel::uidsOf(const Row& row) const
+{
+    const PriorReport& report = page_.list.reports[row.report];
+    return {report.sop_uid, row.finding ? report.findings[*row.finding].uid : std::string()};
+}
+
+std::optional<PriorPanel::Uids> PriorPanel::chosenUids() const
+{
+    const auto row = chosen();
+    return row ? std::optional(uidsOf(*row)) : std::nullopt;
 }
 
 QString PriorPanel::todayOf(const Row& row) const
 {
     const PriorMatch& match = page_.matches[row.report][*row.finding];
     QStringList out;
-    for (const ComparedFinding* one : page_.saidOf(match.report_uid, match.prior_uid))
+    for (const ComparedFinding* one : saidOf(row))
         out << (one->said.confirmed ? tr("%1, confirmed") : tr("not %1")).arg(one->said.finding_id.c_str());
     if (!out.empty())
         return out.join("; ");
@@ -132,8 +150,10 @@ QString PriorPanel::todayOf(const Row& row) const
 
 std::optional<PriorPanel::Row> PriorPanel::chosen() const
 {
-    const int row = table_->currentRow();
-    return row >= 0 && row < int(rows_.size()) ? std::optional(rows_[std::size_t(row)]) : std::nullopt;
+    const auto rows = table_->selectionModel()->selectedRows();
+    if (rows.empty() || rows.front().row() >= int(rows_.size()))
+        return std::nullopt;
+    return rows_[std::size_t(rows.front().row())];
 }
 
 std::string PriorPanel::today() const
@@ -145,19 +165,11 @@ void PriorPanel::choose()
 {
     const auto row = chosen();
     QStringList words;
-    findings_->clear();
-    const bool can = row && row->finding && page_.open && !page_.read.findings.empty();
-    if (row && row->finding) {
-        const PriorMatch& match = page_.matches[row->report][*row->finding];
-        const auto said = page_.saidOf(match.report_uid, match.prior_uid);
-        fillFindings(match, said);
-        for (const ComparedFinding* one : said)
+    fillFindings();
+    if (row && row->finding)
+        for (const ComparedFinding* one : saidOf(*row))
             if (one->said.confirmed)
                 words << QString::fromStdString(growthWords(one->growth));
-        take_back_->setEnabled(can && !said.empty());
-    } else {
-        take_back_->setEnabled(false);
-    }
     if (rows_.empty())
         words << tr("No earlier report of this patient; 'vicon retrieve PEER STUDY --reports' fetches one.");
     for (const std::string& line : page_.list.left_out)
@@ -166,24 +178,48 @@ void PriorPanel::choose()
         for (const std::string& line : page_.list.reports[row->report].not_read)
             words << tr("not read of it: %1").arg(line.c_str());
     words_->setText(words.join("\n"));
-    for (QPushButton* button : {confirm_, reject_})
-        button->setEnabled(can);
-    findings_->setEnabled(can);
+    allow();
 }
 
-/// The one that was spoken of, then those within the window, then the others.
-void PriorPanel::fillFindings(const PriorMatch& match, const std::vector<const ComparedFinding*>& said)
+void PriorPanel::allow()
 {
+    const auto row = chosen();
+    const bool can = row && row->finding && page_.open && !page_.read.findings.empty();
+    findings_->setEnabled(can);
+    const bool names_one = can && findings_->currentIndex() >= 0;
+    for (QPushButton* button : {confirm_, reject_})
+        button->setEnabled(names_one);
+    take_back_->setEnabled(names_one && !saidOf(*row).empty());
+}
+
+std::vector<const ComparedFinding*> PriorPanel::saidOf(const Row& row) const
+{
+    const PriorMatch& match = page_.matches[row.report][*row.finding];
+    return page_.saidOf(match.report_uid, match.prior_uid);
+}
+
+/// The one that was spoken of, then those within the window, then the others. What stood there for this line stays;
+/// where it is gone, nothing is there: another one is not taken for it.
+void PriorPanel::fillFindings()
+{
+    const QVariant before = findings_->currentData();
+    const bool stays = std::exchange(filled_for_, chosenUids()) == chosenUids() && findings_->count() > 0;
+    findings_->clear();
+    const auto row = chosen();
+    if (!row || !row->finding)
+        return;
     QStringList ids;
-    for (const ComparedFinding* one : said)
+    for (const ComparedFinding* one : saidOf(*row))
         ids << one->said.finding_id.c_str();
-    for (const PriorCandidate& candidate : match.candidates)
+    for (const PriorCandidate& candidate : page_.matches[row->report][*row->finding].candidates)
         ids << candidate.finding_id.c_str();
     for (const FindingWithFacts& one : page_.read.findings)
         ids << one.finding.id.c_str();
     ids.removeDuplicates();
     for (const QString& id : ids)
         findings_->addItem(tr("Finding %1").arg(id), id);
+    if (stays)
+        findings_->setCurrentIndex(before.isValid() ? findings_->findData(before) : -1);
 }
 
 }  // namespace vicon::viewer

@@ -18,6 +18,7 @@ class PriorPanel : public QWidget {
 public:
     explicit PriorPanel(QWidget* parent = nullptr);
 
+    /// The line and the finding of today that were chosen stay so where they are still there; else none is.
     void show(const PriorPage& page);
 
     /// A finding of an earlier report.
@@ -37,12 +38,20 @@ private:
     void build();
     void fillRow(int row, const QStringList& cells);
     void choose();
-    void fillFindings(const PriorMatch& match, const std::vector<const ComparedFinding*>& said);
+    /// What can be said now.
+    void allow();
+    void fillFindings();
+    /// Of a report and of its finding; this one is empty where the report has none.
+    using Uids = std::pair<std::string, std::string>;
+    Uids uidsOf(const Row& row) const;
+    std::optional<Uids> chosenUids() const;
+    std::vector<const ComparedFinding*> saidOf(const Row& row) const;
     std::string today() const;
     QString todayOf(const Row& row) const;
 
     PriorPage page_;
     std::vector<Row> rows_;
+    std::optional<Uids> filled_for_;  // the line whose findings of today are offered
     QTableWidget* table_;
     QComboBox* findings_;
     QPushButton *confirm_, *reject_, *take_back_;
