@@ -10,33 +10,14 @@
 #include <map>
 #include <thread>
 
-#include "reading.h"
+#include "correcting.h"
 #include "test_colon.h"
 #include "vicon/core/file.h"
 
 namespace vicon::viewer {
 namespace {
 
-using test::Reading;
-
-/// Corrections of the scan that is read, by the mouse.
-class Correcting : public Reading {
-protected:
-    /// Presses this button of *Colon* and clicks where the path is at the top of the projection.
-    static void correctAlongThePath(const char* button)
-    {
-        press(window(), button);
-        click("overview", {the<QWidget>("overview")->width() / 2, the<QWidget>("overview")->height() / 5});
-        ASSERT_TRUE(eventually([] { return the<QProgressBar>("redo")->isVisible(); })) << warning();
-    }
-    /// Until the corrected scan is shown.
-    static void waitForNewScan()
-    {
-        ASSERT_TRUE(eventually([] { return !the<QProgressBar>("redo")->isVisible(); }));
-        ASSERT_TRUE(eventually([] { return !the<QWidget>("opening")->isVisible(); }));
-        waitForScan();
-    }
-};
+using test::Correcting;
 
 TEST_F(Correcting, CorrectionsGoToThePipelineAndTheNewResultIsTakenOver)
 {

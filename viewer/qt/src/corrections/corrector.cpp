@@ -54,7 +54,7 @@ void Corrector::take(const CorrectionHistory::Step& step, const QString& said)
 
 void Corrector::doAgain(const std::string& scan_id)
 {
-    watched_ = scan_id;
+    watched_.insert(scan_id);
     watch_.start();
     emit progressed(tr("waiting"), 0);
     *stop_ = false;
@@ -118,35 +118,47 @@ void Corrector::look()
 {
     books_.post("look", [this](Books& books) -> Worker::Work {
         return [this, found = services_.worklist(books.store(), {.words = case_id_})] {
+            std::vector<WorklistScan> watched;
             for (const WorklistCase& row : found.cases)
                 for (const WorklistScan& scan : row.scans)
-                    if (row.record.id == case_id_ && scan.record.id == watched_)
-                        show(scan);
+                    if (row.record.id == case_id_ && watched_.contains(scan.record.id))
+                        watched.push_back(scan);
+            if (watch_.isActive())
+                show(watched);
         };
     });
 }
 
-void Corrector::show(const WorklistScan& row)
+void Corrector::show(const std::vector<WorklistScan>& watched)
 {
-    if (!watch_.isActive())
-        return;
-    if (row.state == WorkState::running) {
-        emit progressed(QString::fromStdString(row.step), row.progress);
-    } else if (row.state == WorkState::queued) {
-        emit progressed(tr("waiting"), row.progress);
-        if (*stop_) {
-            watch_.stop();
-            emit progressed(tr("stopped; 'vicon work' or the next correction goes on"), -1);
-        }
-    } else {
+    const auto first = [&](WorkState state) {
+        const auto found =
+            std::find_if(watched.begin(), watched.end(), [&](const auto& scan) { return scan.state == state; });
+        return found == watched.end() ? nullptr : &*found;
+    };
+    const WorklistScan* running = first(WorkState::running);
+    const WorklistScan* queued = first(WorkState::queued);
+    std::vector<WorklistScan> done;
+    for (const WorklistScan& scan : watched)
+        if (scan.state != WorkState::running && scan.state != WorkState::queued && watched_.erase(scan.record.id) > 0)
+            done.push_back(scan);
+    if (running) {
+        emit progressed(QString::fromStdString(running->step), running->progress);
+    } else if (queued && *stop_) {
+        watch_.stop();  // the next correction goes on with them
+        emit progressed(tr("stopped; 'vicon work' or the next correction goes on"), -1);
+    } else if (queued) {
+        emit progressed(tr("waiting"), queued->progress);
+    } else if (watched_.empty()) {
         watch_.stop();
         emit progressed({}, -1);
-        if (row.ready())
-            emit redone(QString::fromStdString(row.record.id));
+    }
+    for (const WorklistScan& scan : done)
+        if (scan.ready())
+            emit redone(QString::fromStdString(scan.record.id));
         else
             emit failed(tr("The corrected scan cannot be read: %1. Undo (Ctrl+Z) takes the correction back.")
-                            .arg(QString::fromStdString(row.reason)));
-    }
+                            .arg(QString::fromStdString(scan.reason)));
 }
 
 }  // namespace vicon::viewer

@@ -4,6 +4,7 @@
 #include <QTimer>
 #include <atomic>
 #include <memory>
+#include <set>
 
 #include "corrections/correction_history.h"
 #include "session/own_store.h"
@@ -19,7 +20,7 @@ public:
     Corrector(const ReadingServices& services, const std::string& case_id, QObject* parent);
     ~Corrector() override;  ///< what runs is stopped; its job waits in the queue
 
-    /// The scan is done again; progressed() and redone() follow.
+    /// The scan is done again; progressed() and redone() follow, also where another one is still being done.
     void correct(const ScanRecord& scan, Correction kind, Point3 point);
     void forget(const ScanRecord& scan);
     /// bridgesFound() follows.
@@ -59,11 +60,12 @@ private:
     void change(const QString& said, Change what);
     void doAgain(const std::string& scan_id);
     void look();
-    void show(const WorklistScan& row);
+    /// How far the scans are that are done again; those that are done are told.
+    void show(const std::vector<WorklistScan>& watched);
 
     const ReadingServices services_;
     std::string case_id_;
-    std::string watched_;  // the scan that is done again
+    std::set<std::string> watched_;  // the scans that are done again
     std::optional<StepNumber> to_undo_, to_redo_;
     std::shared_ptr<std::atomic<bool>> stop_ = std::make_shared<std::atomic<bool>>(false);
     QTimer watch_;

@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QProgressBar>
 #include <QPushButton>
+#include <utility>
 
 #include "branches/kept_branch.h"
 #include "reading/kept_place.h"
@@ -127,6 +128,8 @@ void OpeningTool::renew(const WorklistCase& row)
     for (const WorklistScan& scan : row.scans)
         if (reading_.scan() && scan.record.id == reading_.scan()->record.id)
             takeOver(scan);
+        else
+            takeOverBeside(scan);
 }
 
 /// Its old files are gone: what is marked gets its distances on the new path.
@@ -140,6 +143,25 @@ void OpeningTool::takeOver(const WorklistScan& row)
     observed.own_work = reading_.redoesScan();
     if (const auto request = opening_.observed(observed))
         reading_.changeScan(*request);
+}
+
+void OpeningTool::takeOverBeside(const WorklistScan& row)
+{
+    CaseSession& session = reading_.session();
+    const OpenScan* beside = session.beside();
+    if (!beside || session.besideIsPrior() || beside->record.id != row.record.id || reading_.redoesScan())
+        return;
+    if (row.state == WorkState::queued || row.state == WorkState::running) {
+        beside_in_work_ = row.record.id;
+        return;
+    }
+    if (std::exchange(beside_in_work_, {}) != row.record.id || !row.ready() || madeAt(row.folder) == beside->made)
+        return;
+    session.placeAnew(
+        tr("The scan beside was done again, after a correction by another reader or by 'vicon work'; its markers have "
+           "their distances on the new centreline."));
+    session.closeBeside();  // it is the old one
+    session.openBeside(row.record.id);
 }
 
 void OpeningTool::showChoice()

@@ -31,6 +31,7 @@ private:
     void open(const ScanRequest& request);
     void offer(const std::vector<ScanRecord>& scans);
     void takeOver(const WorklistScan& row);
+    void takeOverBeside(const WorklistScan& row);
     void stayHere();
     void cancel();
     void openOther();
@@ -40,6 +41,7 @@ private:
     QWidget* progress_;
     QProgressBar* bar_;
     ScanOpening opening_;
+    std::string beside_in_work_;  // elsewhere
 };
 
 }  // namespace vicon::viewer

@@ -30,7 +30,8 @@ void CaseSession::open(const std::string& scan_id, bool fresh, int branch)
 {
     wanted_scan_ = scan_id;
     loader_.giveUp(kOpen);
-    if (!fresh && beside_ && beside_->record.id == scan_id) {
+    const bool is_beside = beside_ && beside_->record.id == scan_id;
+    if (!fresh && is_beside && beside_->made == madeAt(folderOf(scan_id))) {  // else it was done again meanwhile
         loader_.giveUp(kOpenBeside);
         std::swap(scan_, beside_);
         wanted_beside_ = beside_ ? filesOf(beside_->record.id) : std::nullopt;
