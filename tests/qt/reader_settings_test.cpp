@@ -305,5 +305,49 @@ TEST_F(ReaderSettings, AreFoundInACaseThatIsOpenedBesideAndWhatIsClosedLastTakes
     EXPECT_EQ(the<QComboBox>("peel")->currentData().toString(), "") << "as it was set last";
 }
 
+using TwoCases = ReaderSettings;
+
+TEST_F(TwoCases, EachCountsTheTimeOfItsOwnWindowsAlone)
+{
+    constexpr int kRead_s = 4;
+    const auto read_s = [](const QWidget* in) {
+        const QStringList parts = in->findChild<QLabel*>("readingTime")->text().split(':');
+        return parts.value(0).toInt() * 60 + parts.value(1).toInt();
+    };
+    openCase();
+    QMainWindow* first = window();
+    startOpening(kOtherPatient);
+    QMainWindow* other = nullptr;
+    for (QWidget* widget : QApplication::topLevelWidgets())
+        if (widget != first && widget->objectName() == "reading")
+            other = qobject_cast<QMainWindow*>(widget);
+    ASSERT_NE(other, nullptr);
+    ASSERT_TRUE(eventually([&] { return !other->findChild<QLabel*>("where")->text().isEmpty(); }));
+    waitUntilQuiet();
+    const auto readIn = [&](QWidget* reading, const char* view, QWidget* active) {
+        auto* picture = reading->findChild<QWidget*>(view);
+        test::activate(active, picture);
+        const int until_s = read_s(reading) + kRead_s;
+        ASSERT_TRUE(eventually([&] {
+            QTest::mouseMove(picture, picture->rect().center());
+            return read_s(reading) >= until_s;
+        }));
+    };
+    const int before_s = read_s(first);
+    ASSERT_NO_FATAL_FAILURE(readIn(other, "endoscopic", other));
+    EXPECT_LE(read_s(first) - before_s, 1) << "the second in which it was left";
+    // A window of its own for a second screen is the case's as well.
+    ASSERT_NO_FATAL_FAILURE(test::activate(first, first->findChild<QWidget*>("endoscopic")));
+    QTest::keyClick(first, Qt::Key_F2);
+    auto* slice = first->findChild<QWidget*>("axial");
+    ASSERT_TRUE(eventually([&] { return slice->window() != first; }));
+    const int other_s = read_s(other);
+    ASSERT_NO_FATAL_FAILURE(readIn(first, "axial", slice->window()));
+    EXPECT_LE(read_s(other) - other_s, 1);
+    other->close();
+    ASSERT_TRUE(eventually([&] { return QApplication::topLevelWidgets().indexOf(other) < 0; }));
+    closeCase();
+}
+
 }  // namespace
 }  // namespace vicon::viewer

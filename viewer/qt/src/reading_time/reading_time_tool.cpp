@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QEvent>
 #include <QLabel>
+#include <QWidget>
 #include <cmath>
 #include <utility>
 
@@ -41,12 +42,22 @@ void ReadingTimeTool::addTo(ReadingLayout& layout)
     qApp->installEventFilter(this);
 }
 
-bool ReadingTimeTool::eventFilter(QObject*, QEvent* event)
+bool ReadingTimeTool::eventFilter(QObject* object, QEvent* event)
 {
-    if (event->type() == QEvent::MouseMove || event->type() == QEvent::KeyPress || event->type() == QEvent::Wheel ||
-        event->type() == QEvent::MouseButtonPress)
+    const bool by_hand = event->type() == QEvent::MouseMove || event->type() == QEvent::KeyPress ||
+                         event->type() == QEvent::Wheel || event->type() == QEvent::MouseButtonPress;
+    if (by_hand && isOfThisCase(qobject_cast<QWidget*>(object)))
         active_.start();
     return false;
+}
+
+/// In the case's window, the second one or a dialog of it; another case's window is open beside.
+bool ReadingTimeTool::isOfThisCase(const QWidget* widget) const
+{
+    const QWidget* const of = text_->window();
+    while (widget && widget != of)
+        widget = widget->parentWidget();
+    return widget != nullptr;
 }
 
 void ReadingTimeTool::scanOpened(const Arrival&)
@@ -67,7 +78,7 @@ void ReadingTimeTool::stop()
 void ReadingTimeTool::tick()
 {
     const double passed_s = double(since_tick_.restart()) / 1000;
-    const bool reading = QApplication::activeWindow() && !active_.hasExpired(kAway_ms);
+    const bool reading = isOfThisCase(QApplication::activeWindow()) && !active_.hasExpired(kAway_ms);
     clock_.pass(passed_s, reading, reading_.views().firstSlice() != nullptr);
     text_->setText(minutes(clock_.scan_s()));
 }

@@ -34,6 +34,7 @@ protected:
     bool eventFilter(QObject* object, QEvent* event) override;
 
 private:
+    bool isOfThisCase(const QWidget* widget) const;
     void tick();
     void writeLeft();
 
