@@ -54,6 +54,24 @@ protected:
             }
         return double(count) / (image.width() * image.height());
     }
+    /// Reads on until the reading is worth a line of the audit trail, and closes the case.
+    std::string lookedAtInAudit() const
+    {
+        const auto read_s = [] {
+            const QStringList parts = the<QLabel>("readingTime")->text().split(':');
+            return parts.size() == 2 ? parts[0].toInt() * 60 + parts[1].toInt() : 0;
+        };
+        EXPECT_TRUE(eventually([&] {
+            QTest::mouseMove(the<QWidget>("endoscopic"), middle("endoscopic"));
+            return read_s() >= 6;
+        }));
+        closeCase();
+        CaseStore store(store_);
+        for (const AuditLine& line : auditTrail(store, test::kCase))
+            if (line.event == "scan read" && line.scan_id == test::kSupine)
+                return line.detail.substr(line.detail.rfind("; ") + 2);
+        return "no line";
+    }
     static QString said() { return window()->statusBar()->currentMessage(); }
 };
 
@@ -89,22 +107,7 @@ TEST_F(Missing, RegionsAreListedWithPicturesVisitedByAKeyAndTickedOffWhenReviewe
     key(Qt::Key_F3);
     EXPECT_TRUE(eventually([] { return said().contains("No region of 300"); })) << said().toStdString();
     EXPECT_GT(the<QLabel>("seen")->text().section(' ', 0, 0).toDouble(), 95);
-
-    const auto read_s = [] {
-        const QStringList parts = the<QLabel>("readingTime")->text().split(':');
-        return parts.size() == 2 ? parts[0].toInt() * 60 + parts[1].toInt() : 0;
-    };
-    ASSERT_TRUE(eventually([&] {
-        QTest::mouseMove(the<QWidget>("endoscopic"), middle("endoscopic"));
-        return read_s() >= 6;
-    }));
-    closeCase();
-    CaseStore store(store_);
-    bool logged = false;
-    for (const AuditLine& line : auditTrail(store, test::kCase))
-        logged = logged || (line.event == "scan read" && line.scan_id == test::kSupine &&
-                            line.detail.find("2 of ") != std::string::npos);
-    EXPECT_TRUE(logged) << "time, coverage and regions are kept";
+    EXPECT_EQ(lookedAtInAudit(), "2 of 2 missed regions looked at") << "kept with time and coverage";
 }
 
 TEST_F(Missing, TheListThatIsGoneThroughStaysWhileRegionsAreReviewed)
@@ -117,6 +120,37 @@ TEST_F(Missing, TheListThatIsGoneThroughStaysWhileRegionsAreReviewed)
     EXPECT_EQ(list()->rowCount(), 2);
     EXPECT_TRUE(ticked(0));
     EXPECT_FALSE(ticked(1));
+}
+
+TEST_F(Missing, WhatWasLookedAtIsCountedOnceHoweverOftenItIsListed)
+{
+    ASSERT_TRUE(eventually([] { return list()->rowCount() == 2; })) << list()->rowCount();
+    for (const char* which : {"1 of 2", "2 of 2"}) {
+        key(Qt::Key_F3);
+        ASSERT_TRUE(eventually([&] { return said().contains(which); })) << said().toStdString();
+        waitUntilQuiet();
+    }
+    ASSERT_TRUE(eventually([] { return ticked(0); })) << "looked at for long enough";
+    press(window(), "listUnseen");
+    waitUntilQuiet();
+    ASSERT_LT(list()->rowCount(), 2) << "the first one is reviewed by now";
+    EXPECT_EQ(lookedAtInAudit(), "2 of 2 missed regions looked at");
+}
+
+TEST_F(Missing, TheNextOneThatIsAskedForInOneScanIsNotSoughtInTheOther)
+{
+    key(Qt::Key_C);
+    ASSERT_TRUE(eventually([] { return drawn("besideEndoscopic"); }));
+    waitUntilQuiet();
+    QStringList all;
+    const QObject listener;
+    QObject::connect(window()->statusBar(), &QStatusBar::messageChanged, &listener,
+                     [&](const QString& words) { all << words; });
+    key(Qt::Key_F3);
+    key(Qt::Key_X);  // the other scan is read at once; the list of the first one was on its way
+    waitForScan();
+    EXPECT_TRUE(all.filter("is missed").empty()) << all.join("; ").toStdString();
+    EXPECT_TRUE(all.filter("Missed region").empty()) << all.join("; ").toStdString();
 }
 
 TEST_F(Missing, TheProjectionIsPaintedFromTheFrontAndWhatIsForgottenIsNot)

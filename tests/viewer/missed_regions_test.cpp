@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <utility>
 
 #include "vicon/viewer/model/review_rule.h"
 #include "vicon/viewer/model/scan_coverage.h"
@@ -45,6 +46,28 @@ TEST(MissedRegions, AreGoneThroughFromTheRectumAndTickedOffWhenFourFifthsAreRevi
     EXPECT_FALSE(missed.next());
     EXPECT_FALSE(MissedRegions().next());
     EXPECT_EQ(missed.trianglesOf(0, 10), (std::vector<std::uint8_t>{1, 1, 1, 1, 1, 0, 0, 0, 0, 0}));
+}
+
+TEST(MissedRegions, ThatWereLookedAtStayCountedWhenTheyAreListedAnewAndNoneTwice)
+{
+    MissedRegions missed({patch(10, {0, 1}), patch(20, {2, 3}), patch(30, {4, 5, 6}), patch(40, {7})});
+    const auto counted = [&] { return std::pair(missed.countLookedAt(), missed.countListed()); };
+    EXPECT_EQ(counted(), std::pair(std::size_t(0), std::size_t(4)));
+    for (const std::size_t region : {0, 2, 2})
+        missed.visit(region);
+    EXPECT_EQ(counted(), std::pair(std::size_t(2), std::size_t(4)));
+    // The first one is reviewed by now, and so is the one that was never visited; of the third one some is left.
+    missed = missed.listedAnew({patch(30, {5}), patch(40, {7})});
+    EXPECT_FALSE(missed.visited());
+    EXPECT_EQ(counted(), std::pair(std::size_t(2), std::size_t(3))) << "the first, the third's rest, the last";
+    missed.visit(0);
+    EXPECT_EQ(counted(), std::pair(std::size_t(2), std::size_t(3))) << "looked at before";
+    missed.visit(1);
+    EXPECT_EQ(counted(), std::pair(std::size_t(3), std::size_t(3)));
+    missed = missed.listedAnew({});
+    EXPECT_EQ(counted(), std::pair(std::size_t(3), std::size_t(3)));
+    missed = missed.listedAnew({patch(10, {1})});
+    EXPECT_EQ(counted(), std::pair(std::size_t(3), std::size_t(3))) << "smaller ones are listed now";
 }
 
 /// A triangle of 1 mm before the eye, turned away from it about the vertical.

@@ -15,13 +15,48 @@ double reviewedOf(const UnseenPatch& patch, const Coverage& coverage)
     return area;
 }
 
+bool shareWall(const UnseenPatch& a, const UnseenPatch& b)
+{
+    return std::any_of(a.triangles.begin(), a.triangles.end(),
+                       [&](std::uint32_t t) { return std::binary_search(b.triangles.begin(), b.triangles.end(), t); });
+}
+
 }  // namespace
 
 MissedRegions::MissedRegions(std::vector<UnseenPatch> patches)
-    : regions_(std::move(patches)), done_(regions_.size(), false)
+    : regions_(std::move(patches)), done_(regions_.size(), false), looked_at_(regions_.size(), false)
 {
     std::stable_sort(regions_.begin(), regions_.end(),
                      [](const UnseenPatch& a, const UnseenPatch& b) { return a.station_mm < b.station_mm; });
+}
+
+void MissedRegions::visit(std::size_t region)
+{
+    visited_ = region;
+    looked_at_[region] = true;
+}
+
+MissedRegions MissedRegions::listedAnew(std::vector<UnseenPatch> patches) const
+{
+    MissedRegions anew(std::move(patches));
+    std::vector<UnseenPatch> looked_at = looked_at_before_;
+    for (std::size_t n = 0; n < regions_.size(); ++n)
+        if (looked_at_[n])
+            looked_at.push_back(regions_[n]);
+    for (const UnseenPatch& before : looked_at) {
+        bool still_missed = false;
+        for (std::size_t n = 0; n < anew.regions_.size(); ++n)
+            if (shareWall(before, anew.regions_[n]))
+                still_missed = anew.looked_at_[n] = true;
+        if (!still_missed)
+            anew.looked_at_before_.push_back(before);
+    }
+    return anew;
+}
+
+std::size_t MissedRegions::countLookedAt() const
+{
+    return looked_at_before_.size() + std::size_t(std::count(looked_at_.begin(), looked_at_.end(), true));
 }
 
 std::size_t MissedRegions::countDone() const

@@ -101,6 +101,7 @@ void CoverageTool::connectPanel()
         if (!reading_.scan())
             return;
         reading_.scan()->coverage.forget();
+        missed_ = {};  // what was looked at as well
         reading_.drawEndoscopic(true);
         reading_.drawOverview(true);
         showSeen();
@@ -133,8 +134,9 @@ void CoverageTool::scanLeft()
 
 void CoverageTool::scanOpened(const Arrival&)
 {
+    next_when_listed_ = false;  // asked for in the scan before
+    missed_ = {};
     showList({});
-    visits_.clear();
     showSeen();
     listMissed();
 }
@@ -173,7 +175,7 @@ void CoverageTool::showList(const std::vector<UnseenPatch>& patches)
 {
     leaveRegion();
     ++list_;
-    missed_ = MissedRegions(patches);
+    missed_ = missed_.listedAnew(patches);
     panel_->show(missed_, reading_.scan()->files.parts());
     drawPicture(0);
     if (!std::exchange(next_when_listed_, false))
@@ -218,7 +220,6 @@ void CoverageTool::flyTo(std::size_t region)
     if (!reading_.scan() || region >= missed_.regions().size())
         return;
     missed_.visit(region);
-    visits_.insert(int(region));
     panel_->mark(missed_);
     const UnseenPatch& patch = missed_.regions()[region];
     highlighted_ = std::make_shared<const std::vector<std::uint8_t>>(
@@ -282,7 +283,7 @@ void CoverageTool::sumUp()
 
 QString CoverageTool::visitsInWords() const
 {
-    return tr("%1 of %2 missed regions looked at").arg(visits_.size()).arg(missed_.regions().size());
+    return tr("%1 of %2 missed regions looked at").arg(missed_.countLookedAt()).arg(missed_.countListed());
 }
 
 void CoverageTool::keep()

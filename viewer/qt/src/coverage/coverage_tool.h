@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QTimer>
-#include <set>
 
 #include "coverage/coverage_keeper.h"
 #include "reading/reading_tool.h"
@@ -64,7 +63,6 @@ private:
     QLabel* seen_text_;
     MissedRegions missed_;
     int list_ = 0;  // of how many, since the program began
-    std::set<int> visits_;
     bool next_when_listed_ = false;
     std::shared_ptr<const std::vector<std::uint8_t>> highlighted_;
     CoverageKeeper keeper_{this};
