@@ -31,12 +31,14 @@ void PictureTool::copy()
     reading_.say(tr("Picture copied"));
 }
 
-/// The view that is read in, below a line that says whose it is: it leaves the window, whose banner said so.
+/// The view that is looked at, below a line that says whose it is: it leaves the window, whose banner said so.
 QImage PictureTool::named() const
 {
-    const QImage& image = reading_.views().first()->image();
-    if (image.isNull() || !reading_.scan())
+    PictureView* view = reading_.views().lookedAt();
+    const OpenScan* scan = reading_.views().isBeside(view) ? reading_.session().beside() : reading_.scan();
+    if (view->image().isNull() || !scan)
         return {};
+    const QImage image = view->seen();
     const double ratio = image.devicePixelRatio();
     constexpr int kMargin_px = 4;
     QFont letters = QApplication::font();
@@ -50,9 +52,8 @@ QImage PictureTool::named() const
     letters.setPixelSize(int(QFontInfo(letters).pixelSize() * ratio));
     painter.setFont(letters);
     painter.setPen(Qt::white);
-    painter.drawText(
-        QRect(0, 0, whole.width(), line_px).adjusted(kMargin_px, 0, 0, 0), Qt::AlignVCenter,
-        painter.fontMetrics().elidedText(reading_.scan()->inWords(), Qt::ElideRight, whole.width() - 2 * kMargin_px));
+    painter.drawText(QRect(0, 0, whole.width(), line_px).adjusted(kMargin_px, 0, 0, 0), Qt::AlignVCenter,
+                     painter.fontMetrics().elidedText(scan->inWords(), Qt::ElideRight, whole.width() - 2 * kMargin_px));
     return whole;
 }
 

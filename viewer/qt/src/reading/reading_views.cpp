@@ -1,5 +1,6 @@
 #include "reading/reading_views.h"
 
+#include <QApplication>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -167,6 +168,19 @@ void ReadingViews::enlargeFocused()
             return;
         }
     enlarge(enlarged_ ? enlarged_ : first());
+}
+
+PictureView* ReadingViews::lookedAt() const
+{
+    auto* reached = qobject_cast<PictureView*>(QApplication::focusWidget());
+    if (reached && reached->isVisible())
+        return reached;
+    if (auto* enlarged = qobject_cast<PictureView*>(enlarged_); enlarged && enlarged->isVisible())
+        return enlarged;
+    for (QWidget* view : inOrder())
+        if (auto* picture = qobject_cast<PictureView*>(view); picture && picture->isVisible())
+            return picture;
+    return first();
 }
 
 void ReadingViews::takeKeyboard()

@@ -25,6 +25,11 @@ public:
     const std::array<SliceView*, 4>& slices() const { return slices_; }
     /// The view that is read in: it is large, and has the keyboard.
     PictureView* first() const;
+    /// What is looked at: the visible view that has the keyboard, of those added beside as well; else the enlarged one,
+    /// else the first that is visible.
+    PictureView* lookedAt() const;
+    /// It shows the scan that is beside.
+    bool isBeside(const QWidget* view) const { return beside_ && beside_->isAncestorOf(view); }
     /// The slice that is read in; nothing where the view from inside is.
     SliceView* firstSlice() const;
     /// @param plane of the large slice

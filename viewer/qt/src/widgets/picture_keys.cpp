@@ -117,9 +117,17 @@ void PictureView::leaveEvent(QEvent*)
         forgetCross();
 }
 
+QImage PictureView::seen()
+{
+    copied_ = true;
+    const QImage seen = grab().toImage();
+    copied_ = false;
+    return seen;
+}
+
 void PictureView::drawFocus(QPainter& painter) const
 {
-    if (!hasFocus())
+    if (!hasFocus() || copied_)
         return;
     painter.setRenderHint(QPainter::Antialiasing, false);
     constexpr int kRing_px = 2;

@@ -47,6 +47,8 @@ public:
     /// What was shown is no longer true; until the next picture these words stand there.
     void clearPicture(const QString& words);
     const QImage& image() const { return image_; }
+    /// As it is seen, with what is drawn over it, but for what shows that the keyboard acts on it.
+    QImage seen();
     /// Size that a picture should have, in device pixels.
     QSize pictureSize() const;
     /// How high what is written in a picture is, in its pixels: as high as the window's own text.
@@ -123,6 +125,7 @@ private:
     bool circling_ = false;
     bool picking_ = false, steered_ = false;
     bool reached_ = false;         // by the keyboard, which then acts on this view
+    bool copied_ = false;          // what is painted leaves the window
     std::optional<QPoint> cross_;  // home() until it was moved
     bool mouse_moved_last_ = false;
     int wheel_ = 0;  // eighths of a degree not yet reported
