@@ -6,6 +6,7 @@
 
 #include "reading.h"
 #include "slices/slice_view.h"
+#include "test_colon.h"
 #include "vicon/scan_files/stored_volume.h"
 #include "vicon/viewer/model/window_level.h"
 
@@ -255,6 +256,26 @@ TEST_F(Reading2D, ZoomStaysOnTheCrossAlsoWhileTheLumenIsFollowed)
     EXPECT_LT(distance(shown("axial").centre_mm, middle_mm), 0.5);
     wheel("axial", -8, Qt::ControlModifier);
     EXPECT_TRUE(eventually([&] { return std::abs(shown("axial").mm_per_pixel - scale) < 1e-9; })) << "all of it again";
+}
+
+TEST_F(Reading2D, TheSliceAcrossTheLumenPassesThroughEveryPlaceThatIsClicked)
+{
+    key(Qt::Key_F6);
+    for (int n = 0; n < 3; ++n)
+        key(Qt::Key_H);
+    waitUntilQuiet();
+    ASSERT_TRUE(the<QWidget>("across")->isVisible());
+    const Skeleton path = test::TestColon().skeleton;
+    const auto* across = the<SliceView>("across");
+    for (const double station_mm : {60.0, 200.0, 110.0, 260.0, 20.0}) {
+        SCOPED_TRACE(station_mm);
+        const Pixel at = shown("coronal").toPixel(path.at(station_mm).position_mm);
+        click("coronal", {int(at.x), int(at.y)});
+        waitUntilQuiet();
+        EXPECT_LT(std::abs(across->shown().depth_mm(across->point_mm())), 1e-6) << "the cross is where the picture is";
+        EXPECT_TRUE(the<QWidget>("across")->rect().contains(cross("across")));
+    }
+    screenshot("across_clicked_place");
 }
 
 TEST_F(Reading2D, SlicesAreAKeyAwayFromWhatWasAcquiredPixelForPixel)

@@ -3,10 +3,9 @@
 #include <QMouseEvent>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "vicon/viewer/model/slice_image.h"
 #include "vicon/viewer/model/thick_slice.h"
-#include "vicon/viewer/model/tracked_lumen.h"
 
 namespace vicon::viewer {
 namespace {
@@ -61,37 +60,21 @@ void SliceView::setPlane(SlicePlane plane)
 void SliceView::look(std::shared_ptr<OpenScan> scan, Point3 point, const Pose& pose, std::vector<Marker> markers,
                      std::vector<PriorPlace> priors, Move how)
 {
-    if (scan != scan_) {
+    const bool same_scan = scan == scan_;
+    const PlaneView before = same_scan ? viewWith(pan_mm_) : PlaneView();
+    const Point3 point_before = std::exchange(request_.point_mm, point);
+    scan_ = std::move(scan);
+    request_.pose = pose;
+    if (!same_scan) {
         worker_.giveUp(kSlice);
         pan_mm_ = {};
-    } else if (!(point == request_.point_mm)) {
-        pan_mm_ = panFor(point, how);
+    } else if (!(point == point_before)) {
+        pan_mm_ = panFrom(before, point_before, how);
     }
-    scan_ = std::move(scan);
-    request_.point_mm = point;
-    request_.pose = pose;
     request_.markers = std::move(markers);
     request_.priors = std::move(priors);
     request_.caption = scan_->caption;
     draw();
-}
-
-/// Back to the slice of the point; across it the picture moves as little as it may.
-Vector3 SliceView::panFor(Point3 point, Move how) const
-{
-    const PlaneView& view = request_.view;
-    const auto inPlane = [&](Vector3 v) { return v - view.forward() * dot(v, view.forward()); };
-    if (zoom_ <= 1 && request_.voxels_a_pixel == 0)
-        return inPlane(pan_mm_);
-    const auto isInside = [&](Point3 p, double margin) {
-        const Pixel at = view.toPixel(p);
-        const double x = margin * view.width, y = margin * view.height;
-        return at.x >= x && at.x <= view.width - x && at.y >= y && at.y <= view.height - y;
-    };
-    constexpr double kMargin = 0.1;  // of the picture: nearer to its edge, what lies around the point is not seen
-    if (how == Move::as_needed)
-        return isInside(point, kMargin) ? inPlane(view.centre_mm - point) : Vector3{};
-    return isInside(request_.point_mm, 0) ? inPlane(pan_mm_) : Vector3{};
 }
 
 void SliceView::setLook(const SliceLook& look)
@@ -173,26 +156,6 @@ void SliceView::scroll(int steps, Qt::KeyboardModifiers modifiers)
     draw();
 }
 
-/// The cross stays where it is in the picture.
-void SliceView::zoom(int notches)
-{
-    constexpr double kNotch = 1.2, kMost = 20;
-    request_.voxels_a_pixel = 0;
-    const double before = zoom_;
-    zoom_ = std::clamp(zoom_ * std::pow(kNotch, notches), 1.0, kMost);
-    const PlaneView& view = request_.view;
-    const Vector3 off = view.centre_mm - request_.point_mm;
-    const Vector3 across = view.forward() * dot(off, view.forward());
-    pan_mm_ = zoom_ > 1 ? across + (off - across) * (before / zoom_) : across;
-    draw();
-}
-
-SliceAxes SliceView::axes() const
-{
-    return request_.plane == SlicePlane::across ? axesAcross(scan_->files.frames(), request_.point_mm, request_.pose)
-                                                : axesOf(request_.plane);
-}
-
 /// What is hidden is not drawn.
 void SliceView::showEvent(QShowEvent* event)
 {
@@ -204,18 +167,7 @@ void SliceView::draw()
 {
     if (!scan_ || !isVisible())
         return;
-    const QSize size = pictureSize();
-    const Grid& grid = scan_->files.volume().grid;
-    PlaneView view = sliceThrough(grid, axes(), request_.point_mm, size.width(), size.height());
-    if (zoom_ > 1) {
-        view.mm_per_pixel /= zoom_;
-        const Vector3 to_point = request_.point_mm - view.centre_mm;  // across the plane it is none
-        view.centre_mm += to_point;
-    }
-    view.centre_mm += pan_mm_;
-    if (request_.voxels_a_pixel > 0)
-        view = pixelForPixel(grid, view, request_.point_mm + pan_mm_, request_.voxels_a_pixel);
-    request_.view = view;
+    request_.view = viewWith(pan_mm_);
     request_.pixel_ratio = devicePixelRatioF();
     request_.text_px = textHeight_px();
     if (!image().isNull())

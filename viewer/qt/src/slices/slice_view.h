@@ -69,7 +69,10 @@ protected:
 private:
     SliceAxes axes() const;
     void draw();
-    Vector3 panFor(Point3 point, Move how) const;
+    /// The one asked for, with its middle off from where it would be.
+    PlaneView viewWith(Vector3 pan_mm) const;
+    /// That keeps the picture where it was. @param before that view @param point_before where its cross was
+    Vector3 panFrom(const PlaneView& before, Point3 point_before, Move how) const;
     void zoom(int notches);
     void show(const Picture& picture, const SliceRequest& of);
     void drawLine();
