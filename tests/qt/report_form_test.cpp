@@ -11,6 +11,8 @@
 #include <QPlainTextEdit>
 #include <QTableWidget>
 
+#include "test_colon.h"
+
 namespace vicon::viewer {
 namespace {
 
@@ -133,6 +135,43 @@ TEST_F(Form, MakesAFindingOfMarkersAndKeepsWhatIsSaidOfIt)
     press(window(), "findingRemove");
     ASSERT_TRUE(eventually([&] { return found().empty(); }));
     EXPECT_EQ(stored().size(), 1U) << "its marker stays";
+}
+
+TEST_F(Form, ShowsAFindingWhereItsLeadingMarkerIsByNow)
+{
+    key(Qt::Key_2);
+    click("endoscopic", middle("endoscopic") + QPoint(90, 60));
+    ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
+    ASSERT_NO_FATAL_FAILURE(openForm());
+    type(Qt::Key_N, Qt::AltModifier);
+    const auto* picture = the<QLabel>("findingPicture");
+    const auto shown = [&] { return picture->pixmap(Qt::ReturnByValue).toImage(); };
+    ASSERT_TRUE(eventually([&] { return picture->isVisible() && !shown().isNull(); })) << warning();
+    waitUntilQuiet();
+    const QImage before = shown();
+    screenshot("form-finding-before");
+    {  // by another reader
+        CaseStore other(store_);
+        Marker marker = stored()[0];
+        marker.view.reset();
+        marker.station_mm = 150;
+        marker.position_mm = test::TestColon().skeleton.at(marker.station_mm).position_mm + Vector3{0, 0, 8};
+        other.saveMarker(test::kCase, marker);
+    }
+    EXPECT_TRUE(eventually([&] { return picture->isVisible() && !shown().isNull() && shown() != before; }));
+    waitUntilQuiet();
+    screenshot("form-finding-moved");
+    const QImage moved = shown();
+    {  // a note is not seen in it
+        CaseStore other(store_);
+        Marker marker = stored()[0];
+        marker.note = "flat";
+        other.saveMarker(test::kCase, marker);
+    }
+    ASSERT_TRUE(eventually([] { return cell(0, 6) == "flat"; }));
+    EXPECT_TRUE(picture->isVisible()) << "it stays";
+    waitUntilQuiet();
+    EXPECT_EQ(shown(), moved);
 }
 
 TEST_F(Form, CountsEveryClickOnANumbersArrowHoweverFast)

@@ -243,7 +243,7 @@ void FindingsPart::showChosen()
     const FindingWithFacts* one = chosen();
     editor_->setVisible(one);
     facts_->setVisible(one);
-    picture_->setVisible(one && pictured_ == chosen_ && picture_->pixmap(Qt::ReturnByValue).width() > 0);
+    picture_->setVisible(one && pictured_ == pictureOf(*one) && picture_->pixmap(Qt::ReturnByValue).width() > 0);
     add_->setEnabled(!read_.loose_markers.empty());
     join_->setEnabled(one);
     remove_->setEnabled(one);
@@ -266,32 +266,8 @@ void FindingsPart::showChosen()
     note_->show(f.note, f.id);
     facts_->setText(factsText(one->facts));
     filling_ = false;
-    if (pictured_ != f.id)
+    if (pictured_ != pictureOf(*one))
         askForPicture();
-}
-
-void FindingsPart::askForPicture()
-{
-    const FindingWithFacts* one = chosen();
-    if (!one)
-        return;
-    pictured_ = chosen_;
-    picture_->clear();
-    picture_->hide();
-    QStringList markers;
-    if (one->facts.lead())
-        markers << words(one->facts.lead()->marker_id);
-    for (const FindingSight& sight : one->facts.sights)
-        markers << words(sight.marker_id);
-    emit pictureWanted(words(chosen_), markers);
-}
-
-void FindingsPart::showPicture(const QString& finding, const QImage& picture)
-{
-    if (finding.toStdString() != pictured_)
-        return;
-    picture_->setPixmap(QPixmap::fromImage(picture.scaledToWidth(kPicture_px, Qt::SmoothTransformation)));
-    picture_->show();
 }
 
 bool FindingsPart::unsaved() const

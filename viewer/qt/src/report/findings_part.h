@@ -25,7 +25,8 @@ public:
     explicit FindingsPart(QWidget* parent);
 
     void show(const ReadCase& read);
-    void showPicture(const QString& finding, const QImage& picture);
+    /// @param which as it was asked for
+    void showPicture(const QString& which, const QImage& picture);
     /// pictureWanted() follows where a finding is chosen: a scan was opened that may show it.
     void askForPicture();
     static constexpr int kPicture_px = 180;  ///< how wide it is shown
@@ -36,8 +37,9 @@ public:
 
 signals:
     void flyWanted(const QString& marker);
-    /// Of the chosen finding, which these markers show, the leading one first.
-    void pictureWanted(const QString& finding, const QStringList& markers);
+    /// Of the chosen finding, which these markers show, the leading one first. @param which the finding, and what is
+    ///        seen of its markers
+    void pictureWanted(const QString& which, const std::vector<vicon::Marker>& markers);
     void changed(const std::string& finding, const std::function<void(vicon::Finding&)>& change);
     /// Each of these markers becomes a finding, with its partners.
     void addWanted(const std::vector<std::string>& markers);
@@ -50,6 +52,8 @@ private:
     void buildEditor();
     void connectEditor();
     const FindingWithFacts* chosen() const;
+    std::vector<Marker> markersOf(const FindingWithFacts& one) const;
+    std::string pictureOf(const FindingWithFacts& one) const;
     void choose();
     void showChosen();
     void change(const std::function<void(Finding&)>& what);

@@ -117,9 +117,9 @@ void ReportTool::connectForm()
     });
     connect(findings, &FindingsPart::pictureWanted, this, &ReportTool::drawFinding);
     connect(&reading_.drawing(), &DrawingThread::findingDrawn, this,
-            [this](const QString& finding, const Picture& drawn) {
+            [this](const QString& which, const Picture& drawn) {
                 form_->findings()->showPicture(
-                    finding,
+                    which,
                     QImage(drawn.rgb.data(), drawn.width, drawn.height, 3 * drawn.width, QImage::Format_RGB888).copy());
             });
     connect(findings, &FindingsPart::flyWanted, this, [this](const QString& id) {
@@ -192,16 +192,15 @@ void ReportTool::leave()
     reading_.views().first()->setFocus();
 }
 
-void ReportTool::drawFinding(const QString& finding, const QStringList& markers)
+void ReportTool::drawFinding(const QString& which, const std::vector<Marker>& markers)
 {
     constexpr int kSide_px = 360;
     const CaseSession& session = reading_.session();
-    for (const QString& id : markers)
+    for (const Marker& marker : markers)
         for (const auto& scan : {session.sharedScan(), session.sharedBeside()}) {
-            const auto marker = session.marker(id.toStdString());
-            if (!scan || !marker || marker->scan_id != scan->record.id)
+            if (!scan || marker.scan_id != scan->record.id)
                 continue;
-            const ViewPose view = viewOfMarker(*scan, *marker);
+            const ViewPose view = viewOfMarker(*scan, marker);
             NavigationState at;
             at.pose = view.pose;
             at.station_mm = view.station_mm;
@@ -210,10 +209,10 @@ void ReportTool::drawFinding(const QString& finding, const QStringList& markers)
             request.snapshot.captioned = false;  // it is small, and the form is this patient's
             constexpr double kShrunk = double(FindingsPart::kPicture_px) / kSide_px;
             request.snapshot.text_px = QFontInfo(form_->font()).pixelSize() / kShrunk;
-            request.snapshot.markers = {*marker};
+            request.snapshot.markers = {marker};
             request.snapshot.priors.clear();
             request.snapshot.peel.preset.clear();
-            reading_.drawing().drawFinding(scan, request, finding);
+            reading_.drawing().drawFinding(scan, request, which);
             return;
         }
 }

@@ -36,7 +36,7 @@ private:
     void takeWidth();
     void leave();
     /// Of the first of these markers whose scan is open.
-    void drawFinding(const QString& finding, const QStringList& markers);
+    void drawFinding(const QString& which, const std::vector<Marker>& markers);
     /// What this reader's work says is counted first: of scans that are not open, too.
     using UseWork = std::function<void(const ReaderWork&)>;
     void whenWorkIsKnown(UseWork use);
