@@ -290,5 +290,19 @@ TEST_F(Panoramas, AnotherScanIsShownInAllOfThem)
     EXPECT_TRUE(isShown("band"));
 }
 
+TEST_F(Panoramas, TheBandStaysWhereAnotherScanIsNotOpenedAfterAll)
+{
+    key(Qt::Key_B, Qt::ShiftModifier);
+    ASSERT_TRUE(isShown("band"));
+    waitUntilQuiet();
+    const QImage before = pictureOf("band");
+    key(Qt::Key_X);
+    ASSERT_TRUE(the<QWidget>("opening")->isVisible());
+    press(window(), "openingCancel");
+    waitUntilQuiet();
+    EXPECT_EQ(pictureOf("band"), before);
+    screenshot("band_after_cancelled_opening");
+}
+
 }  // namespace
 }  // namespace vicon::viewer

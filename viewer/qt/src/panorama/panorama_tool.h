@@ -22,6 +22,7 @@ public:
     QVariantMap kept() const override;
     void scanLeft() override;
     void scanOpened(const Arrival&) override;
+    void scanStays() override { drawBand(true); }
     void draw(bool still) override;
     void stop() override;
 
