@@ -31,7 +31,13 @@ FilmMaker::FilmMaker(DrawingThread& drawing, QWidget* parent) : QWidget(parent),
             next();
         }
     });
-    connect(&drawing_, &DrawingThread::failed, this, &FilmMaker::end);
+    connect(&drawing_, &DrawingThread::filmFailed, this,
+            [this](const std::shared_ptr<Film>& film, const QString& message) {
+                if (film != film_)
+                    return;
+                end();
+                emit failed(message);
+            });
 }
 
 void FilmMaker::start(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, double from_mm, Heading heading,

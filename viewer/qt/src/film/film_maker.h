@@ -30,6 +30,7 @@ public:
 signals:
     void finished(const QString& file);
     void cancelled();
+    void failed(const QString& message);  ///< it has ended, and nothing is kept of it
 
 private:
     void next();

@@ -14,10 +14,21 @@ public:
     void addTo(ReadingLayout& layout) override;
 
 private:
+    /// A film that waits for its name: of what the reader saw when it was asked for.
+    struct Asked {
+        std::shared_ptr<OpenScan> scan;
+        EndoscopicRequest request;
+        double from_mm = 0;
+        Heading heading = Heading::caecum;
+        double step_mm = 0;
+    };
     void startOrCancel();
+    Asked asFrom(const NavigationState& from) const;
+    /// @param file empty: there is no name for it
     void start(const QString& file);
 
     FilmMaker* maker_;
+    std::optional<Asked> asked_;
 };
 
 }  // namespace vicon::viewer

@@ -18,8 +18,17 @@ std::filesystem::path CaseSession::newPicture(CaseStore& store, const std::strin
 void CaseSession::nameFilm()
 {
     books_.postAlways([this](Books& books) -> Worker::Work {
-        return
-            [this, name = QString::fromStdString(newPicture(books.store(), ".ogv").string())] { emit filmNamed(name); };
+        QString name, trouble;
+        try {
+            name = QString::fromStdString(newPicture(books.store(), ".ogv").string());
+        } catch (const std::exception& e) {
+            trouble = e.what();
+        }
+        return [this, name, trouble] {
+            if (!trouble.isEmpty())
+                emit warned(trouble);
+            emit filmNamed(name);
+        };
     });
 }
 

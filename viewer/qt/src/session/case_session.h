@@ -117,7 +117,7 @@ public:
     void drawMeasures(const Marker& marker, int side_px);
     /// Keeps a picture in the case's folder, "pictures/1.png" and on.
     void savePicture(const QImage& picture);
-    /// A name for a film beside the pictures; filmNamed() follows.
+    /// A name for a film beside the pictures; filmNamed() follows, empty after warned() where there can be none.
     void nameFilm();
 
 signals:

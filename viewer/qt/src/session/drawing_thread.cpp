@@ -186,16 +186,25 @@ void DrawingThread::film(std::shared_ptr<OpenScan> scan, const EndoscopicRequest
     worker_.post(kFilmWork,
                  [this, scan = std::move(scan), request, heading, film = std::move(film), last](
                      AllPictures& all, const Progress& wanted) -> Worker::Work {
-                     const ViewPose view =
-                         poseAtStation(scan->files.frames(), scan->lumen, request.place.station_mm, heading);
-                     const SnapshotResult place{view.pose, request.place.station_mm, view.clearance_mm, true};
-                     film->add(picturesOf(all, scan).endoscopic(
-                         request.snapshot, place, false,
-                         {nullptr, request.structure, request.lamp_factor, nullptr, false, &wanted}));
-                     if (last)
-                         film->finish();
+                     try {
+                         addTo(*film, scan, request, heading, all, wanted);
+                         if (last)
+                             film->finish();
+                     } catch (const std::exception& e) {
+                         wanted.check();  // that of one that was cancelled is no failure
+                         return [this, film, message = QString(e.what())] { emit filmFailed(film, message); };
+                     }
                      return [this, film, last] { emit filmed(film, last); };
                  });
+}
+
+void DrawingThread::addTo(Film& film, const std::shared_ptr<OpenScan>& scan, const EndoscopicRequest& request,
+                          Heading heading, AllPictures& all, const Progress& wanted)
+{
+    const ViewPose view = poseAtStation(scan->files.frames(), scan->lumen, request.place.station_mm, heading);
+    const SnapshotResult place{view.pose, request.place.station_mm, view.clearance_mm, true};
+    film.add(picturesOf(all, scan).endoscopic(
+        request.snapshot, place, false, {nullptr, request.structure, request.lamp_factor, nullptr, false, &wanted}));
 }
 
 void DrawingThread::drawOverview(std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,

@@ -95,7 +95,7 @@ public:
     void drawFinding(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, const QString& finding);
     /// What a missed region looks like, for its list; missedDrawn() follows.
     void drawMissed(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, const MissedRow& row);
-    /// A picture of a film, looking along the path from the request's station; filmed() follows.
+    /// A picture of a film, looking along the path from the request's station; filmed() follows, or filmFailed().
     /// @param last the film is finished with it
     void film(std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request, Heading heading,
               std::shared_ptr<Film> film, bool last);
@@ -104,6 +104,7 @@ public:
 
 signals:
     void filmed(const std::shared_ptr<vicon::viewer::Film>& film, bool finished);
+    void filmFailed(const std::shared_ptr<vicon::viewer::Film>& film, const QString& message);
     void endoscopicDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownPicture& shown);
     void besideDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownPicture& shown);
     void overviewDrawn(const vicon::viewer::Picture& picture, const vicon::viewer::ShownProjection& shown);
@@ -137,6 +138,8 @@ private:
     void drawFace(Cube& cube, AllPictures& all, const Progress& wanted);
     Worker::Work finished(const std::shared_ptr<Cube>& cube);
     void draw(Which which, std::shared_ptr<OpenScan> scan, const EndoscopicRequest& request);
+    void addTo(Film& film, const std::shared_ptr<OpenScan>& scan, const EndoscopicRequest& request, Heading heading,
+               AllPictures& all, const Progress& wanted);
     void drawOverview(const char* work, std::shared_ptr<OpenScan> scan, const SnapshotRequest& request,
                       const SnapshotResult& place, bool still);
     ReadingPictures& picturesOf(AllPictures& all, const std::shared_ptr<OpenScan>& scan);
