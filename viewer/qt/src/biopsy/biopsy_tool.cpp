@@ -145,7 +145,9 @@ void BiopsyTool::show(const DensitySample& biopsy)
     constexpr double kWorthSaying = 0.2;
     if (biopsy.fat_fraction >= kWorthSaying)
         text += tr(", %1 % of fat attenuation").arg(100 * biopsy.fat_fraction, 0, 'f', 0);
-    const auto marker = reading_.markerNear(reading_.scan()->record.id, {circle_->centre_mm, biopsy.centre_mm});
+    const auto marker = reading_.markerNear(reading_.scan()->record.id, [&](Point3 place) {
+        return std::min(distance(place, circle_->centre_mm), distance(place, biopsy.centre_mm));
+    });
     if (!marker) {
         reading_.say(text + tr("; no marker beside it to keep it with"));
         return;

@@ -29,7 +29,8 @@ void MeasuringTool::offer(const Shown& result)
         keep(result.marker_id, result);
         return;
     }
-    const auto marker = reading_.markerNear(result.scan_id, result.way_mm);
+    const auto marker =
+        reading_.markerNear(result.scan_id, [&](Point3 place) { return outsideOf_mm(result.size, place); });
     const auto scan = reading_.session().openScan(result.scan_id);
     if (scan && scan->record.case_id != reading_.session().record().id)
         reading_.say(sizeText(result.size) + tr("; not kept: the earlier examination takes no markers"));

@@ -9,7 +9,6 @@ namespace {
 
 constexpr int kStill_ms = 150;        // after the last movement the picture is drawn smoothly
 constexpr double kFromLumen_mm = 15;  // a click on a slice this near to the lumen moves the eye as well
-constexpr double kNear_mm = 10;       // what is measured belongs to a marker this near
 
 }  // namespace
 
@@ -181,16 +180,16 @@ void Reading::beginPass()
             open->coverage.beginPass();
 }
 
-std::optional<Marker> Reading::markerNear(const std::string& scan_id, const std::vector<Point3>& line_mm) const
+std::optional<Marker> Reading::markerNear(const std::string& scan_id,
+                                          const std::function<double(Point3)>& away_mm) const
 {
     std::optional<Marker> nearest;
-    double least = kNear_mm;
+    double least = kMeasureNear_mm;
     for (const Marker& marker : session_.markersOf(scan_id))
-        for (const Point3 p : line_mm)
-            if (const double d = distance(p, marker.position_mm); d < least) {
-                least = d;
-                nearest = marker;
-            }
+        if (const double d = away_mm(marker.position_mm); d < least || (!nearest && d == least)) {
+            least = d;
+            nearest = marker;
+        }
     return nearest;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -56,8 +57,9 @@ public:
     void showMarker(const Marker& marker);
     /// Another pass begins: what was seen before it can be told from what is seen in it.
     void beginPass();
-    /// The marker of a scan that is nearest to a line or point in it, within a centimetre.
-    std::optional<Marker> markerNear(const std::string& scan_id, const std::vector<Point3>& line_mm) const;
+    /// The marker of a scan that is nearest to what was measured, within kMeasureNear_mm.
+    /// @param away_mm how far from it a place lies
+    std::optional<Marker> markerNear(const std::string& scan_id, const std::function<double(Point3)>& away_mm) const;
     /// What is measured; each view of its scan draws it.
     const std::optional<MeasuredLine>& line() const { return line_; }
     void setLine(const std::optional<MeasuredLine>& line);

@@ -32,6 +32,8 @@ inline QString sizeText(const MarkerSize& size)
                         .arg(*polyp->volume_most_ml, 0, 'f', decimals);
         return text;
     }
+    if (size.in_slice)
+        return QObject::tr("%1 straight, in a slice").arg(lengthText(size.straight_mm));
     QString text = QObject::tr("%1 largest diameter; %2 straight")
                        .arg(lengthText(largestDiameter_mm(size)), lengthText(size.straight_mm));
     if (size.along_mm)
