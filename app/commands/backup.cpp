@@ -50,7 +50,7 @@ std::string detailOf(const CopyCounts& copied)
 }
 
 /// What is not whole must show, also to a script.
-int end(const Context& context, AuditEvent event, const CopyCounts& copied)
+int end(Context& context, AuditEvent event, const CopyCounts& copied)
 {
     auditOperation(context.storePlace(), event, detailOf(copied));
     print(context, copied);
