@@ -35,8 +35,8 @@ TEST_F(Dragging, OfAShortLineTheEndThatIsNearer)
 
 TEST_F(Dragging, FromInside)
 {
-    const QPoint first = middle("endoscopic") + QPoint(90, 60);
-    measureIn("endoscopic", first, first + QPoint(40, 0));
+    const QPoint first = middle("endoscopic") + QPoint(70, 60);
+    measureIn("endoscopic", first, first + QPoint(70, 0));
     EXPECT_TRUE(stored()[0].size->along_mm) << "over the wall";
     constexpr int kCloseBy_px = 50;  // this wall is close by: a millimetre is 25 pixels
     isDraggedAndUndone("endoscopic", 1, QPoint(90, 30), kCloseBy_px);
