@@ -176,7 +176,7 @@ TEST_F(WithMarker, IsDeletedByTheKeyOnceAndNoOtherWithIt)
 TEST_F(Reading, ASizeIsMeasuredBetweenTwoClicksAndKeptWithTheMarkerBesideIt)
 {
     openCase();
-    const QPoint first = middle("endoscopic") + QPoint(90, 60), second = first + QPoint(30, 30);
+    const QPoint first = middle("endoscopic") + QPoint(90, 60), second = first + QPoint(70, 30);
     click("endoscopic", first, Qt::ShiftModifier);
     ASSERT_TRUE(eventually([] { return markers()->rowCount() == 1 && settled(); }));
     waitUntilQuiet();
