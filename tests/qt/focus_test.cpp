@@ -298,7 +298,7 @@ TEST_F(WithoutMouse, MeasuresCirclesAndMoves)
     type(Qt::Key_M);
     ASSERT_EQ(QApplication::focusWidget(), the<QWidget>("endoscopic"));
     type(Qt::Key_Return);
-    type(Qt::Key_Right);
+    times(8, Qt::Key_Right);  // more than a voxel
     type(Qt::Key_Return);
     EXPECT_TRUE(eventually([&] { return anyHas("size"); })) << warning();
     type(Qt::Key_T);

@@ -203,7 +203,7 @@ TEST_F(Reading, ASizeIsMeasuredBetweenTwoClicksAndKeptWithTheMarkerBesideIt)
 TEST_F(Reading, NoSizeReachesFromOneScanToAnother)
 {
     openCase();
-    const QPoint first = middle("endoscopic") + QPoint(90, 60), second = first + QPoint(30, 30);
+    const QPoint first = middle("endoscopic") + QPoint(90, 60), second = first + QPoint(70, 30);
     key(Qt::Key_M);
     click("endoscopic", first);
     key(Qt::Key_X);
