@@ -120,7 +120,7 @@ void PictureView::leaveEvent(QEvent*)
 QImage PictureView::seen()
 {
     copied_ = true;
-    const QImage seen = grab().toImage();
+    QImage seen = grab().toImage();
     copied_ = false;
     return seen;
 }
