@@ -8,7 +8,7 @@ namespace vicon::ingest {
 namespace {
 
 /// DICOM PS3.5 section 9.1, but for zeros in front of a component, which do no harm.
-bool isUid(const std::string& text)
+bool isUidButForZeros(const std::string& text)
 {
     constexpr std::size_t kLongestUid = 64;
     return text.size() <= kLongestUid && text.find_first_not_of("0123456789.") == std::string::npos;
@@ -34,9 +34,9 @@ void fillStandInUids(ImageObject& object)
                    '\n' + series.kernel + '\n' + series.patient_position + '\n' + series.frame_of_reference_uid);
         object.repairs.emplace_back("Series Instance UID missing: grouped by number, description and kernel");
     }
-    if (!isUid(object.study.uid))  // by which others ask for the study
+    if (!isUidButForZeros(object.study.uid))  // by which others ask for the study
         object.repairs.push_back("Study Instance UID is no UID: " + object.study.uid);
-    if (!isUid(object.series.uid)) {
+    if (!isUidButForZeros(object.series.uid)) {
         object.repairs.push_back("Series Instance UID is no UID: another stands for " + object.series.uid);
         object.series.uid = uidFor("series\n" + object.study.uid + '\n' + object.series.uid);
     }

@@ -99,8 +99,8 @@ TEST_F(LostObject, IsSaidByBackupAndRestoreWhichGoOnWithTheRest)
         EXPECT_THAT(told.output, AllOf(HasSubstr("case " + scan.case_id + ": cases/" + scan.case_id),
                                        HasSubstr(".dcm is missing\n"), HasSubstr("not whole: 1 files"), namesNobody()));
     }
-    const std::string as_json = "2>/dev/null " + viconBinary() + " backup --json " + backup_.string();
-    expectSchema("backup", nlohmann::json::parse(runCommand(as_json + " --store " + store_.string()).output));
+    const std::string as_json = viconBinary() + " backup --json " + backup_.string() + " --store " + store_.string();
+    expectSchema("backup", nlohmann::json::parse(runCommand("(" + as_json + " 2>/dev/null)").output));
     EXPECT_EQ(schemaFaults("about_backup", {backup_ / "backup.json"}), "");
     EXPECT_EQ(listedScans(folder_ / "again").size(), 1u);
 }

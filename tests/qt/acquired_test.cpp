@@ -155,6 +155,7 @@ TEST_F(AsAcquiredBeside, ClicksFromInsideLandOnTheWallThatIsShownThere)
     ASSERT_TRUE(eventually([&] { return stored()[0].size.has_value() && settled(); })) << said().toStdString();
     EXPECT_NEAR(stationOf(stored()[0].size.value().from_mm), kPool_mm, kVoxel_mm);
     EXPECT_FALSE(stored()[0].size.value().along_mm) << "no way over a surface that is not shown";
+    EXPECT_FALSE(stored()[0].size.value().in_slice);
     showAcquired(false);
     EXPECT_GT(marked(middle("besideEndoscopic"), "besideEndoscopic"), kPool_mm + 5) << "on the wall behind it";
 }

@@ -23,7 +23,8 @@ protected:
         Reading::SetUp();
         for (const double station_mm : {kFirst_mm, kSecond_mm}) {
             const Point3 from = wallAt(station_mm);
-            save(from, nearestOnWall([&](Point3 p) { return std::abs(distance(p, from) - kSize_mm); }));
+            saveMeasured(store_, colon_, from,
+                         nearestOnWall([&](Point3 p) { return std::abs(distance(p, from) - kSize_mm); }));
         }
         prepare();
         openCase();
@@ -45,18 +46,6 @@ protected:
     {
         const Point3 middle = colon_.skeleton.at(station_mm).position_mm;
         return nearestOnWall([&](Point3 p) { return distance(p, middle); });
-    }
-    void save(Point3 from, Point3 to) const
-    {
-        Marker marker;
-        marker.scan_id = test::kSupine;
-        marker.position_mm = from;
-        marker.station_mm = colon_.skeleton.nearest(from).station_mm;
-        marker.size = MarkerSize{};
-        marker.size->straight_mm = marker.size->along_mm.emplace(distance(from, to));
-        marker.size->from_mm = from;
-        marker.size->to_mm = to;
-        CaseStore(store_).saveMarker(test::kCase, marker);
     }
     static void show(Row row)
     {

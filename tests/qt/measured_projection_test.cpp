@@ -18,23 +18,11 @@ protected:
     {
         Reading::SetUp();
         const Point3 left = frontAt(6), right = {-6, left.y, left.z};
-        save(left, right);                         // on the front, in the plane that is seen from there
-        save(left, {left.x, behind_mm_, left.z});  // from the front to the back
+        saveMeasured(store_, colon_, left, right);  // on the front, in the plane that is seen from there
+        saveMeasured(store_, colon_, left, {left.x, behind_mm_, left.z});  // from the front to the back
         openCase();
         window()->resize(1600, 1000);
         waitUntilQuiet();
-    }
-    void save(Point3 from, Point3 to)
-    {
-        Marker marker;
-        marker.scan_id = test::kSupine;
-        marker.position_mm = from;
-        marker.station_mm = colon_.skeleton.nearest(from).station_mm;
-        marker.size = MarkerSize{};
-        marker.size->straight_mm = marker.size->along_mm.emplace(distance(from, to));
-        marker.size->from_mm = from;
-        marker.size->to_mm = to;
-        CaseStore(store_).saveMarker(test::kCase, marker);
     }
     /// The wall's foremost point of this sagittal plane; behind_mm_: how far the wall behind it is.
     Point3 frontAt(double x_mm)

@@ -20,6 +20,20 @@ namespace vicon::viewer::test {
 
 inline const QColor kCalliper(255, 214, 102);
 
+/// A marker of the supine scan with a size over the wall, as an earlier reading left it.
+inline void saveMeasured(const std::filesystem::path& store, const TestColon& colon, Point3 from, Point3 to)
+{
+    Marker marker;
+    marker.scan_id = kSupine;
+    marker.position_mm = from;
+    marker.station_mm = colon.skeleton.nearest(from).station_mm;
+    marker.size = MarkerSize{};
+    marker.size->straight_mm = marker.size->along_mm.emplace(distance(from, to));
+    marker.size->from_mm = from;
+    marker.size->to_mm = to;
+    CaseStore(store).saveMarker(kCase, marker);
+}
+
 /// Lengths in slices and on the wall, by the mouse.
 class Measuring : public Reading {
 protected:

@@ -116,6 +116,7 @@ TEST_F(Measuring, AnEndThatIsDraggedMeasuresAnewAndIsUndone)
     screenshot("dragged");
     ASSERT_TRUE(eventually([&] { return straight() > before && settled(); })) << said().toStdString() << warning();
     EXPECT_NEAR(straight(), 2 * before, 0.05 * before);
+    EXPECT_TRUE(stored()[0].size.value().in_slice);
     EXPECT_GE(calliperBetween("coronal", first, second + QPoint(40, 0)), 0.9);
     EXPECT_EQ(window()->findChild<QMessageBox*>("replaceSize"), nullptr) << "it was this size that was dragged";
     key(Qt::Key_Z, Qt::ControlModifier);

@@ -35,23 +35,24 @@ void ComparisonTool::connectView()
 /// What is measured in the scan beside is drawn there, and its ends are dragged there.
 void ComparisonTool::connectLine()
 {
-    const auto drag = [this](int end, const std::optional<Point3>& to, bool on_wall, GripDrag how) {
+    const auto drag = [this](int end, const std::optional<Point3>& to, const std::optional<SnapshotResult>& from,
+                             bool on_wall, GripDrag how) {
         const OpenScan* scan = reading_.session().beside();
         const bool there = to && scan;
         emit reading_.lineDragged(
-            end, there ? std::optional(ClickedPoint{*scan, shown_.place, *to, {}, on_wall}) : std::nullopt, how);
+            end, there ? std::optional(ClickedPoint{*scan, from, *to, {}, on_wall}) : std::nullopt, how);
     };
     connect(&reading_, &Reading::lineChanged, this, &ComparisonTool::drawLine);
     connect(view_->endoscopic(), &PictureView::endDragged, this, [this, drag](int end, Pixel at, GripDrag how) {
         const bool there = shown_.isOf(reading_.session().sharedBeside());
-        drag(end, there ? shown_.wallAt(at) : std::nullopt, !shown_.acquired, how);
+        drag(end, there ? shown_.wallAt(at) : std::nullopt, shown_.place, !shown_.acquired, how);
     });
     connect(view_->overview(), &PictureView::endDragged, this, [this](int, Pixel, GripDrag how) {
         if (how == GripDrag::released)
             reading_.warn(tr("The projection has no depth: drag the end on the wall or in a slice."));
     });
     connect(view_->slice(), &SliceView::lineDragged, this,
-            [drag](int end, Point3 to, GripDrag how) { drag(end, to, false, how); });
+            [drag](int end, Point3 to, GripDrag how) { drag(end, to, {}, false, how); });
 }
 
 void ComparisonTool::drawLine()

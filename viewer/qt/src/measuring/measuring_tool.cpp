@@ -173,7 +173,7 @@ void MeasuringTool::measure(Point3 from, Point3 to, bool on_wall, const ClickedP
     if (!on_wall || !last.from) {
         Shown result = *shown_;
         result.way_mm = {from, to};
-        result.size = {.straight_mm = distance(from, to), .in_slice = true, .from_mm = from, .to_mm = to};
+        result.size = {.straight_mm = distance(from, to), .in_slice = !last.from, .from_mm = from, .to_mm = to};
         take(result);
         return;
     }
