@@ -123,6 +123,12 @@ json toJson(const SegmentFound& found)
     return out;
 }
 
+std::optional<double> SegmentFound::acquiredNoise_hu() const
+{
+    const auto acquired = measures.find("acquired_noise_hu");
+    return acquired != measures.end() && acquired->is_number() ? std::optional(acquired->get<double>()) : noise_hu;
+}
+
 std::optional<double> SegmentFound::usualNoise_hu() const
 {
     const auto percent = measures.find("noise_percent");

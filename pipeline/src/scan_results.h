@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "published_file.h"
@@ -43,7 +44,9 @@ public:
     }
     ~ScanResults()
     {
-        writing_.clear();  // waits
+        largest_wall_distance_ = {};  // waits, as the others do; it may begin to write
+        flood_ = {};
+        writing_.clear();
         std::error_code ignored;
         std::filesystem::remove_all(claim_, ignored);
     }
@@ -225,8 +228,14 @@ public:
     /// Gives back what densitiesAroundLumen() keeps; no step may be at work on it.
     void dropDensitiesAroundLumen()
     {
+        std::shared_future<steps::LumenSurface> surface;
+        {
+            const std::lock_guard lock(mutex_);
+            surface = std::exchange(surface_, {});
+        }
+        if (surface.valid())
+            surface.wait();  // also when only the distances from it are wanted
         const std::lock_guard lock(mutex_);
-        surface_ = {};  // waits, when it was begun and nobody wanted it
         around_lumen_.reset();
     }
 

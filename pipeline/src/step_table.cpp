@@ -62,7 +62,7 @@ json runQuality(const StepInputs& inputs, ScanResults& results, const StepRecord
     if (!results.skeleton().empty())
         found.quality =
             steps::measureQuality(results.inside(), results.skeleton(), parts.ranges,
-                                  segmentFoundFromJson(records.at("segment").result).noise_hu.value_or(0),
+                                  segmentFoundFromJson(records.at("segment").result).acquiredNoise_hu().value_or(0),
                                   tissueFoundFromJson(records.at("tissue").result).untrusted, options, progress);
     return toJson(found);
 }

@@ -2,6 +2,7 @@
 
 #include "step_parameters.h"
 #include "vicon/cases/step_results.h"
+#include "vicon/steps/segment.h"
 #include "vicon/steps/tissue.h"
 
 using nlohmann::json;
@@ -41,9 +42,9 @@ json runTissue(const StepInputs& inputs, ScanResults& results, const StepRecords
     auto options = inputs.config.get<steps::TissueOptions>();
     options.leave_out_other_bowel = !segment.given;
     options.find_stool = inputs.quantity == Quantity::density;
-    steps::TissueResult found = steps::findTissue(results.densitiesAroundLumen(), results.mask(), inputs.gravity,
-                                                  inputs.config.get<steps::WallDensities>(),
-                                                  segment.usualNoise_hu().value_or(0), progress, options);
+    steps::TissueResult found = steps::findTissue(
+        results.densitiesAroundLumen(), results.mask(), inputs.gravity, inputs.config.get<steps::WallDensities>(),
+        segment.usualNoise_hu().value_or(0), progress, options, inputs.config.get<steps::SegmentOptions>().cut);
     results.dropMask();
     TissueFound told{
         .blur_mm = found.blur_mm, .untrusted = std::move(found.untrusted), .measures = std::move(found.found)};

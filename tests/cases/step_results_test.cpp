@@ -23,6 +23,8 @@ TEST(StepResults, HaveOneJsonFormThatIsReadBack)
     EXPECT_EQ(found.bridges.at(0).to_mm, Point3(4, 5, 6));
     EXPECT_EQ(toJson(found), segment);
     EXPECT_EQ(found.measures, json({{"limit_hu", -930}})) << "the rest alone";
+    EXPECT_EQ(found.acquiredNoise_hu(), 21.5);
+    EXPECT_EQ(segmentFoundFromJson({{"noise_hu", 18}, {"acquired_noise_hu", 80.5}}).acquiredNoise_hu(), 80.5);
     for (const char* tree_or_path : {R"({"length_mm": 1600.5, "pieces": [{"path_voxels": 3}]})",
                                      R"({"length_mm": 200, "branches": 9, "tips": 5, "total_length_mm": 900})"})
         EXPECT_EQ(toJson(skeletonFoundFromJson(json::parse(tree_or_path))), json::parse(tree_or_path));

@@ -18,7 +18,8 @@ struct PoolOverSpine {
     HuVolume hu{Grid{.size = {40, 60, kLength}, .spacing_mm = {1, 1, 1}}, kWall_hu};
     InsideVolume labels{hu.grid, kOutside};
 
-    explicit PoolOverSpine(int apart_voxels, bool pool_leaves = false)
+    /// @param jagged a spine whose rows, four by four, end where the next ones begin
+    explicit PoolOverSpine(int apart_voxels, bool pool_leaves = false, bool jagged = false)
     {
         for (int k = 0; k < kLength; ++k)
             for (int j = 0; j < hu.grid.size[1]; ++j)
@@ -27,7 +28,8 @@ struct PoolOverSpine {
                         i >= 10 && i < 30 && j >= 6 && j < kBottom_j && (pool_leaves || (k >= 50 && k < 110));
                     if (in_channel)
                         hu.at({i, j, k}) = j < kLevel_j ? kAir_hu : kPool_hu;
-                    else if (i >= 8 && i < 32 && j >= kBottom_j + apart_voxels && j < 50)
+                    else if (i >= 8 && i < 32 && j >= kBottom_j + apart_voxels && j < 50 &&
+                             (!jagged || k % 8 == 1 || (i < 20) == (j / 4 % 2 == 0)))
                         hu.at({i, j, k}) = kBoneMarrow_hu;
                     if (in_channel && j < kLevel_j)
                         labels.at({i, j, k}) = kGas;
@@ -59,6 +61,16 @@ TEST(FluidRunaway, SpineThatAPoolTouchesIsCutOffAndTold)
     EXPECT_GE(scan.labelled(kLevel_j, kBottom_j), 0.98 * pool);
     EXPECT_LE(scan.labelled(kBottom_j, 60), 0.06 * spine) << "but for the rim of blur";
     EXPECT_NEAR(found.runaway_ml, 0.97 * spine / 1000, 0.03 * spine / 1000);
+}
+
+TEST(FluidRunaway, SpineIsCutOffWhateverItsRowsAreLike)
+{
+    constexpr int kBelowRim_j = kBottom_j + 8;
+    for (const bool jagged : {false, true}) {
+        PoolOverSpine scan(0, false, jagged);
+        EXPECT_GT(scan.flood().runaway_ml, 30);
+        EXPECT_EQ(scan.labelled(kBelowRim_j, 60), 0) << jagged;
+    }
 }
 
 TEST(FluidRunaway, NothingIsCutOffWhereAWallPartsThem)

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "grid/run_labels.h"
 #include "segment_shapes.h"
 #include "vicon/steps/given_fit.h"
 #include "vicon/steps/segment.h"
@@ -141,6 +143,45 @@ TEST(GivenLumen, TakesCorrections)
     SegmentOptions drop;
     drop.drop = {{-45, -6, 0}};
     EXPECT_EQ(segment(scan, maskOf(scan, kGrid), drop).plan.pieces.size(), 1U);
+}
+
+/// Along a tube's line, where it is nearest.
+double alongLine_mm(const std::vector<Point3>& line, Point3 p)
+{
+    double least = 1e300, at = 0, before = 0;
+    for (std::size_t n = 0; n + 1 < line.size(); ++n) {
+        const Vector3 ab = line[n + 1] - line[n];
+        const double t = std::clamp(dot(p - line[n], ab) / dot(ab, ab), 0.0, 1.0);
+        if (const double away = distance(p, line[n] + ab * t); away < least) {
+            least = away;
+            at = before + t * length(ab);
+        }
+        before += length(ab);
+    }
+    return at;
+}
+
+TEST(GivenLumen, OfManyPiecesLosesNoneAndOfTooManyTheSmallestAndSaysSo)
+{
+    constexpr double kGap_mm = 6;
+    const TubeScan scan = smallColon();
+    const double all_mm = alongLine_mm(scan.line, scan.line.back());
+    for (const int parts : {14, 22}) {
+        const auto isGap = [&](Point3 p) { return std::fmod(alongLine_mm(scan.line, p), all_mm / parts) < kGap_mm; };
+        InsideVolume given = maskOf(scan, kGrid);
+        for (std::size_t n = 0; n < given.voxels.size(); ++n)
+            if (given.voxels[n] != kOutside && isGap(kGrid.pointAt(kGrid.indexOf(n))))
+                given.voxels[n] = kOutside;
+        const auto pieces = labelLumen(given, Neighbours::faces).components.size();  // at corners some hang together
+        ASSERT_EQ(pieces > 15, parts == 22) << pieces;
+        SegmentOptions all;
+        all.smallest_piece_ml = 0.1;
+        const Segmentation found = segment(scan, given, all);
+        EXPECT_EQ(found.plan.pieces.size(), std::min<std::size_t>(pieces, 15));
+        EXPECT_GT(found.plan.pieces.size(), 10U);
+        const std::string said = "its " + std::to_string(pieces - 15) + " smallest pieces were left out";
+        EXPECT_EQ(found.reason.find(said) != std::string::npos, pieces > 15) << found.reason;
+    }
 }
 
 TEST(GivenLumen, IsHeldAgainstTheDensitiesWhichTellHowItIsMirrored)

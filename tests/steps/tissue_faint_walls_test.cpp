@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/run_labels.h"
+#include "tissue/closed_walls.h"
 #include "tissue/faint_walls.h"
+#include "tissue/lumen_of_tissue.h"
 #include "tissue_scene.h"
 
 namespace vicon::steps {
@@ -70,9 +73,9 @@ TEST(FaintWalls, AreClosedBetweenLoopsAndToldWithTheirPlace)
         const auto walls = closeFaintWalls(loops.lumen, {}, loops.down, loops.tissue, loops.lumen);
         ASSERT_EQ(walls.size(), 1U) << fraction;
         EXPECT_TRUE(loops.isWhole());
-        EXPECT_NEAR(walls[0].area_mm2, 9 * kVoxel_mm * kVoxel_mm, 0.6 * 9 * kVoxel_mm * kVoxel_mm);
+        EXPECT_NEAR(walls[0].wall.area_mm2, 9 * kVoxel_mm * kVoxel_mm, 0.6 * 9 * kVoxel_mm * kVoxel_mm);
         const Point3 middle = loops.tissue.grid.pointAt(ContinuousIndex3{97, kWall_j + 0.5, 7});
-        EXPECT_LT(distance(walls[0].middle_mm, middle), 1.5);
+        EXPECT_LT(distance(walls[0].wall.middle_mm, middle), 1.5);
         for (std::size_t n = 0; n < loops.lumen.voxels.size(); ++n) {
             EXPECT_GE(loops.tissue.voxels[n], before.tissue.voxels[n]);
             if (loops.lumen.voxels[n] != before.lumen.voxels[n]) {
@@ -184,6 +187,46 @@ TEST(FaintWalls, NeverCutTheOnlyWay)
     loops.tear(0.4);
     EXPECT_TRUE(closeFaintWalls(loops.lumen, {}, loops.down, loops.tissue, loops.lumen).empty());
     EXPECT_FALSE(loops.isWhole());
+}
+
+TEST(FaintWalls, ThatCutAPieceOfTheLabelsAreOpenedAgain)
+{
+    for (const bool joined : {false, true}) {
+        Loops loops(100, joined);
+        loops.tear(0.4);
+        // The labels go through the tear, but for one column of it.
+        InsideVolume labels = loops.lumen;
+        const int last = loops.tissue.grid.size[0] - 2;
+        labels.at({last - 6, kWall_j, 6}) = labels.at({last - 6, kWall_j + 1, 6}) = kOutside;
+        const Loops before = loops;
+        auto closed = closeFaintWalls(labels, {}, loops.down, loops.tissue, loops.lumen);
+        ASSERT_EQ(closed.size(), 1U);
+        EXPECT_TRUE(loops.isWhole());
+        reopenCuts(labelLumen(labels, Neighbours::faces), closed, loops.tissue, loops.lumen);
+        EXPECT_EQ(closed.size(), joined ? 1U : 0U);
+        EXPECT_EQ(loops.isWhole(), joined) << "the only way is left open";
+        EXPECT_EQ(loops.lumen.voxels == before.lumen.voxels, !joined);
+        EXPECT_EQ(loops.tissue.voxels == before.tissue.voxels, !joined);
+    }
+}
+
+TEST(LumenOfTissue, IsNotCutInOnePieceWhereAnotherOneVanishes)
+{
+    const Grid grid{.size = {60, 16, 16}, .spacing_mm = {kVoxel_mm, kVoxel_mm, kVoxel_mm}};
+    InsideVolume labels(grid, kOutside);
+    TissueVolume tissue(grid, 255);
+    for (int k = 2; k < 14; ++k)
+        for (int j = 2; j < 14; ++j)
+            for (int i = 2; i < 50; ++i) {
+                if (i >= 40 && i < 44)
+                    continue;
+                labels.at({i, j, k}) = kGas;
+                tissue.at({i, j, k}) = i < 40 && i != 20 ? 0 : 255;  // a sheet across the one, all of the other
+            }
+    const InsideVolume lumen = lumenOf(tissue, labels, labelLumen(labels, Neighbours::faces), {});
+    const RunLabels parts = labelLumen(lumen, Neighbours::faces);
+    ASSERT_GE(parts.labelAt({10, 8, 8}), 0);
+    EXPECT_EQ(parts.labelAt({10, 8, 8}), parts.labelAt({30, 8, 8}));
 }
 
 /// Two loops of gas, 12 mm wide, with a wall of so many millimetres between them that grows thin in one place; joined

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/run_labels.h"
 #include "tissue_scene.h"
 
 namespace vicon::steps {
@@ -59,14 +60,47 @@ TEST(Openings, LeaveOtherBowelAsItWasAcquired)
     EXPECT_LT(at(cleansed, -6), -900) << "the colon's own is taken out";
 }
 
-TEST(Openings, OfAPocketWithItsOwnWallsAreLumen)
+/// A wedge of fluid between two folds that the labels were cut off from.
+Scene wedgeBeside()
 {
-    // A wedge of fluid between two folds that the labels were cut off from.
     Scene scene(
         [](Point3 p) { return !inColon(p) && !(std::abs(p.x) < 2.5 && std::abs(p.z) < 2.5 && p.y > 0 && p.y < 2.9); },
         kFull);
     labelColonAlone(scene);
+    return scene;
+}
+
+TEST(Openings, OfAPocketThatAPersonCutOffAreNoLumenAndNotTold)
+{
+    const TissueResult found = wedgeBeside().find(20, {{0, 1, 0}});
+    EXPECT_EQ(found.lumen.at(found.lumen.grid.indexAt({0, 2.45, 0})), kOutside);
+    EXPECT_TRUE(found.untrusted.faint.empty());
+}
+
+TEST(Openings, ThatWouldJoinTwoPiecesAreNoLumenAndTold)
+{
+    const auto inPiece = [](Point3 p) { return std::hypot(std::abs(p.y) - 10, p.z) < 5; };
+    Scene scene(
+        [&](Point3 p) {
+            const bool between = std::abs(p.x) < 2.5 && std::abs(p.z) < 2.5 && std::abs(p.y) < 6;
+            return !inPiece(p) && !between;
+        },
+        kFull);
+    for (std::size_t n = 0; n < scene.grid.voxelCount(); ++n)
+        if (!inPiece(scene.grid.pointAt(scene.grid.indexOf(n))))
+            scene.inside.voxels[n] = kOutside;
     const TissueResult found = scene.find();
+    const RunLabels parts = labelLumen(found.lumen, Neighbours::faces);
+    const auto partAt = [&](Point3 p) { return parts.labelAt(found.lumen.grid.indexAt(p)); };
+    EXPECT_GE(partAt({0, -10, 0}), 0);
+    EXPECT_GE(partAt({0, 10, 0}), 0);
+    EXPECT_NE(partAt({0, -10, 0}), partAt({0, 10, 0}));
+    EXPECT_FALSE(found.untrusted.faint.empty());
+}
+
+TEST(Openings, OfAPocketWithItsOwnWallsAreLumen)
+{
+    const TissueResult found = wedgeBeside().find();
     const auto label = [&](double y_mm) { return found.lumen.at(found.lumen.grid.indexAt({0, y_mm, 0})); };
     EXPECT_EQ(label(2.45), kFluid);
     EXPECT_EQ(label(3.85), kOutside);

@@ -50,10 +50,10 @@ struct Scene {
         }
     }
 
-    TissueResult find(double noise_hu = 20) const
+    TissueResult find(double noise_hu = 20, const std::vector<Point3>& cuts_mm = {}) const
     {
         NoProgress quiet;
-        return findTissue(hu, inside, down, {}, noise_hu, quiet);
+        return findTissue(hu, inside, down, {}, noise_hu, quiet, {}, cuts_mm);
     }
 
     /// As the step would find it without noise.

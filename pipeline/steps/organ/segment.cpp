@@ -19,11 +19,22 @@ namespace vicon::steps {
 namespace {
 
 // Chosen on phantoms 1 and 2 of both organs.
-constexpr int kAround_voxels = 3;    // of outside kept around the result: it still grows over the blurred edge
 constexpr double kRaise_hu = 10;     // a step of the explosion control
 constexpr double kBack_hu = 20;      // below the limit at which it leaked: the leak begins earlier, in small
 constexpr double kLeastJump_ml = 3;  // a tube that is only just begun grows by large shares
 constexpr double kRising_hu = 40;    // the density still changes towards the wall, by more than noise
+
+/// Over a blurred edge.
+int layersToWall(const Grid& grid)
+{
+    return std::max(1, int(kBlurredEdge_mm / grid.spacing_mm[0]));
+}
+
+/// Of outside kept around a region: it still grows over its edge.
+int marginOf(const Grid& grid)
+{
+    return layersToWall(grid) + 1;
+}
 
 bool isBright(const OrganOptions& options)
 {
@@ -53,7 +64,7 @@ GrownRegion grownAt(RegionGrower& grower, const Grid& grid, const std::vector<Po
             return region.mask.valueOr(region.mask.grid.indexAt(grid.pointAt(*seed)), kOutside) != kOutside;
         };
         if (std::none_of(regions.begin(), regions.end(), holdsSeed))
-            regions.push_back(grower.grow(*seed, low_hu, high_hu, kAround_voxels));
+            regions.push_back(grower.grow(*seed, low_hu, high_hu, marginOf(grid)));
     }
     const auto largest = std::max_element(regions.begin(), regions.end(),
                                           [](const auto& a, const auto& b) { return a.voxels < b.voxels; });
@@ -136,8 +147,7 @@ void growToWall(const HuVolume& volume, const OrganOptions& options, InsideVolum
         return sign * volume.valueOr({v.i + offset.i, v.j + offset.j, v.k + offset.k}, kPaddingHu);
     };
     const double wall_hu = sign * options.densities.wall_hu;
-    const int steps = std::max(1, int(kBlurredEdge_mm / mask.grid.spacing_mm[0]));
-    for (int step = 0; step < steps; ++step) {
+    for (int layer = 0; layer < layersToWall(mask.grid); ++layer) {
         std::vector<Index3> added;
         for (std::size_t n = 0; n < mask.voxels.size(); ++n) {
             if (!mask.voxels[n])
@@ -266,6 +276,7 @@ void judge(Segmentation& result, const LumenPiece& piece, const HuVolume& volume
 Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, Progress& progress)
 {
     progress.report(0, "body");
+    options.densities.require(false);
     const Body body = findBody(volume, progress);
     if (body.empty())
         return organAbsent("there is no body in the scan");
@@ -279,6 +290,8 @@ Segmentation segmentOrgan(const HuVolume& volume, const OrganOptions& options, P
         return organAbsent("the density at the seed is not that of the organ's inside");
     Segmentation result;
     result.inside = trimmed(std::move(growth.region.mask), volume, options, seeds, progress);
+    if (std::ranges::count(result.inside.voxels, std::uint8_t(kGas)) == 0)
+        return organAbsent("nothing of what was found around the seed is wider than organ.neck_mm");
     progress.report(0.8, "ends");
     const double ml = double(std::count(result.inside.voxels.begin(), result.inside.voxels.end(), kGas)) *
                       result.inside.grid.voxelVolume_mm3() / 1000;

@@ -31,7 +31,7 @@ namespace {
 // Held by chain_family_test. Half and double of each leave ctc-prone and phantom 215 as they are.
 // Half-way densities of pools that differ by no more than this lie a tenth of a voxel apart.
 constexpr double kSameFluid_hu = 60;
-constexpr int kMostCandidates = 10;  // the exact ordering takes 2^n steps
+constexpr int kMostComponents = 10;  // largest first; beyond are specks of gas. Half and double: as above
 constexpr double kSameEnd_mm = 15;   // between ends of the lumen: nearer, they are one
 // A person says that it is the colon; the figures say that it cannot be one.
 constexpr double kUnlikelyGiven = 0.3;
@@ -50,7 +50,9 @@ void endBeforeIleum(const std::vector<IleumCut>& ilea, LumenPiece& last)
 /// What a person must know of the ends where ileum was sought.
 void describeIlea(const std::vector<IleumCut>& ilea, Segmentation& result)
 {
-    const Point3 end = result.plan.pieces.empty() ? Point3{} : result.plan.pieces.back().caecal_end_mm;
+    if (result.plan.pieces.empty())
+        return;
+    const Point3 end = result.plan.pieces.back().caecal_end_mm;
     for (const IleumCut& ileum : ilea)
         if (ileum.cut || distance(ileum.end_mm, end) < kSameEnd_mm ||
             (ileum.shorter_mm > 0 && distance(ileum.moved_end_mm, end) < kSameEnd_mm))
@@ -180,8 +182,10 @@ private:
     void findAllCandidates()
     {
         added_ = componentsAt(lumen_, labels_.grid, options_.add);
-        candidates_ =
-            findCandidates(labels_, lumen_, body_, options_.smallest_piece_ml, kMostCandidates, added_, progress_);
+        FoundCandidates found = findCandidates(labels_, lumen_, body_, options_.smallest_piece_ml,
+                                               given_ ? kMostCandidates : kMostComponents, added_, progress_);
+        candidates_ = std::move(found.candidates);
+        left_out_ = found.left_out;
     }
 
     void cutOffIlea()
@@ -280,6 +284,9 @@ private:
         result_.confidence = unlikely ? kUnlikelyGiven : judged.confidence;
         result_.reason = "the lumen was given by a person";
         note(result_, judged.reason);
+        if (left_out_ > 0)
+            note(result_, "its " + std::to_string(left_out_) + " smallest pieces were left out: no more than " +
+                              std::to_string(kMostCandidates) + " are put in order");
     }
 
     /// Densities of the faintest and the brightest level of fluid; 0 without any.
@@ -306,6 +313,7 @@ private:
     RunLabels lumen_;
     std::vector<int> added_;  ///< components of `lumen_` that a person added
     std::vector<Candidate> candidates_;
+    int left_out_ = 0;  ///< components that are large enough, but too many
     std::vector<IleumCut> ilea_;
     int rectum_ = -1;  ///< number of its candidate
     Ordering ordering_;

@@ -10,6 +10,7 @@
 #include "segment/automatic.h"
 #include "segment/binary.h"
 #include "segment/verdict.h"
+#include "vicon/steps/noise.h"
 
 namespace vicon::steps {
 namespace {
@@ -32,11 +33,13 @@ Segmentation measured(Segmentation result, Progress& progress)
 Segmentation segmentSoftened(const HuVolume& volume, const InsideVolume* given, Vector3 gravity,
                              const SegmentOptions& options, Progress& progress)
 {
+    options.densities.require(true);
     const std::optional<SoftenedDensities> soft = softened(volume, options.densities);
     if (!soft)
         return segmentAsIs(volume, given, gravity, options, progress);
     Segmentation result = segmentAsIs(soft->hu, given, gravity, options, progress);
     result.measures["overshoot_hu"] = soft->overshoot_hu;
+    result.measures["acquired_noise_hu"] = softTissueNoise(volume);
     note(result, "a sharp kernel: edges overshoot by " + std::to_string(std::lround(soft->overshoot_hu)) +
                      " HU; the wall was sought in softened densities");
     return result;

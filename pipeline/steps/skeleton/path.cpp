@@ -206,7 +206,7 @@ LumenPath findPath(const FieldVolume& wall_mm, const LumenGraph& coarse, Point3 
         path = pathIn(wall_mm, makeGraph(wall_mm, block, 0), from, to, options, progress, first);
     if (path.voxels.empty())
         throw Error(ErrorCode::bad_input, "the two ends of a piece of the lumen are not joined inside it", {},
-                    "segment the scan again");
+                    "add the lumen between them, or drop one of them ('vicon work --help')");
     return path;
 }
 

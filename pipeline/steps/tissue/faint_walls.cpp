@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "grid/neighbours.h"
 #include "grid/thin_holes.h"
@@ -74,12 +75,12 @@ bool isInSheet(const ThinHole& hole, const InsideVolume& lumen, const DownAxis& 
 
 }  // namespace
 
-std::vector<FaintWall> closeFaintWalls(const InsideVolume& labels, const Stool& stool, const DownAxis& down,
-                                       TissueVolume& tissue, InsideVolume& lumen)
+std::vector<ClosedWall> closeFaintWalls(const InsideVolume& labels, const Stool& stool, const DownAxis& down,
+                                        TissueVolume& tissue, InsideVolume& lumen)
 {
     const Grid& grid = lumen.grid;
     const double face_mm2 = std::pow(grid.voxelVolume_mm3(), 2.0 / 3);
-    std::vector<FaintWall> walls;
+    std::vector<ClosedWall> walls;
     for (const ThinHole& hole : findThinHoles(tissue, lumen)) {
         const double area_mm2 = face_mm2 * double(hole.voxels.size()) / 2;
         const auto isLabelled = [&](std::size_t n) { return labels.voxels[n] != kOutside; };
@@ -87,11 +88,10 @@ std::vector<FaintWall> closeFaintWalls(const InsideVolume& labels, const Stool& 
         if (area_mm2 > kMost_mm2 || (hole.only_way && std::ranges::all_of(hole.voxels, isLabelled)) ||
             std::ranges::any_of(hole.voxels, isStool) || (isLevel(hole, lumen, down) && !isInSheet(hole, lumen, down)))
             continue;
-        for (const std::size_t n : hole.voxels) {
-            lumen.voxels[n] = kOutside;
-            tissue.voxels[n] = std::max(tissue.voxels[n], std::uint8_t(kClosed * kWhole));
-        }
-        walls.push_back({middleOf(hole, grid), area_mm2});
+        ClosedWall closed{{middleOf(hole, grid), area_mm2}, {}};
+        for (const std::size_t n : hole.voxels)
+            closed.voxels.push_back(closeVoxel(n, kClosed, tissue, lumen));
+        walls.push_back(std::move(closed));
     }
     return walls;
 }

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "tissue/closed_walls.h"
 #include "tissue/levels.h"
 #include "tissue/stool.h"
-#include "vicon/core/untrusted_wall.h"
 #include "vicon/steps/tissue.h"
 
 namespace vicon::steps {
@@ -16,7 +16,7 @@ namespace vicon::steps {
 /// @param tissue raised above one half where a hole is closed
 /// @param lumen there no lumen any more
 /// @return in the order of their voxels
-std::vector<FaintWall> closeFaintWalls(const InsideVolume& labels, const Stool& stool, const DownAxis& down,
-                                       TissueVolume& tissue, InsideVolume& lumen);
+std::vector<ClosedWall> closeFaintWalls(const InsideVolume& labels, const Stool& stool, const DownAxis& down,
+                                        TissueVolume& tissue, InsideVolume& lumen);
 
 }  // namespace vicon::steps

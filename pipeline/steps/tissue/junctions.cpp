@@ -24,7 +24,7 @@ constexpr int kBesideWall_voxels = 3;
 constexpr int kThin_voxels = 2;
 /// Gas that is not labelled is that of a bubble: so far from it nothing is solved. Chosen on phantom 402 with bubbles.
 constexpr int kBesideBubble_voxels = 4;
-/// Voxels so near to the border of the scan are left as they are.
+/// Voxels so near to the border of the labels' grid are left as they are.
 constexpr int kBorder_voxels = 4;
 
 struct SettledVoxel {

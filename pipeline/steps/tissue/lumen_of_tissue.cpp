@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -27,9 +28,6 @@ namespace {
 
 /// How far the lumen may grow beyond its labels.
 constexpr int kMostLayers = 2;
-/// Sets of tissue without a wall, and of lumen behind one, up to here are noise or bubbles: 0.03 ml at the usual
-/// voxels.
-constexpr std::size_t kSpeck_voxels = 100;
 
 /// Those of `voxels` that hang together, over faces, with the outside or are many; both in order.
 std::vector<std::size_t> withoutSpecks(const std::vector<std::size_t>& voxels, const InsideVolume& inside)
@@ -80,9 +78,9 @@ void restoreCuts(const SparseVoxels& walls, const InsideVolume& inside, const Ru
                  const std::vector<std::size_t>& left_out, InsideVolume& lumen)
 {
     const RunLabels parts = labelLumen(lumen, Neighbours::faces);
-    if (parts.components.size() == pieces.components.size())
-        return;
     const std::vector<bool> is_largest = largestOfPieces(pieces, parts);
+    if (std::ranges::all_of(is_largest, std::identity()))
+        return;
     const std::vector<bool> lost = lostParts(parts, is_largest, inside.grid, left_out);
     for (std::size_t part = 0; part < lost.size(); ++part)
         if (lost[part])
@@ -117,7 +115,7 @@ public:
             voxelsWhere(inside_.grid, tissue_.voxels, std::uint8_t(kWhole),
                         [&](std::size_t n) { return mayBecomeLumen(n) && labelBeside(n) != kOutside; });
         for (int layer = 0; layer < kMostLayers; ++layer) {
-            std::erase_if(front, [&](std::size_t n) { return joinsPieces(n); });
+            std::erase_if(front, [&](std::size_t n) { return areNearTwoPieces(pieces_, inside_.grid, {&n, 1}); });
             std::vector<std::uint8_t> labels(front.size());
             std::transform(front.begin(), front.end(), labels.begin(), [&](std::size_t n) { return labelBeside(n); });
             for (std::size_t n = 0; n < front.size(); ++n)
@@ -146,20 +144,6 @@ private:
         return label;
     }
 
-    /// Whether two pieces lie so near that growing from both sides could join them.
-    bool joinsPieces(std::size_t n) const
-    {
-        if (pieces_.components.size() < 2)
-            return false;
-        int piece = -1;
-        return anyInCube(inside_.grid.indexOf(n), kMostLayers + 1, [&](Index3 v) {
-            const int there = inside_.grid.contains(v) ? pieces_.labelAt(v) : -1;
-            if (there < 0 || there == piece)
-                return false;
-            return std::exchange(piece, there) >= 0;
-        });
-    }
-
     const TissueVolume& tissue_;
     const InsideVolume& inside_;
     const RunLabels& pieces_;
@@ -168,6 +152,21 @@ private:
 
 }  // namespace
 
+bool areNearTwoPieces(const RunLabels& pieces, const Grid& grid, std::span<const std::size_t> voxels)
+{
+    if (pieces.components.size() < 2)
+        return false;
+    int piece = -1;
+    return std::ranges::any_of(voxels, [&](std::size_t n) {
+        return anyInCube(grid.indexOf(n), kMostLayers + 1, [&](Index3 v) {
+            const int there = grid.contains(v) ? pieces.labelAt(v) : -1;
+            if (there < 0 || there == piece)
+                return false;
+            return std::exchange(piece, there) >= 0;
+        });
+    });
+}
+
 std::vector<bool> largestOfPieces(const RunLabels& pieces, const RunLabels& lumen)
 {
     std::vector<std::uint32_t> piece_of(lumen.components.size(), 0);
@@ -175,12 +174,15 @@ std::vector<bool> largestOfPieces(const RunLabels& pieces, const RunLabels& lume
         for (int j = 0; j < lumen.size[1]; ++j)
             for (std::size_t n = lumen.row_begin[lumen.row(j, k)]; n < lumen.row_begin[lumen.row(j, k) + 1]; ++n)
                 piece_of[lumen.runs[n].label] = std::uint32_t(pieces.labelAt({lumen.runs[n].begin, j, k}));
-    std::vector<std::size_t> largest(pieces.components.size(), 0);
+    constexpr std::size_t kNone = SIZE_MAX;
+    std::vector<std::size_t> largest(pieces.components.size(), kNone);
     for (std::size_t n = 0; n < piece_of.size(); ++n)
-        largest[piece_of[n]] = std::max(largest[piece_of[n]], lumen.components[n].voxels);
+        if (std::size_t& of = largest[piece_of[n]];
+            of == kNone || lumen.components[n].voxels > lumen.components[of].voxels)
+            of = n;
     std::vector<bool> is_largest(lumen.components.size());
     for (std::size_t n = 0; n < piece_of.size(); ++n)
-        is_largest[n] = lumen.components[n].voxels == largest[piece_of[n]];
+        is_largest[n] = n == largest[piece_of[n]];
     return is_largest;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "grid/run_labels.h"
@@ -8,8 +9,15 @@
 
 namespace vicon::steps {
 
+/// Sets of tissue without a wall, and of lumen behind one, up to here are noise or bubbles: 0.03 ml at the usual
+/// voxels.
+constexpr std::size_t kSpeck_voxels = 100;
+
 /// For each component of the lumen whether it is the largest within its piece.
 std::vector<bool> largestOfPieces(const RunLabels& pieces, const RunLabels& lumen);
+
+/// Whether two pieces lie so near to these voxels that the lumen could join them there.
+bool areNearTwoPieces(const RunLabels& pieces, const Grid& grid, std::span<const std::size_t> voxels);
 
 /// The labels with the wall where the fraction of tissue is one half: what lies inside and holds more tissue is
 /// outside, and what lies beside the lumen and holds less is inside, at most two voxels from what was inside. Specks of

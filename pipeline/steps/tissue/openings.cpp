@@ -12,6 +12,7 @@
 #include "grid/thin_holes.h"
 #include "grid/voxel_lists.h"
 #include "grid/voxels_where.h"
+#include "tissue/lumen_of_tissue.h"
 #include "vicon/core/disjoint_sets.h"
 
 namespace vicon::steps {
@@ -31,8 +32,11 @@ constexpr double kGoesOn = 0.75;
 /// From an opening inwards: two layers that grew, and as much again of the labels.
 constexpr int kDeepest_voxels = 4;
 constexpr float kShut = 0.75F;
+/// From the point of a cut: the gap that it leaves is 3 mm wide.
+constexpr double kAtCut_mm = 5;
 
 using Voxels = std::vector<std::size_t>;
+using Closed = std::map<std::size_t, ClosedWall::Voxel>;
 
 class Openings {
 public:
@@ -109,12 +113,10 @@ public:
         return all;
     }
 
-    void shut(const Voxels& voxels)
+    void shut(const Voxels& voxels, Closed& closed)
     {
-        for (const std::size_t n : voxels) {
-            lumen_.voxels[n] = kOutside;
-            tissue_.voxels[n] = std::max(tissue_.voxels[n], std::uint8_t(kShut * kWhole));
-        }
+        for (const std::size_t n : voxels)
+            closed.emplace(n, closeVoxel(n, kShut, tissue_, lumen_));
     }
 
     bool isBesideLumen(std::size_t n) const
@@ -147,29 +149,40 @@ private:
     InsideVolume& lumen_;
 };
 
-/// What hangs together of voxels, over corners too.
-std::vector<ThinHole> together(const Grid& grid, const Voxels& voxels)
+bool isNearCut(const Voxels& voxels, const Grid& grid, const std::vector<Point3>& cuts_mm)
 {
-    const SparseVoxels all(grid, voxels);
+    return std::ranges::any_of(cuts_mm, [&](Point3 cut) {
+        return std::ranges::any_of(
+            voxels, [&](std::size_t n) { return distance(grid.pointAt(grid.indexOf(n)), cut) < kAtCut_mm; });
+    });
+}
+
+/// What hangs together of closed voxels, over corners too.
+std::vector<ClosedWall> together(const Grid& grid, const Closed& closed)
+{
+    Voxels places;
+    for (const auto& [at, voxel] : closed)
+        places.push_back(at);
+    const SparseVoxels all(grid, places);
     DisjointSets sets(all.size());
     for (std::size_t n = 0; n < all.size(); ++n)
         all.forNear(all[n], 1, [&](std::size_t other) { sets.join(std::uint32_t(n), std::uint32_t(other)); });
-    std::map<std::uint32_t, ThinHole> found;
+    std::map<std::uint32_t, ClosedWall> found;
     for (std::size_t n = 0; n < all.size(); ++n)
-        found[sets.rootOf(std::uint32_t(n))].voxels.push_back(all[n]);
-    std::vector<ThinHole> holes;
-    for (auto& [root, hole] : found)
-        holes.push_back(std::move(hole));
-    return holes;
+        found[sets.rootOf(std::uint32_t(n))].voxels.push_back(closed.at(all[n]));
+    std::vector<ClosedWall> walls;
+    for (auto& [root, wall] : found)
+        walls.push_back(std::move(wall));
+    return walls;
 }
 
 }  // namespace
 
-std::vector<FaintWall> settleOpenings(const Mixture& mixture, const std::vector<std::size_t>& other_bowel,
-                                      TissueVolume& tissue, InsideVolume& lumen)
+std::vector<ClosedWall> settleOpenings(const BeyondLabels& known, TissueVolume& tissue, InsideVolume& lumen)
 {
-    Openings openings(mixture, tissue, lumen);
-    const auto isOtherBowel = [&](std::size_t n) { return std::ranges::binary_search(other_bowel, n); };
+    Openings openings(known.mixture, tissue, lumen);
+    const auto isOtherBowel = [&](std::size_t n) { return std::ranges::binary_search(known.other_bowel, n); };
+    const auto isCutOff = [&](const Voxels& voxels) { return isNearCut(voxels, lumen.grid, known.cuts_mm); };
     std::unordered_set<std::size_t> settled;
     Voxels mouths;
     for (const std::size_t n : openings.beyond()) {
@@ -179,24 +192,28 @@ std::vector<FaintWall> settleOpenings(const Mixture& mixture, const std::vector<
         settled.insert(part.begin(), part.end());
         if (part.size() <= kRecess_voxels)
             continue;
-        if (std::ranges::none_of(part, isOtherBowel) && openings.isPocket(part))
+        if (std::ranges::none_of(part, isOtherBowel) && openings.isPocket(part) &&
+            !areNearTwoPieces(known.pieces, lumen.grid, part) && !isCutOff(part))
             openings.fill(part);
         else
             std::ranges::copy_if(part, std::back_inserter(mouths),
                                  [&](std::size_t m) { return openings.isBesideLumen(m); });
     }
     mouths = sortedOnce(std::move(mouths));
-    Voxels closed = openings.hanging(mouths);
-    openings.shut(closed);
-    std::ranges::copy_if(mouths, std::back_inserter(closed), [&](std::size_t n) { return openings.isBesideLumen(n); });
-    closed = sortedOnce(std::move(closed));
-    openings.shut(closed);
+    Closed closed;
+    openings.shut(openings.hanging(mouths), closed);
+    Voxels open;
+    std::ranges::copy_if(mouths, std::back_inserter(open), [&](std::size_t n) { return openings.isBesideLumen(n); });
+    openings.shut(open, closed);
     const double face_mm2 = std::pow(lumen.grid.voxelVolume_mm3(), 2.0 / 3);
-    std::vector<FaintWall> walls;
-    for (const ThinHole& opening : together(lumen.grid, closed))
-        if (const auto faces =
-                std::ranges::count_if(opening.voxels, [&](std::size_t n) { return openings.isBesideLumen(n); }))
-            walls.push_back({middleOf(opening, lumen.grid), face_mm2 * double(faces)});
+    std::vector<ClosedWall> walls = together(lumen.grid, closed);
+    for (ClosedWall& wall : walls) {
+        ThinHole hole;
+        for (const ClosedWall::Voxel& voxel : wall.voxels)
+            hole.voxels.push_back(voxel.at);
+        const auto faces = std::ranges::count_if(hole.voxels, [&](std::size_t n) { return openings.isBesideLumen(n); });
+        wall.wall = {middleOf(hole, lumen.grid), isCutOff(hole.voxels) ? 0 : face_mm2 * double(faces)};
+    }
     return walls;
 }
 

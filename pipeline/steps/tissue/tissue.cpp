@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -163,7 +164,7 @@ void setBesideStool(const Mixture& mixture, const Stool& stool, TissueVolume& ti
 
 TissueResult findTissue(const HuVolume& acquired_hu, const InsideVolume& labels, Vector3 gravity,
                         const WallDensities& densities, double noise_hu, Progress& progress,
-                        const TissueOptions& options)
+                        const TissueOptions& options, const std::vector<Point3>& cuts_mm)
 {
     progress.report(0, "tissue");
     // MR, which has no stool that could be told, has no such kernels.
@@ -196,9 +197,13 @@ TissueResult findTissue(const HuVolume& acquired_hu, const InsideVolume& labels,
         options.leave_out_other_bowel ? otherBowel(result.tissue, inside, pieces) : std::vector<std::size_t>{};
     result.lumen = lumenOf(result.tissue, inside, pieces, other_bowel);
     result.untrusted.mottled = findMottled(mixture, stool, noise_hu);
-    result.untrusted.faint = settleOpenings(mixture, other_bowel, result.tissue, result.lumen);
-    const auto holes = closeFaintWalls(labels, stool, down, result.tissue, result.lumen);
-    result.untrusted.faint.insert(result.untrusted.faint.end(), holes.begin(), holes.end());
+    std::vector<ClosedWall> closed =
+        settleOpenings({mixture, pieces, other_bowel, cuts_mm}, result.tissue, result.lumen);
+    std::ranges::move(closeFaintWalls(labels, stool, down, result.tissue, result.lumen), std::back_inserter(closed));
+    reopenCuts(pieces, closed, result.tissue, result.lumen);
+    for (const ClosedWall& each : closed)
+        if (each.wall.area_mm2 > 0)  // else nothing of it is beside the lumen by now
+            result.untrusted.faint.push_back(each.wall);
     result.cleansed = cleanse({acquired_hu, inside, densities}, result.lumen,
                               brightOfStool_hu(mixture.tissue_hu, noise_hu, options), result.tissue);
     result.blur_mm = blur_mm;

@@ -38,13 +38,15 @@ struct SegmentFound {
     std::string reason;       ///< why, for a person
     Organ organ;
     std::optional<LumenOrigin> given;                ///< where the lumen came from, if VICON did not find it
-    std::optional<double> noise_hu;                  ///< in soft tissue; of a colon
+    std::optional<double> noise_hu;                  ///< in soft tissue, as the lumen was sought; of a colon
     std::vector<Bridge> bridges;                     ///< without their paths, which are in the plan
     nlohmann::json plan = nlohmann::json::object();  ///< pieces and bridges as the skeleton step reads them
     nlohmann::json measures = nlohmann::json::object();
 
     /// "colon", "unsure" or "no colon".
     std::string verdictText() const { return vicon::verdictText(verdict, organ_title); }
+    /// The noise of the densities as they were acquired, which are softened where a kernel is sharp.
+    std::optional<double> acquiredNoise_hu() const;
     /// The noise where air and tissue have CT's usual densities: of MR on that scale. Nothing where it was not
     /// measured.
     std::optional<double> usualNoise_hu() const;

@@ -52,9 +52,10 @@ private:
     RowScanner scanner() const
     {
         return [this](int j, int k, std::vector<VoxelRun>& runs) {
+            const std::size_t first = runs.size();
             for (int i = 0; i < labels_.grid.size[0]; ++i)
                 if (labels_.at({i, j, k}) == kFluid) {
-                    if (runs.empty() || runs.back().end != i)
+                    if (runs.size() == first || runs.back().end != i)
                         runs.push_back({.begin = i, .end = i});
                     runs.back().end = i + 1;
                 }

@@ -182,8 +182,8 @@ std::vector<Candidate> describe(const InsideVolume& labels, const RunLabels& lum
 
 }  // namespace
 
-std::vector<Candidate> findCandidates(const InsideVolume& labels, const RunLabels& lumen, const Body& body,
-                                      double smallest_ml, int most, const std::vector<int>& always, Progress& progress)
+FoundCandidates findCandidates(const InsideVolume& labels, const RunLabels& lumen, const Body& body, double smallest_ml,
+                               int most, const std::vector<int>& always, Progress& progress)
 {
     const double voxel_ml = labels.grid.voxelVolume_mm3() / 1000;
     const auto isAsked = [&](std::uint32_t n) {
@@ -196,7 +196,9 @@ std::vector<Candidate> findCandidates(const InsideVolume& labels, const RunLabel
     std::stable_sort(large.begin(), large.end(), [&](std::uint32_t a, std::uint32_t b) {
         return isAsked(a) != isAsked(b) ? isAsked(a) : lumen.components[a].voxels > lumen.components[b].voxels;
     });
-    large.resize(std::min(large.size(), std::size_t(most)));
+    FoundCandidates found;
+    found.left_out = int(large.size()) - std::min(int(large.size()), most);
+    large.resize(large.size() - std::size_t(found.left_out));
     std::vector<std::vector<Candidate>> of_component(large.size());
     tbb::parallel_for(std::size_t(0), large.size(), [&](std::size_t n) {
         CheckOnly check(progress);
@@ -205,10 +207,14 @@ std::vector<Candidate> findCandidates(const InsideVolume& labels, const RunLabel
             judge(candidate, body);
     });
     progress.check();
-    std::vector<Candidate> candidates;
-    for (std::vector<Candidate>& some : of_component)
-        std::move(some.begin(), some.end(), std::back_inserter(candidates));
-    return candidates;
+    for (std::vector<Candidate>& some : of_component) {
+        if (found.candidates.size() + some.size() > std::size_t(kMostCandidates)) {
+            ++found.left_out;
+            continue;
+        }
+        std::move(some.begin(), some.end(), std::back_inserter(found.candidates));
+    }
+    return found;
 }
 
 int findRectum(std::vector<Candidate>& candidates, const Body& body, double catheter_radius_mm, Progress& progress)

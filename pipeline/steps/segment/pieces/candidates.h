@@ -38,10 +38,18 @@ struct Candidate {
     std::vector<std::uint8_t> barred;  ///< nodes of the graph in contacts or of other candidates; empty: none
 };
 
-/// Measures the components that are large enough to matter, largest first, at most `most` of them; those in `always`
-/// come before all others, whatever their size.
-std::vector<Candidate> findCandidates(const InsideVolume& labels, const RunLabels& lumen, const Body& body,
-                                      double smallest_ml, int most, const std::vector<int>& always, Progress& progress);
+/// More are not put in order: that takes 2^n steps of 32 n bytes each, here 16 MB.
+constexpr int kMostCandidates = 15;
+
+struct FoundCandidates {
+    std::vector<Candidate> candidates;
+    int left_out = 0;  ///< components that were large enough, but too many
+};
+
+/// Measures the components that are large enough to matter, largest first, at most `most` of them and kMostCandidates
+/// candidates; those in `always` come before all others, whatever their size.
+FoundCandidates findCandidates(const InsideVolume& labels, const RunLabels& lumen, const Body& body, double smallest_ml,
+                               int most, const std::vector<int>& always, Progress& progress);
 
 /// The candidate that holds the rectum: low, near the midline, and wide; -1 when there is none. Its first tip becomes
 /// the rectal end, above what is narrower than a rectal catheter; the second tip the farthest point from there.

@@ -63,7 +63,7 @@ struct SegmentOptions {
         v("segment.catheter_radius_mm", catheter_radius_mm, "mm",
           "What is narrower than this below the rectum is catheter, not lumen.", {0, 8});
         v("segment.longest_sure_bridge_mm", longest_sure_bridge_mm, "mm",
-          "A longer bridge over a collapsed part is reported as uncertain.", {0, 500});
+          "A longer bridge over a collapsed part is reported as uncertain.", {1, 500});
         v("segment.shortest_mm", shortest_mm, "mm", "A shorter run of gas and fluid is no colon.", {0, 1000});
         v("segment.usual_mm", usual_mm, "mm", "A shorter colon is doubted; lower it after a resection.", {0, 2000});
         v("segment.longest_mm", longest_mm, "mm", "A longer colon is doubted.", {1000, 6000});
@@ -90,7 +90,7 @@ struct Segmentation {
 
 /// Finds the lumen of the colon, gas and tagged fluid, from rectum to caecum.
 /// A scan without a colon is no error: the verdict says so, and `inside` is empty (size 0).
-/// Throws Error{cancelled} only.
+/// Throws Error{wrong_use} for densities that cannot be, Error{cancelled}.
 /// @param volume isotropic densities in HU; axes near +x left, +y posterior, +z head; padding kPaddingHu
 /// @param gravity unit vector along which fluid falls, see vicon::gravityFor()
 Segmentation segmentColon(const HuVolume& volume, Vector3 gravity, const SegmentOptions& options, Progress& progress);

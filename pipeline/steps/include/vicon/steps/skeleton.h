@@ -54,7 +54,7 @@ struct SkeletonHooks {
 
 /// Finds the centred curve of the lumen from rectum to caecum. Empty for a plan without pieces.
 /// Method: Dijkstra's shortest path with a cost of length x (5 mm / wall distance)^4, which is drawn to the middle and
-/// away from contacts between loops; the smooth curve is the path's, moved ten times to the middle of its
+/// away from contacts between loops; the smooth curve is the path's, moved again and again to the middle of its
 /// cross-sections and held within the largest balls about the path. Throws Error{bad_input} when an end of a piece does
 /// not lie in the lumen, and Error{cancelled}.
 SkeletonResult findSkeleton(const InsideVolume& inside, const LumenPlan& plan, const SkeletonOptions& options,

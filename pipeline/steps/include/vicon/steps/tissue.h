@@ -55,9 +55,11 @@ struct TissueResult {
 /// @param hu on the lattice of `inside`, at least as large
 /// @param gravity unit vector along which fluid falls
 /// @param noise_hu standard deviation of the noise in soft tissue
+/// @param cuts_mm where a person cut the labels: what was cut off there stays out, and no wall is told of
 /// All volumes lie on the grid of `inside`. The result does not depend on the number of threads.
 /// Throws Error{bad_input} when the grids do not fit together, Error{no_memory}.
 TissueResult findTissue(const HuVolume& hu, const InsideVolume& inside, Vector3 gravity, const WallDensities& densities,
-                        double noise_hu, Progress& progress, const TissueOptions& options = {});
+                        double noise_hu, Progress& progress, const TissueOptions& options = {},
+                        const std::vector<Point3>& cuts_mm = {});
 
 }  // namespace vicon::steps
