@@ -50,8 +50,9 @@ void addCorrectionServices(viewer::ReadingServices& services, const Config& conf
     services.corrections = [](CaseStore& store, const ScanRecord& scan) {
         return readCorrections(store.scanFolder(scan.case_id, scan.id));
     };
-    services.correct = [&config](CaseStore& store, const ScanRecord& scan, const Corrections& all) {
-        replaceCorrections(store, config.get<QueueOptions>(), scan, all);
+    services.correct = [&config](CaseStore& store, const ScanRecord& scan, const Corrections& before,
+                                 const Corrections& after) {
+        replaceCorrections(store, config.get<QueueOptions>(), scan, after, before);
         requeueOutdated(store, config, scan.case_id, scan.id);
     };
     services.bridges = reviewedBridges;

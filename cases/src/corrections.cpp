@@ -89,9 +89,16 @@ void writeCorrections(const fs::path& scan_folder, const Corrections& correction
     replaceFile(file, toJson(corrections).dump(2) + "\n");
 }
 
-void replaceCorrections(CaseStore& store, const QueueOptions& options, const ScanRecord& scan, const Corrections& all)
+void replaceCorrections(CaseStore& store, const QueueOptions& options, const ScanRecord& scan, const Corrections& all,
+                        const std::optional<Corrections>& expected)
 {
-    change(store, options, scan, [&] { return all; });
+    change(store, options, scan, [&] {
+        if (expected && *expected != readCorrections(store.scanFolder(scan.case_id, scan.id)))
+            throw Error(ErrorCode::bad_input,
+                        "what was corrected in this scan was changed by another reader meanwhile; it is left as it is "
+                        "now");
+        return all;
+    });
 }
 
 void addCorrections(CaseStore& store, const QueueOptions& options, const ScanRecord& scan, const Corrections& more)

@@ -26,7 +26,7 @@ TEST(RetryOfTheWorklist, ForgetsCorrectionsThatLeftNoColonAndLeavesOthers)
     EXPECT_FALSE(scan().ready()) << "there is no colon";
     EXPECT_FALSE(scan().spoiled()) << "which nobody caused";
     const ScanRecord record = scan().record;
-    services.correct(store, record, {{}, {}, {{0, 0, 0}}});
+    services.correct(store, record, {}, {{}, {}, {{0, 0, 0}}});
     viconOn(path, "work --until-idle");
     EXPECT_TRUE(scan().spoiled()) << nameOf(scan().state) << ": " << scan().reason;
     services.retry(store, record.case_id);

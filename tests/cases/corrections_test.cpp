@@ -50,6 +50,18 @@ TEST_F(CorrectionsOfAScan, OfTwoReadersAtOnceAreAllKept)
     EXPECT_EQ(kept().cut.size(), 2u * kOfEach);
 }
 
+TEST_F(CorrectionsOfAScan, AreReplacedOnlyWhereNobodyChangedThemMeanwhile)
+{
+    const Corrections seen{.cut = {{1, 2, 3}}}, after{.cut = {{1, 2, 3}}, .drop = {{7, 8, 9}}};
+    addCorrections(one_.store, {}, one_.scan, seen);
+    replaceCorrections(one_.store, {}, one_.scan, after, seen);
+    EXPECT_EQ(kept(), after);
+    addCorrections(one_.store, {}, one_.scan, {.add = {{4, 5, 6}}});  // another reader's
+    const Corrections both = kept();
+    EXPECT_THROW(replaceCorrections(one_.store, {}, one_.scan, seen, after), Error);
+    EXPECT_EQ(kept(), both);
+}
+
 TEST_F(CorrectionsOfAScan, OutsideTheScanAreRefusedAndChangeNothing)
 {
     Grid grid;

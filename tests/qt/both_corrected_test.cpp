@@ -21,7 +21,8 @@ protected:
         Correcting::SetUp();
         queue_ = std::make_shared<Queue>();
         ReadingServices services = test::servicesFor(store_);
-        services.correct = [queue = queue_](CaseStore&, const ScanRecord& scan, const Corrections&) {
+        services.correct = [queue = queue_](CaseStore&, const ScanRecord& scan, const Corrections&,
+                                            const Corrections&) {
             const std::lock_guard lock(queue->mutex);
             queue->waiting.insert(scan.id);
         };

@@ -146,7 +146,7 @@ TEST_F(Correcting, AScanThatIsDoneAgainForAnotherReaderIsShownAnewWhereOneWas)
     key(Qt::Key_End);
     CaseStore other(store_);
     const ScanRecord scan = other.requireScan(test::kCase, test::kSupine);
-    services_.correct(other, scan, {{}, {{0, 0, 0}}, {}});
+    services_.correct(other, scan, {}, {{}, {{0, 0, 0}}, {}});
     const auto progress = [&] { return cases()->item(0, 5)->text() + cases()->item(1, 5)->text(); };
     ASSERT_TRUE(eventually([&] { return progress().contains(","); })) << "the worklist shows that it is being done";
     EXPECT_EQ(warning(), "");
@@ -315,7 +315,7 @@ TEST_F(Correcting, ACorrectionThatAnotherReaderChangedIsNotTakenBack)
         CaseStore other(store_);
         const ScanRecord scan = other.requireScan(test::kCase, test::kSupine);
         if (set)
-            services_.correct(other, scan, *set);
+            services_.correct(other, scan, services_.corrections(other, scan), *set);
         return services_.corrections(other, scan);
     };
     Corrections his = corrections(nullptr);

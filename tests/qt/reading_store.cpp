@@ -119,9 +119,13 @@ void addCorrections(ReadingServices& services, const std::shared_ptr<Said>& stat
         const std::lock_guard lock(state->mutex);
         return state->corrections[scan.id];
     };
-    services.correct = [state](CaseStore&, const ScanRecord& scan, const Corrections& all) {
+    services.correct = [state](CaseStore&, const ScanRecord& scan, const Corrections& before,
+                               const Corrections& after) {
         const std::lock_guard lock(state->mutex);
-        state->corrections[scan.id] = all;
+        if (state->corrections[scan.id] != before)
+            throw Error(ErrorCode::bad_input,
+                        "what was corrected in this scan was changed by another reader meanwhile");
+        state->corrections[scan.id] = after;
         state->queued = scan.id;
     };
 }

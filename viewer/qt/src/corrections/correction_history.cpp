@@ -1,18 +1,11 @@
 #include "corrections/correction_history.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "vicon/core/error.h"
 
 namespace vicon::viewer {
-namespace {
-
-[[noreturn]] void refuse(const std::string& what)
-{
-    throw Error(ErrorCode::bad_input, what + " was changed by another reader meanwhile; it is left as it is now");
-}
-
-}  // namespace
 
 CorrectionHistory::Step CorrectionHistory::take(CaseStore& store, Step step)
 {
@@ -58,9 +51,8 @@ CorrectionHistory::Step CorrectionHistory::review(CaseStore& store, const ScanRe
 void CorrectionHistory::apply(CaseStore& store, Step& step, bool back)
 {
     if (!step.ofBridge()) {
-        if (services_.corrections(store, step.scan) != (back ? step.after : step.before))
-            refuse("what was corrected in this scan");
-        services_.correct(store, step.scan, back ? *step.before : *step.after);
+        const auto& [from, to] = back ? std::tie(*step.after, *step.before) : std::tie(*step.before, *step.after);
+        services_.correct(store, step.scan, from, to);
         return;
     }
     const auto find = [&] {
@@ -74,7 +66,8 @@ void CorrectionHistory::apply(CaseStore& store, Step& step, bool back)
     };
     const ReviewedBridge &expected = back ? *step.bridge_after : *step.bridge_before, now = find();
     if (now.review != expected.review)
-        refuse("this bridge's verdict");
+        throw Error(ErrorCode::bad_input,
+                    "this bridge's verdict was changed by another reader meanwhile; it is left as it is now");
     services_.review_bridge(store, step.scan, back ? *step.bridge_before : *step.bridge_after);
     if (!back)
         step.bridge_after = find();  // with who and when

@@ -64,8 +64,9 @@ struct ReadingServices {
     /// Writes a report and returns its file. Throws Error{cancelled} once it is, and has then written nothing.
     std::function<std::filesystem::path(CaseStore&, const std::string& case_id, Progress&)> report;
     std::function<Corrections(CaseStore&, const ScanRecord&)> corrections;
-    /// Keeps these as all corrections of a scan, and queues what has to be done again.
-    std::function<void(CaseStore&, const ScanRecord&, const Corrections&)> correct;
+    /// Keeps the second as all corrections of a scan instead of the first, and queues what has to be done again; throws
+    /// Error{bad_input} where it has others than the first by now.
+    std::function<void(CaseStore&, const ScanRecord&, const Corrections&, const Corrections&)> correct;
     std::function<std::vector<ReviewedBridge>(CaseStore&, const ScanRecord&)> bridges;
     /// Keeps a bridge's review; who and when are filled in where they are empty. None takes it back.
     std::function<void(CaseStore&, const ScanRecord&, const ReviewedBridge&)> review_bridge;
