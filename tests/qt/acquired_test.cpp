@@ -1,6 +1,5 @@
 // What is clicked and measured is what is shown, and is measured as acquired.
 #include <QAction>
-#include <QStatusBar>
 
 #include "reading.h"
 #include "slices/slice_view.h"
@@ -55,7 +54,6 @@ protected:
         EXPECT_TRUE(eventually([&] { return markers()->rowCount() == before + 1 && settled(); })) << warning();
         return stationOf(stored().back().position_mm);
     }
-    static QString said() { return window()->statusBar()->currentMessage(); }
     static bool cleansed() { return the<QAction>("cleansed")->isChecked(); }
 
     const Skeleton path_ = test::TestColon().skeleton;

@@ -64,6 +64,33 @@ TEST_F(Reading, AnAreaThatIsCircledIsPeeledAloneAndItsDensityKeptWithTheMarkerUn
     EXPECT_TRUE(eventually([] { return !the<QLabel>("histogram")->isVisible(); }));
 }
 
+TEST_F(Reading, WhatIsCircledAndThenMarkedKeepsItsDensityWhetherItIsMeasuredByThenOrNot)
+{
+    openCase();
+    waitUntilQuiet();
+    const QPoint at = middle("endoscopic") + QPoint(-150, 20);
+    for (const bool measured : {true, false}) {
+        key(Qt::Key_T);
+        drag("endoscopic", at, at + QPoint(110, 0));
+        if (measured) {
+            ASSERT_TRUE(eventually([&] { return said().contains("no marker beside it"); })) << said().toStdString();
+            waitUntilQuiet();
+        }
+        key(Qt::Key_1);
+        click("endoscopic", at);
+        ASSERT_TRUE(eventually([&] { return stored().size() == 1 && stored()[0].density && settled(); }))
+            << (measured ? "after its density" : "before its density") << ": " << warning();
+        EXPECT_TRUE(the<QLabel>("histogram")->isVisible());
+        screenshot(measured ? "biopsy_then_marked" : "biopsy_and_marked");
+        for (int step = 0; step < 2; ++step) {  // the density, then the marker
+            press(window(), "undo");
+            ASSERT_TRUE(eventually([&] { return settled(); }));
+        }
+        ASSERT_TRUE(eventually([&] { return stored().empty(); }));
+        waitUntilQuiet();
+    }
+}
+
 /// A supine scan whose wall is one voxel of tissue before fat.
 class ReadingOfAThinWall : public Reading {
 protected:

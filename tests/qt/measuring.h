@@ -3,7 +3,6 @@
 #include <QMessageBox>
 #include <QMouseEvent>
 #include <QPushButton>
-#include <QStatusBar>
 #include <QTableWidget>
 #include <QWheelEvent>
 #include <cmath>
@@ -83,7 +82,6 @@ protected:
         }
         return double(hits) / (kSteps + 1);
     }
-    static QString said() { return window()->statusBar()->currentMessage(); }
     static double firstLength(const QString& text) { return text.section(' ', 0, 0).toDouble(); }
     /// What the window says was measured between two clicks.
     static double measuredBetween(const char* view, QPoint a, QPoint b)

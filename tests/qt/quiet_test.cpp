@@ -82,6 +82,30 @@ TEST_F(Quiet, IsWhenWhatWaitedIsGivenUp)
     EXPECT_FALSE(shown);
 }
 
+TEST_F(Quiet, IsWhenAWorkerThatWasEndedIsAskedForMoreWhileItStillWorks)
+{
+    std::atomic<bool> go = false, later = false, saved = false;
+    worker_.post("work", [&]() -> Worker::Work {
+        while (!go)
+            std::this_thread::yield();
+        return {};
+    });
+    EXPECT_TRUE(support::waitUntil([] { return UnderWay::count() == 1; }));
+    worker_.end();
+    worker_.post("later", [&]() -> Worker::Work {
+        later = true;
+        return {};
+    });
+    worker_.postAlways([&]() -> Worker::Work {
+        saved = true;
+        return {};
+    });
+    go = true;
+    EXPECT_TRUE(support::waitUntil([&] { return worker_.ended(); }));
+    EXPECT_FALSE(later);
+    EXPECT_TRUE(saved) << "what must be saved is, also then";
+}
+
 TEST_F(Quiet, IsNotWhileADrawingWaitsUntilTheHandRests)
 {
     int drawn = 0;

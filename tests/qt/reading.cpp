@@ -7,6 +7,7 @@
 #include <QMouseEvent>
 #include <QPushButton>
 #include <QSettings>
+#include <QStatusBar>
 #include <QTabBar>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -182,6 +183,11 @@ QString Reader::cell(int row, int column)
 std::string Reader::warning()
 {
     return the<QLabel>("warning")->text().toStdString();
+}
+
+QString Reader::said()
+{
+    return window()->statusBar()->currentMessage();
 }
 
 bool Reader::pagesAreDrawn(const QWidget* preview)

@@ -91,6 +91,8 @@ protected:
     static bool settled();
     static QString cell(int row, int column);
     static std::string warning();
+    /// The line at the window's foot.
+    static QString said();
     /// The report's pages, which are drawn on another thread: there is ink on the paper.
     static bool pagesAreDrawn(const QWidget* preview);
     /// Answers a dialog for files.

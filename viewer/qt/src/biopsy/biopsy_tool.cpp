@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "peeling/peeling_panel.h"
 #include "reading/reading.h"
@@ -42,16 +43,22 @@ void BiopsyTool::start()
 
 void BiopsyTool::scanOpened(const Arrival&)
 {
+    giveUp();
+}
+
+void BiopsyTool::giveUp()
+{
     circle_.reset();
+    unkept_.reset();
     drawSampled({});
 }
 
+/// What is circled may be marked after it: its density is kept with that marker.
 void BiopsyTool::nextClickChanged()
 {
-    if (!circle_)
+    if (!circle_ || reading_.interaction().inUse<PlaceMarker>())
         return;
-    circle_.reset();
-    drawSampled({});
+    giveUp();
     panel_.showHistogram({});
     reading_.drawEndoscopic(true);
 }
@@ -145,17 +152,33 @@ void BiopsyTool::show(const DensitySample& biopsy)
     constexpr double kWorthSaying = 0.2;
     if (biopsy.fat_fraction >= kWorthSaying)
         text += tr(", %1 % of fat attenuation").arg(100 * biopsy.fat_fraction, 0, 'f', 0);
-    const auto marker = reading_.markerNear(reading_.scan()->record.id, [&](Point3 place) {
-        return std::min(distance(place, circle_->centre_mm), distance(place, biopsy.centre_mm));
-    });
-    if (!marker) {
+    unkept_ = Unkept{biopsy, text};
+    if (!keep() && !reading_.session().busy())
         reading_.say(text + tr("; no marker beside it to keep it with"));
-        return;
-    }
+}
+
+/// With the marker beside the circle; one that is being saved may be it.
+bool BiopsyTool::keep()
+{
+    if (reading_.session().busy())
+        return false;
+    const auto marker = reading_.markerNear(reading_.scan()->record.id, [&](Point3 place) {
+        return std::min(distance(place, circle_->centre_mm), distance(place, unkept_->sample.centre_mm));
+    });
+    if (!marker)
+        return false;
+    const Unkept kept = *std::exchange(unkept_, {});
     Marker after = *marker;
-    after.density = biopsy;
+    after.density = kept.sample;
     reading_.session().changeMarker(*marker, after, false,
-                                    tr("%1; kept with %2").arg(text, QString::fromStdString(marker->id)));
+                                    tr("%1; kept with %2").arg(kept.text, QString::fromStdString(marker->id)));
+    return true;
+}
+
+void BiopsyTool::markersChanged()
+{
+    if (circle_ && unkept_)
+        keep();
 }
 
 void BiopsyTool::complete(EndoscopicRequest& request) const

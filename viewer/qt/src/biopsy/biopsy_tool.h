@@ -18,6 +18,7 @@ public:
 
     void addTo(ReadingLayout& layout) override;
     void scanOpened(const Arrival&) override;
+    void markersChanged() override;
     void nextClickChanged() override;
     void complete(EndoscopicRequest& request) const override;
 
@@ -28,15 +29,23 @@ private:
         double radius_mm = 0;
         bool on_wall = true;  ///< it is seen from inside
     };
+    /// Measured, with no marker beside it yet.
+    struct Unkept {
+        DensitySample sample;
+        QString text;
+    };
     void start();
+    void giveUp();
     void circled(Pixel centre, double radius_px);
     void circledSlice(const PlaneView& view, Pixel centre, double radius_px);
     void drawSampled(const std::optional<SampledBall>& ball);
     double raisedOver(Point3 middle, Vector3 inwards, Pixel centre, double radius_px) const;
     void show(const DensitySample& biopsy);
+    bool keep();
 
     PeelingPanel& panel_;
     std::optional<Circle> circle_;
+    std::optional<Unkept> unkept_;
 };
 
 }  // namespace vicon::viewer

@@ -1,7 +1,6 @@
 // The part of CaseSession that reads scans, on the loader's thread.
 #include <QThreadPool>
 #include <algorithm>
-#include <array>
 
 #include "coverage/coverage_keeper.h"
 #include "session/case_session.h"
@@ -154,9 +153,8 @@ void CaseSession::load(const char* work, const ScanFiles& files, int branch, Ope
             QMetaObject::invokeMethod(
                 this, [this, stage] { emit opening(stage, kStages); }, Qt::QueuedConnection);
     };
-    const std::array others{scan_, beside_};
     loader_.postTask(
-        work, [this, of = files, branch, then = std::move(then), leads, at, others](Progress& wanted) -> Worker::Work {
+        work, [this, of = files, branch, then = std::move(then), leads, at](Progress& wanted) -> Worker::Work {
             const std::filesystem::path& folder = of.folder;
             try {
                 at(0, wanted);
@@ -171,9 +169,7 @@ void CaseSession::load(const char* work, const ScanFiles& files, int branch, Ope
                 at(2, wanted);
                 CoverageKeeper::restore(made->coverage, folder);
                 readOn(files);
-                for (const auto& other : others)
-                    if (other && other->record.id != made->record.id && haveSamePlaces(*other, *made))
-                        maps_.between(*other, *made, &wanted);
+                maps_.prepare(made, wanted);
                 return [made, then] { then(made); };
             } catch (...) {
                 if (!wanted.cancelled())

@@ -25,6 +25,25 @@ StationMap ScanMaps::between(const OpenScan& from, const OpenScan& to, const Pro
     return maps_.insert_or_assign(versions, std::move(map)).first->second;
 }
 
+void ScanMaps::prepare(const std::shared_ptr<const OpenScan>& read, const Progress& wanted)
+{
+    for (const auto& other : heldBeside(read))
+        if (other->record.id != read->record.id && haveSamePlaces(*other, *read))
+            between(*other, *read, &wanted);
+}
+
+std::vector<std::shared_ptr<const OpenScan>> ScanMaps::heldBeside(const std::shared_ptr<const OpenScan>& read)
+{
+    const std::lock_guard lock(mutex_);
+    std::vector<std::shared_ptr<const OpenScan>> held;
+    std::erase_if(read_, [](const std::weak_ptr<const OpenScan>& one) { return one.expired(); });
+    for (const auto& one : read_)
+        if (auto other = one.lock())
+            held.push_back(std::move(other));
+    read_.push_back(read);
+    return held;
+}
+
 std::optional<StationMap> ScanMaps::known(const Versions& versions)
 {
     const std::lock_guard lock(mutex_);

@@ -66,6 +66,8 @@ void Worker::postTask(const std::string& name, Task work)
 {
     {
         const std::lock_guard lock(mutex_);
+        if (stop_ && !name.empty())
+            return;
         const auto waiting = std::find_if(tasks_.begin(), tasks_.end(),
                                           [&](const Waiting& task) { return !name.empty() && task.name == name; });
         if (waiting != tasks_.end())

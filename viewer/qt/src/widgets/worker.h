@@ -25,7 +25,7 @@ public:
     ~Worker() override;  ///< end(), and waits
 
     /// All work that has a name is given up; after what runs and what has none the thread ends. Does not wait for it.
-    /// Later work is not done.
+    /// Later work that has a name is not done.
     void end();
     /// Work of this name that waits is dropped, what runs is told that nobody wants it, and what it returned and the
     /// window has not done yet is not done. False where there is none.
