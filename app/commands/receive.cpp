@@ -33,8 +33,8 @@ void workInBackground(const StorePlace& place, const Config& config)
             CaseStore store(place);
             pipeline::WorkerEvents events;
             events.ended = [](const Job& job, JobState state, const std::string& reason) {
-                spdlog::info("{}/{}: {}{}", job.case_id, job.scan_id, nameOf(state),
-                             reason.empty() ? "" : ", " + reason);
+                spdlog::log(state == JobState::failed ? spdlog::level::warn : spdlog::level::info, "{}/{}: {}{}",
+                            job.case_id, job.scan_id, nameOf(state), reason.empty() ? "" : ", " + reason);
             };
             events.trouble = [](const std::string& what) { spdlog::error("{}", what); };
             pipeline::runWorker(store, config.get<QueueOptions>(), config.get<pipeline::WorkOptions>(),
@@ -51,8 +51,12 @@ ingest::Receiver::Files importReceived(CaseStore& store, const Config& config, c
 {
     UntilStopped quiet;
     const auto report = ingest::importPaths(store, files, config.get<ingest::ImportOptions>(), quiet);
-    for (const ingest::ImportLine& line : report.lines)
-        spdlog::info("{} {}: {}", ingest::nameOf(line.kind), line.subject, line.text);
+    using Kind = ingest::ImportLine::Kind;
+    for (const ingest::ImportLine& line : report.lines) {
+        const bool trouble = line.kind == Kind::refused || line.kind == Kind::quarantined || line.kind == Kind::flagged;
+        spdlog::log(trouble ? spdlog::level::warn : spdlog::level::info, "{} {}: {}", ingest::nameOf(line.kind),
+                    line.subject, line.text);
+    }
     return report.not_stored;
 }
 
@@ -70,7 +74,8 @@ void takeCommitment(const StorePlace& place, const OutboxOptions& options, const
 ingest::CommitmentReport giveCommitment(const StorePlace& place, const ingest::CommitmentDemand& demand)
 {
     CaseStore store(place);
-    ingest::CommitmentReport report = ingest::commitTo(store, demand);
+    const UntilStopped wanted;
+    ingest::CommitmentReport report = ingest::commitTo(store, demand, wanted);
     spdlog::info("committed to {} objects, not to {}", report.committed.size(), report.failed.size());
     return report;
 }

@@ -72,6 +72,9 @@ private:
                 throw;
             spdlog::warn("case {} is fetched again later: {}", CaseStore::caseIdFor(study_uid), e.what());
             return false;
+        } catch (const std::exception& e) {  // of a library
+            spdlog::warn("case {} is fetched again later: {}", CaseStore::caseIdFor(study_uid), e.what());
+            return false;
         }
     }
 
@@ -181,6 +184,11 @@ int watch(Context& context, const std::string& peer, bool once)
             if (once || e.code() == ErrorCode::wrong_use)
                 throw;
             if (said != e.what() && e.code() != ErrorCode::cancelled)
+                spdlog::warn("{}", said = e.what());
+        } catch (const std::exception& e) {  // of a library, at what the peer said
+            if (once)
+                throw;
+            if (said != e.what())
                 spdlog::warn("{}", said = e.what());
         }
         while (std::chrono::steady_clock::now() < next && !stopRequested())

@@ -25,6 +25,33 @@ fs::path lockOf(const fs::path& store, const std::string& case_id)
     return store / "in_use" / case_id;
 }
 
+struct Waiting {
+    const fs::path& store;
+    Progress& progress;
+    double done;
+
+    /// The file of this name, locked.
+    int locked(const char* name) const
+    {
+        constexpr auto kPause = std::chrono::milliseconds(10);
+        const int descriptor = openOrMake(store / name);
+        if (descriptor < 0)
+            throw Error(ErrorCode::store, std::string("the store cannot be locked (") + std::strerror(errno) + ")",
+                        store.string(), "check that the folder is yours, and its disk not full");
+        while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+            try {
+                progress.report(done, "waiting for another import, deletion or backup of this store");
+                progress.check();
+            } catch (...) {
+                ::close(descriptor);
+                throw;
+            }
+            std::this_thread::sleep_for(kPause);
+        }
+        return descriptor;
+    }
+};
+
 /// Whether this is still the file of that name: who waited for a lock may have got that of a file that is gone.
 bool isStillThere(int descriptor, const fs::path& file)
 {
@@ -35,22 +62,17 @@ bool isStillThere(int descriptor, const fs::path& file)
 
 }  // namespace
 
-StoreLock::StoreLock(const fs::path& store, Progress& progress) : descriptor_(openOrMake(store / "import.lock"))
+StoreLock::StoreLock(const fs::path& store, Progress& progress, double done)
 {
-    constexpr auto kPause = std::chrono::milliseconds(10);
-    if (descriptor_ < 0)
-        throw Error(ErrorCode::store, std::string("the store cannot be locked (") + std::strerror(errno) + ")",
-                    store.string(), "check that the folder is yours, and its disk not full");
-    while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-        try {
-            progress.report(0, "waiting for another import, deletion or backup of this store");
-            progress.check();
-        } catch (...) {
-            ::close(descriptor_);
-            throw;
-        }
-        std::this_thread::sleep_for(kPause);
+    const Waiting waiting{store, progress, done};
+    const int turn = waiting.locked("import.turn");  // one waits for the store, the others for the turn
+    try {
+        descriptor_ = waiting.locked("import.lock");
+    } catch (...) {
+        ::close(turn);
+        throw;
     }
+    ::close(turn);
 }
 
 StoreLock::~StoreLock()

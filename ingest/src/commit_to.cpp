@@ -60,12 +60,13 @@ int judge(CaseStore& store, LooseFiles& loose, const ObjectName& object)
 
 }  // namespace
 
-CommitmentReport commitTo(CaseStore& store, const CommitmentDemand& demand)
+CommitmentReport commitTo(CaseStore& store, const CommitmentDemand& demand, const Progress& wanted)
 {
     CommitmentReport report{demand.transaction_uid, {}, {}};
     // The second time for what the import moved while it was looked for.
     LooseFiles first_look(store.folder()), second_look(store.folder());
     for (const ObjectName& object : demand.objects) {
+        wanted.check();
         int reason = judge(store, first_look, object);
         if (reason != kKept)
             reason = judge(store, second_look, object);

@@ -1,11 +1,18 @@
 #include "commitment_dataset.h"
 
 #include <cstdio>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "vicon/core/error.h"
+#include "vicon/ingest/query.h"
 
 namespace vicon::ingest {
 namespace {
+
+/// Each is looked for and hashed: a study of the largest scans has a tenth.
+constexpr std::size_t kMostObjects = 50000;
 
 std::string textIn(DcmItem& item, const DcmTagKey& tag)
 {
@@ -61,8 +68,18 @@ int fillReport(DcmDataset& dataset, const CommitmentReport& report)
 CommitmentDemand commitmentDemandFrom(DcmDataset& dataset)
 {
     CommitmentDemand demand{textIn(dataset, DCM_TransactionUID), {}};
-    forEachItem(dataset, DCM_ReferencedSOPSequence, [&](DcmItem& item) { demand.objects.push_back(nameIn(item)); });
-    if (demand.transaction_uid.empty() || demand.objects.empty())
+    std::set<std::pair<std::string, std::string>> named;
+    forEachItem(dataset, DCM_ReferencedSOPSequence, [&](DcmItem& item) {
+        ObjectName object = nameIn(item);
+        if (!isLikeUid(object.sop_class) || !isLikeUid(object.sop_uid))
+            throw Error(ErrorCode::bad_input, "a request for commitment names an object by what is no UID");
+        if (named.emplace(object.sop_class, object.sop_uid).second)
+            demand.objects.push_back(std::move(object));
+        if (named.size() > kMostObjects)
+            throw Error(ErrorCode::no_memory,
+                        "a request for commitment names more than " + std::to_string(kMostObjects) + " objects");
+    });
+    if (!isLikeUid(demand.transaction_uid) || demand.objects.empty())
         throw Error(ErrorCode::bad_input, "a request for commitment names no transaction or no object");
     return demand;
 }

@@ -95,7 +95,10 @@ std::string CommitmentDesk::take(const std::string& title, const std::string& ho
     }
     try {
         makePrivateFolder(folder_);
-        replaceFile(fileOf(number), toJson({title, host, demand}).dump());
+        // A title may hold any byte.
+        constexpr int kOneLine = -1;
+        replaceFile(fileOf(number),
+                    toJson({title, host, demand}).dump(kOneLine, ' ', false, nlohmann::json::error_handler_t::replace));
     } catch (...) {
         close(number);
         throw;

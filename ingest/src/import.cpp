@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <set>
@@ -108,14 +109,11 @@ public:
 
     ImportReport run(const std::vector<fs::path>& paths)
     {
-        const StoreLock lock(store_.folder(), progress_);
-        const fs::path incoming = store_.folder() / "incoming";
-        UnpackFolder::removeLeftovers(incoming);
+        const auto unpacked = unpackFolder();
         std::vector<ImportLine> lines;
         const std::vector<InputFile> files = listFiles(paths, lines);
-        UnpackFolder unpacked(incoming);
         std::vector<Found> found = inspectAll(files, options_, progress_);
-        openArchives(found, unpacked, options_, progress_, lines);
+        openArchives(found, *unpacked, options_, progress_, lines);
         for (ImportLine& line : lines) {
             ++report_.refused;
             reporter_.line(std::move(line));
@@ -135,6 +133,14 @@ public:
     }
 
 private:
+    std::unique_ptr<UnpackFolder> unpackFolder()
+    {
+        const StoreLock lock(store_.folder(), progress_);
+        const fs::path incoming = store_.folder() / "incoming";
+        UnpackFolder::removeLeftovers(incoming);
+        return std::make_unique<UnpackFolder>(incoming);
+    }
+
     void sort(Found found)
     {
         using Verdict = Inspection::Verdict;
@@ -149,6 +155,7 @@ private:
             return;
         }
         if (inspection.verdict == Verdict::report) {
+            const StoreLock lock(store_.folder(), progress_, kReadingPart);
             takeReport(object, found.file.shown, found.file.unpacked, context_);
             return;
         }
@@ -173,7 +180,10 @@ private:
     {
         for (std::size_t n = 0; n < order_.size(); ++n) {
             progress_.check();
-            progress_.report(kReadingPart + (1 - kReadingPart) * double(n) / double(order_.size()), "storing studies");
+            const double done = kReadingPart + (1 - kReadingPart) * double(n) / double(order_.size());
+            progress_.report(done, "storing studies");
+            // Study by study: what a scanner sends meanwhile need not wait until a whole archive is taken.
+            const StoreLock lock(store_.folder(), progress_, done);
             importStudy(studies_[order_[n]]);
         }
         progress_.report(1, "imported");

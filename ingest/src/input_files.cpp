@@ -1,14 +1,19 @@
 #include "input_files.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 
 #include "dataset.h"
 #include "helper.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/core/file_modes.h"
 #include "vicon/core/printable.h"
 #include "vicon/dicom/dicom_setup.h"
 #include "vicon/dicom/load_file.h"
@@ -115,21 +120,40 @@ void listFolder(const fs::path& folder, std::vector<InputFile>& files, std::vect
 }
 
 constexpr const char* kUnpackName = "unpack-";
+constexpr const char* kUnpackLock = "lock";
+
+/// By an import that lives, on this machine or another one.
+bool isHeld(const fs::path& unpack_folder)
+{
+    const int descriptor = ::open((unpack_folder / kUnpackLock).c_str(), O_RDWR | O_CLOEXEC);
+    if (descriptor < 0)
+        return false;
+    const bool held = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0;
+    ::close(descriptor);
+    return held;
+}
 
 }  // namespace
 
 UnpackFolder::UnpackFolder(const fs::path& incoming)
 {
-    static std::atomic<int> counter{0};
-    folder_ = incoming / (std::string(kTemporaryPrefix) + kUnpackName + std::to_string(::getpid()) + "-" +
-                          std::to_string(counter++));
-    makePrivateFolder(folder_);
+    makePrivateFolder(incoming);
+    std::string name = (incoming / (std::string(kTemporaryPrefix) + kUnpackName)).string() + "XXXXXX";
+    if (!::mkdtemp(name.data()))
+        throw Error(ErrorCode::store, std::string("no folder can be made (") + std::strerror(errno) + ")",
+                    incoming.string(), "check that the store is yours, and its disk not full");
+    folder_ = name;
+    descriptor_ = openOrMake(folder_ / kUnpackLock);
+    if (descriptor_ >= 0)
+        ::flock(descriptor_, LOCK_EX | LOCK_NB);
 }
 
 UnpackFolder::~UnpackFolder()
 {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
+    if (descriptor_ >= 0)
+        ::close(descriptor_);
 }
 
 fs::path UnpackFolder::nextFile()
@@ -141,7 +165,8 @@ void UnpackFolder::removeLeftovers(const fs::path& incoming)
 {
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(incoming, ignored))
-        if (entry.path().filename().string().starts_with(std::string(kTemporaryPrefix) + kUnpackName))
+        if (entry.path().filename().string().starts_with(std::string(kTemporaryPrefix) + kUnpackName) &&
+            !isHeld(entry.path()))
             fs::remove_all(entry.path(), ignored);
 }
 

@@ -18,17 +18,20 @@ struct InputFile {
 /// A folder in the store for what zip files hold; gone when the object is.
 class UnpackFolder {
 public:
+    /// Throws Error{store}.
     explicit UnpackFolder(const std::filesystem::path& incoming);
     ~UnpackFolder();
     UnpackFolder(const UnpackFolder&) = delete;
     UnpackFolder& operator=(const UnpackFolder&) = delete;
     /// A name in the folder that was not used yet.
     std::filesystem::path nextFile();
-    /// Removes what killed imports left. Call only while no other import works on the store.
+    /// Removes what killed imports left. Call only while the store is locked: a folder that is being made looks like
+    /// one that nobody has.
     static void removeLeftovers(const std::filesystem::path& incoming);
 
 private:
     std::filesystem::path folder_;
+    int descriptor_ = -1;  ///< locked while the import lives
     int count_ = 0;
 };
 

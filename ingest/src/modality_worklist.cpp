@@ -16,19 +16,19 @@ ScheduledStep stepFrom(DcmDataset& match)
 {
     const Dataset d(match);
     ScheduledStep step;
-    step.patient = {d.text(DCM_PatientID), d.personName(DCM_PatientName), d.raw(DCM_PatientBirthDate),
-                    d.raw(DCM_PatientSex)};
-    step.study_uid = d.raw(DCM_StudyInstanceUID);
+    step.patient = {d.text(DCM_PatientID), d.personName(DCM_PatientName), d.text(DCM_PatientBirthDate),
+                    d.text(DCM_PatientSex)};
+    step.study_uid = d.text(DCM_StudyInstanceUID);
     step.accession_number = d.text(DCM_AccessionNumber);
     step.referring_physician = d.personName(DCM_ReferringPhysicianName);
     step.procedure_id = d.text(DCM_RequestedProcedureID);
     step.procedure = d.text(DCM_RequestedProcedureDescription);
     step.reason = d.text(DCM_ReasonForTheRequestedProcedure);
     if (const auto scheduled = d.item(DCM_ScheduledProcedureStepSequence)) {
-        step.modality = scheduled->raw(DCM_Modality);
-        step.station = scheduled->raw(DCM_ScheduledStationAETitle);
-        step.date = scheduled->raw(DCM_ScheduledProcedureStepStartDate);
-        step.time = scheduled->raw(DCM_ScheduledProcedureStepStartTime);
+        step.modality = scheduled->text(DCM_Modality);
+        step.station = scheduled->text(DCM_ScheduledStationAETitle);
+        step.date = scheduled->text(DCM_ScheduledProcedureStepStartDate);
+        step.time = scheduled->text(DCM_ScheduledProcedureStepStartTime);
         step.description = scheduled->text(DCM_ScheduledProcedureStepDescription);
     }
     return step;

@@ -18,15 +18,15 @@ FoundStudy studyFrom(DcmDataset& match)
 {
     const Dataset d(match);
     FoundStudy study;
-    study.study_uid = d.raw(DCM_StudyInstanceUID);
+    study.study_uid = d.text(DCM_StudyInstanceUID);
     study.patient_id = d.text(DCM_PatientID);
     study.patient_name = d.personName(DCM_PatientName);
-    study.birth_date = d.raw(DCM_PatientBirthDate);
-    study.date = d.raw(DCM_StudyDate);
-    study.time = d.raw(DCM_StudyTime);
+    study.birth_date = d.text(DCM_PatientBirthDate);
+    study.date = d.text(DCM_StudyDate);
+    study.time = d.text(DCM_StudyTime);
     study.description = d.text(DCM_StudyDescription);
     study.accession_number = d.text(DCM_AccessionNumber);
-    study.modalities = d.raw(DCM_ModalitiesInStudy);
+    study.modalities = d.text(DCM_ModalitiesInStudy);
     study.series = d.integer(DCM_NumberOfStudyRelatedSeries).value_or(-1);
     study.images = d.integer(DCM_NumberOfStudyRelatedInstances).value_or(-1);
     return study;
@@ -58,6 +58,12 @@ std::vector<FoundStudy> findByDimse(const Peer& peer, const StudyQuery& query, c
 
 }  // namespace
 
+bool isLikeUid(const std::string& text)
+{
+    constexpr std::size_t kLongest = 64;
+    return !text.empty() && text.size() <= kLongest && text.find_first_not_of("0123456789.") == std::string::npos;
+}
+
 std::vector<FoundStudy> findStudies(const Peer& peer, const StudyQuery& query, const std::string& our_ae_title,
                                     Progress& progress)
 {
@@ -88,8 +94,8 @@ std::vector<FoundSeries> describeSeries(const Peer& peer, const std::string& stu
     std::vector<FoundSeries> series;
     find(peer, kStudyRoot, keys, our_ae_title, progress, [&](DcmDataset& match) {
         const Dataset d(match);
-        series.push_back({d.raw(DCM_SeriesInstanceUID), d.raw(DCM_Modality), d.text(DCM_SeriesDescription),
-                          d.raw(DCM_BodyPartExamined), d.integer(DCM_NumberOfSeriesRelatedInstances).value_or(-1)});
+        series.push_back({d.text(DCM_SeriesInstanceUID), d.text(DCM_Modality), d.text(DCM_SeriesDescription),
+                          d.text(DCM_BodyPartExamined), d.integer(DCM_NumberOfSeriesRelatedInstances).value_or(-1)});
     });
     std::sort(series.begin(), series.end(), [](const auto& a, const auto& b) { return a.uid < b.uid; });
     return series;
@@ -117,7 +123,7 @@ std::vector<std::string> findObjects(const Peer& peer, const std::string& study_
     askFor(keys, {DCM_SOPInstanceUID});
     std::vector<std::string> objects;
     find(peer, kStudyRoot, keys, our_ae_title, progress,
-         [&](DcmDataset& match) { objects.push_back(Dataset(match).raw(DCM_SOPInstanceUID)); });
+         [&](DcmDataset& match) { objects.push_back(Dataset(match).text(DCM_SOPInstanceUID)); });
     std::sort(objects.begin(), objects.end());
     return objects;
 }

@@ -1,5 +1,7 @@
 #include "storage_association.h"
 
+#include <sys/socket.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -9,6 +11,7 @@
 #include "structure_scan.h"
 #include "study_key.h"
 #include "vicon/core/file.h"
+#include "vicon/core/temporary_folder.h"
 
 namespace fs = std::filesystem;
 
@@ -36,6 +39,35 @@ Fault faultOf(const fs::path& file, const ObjectUids& uids, const T_DIMSE_C_Stor
         return {STATUS_STORE_Error_DataSetDoesNotMatchSOPClass, "its SOP Class UID is not what was announced"};
     return {};
 }
+
+bool isFull(const fs::path& incoming)
+{
+    constexpr std::uintmax_t kLeastFree = 32U << 20U;
+    std::error_code unknown;
+    const fs::space_info space = fs::space(incoming, unknown);
+    return !unknown && space.available < kLeastFree;
+}
+
+/// Where an object goes that is not kept. DCMTK removes the file that it could not fill: this link, not the device.
+class Nowhere {
+public:
+    /// Throws Error{store}, std::filesystem::filesystem_error.
+    Nowhere() : folder_(makeTemporaryFolder("vicon-nowhere-", ErrorCode::store))
+    {
+        fs::create_symlink("/dev/null", file());
+    }
+    ~Nowhere()
+    {
+        std::error_code ignored;
+        fs::remove_all(folder_, ignored);
+    }
+    Nowhere(const Nowhere&) = delete;
+    Nowhere& operator=(const Nowhere&) = delete;
+    fs::path file() const { return folder_ / "object"; }
+
+private:
+    const fs::path folder_;
+};
 
 void refuseCrowded(T_ASC_Association* association)
 {
@@ -67,7 +99,11 @@ void StorageAssociation::serve(T_ASC_Association* association, bool crowded)
     folder_ = service_.incoming.open(sender());
     services_ = servicesFor(service_, from_.peer, *association);
     setSharedConfig(DcmSharedSCPConfig(services_.config));
-    run(association);
+    try {
+        run(association);
+    } catch (const std::exception& e) {
+        service_.incoming.trouble("an association from " + sender() + " was ended: " + e.what());
+    }
     service_.incoming.close(folder_);
     tellOfEnd(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
 }
@@ -130,11 +166,26 @@ void StorageAssociation::notifyAssociationAcknowledge()
 /// Called for every block of a data set.
 void StorageAssociation::notifyRECEIVEProgress(const unsigned long bytes)
 {
+    constexpr unsigned long kLook = 64UL << 20U;
     const std::size_t more = bytes - std::min(bytes, bytes_);
+    if (bytes / kLook > bytes_ / kLook)
+        endWithoutRoom(bytes);
     bytes_ = bytes;
     service_.pace.take(more);
     if (from_.pace)
         from_.pace->take(more);
+}
+
+/// Nobody's object keeps the disk full for all others while it comes. What does not fit is drained for a while, so that
+/// an honest sender hears why.
+void StorageAssociation::endWithoutRoom(unsigned long bytes)
+{
+    constexpr unsigned long kLargest = 4UL << 30U, kDrained = 1UL << 30U;
+    if (bytes < kDrained || (bytes < kLargest && !isFull(folder_.parent_path())))
+        return;
+    ::shutdown(from_.socket, SHUT_RD);
+    service_.incoming.trouble("an object of " + sender() + " was ended after " + std::to_string(bytes >> 20U) +
+                              " MB: " + (bytes < kLargest ? "the store's disk is full" : "no object is so large"));
 }
 
 OFCondition StorageAssociation::handleIncomingCommand(T_DIMSE_Message* message,
@@ -159,17 +210,24 @@ OFCondition StorageAssociation::handleIncomingCommand(T_DIMSE_Message* message,
 /// half-way, or lands in a folder that was made anew where the store was deleted.
 std::string StorageAssociation::whyNoPlace() const
 {
-    constexpr std::uintmax_t kLeastFree = 32U << 20U;
     const fs::path incoming = folder_.parent_path();
     if (!fs::exists(incoming / kReceiverLock))
         return "the store is gone";
-    std::error_code unknown;
-    const fs::space_info space = fs::space(incoming, unknown);
-    if (!unknown && space.available < kLeastFree)
+    if (isFull(incoming))
         return "the store's disk is full";
     return service_.incoming.waitingOf(sender()) >= service_.options.max_waiting
                ? "receive.max_waiting of its objects wait for the import"
                : "";
+}
+
+OFCondition StorageAssociation::drain(T_DIMSE_C_StoreRQ& request, T_ASC_PresentationContextID context)
+{
+    try {
+        const Nowhere nowhere;
+        return receiveSTORERequest(request, context, OFString(nowhere.file().c_str()));
+    } catch (const std::exception&) {  // no place for a link either: the association ends
+        return DIMSE_OUTOFRESOURCES;
+    }
 }
 
 OFCondition StorageAssociation::receive(T_DIMSE_C_StoreRQ& request, T_ASC_PresentationContextID context, Uint16& status)
@@ -179,7 +237,7 @@ OFCondition StorageAssociation::receive(T_DIMSE_C_StoreRQ& request, T_ASC_Presen
         status = kOutOfResources;
         ++service_.counts.refused_objects;
         service_.incoming.trouble("an object of " + sender() + " was refused: " + why);
-        return receiveSTORERequest(request, context, "/dev/null");
+        return drain(request, context);
     }
     const std::string name = keptNameOf(request.AffectedSOPInstanceUID) + "-" + std::to_string(count_) + ".dcm";
     const fs::path temporary = folder_ / (std::string(kTemporaryPrefix) + name);

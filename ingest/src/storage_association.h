@@ -73,6 +73,8 @@ private:
     bool reportHere(T_ASC_PresentationContextID context, const CommitmentDemand& demand, const std::string& number,
                     OFCondition& over);
     std::string whyNoPlace() const;
+    void endWithoutRoom(unsigned long bytes);
+    OFCondition drain(T_DIMSE_C_StoreRQ& request, T_ASC_PresentationContextID context);
     OFCondition receive(T_DIMSE_C_StoreRQ& request, T_ASC_PresentationContextID context, Uint16& status);
     std::string sender() const;
     void tellOfEnd(double took_s);

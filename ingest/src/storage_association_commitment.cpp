@@ -108,6 +108,9 @@ Uint16 StorageAssociation::takeIn(const T_DIMSE_N_ActionRQ& request, DcmDataset*
         return e.code() == ErrorCode::bad_input   ? STATUS_N_InvalidArgumentValue
                : e.code() == ErrorCode::no_memory ? STATUS_N_ResourceLimitation
                                                   : STATUS_N_ProcessingFailure;
+    } catch (const std::exception& e) {
+        service_.incoming.trouble("a request for commitment of " + sender() + " was refused: " + e.what());
+        return STATUS_N_ProcessingFailure;
     }
 }
 

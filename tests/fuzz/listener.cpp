@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "vicon/cases/case_store.h"
+#include "vicon/ingest/commitment.h"
 #include "vicon/ingest/import.h"
 #include "vicon/ingest/receiver.h"
 
@@ -25,9 +26,16 @@ int main(int count, char** arguments)
     options.max_associations = options.max_per_host = 500;  // all of them come from here
     NoProgress quiet;
     std::atomic<bool> stop = false;
-    ingest::Receiver receiver(options, store.folder() / "incoming", {[&](const ingest::Receiver::Files& files) {
-                                  return ingest::importPaths(store, files, {}, quiet).not_stored;
-                              }});
+    ingest::Receiver receiver(options, store.folder() / "incoming",
+                              {.on_received = [&](const ingest::Receiver::Files& files) -> ingest::Receiver::Files {
+                                   return ingest::importPaths(store, files, {}, quiet).not_stored;
+                               },
+                               .on_commitment = [](const ingest::CommitmentReport&) {},
+                               .on_demand =
+                                   [&](const ingest::CommitmentDemand& demand) {
+                                       CaseStore own(store.place());
+                                       return ingest::commitTo(own, demand, quiet);
+                                   }});
     std::printf("%d\n", receiver.port());
     std::fflush(stdout);
     std::thread end([&] {

@@ -19,6 +19,7 @@ import time
 
 ECHO_CLASS, CT_CLASS, COMMITMENT = b"1.2.840.10008.1.1", b"1.2.840.10008.5.1.4.1.1.2", b"1.2.840.10008.1.20.1"
 IMPLICIT, EXPLICIT = b"1.2.840.10008.1.2", b"1.2.840.10008.1.2.1"
+SUCCESS = struct.pack("<HHIH", 0, 0x900, 2, 0)  # the element Status
 ANSWER_S = 10          # a proper request is answered within
 PROPER_EVERY = 50      # exchanges
 LARGEST_MB = 500       # resident
@@ -163,16 +164,16 @@ def exactly(link, count):
     return content
 
 
-def answers_to_echo(port):
+def answers_to(port, exchange):
     with socket.create_connection(("127.0.0.1", port), timeout=ANSWER_S) as link:
         link.settimeout(ANSWER_S)
-        kinds = []
-        for part in echo():
+        kinds, content = [], b""
+        for part in exchange:
             link.sendall(part)
             head = exactly(link, 6)
             kinds.append(head[0])
-            exactly(link, struct.unpack(">I", head[2:])[0])
-        return kinds
+            content = exactly(link, struct.unpack(">I", head[2:])[0])
+        return kinds, content
 
 
 def resident_mb(process):
@@ -213,12 +214,14 @@ def main():
             if listener.poll() is not None:
                 failed(f"the listener ended with {listener.returncode}")
             if exchanges % PROPER_EVERY == 0:
-                try:
-                    answered = answers_to_echo(port)
-                except (OSError, struct.error, IndexError) as e:
-                    failed(f"a proper C-ECHO was not answered: {e}")
-                if answered != [2, 4, 6]:
-                    failed(f"a proper C-ECHO was answered with PDUs {answered}")
+                ask = commitment(0)
+                for name, proper in (("C-ECHO", echo()[:2]), ("request for commitment", [ask[0], ask[1] + ask[2]])):
+                    try:
+                        kinds, content = answers_to(port, proper)
+                    except (OSError, struct.error, IndexError) as e:
+                        failed(f"a proper {name} was not answered: {e}")
+                    if kinds != [2, 4] or SUCCESS not in content:
+                        failed(f"a proper {name} was answered with PDUs {kinds}, {content[-64:]}")
                 if resident_mb(listener) > LARGEST_MB:
                     failed(f"the listener takes {resident_mb(listener):.0f} MB")
         listener.stdin.close()

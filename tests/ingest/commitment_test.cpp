@@ -36,7 +36,7 @@ protected:
     {
         return {.peers = std::move(peers), .on_demand = [this](const ingest::CommitmentDemand& demand) {
                     CaseStore own(store.folder());
-                    return ingest::commitTo(own, demand);
+                    return ingest::commitTo(own, demand, quiet);
                 }};
     }
     std::unique_ptr<RunningReceiver> receiver(std::vector<ingest::Peer> peers = {},
@@ -122,6 +122,35 @@ TEST_F(Commitment, WhoWaitsIsAnsweredOverTheSameAssociation)
     EXPECT_TRUE(support::waitUntil([&] { return waitingRequests() == 0; }));
 }
 
+TEST_F(Commitment, NamesAnObjectOnceHoweverOftenItIsAskedForIt)
+{
+    import({folder / "in"});
+    const auto listener = receiver();
+    std::vector<ingest::ObjectName> names(3, nameOf(2));
+    names.push_back(nameOf(4));
+    std::optional<ingest::CommitmentReport> answer;
+    ingest::requestCommitment(vicon(), "1.2.840.2", names, "SCANNER", 30, answer);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->committed.size(), 2u);
+    EXPECT_TRUE(answer->failed.empty());
+}
+
+TEST_F(Commitment, OfWhatIsNoUidIsRefusedAndOthersAreServed)
+{
+    import({folder / "in"});
+    const auto listener = receiver();
+    std::optional<ingest::CommitmentReport> answer;
+    EXPECT_THROW(ingest::requestCommitment(vicon(), "1.2\xff", {nameOf(2)}, "SCANNER", 0, answer), Error);
+    EXPECT_THROW(ingest::requestCommitment(vicon(), "1.2", {{UID_CTImageStorage, "1.\xff"}}, "SCANNER", 0, answer),
+                 Error);
+    EXPECT_EQ(waitingRequests(), 0u);
+    ingest::requestCommitment(vicon(), "1.2.840.3", {nameOf(2)}, "SCANNER", 30, answer);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->committed.size(), 1u);
+    ingest::requestCommitment(vicon(), "1.2.840.4", {nameOf(2)}, "SCA\xffNER", 0, answer);
+    EXPECT_TRUE(support::waitUntil([&] { return waitingRequests() == 1; })) << "kept, though nobody can be told";
+}
+
 TEST_F(Commitment, WhatWaitsForTheImportOrLiesInQuarantineIsKept)
 {
     SeriesSpec localizer;
@@ -136,10 +165,10 @@ TEST_F(Commitment, WhatWaitsForTheImportOrLiesInQuarantineIsKept)
     {
         RunningReceiver listener(incoming_, slow, {}, {}, giving());
         ASSERT_TRUE(ingest::storeFiles(vicon(), {no_slice, files_.at(3)}, "S", quiet).complete());
-        EXPECT_EQ(ingest::commitTo(store, demand).committed.size(), 2u) << "it is on the disk, and stays";
+        EXPECT_EQ(ingest::commitTo(store, demand, quiet).committed.size(), 2u) << "it is on the disk, and stays";
         ASSERT_EQ(listener.calls(), 0);
     }
-    EXPECT_EQ(ingest::commitTo(store, demand).committed.size(), 0u) << "the test's receiver threw it away";
+    EXPECT_EQ(ingest::commitTo(store, demand, quiet).committed.size(), 0u) << "the test's receiver threw it away";
     std::atomic<bool> stop = false;
     ingest::ReceiverOptions receive;
     receive.port = port_;
@@ -153,7 +182,7 @@ TEST_F(Commitment, WhatWaitsForTheImportOrLiesInQuarantineIsKept)
     EXPECT_TRUE(ingest::storeFiles(vicon(), {no_slice}, "S", quiet).complete());
     stop = true;
     thread.join();
-    EXPECT_EQ(ingest::commitTo(store, demand).committed.size(), 2u);
+    EXPECT_EQ(ingest::commitTo(store, demand, quiet).committed.size(), 2u);
 }
 
 TEST_F(Commitment, IsNotGivenForWhatIsDamagedOrOfAnotherClass)
@@ -163,7 +192,8 @@ TEST_F(Commitment, IsNotGivenForWhatIsDamagedOrOfAnotherClass)
     const auto damaged = store.findInstance(nameOf(3).sop_uid);
     std::ofstream(store.scanFolder(scan.case_id, scan.id) / "dicom" / damaged->file, std::ios::app) << "x";
     const auto report = ingest::commitTo(
-        store, {"1.2", {nameOf(3), {UID_MRImageStorage, nameOf(4).sop_uid}, {UID_CTImageStorage, "1.9"}, nameOf(5)}});
+        store, {"1.2", {nameOf(3), {UID_MRImageStorage, nameOf(4).sop_uid}, {UID_CTImageStorage, "1.9"}, nameOf(5)}},
+        quiet);
     EXPECT_EQ(report.committed.size(), 1u);
     ASSERT_EQ(report.failed.size(), 3u);
     EXPECT_THAT(ingest::textOfFailureReason(report.failed[0].reason), HasSubstr("processing failure"));

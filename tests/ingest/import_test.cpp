@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
+#include <functional>
+#include <mutex>
 #include <numeric>
 #include <set>
 
@@ -116,6 +119,44 @@ TEST_F(Import, WhatAKilledImportLeftIsRemoved)
     append(store.folder() / "incoming/.vicon-tmp-unpack-99999-0/0.dcm", "half");
     import({folder / "in"});
     EXPECT_EQ(std::distance(fs::directory_iterator(dicom), {}), 12);
+    EXPECT_TRUE(fs::is_empty(store.folder() / "incoming"));
+}
+
+TEST_F(Import, GoesOnBetweenTheStudiesOfAnotherOneAndLeavesItWhatItUnpacked)
+{
+    writeSeries(folder / "in", {});
+    SeriesSpec other;
+    other.study_uid += ".77";
+    other.series_uid += ".77";
+    writeSeries(folder / "other", other);
+    /// Another import from within, on the first word of this one's storing.
+    struct Interrupted : Progress {
+        std::function<void()> then;
+        std::once_flag once;
+        void report(double, std::string_view what) override
+        {
+            if (what == "storing studies")
+                std::call_once(once, then);
+        }
+    } interrupted;
+    int stored = 0;
+    bool left_alone = false;
+    interrupted.then = [&] {
+        struct Impatient : Progress {
+            const std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
+            void report(double, std::string_view) override {}
+            bool cancelled() const override
+            {
+                return std::chrono::steady_clock::now() - begun > std::chrono::seconds(60);
+            }
+        } impatient;
+        CaseStore own(store.place());
+        stored = ingest::importPaths(own, {folder / "other"}, options, impatient).scans_stored;
+        left_alone = !fs::is_empty(store.folder() / "incoming");
+    };
+    EXPECT_EQ(ingest::importPaths(store, {folder / "in"}, options, interrupted).scans_stored, 1);
+    EXPECT_EQ(stored, 1) << "it waited for the other one";
+    EXPECT_TRUE(left_alone) << "a folder of an import that lives was taken for a leftover";
     EXPECT_TRUE(fs::is_empty(store.folder() / "incoming"));
 }
 

@@ -8,6 +8,7 @@
 #include "orthanc.h"
 #include "running_receiver.h"
 #include "store_fixture.h"
+#include "vicon/core/progress.h"
 #include "vicon/ingest/commitment.h"
 #include "vicon/ingest/query.h"
 
@@ -184,7 +185,8 @@ TEST_F(Tls, OrthancIsSentToAskedFetchedFromAndCommits)
         store.folder() / "incoming", options, nullptr, {},
         {.peers = {orthanc.peer()},
          .tls = vicon_,
-         .on_demand = [&](const ingest::CommitmentDemand& demand) { return ingest::commitTo(store, demand); },
+         .on_demand =
+             [&](const ingest::CommitmentDemand& demand) { return ingest::commitTo(store, demand, NoProgress()); },
          .on_commitment =
              [&](const ingest::CommitmentReport& report) {
                  const std::lock_guard lock(mutex);

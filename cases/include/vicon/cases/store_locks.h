@@ -7,12 +7,13 @@
 
 namespace vicon {
 
-/// Only one import, deletion or backup changes or copies what a store holds at a time. Waits for the lock, and holds it
-/// while the object lives.
+/// Only one import of a study, deletion or backup changes or copies what a store holds at a time. Waits for the lock,
+/// and holds it while the object lives. Who locks again and again lets in between who waits.
 class StoreLock {
 public:
+    /// @param done of the caller's work, told while it waits
     /// Throws Error{store}, Error{cancelled}.
-    StoreLock(const std::filesystem::path& store, Progress& progress);
+    StoreLock(const std::filesystem::path& store, Progress& progress, double done = 0);
     ~StoreLock();
     StoreLock(const StoreLock&) = delete;
     StoreLock& operator=(const StoreLock&) = delete;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "vicon/core/progress.h"
 #include "vicon/ingest/peer.h"
 
 namespace vicon {
@@ -47,8 +48,8 @@ struct CommitmentDemand {
 };
 
 /// What this store says to it. It commits to what lies here whole: in a case, as it was imported; in quarantine; or
-/// received and waiting for the import. Throws Error{database}.
-CommitmentReport commitTo(CaseStore& store, const CommitmentDemand& demand);
+/// received and waiting for the import. Throws Error{database}, Error{cancelled}.
+CommitmentReport commitTo(CaseStore& store, const CommitmentDemand& demand, const Progress& wanted);
 
 /// Tells a peer over an association of its own (N-EVENT-REPORT) what was committed to. Throws Error{peer} when it
 /// cannot be reached or does not take the report.

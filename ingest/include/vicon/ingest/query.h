@@ -34,6 +34,9 @@ struct FoundStudy {
 /// Whether a date that a peer gave is a day, as DICOM writes it, and can be asked for.
 bool isDicomDate(const std::string& date);
 
+/// Whether a text names one study, series or object, as UIDs do; zeros in front are some archives' way.
+bool isLikeUid(const std::string& text);
+
 /// Asks a peer for studies (C-FIND, study root), in order of date, then UID.
 /// @throws Error{wrong_use} for dates that are none, Error{peer} when no association can be made, or the peer refuses
 /// or does not answer; Error{cancelled}
