@@ -138,6 +138,8 @@ std::string incompleteness(const JudgedStudy& study)
         why.push_back(listed(study.collapsed_parts) + " collapsed in every position scanned");
     if (study.priors_awaited)
         why.emplace_back("earlier studies are awaited");
+    if (study.unprepared)
+        why.emplace_back("no scan was prepared that shows a colon");
     return listed(why, "; ");
 }
 

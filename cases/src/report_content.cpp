@@ -58,6 +58,11 @@ std::vector<ComparedFinding> comparedFindings(CaseStore& store, const ReadCase& 
     return out;
 }
 
+bool showsColon(const StepResults& results)
+{
+    return results.segment && results.segment->organ.isColon() && results.segment->verdict != Verdict::absent;
+}
+
 JudgedStudy judged(const ReadCase& read)
 {
     JudgedStudy study;
@@ -121,6 +126,7 @@ ReadCase readCaseWith(CaseStore& store, const std::string& case_id, const Assess
         if (!joined.contains(marker.id))
             read.loose_markers.push_back(marker.id);
     read.assessment = assessment;
+    bool shows_colon = false;
     for (const ScanRecord& scan : store.scans(id)) {
         const bool marked = std::any_of(read.markers.begin(), read.markers.end(),
                                         [&](const Marker& m) { return m.scan_id == scan.id; });
@@ -128,6 +134,7 @@ ReadCase readCaseWith(CaseStore& store, const std::string& case_id, const Assess
             continue;
         read.scans.push_back(scan);
         const StepResults results = resultsOf(store.steps(scan.case_id, scan.id));
+        shows_colon = shows_colon || showsColon(results);
         if (results.segment && results.segment->given)
             read.given_lumens.emplace(scan.id, *results.segment->given);
         for (const PartState& part : measuredParts(scan, results))
@@ -135,7 +142,8 @@ ReadCase readCaseWith(CaseStore& store, const std::string& case_id, const Assess
     }
     takeReaders(read.parts, read.assessment.distension);
     read.comparisons = comparedFindings(store, read);
-    const JudgedStudy study = judged(read);
+    JudgedStudy study = judged(read);
+    study.unprepared = !shows_colon;
     read.colon_proposal = proposeColonCategory(study);
     read.extracolonic_proposal = proposeExtracolonicCategory(study);
     return read;

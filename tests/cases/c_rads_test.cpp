@@ -159,6 +159,7 @@ std::vector<ColonCase> casesWithoutAnAnswer()
         {"collapsed in one position only", "2005, 2023", collapsed({}), "C1", "no polyp"},
         {"bad preparation", "2005, 2023", inadequate(), "C0", "a lesion of 10 mm or more cannot be excluded"},
         {"priors awaited", "2005, 2023", {.priors_awaited = true}, "C0", "earlier studies are awaited"},
+        {"nothing prepared", "2023", {.unprepared = true}, "C0", "no scan was prepared that shows a colon"},
         {"bad preparation, a polyp of 8 mm", "house: C0 before C2", inadequate(polyps({8})), "C0",
          "found nevertheless: f1, polyp of 8.0 mm"},
         {"collapsed, a polyp of 12 mm", "house: C3 before C0", collapsed({"sigmoid"}, polyps({12})), "C3",

@@ -37,6 +37,8 @@ public:
             job = queue.claim(thisOwner());
         queue.commitStep(*job, {step, 1, "digest", nlohmann::json::object(), result, 1, "2026-01-02T03:04:05Z"});
     }
+    /// The worker gives the job back.
+    void release() { JobQueue(store.database(), {}).release(*JobQueue(store.database(), {}).find("c1", "s1")); }
     /// Ends the job.
     void complete() { JobQueue(store.database(), {}).complete(*JobQueue(store.database(), {}).find("c1", "s1")); }
     void fail()

@@ -8,11 +8,13 @@
 
 namespace vicon::test {
 
-/// A case with two paired markers, m1 and m2, of a polyp of 7.3 mm, and m3 of something else.
+/// A case whose colon was found, with two paired markers, m1 and m2, of a polyp of 7.3 mm, and m3 of something else.
 class MarkedCase : public StoreOfOneScan {
 public:
     MarkedCase()
     {
+        record("segment", {{"verdict", "colon"}, {"confidence", 1}});
+        release();
         mark("m2", 7.3);
         mark("m1", 0);
         mark("", 0);

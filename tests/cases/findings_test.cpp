@@ -246,6 +246,19 @@ ScanQuality quality(bool sigmoid, bool caecum)
     return out;
 }
 
+TEST_F(Findings, AreThoseOfAnIncompleteStudyWhereNoScanShowsAColon)
+{
+    for (const char* marker : {"m1", "m2", "m3"})
+        store_.removeMarker("c1", marker);
+    EXPECT_EQ(nameOf(*readCase(store_, "c1").colon_proposal.category), "C1");
+    case_.record("segment", {{"verdict", "no colon"}, {"reason", "a head"}});
+    const ReadCase read = readCase(store_, "c1");
+    EXPECT_EQ(nameOf(*read.colon_proposal.category), "C0");
+    EXPECT_THAT(read.colon_proposal.reason, HasSubstr("no scan was prepared that shows a colon"));
+    test::StoreOfOneScan waiting;
+    EXPECT_EQ(nameOf(*readCase(waiting.store, "c1").colon_proposal.category), "C0");
+}
+
 TEST_F(Findings, AreJudgedWithWhatWasMeasuredOfThePartsAndWhatTheReaderSays)
 {
     case_.add({"m1"});

@@ -45,6 +45,7 @@ struct JudgedStudy {
     std::vector<std::string> collapsed_parts;  ///< in every position that was scanned
     bool inadequate = false;                   ///< the reader: a lesion of 10 mm or more cannot be excluded
     bool priors_awaited = false;
+    bool unprepared = false;                         ///< no scan was prepared in which a colon was found or given
     bool parts_known = true;                         ///< distension was measured or stated for at least one scan
     std::vector<ExtracolonicCategory> extracolonic;  ///< of each finding outside the colon
     bool extracolonic_limited = false;               ///< the reader: what lies outside cannot be judged
