@@ -1,8 +1,10 @@
 #include "command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <type_traits>
 
 namespace fs = std::filesystem;
 
@@ -15,6 +17,19 @@ std::string whyNoPath(const std::string& path)
     std::error_code failure;
     const bool missing = fs::status(path, failure).type() == fs::file_type::not_found;
     return missing ? "no such file or folder: " + path : "";
+}
+
+constexpr const char* kFilled = "filled";
+
+std::string whyEmpty(const std::string& text)
+{
+    return text.empty() ? "is empty; give a value, or leave it out" : "";
+}
+
+std::string whyNotFinite(const std::string& text)
+{
+    double value = 0;
+    return !CLI::detail::lexical_cast(text, value) || std::isfinite(value) ? "" : "is no finite number: " + text;
 }
 
 }  // namespace
@@ -98,6 +113,12 @@ CommandOption& CommandOption::oneValueEach()
     return *this;
 }
 
+CommandOption& CommandOption::mayBeEmpty()
+{
+    option_->get_validator(kFilled)->active(false);
+    return *this;
+}
+
 bool CommandOption::given() const
 {
     return option_->count() > 0;
@@ -106,7 +127,12 @@ bool CommandOption::given() const
 template <class Value>
 CommandOption CommandLine::option(const std::string& name, Value& value, const std::string& help)
 {
-    return CommandOption(*app_->add_option(name, value, help));
+    CLI::Option* const option = app_->add_option(name, value, help);
+    if constexpr (std::is_same_v<Value, double>)
+        option->check(CLI::Validator(whyNotFinite, ""));
+    else if constexpr (!std::is_arithmetic_v<Value>)
+        option->check(CLI::Validator(whyEmpty, "", kFilled));
+    return CommandOption(*option);
 }
 
 template CommandOption CommandLine::option(const std::string&, std::string&, const std::string&);

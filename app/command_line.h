@@ -42,6 +42,8 @@ public:
     CommandOption& values(int count);
     /// One value each time it is given.
     CommandOption& oneValueEach();
+    /// Words, which may be taken away; an empty name is refused, as that of a variable that is not set.
+    CommandOption& mayBeEmpty();
     /// Whether it was given; known once the command line is read.
     bool given() const;
 

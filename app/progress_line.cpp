@@ -16,7 +16,11 @@ constexpr std::chrono::seconds kLineInterval{5};
 
 }  // namespace
 
-ProgressLine::ProgressLine(std::string title) : title_(std::move(title)), terminal_(::isatty(STDERR_FILENO) != 0) {}
+ProgressLine::ProgressLine(std::string title) : title_(std::move(title)), terminal_(::isatty(STDERR_FILENO) != 0)
+{
+    if (!terminal_)  // what is done at once needs no line
+        last_ = std::chrono::steady_clock::now();
+}
 
 ProgressLine::~ProgressLine()
 {

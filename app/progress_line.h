@@ -9,8 +9,8 @@
 
 namespace vicon::app {
 
-/// Shows progress on stderr: a bar on a terminal, a plain line every few seconds otherwise. Cancelled by SIGINT and
-/// SIGTERM.
+/// Shows progress on stderr: a bar on a terminal, a plain line every few seconds otherwise, none before them. Cancelled
+/// by SIGINT and SIGTERM.
 class ProgressLine : public Progress {
 public:
     explicit ProgressLine(std::string title);

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "vicon/core/printable.h"
+
 namespace vicon::app {
 namespace {
 
@@ -15,8 +17,10 @@ std::size_t width(const std::string& text)
 
 }  // namespace
 
-std::string formatTable(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows)
+std::string formatTable(const std::vector<std::string>& header, std::vector<std::vector<std::string>> rows)
 {
+    for (std::vector<std::string>& row : rows)  // a note may hold any character
+        std::transform(row.begin(), row.end(), row.begin(), printable);
     std::vector<std::size_t> widths(header.size());
     const auto widen = [&](const std::vector<std::string>& row) {
         for (std::size_t n = 0; n < row.size(); ++n)

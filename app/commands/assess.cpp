@@ -137,10 +137,10 @@ void declareCategories(CommandLine& command, AssessArguments& a)
     command.flag("--accept", a.accept, "Choose both categories as they are proposed");
     command.option("--c-rads", a.colon, "Choose this category of the colon: C0, C1, C2a, C2b, C3 or C4")
         .typeName("CATEGORY");
-    command.option("--why", a.colon_why, "Why it is not the proposed one").typeName("TEXT");
+    command.option("--why", a.colon_why, "Why it is not the proposed one").typeName("TEXT").mayBeEmpty();
     command.option("--e-rads", a.extracolonic_category, "Choose this category outside the colon: E0, E1, E2, E3 or E4")
         .typeName("CATEGORY");
-    command.option("--e-why", a.extracolonic_why, "Why it is not the proposed one").typeName("TEXT");
+    command.option("--e-why", a.extracolonic_why, "Why it is not the proposed one").typeName("TEXT").mayBeEmpty();
     command.option("--extracolonic", a.extracolonic, "Add a finding outside the colon; may be given several times")
         .oneValueEach()
         .typeName("CATEGORY:ORGAN:TEXT");
@@ -158,7 +158,8 @@ Subcommand assessCommand()
                 declareCategories(command, *a);
                 std::vector<CommandOption> texts, flags;
                 for (std::size_t n = 0; n < kTexts.size(); ++n)
-                    texts.push_back(command.option(kTexts[n].name, a->texts[n], kTexts[n].help).typeName("TEXT"));
+                    texts.push_back(
+                        command.option(kTexts[n].name, a->texts[n], kTexts[n].help).typeName("TEXT").mayBeEmpty());
                 for (std::size_t n = 0; n < kFlags.size(); ++n)
                     flags.push_back(command.flag(kFlags[n].name, a->flags[n], kFlags[n].help));
                 command.flag("--fill", a->fill,

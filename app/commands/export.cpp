@@ -94,13 +94,16 @@ int exportReport(Context& context, const ExportArguments& a)
     CaseStore& store = context.existingStore();
     const std::string case_id = store.requireCase(a.case_id).id;
     const auto version = versionFor(store, case_id, a);
-    if (a.form == ExportForm::dicom && !context.json)
+    if (context.json && a.form != ExportForm::json)
+        throw Error(ErrorCode::wrong_use, "another form than JSON is asked for", "--json", "leave one of them out");
+    if (a.form == ExportForm::dicom)
         return exportObjects(store, case_id, version, a.out);
+    if (!version)
+        requireReportable(store, store.requireCase(case_id));
     const nlohmann::json content =
         version ? nlohmann::json::parse(version->content) : reportContent(readCase(store, case_id));
-    const ExportForm form = context.json ? ExportForm::json : a.form;
-    const std::string text = formOf(form, version, content);
-    store.audit(AuditEvent::report_exported, case_id, "", nameIn(kExportFormNames, form));
+    const std::string text = formOf(a.form, version, content);
+    store.audit(AuditEvent::report_exported, case_id, "", nameIn(kExportFormNames, a.form));
     if (a.out.empty()) {
         std::fwrite(text.data(), 1, text.size(), stdout);
         return 0;

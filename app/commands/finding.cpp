@@ -136,7 +136,7 @@ Subcommand findingCommand()
                 const auto pictures =
                     command.option("--pictures", a->pictures, "Show the pictures of these of its markers; none: of all")
                         .typeName("MARKER,...");
-                const auto note = command.option("--note", a->note, "Further words").typeName("TEXT");
+                const auto note = command.option("--note", a->note, "Further words").typeName("TEXT").mayBeEmpty();
                 return [=](Context& context) {
                     a->note_given = note.given();
                     a->narrows_given = narrows.given();

@@ -137,7 +137,7 @@ Subcommand markCommand()
                     .typeName("SCAN");
                 command.option("--at", arguments->at, "Position in LPS mm").required().typeName("X,Y,Z");
                 command.option("--color", arguments->color, "red, yellow or green").captureDefault();
-                command.option("--note", arguments->note, "What is seen there").typeName("TEXT");
+                command.option("--note", arguments->note, "What is seen there").typeName("TEXT").mayBeEmpty();
                 command
                     .option("--biopsy", arguments->biopsy_mm,
                             "Keep mean density and histogram of the tissue within this many mm of the point")
@@ -151,22 +151,23 @@ Subcommand markCommand()
 
 Subcommand markersCommand()
 {
-    return {"markers", "List, change, remove, import or export the markers of a case", [](CommandLine& command) {
-                auto arguments = std::make_shared<MarkersArguments>();
-                command.option("CASE", arguments->case_id, "The case's id").required();
-                command.option("--remove", arguments->remove, "Remove this marker").typeName("ID");
-                const auto change = command.option("--change", arguments->change, "Change this marker").typeName("ID");
-                command.option("--color", arguments->color, "Its new color").needs(change);
-                const auto note =
-                    command.option("--note", arguments->note, "Its new note").needs(change).typeName("TEXT");
-                command.option("--at", arguments->at, "Its new position in LPS mm").needs(change).typeName("X,Y,Z");
-                command.option("--import", arguments->import_file, "Add the markers of a JSON file").typeName("FILE");
-                command.option("--export", arguments->export_file, "Write all markers to a JSON file").typeName("FILE");
-                return [arguments, note](Context& context) {
-                    arguments->change_note = note.given();
-                    return markers(context, *arguments);
-                };
-            }};
+    return {
+        "markers", "List, change, remove, import or export the markers of a case", [](CommandLine& command) {
+            auto arguments = std::make_shared<MarkersArguments>();
+            command.option("CASE", arguments->case_id, "The case's id").required();
+            command.option("--remove", arguments->remove, "Remove this marker").typeName("ID");
+            const auto change = command.option("--change", arguments->change, "Change this marker").typeName("ID");
+            command.option("--color", arguments->color, "Its new color").needs(change);
+            const auto note =
+                command.option("--note", arguments->note, "Its new note").needs(change).typeName("TEXT").mayBeEmpty();
+            command.option("--at", arguments->at, "Its new position in LPS mm").needs(change).typeName("X,Y,Z");
+            command.option("--import", arguments->import_file, "Add the markers of a JSON file").typeName("FILE");
+            command.option("--export", arguments->export_file, "Write all markers to a JSON file").typeName("FILE");
+            return [arguments, note](Context& context) {
+                arguments->change_note = note.given();
+                return markers(context, *arguments);
+            };
+        }};
 }
 
 }  // namespace vicon::app

@@ -1,5 +1,6 @@
 #include <charconv>
 #include <cstdio>
+#include <utility>
 
 #include "../command.h"
 #include "../text_table.h"
@@ -42,14 +43,18 @@ int outbox(Context& context, const OutboxArguments& a)
     CaseStore& store = context.existingStore();
     const std::string case_id = a.case_id.empty() ? "" : store.requireCase(a.case_id).id;
     Outbox box(store.database(), context.config().get<OutboxOptions>());
-    for (const std::string& id : a.retry)
-        box.retry(idFrom(id));
+    std::vector<int> retry, drop;  // all are looked at before any is touched
+    for (const auto& [texts, ids] : {std::pair(&a.retry, &retry), std::pair(&a.drop, &drop)})
+        for (const std::string& text : *texts)
+            ids->push_back(idFrom(text));
+    for (const int id : retry)
+        box.retry(id);
     if (a.retry_refused)
         for (const OutboxItem& item : box.items(case_id))
             if (item.state == DeliveryState::refused)
                 box.retry(item.id);
-    for (const std::string& id : a.drop)
-        box.drop(idFrom(id));
+    for (const int id : drop)
+        box.drop(id);
     const std::vector<OutboxItem> items = box.items(case_id);
     if (context.json) {
         nlohmann::json list = nlohmann::json::array();

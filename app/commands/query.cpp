@@ -89,6 +89,12 @@ int query(Context& context, const std::string& peer_name, const ingest::StudyQue
     for (const ingest::FoundStudy& s : studies)
         rows.push_back({s.date, s.patient_id, s.patient_name, s.description, s.modalities, countText(s.series),
                         countText(s.images), s.study_uid});
+    if (rows.empty()) {
+        const std::string hint =
+            query.modality.empty() ? "" : " of modality " + query.modality + "; --modality '': any";
+        std::printf("no study fits%s\n", hint.c_str());
+        return 0;
+    }
     std::printf("%s",
                 formatTable({"date", "patient", "name", "description", "modalities", "series", "images", "study"}, rows)
                     .c_str());
@@ -111,7 +117,9 @@ Subcommand queryCommand()
                                "2024-01-10 or 20240110; or two of them with - between, an end left out or not");
                 command.option("--accession", wanted->accession_number, "Accession number");
                 command.option("--study", wanted->study_uid, "Study Instance UID");
-                command.option("--modality", wanted->modality, "That some series has; empty: any").captureDefault();
+                command.option("--modality", wanted->modality, "That some series has; empty: any")
+                    .captureDefault()
+                    .mayBeEmpty();
                 auto description = command.option("--description", wanted->description,
                                                   "Description of the study; * and ? match anything");
                 auto series = command.option("--series-description", wanted->series_description,

@@ -18,7 +18,10 @@ std::string openDemo(Context& context, const ReadArguments& arguments)
     if (!arguments.case_id.empty())
         throw Error(ErrorCode::wrong_use, "the synthetic case has a store of its own", "--demo", "leave out CASE");
     viewer::requireScreen();  // told before minutes of work
-    context.useStoreOfItsOwn(context.storeFolder().string() + "-demo");
+    std::string usual = context.storeFolder().string();
+    while (usual.size() > 1 && usual.back() == '/')
+        usual.pop_back();
+    context.useStoreOfItsOwn(usual + "-demo");
     return demoCase(context);
 }
 

@@ -5,6 +5,7 @@
 #include "../peers.h"
 #include "../progress_line.h"
 #include "vicon/core/error.h"
+#include "vicon/core/printable.h"
 #include "vicon/ingest/query.h"
 #include "vicon/ingest/receiver.h"
 
@@ -19,6 +20,9 @@ struct Request {
 
 int retrieve(Context& context, const Request& request)
 {
+    if (!ingest::isLikeUid(request.study_uid))  // an archive may take another text for every study
+        throw Error(ErrorCode::wrong_use, "'" + printable(request.study_uid) + "' is no Study Instance UID", "STUDY",
+                    "'vicon query " + request.peer + "' prints them");
     ingest::Peer peer = requirePeer(context.config(), request.peer, PeerUse::query);
     peer.retrieve = request.method.value_or(peer.retrieve);
     const std::string title = context.config().get<ingest::ReceiverOptions>().ae_title;

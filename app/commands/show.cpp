@@ -140,6 +140,8 @@ int show(Context& context, const ShowArguments& arguments)
         return 0;
     }
     const CaseRecord record = store.requireCase(arguments.case_id);
+    if (!arguments.scan_id.empty())
+        store.requireScan(record.id, arguments.scan_id);
     const WorklistCase c = makeWorklistCase(store, context.config().get<QueueOptions>(), record);
     if (arguments.subdivision_table)
         return printSubdivisionTable(store, context.config(), c, arguments.scan_id);
@@ -147,6 +149,9 @@ int show(Context& context, const ShowArguments& arguments)
         nlohmann::json out = toJson(std::vector{c})["cases"][0];
         if (const auto order = orderOf(store, record.id))
             out["order"] = *order;
+        std::erase_if(out["scans"].get_ref<nlohmann::json::array_t&>(), [&](const nlohmann::json& scan) {
+            return !scan["id"].get_ref<const std::string&>().starts_with(arguments.scan_id);
+        });
         for (nlohmann::json& scan : out["scans"])
             scan.update(toJson(store.describeScan(record.id, scan["id"])));
         std::printf("%s\n", out.dump(2).c_str());

@@ -79,12 +79,25 @@ void keepMemory()
     ::mallopt(M_TRIM_THRESHOLD, kNever);
 }
 
+/// Before anything is done.
+void requireNamed(CaseStore& store, const WorkArguments& arguments)
+{
+    if (arguments.case_id.empty() && !arguments.scan_id.empty())
+        throw Error(ErrorCode::wrong_use, "a scan is one of a case", "--scan", "name its case with --case");
+    if (arguments.case_id.empty())
+        return;
+    const CaseRecord named = store.requireCase(arguments.case_id);
+    if (!arguments.scan_id.empty())
+        store.requireScan(named.id, arguments.scan_id);
+}
+
 int work(Context& context, const WorkArguments& arguments)
 {
     if (arguments.jobs == 1)
         keepMemory();
     CaseStore& store = context.existingStore();
     store.database().requireReadable();  // an empty queue is no news of a store whose cases are lost
+    requireNamed(store, arguments);
     const auto queue_options = context.config().get<QueueOptions>();
     if (arguments.retry)
         retryFailed(store, queue_options);
@@ -116,11 +129,12 @@ int work(Context& context, const WorkArguments& arguments)
     };
     events.ended = [&](const Job& job, JobState state, const std::string& reason) {
         progress.clear();
-        std::printf("%s/%s: %s%s\n", job.case_id.c_str(), job.scan_id.c_str(), nameOf(state).c_str(),
-                    reason.empty() ? "" : (", " + reason).c_str());
+        std::FILE* const told = context.json ? stderr : stdout;
+        std::fprintf(told, "%s/%s: %s%s\n", job.case_id.c_str(), job.scan_id.c_str(), nameOf(state).c_str(),
+                     reason.empty() ? "" : (", " + reason).c_str());
         if (const std::string warning = state == JobState::done ? warningOf(store, job) : ""; !warning.empty())
-            std::printf("  ! %s\n", warning.c_str());
-        std::fflush(stdout);
+            std::fprintf(told, "  ! %s\n", warning.c_str());
+        std::fflush(told);
         if (!arguments.until_idle)
             ::malloc_trim(0);  // until the next scan comes
     };
@@ -138,7 +152,8 @@ int work(Context& context, const WorkArguments& arguments)
             "%d finished scans are out of date (other options, another version, a lost file);"
             " 'vicon work --redo-outdated' does them again\n",
             outdated);
-    return summary.failed > 0 ? 1 : 0;
+    const bool broken_off = arguments.until_idle && stopRequested() && summary.waiting > 0;
+    return summary.failed > 0 || broken_off ? 1 : 0;
 }
 
 }  // namespace

@@ -88,6 +88,27 @@ TEST(WrongUse, OfPlacesAndNamesIsSaidBeforeAnythingIsTaken)
     });
 }
 
+TEST(WrongUse, OfNothingWhereANameIsMeantOrOfNoNumberIsRefused)
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "c.toml") << "[peers]\npacs = { host = \"127.0.0.1\", port = 9 }\n";
+    const std::string in = " --config " + (folder / "c.toml").string() + " --store " + (folder / "store").string();
+    expectOneLineEach({
+        {"work --case '' --redo-outdated" + in, 2, "is empty"},
+        {"outbox ''" + in, 2, "is empty"},
+        {"markers nosuchcase --remove ''" + in, 2, "is empty"},
+        {"finding nosuchcase --remove ''" + in, 2, "is empty"},
+        {"match nosuchcase --confirm ''" + in, 2, "is empty"},
+        {"query pacs --patient ''" + in, 2, "is empty"},
+        {"retrieve pacs ''" + in, 2, "is empty"},
+        {"retrieve pacs '1.2*'" + in, 2, "is no Study Instance UID"},
+        {"retrieve pacs '1.2\\1.3'" + in, 2, "is no Study Instance UID"},
+        {"snapshot nosuchcase --view endo --station nan --out x.png" + in, 2, "no finite number"},
+        {"send nosuchcase pacs --wait inf" + in, 2, "no finite number"},
+        {"mark nosuchcase --at 1,2,3 --biopsy nan" + in, 2, "no finite number"},
+    });
+}
+
 TEST(WrongUse, WithoutAHomeNoStoreIsMadeInWhateverFolder)
 {
     const CommandResult result =
