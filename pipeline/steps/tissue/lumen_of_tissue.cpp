@@ -174,7 +174,7 @@ std::vector<bool> largestOfPieces(const RunLabels& pieces, const RunLabels& lume
         for (int j = 0; j < lumen.size[1]; ++j)
             for (std::size_t n = lumen.row_begin[lumen.row(j, k)]; n < lumen.row_begin[lumen.row(j, k) + 1]; ++n)
                 piece_of[lumen.runs[n].label] = std::uint32_t(pieces.labelAt({lumen.runs[n].begin, j, k}));
-    constexpr std::size_t kNone = SIZE_MAX;
+    constexpr std::size_t kNone = SIZE_MAX;  // no part of the piece yet
     std::vector<std::size_t> largest(pieces.components.size(), kNone);
     for (std::size_t n = 0; n < piece_of.size(); ++n)
         if (std::size_t& of = largest[piece_of[n]];
