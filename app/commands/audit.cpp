@@ -26,6 +26,12 @@ std::string changeIn(const nlohmann::json& before, const nlohmann::json& after)
     return out;
 }
 
+const char* praiseOf(const ReportVersion& version)
+{
+    return version.objects || !version.isSigned() ? "as it was kept"
+                                                  : "as it was kept; nothing is known of its DICOM objects";
+}
+
 int audit(Context& context, const std::string& given_id)
 {
     CaseStore& store = context.existingStore();
@@ -51,7 +57,7 @@ int audit(Context& context, const std::string& given_id)
         out["versions"].push_back(entry);
         if (!context.json)
             std::printf("version %d, %s, %s: %s\n", version.version, nameOf(version.state).c_str(),
-                        version.digest.c_str(), fault.empty() ? "as it was kept" : fault.c_str());
+                        version.digest.c_str(), fault.empty() ? praiseOf(version) : fault.c_str());
     }
     if (context.json)
         std::printf("%s\n", out.dump(2).c_str());

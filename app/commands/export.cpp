@@ -3,7 +3,6 @@
 
 #include "../command.h"
 #include "vicon/cases/report_content.h"
-#include "vicon/cases/report_files.h"
 #include "vicon/cases/report_versions.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
@@ -58,9 +57,10 @@ int exportObjects(CaseStore& store, const std::string& case_id, const std::optio
     if (!version || !version->isSigned())
         throw Error(ErrorCode::bad_input, "only a signed report has DICOM objects", case_id,
                     "'vicon sign " + case_id + "' signs it");
+    const std::vector<fs::path> objects = requireObjects(*version);
     fs::create_directories(folder);
     store.audit(AuditEvent::report_exported, case_id, "", "dicom");
-    for (const fs::path& object : versionObjects(store, case_id, version->version)) {
+    for (const fs::path& object : objects) {
         const fs::path copy = folder / object.filename();
         replaceFile(copy, readFile(object));
         std::printf("%s\n", copy.c_str());

@@ -10,7 +10,6 @@
 #include "../delivering.h"
 #include "../peers.h"
 #include "../progress_line.h"
-#include "vicon/cases/report_files.h"
 #include "vicon/cases/report_versions.h"
 #include "vicon/core/error.h"
 
@@ -43,7 +42,7 @@ std::vector<OutboxObject> reportObjects(CaseStore& store, const std::string& cas
     const std::vector<ReportVersion> versions = reportVersions(store, case_id);
     const auto last = std::find_if(versions.rbegin(), versions.rend(), [](const auto& v) { return v.isSigned(); });
     if (last != versions.rend())
-        for (const fs::path& file : versionObjects(store, case_id, last->version))
+        for (const fs::path& file : requireObjects(*last))
             objects.push_back(ingest::outboxObject(file));
     return objects;
 }

@@ -126,8 +126,12 @@ const std::vector<std::vector<const char*>> kMigrations = {
         "CREATE INDEX jobs_turn ON jobs (turn) WHERE state = 'queued'",
         "CREATE INDEX jobs_sender ON jobs (sender, turn) WHERE state = 'queued'",
     },
+    {
+        // The SHA-256 of each DICOM object of a version, by its file's name: JSON; empty where none was kept then.
+        "ALTER TABLE report_versions ADD COLUMN objects TEXT NOT NULL DEFAULT ''",
+    },
 };
-static_assert(Database::kSchemaVersion == 9, "add a migration for every version");
+static_assert(Database::kSchemaVersion == 10, "add a migration for every version");
 
 /// The connection broke before the server had committed.
 struct NotCommitted {};

@@ -42,10 +42,15 @@ std::string versionName(int version)
 
 std::vector<fs::path> versionObjects(const CaseStore& store, const std::string& case_id, int version)
 {
+    return versionObjectsIn(reportFolder(store, case_id), version);
+}
+
+std::vector<fs::path> versionObjectsIn(const fs::path& folder, int version)
+{
     const std::string prefix = "version-" + std::to_string(version) + "-";
     std::vector<fs::path> files;
     std::error_code none;
-    for (const auto& entry : fs::directory_iterator(reportFolder(store, case_id), none))
+    for (const auto& entry : fs::directory_iterator(folder, none))
         if (entry.path().filename().string().starts_with(prefix) && entry.path().extension() == ".dcm")
             files.push_back(entry.path());
     std::sort(files.begin(), files.end());

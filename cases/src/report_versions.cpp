@@ -1,12 +1,12 @@
 #include "vicon/cases/report_versions.h"
 
 #include <algorithm>
-#include <future>
 
 #include "case_rows.h"
 #include "comparison_rows.h"
 #include "report_rows.h"
 #include "this_person.h"
+#include "version_objects.h"
 #include "vicon/cases/report_content.h"
 #include "vicon/cases/report_files.h"
 #include "vicon/cases/roles.h"
@@ -39,6 +39,7 @@ ReportVersion versionFrom(const soci::row& row)
     v.content = row.get<std::string>("content");
     v.file = row.get<std::string>("file");
     v.file_sha256 = row.get<std::string>("file_sha256");
+    v.objects = objectHashesFrom(row.get<std::string>("objects"));
     return v;
 }
 
@@ -103,28 +104,17 @@ AuditEvent eventOf(ReportState state)
 void putVersion(soci::session& sql, const std::string& case_id, const ReportVersion& v)
 {
     const std::string state = nameOf(v.state), file = v.file.filename().string();
+    const json objects = v.objects.value_or(ObjectHashes());
+    const std::string hashes = objects.dump();
     sql << "INSERT INTO report_versions (case_id, version, state, replaces, reason, person, at, software, digest,"
-           " content, file, file_sha256) VALUES (:case, :version, :state, :replaces, :reason, :person, :at, :software,"
-           " :digest, :content, :file, :sha)",
+           " content, file, file_sha256, objects) VALUES (:case, :version, :state, :replaces, :reason, :person, :at,"
+           " :software, :digest, :content, :file, :sha, :objects)",
         soci::use(case_id), soci::use(v.version), soci::use(state), soci::use(v.replaces), soci::use(v.reason),
         soci::use(v.person), soci::use(v.at), soci::use(v.software), soci::use(v.digest), soci::use(v.content),
-        soci::use(file), soci::use(v.file_sha256);
-    putAudit(sql, {eventOf(v.state), case_id, "", "version " + std::to_string(v.version), "", toJson(v).dump()});
-}
-
-/// In place of what a kill left of another try at this version. All at once: the disk flushes many files in the time of
-/// one.
-void putObjects(const CaseStore& store, const std::string& case_id, int version, const std::vector<fs::path>& files)
-{
-    for (const fs::path& left : versionObjects(store, case_id, version))
-        fs::remove(left);
-    std::vector<std::future<void>> writing;
-    for (const fs::path& file : files)
-        writing.push_back(std::async(std::launch::async, [file, to = reportFolder(store, case_id) / file.filename()] {
-            replaceFile(to, readFile(file));
-        }));
-    for (std::future<void>& one : writing)
-        one.get();
+        soci::use(file), soci::use(v.file_sha256), soci::use(hashes);
+    json said = toJson(v);
+    said["objects"] = objects;
+    putAudit(sql, {eventOf(v.state), case_id, "", "version " + std::to_string(v.version), "", said.dump()});
 }
 
 void requireNoneFaster(soci::session& sql, const std::string& case_id, const ReportVersion& wanted)
@@ -212,7 +202,7 @@ std::string faultOf(const ReportVersion& version)
         return "its file is missing";
     if (sha256OfFile(version.file) != version.file_sha256)
         return "its file is not what was kept";
-    return {};
+    return faultOfObjects(version);
 }
 
 ReportStatus reportStatus(CaseStore& store, const std::string& case_id)
@@ -327,6 +317,7 @@ ReportVersion keepVersion(CaseStore& store, const std::string& case_id, const Ve
                           const VersionObjects& objects)
 {
     ReportVersion kept = versionWith(store, case_id, draft, pdf);
+    kept.objects = hashesOf(objects.files);
     makePrivateFolder(reportFolder(store, case_id));
     store.database().write([&](soci::session& sql) {
         requireNoneFaster(sql, case_id, kept);
@@ -339,7 +330,7 @@ ReportVersion keepVersion(CaseStore& store, const std::string& case_id, const Ve
         // Last, and while nobody else can write: a kill before the commit leaves a file that no version names, which
         // the version that takes its number replaces.
         replaceFile(kept.file, pdf);
-        putObjects(store, case_id, kept.version, objects.files);
+        putObjects(kept, objects.files);
         if (objects.also)
             objects.also(sql, kept);
     });

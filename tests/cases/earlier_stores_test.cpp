@@ -50,6 +50,8 @@ TEST_P(EarlierSqliteStore, HoldsWhatItHeld)
     const auto versions = reportVersions(store_, id_);
     ASSERT_EQ(versions.size(), 1u);
     EXPECT_EQ(digestOf(versions[0].content, versions[0].file_sha256), versions[0].digest);
+    EXPECT_FALSE(versions[0].objects) << "nobody kept their hashes then";
+    EXPECT_NO_THROW(requireObjects(versions[0]));
     EXPECT_TRUE(reportStatus(store_, id_).amending);
     EXPECT_EQ(Outbox(store_.database(), {}).items(id_).at(0).state, DeliveryState::queued);
     EXPECT_EQ(auditTrail(store_, id_).front().event, "imported");

@@ -302,5 +302,32 @@ TEST_F(ReportVersions, SayWhatIsNoLongerAsItWasSigned)
     EXPECT_EQ(faultOf(other), "its content is not what was kept");
 }
 
+TEST_F(ReportVersions, SayWhichOfTheirObjectsAreNoLongerAsTheyWereSigned)
+{
+    case_.choose();
+    const support::TemporaryFolder elsewhere;
+    std::vector<fs::path> made;
+    for (const char* kind : {"lumen-s1", "pdf", "sr"})
+        replaceFile(made.emplace_back(elsewhere / (std::string("version-1-") + kind + ".dcm")), kind);
+    keepVersion(store_, "c1", draft(), "a PDF", {.files = made});
+    const auto version = [&] { return reportVersions(store_, "c1").at(0); };
+    const fs::path folder = reportFolder(store_, "c1");
+    EXPECT_EQ(faultOf(version()), "");
+    EXPECT_EQ(requireObjects(version()), versionObjects(store_, "c1", 1));
+    replaceFile(folder / "version-1-key.dcm", "of somebody else");
+    EXPECT_EQ(requireObjects(version()).size(), made.size()) << "what was not signed is none of them";
+    replaceFile(folder / "version-1-lumen-s1.dcm", "altered");
+    fs::remove(folder / "version-1-sr.dcm");
+    const std::string fault = "version-1-lumen-s1.dcm is not what was kept; version-1-sr.dcm is missing";
+    EXPECT_EQ(faultOf(version()), fault);
+    EXPECT_THAT(messageOf([&] { requireObjects(version()); }), HasSubstr(fault));
+    EXPECT_EQ(nlohmann::json::parse(store_.database().read([](soci::session& sql) {
+                  std::string said;
+                  sql << "SELECT new_value FROM audit WHERE event = 'report signed'", soci::into(said);
+                  return said;
+              }))["objects"]["version-1-pdf.dcm"],
+              sha256("pdf"));
+}
+
 }  // namespace
 }  // namespace vicon

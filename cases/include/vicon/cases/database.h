@@ -20,7 +20,7 @@ class DatabaseEngine;
 /// a broken connection to a server is made again. One object serves one thread at a time.
 class Database {
 public:
-    static constexpr int kSchemaVersion = 9;
+    static constexpr int kSchemaVersion = 10;
 
     /// Opens (and creates) the database. Throws Error{database} when it cannot, or when its schema is newer than
     /// this VICON knows.

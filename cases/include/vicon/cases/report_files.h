@@ -20,6 +20,8 @@ std::string versionName(int version);
 
 /// The DICOM objects of a version that was signed, by name: version-N-KIND.dcm.
 std::vector<std::filesystem::path> versionObjects(const CaseStore& store, const std::string& case_id, int version);
+/// The same of any folder that holds reports of a case.
+std::vector<std::filesystem::path> versionObjectsIn(const std::filesystem::path& folder, int version);
 
 /// How many reports of each of these cases were written: drafts, wherever they were written to, and versions that were
 /// given out. The last draft's number is the number of drafts. Cases without a report are not among them.

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -52,6 +53,8 @@ struct ReportVersion {
     std::string content;   ///< what it says: JSON, as reportContent() gave it
     std::filesystem::path file;
     std::string file_sha256;
+    /// SHA-256 of each of its DICOM objects, by the file's name; nothing where an earlier VICON kept none.
+    std::optional<std::map<std::string, std::string>> objects;
 
     bool isSigned() const { return state != ReportState::preliminary; }
 };
@@ -63,8 +66,11 @@ std::string digestOf(std::string_view content, std::string_view file_sha256);
 
 /// All versions of a case's report, the first one first.
 std::vector<ReportVersion> reportVersions(CaseStore& store, const std::string& case_id);
-/// What is no longer as it was signed: "the file is missing", ...; empty where all of it is.
+/// What is no longer as it was signed: "its file is missing", "version-1-sr.dcm is not what was kept", ...; empty where
+/// all of it is. Nothing is known of objects whose hashes were not kept.
 std::string faultOf(const ReportVersion& version);
+/// The DICOM objects of a version, by name. Throws Error{store} where one is missing or not what was kept.
+std::vector<std::filesystem::path> requireObjects(const ReportVersion& version);
 
 struct ReportStatus {
     ReportState state = ReportState::draft;  ///< of the last version
