@@ -2,6 +2,7 @@
 
 #include <soci/soci.h>
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -11,6 +12,8 @@
 #include "database_engine.h"
 #include "mirror.h"
 #include "recorded_files.h"
+#include "store_copying.h"
+#include "vicon/cases/audit_trail.h"
 #include "vicon/cases/case_deletion.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
@@ -23,53 +26,6 @@ namespace {
 
 /// In a backup: when it was made, and whether it is whole.
 constexpr const char* kAboutName = "backup.json";
-/// What of a store cannot be made again, and the results.
-constexpr const char* kFolders[] = {"cases", "reports", "quarantine", "incoming", "watch", "commitments"};
-/// By which a patient gets the same pseudonym again.
-constexpr const char* kFiles[] = {"anonymous.key"};
-
-/// Copies a store's files, in several rounds over what is there already.
-class Copying {
-public:
-    Copying(const fs::path& from, const fs::path& to, Progress& progress) : from_(from), to_(to), progress_(progress) {}
-
-    /// What the store has lost, and the copy has: it stays there.
-    void keep(const std::vector<FileFault>& missing)
-    {
-        kept_.clear();
-        for (const FileFault& fault : missing)
-            for (fs::path place = to_ / fault.file; place != to_; place = place.parent_path())
-                kept_.insert(place);
-    }
-    void copyAll(const std::string& name)
-    {
-        progress_.report(0, name);
-        counts_.files = 0;
-        for (const char* folder : kFolders)
-            mirror(from_ / folder, to_ / folder, kept_, counts_, progress_, [&](const fs::path&) { ++counts_.files; });
-        for (const char* file : kFiles)
-            if (fs::exists(from_ / file)) {
-                mirrorFile(from_ / file, to_ / file, counts_);
-                ++counts_.files;
-            }
-    }
-    void copyCases(const std::set<std::string>& cases)
-    {
-        for (const std::string& case_id : cases) {
-            progress_.report(0, "copying case " + case_id);
-            const fs::path folder = fs::path("cases") / case_id;
-            mirror(from_ / folder, to_ / folder, kept_, counts_, progress_);
-        }
-    }
-    CopyCounts& counts() { return counts_; }
-
-private:
-    fs::path from_, to_;
-    Progress& progress_;
-    KeptFiles kept_;
-    CopyCounts counts_;
-};
-
 /// Without a slash at its end.
 fs::path wholeNameOf(const fs::path& folder)
 {
@@ -87,7 +43,27 @@ void requirePlace(const fs::path& to, const fs::path& store)
                     "name an empty one, or that of an earlier backup");
 }
 
-/// @param missing files that the store has lost and no earlier backup had
+/// A database that was lost and made anew knows no case of before: its backup would take the place of all of them.
+/// Cases that were deleted are known by the audit trail.
+void requireKnownCases(CaseStore& store, const fs::path& to)
+{
+    int others = 0;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(to / "cases", none)) {
+        const std::string id = entry.path().filename().string();
+        if (store.findCase(id) || !auditTrail(store, id).empty())
+            return;
+        others += entry.is_directory() ? 1 : 0;
+    }
+    if (others > 0)
+        throw Error(ErrorCode::wrong_use,
+                    "the backup there holds " + std::to_string(others) + " cases, and this store never had one of them",
+                    to.string(),
+                    "was the store's database lost? then 'vicon restore' makes a store of the backup; else name an "
+                    "empty folder");
+}
+
+/// @param missing files of which the backup has no good copy
 void writeAbout(const fs::path& to, bool whole, int cases, int missing)
 {
     const nlohmann::json about = {{"at", nowUtc()},
@@ -127,9 +103,10 @@ std::set<std::string> casesOf(const std::vector<FileFault>& faults)
 }
 
 /// Those which are missing still: a case may have been deleted while its files were looked for.
-std::vector<FileFault> stillMissing(CaseStore& store, const std::vector<FileFault>& missing, Progress& progress)
+std::vector<FileFault> stillMissing(CaseStore& store, const fs::path& to, const std::vector<FileFault>& missing,
+                                    Progress& progress)
 {
-    return missing.empty() ? missing : missingFiles(store, progress, casesOf(missing));
+    return missing.empty() ? missing : missingFiles(store, to, progress, casesOf(missing));
 }
 
 void requireDatabaseOf(const fs::path& backup, const std::string& address)
@@ -162,13 +139,13 @@ std::optional<FilledDatabase> restoreDatabase(const fs::path& backup, const Stor
 }
 
 /// What is done while imports and deletions wait; while nobody can write, only what was just changed is copied.
-std::unique_ptr<DatabaseSnapshot> copyTheRest(CaseStore& store, const fs::path& to, Copying& copying,
+std::unique_ptr<DatabaseSnapshot> copyTheRest(CaseStore& store, const fs::path& to, StoreCopying& copying,
                                               Progress& progress)
 {
     CopyCounts& counts = copying.counts();
     const StoreLock lock(store.folder(), progress);
     finishDeletions(store, lock);
-    counts.faults = stillMissing(store, counts.faults, progress);
+    counts.faults = stillMissing(store, to, counts.faults, progress);
     copying.keep(counts.faults);
     ChangedCases since_all(store);
     copying.copyAll("copying what came meanwhile");
@@ -185,6 +162,20 @@ std::unique_ptr<DatabaseSnapshot> copyTheRest(CaseStore& store, const fs::path& 
     return snapshot;
 }
 
+/// Says of each fault whether the backup has an earlier copy. Returns of how many it has no good one.
+int judge(CopyCounts& counts, const StoreCopying& copying, const fs::path& to)
+{
+    for (FileFault& missing : counts.faults)
+        missing.kind = fs::exists(to / missing.file) ? FileFault::Kind::kept : FileFault::Kind::missing;
+    const auto changed = copying.changed();
+    counts.faults.insert(counts.faults.end(), changed.begin(), changed.end());
+    std::stable_sort(counts.faults.begin(), counts.faults.end(),
+                     [](const FileFault& a, const FileFault& b) { return a.case_id < b.case_id; });
+    return int(std::count_if(counts.faults.begin(), counts.faults.end(), [](const FileFault& fault) {
+        return fault.kind == FileFault::Kind::missing || fault.kind == FileFault::Kind::changed;
+    }));
+}
+
 }  // namespace
 
 CopyCounts backUp(CaseStore& store, const fs::path& given, Progress& progress)
@@ -192,11 +183,13 @@ CopyCounts backUp(CaseStore& store, const fs::path& given, Progress& progress)
     const fs::path to = wholeNameOf(given);
     requirePlace(to, store.folder());
     requireUndamaged(store.database());  // before anything of an earlier backup changes
+    requireKnownCases(store, to);
     makePrivateFolder(to);
     writeAbout(to, false, 0, 0);
-    Copying copying(store.folder(), to, progress);
+    RecordedHashes recorded(store, to);
+    StoreCopying copying(store.folder(), to, &recorded, progress);
     CopyCounts& counts = copying.counts();
-    counts.faults = missingFiles(store, progress);
+    counts.faults = missingFiles(store, to, progress);
     copying.keep(counts.faults);
     copying.copyAll("copying what is new");
     const fs::path database = to / backupNameOf(store.place().database);
@@ -205,14 +198,9 @@ CopyCounts backUp(CaseStore& store, const fs::path& given, Progress& progress)
     snapshot->writeTo(database);
     snapshot.reset();
     requireUndamagedCopy(database);  // the folders took long to copy
-    int missing = 0;
-    for (FileFault& fault : counts.faults) {
-        const bool is_kept = fs::exists(to / fault.file);
-        fault.kind = is_kept ? FileFault::Kind::kept : FileFault::Kind::missing;
-        missing += is_kept ? 0 : 1;
-    }
+    const int lost = judge(counts, copying, to);
     flushDiskOf(to);
-    writeAbout(to, missing == 0, counts.cases, missing);
+    writeAbout(to, lost == 0, counts.cases, lost);
     return counts;
 }
 
@@ -231,7 +219,7 @@ CopyCounts restore(const fs::path& backup, const StorePlace& given, Progress& pr
     fs::remove_all(making, none);
     try {
         makePrivateFolder(making);
-        Copying copying(backup, making, progress);
+        StoreCopying copying(backup, making, nullptr, progress);
         copying.copyAll("copying");
         auto filled = restoreDatabase(backup, {making, given.database});
         CopyCounts& copied = copying.counts();

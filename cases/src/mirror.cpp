@@ -40,8 +40,20 @@ bool isSame(const fs::path& a, const fs::path& b)
            x.st_mtim.tv_sec == y.st_mtim.tv_sec && x.st_mtim.tv_nsec == y.st_mtim.tv_nsec;
 }
 
+/// Whether what was copied is kept from the place of `to`: it is not what it must be, and there is something already.
+bool staysAway(const fs::path& temporary, const fs::path& to, const std::string& sha256, const MirrorCalls& calls)
+{
+    if (!fs::exists(to)) {
+        calls.changed(to, false);
+        return false;
+    }
+    calls.changed(to, sha256OfFile(to) == sha256);
+    fs::remove(temporary);
+    return true;
+}
+
 /// Nothing where the file has gone meanwhile.
-void copyFile(const fs::path& from, const fs::path& to, CopyCounts& copied)
+void copyFile(const fs::path& from, const fs::path& to, CopyCounts& copied, const MirrorCalls& calls)
 {
     const fs::path temporary = to.parent_path() / (std::string(kTemporaryPrefix) + to.filename().string());
     std::error_code trouble;
@@ -53,7 +65,12 @@ void copyFile(const fs::path& from, const fs::path& to, CopyCounts& copied)
         return;
     if (number != 0)
         throw failure("a file cannot be copied", to, number);
-    fs::last_write_time(temporary, time, trouble);
+    const std::string sha256 = calls.sha256_of ? calls.sha256_of(to) : "";
+    const bool is_good = sha256.empty() || sha256OfFile(temporary) == sha256;
+    if (!is_good && staysAway(temporary, to, sha256, calls))
+        return;
+    if (is_good)  // else it keeps a time of its own, by which the next mirror looks at it again
+        fs::last_write_time(temporary, time, trouble);
     if (trouble || ::chmod(temporary.c_str(), fileModeIn(to.parent_path())) != 0 ||
         ::rename(temporary.c_str(), to.c_str()) != 0)
         throw failure("a file cannot be copied", to, trouble ? trouble.value() : errno);
@@ -101,7 +118,7 @@ void removeOthers(const fs::path& folder, const std::set<std::string>& names, co
 }  // namespace
 
 void mirror(const fs::path& from, const fs::path& to, const KeptFiles& kept, CopyCounts& copied, Progress& progress,
-            const std::function<void(const fs::path&)>& seen)
+            const MirrorCalls& calls)
 try {
     const std::set<std::string> names = namesIn(from);
     if (names.empty() && !fs::exists(to))
@@ -111,12 +128,13 @@ try {
     for (const std::string& name : names) {
         progress.check();
         if (fs::is_directory(from / name)) {
-            mirror(from / name, to / name, kept, copied, progress, seen);
+            mirror(from / name, to / name, kept, copied, progress, calls);
             continue;
         }
-        mirrorFile(from / name, to / name, copied);
-        if (seen)
-            seen(to / name);
+        if (!isSame(from / name, to / name))
+            copyFile(from / name, to / name, copied, calls);
+        if (calls.seen)
+            calls.seen(to / name);
     }
 } catch (const fs::filesystem_error& e) {
     throw failure("a folder cannot be copied", e.path1(), e.code().value());
@@ -125,7 +143,7 @@ try {
 void mirrorFile(const fs::path& from, const fs::path& to, CopyCounts& copied)
 {
     if (!isSame(from, to))
-        copyFile(from, to, copied);
+        copyFile(from, to, copied, {});
 }
 
 void flushDiskOf(const fs::path& folder)

@@ -14,14 +14,15 @@ namespace vicon {
 struct FileFault {
     enum class Kind {
         missing,
-        kept,     ///< missing in the store; the backup has the copy of an earlier one
-        changed,  ///< its content is not what it was
+        kept,          ///< missing in the store; the backup has the copy of an earlier one
+        changed,       ///< its content is not what it was
+        changed_kept,  ///< its content in the store is not what it was; the backup has the copy of an earlier one
     };
     std::string case_id;         ///< empty: a report kept of a patient
     std::filesystem::path file;  ///< within the store
     Kind kind = Kind::missing;
 };
-/// "missing", "kept" or "changed".
+/// "missing", "kept", "changed" or "changed_kept".
 std::string nameOf(FileFault::Kind kind);
 /// In a line.
 std::string textOf(const FileFault& fault);
@@ -38,9 +39,10 @@ struct CopyCounts {
 
 /// Makes `to` a copy of the store, while others work on it: the database as it is at one moment, and with it the files
 /// that it speaks of. What lies there from an earlier backup is not copied again, and stays where the store has lost
-/// it. What the store has lost is among the faults of what is returned. Imports and deletions wait during the last,
-/// short round. A backup that was broken off cannot be restored; the next one continues it. Throws Error{store},
-/// Error{database}, Error{cancelled}; Error{wrong_use} where `to` holds something else.
+/// it or holds something else in its place than what its row says: that is among the faults of what is returned.
+/// Imports and deletions wait during the last, short round. A backup that was broken off cannot be restored; the next
+/// one continues it. Throws Error{store}, Error{database}, Error{cancelled}; Error{wrong_use} where `to` holds
+/// something else, or only cases that this store never had: its database is not the one that was backed up.
 CopyCounts backUp(CaseStore& store, const std::filesystem::path& to, Progress& progress);
 
 /// Makes a store of a backup; where the database of the one that was backed up lies on a server, into an empty database
