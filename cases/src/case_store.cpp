@@ -24,6 +24,17 @@ constexpr std::size_t kIdDigits =
 
 constexpr const char* kOwnDatabase = "vicon.db";
 
+/// Throws Error{store} where that is not for this account to know.
+bool isThere(const fs::path& file)
+{
+    std::error_code trouble;
+    const bool there = fs::exists(file, trouble);
+    if (trouble)
+        throw Error(ErrorCode::store, "the store cannot be looked at (" + trouble.message() + ")",
+                    file.parent_path().string(), "work as the account that it belongs to");
+    return there;
+}
+
 /// Makes the store's folder, and says where its database lies.
 std::string databaseOf(const StorePlace& place)
 {
@@ -31,12 +42,16 @@ std::string databaseOf(const StorePlace& place)
     if (on_server && !isServerAddress(place.database))
         throw Error(ErrorCode::wrong_use, "this is no address of a database", "store.database",
                     "give it as postgresql://USER@HOST:PORT/NAME");
-    if (fs::exists(place.folder / (on_server ? kOwnDatabase : kServersDatabase)))
+    if (isThere(place.folder / (on_server ? kOwnDatabase : kServersDatabase)))
         throw Error(ErrorCode::store,
                     on_server ? "the store keeps its state in its own vicon.db, not in store.database"
                               : "the store keeps its state in a PostgreSQL database",
                     place.folder.string(),
                     on_server ? "give another --store, or no store.database" : "set store.database to its address");
+    std::error_code none;
+    const fs::path own = place.folder / kOwnDatabase;
+    if (!on_server && place.holdsData() && (!isThere(own) || fs::file_size(own, none) == 0))
+        throw databaseIsLost(own);  // before SQLite makes a file
     makePrivateFolder(place.folder / "cases");
     return on_server ? place.database : (place.folder / kOwnDatabase).string();
 }
@@ -71,11 +86,22 @@ std::vector<ScanRecord> inOrder(std::vector<ScanRecord> scans)
 
 bool StorePlace::holdsStore() const
 {
-    return fs::exists(folder / kOwnDatabase) || fs::exists(folder / kServersDatabase);
+    return isThere(folder / kOwnDatabase) || isThere(folder / kServersDatabase);
+}
+
+bool StorePlace::holdsData() const
+{
+    std::error_code none;
+    for (const char* of_store : {"cases", "reports", "quarantine", "incoming", "deleted"})
+        for (const auto& entry : fs::directory_iterator(folder / of_store, none))
+            if (entry.is_directory(none) || entry.path().extension() == ".dcm")
+                return true;
+    return false;
 }
 
 CaseStore::CaseStore(const StorePlace& place)
-    : place_(fs::absolute(place.folder).lexically_normal(), place.database), database_(databaseOf(place_))
+    : place_(fs::absolute(place.folder).lexically_normal(), place.database),
+      database_(databaseOf(place_), !place_.holdsData())
 {
     if (!place_.database.empty())
         requireOneStore(folder(), database_);

@@ -143,6 +143,13 @@ const std::vector<std::vector<const char*>>& schemaMigrations()
     return kMigrations;
 }
 
+Error databaseIsLost(const std::string& where)
+{
+    return {ErrorCode::database, "the store's folder holds cases or objects, and its database is gone or empty", where,
+            "nothing was made or changed; put the database back, or let 'vicon restore' make a store of the last "
+            "backup in another folder"};
+}
+
 std::string inOneLine(const std::string& text)
 {
     std::string line;
@@ -156,13 +163,13 @@ std::string inOneLine(const std::string& text)
     return line;
 }
 
-Database::Database(const std::string& where)
+Database::Database(const std::string& where, bool may_be_new)
     : where_(where), engine_(isServerAddress(where) ? makePostgresql(where) : makeSqlite(where))
 {
     try {
         session_ = engine_->connect();
         engine_->prepare(*session_);
-        migrate();
+        migrate(may_be_new);
     } catch (const soci::soci_error& e) {
         throw engine_->cannotBeOpened(e);
     }
@@ -170,10 +177,13 @@ Database::Database(const std::string& where)
 
 Database::~Database() = default;
 
-void Database::migrate()
+void Database::migrate(bool may_be_new)
 {
-    if (engine_->schemaVersion(*session_) == kSchemaVersion)
+    const int found = engine_->schemaVersion(*session_);
+    if (found == kSchemaVersion)
         return;
+    if (found == 0 && !may_be_new)
+        throw databaseIsLost(isServerAddress(where_) ? "store.database" : where_);
     writing_ = true;
     try {
         engine_->beginMigration(*session_);

@@ -65,6 +65,9 @@ bool isPostgresql(soci::session& sql);
 /// The statements that lead from schema version n to n+1, in SQLite's words.
 const std::vector<std::vector<const char*>>& schemaMigrations();
 
+/// What is told where the data of a store are there, and its database is not, or is empty.
+Error databaseIsLost(const std::string& where);
+
 /// The text of an error in one line.
 std::string inOneLine(const std::string& text);
 

@@ -213,6 +213,35 @@ TEST(StoreFolder, ThatCannotBeMadeIsOneClearLine)
     }
 }
 
+/// What a store without its database is told, and that none was made.
+void expectLost(const fs::path& store)
+{
+    const auto database = [&] { return fs::exists(store / "vicon.db") ? readFile(store / "vicon.db") : "none"; };
+    const std::string before = database();
+    EXPECT_THAT(messageOf([&] { CaseStore{store}; }),
+                AllOf(HasSubstr("its database is gone or empty"), HasSubstr("'vicon restore'")));
+    EXPECT_TRUE(database() == before) << "it was made";
+}
+
+TEST(SqliteStore, WhoseDatabaseIsLostIsNotMadeAnew)
+{
+    for (const char* data : {"cases/c1", "reports/1.dcm", "quarantine/c1", "incoming/a", "deleted/c1-2"}) {
+        SCOPED_TRACE(data);
+        const support::TemporaryFolder folder;
+        fs::create_directories(folder / data);
+        expectLost(folder.path());
+        replaceFile(folder / "vicon.db", "");
+        expectLost(folder.path());
+        ASSERT_EQ(support::runCommand("sqlite3 " + (folder / "vicon.db").string() + " VACUUM").exit_code, 0);
+        EXPECT_THAT(messageOf([&] { CaseStore{folder.path()}; }), HasSubstr("its database is gone or empty"))
+            << "without tables";
+    }
+    const support::TemporaryFolder begun;
+    fs::create_directories(begun / "cases");
+    replaceFile(begun / "vicon.db", "");
+    EXPECT_NO_THROW(CaseStore{begun.path()}) << "a first start that was killed";
+}
+
 TEST(Ids, AreShortStableAndSafeAsPath)
 {
     EXPECT_EQ(CaseStore::caseIdFor("1.2.3"), CaseStore::caseIdFor("1.2.3"));

@@ -315,6 +315,17 @@ TEST(PostgresqlStore, IsNotMixedWithAnother)
     EXPECT_THAT(messageOf([&] { CaseStore(support::storePlace(folder / "own")); }), HasSubstr("its own vicon.db"));
 }
 
+TEST(PostgresqlStore, OfWhoseCasesTheDatabaseKnowsNothingIsNotMadeAnew)
+{
+    const support::TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "a" / "cases" / "c1");
+    const StorePlace place = support::storePlace(folder / "a");
+    EXPECT_THAT(messageOf([&] { CaseStore{place}; }), HasSubstr("its database is gone or empty"));
+    EXPECT_FALSE(place.holdsStore());
+    std::filesystem::remove(folder / "a" / "cases" / "c1");
+    EXPECT_NO_THROW(CaseStore{place});
+}
+
 TEST(PostgresqlStore, TakesNoPasswordThatIsShownAndNoAddressThatIsNone)
 {
     const support::TemporaryFolder folder;

@@ -24,8 +24,10 @@ struct StorePlace {
         : folder(std::move(the_folder)), database(std::move(the_database))
     {
     }
-    /// Whether a store was made in the folder.
+    /// Whether a store was made in the folder. Throws Error{store} where this account may not know.
     bool holdsStore() const;
+    /// Whether cases or objects lie in the folder, also where its database is gone.
+    bool holdsData() const;
 };
 
 struct StoreOptions {
@@ -49,7 +51,8 @@ struct MarkerEdit {
 /// A store: its folder (data) and its database (state). Every method that changes something is one transaction.
 class CaseStore {
 public:
-    /// Opens a store, and makes it when its folder does not exist or is empty. Throws Error{store} or Error{database}.
+    /// Opens a store, and makes it when its folder does not exist or is empty. Throws Error{store} or Error{database},
+    /// also where the folder holds data and the database is gone or empty: a new one would know nothing of them.
     explicit CaseStore(const StorePlace& place);
     explicit CaseStore(const std::filesystem::path& folder) : CaseStore(StorePlace(folder)) {}
 

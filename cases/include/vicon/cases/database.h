@@ -25,7 +25,8 @@ public:
     /// Opens (and creates) the database. Throws Error{database} when it cannot, or when its schema is newer than
     /// this VICON knows.
     /// @param where a file (SQLite), or the address of a PostgreSQL database, postgresql://USER@HOST/NAME
-    explicit Database(const std::string& where);
+    /// @param may_be_new an empty one is made a store's; else Error{database}
+    explicit Database(const std::string& where, bool may_be_new = true);
     ~Database();
     Database(const Database&) = delete;
     Database& operator=(const Database&) = delete;
@@ -76,7 +77,7 @@ public:
 
 private:
     enum class Writers { one, several };  // at the same time
-    void migrate();
+    void migrate(bool may_be_new);
     void readAgain(const std::function<void(soci::session&)>& work);
     void reconnect();
     void transact(const std::function<void(soci::session&)>& work, Writers writers);
