@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,9 +19,6 @@ inline constexpr std::uint32_t kDelimiterGroup = 0xfffe;
 inline constexpr std::uint32_t kRecordType = 0x00041430;
 /// PS3.5 6.2, CS. Of a longer type of a directory record DCMTK's parser throws, and loses what it has read.
 inline constexpr std::uint32_t kLongestCode = 16;
-inline constexpr std::string_view kImplicitLittleEndian = "1.2.840.10008.1.2",
-                                  kExplicitBigEndian = "1.2.840.10008.1.2.2",
-                                  kDeflatedLittleEndian = "1.2.840.10008.1.2.1.99";
 
 /// The types whose length has two bytes, and those with four.
 inline constexpr std::string_view kShortVrs = "AE AS AT CS DA DS DT FD FL IS LO LT PN SH SL SS ST TM UI UL US ";
@@ -36,10 +34,16 @@ struct Coding {
     bool explicit_vr = true, big_endian = false;
 };
 
-inline Coding codingOf(std::string_view transfer_syntax)
-{
-    return {transfer_syntax != kImplicitLittleEndian, transfer_syntax == kExplicitBigEndian};
-}
+/// How DCMTK reads a data set of this transfer syntax, a UID; nothing where it unpacks it first. Nor of what it knows
+/// by another text, or not at all: it would take away spaces, look among names, and guess by the first element.
+std::optional<Coding> codingOf(const std::string& transfer_syntax);
+bool isDeflated(const std::string& transfer_syntax);
+
+/// Whether DCMTK may read a value of which no type is written as a sequence, though it does not begin as one: the
+/// dictionary says so, or nobody knows. A sequence that ends before its length does, or is shorter than the head of an
+/// item, leaves DCMTK elsewhere in the file than where the length leads.
+/// @param begin the value's first bytes, at most eight
+bool mayEndElsewhere(std::uint32_t tag, const unsigned char* begin, std::size_t count);
 
 /// A number of so many bytes.
 inline std::uint32_t numberIn(const unsigned char* bytes, std::size_t count, bool big_endian)

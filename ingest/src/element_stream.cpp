@@ -64,9 +64,9 @@ bool ElementStream::isWhole()
         if (coding.explicit_vr && !isTypeOf(kShortVrs, vr))
             throw NotFollowed{tagName(tag) + " has a type that is none"};
         const std::uint32_t length = numberIn(&head_[4], 4, coding.big_endian);
-        if (!coding.explicit_vr && length != kUndefinedLength && length >= kItemHead) {
+        if (!coding.explicit_vr && length != kUndefinedLength && length > 0) {
             requireRoom(tag, kShortHead, length);  // at once: a library makes room for the value when it knows this
-            wanted_ = kShortHead + kItemHead;
+            wanted_ = kShortHead + std::min<std::size_t>(length, kItemHead);
             return false;
         }
     }
@@ -108,7 +108,7 @@ ElementStream::Head ElementStream::head() const
 void ElementStream::take()
 {
     const Head taken = head();
-    const std::size_t size = wanted_ == kLongHead ? kLongHead : kShortHead;
+    const std::size_t size = wanted_ == kLongHead && open_.back().coding.explicit_vr ? kLongHead : kShortHead;
     requireRoom(taken.tag, size, taken.length == kUndefinedLength ? 0 : taken.length);
     at_ += size;
     const std::size_t looked_at = wanted_ - size;  // of the value
@@ -156,6 +156,9 @@ void ElementStream::takeInItem(const Head& head)
     const bool nests =
         is_open || head.vr == "SQ" ||
         (head.vr.empty() && head.length >= kItemHead && tagIn(&head_[kShortHead], coding.big_endian) == kItem);
+    const std::size_t looked_at = is_open ? 0 : std::min<std::size_t>(head.length, kItemHead);
+    if (head.vr.empty() && mayEndElsewhere(head.tag, &head_[kShortHead], looked_at))
+        throw NotFollowed{tagName(head.tag) + " holds a sequence that ends within itself"};
     stayWithin(cost_.addElement(open_.back().tally, head.tag, nests ? 0 : head.length));
     if (head.tag == kRecordType && head.length > kLongestCode)
         throw NotFollowed{tagName(head.tag) + " has " + std::to_string(head.length) + " bytes, more than may be"};

@@ -133,9 +133,12 @@ void MessageWatch::beginDataset(std::uint8_t context)
     const auto syntax = syntaxes_.find(context);
     if (syntax == syntaxes_.end())
         return refuse("a message comes in a context that was not agreed");
-    if (syntax->second == kDeflatedLittleEndian)  // grows when it is read
+    if (isDeflated(syntax->second))  // grows when it is read
         return refuse("the data set of a message is deflated");
-    elements_.emplace(codingOf(syntax->second), kMostMessageBytes);
+    const auto coding = codingOf(syntax->second);
+    if (!coding)
+        return refuse("the data set of a message is in no known transfer syntax");
+    elements_.emplace(*coding, kMostMessageBytes);
 }
 
 }  // namespace vicon::ingest

@@ -15,7 +15,7 @@ namespace {
 
 using Fate = Structure::Fate;
 
-constexpr std::uint32_t kTransferSyntax = 0x00020010, kPixelData = 0x7fe00010;
+constexpr std::uint32_t kMetaLength = 0x00020000, kTransferSyntax = 0x00020010, kPixelData = 0x7fe00010;
 constexpr std::uint64_t kPreamble = 128, kHead = 132;
 
 struct Element {
@@ -39,35 +39,38 @@ struct Ended {
 
 [[noreturn]] void refuse(std::string why, bool clear_until_pixels = false)
 {
-    throw Ended{{Fate::refused, std::move(why), 0, clear_until_pixels}};
+    throw Ended{{Fate::refused, std::move(why), 0, clear_until_pixels, {}}};
 }
 
 [[noreturn]] void odd(std::uint64_t trailing_bytes = 0)
 {
-    throw Ended{{Fate::odd, {}, trailing_bytes, false}};
+    throw Ended{{Fate::odd, {}, trailing_bytes, false, {}}};
 }
 
 class Walk {
 public:
     explicit Walk(ElementSource& source) : source_(source) {}
 
-    void run()
+    /// Returns the transfer syntax.
+    std::string run()
     {
         const unsigned char* magic = source_.at(kPreamble, 4);
         if (!magic || std::memcmp(magic, "DICM", 4) != 0)
             withoutHead();
         at_ = kHead;
         readMeta();
-        if (syntax_.empty())
-            odd();
-        if (syntax_ == kDeflatedLittleEndian) {
+        if (isDeflated(syntax_)) {
             if (deflatedSize(source_, at_, kLargestDeflated) > kLargestDeflated)
                 refuse("its deflated data set fills more than " + std::to_string(kLargestDeflated / 1000000) + " MB");
             odd();
         }
-        open_.push_back({source_.size(), false, codingOf(syntax_)});
+        const auto coding = codingOf(syntax_);
+        if (!coding || !meta_is_plain_)
+            odd();
+        open_.push_back({source_.size(), false, *coding});
         while (!open_.empty())
             step();
+        return syntax_;
     }
 
 private:
@@ -126,23 +129,38 @@ private:
             refuse(too_much);
     }
 
+    /// Where the data set begins, and its transfer syntax. A library may see both elsewhere unless the length of the
+    /// meta header stands first and leads to its end, no element of it holds others, and the syntax is said once.
     void readMeta()
     {
         ItemTally meta;
+        std::uint64_t end = 0;
         while (number(at_, 2, false) == 0x0002) {
             const auto e = element({});
             if (!e)
                 refuse("truncated or damaged (its meta header breaks off at " + tagName(tagAt(at_, false)) + ")");
             stayWithin(cost_.addElement(meta, e->tag, e->length));
             mustFit(*e);
-            constexpr std::size_t kLongestUid = 64;
-            if (e->tag == kTransferSyntax && e->length <= kLongestUid && e->length > 0) {
-                const unsigned char* uid = source_.at(e->value_at, e->length);
-                syntax_.assign(reinterpret_cast<const char*>(uid), e->length);
-                syntax_.erase(syntax_.find_last_not_of(std::string_view(" \0", 2)) + 1);
-            }
+            const bool is_length = e->tag == kMetaLength && e->vr == "UL" && e->length == 4;
+            if (meta.elements == 1 && is_length)
+                end = e->value_at + e->length + number(e->value_at, 4, false);
+            if (e->tag == kTransferSyntax)
+                readSyntax(*e);
+            meta_is_plain_ = meta_is_plain_ && e->vr != "SQ" && e->vr != "UN";
             at_ = e->value_at + e->length;
         }
+        meta_is_plain_ = meta_is_plain_ && at_ == end;
+    }
+
+    void readSyntax(const Element& e)
+    {
+        constexpr std::size_t kLongestUid = 64;
+        meta_is_plain_ = meta_is_plain_ && syntax_.empty() && e.vr == "UI" && e.length <= kLongestUid;
+        if (e.length == 0 || e.length > kLongestUid)
+            return;
+        const unsigned char* uid = source_.at(e.value_at, e.length);
+        syntax_.assign(reinterpret_cast<const char*>(uid), e.length);
+        syntax_.erase(syntax_.find_last_not_of(std::string_view(" \0", 2)) + 1);
     }
 
     void mustFit(const Element& e)
@@ -229,7 +247,8 @@ private:
 
     void take(const Element& e, const Coding& coding)
     {
-        if (e.length == kUndefinedLength && e.tag == kPixelData)
+        const bool in_fragments = e.vr.empty() || e.vr == "OB" || e.vr == "OW";
+        if (e.length == kUndefinedLength && e.tag == kPixelData && in_fragments)
             return skipFragments(e, coding);
         at_ = e.value_at;
         if (e.length == kUndefinedLength) {
@@ -242,10 +261,19 @@ private:
         if (e.tag == kRecordType && e.length > kLongestCode)
             refuse("truncated or damaged (" + tagName(e.tag) + " has " + std::to_string(e.length) + " bytes, " +
                    std::to_string(kLongestCode) + " at most are allowed)");
+        if (e.vr.empty() && mayEndElsewhere(e))
+            odd();
         if (isSequence(e, coding) && e.length > 0)
             openSequence(at_ + e.length, coding);
         else
             at_ += e.length;
+    }
+
+    bool mayEndElsewhere(const Element& e)
+    {
+        const std::size_t count = std::min<std::size_t>(e.length, 8);
+        const unsigned char* begin = source_.at(e.value_at, count);
+        return begin && ingest::mayEndElsewhere(e.tag, begin, count);
     }
 
     void openSequence(std::uint64_t end, const Coding& coding)
@@ -279,6 +307,7 @@ private:
     std::uint64_t at_ = 0;
     HeaderCost cost_;
     std::string syntax_;
+    bool meta_is_plain_ = true;
     std::vector<Open> open_;
     bool in_pixels_ = false;  ///< those of the data set itself
     bool after_pixels_ = false;
@@ -289,16 +318,17 @@ private:
 Structure scanStructure(const std::filesystem::path& file)
 {
     ElementSource source(file);
+    std::string transfer_syntax;
     try {
         if (source.error() == 0)
-            Walk(source).run();
+            transfer_syntax = Walk(source).run();
     } catch (const Ended& ended) {
         if (source.error() == 0)
             return ended.found;
     }
     if (source.error() != 0)
-        return {Fate::refused, "cannot be read (" + std::string(std::strerror(source.error())) + ")", 0, false};
-    return {Fate::clear, {}, 0, false};
+        return {Fate::refused, "cannot be read (" + std::string(std::strerror(source.error())) + ")", 0, false, {}};
+    return {Fate::clear, {}, 0, false, transfer_syntax};
 }
 
 }  // namespace vicon::ingest

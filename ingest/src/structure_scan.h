@@ -19,6 +19,8 @@ struct Structure {
     std::uint64_t trailing_bytes = 0;
     /// Of a refused file: everything before its pixels is whole and may be read, so that it can be named.
     bool clear_until_pixels = false;
+    /// UID of a clear file, under which DCMTK reads its data set, too.
+    std::string transfer_syntax;
 };
 
 /// Follows the elements of a file without recursion and without memory for their values. Refused are sequences nested

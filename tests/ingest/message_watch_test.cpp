@@ -123,6 +123,20 @@ TEST(MessageWatch, EndsValuesThatTheMessageCannotHold)
     EXPECT_THAT(whyEnded(kExplicit, asking(tag(8, 0x1195) + "OB\0\0"s + "\xff\xff\xff\xff"s)), HasSubstr("no length"));
 }
 
+/// There a library goes on, in what lies within the length for whoever follows it.
+TEST(MessageWatch, EndsSequencesThatEndBeforeTheirLengthDoes)
+{
+    setUpDicom();
+    const std::string deep = nested(65, false), end = tag(0xfffe, 0xe0dd) + "\0\0\0\0"s;
+    EXPECT_THAT(whyEnded(kImplicit, asking(test::wire::element(8, 0x1140, end + deep))), HasSubstr("ends within"));
+    EXPECT_THAT(whyEnded(kImplicit, asking(test::wire::element(8, 0x1140, tag(0xfffe, 0xe000)) + deep)),
+                HasSubstr("ends within"));
+    EXPECT_EQ(whyEnded(kImplicit, asking(test::wire::element(0x28, 0x120, "\xfe\xff"s))), "") << "a number";
+    EXPECT_EQ(whyEnded(kImplicit, asking(test::wire::element(8, 0x1150, "1.2.3456") + tag(8, 0x1155) + "\2\0\0\0"s +
+                                         "1."s + test::wire::element(8, 0x1195, "1"))),
+              "");
+}
+
 TEST(MessageWatch, EndsWhatGrowsWhenItIsReadAndWhatWasNotAgreed)
 {
     EXPECT_THAT(whyEnded(kDeflated, asking(std::string(10, 'x'))), HasSubstr("deflated"));
