@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <set>
 
 namespace vicon::ingest {
 namespace {
@@ -71,7 +72,7 @@ public:
         plan_.grid.spacing_mm[2] = rounded(extent_mm / steps_count);
         for (int k = 0; k <= steps_count; ++k)
             plan_.planes.push_back(sourceAt(first_mm + extent_mm * k / steps_count));
-        tellOfInterpolation(steps);
+        tellOfPlanes(steps);
     }
 
 private:
@@ -130,11 +131,16 @@ private:
         return {slice, slice, 0};
     }
 
-    void tellOfInterpolation(const std::vector<double>& steps)
+    void tellOfPlanes(const std::vector<double>& steps)
     {
         std::size_t interpolated = 0;
-        for (const PlaneSource& plane : plan_.planes)
+        std::set<std::size_t> used;
+        for (const PlaneSource& plane : plan_.planes) {
             interpolated += plane.interpolated() ? 1 : 0;
+            used.insert({plane.below, plane.above});
+        }
+        if (const std::size_t unused = stack_.slices.size() - used.size(); unused > 0)
+            plan_.repairs.push_back(std::to_string(unused) + " measured slices between the steps are not used");
         plan_.geometry["interpolated_slices"] = interpolated;
         plan_.geometry["largest_offset_mm"] = rounded(largest_offset_mm_);
         const auto [least, most] = std::minmax_element(steps.begin(), steps.end());

@@ -345,6 +345,23 @@ TEST_F(Geometry, AnEnhancedObjectGivesTheVolumeOfItsFramesInAnyOrder)
     EXPECT_DOUBLE_EQ(onlyScan().series.slice_thickness_mm, 2);
 }
 
+TEST_F(Geometry, MeasuredSlicesBetweenTheStepsAreSaidNotToBeUsed)
+{
+    SeriesSpec spec, between;
+    spec.slices = 40;
+    spec.step_mm.z = 1;
+    between.sop_suffix = ".7";
+    between.step_mm.z = 10;
+    between.first_mm.z = spec.first_mm.z + 10.5;
+    writeSeries(folder / "in/a", spec);
+    writeSeries(folder / "in/b", between, {0, 1, 2});
+    const auto report = import({folder / "in"});
+    EXPECT_TRUE(says(report, Kind::repaired, "3 measured slices between the steps are not used")) << lines(report);
+    const HuVolume volume = load(onlyScan());
+    EXPECT_EQ(volume.grid.size[2], 40);
+    expectDensities(volume, spec.densities, 0.51, 1);
+}
+
 TEST_F(Geometry, AnOddMatrixIsRead)
 {
     SeriesSpec spec;
