@@ -64,7 +64,11 @@ void putCase(soci::session& sql, const CaseRecord& c)
     const std::string study = json(c.study).dump(), flags = json(c.flags).dump();
     sql << "INSERT INTO cases (id, study_uid, patient_id, patient_name, birth_date, sex, study, flags, created)"
            " VALUES (:id, :uid, :pid, :name, :birth, :sex, :study, :flags, :created)"
-           " ON CONFLICT (id) DO NOTHING",
+           " ON CONFLICT (id) DO UPDATE SET"  // what was not said before: the first word stands
+           " patient_id = COALESCE(NULLIF(cases.patient_id, ''), excluded.patient_id),"
+           " patient_name = COALESCE(NULLIF(cases.patient_name, ''), excluded.patient_name),"
+           " birth_date = COALESCE(NULLIF(cases.birth_date, ''), excluded.birth_date),"
+           " sex = COALESCE(NULLIF(cases.sex, ''), excluded.sex)",
         soci::use(c.id), soci::use(c.study.uid), soci::use(c.patient.id), soci::use(c.patient.name),
         soci::use(c.patient.birth_date), soci::use(c.patient.sex), soci::use(study), soci::use(flags),
         soci::use(c.created);

@@ -41,4 +41,16 @@ bool samePatient(const Patient& a, const Patient& b)
     return a.id == b.id && sameNameAndBirth(a, b);
 }
 
+bool contradict(const Patient& a, const Patient& b)
+{
+    return (!a.id.empty() && !b.id.empty() && a.id != b.id) || !sameNameAndBirth(a, b);
+}
+
+void addWhatIsNotKnown(Patient& known, const Patient& said)
+{
+    for (std::string Patient::*field : {&Patient::id, &Patient::name, &Patient::birth_date, &Patient::sex})
+        if ((known.*field).empty())
+            known.*field = said.*field;
+}
+
 }  // namespace vicon::ingest

@@ -38,7 +38,7 @@ void StudyObjects::admit(std::vector<Arrival> arrivals)
     std::vector<ImageObject> strangers;
     for (Arrival& arrival : arrivals) {
         ImageObject& object = arrival.object;
-        if (!samePatient(stored_.record.patient, object.patient)) {
+        if (contradict(stored_.record.patient, object.patient)) {
             strangers.push_back(std::move(object));
             continue;
         }
@@ -53,6 +53,7 @@ void StudyObjects::admit(std::vector<Arrival> arrivals)
             object.sha256 = first;  // the same object with another meta header
         if (here != objects_.end())
             continue;
+        addWhatIsNotKnown(stored_.record.patient, object.patient);
         shown_[object.sop_uid] = arrival.shown;
         const std::string uid = object.sop_uid;
         objects_[uid] = std::move(object);

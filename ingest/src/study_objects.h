@@ -38,7 +38,7 @@ private:
     void refuse(const ImageObject& object, const std::string& shown, const std::string& why);
 
     const ImportContext& context_;
-    const StoredStudy& stored_;
+    StoredStudy& stored_;
     std::map<std::string, SeriesNotes>& notes_;
     std::map<std::string, ImageObject> objects_;
     std::map<std::string, std::string> shown_;  ///< of arrivals, by SOP Instance UID

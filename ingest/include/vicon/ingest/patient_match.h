@@ -8,7 +8,13 @@ namespace vicon::ingest {
 /// contradiction; neither is upper and lower case, or how the parts of a name are delimited.
 bool sameNameAndBirth(const Patient& a, const Patient& b);
 
-/// Whether two patients of one study are the same: same ID, and no contradiction otherwise.
+/// Whether two patients are the same: same ID, and no contradiction otherwise.
 bool samePatient(const Patient& a, const Patient& b);
+
+/// Whether objects of one study are of two patients: ID, name or birth date contradict each other.
+bool contradict(const Patient& a, const Patient& b);
+
+/// Takes what is not known of a patient from what an object of the same study says.
+void addWhatIsNotKnown(Patient& known, const Patient& said);
 
 }  // namespace vicon::ingest
