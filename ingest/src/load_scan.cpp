@@ -64,7 +64,7 @@ HuVolume loadScan(const fs::path& dicom_folder, const ImportOptions& options, Pr
                         "the stored file was changed or damaged; import the study again");
         objects.push_back(&inspection.object);
     }
-    const std::vector<Stack> stacks = splitSeries(objects, comparePixels());
+    const std::vector<Stack> stacks = splitSeries(objects, comparePixels(progress));
     const StackPlan plan = planStack(stacks.front(), options);
     if (!plan.refused.empty())
         throw Error(ErrorCode::bad_input, plan.refused, dicom_folder.parent_path().filename().string(),

@@ -140,7 +140,9 @@ std::string readPixelFormat(const Dataset& dataset, const ImportOptions& options
     const auto meaning = dataset.values(DCM_PhotometricInterpretation);
     if (!meaning.empty() && !meaning.front().empty() && !meaning.front().starts_with("MONOCHROME"))
         return "its pixels are colours, not densities (" + meaning.front() + ")";
-    if (format.rows < 2 || format.columns < 2 || format.frames < 1)
+    if (format.frames < 1)
+        return "it claims to have " + std::to_string(format.frames) + " frames";
+    if (format.rows < 2 || format.columns < 2)
         return "it claims to have " + std::to_string(format.columns) + " x " + std::to_string(format.rows) + " pixels";
     if (format.rows > options.largest_matrix || format.columns > options.largest_matrix)
         return "it claims to have " + std::to_string(format.columns) + " x " + std::to_string(format.rows) +

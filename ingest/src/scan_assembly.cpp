@@ -16,7 +16,7 @@ AssembledScan fixedScan(const ImportContext& context, const ScanRecord& record, 
     context.progress.check();
     AssembledScan scan;
     scan.fixed = true;
-    scan.stack = splitSeries(members, comparePixels()).front();
+    scan.stack = splitSeries(members, comparePixels(context.progress)).front();
     scan.plan = planStack(scan.stack, context.options);
     scan.objects = members;
     scan.record = record;
@@ -58,7 +58,7 @@ void addScansOfSeries(const ImportContext& context, const StoredStudy& stored, c
 {
     std::set<const ImageObject*> taken;
     std::map<std::size_t, std::size_t> unused;  // frames, by scan
-    std::vector<Stack> stacks = splitSeries(members, comparePixels());
+    std::vector<Stack> stacks = splitSeries(members, comparePixels(context.progress));
     for (Stack& stack : stacks) {
         context.progress.check();
         const std::set<const ImageObject*> of_stack = objectsOf(stack);

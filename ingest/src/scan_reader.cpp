@@ -155,9 +155,10 @@ HuVolume readVolume(const Stack& stack, const StackPlan& plan, Progress& progres
     return writer.take();
 }
 
-SamePixels comparePixels()
+SamePixels comparePixels(Progress& progress)
 {
-    return [first = OpenObject(), second = OpenObject()](const SliceRef& a, const SliceRef& b) mutable {
+    return [&progress, first = OpenObject(), second = OpenObject()](const SliceRef& a, const SliceRef& b) mutable {
+        progress.check();
         return haveSamePixels(a, b, first, second);
     };
 }

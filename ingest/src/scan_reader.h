@@ -11,7 +11,7 @@ namespace vicon::ingest {
 HuVolume readVolume(const Stack& stack, const StackPlan& plan, Progress& progress);
 
 /// Tells whether two images hold the same stored pixels; not, when one cannot be decoded. It keeps the objects that it
-/// compared last open. Not for several threads at once.
-SamePixels comparePixels();
+/// compared last open. Not for several threads at once. Throws Error{cancelled}.
+SamePixels comparePixels(Progress& progress);
 
 }  // namespace vicon::ingest

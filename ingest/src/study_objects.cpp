@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <chrono>
+#include <mutex>
 #include <new>
 
 #include "pixels.h"
@@ -14,13 +16,46 @@
 namespace vicon::ingest {
 namespace {
 
+/// How long the objects of one import are proven. The rest is taken unproven: whoever processes it can be told to stop,
+/// and the other studies that came in do not wait for it. A study of a thousand RLE slices takes some seconds.
+constexpr std::chrono::minutes kLongestProof{2};
+
+/// A limit of the time that objects are proven, and what ends it before. For several threads at once.
+class Proof {
+public:
+    explicit Proof(const ImportContext& context) : context_(context) {}
+    /// Throws Error{cancelled}.
+    bool isOver()
+    {
+        const std::lock_guard lock(telling_);
+        context_.progress.check();
+        return std::chrono::steady_clock::now() > end_;
+    }
+    bool isTooLarge(const ImageObject& object) const
+    {
+        constexpr double kMillion = 1e6;
+        return double(object.slices.size()) * object.pixels.rows * object.pixels.columns >
+               context_.options.largest_volume_mvoxel * kMillion;
+    }
+
+private:
+    const ImportContext& context_;
+    std::mutex telling_;
+    const std::chrono::steady_clock::time_point end_ = std::chrono::steady_clock::now() + kLongestProof;
+};
+
 /// Why an object's pixels cannot be had; empty where they can.
-std::string whyUndecodable(const ImageObject& object)
+std::string whyUndecodable(const ImageObject& object, Proof& proof)
 {
+    if (proof.isTooLarge(object))
+        return "its volume would be larger than import.largest_volume_mvoxel allows";
     try {
         FrameDecoder decoder(object);
-        for (const Slice& slice : object.slices)
+        for (const Slice& slice : object.slices) {
+            if (proof.isOver())
+                return {};
             decoder.densities(slice);
+        }
         return {};
     } catch (const Error& e) {
         if (e.code() != ErrorCode::bad_input)
@@ -89,7 +124,9 @@ void StudyObjects::dropUndecodable()
             (object.doubtful || slices[object.series.uid] < std::size_t(context_.options.min_slices)))
             to_prove.push_back(&object);
     std::vector<std::string> why(to_prove.size());
-    tbb::parallel_for(std::size_t(0), to_prove.size(), [&](std::size_t n) { why[n] = whyUndecodable(*to_prove[n]); });
+    Proof proof(context_);
+    tbb::parallel_for(std::size_t(0), to_prove.size(),
+                      [&](std::size_t n) { why[n] = whyUndecodable(*to_prove[n], proof); });
     for (std::size_t n = 0; n < to_prove.size(); ++n) {
         if (why[n].empty())
             continue;

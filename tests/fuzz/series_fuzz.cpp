@@ -114,7 +114,7 @@ void describe(const std::vector<const ImageObject*>& objects)
     ImportOptions options;
     options.largest_volume_mvoxel = 1;
     NoProgress quiet;
-    for (const Stack& stack : splitSeries(objects, comparePixels())) {
+    for (const Stack& stack : splitSeries(objects, comparePixels(quiet))) {
         const StackPlan plan = planStack(stack, options);
         checkPlan(stack, plan, options);
         ScanRecord record;

@@ -1,6 +1,8 @@
 // What an import refuses, quarantines or flags, and that the rest goes on.
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include <cmath>
 
 #include "import_fixture.h"
@@ -57,6 +59,61 @@ TEST_F(Import, AnotherPatientUnderTheSameStudyGoesToQuarantine)
         EXPECT_EQ(quarantined, files.size());
     }
     EXPECT_EQ(store.scans(onlyScan().case_id).size(), 1u);
+}
+
+TEST_F(Import, WhatAnObjectDoesNotSayOfItsPatientContradictsNothing)
+{
+    SeriesSpec first, nameless = secondSeries(first, "2"), other = secondSeries(first, "3");
+    first.patient_name = first.birth_date = "";
+    nameless.patient_id = "";
+    other.patient_name = "Smith^Joan";
+    std::map<std::string, std::string> said;
+    for (const SeriesSpec& spec : {first, nameless, other}) {
+        writeSeries(folder / spec.series_uid, spec);
+        said[spec.series_uid] = lines(import({folder / spec.series_uid}));
+    }
+    EXPECT_EQ(said[nameless.series_uid].find("quarantined"), std::string::npos) << said[nameless.series_uid];
+    EXPECT_NE(said[other.series_uid].find("quarantined"), std::string::npos) << "the second name is no longer open";
+    const Patient patient = store.cases().at(0).patient;
+    EXPECT_EQ(patient.id, "P1");
+    EXPECT_EQ(patient.name, "Doe^Jane") << "the first that was said";
+    EXPECT_EQ(patient.birth_date, "19600101");
+    EXPECT_EQ(store.scans(store.cases().at(0).id).size(), 2u);
+}
+
+TEST_F(Import, AnObjectOfNoFramesIsRefusedForThat)
+{
+    const SeriesSpec spec;
+    const fs::path file = writeEnhanced(folder / "in/enhanced.dcm", spec, {0, 1, 2});
+    ASSERT_EQ(support::runCommand("dcmodify -nb -m '(0028,0008)=0' " + file.string()).exit_code, 0);
+    const auto report = import({file});
+    EXPECT_TRUE(says(report, Kind::refused, "it claims to have 0 frames")) << lines(report);
+}
+
+TEST_F(Import, BeingToldToStopIsHeardBetweenTheFramesThatAreProven)
+{
+    const fs::path file = writeEnhanced(folder / "in/enhanced.dcm", {}, {0, 1, 2, 3, 4, 5, 6, 7});
+    struct Counting : Progress {
+        void report(double, std::string_view what) override { storing = storing || what == "storing studies"; }
+        bool cancelled() const override
+        {
+            asked += storing ? 1 : 0;
+            return false;
+        }
+        std::atomic<bool> storing = false;
+        mutable std::atomic<int> asked = 0;
+    } counting;
+    ingest::importPaths(store, {file}, options, counting);
+    EXPECT_GT(counting.asked, 8);
+}
+
+TEST_F(Import, WhatWouldMakeTooLargeAVolumeIsNotDecodedToBeProven)
+{
+    writeEnhanced(folder / "in/enhanced.dcm", {}, {0, 1, 2, 3, 4, 5, 6, 7});
+    options.largest_volume_mvoxel = 7 * 16 * 16 / 1e6;
+    const auto report = import({folder / "in"});
+    EXPECT_TRUE(says(report, Kind::refused, "its volume would be larger")) << lines(report);
+    EXPECT_EQ(report.not_stored.size(), 1u);
 }
 
 TEST_F(Import, AnotherNameUnderTheSamePatientIdFlagsBothCases)
