@@ -74,6 +74,7 @@ private:
     bool waitsForMore(const std::string& study, Batch& batch);
     void putBack(const std::string& study, const Batch& taken);
     bool handOverOne(std::unique_lock<std::mutex>& lock);
+    void waitForStore();
     /// False when it is to be tried again later.
     bool take(const Files& files, int deaths);
     bool takeInHalves(const Files& files, const std::string& why);

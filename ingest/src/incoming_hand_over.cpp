@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "incoming.h"
 #include "kept_name.h"
 #include "trial_record.h"
 #include "vicon/cases/case_store.h"
+#include "vicon/cases/store_locks.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 
@@ -134,12 +136,41 @@ bool Incoming::handOverOne(std::unique_lock<std::mutex>& lock)
     return true;
 }
 
+/// Another import or a backup may keep the store for long. Whoever is ended while it waits has read nothing: no file is
+/// to blame for that.
+void Incoming::waitForStore()
+{
+    class UntilFinishing : public Progress {
+    public:
+        explicit UntilFinishing(Incoming& incoming) : incoming_(incoming) {}
+        void report(double, std::string_view what) override
+        {
+            if (!std::exchange(said_, true) && incoming_.handlers_.on_note)
+                incoming_.handlers_.on_note("received objects wait: " + std::string(what));
+        }
+        bool cancelled() const override
+        {
+            const std::lock_guard lock(incoming_.mutex_);
+            return incoming_.finishing_;
+        }
+
+    private:
+        Incoming& incoming_;
+        bool said_ = false;
+    } progress(*this);
+    try {
+        const StoreLock free(folder_.parent_path(), progress);
+    } catch (const Error&) {  // whoever takes them waits, or says what is wrong
+    }
+}
+
 bool Incoming::take(const Files& files, int deaths)
 {
     if (files.size() == 1 && deaths >= kMostDeaths) {
         quarantine(files, "whoever reads it dies");
         return true;
     }
+    waitForStore();
     try {
         const TrialRecord record(folder_, {files, deaths});
         const Files left = handlers_.on_received(files);

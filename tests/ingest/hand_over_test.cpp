@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "network_fixture.h"
+#include "vicon/cases/store_locks.h"
 #include "vicon/core/error.h"
 #include "vicon/ingest/receiver.h"
 #include "vicon/ingest/sender.h"
@@ -64,6 +65,20 @@ TEST_F(Network, WhatWasNotTakenIsHandedOverAgainAtTheNextStart)
     EXPECT_EQ(again.waitFor(12).size(), 12u);
     again.stop();
     EXPECT_EQ(filesIn(incoming), 0u);
+}
+
+TEST_F(Network, WaitingForTheStoreIsNoTrialOfAFile)
+{
+    const auto files = writeSeries(folder / "in", {}, {0});
+    RunningReceiver receiver(incoming, {});
+    {
+        const StoreLock busy(store.folder(), quiet);
+        ASSERT_TRUE(ingest::storeFiles(receiver.peer(), files, "SENDER", quiet).complete());
+        EXPECT_TRUE(receiver.tells("received objects wait: waiting for another import"));
+        EXPECT_FALSE(fs::exists(incoming / "being_taken.json"));
+        EXPECT_EQ(receiver.calls(), 0);
+    }
+    EXPECT_EQ(receiver.waitFor(1).size(), 1u);
 }
 
 TEST_F(Network, OneAssociationAnImageIsOneHandOver)
