@@ -1,12 +1,12 @@
 #include "vicon/ingest/anonymise.h"
 
 #include "anonymous_object.h"
+#include "load_data.h"
 #include "stored_files.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/uid.h"
 #include "vicon/dicom/dicom_setup.h"
-#include "vicon/dicom/load_file.h"
 
 namespace fs = std::filesystem;
 
@@ -26,7 +26,7 @@ std::string keyOf(const CaseStore& store)
 std::string writeOne(const fs::path& from, const fs::path& folder, const Pseudonyms& pseudonyms, const NewUids& uids)
 {
     DcmFileFormat format;
-    if (loadFile(format, from).bad())
+    if (loadData(format, from).bad())
         throw Error(ErrorCode::bad_input, "an object cannot be read", from.filename().string(),
                     "see 'vicon doctor' and restore it from a backup");
     DcmDataset& dataset = *format.getDataset();

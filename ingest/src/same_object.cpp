@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
+#include "load_data.h"
 #include "vicon/core/file.h"
 #include "vicon/dicom/dicom_setup.h"
-#include "vicon/dicom/load_file.h"
 
 namespace fs = std::filesystem;
 
@@ -30,7 +30,7 @@ E_TransferSyntax commonSyntax(E_TransferSyntax syntax)
 std::optional<std::string> canonical(const fs::path& file, E_TransferSyntax& syntax)
 {
     DcmFileFormat format;
-    if (loadFile(format, file).bad())
+    if (loadData(format, file).bad())
         return {};
     DcmDataset& dataset = *format.getDataset();
     syntax = commonSyntax(dataset.getOriginalXfer());

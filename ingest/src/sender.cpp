@@ -10,10 +10,10 @@
 
 #include "association.h"
 #include "dataset.h"
+#include "load_data.h"
 #include "outcomes.h"
 #include "vicon/core/error.h"
 #include "vicon/dicom/dicom_setup.h"
-#include "vicon/dicom/load_file.h"
 #include "web_peer.h"
 
 namespace fs = std::filesystem;
@@ -60,7 +60,7 @@ std::vector<Item> readKinds(const std::vector<fs::path>& files, Outcomes& outcom
     std::vector<Item> items;
     for (const fs::path& file : files) {
         DcmFileFormat format;
-        const OFCondition loaded = loadFile(format, file, kLargestElementInMemory);
+        const OFCondition loaded = loadData(format, file, kLargestElementInMemory);
         const auto sop_class = Dataset(*format.getDataset()).values(DCM_SOPClassUID);
         if (loaded.bad() || sop_class.empty()) {
             outcomes.add({file, false, true, loaded.bad() ? loaded.text() : "it does not say its SOP Class"});
@@ -123,13 +123,24 @@ private:
             return;
         }
         Uint16 status = 0;
-        const OFCondition sent = scu.sendSTORERequest(context, item.file.c_str(), nullptr, status);
+        const OFCondition sent = sendTo(scu, context, item.file, status);
         const bool taken = sent.good() && isTaken(status);
         outcomes_.add(
             {item.file, taken, !taken && sent.good() && isForGood(status), taken ? "" : reasonFor(sent, status)});
         if (sent.bad() && !scu.isConnected())
             peerFailed("the association broke after " + std::to_string(outcomes_.result.sent) + " objects", peer_,
                        sent);
+    }
+
+    /// DCMTK reads a file up to its last byte, and fails at what is no element.
+    static OFCondition sendTo(PeerScu& scu, T_ASC_PresentationContextID context, const fs::path& file, Uint16& status)
+    {
+        if (!hasBytesBehindItsEnd(file))
+            return scu.sendSTORERequest(context, file.c_str(), nullptr, status);
+        DcmFileFormat format;
+        if (const OFCondition loaded = loadData(format, file); loaded.bad())
+            return loaded;
+        return scu.sendSTORERequest(context, "", format.getDataset(), status);
     }
 
     const Peer& peer_;

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "anonymous_object.h"
 #include "import_fixture.h"
 #include "pseudonyms.h"
@@ -126,6 +128,18 @@ TEST_F(Anonymous, WhatMayHoldTextInItsPixelsIsLeftOut)
                                                  {"no image of CT or MR", 1},
                                                  {"an overlay in its pixels", 1}};
     EXPECT_EQ(made.left_out, expected);
+}
+
+TEST_F(Anonymous, WhatLiesBehindTheEndOfAFileIsLeftOut)
+{
+    const auto files = test::writeSeries(originals_, {});
+    script("identify " + originals_.string());
+    std::ofstream(files.at(4), std::ios::binary | std::ios::app) << "a note on Doe, Jane";
+    import({originals_});
+    EXPECT_EQ(write(store.cases().at(0).id).written, 12);
+    for (const auto& entry : fs::recursive_directory_iterator(out_))
+        if (entry.is_regular_file())
+            EXPECT_EQ(readFile(entry.path()).find("a note on"), std::string::npos);
 }
 
 TEST_F(Anonymous, AFolderWithSomethingInItIsNotTouched)

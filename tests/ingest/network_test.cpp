@@ -3,6 +3,7 @@
 #include <dcmtk/dcmnet/scu.h>
 
 #include <atomic>
+#include <fstream>
 #include <mutex>
 #include <set>
 
@@ -17,6 +18,20 @@ using namespace vicon;
 using namespace vicon::test;
 
 namespace {
+
+TEST_F(Network, AFileWithBytesBehindItsEndIsSentWithoutThem)
+{
+    const auto files = writeSeries(folder / "in", {}, {0, 1});
+    const std::string whole = datasetBytes(readFile(files[0]));
+    std::ofstream(files[0], std::ios::binary | std::ios::app) << "a note of the archive";
+    RunningReceiver receiver(incoming, {});
+    const ingest::SendResult result = ingest::storeFiles(receiver.peer(), files, "SENDER", quiet);
+    EXPECT_TRUE(result.complete());
+    std::multiset<std::string> received;
+    for (const std::string& content : receiver.waitFor(files.size()))
+        received.insert(datasetBytes(content));
+    EXPECT_TRUE(received.contains(whole));
+}
 
 TEST_F(Network, AStudySentByStorescuIsHandedOverAndImports)
 {
