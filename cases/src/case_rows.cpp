@@ -105,7 +105,7 @@ void putInstances(soci::session& sql, const std::vector<InstanceRecord>& instanc
     soci::statement insert =
         (sql.prepare << "INSERT INTO instances (sop_uid, case_id, scan_id, sha256, file)"
                         " VALUES (:sop, :case, :scan, :sha, :file) ON CONFLICT (sop_uid) DO UPDATE SET"
-                        " scan_id = excluded.scan_id, file = excluded.file",
+                        " scan_id = excluded.scan_id, sha256 = excluded.sha256, file = excluded.file",
          soci::use(row.sop_uid), soci::use(row.case_id), soci::use(row.scan_id), soci::use(row.sha256),
          soci::use(row.file));
     for (const InstanceRecord& instance : instances) {

@@ -272,21 +272,20 @@ void CaseStore::addScan(const CaseRecord& a_case, const ScanRecord& scan, const 
 
 void CaseStore::removeScan(const std::string& case_id, const std::string& scan_id)
 {
-    int markers = 0;
+    int in_use = 0;
     database_.write([&](soci::session& sql) {
-        sql << "SELECT COUNT(*) FROM markers WHERE case_id = :c AND scan_id = :s", soci::use(case_id),
-            soci::use(scan_id), soci::into(markers);
-        if (markers > 0)
+        sql << "SELECT (SELECT COUNT(*) FROM instances WHERE case_id = :c AND scan_id = :s)"
+               " + (SELECT COUNT(*) FROM markers WHERE case_id = :mc AND scan_id = :ms)",
+            soci::use(case_id), soci::use(scan_id), soci::use(case_id), soci::use(scan_id), soci::into(in_use);
+        if (in_use > 0)
             return;
         removeJob(sql, case_id, scan_id);
-        for (const char* table : {"steps", "instances"})
-            sql << std::string("DELETE FROM ") + table + " WHERE case_id = :c AND scan_id = :s", soci::use(case_id),
-                soci::use(scan_id);
+        sql << "DELETE FROM steps WHERE case_id = :c AND scan_id = :s", soci::use(case_id), soci::use(scan_id);
         sql << "DELETE FROM scans WHERE case_id = :c AND id = :s", soci::use(case_id), soci::use(scan_id);
         putAudit(sql, AuditEvent::scan_removed, case_id, scan_id, "");
     });
     std::error_code ignored;  // what stays belongs to no scan any more
-    if (markers == 0)
+    if (in_use == 0)
         fs::remove_all(scanFolder(case_id, scan_id), ignored);
 }
 

@@ -49,8 +49,9 @@ std::string flagForLateScan(const ImportContext& context, const StoredStudy& sto
     const std::string series = (grows ? "images of series " : "series ") + std::to_string(record.series.number);
     const int version = signedVersion(context.store, stored.record.id);
     const std::string after =
-        version > 0 ? "its report was signed (version " + std::to_string(version) + ")"
-                    : (stored.isFixed(beside) ? "scan " + beside : "this case") + " was marked or reported";
+        version > 0
+            ? "its report was signed (version " + std::to_string(version) + ")"
+            : (stored.with_reader_input.contains(beside) ? "scan " + beside : "this case") + " was marked or reported";
     const std::string line = series + " came after " + after + ": " +
                              (stored.isFixed(beside) ? "beside scan " + beside + " as scan " : "scan ") + record.id;
     return isNewFlag(context, stored.record, line) ? line : "";

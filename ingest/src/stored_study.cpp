@@ -32,6 +32,20 @@ fs::path imageFolder(const CaseStore& store, const std::string& case_id, const s
     return store.scanFolder(case_id, scan_id) / "dicom";
 }
 
+void StoredStudy::hold(const std::map<std::string, ImageObject>& usable)
+{
+    std::set<std::string> series;
+    for (const auto& [uid, instance] : recorded)
+        if (!usable.contains(uid)) {
+            missing[instance.scan_id].push_back(uid);
+            series.insert(scans.at(instance.scan_id).series.uid);
+        }
+    for (const auto& [id, scan] : scans)
+        if (missing.contains(id) ||
+            (series.contains(scan.series.uid) && id != CaseStore::scanIdFor(scan.series.uid + kLater)))
+            held.insert(id);
+}
+
 StoredStudy loadStoredStudy(const ImportContext& context, const Patient& patient, const Study& study)
 {
     StoredStudy found;
@@ -40,7 +54,7 @@ StoredStudy loadStoredStudy(const ImportContext& context, const Patient& patient
     for (ScanRecord& scan : context.store.scans(found.record.id)) {
         for (InstanceRecord& instance : context.store.instances(found.record.id, scan.id)) {
             fs::path file = imageFolder(context.store, found.record.id, scan.id) / instance.file;
-            found.scan_of[instance.sop_uid] = scan.id;
+            found.recorded[instance.sop_uid] = instance;
             stored.emplace_back(std::move(instance), std::move(file));
         }
         if (hasReaderInput(context.store, scan))
@@ -52,8 +66,10 @@ StoredStudy loadStoredStudy(const ImportContext& context, const Patient& patient
                       [&](std::size_t n) { inspected[n] = inspectFile(stored[n].second, context.options); });
     for (std::size_t n = 0; n < stored.size(); ++n) {
         const InstanceRecord& instance = stored[n].first;
-        if (inspected[n].verdict != Inspection::Verdict::image)
-            continue;  // lost or damaged in the store: an arrival with the same bytes mends it
+        if (inspected[n].verdict != Inspection::Verdict::image) {
+            found.unusable[instance.sop_uid] = inspected[n].reason;
+            continue;  // lost or damaged in the store, or not to be read just now: an arrival of it mends it
+        }
         inspected[n].object.sha256 = instance.sha256;
         inspected[n].object.sop_uid = instance.sop_uid;
         found.home[instance.sop_uid] = {instance.scan_id, instance.file};

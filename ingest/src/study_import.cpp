@@ -1,6 +1,7 @@
 #include "study_import.h"
 
 #include <algorithm>
+#include <set>
 
 #include "case_flags.h"
 #include "scan_description.h"
@@ -34,13 +35,17 @@ void StudyImport::run(std::vector<Arrival> arrivals, std::map<std::string, Serie
     StudyObjects objects(context_, stored_, notes);
     objects.admit(std::move(arrivals));
     objects.dropUndecodable();
-    if (objects.all().empty())
-        return;
+    stored_.hold(objects.all());
     scans_ = assembleScans(context_, stored_, objects.all());
+    std::set<const ImageObject*> taken;
+    for (const AssembledScan& scan : scans_)
+        taken.insert(scan.objects.begin(), scan.objects.end());
+    objects.refuseAllBut(taken);
     for (AssembledScan& scan : scans_)
         describe(scan, notes);
     for (const AssembledScan& scan : scans_)
         store(scan);
+    tellMissing();
     removeEmptied();
     flagSharedId(context_, stored_.record);
 }
@@ -101,41 +106,54 @@ void StudyImport::store(const AssembledScan& scan)
         if (in_place)
             continue;
         copies.push_back({object->file, name});
-        if (home != stored_.home.end())
-            moved.push_back(object->file);
+        const auto old = stored_.recorded.find(object->sop_uid);
+        if (old != stored_.recorded.end() && old->second.scan_id != scan.record.id)
+            moved.push_back(imageFolder(context_.store, stored_.record.id, old->second.scan_id) / old->second.file);
     }
-    const auto stored_here = std::count_if(stored_.home.begin(), stored_.home.end(),
-                                           [&](const auto& entry) { return entry.second.scan_id == scan.record.id; });
-    const bool grew = !copies.empty() || std::size_t(stored_here) != scan.objects.size();
-    const auto old = stored_.scans.find(scan.record.id);
-    const bool new_role = old == stored_.scans.end() || old->second.role != scan.record.role;
+    const Changes changes = changesOf(scan, instances, !copies.empty());
     if (!copies.empty())
         copyDurably(imageFolder(context_.store, stored_.record.id, scan.record.id), copies, context_.progress);
-    const std::string flag = record(scan, instances, grew, new_role);
+    const std::string flag = record(scan, instances, changes);
     for (const fs::path& file : moved) {
         std::error_code ignored;
         fs::remove(file, ignored);
     }
-    tell(scan, !scan.fixed && (grew || new_role));
+    tell(scan, !scan.fixed && (changes.grew || changes.role));
     if (!flag.empty())
         tellFlag(context_, stored_.record.id, flag);
 }
 
-std::string StudyImport::record(const AssembledScan& scan, const std::vector<InstanceRecord>& instances, bool grew,
-                                bool new_role)
+StudyImport::Changes StudyImport::changesOf(const AssembledScan& scan, const std::vector<InstanceRecord>& instances,
+                                            bool has_copies) const
+{
+    const auto stored_here = std::count_if(stored_.home.begin(), stored_.home.end(),
+                                           [&](const auto& entry) { return entry.second.scan_id == scan.record.id; });
+    const auto old = stored_.scans.find(scan.record.id);
+    Changes changes;
+    changes.grew = has_copies || std::size_t(stored_here) != scan.objects.size();
+    changes.role = old == stored_.scans.end() || old->second.role != scan.record.role;
+    changes.hashes = std::any_of(instances.begin(), instances.end(), [&](const InstanceRecord& instance) {
+        const auto recorded = stored_.recorded.find(instance.sop_uid);
+        return recorded == stored_.recorded.end() || recorded->second.sha256 != instance.sha256;
+    });
+    return changes;
+}
+
+std::string StudyImport::record(const AssembledScan& scan, const std::vector<InstanceRecord>& instances,
+                                const Changes& changes)
 {
     CaseStore& store = context_.store;
     const std::string &case_id = stored_.record.id, &scan_id = scan.record.id;
     const auto old = stored_.scans.find(scan_id);
-    const bool new_words =
-        new_role || old->second.ingest != scan.record.ingest || json(old->second.series) != json(scan.record.series);
-    std::string flag = scan.fixed || !grew ? "" : flagForLateScan(context_, stored_, scans_, scan);
+    const bool new_words = changes.role || changes.hashes || old->second.ingest != scan.record.ingest ||
+                           json(old->second.series) != json(scan.record.series);
+    std::string flag = scan.fixed || !changes.grew ? "" : flagForLateScan(context_, stored_, scans_, scan);
     if (!flag.empty())
         stored_.record.flags.push_back(flag);  // saved with the scan: no kill parts them
-    if (scan.fixed ? new_words : grew || new_words)
+    if (new_words || (changes.grew && !scan.fixed))
         store.addScan(
             stored_.record, scan.record, instances,
-            !scan.fixed && scan.record.role == ScanRole::scan && (grew || new_role),
+            !scan.fixed && scan.record.role == ScanRole::scan && (changes.grew || changes.role),
             [&] { requireNoReaderInput(scan); }, flag);
     else if (!scan_files::isDescribedBy(store.scanFolder(case_id, scan_id), store.describeScan(case_id, scan_id)))
         store.writeScanFile(case_id, scan_id);  // killed between the commit and the copy
@@ -168,6 +186,8 @@ void StudyImport::tell(const AssembledScan& scan, bool changed) const
         ++report.images_kept;
     else if (kind == Kind::unchanged)
         ++report.scans_unchanged;
+    if (stored_.missing.contains(record.id))
+        return;  // its plan is that of the rest
     const std::string text = refused ? scan.plan.refused : describeInWords(record, scan.plan);
     context_.reporter.line({kind, record.series.uid, text, stored_.record.id, record.id});
     if (!refused && changed)
@@ -176,13 +196,28 @@ void StudyImport::tell(const AssembledScan& scan, bool changed) const
                 {Kind::repaired, record.series.uid, repair.get<std::string>(), stored_.record.id, record.id});
 }
 
+/// What the store cannot give any more, or not just now, is said each time.
+void StudyImport::tellMissing() const
+{
+    for (const auto& [scan_id, uids] : stored_.missing) {
+        const auto why = stored_.unusable.find(uids.front());
+        context_.report.refused += int(uids.size());
+        context_.reporter.line({ImportLine::Kind::refused, stored_.scans.at(scan_id).series.uid,
+                                std::to_string(uids.size()) + " of its stored images cannot be used (" +
+                                    (why == stored_.unusable.end() ? "lost" : why->second) +
+                                    "); the scan stays as it is",
+                                stored_.record.id, scan_id});
+    }
+}
+
 /// Scans of which all objects belong to other scans now.
 void StudyImport::removeEmptied() const
 {
+    std::set<std::string> in_use;
+    for (const AssembledScan& scan : scans_)
+        in_use.insert(scan.record.id);
     for (const auto& old : stored_.scans)
-        if (!stored_.isFixed(old.first) && std::none_of(scans_.begin(), scans_.end(), [&](const AssembledScan& s) {
-                return s.record.id == old.first;
-            }))
+        if (!stored_.isFixed(old.first) && !in_use.contains(old.first))
             context_.store.removeScan(stored_.record.id, old.first);
 }
 

@@ -11,6 +11,7 @@
 #include "same_object.h"
 #include "scan_reader.h"
 #include "vicon/core/error.h"
+#include "vicon/core/file.h"
 #include "vicon/ingest/patient_match.h"
 
 namespace vicon::ingest {
@@ -70,6 +71,7 @@ std::string whyUndecodable(const ImageObject& object, Proof& proof)
 
 void StudyObjects::admit(std::vector<Arrival> arrivals)
 {
+    forgetDamaged(arrivals);
     std::vector<ImageObject> strangers;
     for (Arrival& arrival : arrivals) {
         ImageObject& object = arrival.object;
@@ -77,33 +79,87 @@ void StudyObjects::admit(std::vector<Arrival> arrivals)
             strangers.push_back(std::move(object));
             continue;
         }
-        const auto recorded = context_.store.findInstance(object.sop_uid);
-        const auto here = objects_.find(object.sop_uid);
-        const std::string first = recorded ? recorded->sha256 : here != objects_.end() ? here->second.sha256 : "";
-        if (!first.empty() && first != object.sha256 && !isSameAsStored(object, recorded)) {
-            refuse(object, arrival.shown, "the same SOP Instance UID with other content is stored; the first is kept");
+        if (const std::string why = whyNotTaken(object); !why.empty()) {
+            refuse(object, arrival.shown, why);
             continue;
         }
-        if (recorded && first != object.sha256)
-            object.sha256 = first;  // the same object with another meta header
-        if (here != objects_.end())
+        if (objects_.contains(object.sop_uid))
             continue;
         addWhatIsNotKnown(stored_.record.patient, object.patient);
         shown_[object.sop_uid] = arrival.shown;
         const std::string uid = object.sop_uid;
         objects_[uid] = std::move(object);
     }
+    tellReplaced();
     quarantine(context_, stored_.record, strangers);
 }
 
-/// The same object that came over another way has another meta header.
-bool StudyObjects::isSameAsStored(const ImageObject& object, const std::optional<InstanceRecord>& recorded) const
+/// A file that is no longer what was stored counts as lost as soon as its object comes again.
+void StudyObjects::forgetDamaged(const std::vector<Arrival>& arrivals)
 {
-    const auto here = objects_.find(object.sop_uid);
-    if (here != objects_.end())
-        return isSameObject(object.file, here->second.file);
-    return recorded && isSameObject(object.file,
-                                    imageFolder(context_.store, recorded->case_id, recorded->scan_id) / recorded->file);
+    std::vector<const InstanceRecord*> again;
+    for (const Arrival& arrival : arrivals)
+        if (stored_.home.contains(arrival.object.sop_uid))
+            again.push_back(&stored_.recorded.at(arrival.object.sop_uid));
+    std::vector<Recorded> found(again.size());
+    tbb::parallel_for(std::size_t(0), again.size(), [&](std::size_t n) { found[n] = stateOf(*again[n]); });
+    for (std::size_t n = 0; n < again.size(); ++n) {
+        if (found[n] != Recorded::lost)
+            continue;
+        objects_.erase(again[n]->sop_uid);
+        stored_.home.erase(again[n]->sop_uid);
+        stored_.unusable[again[n]->sop_uid] = "its file is not what was stored";
+    }
+}
+
+/// Why an object is refused for what is there under its UID; empty where it is taken, or is there already.
+std::string StudyObjects::whyNotTaken(const ImageObject& object)
+{
+    constexpr const char* kOther = "the same SOP Instance UID with other content is stored; the first is kept";
+    if (const auto here = objects_.find(object.sop_uid); here != objects_.end())
+        return here->second.sha256 == object.sha256 || isSameObject(object.file, here->second.file) ? "" : kOther;
+    const auto recorded = context_.store.findInstance(object.sop_uid);
+    if (!recorded || recorded->sha256 == object.sha256)
+        return {};
+    const Recorded state = stateOf(*recorded);
+    if (state == Recorded::unreadable)
+        return "the same SOP Instance UID is stored, and its file cannot be read now";
+    // The same object that came over another way has another meta header.
+    if (recorded->case_id != stored_.record.id ||
+        (state == Recorded::whole && !isSameObject(object.file, fileOf(*recorded))))
+        return kOther;
+    if (state == Recorded::lost)
+        ++replaced_[object.series.uid];
+    return {};
+}
+
+std::filesystem::path StudyObjects::fileOf(const InstanceRecord& recorded) const
+{
+    return imageFolder(context_.store, recorded.case_id, recorded.scan_id) / recorded.file;
+}
+
+StudyObjects::Recorded StudyObjects::stateOf(const InstanceRecord& recorded) const
+{
+    const std::filesystem::path file = fileOf(recorded);
+    try {
+        if (!std::filesystem::exists(file))
+            return Recorded::lost;
+        return sha256OfFile(file) == recorded.sha256 ? Recorded::whole : Recorded::lost;
+    } catch (const Error&) {
+        return Recorded::unreadable;
+    } catch (const std::filesystem::filesystem_error&) {
+        return Recorded::unreadable;
+    }
+}
+
+void StudyObjects::tellReplaced() const
+{
+    for (const auto& [series, count] : replaced_)
+        context_.reporter.line({ImportLine::Kind::repaired, series,
+                                std::to_string(count) +
+                                    " stored images were lost or damaged; what came with their SOP Instance UIDs "
+                                    "takes their place",
+                                stored_.record.id, ""});
 }
 
 void StudyObjects::refuse(const ImageObject& object, const std::string& shown, const std::string& why)
@@ -111,6 +167,13 @@ void StudyObjects::refuse(const ImageObject& object, const std::string& shown, c
     context_.report.not_stored.push_back(object.file);
     context_.reporter.object(ImportLine::Kind::refused, shown, object.series.uid, why, stored_.record.id);
     addNote(notes_[object.series.uid].refused, noteOf(object.sop_uid, why));
+}
+
+void StudyObjects::refuseAllBut(const std::set<const ImageObject*>& taken)
+{
+    for (const auto& [uid, object] : objects_)
+        if (const auto shown = shown_.find(uid); shown != shown_.end() && !taken.contains(&object))
+            refuse(object, shown->second, "its frames are shared out among too many other images");
 }
 
 void StudyObjects::dropUndecodable()

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <map>
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,23 +25,34 @@ public:
         : context_(context), stored_(stored), notes_(notes), objects_(std::move(stored.objects))
     {
     }
-    /// Takes arrivals, in the order in which they were found. Other content under a known UID is refused; another
-    /// patient's objects go into quarantine.
+    /// Takes arrivals, in the order in which they were found. Other content under a known UID is refused, unless what
+    /// is stored under it is lost or damaged; another patient's objects go into quarantine.
     void admit(std::vector<Arrival> arrivals);
     /// A scan is decoded when it is processed; what will not be processed, or looks damaged, is proven here.
     void dropUndecodable();
+    /// Refuses the arrivals that are in no scan: whoever acknowledged them keeps them.
+    /// @param taken what is in one
+    void refuseAllBut(const std::set<const ImageObject*>& taken);
     /// By SOP Instance UID.
     const std::map<std::string, ImageObject>& all() const { return objects_; }
 
 private:
-    bool isSameAsStored(const ImageObject& object, const std::optional<InstanceRecord>& recorded) const;
+    /// What a recorded file is found to be.
+    enum class Recorded { whole, lost, unreadable };
+
+    void forgetDamaged(const std::vector<Arrival>& arrivals);
+    std::string whyNotTaken(const ImageObject& object);
+    std::filesystem::path fileOf(const InstanceRecord& recorded) const;
+    Recorded stateOf(const InstanceRecord& recorded) const;
+    void tellReplaced() const;
     void refuse(const ImageObject& object, const std::string& shown, const std::string& why);
 
     const ImportContext& context_;
     StoredStudy& stored_;
     std::map<std::string, SeriesNotes>& notes_;
     std::map<std::string, ImageObject> objects_;
-    std::map<std::string, std::string> shown_;  ///< of arrivals, by SOP Instance UID
+    std::map<std::string, std::string> shown_;     ///< of arrivals, by SOP Instance UID
+    std::map<std::string, std::size_t> replaced_;  ///< lost or damaged objects, by Series Instance UID
 };
 
 }  // namespace vicon::ingest

@@ -127,23 +127,28 @@ std::vector<fs::path> writeSeries(const fs::path& folder, const SeriesSpec& spec
     return files;
 }
 
-fs::path writeEnhanced(const fs::path& file, const SeriesSpec& spec, const std::vector<int>& order)
+fs::path writeEnhanced(const fs::path& file, const SeriesSpec& spec, const std::vector<int>& order,
+                       const std::vector<std::string>& kernels)
 {
     DicomObject d;
     setCommon(d, spec);
     d.set(DCM_SOPClassUID, UID_EnhancedCTImageStorage);
-    d.set(DCM_SOPInstanceUID, spec.series_uid + ".1");
+    d.set(DCM_SOPInstanceUID, spec.series_uid + ".1" + spec.sop_suffix);
     d.set(DCM_NumberOfFrames, std::to_string(order.size()));
     DicomItem shared = d.append(DCM_SharedFunctionalGroupsSequence);
     shared.append(DCM_PlaneOrientationSequence).set(DCM_ImageOrientationPatient, directions(spec));
     DicomItem measures = shared.append(DCM_PixelMeasuresSequence);
     measures.set(DCM_PixelSpacing, phantom::decimals({spec.row_mm, spec.pixel_mm}));
     measures.set(DCM_SliceThickness, phantom::decimals({spec.thickness_mm}));
-    shared.append(DCM_CTReconstructionSequence).set(DCM_ConvolutionKernel, spec.kernel);
+    if (kernels.empty())
+        shared.append(DCM_CTReconstructionSequence).set(DCM_ConvolutionKernel, spec.kernel);
     shared.append(DCM_CTXRayDetailsSequence).setDouble(DCM_KVP, 110);
     std::vector<std::uint16_t> pixels;
-    for (const int slice : order) {
+    for (std::size_t n = 0; n < order.size(); ++n) {
+        const int slice = order[n];
         DicomItem frame = d.append(DCM_PerFrameFunctionalGroupsSequence);
+        if (!kernels.empty())
+            frame.append(DCM_CTReconstructionSequence).set(DCM_ConvolutionKernel, kernels.at(n));
         frame.append(DCM_PlanePositionSequence).set(DCM_ImagePositionPatient, decimals(spec.position(slice)));
         DicomItem transformation = frame.append(DCM_PixelValueTransformationSequence);
         // Each frame with an intercept of its own, as the functional group allows.

@@ -61,7 +61,8 @@ std::vector<std::filesystem::path> writeSeries(const std::filesystem::path& fold
                                                const std::vector<int>& slices = {});
 
 /// Writes the series as one Enhanced CT object, its frames in the given order.
+/// @param kernels of the frames where they have one each, else spec.kernel
 std::filesystem::path writeEnhanced(const std::filesystem::path& file, const SeriesSpec& spec,
-                                    const std::vector<int>& order);
+                                    const std::vector<int>& order, const std::vector<std::string>& kernels = {});
 
 }  // namespace vicon::test

@@ -89,7 +89,7 @@ public:
     /// its job is done. `require` runs first, within the transaction: when it throws, nothing is written.
     void addScan(const CaseRecord& a_case, const ScanRecord& scan, const std::vector<InstanceRecord>& instances,
                  bool queue, const std::function<void()>& require = {}, const std::string& flag = {});
-    /// Forgets a scan and removes its folder, unless a marker lies in it: then it stays as it is.
+    /// Forgets a scan and removes its folder, unless an image or a marker is recorded in it: then it stays as it is.
     void removeScan(const std::string& case_id, const std::string& scan_id);
     /// Adds a line for a person to the case; the same line is kept once.
     void flag(const std::string& case_id, const std::string& line);
