@@ -54,7 +54,10 @@ void keepReport(CaseStore& store, const KeptReport& report)
     store.database().write([&](soci::session& sql) {
         sql << "INSERT INTO kept_reports (sop_uid, sop_class, series_uid, study_uid, study_date, patient_id, patient,"
                " study, sha256, file, created)"
-               " VALUES (:sop, :class, :series, :uid, :date, :pid, :patient, :study, :sha, :file, :created)",
+               " VALUES (:sop, :class, :series, :uid, :date, :pid, :patient, :study, :sha, :file, :created)"
+               " ON CONFLICT (sop_uid) DO UPDATE SET sop_class = excluded.sop_class, series_uid = excluded.series_uid,"
+               " study_uid = excluded.study_uid, study_date = excluded.study_date, patient_id = excluded.patient_id,"
+               " patient = excluded.patient, study = excluded.study, sha256 = excluded.sha256, file = excluded.file",
             soci::use(report.sop_uid), soci::use(report.sop_class), soci::use(report.series_uid),
             soci::use(report.study.uid), soci::use(report.study.date), soci::use(report.patient.id), soci::use(patient),
             soci::use(study), soci::use(report.sha256), soci::use(report.file), soci::use(report.created);

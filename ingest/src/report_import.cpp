@@ -27,6 +27,13 @@ std::string inWords(const ContentDocument& document)
     return words + not_read;
 }
 
+/// Whether the file of a kept report is gone, or no longer what was stored. Throws Error where it cannot be read.
+bool isLost(const KeptReport& known, const ImportContext& context)
+{
+    const std::filesystem::path file = keptReportsFolder(context.store) / known.file;
+    return !std::filesystem::exists(file) || sha256OfFile(file) != known.sha256;
+}
+
 void store(const ImageObject& object, const ContentDocument& document, const ImportContext& context)
 {
     const KeptReport kept{document.sop_uid, document.sop_class,        document.series_uid,           document.patient,
@@ -50,9 +57,10 @@ void takeReport(const ImageObject& object, const std::string& shown, bool unpack
         if (document.root.name.value != kMeasurementReport)
             return leave(Kind::set_aside, "structured report, no measurement report");
         const auto known = findKeptReport(context.store, document.sop_uid);
-        if (known && !isSameObject(object.file, keptReportsFolder(context.store) / known->file))
+        const bool lost = known && isLost(*known, context);
+        if (known && !lost && !isSameObject(object.file, keptReportsFolder(context.store) / known->file))
             return leave(Kind::refused, "the same SOP Instance UID with other content is stored; the first is kept");
-        if (known)
+        if (known && !lost)
             context.reporter.line({Kind::unchanged, document.series_uid, inWords(document), {}, {}});
         else
             store(object, document, context);

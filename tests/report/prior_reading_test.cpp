@@ -187,6 +187,13 @@ TEST_F(PriorReading, KeepsAReportThatIsImportedForItsPatient)
     EXPECT_EQ(readFile(keptReportsFolder(other) / kept.file), readFile(sr)) << "byte for byte";
     EXPECT_EQ(kept.patient.name, "Müller^Zoë=山田");
     EXPECT_TRUE(other.cases().empty());
+    // Lost or damaged, it is mended when it comes again, also with another meta header.
+    fs::remove(keptReportsFolder(other) / kept.file);
+    ASSERT_EQ(support::runCommand("dcmconv +ti " + sr.string() + " " + sr.string()).exit_code, 0);
+    EXPECT_TRUE(says(import(sr), ingest::ImportLine::Kind::stored, "measurement report"));
+    EXPECT_EQ(readFile(keptReportsFolder(other) / kept.file), readFile(sr));
+    ASSERT_EQ(keptReportsOf(other, "P1").size(), 1u);
+    EXPECT_EQ(keptReportsOf(other, "P1").front().sha256, sha256OfFile(sr));
 }
 
 TEST_F(PriorReading, IsRefusedInOneLineWhereTheReportIsDamaged)

@@ -26,7 +26,7 @@ std::filesystem::path keptReportsFolder(const CaseStore& store);
 std::optional<KeptReport> findKeptReport(CaseStore& store, const std::string& sop_uid);
 /// Of this patient ID, in order of study date.
 std::vector<KeptReport> keptReportsOf(CaseStore& store, const std::string& patient_id);
-/// Its file must lie in the folder already. Throws Error{database}.
+/// Its file must lie in the folder already. One that is kept under the same UID is replaced. Throws Error{database}.
 void keepReport(CaseStore& store, const KeptReport& report);
 
 }  // namespace vicon
