@@ -7,7 +7,7 @@
 namespace vicon::ingest {
 namespace {
 
-constexpr std::size_t kMostHeaderBytes = 16384;
+constexpr std::size_t kMostPartHeadBytes = 16384;
 constexpr std::string_view kLineEnd = "\r\n", kHeadersEnd = "\r\n\r\n", kLastMark = "--";
 
 }  // namespace
@@ -95,7 +95,8 @@ bool MultipartReader::afterDelimiter()
     }
     const std::size_t end = held_.find_first_not_of(" \t");
     if (end == std::string::npos || end + 1 == held_.size())
-        return held_.size() > kMostHeaderBytes ? throw Error(ErrorCode::bad_input, "a delimiter does not end") : false;
+        return held_.size() > kMostPartHeadBytes ? throw Error(ErrorCode::bad_input, "a delimiter does not end")
+                                                 : false;
     if (!std::string_view(held_).substr(end).starts_with(kLineEnd))
         throw Error(ErrorCode::bad_input, "a delimiter does not end as it should");
     held_.erase(0, end);  // its end is also that of a part without headers
@@ -107,7 +108,7 @@ bool MultipartReader::headers()
 {
     const std::size_t end = held_.find(kHeadersEnd);
     if (end == std::string::npos) {
-        if (held_.size() > kMostHeaderBytes)
+        if (held_.size() > kMostPartHeadBytes)
             throw Error(ErrorCode::bad_input, "the headers of a part do not end");
         return false;
     }
