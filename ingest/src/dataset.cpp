@@ -26,6 +26,26 @@ bool isBulk(const DcmElement& element)
     return element.ident() != EVR_UN && dynamic_cast<const DcmOtherByteOtherWord*>(&element);
 }
 
+/// All values of an element together: more than the 65,534 bytes that a length of two bytes can say.
+constexpr std::size_t kLongestValues_bytes = 1 << 16;
+/// More than there are, and an item has its own copies.
+constexpr std::size_t kMostCharacterSets = 16;
+
+/// At most so many bytes, not from the middle of a character of UTF-8.
+std::string_view cut(std::string_view text, std::size_t most)
+{
+    if (text.size() <= most)
+        return text;
+    const auto continues = [&](std::size_t at) { return (std::uint8_t(text[at]) & 0xc0) == 0x80; };
+    constexpr std::size_t kLongestCharacter = 4;
+    std::size_t to = most;
+    while (to > 0 && most - to < kLongestCharacter && continues(to))
+        --to;
+    return text.substr(0, to);
+}
+
+constexpr const char* kCutMark = "…";
+
 /// What an element holds that was written without saying its kind.
 std::string bytesOf(DcmElement& element)
 {
@@ -43,13 +63,13 @@ std::string valueAt(DcmElement& element, unsigned long index)
     return trimmed({value.c_str(), value.size()});
 }
 
-/// Whether a text is a decimal string as the standard writes it.
+/// Whether a text is a decimal string as the standard writes it: "nan" and "inf" are none.
 bool isDecimal(const std::string& text)
 {
     double value = 0;
     const char* begin = text.c_str() + (text.starts_with('+') ? 1 : 0);
     const auto [end, failure] = std::from_chars(begin, text.c_str() + text.size(), value);
-    return failure == std::errc() && end == text.c_str() + text.size();
+    return failure == std::errc() && end == text.c_str() + text.size() && std::isfinite(value);
 }
 
 /// One comma and no point: what a program writes whose language has decimal commas.
@@ -76,7 +96,7 @@ std::optional<double> binaryAt(const std::string& bytes, unsigned long index)
     if (bytes.size() < (index + 1) * sizeof value)
         return {};
     std::memcpy(&value, bytes.data() + index * sizeof value, sizeof value);  // little-endian, as this machine
-    return double(value);
+    return std::isfinite(double(value)) ? std::optional(double(value)) : std::nullopt;
 }
 
 /// A number of an element that was written as UN, by what the dictionary says of it.
@@ -117,6 +137,7 @@ Dataset::Dataset(DcmItem& item, std::vector<std::string> outer_character_sets)
 {
     if (item.tagExistsWithValue(DCM_SpecificCharacterSet))
         character_sets_ = values(DCM_SpecificCharacterSet);
+    character_sets_.resize(std::min(character_sets_.size(), kMostCharacterSets));
 }
 
 std::string Dataset::raw(const DcmTagKey& tag) const
@@ -126,10 +147,28 @@ std::string Dataset::raw(const DcmTagKey& tag) const
     if (item_->findAndGetElement(tag, element).bad() || !element || isBulk(*element))
         return {};
     if (element->ident() == EVR_UN)
-        return bytesOf(*element);
+        return std::string(cut(bytesOf(*element), kLongestValues_bytes));
+    if (element->getLength() > kLongestValues_bytes) {  // copied by a library at every look, or spelled out
+        char* text = nullptr;
+        Uint32 length = 0;
+        if (!dynamic_cast<DcmByteString*>(element) || element->getString(text, length).bad() || !text)
+            return {};
+        return std::string(cut({text, length}, kLongestValues_bytes));
+    }
     if (element->getOFStringArray(value).bad())
         return {};
     return {value.c_str(), value.size()};
+}
+
+bool Dataset::isCut(const DcmTagKey& tag) const
+{
+    return trimmed(raw(tag)).size() > kLongestText_bytes;
+}
+
+std::string Dataset::converted(const DcmTagKey& tag, TextKind kind) const
+{
+    const std::string whole = trimmed(raw(tag));
+    return toUtf8(cut(whole, kLongestText_bytes), character_sets_, kind);
 }
 
 std::vector<std::string> Dataset::values(const DcmTagKey& tag) const
@@ -140,7 +179,7 @@ std::vector<std::string> Dataset::values(const DcmTagKey& tag) const
         return out;
     for (std::size_t from = 0; from <= all.size();) {
         const std::size_t to = std::min(all.find('\\', from), all.size());
-        out.push_back(printable(trimmed(all.substr(from, to - from))));
+        out.push_back(printable(trimmed(std::string(cut(all.substr(from, to - from), kLongestText_bytes)))));
         from = to + 1;
     }
     return out;
@@ -148,7 +187,7 @@ std::vector<std::string> Dataset::values(const DcmTagKey& tag) const
 
 std::string Dataset::text(const DcmTagKey& tag) const
 {
-    return printable(trimmed(toUtf8(raw(tag), character_sets_, TextKind::single_line)));
+    return printable(trimmed(converted(tag, TextKind::single_line))) + (isCut(tag) ? kCutMark : "");
 }
 
 std::string Dataset::longText(const DcmTagKey& tag) const
@@ -163,12 +202,12 @@ std::string Dataset::longText(const DcmTagKey& tag) const
         out += printable(line) + (to < all.size() ? "\n" : "");
         from = to + 1;
     }
-    return trimmed(out);
+    return trimmed(out) + (all.size() >= kLongestValues_bytes ? kCutMark : "");
 }
 
 std::string Dataset::personName(const DcmTagKey& tag) const
 {
-    return printable(tidyPersonName(toUtf8(raw(tag), character_sets_, TextKind::person_name)));
+    return printable(tidyPersonName(converted(tag, TextKind::person_name))) + (isCut(tag) ? kCutMark : "");
 }
 
 std::optional<double> Dataset::number(const DcmTagKey& tag, unsigned long index) const
@@ -201,7 +240,8 @@ std::optional<double> Dataset::number(const DcmTagKey& tag, unsigned long index)
 
 bool Dataset::hasDecimalComma(const DcmTagKey& tag) const
 {
-    return hasComma(raw(tag).substr(0, raw(tag).find('\\')));
+    const std::string values = raw(tag);
+    return hasComma(values.substr(0, values.find('\\')));
 }
 
 std::optional<int> Dataset::integer(const DcmTagKey& tag) const

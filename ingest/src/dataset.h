@@ -16,6 +16,10 @@ namespace vicon::ingest {
 /// Elements larger than this many bytes (pixels) stay in the file when its header is read.
 inline constexpr Uint32 kLargestElementInMemory = 16384;
 
+/// A text of one line is cut after this many bytes, as it stands in the object. DICOM allows 64 characters, a name of
+/// three spellings 192: what is longer was made to fill memory.
+inline constexpr std::size_t kLongestText_bytes = 1024;
+
 /// The first of an element's values; empty where it has none.
 inline std::string firstOf(const std::vector<std::string>& values)
 {
@@ -23,13 +27,14 @@ inline std::string firstOf(const std::vector<std::string>& values)
 }
 
 /// Reads elements of a data set or item: absent and malformed ones are empty. Texts are UTF-8 without control
-/// characters, see printable(). An element that was written as UN is read as what the dictionary says it is.
+/// characters, see printable(); a longer one is cut, and ends with "…". An element that was written as UN is read as
+/// what the dictionary says it is.
 class Dataset {
 public:
     /// @param outer_character_sets those of the surrounding data set, which an item inherits
     explicit Dataset(DcmItem& item, std::vector<std::string> outer_character_sets = {});
 
-    /// A value without padding, as it stands, all values joined by backslashes.
+    /// A value without padding, as it stands, all values joined by backslashes: its first 64 KiB.
     std::string raw(const DcmTagKey& tag) const;
     /// The values of a code string or UID.
     std::vector<std::string> values(const DcmTagKey& tag) const;
@@ -37,7 +42,9 @@ public:
     /// A text of several lines, which end as in Unix.
     std::string longText(const DcmTagKey& tag) const;
     std::string personName(const DcmTagKey& tag) const;
-    /// A decimal string may have a comma for its point; see hasDecimalComma().
+    /// Whether more is written than text() and personName() give.
+    bool isCut(const DcmTagKey& tag) const;
+    /// A finite one. A decimal string may have a comma for its point; see hasDecimalComma().
     std::optional<double> number(const DcmTagKey& tag, unsigned long index = 0) const;
     /// Whether the first value of a decimal string is written with a comma.
     bool hasDecimalComma(const DcmTagKey& tag) const;
@@ -52,6 +59,8 @@ public:
     DcmItem& dcmItem() const { return *item_; }
 
 private:
+    std::string converted(const DcmTagKey& tag, TextKind kind) const;
+
     DcmItem* item_;
     std::vector<std::string> character_sets_;
 };

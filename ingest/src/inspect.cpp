@@ -70,6 +70,9 @@ void readPatientAndStudy(const Dataset& dataset, ImageObject& object)
 {
     object.patient = {dataset.text(DCM_PatientID), dataset.personName(DCM_PatientName),
                       dataset.text(DCM_PatientBirthDate), dataset.text(DCM_PatientSex)};
+    if (dataset.isCut(DCM_PatientID) || dataset.isCut(DCM_PatientName))
+        object.repairs.push_back("Patient's ID or Name longer than " + std::to_string(kLongestText_bytes) +
+                                 " bytes: cut");
     Study& study = object.study;
     study.id = dataset.text(DCM_StudyID);
     study.date = dataset.text(DCM_StudyDate);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <functional>
 
 #include "import_fixture.h"
 #include "measured_cost.h"
@@ -148,27 +149,122 @@ TEST_F(HostileElements, PixelsInManyFragmentsCostNextToNothing)
     EXPECT_TRUE(says(report, Kind::refused, "compressed")) << lines(report);
 }
 
-TEST_F(HostileElements, ManyFramesCostNextToNothing)
+/// An object of so many frames, each described as the first is. What is to be said of all of them is changed before.
+void writeManyFrames(const fs::path& file, int count, const std::function<void(DcmDataset&)>& change)
 {
-    constexpr int kFrames = 20'000;
     SeriesSpec spec;
     spec.columns = spec.rows = 2;
-    const fs::path file = writeEnhanced(folder / "frames.dcm", spec, {0, 1});
+    writeEnhanced(file, spec, {0, 1});
     DcmFileFormat format;
     ASSERT_TRUE(format.loadFile(file.c_str()).good());
     DcmDataset& dataset = *format.getDataset();
     DcmSequenceOfItems* frames = nullptr;
     ASSERT_TRUE(dataset.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, frames).good());
+    change(dataset);
     const DcmItem first(*frames->getItem(0));
-    for (int n = 2; n < kFrames; ++n)
+    for (int n = 2; n < count; ++n)
         frames->append(new DcmItem(first));
-    dataset.putAndInsertString(DCM_NumberOfFrames, std::to_string(kFrames).c_str());
-    const std::vector<Uint16> pixels(std::size_t(kFrames) * 4, 1000);
+    dataset.putAndInsertString(DCM_NumberOfFrames, std::to_string(count).c_str());
+    const std::vector<Uint16> pixels(std::size_t(count) * 4, 1000);
     dataset.putAndInsertUint16Array(DCM_PixelData, pixels.data(), pixels.size());
     ASSERT_TRUE(format.saveFile(file.c_str(), EXS_LittleEndianExplicit).good());
+}
+
+constexpr int kFrames = 20'000;
+
+TEST_F(HostileElements, ManyFramesCostNextToNothing)
+{
+    const fs::path file = folder / "frames.dcm";
+    writeManyFrames(file, kFrames, [](DcmDataset&) {});
     ingest::ImportReport report;
     expectBearable([&] { report = import({file}); }, "frames");
     EXPECT_EQ(report.lines.size(), 1u) << lines(report);
+}
+
+/// Where frames do not say their type and their kernel, those of the whole object count: they are read once, however
+/// long they are, and however many elements stand before them.
+TEST_F(HostileElements, ManyFramesOfLongTextsCostNextToNothing)
+{
+    const fs::path file = folder / "frames.dcm";
+    writeManyFrames(file, kFrames, [](DcmDataset& dataset) {
+        const std::string text(60'000, 'A');
+        dataset.putAndInsertString(DCM_ImageType, ("ORIGINAL\\PRIMARY\\AXIAL\\" + text).c_str());
+        DcmItem* shared = nullptr;
+        ASSERT_TRUE(dataset.findAndGetSequenceItem(DCM_SharedFunctionalGroupsSequence, shared).good());
+        shared->findAndDeleteElement(DCM_CTReconstructionSequence);
+        dataset.putAndInsertString(DCM_ConvolutionKernel, text.c_str());
+        for (int n = 0; n < 9'000; ++n)
+            dataset.insert(new DcmLongString(DcmTag(0x0009, Uint16(0x1000 + n), EVR_LO)));
+    });
+    ingest::ImportReport report;
+    expectBearable([&] { report = import({file}); }, "long texts");
+    EXPECT_EQ(report.lines.size(), 1u) << lines(report);
+}
+
+/// Parts that frames share are looked at once, too.
+TEST_F(HostileElements, ManyFramesBehindManySharedElementsCostNextToNothing)
+{
+    const fs::path file = folder / "frames.dcm";
+    writeManyFrames(file, kFrames, [](DcmDataset& dataset) {
+        DcmItem *shared = nullptr, *measures = nullptr;
+        ASSERT_TRUE(dataset.findAndGetSequenceItem(DCM_SharedFunctionalGroupsSequence, shared).good());
+        ASSERT_TRUE(shared->findAndGetSequenceItem(DCM_PixelMeasuresSequence, measures).good());
+        for (DcmItem* item : {shared, measures})
+            for (int n = 0; n < 9'000; ++n)
+                item->insert(new DcmLongString(DcmTag(0x0009, Uint16(0x1000 + n), EVR_LO)));
+    });
+    ingest::ImportReport report;
+    expectBearable([&] { report = import({file}); }, "shared elements");
+    EXPECT_EQ(report.lines.size(), 1u) << lines(report);
+}
+
+/// A million words, in a type whose length has four bytes: who is meant stays to be seen, and costs nothing for good.
+TEST_F(HostileElements, ANameOfTenMegabytesIsCutAndSaid)
+{
+    const fs::path file = writeSeries(folder / "in", {}, {0}).at(0);
+    DcmFileFormat format;
+    ASSERT_TRUE(format.loadFile(file.c_str()).good());
+    std::string name = "Doe^Jane";
+    for (int n = 0; name.size() < 10'000'000; ++n)
+        name += " " + std::to_string(n);
+    format.getDataset()->putAndInsertString(DCM_PatientName, name.c_str());
+    format.getDataset()->putAndInsertString(DCM_SpecificCharacterSet, "\\ISO 2022 IR 87");
+    ASSERT_TRUE(format.saveFile(file.c_str(), EXS_LittleEndianImplicit).good());
+    ingest::ImportReport report;
+    expectBearable([&] { report = import({file}); }, "a name");
+    EXPECT_TRUE(says(report, Kind::repaired, "longer than 1024 bytes: cut")) << lines(report);
+    const std::string kept = store.cases().at(0).patient.name;
+    EXPECT_TRUE(kept.starts_with("Doe^Jane 0 1 2 ")) << kept.substr(0, 100);
+    EXPECT_LE(kept.size(), 1100u);
+    EXPECT_TRUE(kept.ends_with("…")) << kept.substr(kept.size() - 20);
+}
+
+struct NoNumber {
+    DcmTagKey tag;
+    std::string bytes;
+    const char* words;
+};
+
+/// As a plain decimal string these are refused; written as bytes of an unknown kind they were numbers, and each voxel
+/// 0.
+TEST_F(HostileElements, WhatIsNoNumberIsNoneHoweverItIsWritten)
+{
+    const std::string infinite_mm = "-15\\-15\\inf";
+    for (const NoNumber& c : {NoNumber{DCM_RescaleSlope, "nan ", "no Rescale Slope"},
+                              NoNumber{DCM_RescaleSlope, "-inf", "no Rescale Slope"},
+                              NoNumber{DCM_RescaleIntercept, "NAN(1)", "no Rescale Slope"},
+                              NoNumber{DCM_ImagePositionPatient, infinite_mm + " ", "where in the patient it lies"},
+                              NoNumber{DCM_PixelSpacing, "1\\nan ", "size of its pixels"}}) {
+        const fs::path file = writeSeries(folder / "in", {}, {0}).at(0);
+        DcmFileFormat format;
+        ASSERT_TRUE(format.loadFile(file.c_str()).good());
+        auto* const unknown = new DcmOtherByteOtherWord(DcmTag(c.tag, EVR_UN));
+        unknown->putUint8Array(reinterpret_cast<const Uint8*>(c.bytes.data()), c.bytes.size());
+        ASSERT_TRUE(format.getDataset()->insert(unknown, true).good());
+        ASSERT_TRUE(format.saveFile(file.c_str(), EXS_LittleEndianExplicit).good());
+        const auto report = import({file});
+        EXPECT_TRUE(says(report, Kind::refused, c.words)) << c.bytes << "\n" << lines(report);
+    }
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "dataset.h"
 #include "vicon/dicom/dicom_setup.h"
 #include "vicon/ingest/patient_match.h"
@@ -101,6 +103,46 @@ TEST(Text, OddAndBrokenTextsAreReadAsFarAsTheyGo)
     };
     for (const TextCase& c : cases)
         EXPECT_EQ(toUtf8(c.bytes, c.sets, TextKind::person_name), c.utf8) << c.what;
+}
+
+TEST(Text, WhatIsLongerThanATextMayBeIsCutBetweenItsCharacters)
+{
+    DcmItem item;
+    const std::string latin(kLongestText_bytes, 'x');
+    item.putAndInsertString(DCM_PatientID, latin.c_str());
+    EXPECT_EQ(Dataset(item).text(DCM_PatientID), latin);
+    EXPECT_FALSE(Dataset(item).isCut(DCM_PatientID));
+    for (const std::string more : {"y", "é", "山"}) {
+        std::string text = latin;
+        text.resize(kLongestText_bytes - 1);
+        item.putAndInsertString(DCM_PatientID, (text + more + more).c_str());
+        const std::string read = Dataset(item).text(DCM_PatientID);
+        EXPECT_EQ(read, text + (more == "y" ? "y…" : "…"));
+        EXPECT_TRUE(Dataset(item).isCut(DCM_PatientID));
+    }
+}
+
+/// A value of the kind that the dictionary names, written as bytes of an unknown kind.
+std::optional<double> unknownNumber(const DcmTagKey& tag, double value, bool single)
+{
+    const float small = float(value);
+    auto* const element = new DcmOtherByteOtherWord(DcmTag(tag, EVR_UN));
+    element->putUint8Array(single ? reinterpret_cast<const Uint8*>(&small) : reinterpret_cast<const Uint8*>(&value),
+                           single ? sizeof small : sizeof value);
+    DcmItem item;
+    item.insert(element, true);
+    return Dataset(item).number(tag);
+}
+
+TEST(Text, OnlyFiniteNumbersAreNumbers)
+{
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+    for (const bool single : {false, true}) {
+        const DcmTagKey tag = single ? DCM_ExaminedBodyThickness : DCM_CTDIvol;
+        EXPECT_EQ(unknownNumber(tag, 1.5, single), 1.5);
+        EXPECT_EQ(unknownNumber(tag, kNan, single), std::nullopt);
+        EXPECT_EQ(unknownNumber(tag, -kInf, single), std::nullopt);
+    }
 }
 
 TEST(Text, PersonNamesLoseOnlyWhatIsEmptyAtTheEnd)
