@@ -7,12 +7,16 @@
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/time.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
 #include <vector>
+
+#include "helper_protocol.h"
 
 // GCC and clang tell of it in ways of their own.
 #if defined(__SANITIZE_ADDRESS__)
@@ -50,6 +54,13 @@ constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
 #error "name this machine's system call architecture"
 #endif
 
+/// What cannot be taken away ends this process: nothing is decoded in the open.
+void require(bool done)
+{
+    if (!done)
+        ::_exit(kNotConfined);
+}
+
 void filterSystemCalls()
 {
     std::vector<sock_filter> program{
@@ -64,14 +75,18 @@ void filterSystemCalls()
     program.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM));
     program.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW));
     const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
-    ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-    ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter);
+    require(::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0);
+    require(::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0);
 }
 
+/// Whoever started this program may have left it less.
 void limit(__rlimit_resource resource, rlim_t most)
 {
-    const rlimit both{most, most};
-    ::setrlimit(resource, &both);
+    rlimit now{};
+    require(::getrlimit(resource, &now) == 0);
+    const rlim_t least = std::min(most, now.rlim_max);
+    const rlimit both{least, least};
+    require(::setrlimit(resource, &both) == 0);
 }
 
 }  // namespace
@@ -80,7 +95,7 @@ void confine()
 {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})  // meant for VICON, which ends this process itself
         ::signal(signal, SIG_IGN);
-    ::prctl(PR_SET_DUMPABLE, 0);  // no core file: it would hold a patient's data
+    require(::prctl(PR_SET_DUMPABLE, 0) == 0);  // no core file: it would hold a patient's data
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
     limit(RLIMIT_STACK, kStackBytes);

@@ -117,6 +117,7 @@ void read(int descriptor)
     if (loaded == EC_MemoryExhausted)
         throw std::bad_alloc();
     HeaderCost cost;
+    count(*format.getMetaInfo(), cost);
     count(*format.getDataset(), cost);
 }
 

@@ -66,8 +66,9 @@ std::vector<char> ask(const HelperRequest& request, std::string_view payload, in
             std::vector<char> bytes = helper->ask(request, payload, descriptor, most_bytes);
             pool().giveBack(std::move(helper));
             return bytes;
-        } catch (const Error&) {
-            pool().giveBack(std::move(helper));
+        } catch (const Error& e) {
+            if (e.code() == ErrorCode::bad_input)
+                pool().giveBack(std::move(helper));
             throw;
         } catch (const HelperDied& e) {
             if (attempt == kTries || e.too_slow)

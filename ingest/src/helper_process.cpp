@@ -103,6 +103,8 @@ HelperProcess::~HelperProcess()
 
 void HelperProcess::died()
 {
+    if (process_ <= 0)
+        throw HelperDied("ended", false);
     int status = 0;
     ::kill(process_, SIGKILL);  // no effect on one that has ended by itself
     while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
@@ -111,6 +113,9 @@ void HelperProcess::died()
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (signal == SIGPROF || signal == SIGXCPU)
         throw HelperDied("took too long", true);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kNotConfined)
+        throw Error(ErrorCode::internal, "the decoder program cannot be confined, and decodes nothing", kProgram,
+                    "let this system filter system calls (seccomp)");
     throw HelperDied(signal ? "ended by signal " + std::to_string(signal) : "ended", false);
 }
 

@@ -32,7 +32,8 @@ public:
     /// Asks and waits for the answer's payload.
     /// @param descriptor passed along, or -1
     /// @param most_bytes an answer that is longer is not believed
-    /// Throws HelperDied, after which the object is of no use; Error{bad_input} with the program's reason.
+    /// Throws HelperDied, or Error{internal} when the program cannot be confined, after which the object is of no use;
+    /// Error{bad_input} with the program's reason.
     std::vector<char> ask(const HelperRequest& request, std::string_view payload, int descriptor,
                           std::size_t most_bytes);
 

@@ -35,6 +35,8 @@ PixelFormat pixelFormatOf(const HelperRequest& request);
 
 /// The largest stream that is decoded: the most that a frame can hold, and headers.
 inline constexpr std::uint64_t kLargestStream = std::uint64_t(1) << 30;
+/// The program's exit code where it could not be kept from files, the network and other programs: it decodes nothing.
+inline constexpr int kNotConfined = 3;
 /// Words of a failure are cut to this.
 inline constexpr std::size_t kLongestReason = 500;
 

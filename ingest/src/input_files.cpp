@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <set>
 
 #include "dataset.h"
 #include "helper.h"
@@ -68,6 +69,7 @@ void readDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::
     if (loadFile(format, dicomdir).bad())
         return addRefusal(lines, dicomdir.string(), "the DICOMDIR is damaged; import its folder instead");
     const Dataset dataset(*format.getDataset());
+    std::set<fs::path> listed;  // a record a file: who names one often would have it read as often
     for (const Dataset& record : dataset.items(DCM_DirectoryRecordSequence)) {
         const auto components = record.values(DCM_ReferencedFileID);
         if (components.empty())
@@ -78,7 +80,7 @@ void readDicomdir(const fs::path& dicomdir, std::vector<InputFile>& files, std::
             named += (named.empty() ? "" : "/") + component;
         if (file.empty())
             addRefusal(lines, dicomdir.string(), "names a file that is not there: " + named);
-        else
+        else if (listed.insert(file).second)
             files.push_back({file, printable(file.string()), false});
     }
 }

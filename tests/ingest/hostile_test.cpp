@@ -1,12 +1,18 @@
 // What comes in cannot hurt.
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dctk.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 
 #include <fstream>
 
+#include "helper.h"
 #include "import_fixture.h"
+#include "input_files.h"
 #include "stored_files.h"
 #include "stream_guard.h"
 
@@ -65,6 +71,23 @@ TEST_F(Hostile, ADicomdirAloneIsSaid)
     EXPECT_TRUE(says(report, Kind::refused, "nothing to import")) << lines(report);
 }
 
+TEST_F(Hostile, AFileThatADicomdirNamesOftenIsListedOnce)
+{
+    writeSeries(folder / "disc", {}, {0, 1});
+    DcmFileFormat format;
+    format.getDataset()->putAndInsertString(DCM_SOPClassUID, UID_MediaStorageDirectoryStorage);
+    format.getDataset()->putAndInsertString(DCM_SOPInstanceUID, "1.2.3.4");
+    for (const char* name : {"0.dcm", "1.dcm", "0.DCM", "0.dcm"}) {
+        DcmItem* record = nullptr;
+        format.getDataset()->findOrCreateSequenceItem(DCM_DirectoryRecordSequence, record, -2);
+        record->putAndInsertString(DCM_ReferencedFileID, name);
+    }
+    ASSERT_TRUE(format.saveFile((folder / "disc/DICOMDIR").c_str(), EXS_LittleEndianExplicit).good());
+    std::vector<ingest::ImportLine> lines;
+    EXPECT_EQ(ingest::listFiles({folder / "disc/DICOMDIR"}, lines).size(), 2u);
+    EXPECT_TRUE(lines.empty());
+}
+
 /// Without its head a file is read by a library or not at all: the walk over its elements does not know its encoding.
 TEST_F(Hostile, AFileThatKillsItsReaderIsRefusedAndKillsNothingElse)
 {
@@ -79,6 +102,32 @@ TEST_F(Hostile, AFileThatKillsItsReaderIsRefusedAndKillsNothingElse)
         EXPECT_EQ(report.lines.front().kind, Kind::refused);
         EXPECT_NE(report.lines.front().text.find("cannot be read safely"), std::string::npos) << lines(report);
     }
+}
+
+/// What /proc says under this word of the one program that this process started.
+std::string ofOnlyChild(const std::string& word)
+{
+    const auto valueIn = [](const fs::path& status, const std::string& name) {
+        std::ifstream in(status);
+        for (std::string line; std::getline(in, line);)
+            if (line.starts_with(name + ":\t"))
+                return line.substr(name.size() + 2);
+        return std::string();
+    };
+    std::vector<std::string> found;
+    for (const auto& entry : fs::directory_iterator("/proc"))
+        if (valueIn(entry.path() / "status", "PPid") == std::to_string(::getpid()))
+            found.push_back(valueIn(entry.path() / "status", word));
+    return found.size() == 1 ? found.front() : std::to_string(found.size()) + " children";
+}
+
+TEST_F(Hostile, TheDecoderProgramIsConfined)
+{
+    ingest::endIdleHelpers();
+    EXPECT_EQ(ingest::whyHarmful(writeSeries(folder / "in", {}, {0}).at(0)), "");
+    EXPECT_EQ(ofOnlyChild("NoNewPrivs"), "1");
+    EXPECT_EQ(ofOnlyChild("Seccomp"), "2") << "a filter of system calls";
+    ingest::endIdleHelpers();
 }
 
 /// A value that breaks off with the file stays in the library's data set with the length that it claims.
