@@ -42,12 +42,17 @@ std::int16_t measured(double hu)
     return stored == kPaddingHu ? std::int16_t(kPaddingHu + 1) : stored;
 }
 
+/// Where the stored bits begin in a pixel as it lies in memory.
+int shiftOf(const PixelFormat& format)
+{
+    return format.high_bit + 1 - format.bits_stored;
+}
+
 /// A density for each 16-bit pattern of a stored pixel.
-std::vector<std::int16_t> densityTable(const PixelFormat& format, const Slice& slice)
+std::vector<std::int16_t> densityTable(const PixelFormat& format, const Slice& slice, int shift)
 {
     constexpr std::size_t kPatterns = 65536;
     std::vector<std::int16_t> table(kPatterns);
-    const int shift = format.high_bit + 1 - format.bits_stored;
     const int range = 1 << format.bits_stored;
     for (std::size_t pattern = 0; pattern < kPatterns; ++pattern) {
         int stored = (int(pattern) >> shift) & (range - 1);
@@ -70,6 +75,7 @@ struct FrameDecoder::Opened {
     std::optional<CompressedFrames> frames;
     std::vector<std::int16_t> table;
     double table_slope = 0, table_intercept = 0;
+    int shift = 0, table_shift = 0;
 
     /// DCMTK looks up the matrix by itself, and not in elements that were written as UN.
     void tellDcmtk(const PixelFormat& f)
@@ -93,12 +99,16 @@ struct FrameDecoder::Opened {
             return decodeRle(stream, object.pixels);
         if (const std::string why = whyNotDecodable(stream, object.pixels, object.transfer_syntax); !why.empty())
             failed(why);
+        // A stream of no more bits than are stored holds the values themselves, whichever bit the header names.
+        if (sampleBits(stream, object.transfer_syntax) <= object.pixels.bits_stored)
+            shift = 0;
         return decodeInHelper(stream, object.pixels, object.transfer_syntax);
     }
 
     std::vector<char> decoded(const ImageObject& object, int frame)
     {
         const PixelFormat& f = object.pixels;
+        shift = shiftOf(f);
         if (DcmXfer(object.transfer_syntax.c_str()).isEncapsulated())
             return decompressed(object, frame);
         const std::size_t needed = std::size_t(f.rows) * std::size_t(f.columns) * std::size_t(f.bits_allocated / 8);
@@ -146,12 +156,14 @@ std::vector<std::uint16_t> FrameDecoder::storedPixels(int frame)
 std::vector<std::int16_t> FrameDecoder::densities(const Slice& slice)
 {
     Opened& opened = *opened_;
-    if (opened.table.empty() || opened.table_slope != slice.slope || opened.table_intercept != slice.intercept) {
-        opened.table = densityTable(object_.pixels, slice);
+    const std::vector<std::uint16_t> stored = storedPixels(slice.frame);
+    if (opened.table.empty() || opened.table_slope != slice.slope || opened.table_intercept != slice.intercept ||
+        opened.table_shift != opened.shift) {
+        opened.table = densityTable(object_.pixels, slice, opened.shift);
+        opened.table_shift = opened.shift;
         opened.table_slope = slice.slope;
         opened.table_intercept = slice.intercept;
     }
-    const std::vector<std::uint16_t> stored = storedPixels(slice.frame);
     std::vector<std::int16_t> out(stored.size());
     std::transform(stored.begin(), stored.end(), out.begin(), [&](std::uint16_t v) { return opened.table[v]; });
     return out;

@@ -15,6 +15,7 @@ namespace {
 struct Picture {
     std::uint64_t columns = 0, rows = 0;
     unsigned bits = 0, components = 0;
+    bool is_signed = false;  ///< JPEG and JPEG-LS do not say
 };
 
 /// Either a picture or why there is none.
@@ -111,7 +112,9 @@ Reading readJpeg2000(const Bytes& bytes)
     }
     if (std::string why = checkTiles(bytes, {across * down, at}); !why.empty())
         return unreadable(std::move(why));
-    return {Picture{columns, rows, (bytes.sure(42, 1) & 0x7f) + 1, bytes.sure(40, 2)}, {}};
+    constexpr std::uint32_t kSigned = 0x80;
+    const std::uint32_t sample = bytes.sure(42, 1);
+    return {Picture{columns, rows, (sample & ~kSigned) + 1, bytes.sure(40, 2), (sample & kSigned) != 0}, {}};
 }
 
 /// Whether a marker begins a frame of a process that is decoded: sequential, progressive or lossless Huffman, JPEG-LS.
@@ -162,15 +165,28 @@ std::string disagreement(const Picture& picture, const PixelFormat& format)
     if (picture.bits < 1 || (picture.bits + 7) / 8 != unsigned(format.bits_allocated) / 8)
         return "its compressed stream holds samples of " + std::to_string(picture.bits) +
                " bits, its header allocates " + std::to_string(format.bits_allocated);
+    // The other way round the bits are those of the header, and mean what it says.
+    if (picture.is_signed && !format.is_signed)
+        return "its compressed stream holds signed samples, its header says unsigned";
     return {};
+}
+
+Reading read(std::string_view stream, const std::string& transfer_syntax)
+{
+    return isJpeg2000(transfer_syntax) ? readJpeg2000(Bytes(stream)) : readJpeg(Bytes(stream));
 }
 
 }  // namespace
 
+int sampleBits(std::string_view stream, const std::string& transfer_syntax)
+{
+    const Reading reading = read(stream, transfer_syntax);
+    return reading.picture ? int(reading.picture->bits) : 0;
+}
+
 std::string whyNotDecodable(std::string_view stream, const PixelFormat& format, const std::string& transfer_syntax)
 {
-    const Bytes bytes(stream);
-    const Reading reading = isJpeg2000(transfer_syntax) ? readJpeg2000(bytes) : readJpeg(bytes);
+    const Reading reading = read(stream, transfer_syntax);
     return reading.picture ? disagreement(*reading.picture, format) : reading.why;
 }
 
