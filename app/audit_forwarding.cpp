@@ -99,9 +99,15 @@ std::string thisMachine()
 
 }  // namespace
 
+void requireSyslog(const AuditOptions& options)
+{
+    if (!options.syslog.empty())
+        const Syslog tried(options.syslog);
+}
+
 int forwardAudit(CaseStore& store, const AuditOptions& options)
 {
-    constexpr int kAtOnce = 100;
+    constexpr int kAtOnce = 100;  // lines: what is noted once
     int sent = 0;
     for (;;) {
         const auto lines = auditAfter(store, lastToldAudit(store), kAtOnce);
@@ -109,11 +115,21 @@ int forwardAudit(CaseStore& store, const AuditOptions& options)
             return sent;
         const Syslog syslog(options.syslog);
         const std::string machine = thisMachine();
-        for (const NumberedAuditLine& line : lines)
-            syslog.send(syslogPacket(atnaMessage(line, store.findCase(line.case_id).value_or(CaseRecord{}), machine),
-                                     line.line.at, machine));
-        noteToldAudit(store, lines.back().number);
-        sent += int(lines.size());
+        long long last_sent = 0;
+        try {
+            for (const NumberedAuditLine& line : lines) {
+                syslog.send(
+                    syslogPacket(atnaMessage(line, store.findCase(line.case_id).value_or(CaseRecord{}), machine),
+                                 line.line.at, machine));
+                last_sent = line.number;
+                ++sent;
+            }
+        } catch (const Error&) {  // a syslog that reads slowly took some: they are not sent again
+            if (last_sent > 0)
+                noteToldAudit(store, last_sent);
+            throw;
+        }
+        noteToldAudit(store, last_sent);
     }
 }
 

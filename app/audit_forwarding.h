@@ -19,6 +19,9 @@ struct AuditOptions {
     }
 };
 
+/// Throws Error{peer} where nothing can be sent there. Nothing is.
+void requireSyslog(const AuditOptions& options);
+
 /// Sends what the audit trail has got since the last call, and keeps how far it came. Returns how many lines. Throws
 /// Error{peer} where they cannot be sent; those are sent by the next call.
 int forwardAudit(CaseStore& store, const AuditOptions& options);

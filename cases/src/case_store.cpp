@@ -30,8 +30,8 @@ bool isThere(const fs::path& file)
     std::error_code trouble;
     const bool there = fs::exists(file, trouble);
     if (trouble)
-        throw Error(ErrorCode::store, "the store cannot be looked at (" + trouble.message() + ")",
-                    file.parent_path().string(), "work as the account that it belongs to");
+        throw Error(ErrorCode::store, "the store cannot be used (" + trouble.message() + ")",
+                    file.parent_path().string(), "see that this account may look into its folder");
     return there;
 }
 

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "atna_message.h"
 #include "operation_audit.h"
@@ -199,6 +200,24 @@ TEST_F(AuditForwarding, LosesNothingWhileSyslogIsAway)
     reading.join();
     came += syslog.packets().size();
     EXPECT_EQ(came, 151u);
+}
+
+/// What a local socket took before it was full was sent: the next try begins behind it.
+TEST_F(AuditForwarding, SendsNoLineTwiceToASyslogThatReadsSlowly)
+{
+    const int held = std::stoi(readFile("/proc/sys/net/unix/max_dgram_qlen"));
+    for (int n = 0; n < held + held / 2; ++n)
+        store_.audit(AuditEvent::flagged, "c1", "", std::to_string(n));
+    const auto all = auditAfter(store_, 0, 10 * held);
+    const Listening syslog(options_.syslog);
+    EXPECT_THROW(forwardAudit(store_, options_), Error);
+    std::vector<std::string> came = syslog.packets();
+    EXPECT_GE(int(came.size()), held);
+    EXPECT_LT(came.size(), all.size());
+    EXPECT_EQ(came.size() + std::size_t(forwardAudit(store_, options_)), all.size());
+    std::ranges::copy(syslog.packets(), std::back_inserter(came));
+    ASSERT_EQ(came.size(), all.size());
+    EXPECT_EQ(std::set<std::string>(came.begin(), came.end()).size(), all.size()) << "each once";
 }
 
 TEST_F(AuditForwarding, SaysWhereNobodyListens)
