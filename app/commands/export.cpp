@@ -3,6 +3,7 @@
 
 #include "../command.h"
 #include "vicon/cases/report_content.h"
+#include "vicon/cases/report_files.h"
 #include "vicon/cases/report_versions.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
