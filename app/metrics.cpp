@@ -92,6 +92,9 @@ public:
     {
         const std::lock_guard lock(mutex_);
         try {
+            if (!place_.holdsStore())  // its open database would go on to answer
+                throw Error(ErrorCode::store, "the store is gone", place_.folder.string(),
+                            "see whether its disk is mounted");
             if (!store_)
                 store_.emplace(place_);
             return familiesOf(figuresOf(*store_));
