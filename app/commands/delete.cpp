@@ -21,6 +21,15 @@ void printDoubts(const DeletionDoubts& doubts)
             std::printf("! %s\n", line.c_str());
 }
 
+/// How it is deleted after all.
+const char* adviceFor(const DeletionDoubts& doubts)
+{
+    if (!doubts.forbidding.empty())
+        return "nothing was deleted, and cannot be before that ends";
+    return doubts.losses.empty() ? "nothing was deleted; --yes deletes it"
+                                 : "nothing was deleted; --yes --lose deletes it";
+}
+
 int deleteOne(Context& context, const DeleteArguments& arguments)
 {
     CaseStore& store = context.existingStore();
@@ -49,7 +58,7 @@ int deleteOne(Context& context, const DeleteArguments& arguments)
                 formatNumber(double(size.bytes) / kBytesAGb, 1).c_str(), report.c_str());
     if (!arguments.yes)
         printDoubts(doubts);
-    std::printf("%s\n", arguments.yes ? "deleted" : "nothing was deleted; --yes deletes it");
+    std::printf("%s\n", arguments.yes ? "deleted" : adviceFor(doubts));
     return 0;
 }
 
