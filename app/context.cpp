@@ -5,6 +5,7 @@
 #include "configuration.h"
 #include "log_lines.h"
 #include "operation_audit.h"
+#include "store_disk.h"
 #include "vicon/cases/case_deletion.h"
 #include "vicon/core/error.h"
 
@@ -133,9 +134,7 @@ CaseStore& Context::store()
 
 CaseStore& Context::existingStore()
 {
-    if (!StorePlace(storeFolder()).holdsStore())
-        throw Error(ErrorCode::not_found, "there is no store here", storeFolder().string(),
-                    "'vicon import' makes one; --store names another folder");
+    requireStore(storeFolder());
     return store();
 }
 

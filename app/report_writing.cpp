@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "peers.h"
+#include "named_options.h"
 #include "report_folder.h"
 #include "report_pictures.h"
 #include "report_scans.h"
@@ -11,6 +11,7 @@
 #include "vicon/cases/report_files.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
+#include "vicon/picture/png_file.h"
 #include "vicon/report/pdf_writer.h"
 #include "vicon/report/report_objects.h"
 #include "vicon/viewer/scene/display.h"
@@ -138,13 +139,23 @@ std::vector<report::ObjectKind> kindsOf(const Config& config)
     return kinds;
 }
 
+/// One that cannot be read is left out, and is no reason not to sign.
+report::ReportOptions withReadableLogo(report::ReportOptions options, std::vector<std::string>& warnings)
+try {
+    if (!options.logo.empty())
+        picture::readPng(options.logo);
+    return options;
+} catch (const Error&) {
+    warnings.push_back("the site's logo cannot be read: " + options.logo);
+    options.logo.clear();
+    return options;
+}
+
 /// The objects of what is signed, for the folder and for the outbox.
 VersionObjects objectsOf(CaseStore& store, const Config& config, const std::string& case_id, report::ShownScans& scans,
                          const report::ObjectContent& content, const fs::path& folder)
 {
     const auto peers = config.get<SigningOptions>().send_to;
-    for (const std::string& peer : peers)
-        requirePeer(config, peer, PeerUse::send);
     const auto objects = report::writeReportObjects(scans, content, folder);
     VersionObjects kept;
     for (const report::ReportObject& object : objects)
@@ -165,6 +176,8 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
                           Progress& progress)
 {
     const CaseRecord record = store.requireCase(case_id);
+    if (sign)
+        requireDeliverable(config);  // before pictures are drawn
     const std::vector<report::ObjectKind> kinds = kindsOf(config);
     requireReportable(store, record);
     const VersionDraft draft = draftVersion(store, config.get<SigningOptions>(), record.id, sign, VICON_VERSION);
@@ -185,14 +198,16 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
             shown.emplace(store, content.read, kinds);
     });
     std::string pdf;
-    const report::PdfResult drawn =
-        report::drawPdf(content, pdf, config.get<report::ReportOptions>(), &printed, progress);
+    std::vector<std::string> warnings;
+    const report::PdfResult drawn = report::drawPdf(
+        content, pdf, withReadableLogo(config.get<report::ReportOptions>(), warnings), &printed, progress);
     if (drawn.unreadable_pictures > 0)
         throw Error(ErrorCode::store,
                     "a picture of the report could not be drawn (" + drawn.warnings.front() +
                         "); "
                         "nothing was signed",
                     record.id, "see whether the disk is full, then try again");
+    warnings.insert(warnings.end(), drawn.warnings.begin(), drawn.warnings.end());
     progress.check();
     VersionObjects objects;
     if (sign) {
@@ -202,7 +217,7 @@ GivenReport giveOutReport(CaseStore& store, const Config& config, const std::str
             {content.read, version, amendedBy(store, record.id, version), pdf, picturesOf(content), kinds, &packed},
             folder / "");
     }
-    return {keepVersion(store, record.id, draft, pdf, objects), drawn.pages, drawn.warnings};
+    return {keepVersion(store, record.id, draft, pdf, objects), drawn.pages, warnings};
 }
 
 }  // namespace vicon::app

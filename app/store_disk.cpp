@@ -54,6 +54,13 @@ std::string inHexadecimal(unsigned long magic)
 
 }  // namespace
 
+void requireStore(const StorePlace& place)
+{
+    if (!place.holdsStore() && !place.holdsData())
+        throw Error(ErrorCode::not_found, "there is no store here", place.folder.string(),
+                    "'vicon import' makes one; --store names another folder");
+}
+
 FileSystem fileSystemOf(const fs::path& folder)
 {
     struct statfs about {};

@@ -3,7 +3,12 @@
 #include <filesystem>
 #include <string>
 
+#include "vicon/cases/case_store.h"
+
 namespace vicon::app {
+
+/// Throws Error{not_found} where there is no store, and nothing of one; Error{store} where this account may not know.
+void requireStore(const StorePlace& place);
 
 /// The file system that a folder lies on, as far as it matters to a store.
 struct FileSystem {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 
 #include "../command.h"
+#include "../named_options.h"
 #include "../peers.h"
 #include "../store_disk.h"
 #include "vicon/cases/purge.h"
@@ -53,7 +55,7 @@ std::string formatGb(double gb)
 /// The folder alone: the database has its own line.
 std::string checkFolder(const fs::path& folder, bool on_server)
 {
-    makePrivateFolder(folder);
+    requireStore(folder);  // a check makes none
     tryFolder(folder);
     const FileSystem disk = fileSystemOf(folder);
     if (const std::string why = whyNoStoreOn(disk, on_server); !why.empty())
@@ -64,7 +66,7 @@ std::string checkFolder(const fs::path& folder, bool on_server)
 
 std::string checkDatabase(Context& context)
 {
-    Database& database = context.store().database();
+    Database& database = context.existingStore().database();
     if (const std::string damage = database.damage(); !damage.empty())
         throw Error(ErrorCode::database, "the database is damaged (" + damage.substr(0, damage.find('\n')) + ")",
                     database.where(), "restore it from a backup");
@@ -74,6 +76,11 @@ std::string checkDatabase(Context& context)
 /// No fault, but nobody else says that it waits for a person.
 std::string checkQuarantine(const fs::path& store)
 {
+    std::error_code trouble;
+    const fs::directory_iterator looked(store / "quarantine", trouble);
+    if (trouble && trouble != std::errc::no_such_file_or_directory)
+        throw Error(ErrorCode::store, "it cannot be looked at (" + trouble.message() + ")",
+                    (store / "quarantine").string(), "work as the account that the store belongs to");
     const Quarantine found = quarantineOf(store);
     if (found.objects == 0)
         return "empty";
@@ -147,24 +154,49 @@ std::string checkCertificates(const ingest::TlsOptions& tls)
     return "the first ends on " + first->ends;
 }
 
-int doctor(Context& context)
+/// A line for each option that names what is not there.
+std::vector<Check> checkConfiguration(const Config& config)
+{
+    std::vector<Check> checks{{"configuration", true, std::to_string(config.specs().size()) + " options"}};
+    for (const NamedOption& one : namedOptions())
+        if (const Check check = checked(one.option, [&] { return one.require(config), std::string(); }); !check.good)
+            checks.push_back(check);
+    return checks;
+}
+
+/// Of a place where none is, only that.
+std::vector<Check> checkStore(Context& context)
 {
     const StorePlace place = context.storePlace();
-    const auto report = context.config().get<report::ReportOptions>();
+    std::vector<Check> checks{checked("store", [&] { return checkFolder(place.folder, !place.database.empty()); })};
+    if (!checked("", [&] { return requireStore(place), std::string(); }).good)
+        return checks;
+    checks.push_back(checked("database", [&] { return checkDatabase(context); }));
+    checks.push_back(checked("quarantine", [&] { return checkQuarantine(place.folder); }));
+    checks.push_back(checked("disk space", [&] { return checkSpace(place.folder); }));
+    return checks;
+}
+
+std::vector<Check> checkMachine(const Config& config)
+{
+    const auto report = config.get<report::ReportOptions>();
     std::vector<Check> checks = {
-        checked("configuration", [&] { return std::to_string(context.config().specs().size()) + " options"; }),
-        checked("store", [&] { return checkFolder(place.folder, !place.database.empty()); }),
-        checked("database", [&] { return checkDatabase(context); }),
-        checked("quarantine", [&] { return checkQuarantine(place.folder); }),
-        checked("disk space", [&] { return checkSpace(place.folder); }),
         checked("memory", [] { return checkMemory(); }),
         checked("fonts", [&] { return checkFonts(report.font_folder); }),
         checked("display", [] { return checkDisplay(); }),
     };
-    for (const auto& [name, about] : context.config().peers().items())
-        checks.push_back(checked("peer " + name, [&, &name = name] { return checkPeer(context.config(), name); }));
-    if (const auto tls = context.config().get<ingest::TlsOptions>(); !tls.certificate.empty())
+    for (const auto& [name, about] : config.peers().items())
+        checks.push_back(checked("peer " + name, [&, &name = name] { return checkPeer(config, name); }));
+    if (const auto tls = config.get<ingest::TlsOptions>(); !tls.certificate.empty())
         checks.push_back(checked("certificates", [&] { return checkCertificates(tls); }));
+    return checks;
+}
+
+int doctor(Context& context)
+{
+    std::vector<Check> checks = checkConfiguration(context.config());
+    std::ranges::move(checkStore(context), std::back_inserter(checks));
+    std::ranges::move(checkMachine(context.config()), std::back_inserter(checks));
     bool all_good = true;
     nlohmann::json list = nlohmann::json::array();
     for (const Check& check : checks) {
