@@ -85,7 +85,57 @@ TEST_F(DamagedDatabase, DoesNotTakeThePlaceOfAnEarlierBackup)
     viconOn(folder_ / "again", "restore " + backup_.string());
 }
 
+using LostDatabase = DamagedDatabase;
+
+/// Neither a check nor a listener nor the next backup makes another one in its place.
+TEST_F(LostDatabase, IsSaidWhateverIsAskedAndCostsNoBackup)
+{
+    viconOn(store_, "backup " + backup_.string());
+    const auto files = study("2");
+    const auto in_backup = filesOf(backup_);
+    for (const bool is_empty : {false, true}) {
+        SCOPED_TRACE(is_empty);
+        for (const char* name : {"vicon.db", "vicon.db-wal", "vicon.db-shm"})
+            fs::remove(store_ / name);
+        if (is_empty)
+            replaceFile(store_ / "vicon.db", "");
+        for (const std::string& asked :
+             {std::string("cases"), "backup " + backup_.string(), "import " + files.at(0).parent_path().string(),
+              std::string("receive --port 0 --no-work")}) {
+            const CommandResult told = vicon(asked);
+            EXPECT_EQ(told.exit_code, 1) << asked;
+            EXPECT_THAT(told.output, AllOf(HasSubstr("its database is gone or empty"), HasSubstr("'vicon restore'")))
+                << asked;
+        }
+        const CommandResult checked = vicon("doctor");
+        EXPECT_EQ(checked.exit_code, 1);
+        EXPECT_THAT(checked.output, testing::ContainsRegex("BAD  database +.*its database is gone or empty"));
+        EXPECT_TRUE(is_empty || !fs::exists(store_ / "vicon.db"));
+        EXPECT_EQ(filesOf(backup_), in_backup);
+    }
+    EXPECT_EQ(viconJson(folder_ / "again", "restore " + backup_.string())["cases"], 1);
+    const fs::path other = folder_ / "other";
+    viconOn(other, "import " + files.at(0).parent_path().string());
+    const CommandResult refused = runVicon("backup " + backup_.string() + " --store " + other.string());
+    EXPECT_EQ(refused.exit_code, 2) << refused.output;
+    EXPECT_THAT(refused.output, HasSubstr("holds 1 cases, and this store never had one of them"));
+}
+
 using LostObject = DamagedDatabase;
+
+TEST_F(LostObject, DoesNotCostItsCopyWhereItWasChanged)
+{
+    viconOn(store_, "backup " + backup_.string());
+    const ListedScan scan = listedScans(store_).at(0);
+    const fs::path object = fs::directory_iterator(scan.folder / "dicom")->path();
+    const std::string whole = readFile(object);
+    replaceFile(object, whole + "x");
+    const CommandResult told = vicon("backup " + backup_.string());
+    EXPECT_EQ(told.exit_code, 3) << told.output;
+    EXPECT_THAT(told.output, HasSubstr(" is not what it was in the store; its earlier copy stays in the backup\n"));
+    EXPECT_EQ(readFile(backup_ / fs::relative(object, store_)), whole);
+    EXPECT_EQ(viconJson(folder_ / "again", "restore " + backup_.string())["faults"].size(), 0u);
+}
 
 TEST_F(LostObject, IsSaidByBackupAndRestoreWhichGoOnWithTheRest)
 {

@@ -77,6 +77,17 @@ TEST_F(SignTrouble, SignsNothingWhereFilesCannotGrowFontsAreMissingOrAPictureCan
     expectSigned();
 }
 
+TEST_F(SignTrouble, SignsNothingForAPeerThatNobodyKnowsAndAllTheSameWithoutALogo)
+{
+    const CommandResult refused = sign("", "--set 'report.send_to=[\"zz\"]'");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.output, HasSubstr("no peer of that name in the configuration"));
+    EXPECT_EQ(refused.output.find("signing"), std::string::npos) << "before anything is drawn";
+    const CommandResult told = sign("", "--set report.logo=" + (folder_ / "nope.png").string());
+    EXPECT_EQ(told.exit_code, 0) << told.output;
+    EXPECT_THAT(told.output, HasSubstr("the site's logo cannot be read: " + (folder_ / "nope.png").string()));
+}
+
 TEST_F(SignTrouble, SignsNothingOnAFullDisk)
 {
     VICON_NEEDS_DISK(disk_);

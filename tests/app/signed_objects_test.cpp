@@ -62,6 +62,24 @@ TEST_F(SignedObjects, HoldLumenCentrelineAndPicturesOfTheScan)
     }
 }
 
+TEST_F(SignedObjects, ThatWereAlteredOrLostAreSaidAndNotGivenOut)
+{
+    const fs::path report = store_ / "cases" / scan_.case_id / "report", altered = report / "version-1-pdf.dcm";
+    replaceFile(altered, readFile(altered) + "x");
+    fs::remove(report / "version-1-sr.dcm");
+    const std::string fault = "version-1-pdf.dcm is not what was kept; version-1-sr.dcm is missing";
+    const fs::path again = folder_ / "again";
+    for (const std::string& asked :
+         {"audit " + scan_.case_id, "export " + scan_.case_id + " --as dicom --out " + again.string(),
+          "send " + scan_.case_id + " pacs --later --config " + config_.string()}) {
+        const CommandResult told = runVicon(asked + " --store " + store_.string());
+        EXPECT_EQ(told.exit_code, 1) << asked;
+        EXPECT_THAT(told.output, testing::HasSubstr(fault)) << asked;
+    }
+    EXPECT_FALSE(fs::exists(again));
+    EXPECT_TRUE(viconJson(store_, "outbox")["items"].empty());
+}
+
 TEST_F(SignedObjects, AreTakenByAPeerThatKnowsOnlyImplicitLittleEndian)
 {
     const fs::path taken = folder_ / "taken";

@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -7,7 +8,10 @@
 namespace vicon::support {
 namespace {
 
+namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 struct WrongUseCase {
     std::string arguments;
@@ -145,22 +149,86 @@ TEST(Config, SaysWhereEachValueComesFrom)
     EXPECT_EQ(json["segment.add"]["value"], nlohmann::json::array());
 }
 
+/// An empty one.
+fs::path storeIn(const TemporaryFolder& folder)
+{
+    fs::create_directories(folder / "nothing");
+    const fs::path store = folder / "store";
+    runVicon("import " + (folder / "nothing").string() + " --store " + store.string());
+    EXPECT_TRUE(fs::exists(store / "vicon.db"));
+    return store;
+}
+
+CommandResult doctor(const fs::path& store, const std::string& more = "")
+{
+    return runVicon("doctor --store " + store.string() + " " + more);
+}
+
 TEST(Doctor, FindsNothingWrongHere)
 {
     const TemporaryFolder folder;
-    const CommandResult result = runVicon("doctor --store " + folder.path().string());
+    const CommandResult result = doctor(storeIn(folder));
     EXPECT_EQ(result.exit_code, 0) << result.output;
     EXPECT_THAT(result.output, testing::ContainsRegex("ok   store +.*flush and hard links work"));
     EXPECT_THAT(result.output, testing::ContainsRegex("ok   fonts +Latin, Greek"));
     EXPECT_THAT(result.output, testing::ContainsRegex("ok   display +.*, drawn (in software )?by [A-Za-z]"));
 }
 
+TEST(Doctor, MakesNoStoreWhereNoneIs)
+{
+    const TemporaryFolder folder;
+    const CommandResult result = doctor(folder / "typo");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.output, testing::ContainsRegex("BAD  store +.*typo: there is no store here"));
+    EXPECT_THAT(result.output, Not(HasSubstr("database")));
+    EXPECT_FALSE(fs::exists(folder / "typo"));
+}
+
+TEST(Doctor, SaysWhatTheConfigurationNamesAndIsNotThere)
+{
+    const TemporaryFolder folder;
+    const fs::path store = storeIn(folder);
+    std::string wrong;
+    const std::pair<const char*, const char*> kOptions[] = {
+        {"report.send_to", "[\"zz\"]"}, {"report.objects", "[\"bogus\"]"}, {"report.logo", "/nope.png"},
+        {"orders.peer", "zz"},          {"receive.count_at", "zz"},        {"receive.tls", "required"},
+        {"receive.address", "foo"},     {"metrics.address", "9.9.9.9"},    {"audit.syslog", "foo"}};
+    for (const auto& [option, value] : kOptions)
+        wrong += std::string(" --set '") + option + "=" + value + "'";
+    const CommandResult result = doctor(store, wrong);
+    EXPECT_EQ(result.exit_code, 1);
+    for (const auto& [option, value] : kOptions)
+        EXPECT_THAT(result.output, HasSubstr(std::string("BAD  ") + option + " "));
+    EXPECT_THAT(result.output, testing::ContainsRegex("BAD  report.logo +.*/nope.png"));
+    EXPECT_THAT(result.output, testing::ContainsRegex("BAD  report.send_to +zz: no peer of that name"));
+}
+
+TEST(Doctor, CallsNothingEmptyThatItMayNotLookAt)
+{
+    if (::geteuid() != 0)
+        GTEST_SKIP() << "root alone becomes nobody";
+    const TemporaryFolder folder;
+    const fs::path store = storeIn(folder);
+    fs::permissions(folder.path(), fs::perms::owner_all | fs::perms::others_exec);
+    const std::string by_nobody = "setpriv --reuid 65534 --regid 65534 --clear-groups env HOME=/nonexistent " +
+                                  viconBinary() + " doctor --store " + store.string();
+    const CommandResult closed = runCommand("(" + by_nobody + " 2>&1)");
+    EXPECT_EQ(closed.exit_code, 1);
+    EXPECT_THAT(closed.output,
+                testing::ContainsRegex("BAD  store +.*: the store cannot be used \\(Permission denied\\)"));
+    EXPECT_THAT(closed.output, AllOf(Not(HasSubstr("filesystem error")), Not(HasSubstr("quarantine     empty"))));
+    fs::permissions(store, fs::perms::owner_all | fs::perms::others_read | fs::perms::others_exec);
+    fs::create_directories(store / "quarantine");
+    fs::permissions(store / "quarantine", fs::perms::owner_all);
+    EXPECT_THAT(runCommand("(" + by_nobody + " 2>&1)").output,
+                testing::ContainsRegex("BAD  quarantine +.*: it cannot be looked at \\(Permission denied\\)"));
+}
+
 TEST(Doctor, DoesNotCallAPeerThatOnlyStoresHere)
 {
     const TemporaryFolder folder;
     std::ofstream(folder / "c.toml") << "[peers]\nct1 = { host = \"127.0.0.1\", port = 9, roles = [\"store\"] }\n";
-    const CommandResult result =
-        runVicon("doctor --store " + (folder / "store").string() + " --config " + (folder / "c.toml").string());
+    const CommandResult result = doctor(storeIn(folder), "--config " + (folder / "c.toml").string());
     EXPECT_EQ(result.exit_code, 0) << result.output;
     EXPECT_THAT(result.output, testing::ContainsRegex("ok   peer ct1 +ct1 at 127.0.0.1:9 only stores here"));
 }
@@ -168,8 +236,9 @@ TEST(Doctor, DoesNotCallAPeerThatOnlyStoresHere)
 TEST(Doctor, ADatabaseThatIsDownIsOneLineAndLeavesTheRest)
 {
     const TemporaryFolder folder;
-    const CommandResult result = runVicon("doctor --store " + (folder / "store").string() +
-                                          " --set store.database=postgresql://127.0.0.1:9/none");
+    fs::create_directories(folder / "store");
+    std::ofstream(folder / "store/database.id") << "of a store";
+    const CommandResult result = doctor(folder / "store", "--set store.database=postgresql://127.0.0.1:9/none");
     EXPECT_EQ(result.exit_code, 1) << result.output;
     EXPECT_THAT(result.output, HasSubstr("BAD  database"));
     EXPECT_EQ(result.output.find("BAD"), result.output.rfind("BAD")) << result.output;
@@ -179,9 +248,8 @@ TEST(Doctor, ADatabaseThatIsDownIsOneLineAndLeavesTheRest)
 TEST(Doctor, FindsADamagedDatabaseAndAPeerThatDoesNotAnswer)
 {
     const TemporaryFolder folder;
-    const auto store = folder / "store";
-    runVicon("cases --store " + store.string());
-    ASSERT_EQ(runVicon("doctor --store " + store.string()).exit_code, 0);
+    const fs::path store = storeIn(folder);
+    ASSERT_EQ(doctor(store).exit_code, 0);
     std::fstream file(store / "vicon.db", std::ios::in | std::ios::out | std::ios::binary);
     constexpr long kPage = 4096;
     file.seekp(0, std::ios::end);
@@ -189,8 +257,7 @@ TEST(Doctor, FindsADamagedDatabaseAndAPeerThatDoesNotAnswer)
     file << std::string(kPage, 'x');
     file.close();
     std::ofstream(folder / "c.toml") << "[peers]\npacs = { host = \"127.0.0.1\", port = 9 }\n";
-    const CommandResult result =
-        runVicon("doctor --store " + store.string() + " --config " + (folder / "c.toml").string());
+    const CommandResult result = doctor(store, "--config " + (folder / "c.toml").string());
     EXPECT_EQ(result.exit_code, 1) << result.output;
     EXPECT_THAT(result.output, testing::ContainsRegex("BAD  database +.*damaged"));
     EXPECT_THAT(result.output, testing::ContainsRegex("BAD  peer pacs +.*no association"));
