@@ -32,15 +32,26 @@ protected:
     {
         return runVicon(arguments + " --store " + store.string());
     }
+    /// What Prometheus gets at a port; empty while nobody answers there.
+    static std::string figuresAt(int port)
+    {
+        const CommandResult got = runCommand(
+            "python3 -c 'import urllib.request; print(urllib.request.urlopen("
+            "\"http://127.0.0.1:" +
+            std::to_string(port) + "/metrics\").read().decode())' 2>&1");
+        return got.exit_code == 0 ? got.output : "";
+    }
     bool isThere() { return !viconJson(store_, "cases")["cases"].empty(); }
 };
 
 TEST_F(Operation, DeletesACaseOnlyWhenToldTwice)
 {
-    EXPECT_THAT(viconOn(store_, "delete " + case_id_), HasSubstr("nothing was deleted"));
+    EXPECT_THAT(viconOn(store_, "delete " + case_id_), HasSubstr("nothing was deleted; --yes deletes it\n"));
     EXPECT_TRUE(isThere());
     viconOn(store_, "assess " + case_id_ + " --c-rads C1 --why test");
-    EXPECT_THAT(viconOn(store_, "delete " + case_id_), HasSubstr("! it was read, and its report is not signed"));
+    EXPECT_THAT(viconOn(store_, "delete " + case_id_),
+                testing::AllOf(HasSubstr("! it was read, and its report is not signed"),
+                               HasSubstr("nothing was deleted; --yes --lose deletes it\n")));
     const CommandResult refused = vicon("delete " + case_id_ + " --yes", store_);
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_THAT(refused.output, HasSubstr("--lose deletes it all the same"));
@@ -85,14 +96,7 @@ TEST_F(Operation, GivesFiguresToPrometheusOnLoopback)
                                         "[metrics]\nport = " + std::to_string(port) + "\n");
     const DeliveringListener listener(store_, folder_ / "c.toml");
     std::string figures;
-    EXPECT_TRUE(waitUntil([&] {
-        const CommandResult got = runCommand(
-            "python3 -c 'import urllib.request; print(urllib.request.urlopen("
-            "\"http://127.0.0.1:" +
-            std::to_string(port) + "/metrics\").read().decode())' 2>&1");
-        figures = got.output;
-        return got.exit_code == 0;
-    })) << figures;
+    EXPECT_TRUE(waitUntil([&] { return !(figures = figuresAt(port)).empty(); }));
     EXPECT_THAT(figures, HasSubstr("vicon_jobs{state=\"queued\"} 1"));
     EXPECT_THAT(figures, HasSubstr("vicon_instances 134"));
     EXPECT_THAT(figures, HasSubstr("vicon_outbox_objects{state=\"refused\"} 0"));
@@ -114,6 +118,20 @@ TEST_F(Operation, GivesFiguresToPrometheusOnLoopback)
                          store_.string())
                     .output,
                 HasSubstr("the port is taken"));
+}
+
+TEST_F(Operation, TellsPrometheusWhereItsStoreIsGone)
+{
+    const int port = test::freePort();
+    const RunningListener listener(store_, "--set metrics.port=" + std::to_string(port));
+    EXPECT_TRUE(waitUntil([&] { return figuresAt(port).find("\nvicon_up 1") != std::string::npos; }));
+    fs::rename(store_, folder_ / "elsewhere");
+    const std::string gone = figuresAt(port);
+    EXPECT_THAT(gone, HasSubstr("\nvicon_up 0"));
+    EXPECT_THAT(gone, testing::Not(HasSubstr("vicon_cases")));
+    EXPECT_FALSE(fs::exists(store_)) << "asking makes none";
+    fs::rename(folder_ / "elsewhere", store_);
+    EXPECT_THAT(figuresAt(port), testing::AllOf(HasSubstr("\nvicon_up 1"), HasSubstr("vicon_cases 1")));
 }
 
 TEST_F(Operation, CountsWhatLiesInQuarantineAndSinceWhen)
