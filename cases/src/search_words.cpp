@@ -7,6 +7,9 @@
 namespace vicon {
 namespace {
 
+/// Of a text. Names of many parts have ten; each word is a row for every case, and a look into the list when searched.
+constexpr std::size_t kMostWords = 100;
+
 std::string lowerCase(const std::string& text)
 {
     std::string out;
@@ -21,7 +24,8 @@ std::vector<std::string> wordsIn(const std::string& text)
     constexpr const char* kBetween = " \t\n^=,";
     const std::string lower = lowerCase(text);
     std::vector<std::string> words;
-    for (std::size_t from = lower.find_first_not_of(kBetween); from != std::string::npos;) {
+    for (std::size_t from = lower.find_first_not_of(kBetween);
+         from != std::string::npos && words.size() < kMostWords;) {
         const std::size_t to = std::min(lower.find_first_of(kBetween, from), lower.size());
         words.push_back(lower.substr(from, to - from));
         from = lower.find_first_not_of(kBetween, to);

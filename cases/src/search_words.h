@@ -14,7 +14,7 @@ namespace vicon {
 /// and the case's own id.
 std::vector<std::string> searchWords(const CaseRecord& a_case);
 
-/// The words of what a reader typed.
+/// The words of what a reader typed, or a case says: the first hundred.
 std::vector<std::string> wordsIn(const std::string& text);
 
 /// The word that the fewest cases have, or one that at least `most` have where all are so frequent. Counting stops soon

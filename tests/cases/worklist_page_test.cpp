@@ -48,6 +48,20 @@ protected:
     }
 };
 
+TEST_F(WorklistPages, AreSearchedByTheFirstHundredWordsOfAName)
+{
+    std::string name;
+    for (int n = 0; n < 100'000; ++n)
+        name += "w" + std::to_string(n) + " ";
+    add("c1", {.id = "P1", .name = name});
+    EXPECT_THAT(found("w99"), ElementsAre("c1"));
+    EXPECT_THAT(found("w100"), IsEmpty());
+    EXPECT_THAT(found("p1"), ElementsAre("c1"));
+    int rows = 0;
+    store_.database().session() << "SELECT COUNT(*) FROM case_words", soci::into(rows);
+    EXPECT_LT(rows, 110);
+}
+
 TEST_F(WorklistPages, GiveEveryCaseOnceTheNewestFirst)
 {
     for (const char* id : {"c2", "c1", "c5", "c3", "c4"})
