@@ -7,6 +7,7 @@
 #include "../command.h"
 #include "../delivering.h"
 #include "../metrics.h"
+#include "../named_options.h"
 #include "../operation_audit.h"
 #include "../ordering.h"
 #include "../peers.h"
@@ -84,6 +85,7 @@ int receive(Context& context, bool no_work)
 {
     const Config& config = context.config();
     const ingest::ReceiverOptions options = config.get<ingest::ReceiverOptions>();
+    requireDeliverable(config);
     MetricsServer metrics(context.storePlace(), config);
     CaseStore store(context.storePlace());  // one of its own: the receiver imports on its own thread
     std::optional<ingest::Completeness> completeness;
