@@ -55,6 +55,13 @@ void correct(Context& context, CaseStore& store, const WorkArguments& arguments)
     requeueOutdated(store, context.config(), scan.case_id, scan.id);
 }
 
+void nameOrgan(Context& context, CaseStore& store, const WorkArguments& arguments)
+{
+    setOrgan(store, context.config(), arguments.organ, arguments.case_id, arguments.scan_id);
+    if (!arguments.case_id.empty())
+        requeueOutdated(store, context.config(), store.requireCase(arguments.case_id).id);
+}
+
 /// What the pipeline says of a scan whose organ it is not sure of.
 std::string warningOf(CaseStore& store, const Job& job)
 {
@@ -101,11 +108,8 @@ int work(Context& context, const WorkArguments& arguments)
     const auto queue_options = context.config().get<QueueOptions>();
     if (arguments.retry)
         retryFailed(store, queue_options);
-    if (!arguments.organ.empty()) {
-        setOrgan(store, context.config(), arguments.organ, arguments.case_id, arguments.scan_id);
-        if (!arguments.case_id.empty())
-            requeueOutdated(store, context.config(), store.requireCase(arguments.case_id).id);
-    }
+    if (!arguments.organ.empty())
+        nameOrgan(context, store, arguments);
     if (arguments.correct())
         correct(context, store, arguments);
     if (arguments.redo_outdated)
