@@ -113,7 +113,7 @@ public:
         : sequence_(sequence), read_(read)
     {
         const auto item = shared ? shared->item(sequence) : std::nullopt;
-        common_ = read(item ? *item : dataset);
+        common_ = read_(item ? *item : dataset);
     }
     /// @param own the frame's functional groups; nothing for a plain image
     Said of(const std::optional<Dataset>& own) const
