@@ -36,8 +36,8 @@ def pdu(kind, content):
     return struct.pack(">BxI", kind, len(content)) + content
 
 
-def associate(classes):
-    contexts = b"".join(item(0x20, struct.pack("Bxxx", 2 * n + 1) + item(0x30, uid) + item(0x40, IMPLICIT) + item(0x40, EXPLICIT))
+def associate(classes, syntaxes=(IMPLICIT, EXPLICIT)):
+    contexts = b"".join(item(0x20, struct.pack("Bxxx", 2 * n + 1) + item(0x30, uid) + b"".join(item(0x40, one) for one in syntaxes))
                         for n, uid in enumerate(classes))
     user = item(0x50, item(0x51, struct.pack(">I", 16384)) + item(0x52, b"1.2.826.0.1.3680043.10.9.9") + item(0x55, b"FUZZ"))
     return pdu(1, struct.pack(">Hxx", 1) + b"VICON".ljust(16) + b"FUZZ".ljust(16) + bytes(32) +
@@ -92,7 +92,7 @@ def commitment(n):
     reference = element(8, 0x1150, CT_CLASS) + element(8, 0x1155, image(n)[0])
     content = element(8, 0x1195, b"1.2.826.0.1.3680043.10.9.3.1") + element(8, 0x1199, struct.pack("<HHI", 0xfffe, 0xe000, len(reference)) + reference)
     fields = [(3, COMMITMENT), (0x100, short(0x130)), (0x110, short(1)), (0x800, short(1)), (0x1001, b"1.2.840.10008.1.20.1.1"), (0x1008, short(1))]
-    return [associate([COMMITMENT]), data(1, True, command(fields)), data(1, False, content), pdu(5, bytes(4))]
+    return [associate([COMMITMENT], [IMPLICIT]), data(1, True, command(fields)), data(1, False, content), pdu(5, bytes(4))]
 
 
 def mutated_bytes(dice, content):
