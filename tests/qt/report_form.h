@@ -21,8 +21,11 @@ protected:
     void SetUp() override
     {
         Reading::SetUp();
+        findColons();
         openCase();
     }
+    /// In both scans, as the pipeline does.
+    void findColons() const { recordStep("segment", {{"verdict", "colon"}, {"confidence", 1}}); }
     void openForm()
     {
         key(Qt::Key_R, Qt::ControlModifier);
@@ -94,12 +97,16 @@ protected:
         good.parts.assign(1, good.whole);
         good.parts[0].part = ColonPart::transverse;
         const QualityFound found{.parts = {{ColonPart::transverse, 0, length()}}, .parts_unknown = {}, .quality = good};
-        const std::string result = toJson(found).dump();
+        recordStep("quality", toJson(found));
+    }
+    void recordStep(const std::string& step, const nlohmann::json& found) const
+    {
+        const std::string result = found.dump();
         store()->database().write([&](soci::session& sql) {
             for (const std::string scan : {kSupine, kProne})
                 sql << "INSERT INTO steps (case_id, scan_id, step, version, digest, parameters, result, seconds,"
-                       " finished) VALUES ('c1', :scan, 'quality', 1, 'd', '{}', :result, 1, '')",
-                    soci::use(scan), soci::use(result);
+                       " finished) VALUES ('c1', :scan, :step, 1, 'd', '{}', :result, 1, '')",
+                    soci::use(scan), soci::use(step), soci::use(result);
         });
     }
     static inline int strokes_ = 0;       ///< of a person at the keyboard

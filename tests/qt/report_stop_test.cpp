@@ -20,6 +20,7 @@ protected:
     void SetUp() override
     {
         Reading::SetUp();
+        findColons();
         room_.reset();
         const auto endless = [this](const Progress& wanted) {
             ++begun_;

@@ -18,6 +18,7 @@ protected:
     void SetUp() override
     {
         Reading::SetUp();
+        findColons();
         supine_ = test::reviewAllBut(store_, kSupine, supine_missed_mm_);
         prone_ = test::reviewAllBut(store_, kProne, prone_missed_mm_);
         openCase();
