@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include "../command.h"
 #include "../demo_case.h"
 #include "../operation_audit.h"
@@ -18,10 +20,8 @@ std::string openDemo(Context& context, const ReadArguments& arguments)
     if (!arguments.case_id.empty())
         throw Error(ErrorCode::wrong_use, "the synthetic case has a store of its own", "--demo", "leave out CASE");
     viewer::requireScreen();  // told before minutes of work
-    std::string usual = context.storeFolder().string();
-    while (usual.size() > 1 && usual.back() == '/')
-        usual.pop_back();
-    context.useStoreOfItsOwn(usual + "-demo");
+    const std::filesystem::path usual = context.storeFolder();
+    context.useStoreOfItsOwn((usual.has_filename() ? usual : usual.parent_path()).string() + "-demo");
     return demoCase(context);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "../command.h"
@@ -16,6 +17,13 @@
 
 namespace vicon::app {
 namespace {
+
+/// Nothing of a library's.
+std::optional<ErrorCode> codeOf(const std::exception& e)
+{
+    const auto* error = dynamic_cast<const Error*>(&e);
+    return error ? std::optional(error->code()) : std::nullopt;
+}
 
 /// Looks at a peer and fetches what fits the rule.
 class Watch {
@@ -67,12 +75,9 @@ private:
     {
         try {
             return act();
-        } catch (const Error& e) {
-            if (e.code() == ErrorCode::cancelled || e.code() == ErrorCode::wrong_use)
+        } catch (const std::exception& e) {  // a library's, too
+            if (codeOf(e) == ErrorCode::cancelled || codeOf(e) == ErrorCode::wrong_use)
                 throw;
-            spdlog::warn("case {} is fetched again later: {}", CaseStore::caseIdFor(study_uid), e.what());
-            return false;
-        } catch (const std::exception& e) {  // of a library
             spdlog::warn("case {} is fetched again later: {}", CaseStore::caseIdFor(study_uid), e.what());
             return false;
         }
@@ -180,15 +185,10 @@ int watch(Context& context, const std::string& peer, bool once)
             if (once)
                 return all ? 0 : 1;
             said.clear();
-        } catch (const Error& e) {
-            if (once || e.code() == ErrorCode::wrong_use)
+        } catch (const std::exception& e) {  // a library's, too, at what the peer said
+            if (once || codeOf(e) == ErrorCode::wrong_use)
                 throw;
-            if (said != e.what() && e.code() != ErrorCode::cancelled)
-                spdlog::warn("{}", said = e.what());
-        } catch (const std::exception& e) {  // of a library, at what the peer said
-            if (once)
-                throw;
-            if (said != e.what())
+            if (said != e.what() && codeOf(e) != ErrorCode::cancelled)
                 spdlog::warn("{}", said = e.what());
         }
         while (std::chrono::steady_clock::now() < next && !stopRequested())
