@@ -18,7 +18,7 @@ constexpr std::size_t kBlockBytes = 1 << 16;
 /// CT packs to a half or a third, and empty phantoms to a hundredth; what is packed a thousandfold was made to fill
 /// disks.
 constexpr double kLargestRatio = 200;
-/// An archive may unpack to this whatever its own size.
+/// The archives of an import may unpack to this whatever their own size.
 constexpr double kSmallArchiveBytes = 100e6;
 
 struct ReadArchive {
@@ -69,9 +69,40 @@ std::string nameOf(archive_entry* entry)
     return name ? name : "(a name that cannot be read)";
 }
 
+/// What an archive may unpack to: as much as the options say, and no more than its size, with that of those before it,
+/// makes believable. A thousand small ones may not fill what one may not.
+class Allowance {
+public:
+    Allowance(const fs::path& zip, UnpackFolder::Bytes& bytes, const ImportOptions& options) : bytes_(bytes)
+    {
+        std::error_code unknown;
+        const double packed_bytes = double(fs::file_size(zip, unknown));
+        bytes_.packed += unknown ? 0 : packed_bytes;
+        const double believable_bytes = std::max(kSmallArchiveBytes, bytes_.packed * kLargestRatio) - bytes_.unpacked;
+        by_size_ = believable_bytes < options.archive_max_gb * kBytesPerGb;
+        left_ = by_size_ ? believable_bytes : options.archive_max_gb * kBytesPerGb;
+    }
+    bool take(double bytes)
+    {
+        bytes_.unpacked += bytes;
+        left_ -= bytes;
+        return left_ >= 0;
+    }
+    const char* whyExceeded() const
+    {
+        return by_size_ ? "unpacks to more than 200 times its size; the rest is left out"
+                        : "unpacks to more than import.archive_max_gb allows; the rest is left out";
+    }
+
+private:
+    UnpackFolder::Bytes& bytes_;
+    bool by_size_ = false;
+    double left_ = 0;
+};
+
 enum class Written { complete, damaged, too_large };
 
-Written writeEntry(archive* from, const fs::path& file, double& bytes_left, Progress& progress)
+Written writeEntry(archive* from, const fs::path& file, Allowance& allowance, Progress& progress)
 {
     std::ofstream out(file, std::ios::binary);
     std::vector<char> block(kBlockBytes);
@@ -82,8 +113,7 @@ Written writeEntry(archive* from, const fs::path& file, double& bytes_left, Prog
             return Written::damaged;
         if (count == 0)
             break;
-        bytes_left -= double(count);
-        if (bytes_left < 0)
+        if (!allowance.take(double(count)))
             return Written::too_large;
         out.write(block.data(), count);
     }
@@ -107,11 +137,7 @@ std::vector<InputFile> unpackZip(const InputFile& zip, UnpackFolder& folder, con
         refuse(zip.shown, "the zip file cannot be opened (" + in.trouble() + ")");
         return files;
     }
-    std::error_code unknown;
-    const double packed_bytes = double(fs::file_size(zip.path, unknown));
-    const double believable_bytes = std::max(kSmallArchiveBytes, unknown ? 0 : packed_bytes * kLargestRatio);
-    const bool by_ratio = believable_bytes < options.archive_max_gb * kBytesPerGb;
-    double bytes_left = by_ratio ? believable_bytes : options.archive_max_gb * kBytesPerGb;
+    Allowance allowance(zip.path, folder.bytes(), options);
     archive_entry* entry = nullptr;
     int status = ARCHIVE_OK;
     for (int count = 0;
@@ -130,10 +156,9 @@ std::vector<InputFile> unpackZip(const InputFile& zip, UnpackFolder& folder, con
             continue;
         }
         const fs::path file = folder.nextFile();
-        const Written written = writeEntry(in.handle, file, bytes_left, progress);
+        const Written written = writeEntry(in.handle, file, allowance, progress);
         if (written == Written::too_large) {
-            refuse(zip.shown, by_ratio ? "unpacks to more than 200 times its size; the rest is left out"
-                                       : "unpacks to more than import.archive_max_gb allows; the rest is left out");
+            refuse(zip.shown, allowance.whyExceeded());
             return files;
         }
         if (written == Written::damaged)

@@ -1,5 +1,6 @@
 #include "compressed_frames.h"
 
+#include <dcmtk/dcmdata/dcfcache.h>
 #include <dcmtk/dcmdata/dcpixel.h>
 #include <dcmtk/dcmdata/dcpixseq.h>
 #include <dcmtk/dcmdata/dcpxitem.h>
@@ -16,16 +17,20 @@ namespace {
     throw Error(ErrorCode::bad_input, why);
 }
 
-std::string bytesOf(DcmPixelItem& fragment)
+/// Those of the fragments from `first` on to before `last`, one behind the other. They are read to where they are
+/// wanted: a copy within the data set would cost as much as reading them.
+std::string bytesOf(const std::vector<DcmPixelItem*>& fragments, std::size_t first, std::size_t last)
 {
-    Uint8* bytes = nullptr;
-    const Uint32 length = fragment.getLength();
-    if (length == 0)
-        return {};
-    if (fragment.getUint8Array(bytes).bad() || !bytes)
-        failed("its compressed pixels cannot be read");
-    std::string out(reinterpret_cast<const char*>(bytes), length);
-    fragment.compact();
+    std::size_t length = 0;
+    for (std::size_t n = first; n < last; ++n)
+        length += fragments[n]->getLength();
+    std::string out(length, '\0');
+    DcmFileCache cache;
+    std::size_t at = 0;
+    for (std::size_t n = first; n < last; at += fragments[n++]->getLength())
+        if (const Uint32 bytes = fragments[n]->getLength();
+            bytes > 0 && fragments[n]->getPartialValue(out.data() + at, 0, bytes, &cache).bad())
+            failed("its compressed pixels cannot be read");
     return out;
 }
 
@@ -76,7 +81,7 @@ void CompressedFrames::divide(int frames)
 void CompressedFrames::divideByOffsets(std::size_t frames)
 {
     constexpr std::uint64_t kItemHeaderBytes = 8;
-    const std::string table = bytesOf(*fragments_[0]);
+    const std::string table = bytesOf(fragments_, 0, 1);
     if (table.size() != frames * 4)
         failed("its frames are split into parts, and no offset table says which part belongs to which frame");
     const auto offset = [&](std::size_t frame) {
@@ -101,10 +106,7 @@ void CompressedFrames::divideByOffsets(std::size_t frames)
 std::string CompressedFrames::stream(int frame) const
 {
     const Range& range = ranges_.at(std::size_t(frame));
-    std::string out;
-    for (std::size_t n = range.first; n < range.last; ++n)
-        out += bytesOf(*fragments_[n]);
-    return out;
+    return bytesOf(fragments_, range.first, range.last);
 }
 
 }  // namespace vicon::ingest

@@ -165,10 +165,12 @@ bool Dataset::isCut(const DcmTagKey& tag) const
     return trimmed(raw(tag)).size() > kLongestText_bytes;
 }
 
-std::string Dataset::converted(const DcmTagKey& tag, TextKind kind) const
+std::string Dataset::shown(const DcmTagKey& tag, TextKind kind) const
 {
     const std::string whole = trimmed(raw(tag));
-    return toUtf8(cut(whole, kLongestText_bytes), character_sets_, kind);
+    const std::string text = toUtf8(cut(whole, kLongestText_bytes), character_sets_, kind);
+    return printable(kind == TextKind::person_name ? tidyPersonName(text) : trimmed(text)) +
+           (whole.size() > kLongestText_bytes ? kCutMark : "");
 }
 
 std::vector<std::string> Dataset::values(const DcmTagKey& tag) const
@@ -187,7 +189,7 @@ std::vector<std::string> Dataset::values(const DcmTagKey& tag) const
 
 std::string Dataset::text(const DcmTagKey& tag) const
 {
-    return printable(trimmed(converted(tag, TextKind::single_line))) + (isCut(tag) ? kCutMark : "");
+    return shown(tag, TextKind::single_line);
 }
 
 std::string Dataset::longText(const DcmTagKey& tag) const
@@ -207,7 +209,7 @@ std::string Dataset::longText(const DcmTagKey& tag) const
 
 std::string Dataset::personName(const DcmTagKey& tag) const
 {
-    return printable(tidyPersonName(converted(tag, TextKind::person_name))) + (isCut(tag) ? kCutMark : "");
+    return shown(tag, TextKind::person_name);
 }
 
 std::optional<double> Dataset::number(const DcmTagKey& tag, unsigned long index) const

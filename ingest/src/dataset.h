@@ -59,7 +59,7 @@ public:
     DcmItem& dcmItem() const { return *item_; }
 
 private:
-    std::string converted(const DcmTagKey& tag, TextKind kind) const;
+    std::string shown(const DcmTagKey& tag, TextKind kind) const;
 
     DcmItem* item_;
     std::vector<std::string> character_sets_;

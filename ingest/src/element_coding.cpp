@@ -10,11 +10,11 @@
 namespace vicon::ingest {
 namespace {
 
-/// DCMTK finds a transfer syntax by its name, too.
+/// DCMTK finds a transfer syntax by its name, too, and where none is said one of its own that has no UID.
 std::optional<DcmXfer> knownByUid(const std::string& transfer_syntax)
 {
     const DcmXfer known(transfer_syntax.c_str());
-    if (known.getXfer() == EXS_Unknown || transfer_syntax != known.getXferID())
+    if (transfer_syntax.empty() || known.getXfer() == EXS_Unknown || transfer_syntax != known.getXferID())
         return {};
     return known;
 }

@@ -1,44 +1,18 @@
 #include "frame_groups.h"
 
 namespace vicon::ingest {
-namespace {
-
-std::optional<Vector3> vectorAt(const Dataset& dataset, const DcmTagKey& tag, unsigned long from)
-{
-    const auto x = dataset.number(tag, from), y = dataset.number(tag, from + 1), z = dataset.number(tag, from + 2);
-    if (!x || !y || !z)
-        return {};
-    return Vector3{*x, *y, *z};
-}
-
-std::string joined(const std::vector<std::string>& values, std::size_t most)
-{
-    std::string out;
-    for (std::size_t n = 0; n < values.size() && n < most; ++n)
-        out += (n ? "\\" : "") + values[n];
-    return out;
-}
+/// What each functional group says, as it stands.
+namespace frame_group {
 
 struct Position {
     std::optional<Vector3> origin_mm;
     bool commas = false;
 };
 
-Position positionIn(const Dataset& group)
-{
-    return {vectorAt(group, DCM_ImagePositionPatient, 0), group.hasDecimalComma(DCM_ImagePositionPatient)};
-}
-
 struct Orientation {
     std::optional<Vector3> row, column;
     bool commas = false;
 };
-
-Orientation orientationIn(const Dataset& group)
-{
-    return {vectorAt(group, DCM_ImageOrientationPatient, 0), vectorAt(group, DCM_ImageOrientationPatient, 3),
-            group.hasDecimalComma(DCM_ImageOrientationPatient)};
-}
 
 struct Measures {
     std::optional<double> row_mm, pixel_mm;
@@ -46,65 +20,19 @@ struct Measures {
     bool commas = false;
 };
 
-Measures measuresIn(const Dataset& group)
-{
-    return {group.number(DCM_PixelSpacing, 0), group.number(DCM_PixelSpacing, 1),
-            group.number(DCM_SliceThickness).value_or(0),
-            group.hasDecimalComma(DCM_PixelSpacing) || group.hasDecimalComma(DCM_SliceThickness)};
-}
-
 struct Transformation {
     std::optional<double> slope, intercept;
     std::string type;
     bool commas = false;
 };
 
-Transformation transformationIn(const Dataset& group)
-{
-    return {group.number(DCM_RescaleSlope), group.number(DCM_RescaleIntercept),
-            joined(group.values(DCM_RescaleType), 1),
-            group.hasDecimalComma(DCM_RescaleSlope) || group.hasDecimalComma(DCM_RescaleIntercept)};
-}
-
-std::string imageTypeIn(const Dataset& group)
-{
-    constexpr std::size_t kImageTypeValues = 4;
-    return joined(group.values(group.has(DCM_FrameType) ? DCM_FrameType : DCM_ImageType), kImageTypeValues);
-}
-
-std::string kernelIn(const Dataset& group)
-{
-    return joined(group.values(DCM_ConvolutionKernel), 2);
-}
-
 /// When a frame was acquired.
 struct Content {
     std::string acquisition, phase;
 };
 
-Content contentIn(const Dataset& group)
-{
-    Content content;
-    if (const auto number = group.integer(DCM_FrameAcquisitionNumber))
-        content.acquisition = std::to_string(*number);
-    content.phase = group.text(DCM_StackID);
-    if (const auto index = group.integer(DCM_TemporalPositionIndex))
-        content.phase.append("/").append(std::to_string(*index));
-    return content;
-}
-
-/// Of a plain image, beside its groups.
-Content momentOf(const Dataset& dataset, bool signal)
-{
-    Content content{joined(dataset.values(DCM_AcquisitionNumber), 1), {}};
-    if (signal)  // two echoes, or a moment after another, of one place
-        content.phase =
-            joined(dataset.values(DCM_EchoTime), 1) + "/" + joined(dataset.values(DCM_TemporalPositionIdentifier), 1);
-    return content;
-}
-
-/// What a functional group says. What all frames share, or the data set says, is read once: it may stand behind
-/// thousands of other elements.
+/// A group of all frames. What they share, or the data set says, is read once: it may stand behind thousands of other
+/// elements.
 template <class Said>
 class Group {
 public:
@@ -128,9 +56,92 @@ private:
     Said common_;
 };
 
+}  // namespace frame_group
+
+namespace {
+
+using frame_group::Content, frame_group::Measures, frame_group::Orientation, frame_group::Position,
+    frame_group::Transformation;
+
+std::optional<Vector3> vectorAt(const Dataset& dataset, const DcmTagKey& tag, unsigned long from)
+{
+    const auto x = dataset.number(tag, from), y = dataset.number(tag, from + 1), z = dataset.number(tag, from + 2);
+    if (!x || !y || !z)
+        return {};
+    return Vector3{*x, *y, *z};
+}
+
+std::string joined(const std::vector<std::string>& values, std::size_t most)
+{
+    std::string out;
+    for (std::size_t n = 0; n < values.size() && n < most; ++n)
+        out += (n ? "\\" : "") + values[n];
+    return out;
+}
+
+Position positionIn(const Dataset& group)
+{
+    return {vectorAt(group, DCM_ImagePositionPatient, 0), group.hasDecimalComma(DCM_ImagePositionPatient)};
+}
+
+Orientation orientationIn(const Dataset& group)
+{
+    return {vectorAt(group, DCM_ImageOrientationPatient, 0), vectorAt(group, DCM_ImageOrientationPatient, 3),
+            group.hasDecimalComma(DCM_ImageOrientationPatient)};
+}
+
+Measures measuresIn(const Dataset& group)
+{
+    return {group.number(DCM_PixelSpacing, 0), group.number(DCM_PixelSpacing, 1),
+            group.number(DCM_SliceThickness).value_or(0),
+            group.hasDecimalComma(DCM_PixelSpacing) || group.hasDecimalComma(DCM_SliceThickness)};
+}
+
+Transformation transformationIn(const Dataset& group)
+{
+    return {group.number(DCM_RescaleSlope), group.number(DCM_RescaleIntercept),
+            joined(group.values(DCM_RescaleType), 1),
+            group.hasDecimalComma(DCM_RescaleSlope) || group.hasDecimalComma(DCM_RescaleIntercept)};
+}
+
+std::string imageTypeIn(const Dataset& group)
+{
+    constexpr std::size_t kImageTypeValues = 4;
+    return joined(group.values(group.has(DCM_FrameType) ? DCM_FrameType : DCM_ImageType), kImageTypeValues);
+}
+
+std::string kernelIn(const Dataset& group)
+{
+    return joined(group.values(DCM_ConvolutionKernel), 2);
+}
+
+Content contentIn(const Dataset& group)
+{
+    Content content;
+    if (const auto number = group.integer(DCM_FrameAcquisitionNumber))
+        content.acquisition = std::to_string(*number);
+    content.phase = group.text(DCM_StackID);
+    if (const auto index = group.integer(DCM_TemporalPositionIndex))
+        content.phase.append("/").append(std::to_string(*index));
+    return content;
+}
+
+/// Of a plain image, beside its groups.
+Content momentOf(const Dataset& dataset, bool signal)
+{
+    Content content{joined(dataset.values(DCM_AcquisitionNumber), 1), {}};
+    if (signal)  // two echoes, or a moment after another, of one place
+        content.phase =
+            joined(dataset.values(DCM_EchoTime), 1) + "/" + joined(dataset.values(DCM_TemporalPositionIdentifier), 1);
+    return content;
+}
+
 }  // namespace
 
 struct FrameGroups::Groups {
+    template <class Said>
+    using Group = frame_group::Group<Said>;
+
     Group<Position> position;
     Group<Orientation> orientation;
     Group<Measures> measures;

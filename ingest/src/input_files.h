@@ -25,6 +25,11 @@ public:
     UnpackFolder& operator=(const UnpackFolder&) = delete;
     /// A name in the folder that was not used yet.
     std::filesystem::path nextFile();
+    /// Of the archives of the import so far: their own, and of what came out of them.
+    struct Bytes {
+        double packed = 0, unpacked = 0;
+    };
+    Bytes& bytes() { return bytes_; }
     /// Removes what killed imports left. Call only while the store is locked: a folder that is being made looks like
     /// one that nobody has.
     static void removeLeftovers(const std::filesystem::path& incoming);
@@ -33,6 +38,7 @@ private:
     std::filesystem::path folder_;
     int descriptor_ = -1;  ///< locked while the import lives
     int count_ = 0;
+    Bytes bytes_;
 };
 
 /// Lists the files below the given paths: folders recursively in order of name, DICOMDIRs by what they name. What

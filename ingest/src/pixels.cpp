@@ -77,18 +77,6 @@ struct FrameDecoder::Opened {
     double table_slope = 0, table_intercept = 0;
     int shift = 0, table_shift = 0;
 
-    /// DCMTK looks up the matrix by itself, and not in elements that were written as UN.
-    void tellDcmtk(const PixelFormat& f)
-    {
-        DcmItem& dataset = *format.getDataset();
-        for (const auto& [tag, value] : {std::pair(DCM_Rows, f.rows), std::pair(DCM_Columns, f.columns),
-                                         std::pair(DCM_BitsAllocated, f.bits_allocated)}) {
-            DcmElement* element = nullptr;
-            if (dataset.findAndGetElement(tag, element).good() && element->ident() == EVR_UN)
-                dataset.putAndInsertUint16(tag, Uint16(value));
-        }
-    }
-
     /// A frame of compressed pixels. What its stream says is looked at first, whoever asks.
     std::vector<char> decompressed(const ImageObject& object, int frame)
     {
@@ -112,13 +100,14 @@ struct FrameDecoder::Opened {
         if (DcmXfer(object.transfer_syntax.c_str()).isEncapsulated())
             return decompressed(object, frame);
         const std::size_t needed = std::size_t(f.rows) * std::size_t(f.columns) * std::size_t(f.bits_allocated / 8);
-        std::vector<char> bytes(needed + needed % 2);
-        Uint32 start_fragment = 0;
-        OFString color_model;
-        const OFCondition done = pixels->getUncompressedFrame(format.getDataset(), Uint32(frame), start_fragment,
-                                                              bytes.data(), Uint32(bytes.size()), color_model, &cache);
+        // By the matrix that was read at import: of frames DCMTK would look it up by itself, in fewer ways.
+        const std::uint64_t at = std::uint64_t(frame) * needed;
+        std::vector<char> bytes(needed);
+        const OFCondition done = at + needed > std::numeric_limits<Uint32>::max()
+                                     ? EC_IllegalParameter
+                                     : pixels->getPartialValue(bytes.data(), Uint32(at), Uint32(needed), &cache);
         if (done.bad())
-            failed("its pixels cannot be decoded (" + std::string(done.text()) + ")");
+            failed("its pixels cannot be read (" + std::string(done.text()) + ")");
         return bytes;
     }
 };
@@ -134,7 +123,6 @@ FrameDecoder::FrameDecoder(const ImageObject& object) : object_(object), opened_
         opened_->pixels = dynamic_cast<DcmPixelData*>(element);
     if (!opened_->pixels)
         failed("it has no pixels");
-    opened_->tellDcmtk(object.pixels);
 }
 
 FrameDecoder::~FrameDecoder() = default;

@@ -48,7 +48,8 @@ public:
     std::uint32_t sure(std::size_t at, std::size_t count) const { return number(at, count).value_or(0); }
     bool hasFrom(std::size_t at, std::string_view what) const
     {
-        return bytes_.find(what, at) != std::string_view::npos;
+        const std::size_t last = bytes_.rfind(what);  // an end is looked for, and stands at the end
+        return last != std::string_view::npos && last >= at;
     }
 
 private:

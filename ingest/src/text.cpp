@@ -210,12 +210,14 @@ std::string toUtf8(std::string_view bytes, const std::vector<std::string>& chara
 {
     bytes = withoutPadding(bytes);
     const std::string first = character_sets.empty() ? "" : character_sets.front();
+    if (isAscii(bytes) && !first.ends_with("IR 13"))  // whose lower half is not ASCII
+        return std::string(bytes);
     if (first == "ISO_IR 192")
         return isUtf8(bytes) ? std::string(bytes) : convert(bytes, "UTF-8");
     if (first == "GB18030" || first == "GBK")
         return convert(bytes, "gb18030");
     const bool declared = character_sets.size() > 1 || !first.empty();
-    if (!declared && !isAscii(bytes) && bytes.find(kEscape) == std::string_view::npos)
+    if (!declared && bytes.find(kEscape) == std::string_view::npos)
         return isUtf8(bytes) ? std::string(bytes) : convert(bytes, "ISO-8859-1");
     return CodeExtensionReader(character_sets, kind).read(bytes);
 }

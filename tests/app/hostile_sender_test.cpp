@@ -114,8 +114,9 @@ protected:
         EXPECT_TRUE(ingest::storeFiles(listener_.peer(), files_, "HONEST", quiet).complete());
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
         std::printf("an honest sender's %zu objects were taken in %.2f s\n", files_.size(), took.count());
-        if (inFull())
+        if (inFull()) {
             EXPECT_LT(took.count(), 5);
+        }
     }
     /// What lies beside the store, where a path with ../ would lead.
     std::set<std::string> outside() const

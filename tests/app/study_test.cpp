@@ -94,8 +94,9 @@ TEST_F(Study, InAStoreThatAGroupSharesEverythingIsTheGroups)
         const auto mode = entry.status().permissions();
         EXPECT_EQ(mode & kOfGroup, kOfGroup) << entry.path();
         EXPECT_EQ(mode & fs::perms::others_all, fs::perms::none) << entry.path();
-        if (entry.is_directory())
+        if (entry.is_directory()) {
             EXPECT_EQ(mode & fs::perms::set_gid, fs::perms::set_gid) << entry.path();
+        }
     }
 }
 

@@ -118,7 +118,9 @@ TEST(TemporaryFolder, ThatCannotBeMadeSaysWhatToSet)
 TEST(RemoveTemporaries, TakesOnlyWhatAKilledWriterLeft)
 {
     const support::TemporaryFolder folder;
-    std::ofstream(folder / (std::string(kTemporaryPrefix) + "1-0-a.txt")) << "x";
+    std::string temporary(kTemporaryPrefix);
+    temporary += "1-0-a.txt";
+    std::ofstream(folder / temporary) << "x";
     std::ofstream(folder / "b.txt") << "x";
     removeTemporaries(folder.path());
     EXPECT_TRUE(fs::exists(folder / "b.txt"));

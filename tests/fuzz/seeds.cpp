@@ -189,8 +189,10 @@ void writeTexts(const fs::path& out)
          "[import]\nmin_slices = 12\nlargest_missing_gap_mm = 2.5\n[peers.pacs]\nhost = \"h\"\nport = 104\n"
          "ae_title = \"P\"\n[receive]\nallow = \"peers\"\nany_called_title = false\n");
     save(out / "config" / "assignment", "import.min_slices=12");
-    save(out / "series" / "position", std::string("\3\0\x9-8\\-8\\6.5", 12));
-    save(out / "series" / "kernel", std::string("\xd\xa\4B70f\xc\4\0032.5\5\xb\3FFP", 20));
+    save(out / "series" / "position", std::string("\6\0\x9-8\\-8\\6.5", 12));
+    save(out / "series" / "kernel", std::string("\xa\xa\4B70f\x8\4\0032.5\xa\xb\3FFP", 20));
+    save(out / "series" / "frames", std::string("\7\4\0032.5\xc\xa\4B70f", 13));
+    save(out / "series" / "unknown", std::string("\xc\4\xc4nan ", 7));
 }
 
 /// The first frame of a compressed object; empty where there is none. The seeds' have one fragment each.

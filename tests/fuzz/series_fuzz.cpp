@@ -1,6 +1,8 @@
 // Data set to the description of a scan. The input changes elements of a small series: each change is a byte for the
-// slice, one for the element, one for the length of its value, and the value. Whatever they say, the series is planned
-// within the limits or refused with a reason, and its description is JSON.
+// slice, one for the element, one for the length of its value and the way it is written (by the dictionary, or as bytes
+// of an unknown kind), and the value. An odd first byte makes one object of frames of the series, each change one of a
+// frame's functional groups where one holds the element. Whatever they say, the series is planned within the limits or
+// refused with a reason, and its description is JSON.
 #include <dcmtk/config/osconfig.h>
 
 #include <dcmtk/dcmdata/dcostrmb.h>
@@ -10,6 +12,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <list>
+#include <map>
+#include <optional>
 
 #include "inspect.h"
 #include "memory_file.h"
@@ -64,10 +68,23 @@ const std::array kElements{DCM_ImagePositionPatient,
                            DCM_FrameOfReferenceUID,
                            DCM_AcquisitionDateTime};
 
+struct Change {
+    DcmTagKey tag;
+    std::string value;
+    bool unknown = false;  ///< written as UN
+};
+
 /// As the element is written: numbers from decimal text where its kind is binary.
-void change(DcmDataset& dataset, const DcmTagKey& tag, const std::string& value)
+void change(DcmItem& dataset, const Change& asked)
 {
+    const auto& [tag, value, unknown] = asked;
     dataset.findAndDeleteElement(tag);
+    if (unknown) {
+        auto* const element = new DcmOtherByteOtherWord(DcmTag(tag, EVR_UN));
+        element->putUint8Array(reinterpret_cast<const Uint8*>(value.data()), value.size());
+        dataset.insert(element, true);
+        return;
+    }
     const auto number = std::strtol(value.c_str(), nullptr, 10);
     switch (DcmTag(tag).getEVR()) {
         case EVR_US:
@@ -77,6 +94,50 @@ void change(DcmDataset& dataset, const DcmTagKey& tag, const std::string& value)
         default:
             dataset.putAndInsertOFStringArray(tag, OFString(value.data(), value.size()));
     }
+}
+
+/// The functional group that holds an element; nothing where it belongs to the data set.
+std::optional<DcmTagKey> groupOf(const DcmTagKey& tag)
+{
+    static const std::map<DcmTagKey, DcmTagKey> kGroups{{DCM_ImagePositionPatient, DCM_PlanePositionSequence},
+                                                        {DCM_ImageOrientationPatient, DCM_PlaneOrientationSequence},
+                                                        {DCM_PixelSpacing, DCM_PixelMeasuresSequence},
+                                                        {DCM_SliceThickness, DCM_PixelMeasuresSequence},
+                                                        {DCM_RescaleSlope, DCM_PixelValueTransformationSequence},
+                                                        {DCM_RescaleIntercept, DCM_PixelValueTransformationSequence},
+                                                        {DCM_RescaleType, DCM_PixelValueTransformationSequence},
+                                                        {DCM_ConvolutionKernel, DCM_CTReconstructionSequence}};
+    const auto found = kGroups.find(tag);
+    return found == kGroups.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// The slices as the frames of one object: what a group may hold is moved into each frame's own.
+DcmDataset asFrames(std::vector<DcmDataset>& slices)
+{
+    DcmDataset whole(slices.front());
+    whole.putAndInsertString(DCM_SOPClassUID, UID_EnhancedCTImageStorage);
+    whole.putAndInsertString(DCM_NumberOfFrames, std::to_string(slices.size()).c_str());
+    std::vector<Uint16> pixels;
+    for (DcmDataset& slice : slices) {
+        DcmItem* frame = nullptr;
+        whole.findOrCreateSequenceItem(DCM_PerFrameFunctionalGroupsSequence, frame, -2);
+        for (const DcmTagKey& tag : kElements) {
+            DcmElement* element = nullptr;
+            const auto group = groupOf(tag);
+            if (!group || slice.findAndGetElement(tag, element).bad())
+                continue;
+            DcmItem* item = nullptr;
+            frame->findOrCreateSequenceItem(*group, item, 0);
+            item->insert(static_cast<DcmElement*>(element->clone()), true);
+            whole.findAndDeleteElement(tag);
+        }
+        const Uint16* values = nullptr;
+        unsigned long count = 0;
+        if (slice.findAndGetUint16Array(DCM_PixelData, values, &count).good() && values)
+            pixels.insert(pixels.end(), values, values + count);
+    }
+    whole.putAndInsertUint16Array(DCM_PixelData, pixels.data(), pixels.size());
+    return whole;
 }
 
 /// The bytes of a file.
@@ -135,26 +196,31 @@ void describe(const std::vector<const ImageObject*>& objects)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     static const std::array<fuzz::MemoryFile, kSlices> files;
+    const bool in_frames = size > 0 && data[0] % 2 != 0;
     std::vector<DcmDataset> slices;
     for (int n = 0; n < kSlices; ++n)
         slices.push_back(fuzz::templateSlice(n));
     for (std::size_t at = 0; at + 3 <= size;) {
-        const std::size_t length = std::min<std::size_t>(data[at + 2] % 64, size - at - 3);
-        const std::string value(reinterpret_cast<const char*>(data) + at + 3, length);
-        const DcmTagKey& tag = kElements[data[at + 1] % kElements.size()];
+        constexpr std::size_t kLongest = 64;
+        const std::size_t length = std::min<std::size_t>(data[at + 2] % kLongest, size - at - 3);
+        const Change asked{kElements[data[at + 1] % kElements.size()],
+                           {reinterpret_cast<const char*>(data) + at + 3, length},
+                           data[at + 2] >= 3 * kLongest};
         // Behind the last slice: all of them alike, then every other one, so that kinds alternate.
-        const int which = data[at] % (kSlices + 2);
+        const int which = data[at] / 2 % (kSlices + 2);
         for (int n = 0; n < kSlices; ++n)
             if (n == which || which == kSlices || (which > kSlices && n % 2 == 0))
-                change(slices[std::size_t(n)], tag, value);
+                change(slices[std::size_t(n)], asked);
         at += 3 + length;
     }
+    if (in_frames)
+        slices = {asFrames(slices)};
     std::list<ImageObject> objects;
     std::map<std::string, std::vector<const ImageObject*>> series;
-    for (int n = 0; n < kSlices; ++n) {
-        const std::string bytes = written(slices[std::size_t(n)]);
-        files[std::size_t(n)].fill(bytes.data(), bytes.size());
-        Inspection found = inspectFile(files[std::size_t(n)].path(), {});
+    for (std::size_t n = 0; n < slices.size(); ++n) {
+        const std::string bytes = written(slices[n]);
+        files[n].fill(bytes.data(), bytes.size());
+        Inspection found = inspectFile(files[n].path(), {});
         (void)nlohmann::json(found.reason).dump();
         if (found.verdict != Inspection::Verdict::image)
             continue;

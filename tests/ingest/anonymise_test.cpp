@@ -138,8 +138,9 @@ TEST_F(Anonymous, WhatLiesBehindTheEndOfAFileIsLeftOut)
     import({originals_});
     EXPECT_EQ(write(store.cases().at(0).id).written, 12);
     for (const auto& entry : fs::recursive_directory_iterator(out_))
-        if (entry.is_regular_file())
+        if (entry.is_regular_file()) {
             EXPECT_EQ(readFile(entry.path()).find("a note on"), std::string::npos);
+        }
 }
 
 TEST_F(Anonymous, AFolderWithSomethingInItIsNotTouched)

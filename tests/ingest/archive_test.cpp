@@ -102,6 +102,15 @@ TEST_F(Archive, LimitsOnCountAndSizeHold)
     EXPECT_TRUE(fs::is_empty(store.folder() / "incoming"));
 }
 
+TEST_F(Archive, ManySmallOnesMayNotFillWhatOneMayNot)
+{
+    const std::string zeros(60'000'000, '\0');
+    const fs::path one = zip("one.zip", {{"zeros", zeros, false}}), other = zip("other.zip", {{"zeros", zeros, false}});
+    EXPECT_FALSE(says(import({one}), Kind::refused, "200 times its size"));
+    const auto report = import({one, other});
+    EXPECT_TRUE(says(report, Kind::refused, "200 times its size")) << lines(report);
+}
+
 TEST_F(Archive, DamageAndNestingCostLines)
 {
     const fs::path inner = zip("inner.zip", seriesEntries());

@@ -1,5 +1,6 @@
 // What VICON and ITK read of DICOM, as plain files for `import-oracle`, which compares them with what pydicom reads.
-//   oracle_dump generate OUT    series of every encoding, orientation and rescale, one below OUT each
+//   oracle_dump generate OUT    series of every encoding, orientation and rescale, one below OUT each; as slices, and
+//                               as frames of one object
 //   oracle_dump read IN OUT     OUT/N.mha: the volumes that VICON makes of IN; OUT/N.json: their files, and which slice
 //                               of ITK's, OUT/itk/M.mha, is which file
 #include <itkGDCMImageIO.h>
@@ -45,6 +46,26 @@ const Rescale kRescales[] = {
     {"fraction", 0.25, -1024, 16, false}, {"fewer", 3, -1200, 10, false},
 };
 
+/// Every encoding of these files, in a folder for each.
+void encode(const std::vector<fs::path>& files, const fs::path& out, const std::string& name)
+{
+    for (const char* encoding : test::kEncodings) {
+        const fs::path folder = out / (name + "_" + encoding);
+        fs::create_directories(folder);
+        for (const fs::path& file : files)
+            test::transcode(file, folder / file.filename(), encoding);
+    }
+}
+
+/// All frames, not in the order of their places.
+std::vector<int> shuffled(int frames)
+{
+    std::vector<int> order;
+    for (int n = 0; n < frames; ++n)
+        order.push_back(n % 2 ? n / 2 : frames - 1 - n / 2);
+    return order;
+}
+
 void generate(const fs::path& out)
 {
     int number = 0;
@@ -63,13 +84,10 @@ void generate(const fs::path& out)
             spec.bits_stored = rescale.bits_stored;
             spec.high_bit = rescale.bits_stored - 1;
             spec.is_signed = rescale.is_signed;
-            const auto plain = test::writeSeries(out / "plain", spec);
-            for (const char* encoding : test::kEncodings) {
-                const fs::path folder = out / (std::string(orientation.name) + "_" + rescale.name + "_" + encoding);
-                fs::create_directories(folder);
-                for (const fs::path& file : plain)
-                    test::transcode(file, folder / file.filename(), encoding);
-            }
+            const std::string name = std::string(orientation.name) + "_" + rescale.name;
+            encode(test::writeSeries(out / "plain", spec), out, name);
+            encode({test::writeEnhanced(out / "plain" / "frames.dcm", spec, shuffled(spec.slices))}, out,
+                   name + "_frames");
             fs::remove_all(out / "plain");
         }
 }

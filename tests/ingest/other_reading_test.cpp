@@ -95,6 +95,15 @@ std::string typedOrNot()
     return longElement(9, 0x1001, "OB", std::string(kLettersOb - 4, '\0') + deep(Form::implicit));
 }
 
+/// In implicit big endian one value of bytes; in little endian a shorter one, and the sequences.
+std::string shortOrLong()
+{
+    constexpr std::size_t kBig = 0x0f0000, kLittle = 0x000f00;
+    std::string value = std::string(kLittle, '\0') + deep(Form::implicit);
+    value.resize(kBig);
+    return tag(9, 0x1001) + bigEndian(kBig, 4) + value;
+}
+
 std::string item(const std::string& content)
 {
     return tag(0xfffe, 0xe000) + littleEndian(content.size(), 4) + content;
@@ -133,6 +142,8 @@ const TwoReadings kCases[] = {
      }},
     {"UnknownSyntax", [] { return headIn("1.2.3.4.5") + littleOrBig(); }},
     {"NoSyntax", [] { return head(kIdentity) + littleOrBig(); }},
+    {"NoSyntaxAndNoTypes", [] { return head(kIdentity) + shortOrLong(); }},
+    {"EmptySyntax", [] { return headIn("") + shortOrLong(); }},
     {"SyntaxByName", [] { return headIn("Big Endian Explicit") + littleOrBig(); }},
     {"SyntaxWithASpace", [] { return headIn("1.2.840.1 0008.1.2.2") + littleOrBig(); }},
     {"SyntaxBehindASpace", [] { return headIn(" " + kBigEndianUid) + littleOrBig(); }},

@@ -144,8 +144,9 @@ TEST(Scanner, ShowsContrastMediumInTheWallAndNotInTheMuscles)
     EXPECT_NEAR(added_hu({-88, 70, 60}), 0, 2) << "gluteal muscles";
     EXPECT_EQ(scan.truth.inside.voxels, without.truth.inside.voxels);
     for (const Polyp& polyp : scan.truth.polyps)
-        if (polyp.diameter_mm > 8)
+        if (polyp.diameter_mm > 8) {
             EXPECT_GT(added_hu(polyp.position_mm), 25) << polyp.station_mm;
+        }
 }
 
 TEST(Scanner, StreaksFromHipToHipAndStarvesBehindMetal)

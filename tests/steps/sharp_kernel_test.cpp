@@ -83,8 +83,9 @@ TEST(SharpKernel, OvershootIsMeasuredAndSoftenedInPlace)
     for (int i = j; i < kEdge; ++i) {
         const double mm = behindWall_mm(i, j), softer_hu = soft->hu.at({i, j, k});
         EXPECT_LT(softer_hu, kTissue_hu + 65) << mm << " mm behind the wall";
-        if (mm > 6)
+        if (mm > 6) {
             EXPECT_NEAR(softer_hu, kTissue_hu, 3) << mm;
+        }
         const double before_hu = soft->hu.at({i - 1, j, k});
         if (before_hu < -480 && softer_hu >= -480)
             half_mm = mm - kVoxel_mm * (softer_hu + 480) / (softer_hu - before_hu);

@@ -43,8 +43,9 @@ TEST(Openings, AreNoLumenTowardsOtherBowelAndTold)
     const TissueResult found = scene.find();
     for (std::size_t n = 0; n < scene.grid.voxelCount(); ++n)
         if (const Point3 p = scene.grid.pointAt(scene.grid.indexOf(n));
-            found.lumen.voxels[n] != kOutside && std::abs(p.z) < 3)
+            found.lumen.voxels[n] != kOutside && std::abs(p.z) < 3) {
             EXPECT_LT(p.y, 1.8) << "not beyond the wall, at " << p.z;
+        }
     ASSERT_FALSE(found.untrusted.faint.empty());
     EXPECT_NEAR(found.untrusted.faint[0].middle_mm.y, 1.4, 1.5);
     EXPECT_NEAR(found.untrusted.faint[0].middle_mm.z, 0, 2);
