@@ -141,6 +141,24 @@ double wallRise_rad(const TracedPolyp& polyp)
     return std::clamp(mean, -kSteepestWall_rad, kSteepestWall_rad);
 }
 
+double rimSlope2(const TracedPolyp& polyp, const HeadChord& chord)
+{
+    constexpr std::size_t kBeside = 2;  // points; one would be moved by noise more than by the wall
+    const std::vector<Point3> rim = polyp.rimPoints();
+    if (rim.size() <= 2 * kBeside)
+        return 0;
+    const auto slope2At = [&](Point3 end) {
+        const auto nearest = std::min_element(rim.begin(), rim.end(), [&](const Point3& a, const Point3& b) {
+            return distance(a, end) < distance(b, end);
+        });
+        const auto n = std::size_t(nearest - rim.begin());
+        const Vector3 along = rim[(n + kBeside) % rim.size()] - rim[(n + rim.size() - kBeside) % rim.size()];
+        const double rise_mm = dot(along, polyp.axis), way_mm = length(along - polyp.axis * rise_mm);
+        return std::min(1.0, std::pow(rise_mm / std::max(way_mm, PolypProfile::kStep_mm), 2));
+    };
+    return (slope2At(chord.from) + slope2At(chord.to)) / 2;
+}
+
 double roughness_mm(const std::vector<Point3>& rim)
 {
     const auto at = [&](std::size_t n) { return rim[n % rim.size()]; };

@@ -51,6 +51,10 @@ double seenVolume_mm3(const TracedPolyp& polyp, Point3 middle);
 /// sections: folds beside it do not count.
 double wallRise_rad(const TracedPolyp& polyp);
 
+/// How steeply the rim runs at its ends, as the mean square of rise over way along it: in a saddle, as inside of a
+/// bend, it climbs on one side and falls on the other; on a plane 0, and no more than 1.
+double rimSlope2(const TracedPolyp& polyp, const HeadChord& chord);
+
 /// How far the rim's points lie from the cubic through the four beside them, root mean square: an even bend is none.
 double roughness_mm(const std::vector<Point3>& rim);
 

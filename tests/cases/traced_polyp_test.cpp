@@ -72,5 +72,24 @@ TEST(TracedPolyp, TheWallsRiseIsItsAngleAndFoldsBesideDoNotCount)
     EXPECT_LE(wallRise_rad(steep), 0.8) << "no wall is so steep all around";
 }
 
+TEST(TracedPolyp, ARimRunsSteeplyWhereTheWallIsASaddle)
+{
+    EXPECT_NEAR(rimSlope2(halfBall(0), largestChordOf(halfBall(0))), 0, 1e-6);
+    constexpr double kRise_mm = 1;  // the rim's height is this times the cosine of twice the way around
+    TracedPolyp saddle = halfBall(0);
+    for (int n = 0; n < kSections; ++n)
+        saddle.profiles[std::size_t(n)].points[kRim] +=
+            saddle.axis * (kRise_mm * std::cos(4 * std::numbers::pi * n / kSections));
+    const auto chordAt = [&](int n) {
+        const Point3 from = saddle.profiles[std::size_t(n)].points[kRim],
+                     to = saddle.profiles[std::size_t(n + kSections / 2)].points[kRim];
+        return HeadChord{distance(from, to), from, to, 2};
+    };
+    EXPECT_NEAR(rimSlope2(saddle, chordAt(0)), 0, 1e-6) << "along the valley";
+    EXPECT_NEAR(rimSlope2(saddle, chordAt(kSections / 4)), 0, 1e-6) << "along the ridge";
+    const double slope = 2 * kRise_mm / kRadius_mm;  // between both
+    EXPECT_NEAR(rimSlope2(saddle, chordAt(kSections / 8)), slope * slope, 0.1 * slope * slope);
+}
+
 }  // namespace
 }  // namespace vicon

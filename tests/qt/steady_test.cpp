@@ -261,6 +261,42 @@ TEST_F(Reading, ThePictureSaysWhileItIsNotAsTheListOfTranslucencySays)
     EXPECT_EQ(shown.back(), plain);
 }
 
+/// How many pixels of a square around a place differ.
+int differingAround(QPoint at, const QImage& one, const QImage& other)
+{
+    constexpr int kHalf = 20;
+    int differing = 0;
+    for (int y = at.y() - kHalf; y <= at.y() + kHalf; ++y)
+        for (int x = at.x() - kHalf; x <= at.x() + kHalf; ++x)
+            differing += one.pixel(x, y) != other.pixel(x, y) ? 1 : 0;
+    return differing;
+}
+
+TEST_F(Reading, TranslucencyInACircleFollowsTheMouseAndLeavesTheWallAround)
+{
+    openCase();
+    auto* view = the<PictureView>("endoscopic");
+    waitUntilQuiet();
+    const QImage wall = view->image();
+    const QPoint left(view->width() / 5, view->height() / 2), right(view->width() * 4 / 5, view->height() / 2);
+    the<QWidget>("peel")->setFocus();
+    QTest::keyClick(the<QWidget>("peel"), Qt::Key_Down);
+    auto* box = the<QWidget>("peelCircle");
+    QTest::mouseClick(box, Qt::LeftButton, {}, QPoint(8, box->height() / 2));
+    for (const auto& [in, out] : {std::pair(left, right), std::pair(right, left)}) {
+        QTest::mouseMove(view, in);
+        EXPECT_TRUE(eventually([&, in = in, out = out] {
+            return quiet() && differingAround(in, view->image(), wall) > 100 &&
+                   differingAround(out, view->image(), wall) == 0;
+        })) << in.x()
+            << ": " << differingAround(in, view->image(), wall) << " in the circle, "
+            << differingAround(out, view->image(), wall) << " around it";
+        screenshot(in == left ? "circle_left" : "circle_right");
+    }
+    QTest::mouseClick(box, Qt::LeftButton, {}, QPoint(8, box->height() / 2));
+    EXPECT_TRUE(eventually([&] { return quiet() && differingAround(left, view->image(), wall) > 100; })) << "all of it";
+}
+
 TEST_F(Reading, APictureThatIsNotOfThisPlaceYetSaysSo)
 {
     openCase();
