@@ -94,7 +94,7 @@ TEST(LongPrepared, TheBandOfEachScanHoldsTheWallOnceAndLeadsBackToIt)
             off += std::abs(std::log2(band.areaFactor(n))) > 1 ? 1.0 / double(scan.cells().pointCount()) : 0;
         std::printf("%s: under other wall %.4f; back within %.3f mm; area off by two at %.3f of the points\n",
                     scan.folder().filename().c_str(), band.turnedShare(), back_mm, off);
-        EXPECT_LT(band.turnedShare(), 0.05);
+        EXPECT_LT(band.turnedShare(), 0.025);
         EXPECT_LT(back_mm, 1);
     });
 }

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "band_angle.h"
 #include "even_out.h"
+#include "lay_down.h"
 #include "nearest_on_triangle.h"
 #include "wall_stations.h"
 
@@ -24,12 +26,6 @@ constexpr double kAreaOver_mm = 3;
 // leaps, and what leans over is laid down. Chosen among 2, 4, 9 and 14 on ctc-prone: below 14 there are holes where the
 // wall of a narrow place does not go around the path.
 constexpr double kEven_mm = 14;
-
-/// An angle of less than a turn and a half, from -pi to pi.
-double turned(double angle_rad)
-{
-    return angle_rad > kPi ? angle_rad - 2 * kPi : angle_rad < -kPi ? angle_rad + 2 * kPi : angle_rad;
-}
 
 /// Where a point lies as seen from the path, in the plane across it: up and to the right.
 struct OffPath {
@@ -103,6 +99,7 @@ BandMap::BandMap(const CellSurface& surface, const PathFrames& path, const Field
     evenOut(circle, 2, neighbors, kEven_mm, progress);
     forEachPoint(surface.pointCount(),
                  [&](std::size_t n) { around_rad_[n] = float(std::atan2(circle[2 * n + 1], circle[2 * n])); });
+    layDown(station_mm_, around_rad_, surface, neighbors, progress);
     if (!station_mm_.empty()) {
         const auto [least, most] = std::minmax_element(station_mm_.begin(), station_mm_.end());
         first_mm_ = *least;
