@@ -3,6 +3,7 @@
 #include "scan_work.h"
 #include "vicon/cases/given_lumen.h"
 #include "vicon/cases/store_locks.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/core/error.h"
 #include "vicon/core/quantity.h"
 #include "vicon/ingest/load_scan.h"
@@ -105,7 +106,7 @@ std::vector<ingest::ImportLine> importLumen(CaseStore& store, const Config& conf
     using Kind = ingest::ImportLine::Kind;
     const auto queue = config.get<QueueOptions>();
     const StoreLock lock(store.folder(), progress);
-    const ScanRecord scan = store.requireScan(store.requireCase(asked.case_id).id, asked.scan_id);
+    const ScanRecord scan = store.requireScan(requireCase(store, asked.case_id, IdPart::whole).id, asked.scan_id);
     const auto line = [&](Kind kind, const std::string& text) {
         return ingest::ImportLine{kind, asked.file.string(), text, scan.case_id, scan.id};
     };

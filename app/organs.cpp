@@ -2,6 +2,7 @@
 
 #include "text_table.h"
 #include "vicon/cases/organs.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/core/error.h"
 #include "vicon/pipeline/organs.h"
 #include "vicon/scan_files/skeleton_file.h"
@@ -34,10 +35,11 @@ void setOrgan(CaseStore& store, const Config& config, const std::string& organ, 
     if (!scan_id.empty() && case_id.empty())
         throw Error(ErrorCode::wrong_use, "a scan is named without its case", "--scan", "name it with --case");
     if (!scan_id.empty()) {
-        say(store.requireScan(store.requireCase(case_id).id, scan_id));
+        say(store.requireScan(requireCase(store, case_id, IdPart::whole).id, scan_id));
         return;
     }
-    for (const CaseRecord& record : case_id.empty() ? store.cases() : std::vector{store.requireCase(case_id)})
+    for (const CaseRecord& record :
+         case_id.empty() ? store.cases() : std::vector{requireCase(store, case_id, IdPart::whole)})
         for (const ScanRecord& scan : store.scans(record.id))
             if (scan.role == ScanRole::scan && (!case_id.empty() || store.steps(record.id, scan.id).empty()))
                 say(scan);

@@ -9,6 +9,7 @@
 #include "report_scans.h"
 #include "vicon/cases/outbox.h"
 #include "vicon/cases/report_files.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/picture/png_file.h"
@@ -175,7 +176,7 @@ VersionObjects objectsOf(CaseStore& store, const Config& config, const std::stri
 GivenReport giveOutReport(CaseStore& store, const Config& config, const std::string& case_id, bool sign,
                           Progress& progress)
 {
-    const CaseRecord record = store.requireCase(case_id);
+    const CaseRecord record = requireCase(store, case_id, IdPart::whole);
     if (sign)
         requireDeliverable(config);  // before pictures are drawn
     const std::vector<report::ObjectKind> kinds = kindsOf(config);

@@ -4,6 +4,7 @@
 #include "../case_tables.h"
 #include "../command.h"
 #include "../report_known.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/core/error.h"
 
 namespace vicon::app {
@@ -125,6 +126,7 @@ int assess(Context& context, const AssessArguments& a)
     choose(read.assessment.extracolonic_category, read.extracolonic_proposal, a.accept, a.extracolonic_category,
            a.extracolonic_why, extracolonicCategoryFrom);
     if (toJson(read.assessment) != toJson(before)) {
+        requireCase(store, a.case_id, IdPart::whole);
         requireReasons(read);
         saveAssessment(store, case_id, before, read.assessment);
     }
@@ -154,7 +156,7 @@ Subcommand assessCommand()
     return {"assess", "Say what holds for the whole study: preparation, distension, categories, impression",
             [](CommandLine& command) {
                 auto a = std::make_shared<AssessArguments>();
-                command.option("CASE", a->case_id, "The case's id").required();
+                command.option("CASE", a->case_id, "The case's id, whole to change something").required();
                 declareCategories(command, *a);
                 std::vector<CommandOption> texts, flags;
                 for (std::size_t n = 0; n < kTexts.size(); ++n)

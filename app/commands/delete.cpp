@@ -5,6 +5,7 @@
 #include "../text_table.h"
 #include "vicon/cases/case_deletion.h"
 #include "vicon/cases/report_versions.h"
+#include "vicon/cases/whole_id.h"
 
 namespace vicon::app {
 namespace {
@@ -33,7 +34,7 @@ const char* adviceFor(const DeletionDoubts& doubts)
 int deleteOne(Context& context, const DeleteArguments& arguments)
 {
     CaseStore& store = context.existingStore();
-    const std::string id = store.requireCase(arguments.case_id).id;
+    const std::string id = requireCase(store, arguments.case_id, IdPart::whole).id;
     const CaseSize size = sizeOfCase(store, id);
     const DeletionDoubts doubts = doubtsAboutDeleting(store, id);
     const std::string report = textOf(reportStatus(store, id));
@@ -69,7 +70,7 @@ Subcommand deleteCommand()
     return {"delete", "Delete a case with its images, results and reports; without --yes it says what that would be",
             [](CommandLine& command) {
                 auto arguments = std::make_shared<DeleteArguments>();
-                command.option("CASE", arguments->case_id, "The case's id").required();
+                command.option("CASE", arguments->case_id, "The case's whole id").required();
                 command.flag("--yes", arguments->yes, "Delete it");
                 command.flag("--lose", arguments->lose,
                              "Also where a report is not signed, or an object not delivered: they are lost");

@@ -2,6 +2,7 @@
 
 #include "../case_tables.h"
 #include "../command.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/core/error.h"
 
 namespace vicon::app {
@@ -83,9 +84,9 @@ FindingEdit editFor(CaseStore& store, const std::string& case_id, const FindingA
 
 int finding(Context& context, const FindingArguments& a)
 {
-    CaseStore& store = context.existingStore();
-    const std::string case_id = store.requireCase(a.case_id).id;
     const bool edits = !a.add.empty() || !a.change.empty() || !a.remove.empty();
+    CaseStore& store = context.existingStore();
+    const std::string case_id = requireCase(store, a.case_id, edits ? IdPart::whole : IdPart::beginning).id;
     if (!edits && a.says())
         throw Error(ErrorCode::wrong_use, "which finding is meant is not said", case_id,
                     "name it with --change ID, or make one with --add MARKERS");
@@ -109,7 +110,7 @@ Subcommand findingCommand()
 {
     return {"finding", "List, add, change or remove the findings of a case", [](CommandLine& command) {
                 auto a = std::make_shared<FindingArguments>();
-                command.option("CASE", a->case_id, "The case's id").required();
+                command.option("CASE", a->case_id, "The case's id, whole to change something").required();
                 const auto add =
                     command.option("--add", a->add, "Add a finding that these markers and their partners show")
                         .typeName("MARKER,...");

@@ -10,6 +10,7 @@
 #include "vicon/cases/finding_facts.h"
 #include "vicon/cases/pair_proposals.h"
 #include "vicon/cases/placing.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/core/error.h"
 
 namespace vicon::app {
@@ -48,7 +49,7 @@ void tellOfCopy(const CaseStore& store)
 int mark(Context& context, const MarkArguments& arguments)
 {
     CaseStore& store = context.existingStore();
-    const std::string case_id = store.requireCase(arguments.case_id).id;
+    const std::string case_id = requireCase(store, arguments.case_id, IdPart::whole).id;
     Marker marker;
     marker.scan_id = arguments.scan_id;
     marker.position_mm = pointFrom(arguments.at, "--at");
@@ -71,6 +72,8 @@ int mark(Context& context, const MarkArguments& arguments)
 struct MarkersArguments {
     std::string case_id, remove, change, color, note, at, import_file, export_file;
     bool change_note = false;
+
+    bool changes() const { return !(import_file + change + remove).empty(); }
 };
 
 /// All or nothing. An id that the case has is replaced.
@@ -101,7 +104,8 @@ void changeMarker(CaseStore& store, const MarkOptions& options, const std::strin
 int markers(Context& context, const MarkersArguments& arguments)
 {
     CaseStore& store = context.existingStore();
-    const std::string case_id = store.requireCase(arguments.case_id).id;
+    const IdPart enough = arguments.changes() ? IdPart::whole : IdPart::beginning;
+    const std::string case_id = requireCase(store, arguments.case_id, enough).id;
     const auto options = context.config().get<MarkOptions>();
     if (!arguments.import_file.empty())
         importMarkers(store, options, case_id, arguments.import_file);
@@ -130,7 +134,7 @@ Subcommand markCommand()
 {
     return {"mark", "Add a marker at a point of the colon", [](CommandLine& command) {
                 auto arguments = std::make_shared<MarkArguments>();
-                command.option("CASE", arguments->case_id, "The case's id").required();
+                command.option("CASE", arguments->case_id, "The case's whole id").required();
                 command
                     .option("--scan", arguments->scan_id,
                             "The scan; needed where the point lies in the lumen of several")
@@ -154,7 +158,7 @@ Subcommand markersCommand()
     return {
         "markers", "List, change, remove, import or export the markers of a case", [](CommandLine& command) {
             auto arguments = std::make_shared<MarkersArguments>();
-            command.option("CASE", arguments->case_id, "The case's id").required();
+            command.option("CASE", arguments->case_id, "The case's id, whole to change something").required();
             command.option("--remove", arguments->remove, "Remove this marker").typeName("ID");
             const auto change = command.option("--change", arguments->change, "Change this marker").typeName("ID");
             command.option("--color", arguments->color, "Its new color").needs(change);

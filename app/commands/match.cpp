@@ -6,6 +6,7 @@
 #include "vicon/cases/marker_groups.h"
 #include "vicon/cases/pair_proposals.h"
 #include "vicon/cases/prior_match.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/core/error.h"
 
 namespace vicon::app {
@@ -107,10 +108,11 @@ void setPair(CaseStore& store, const std::string& case_id, const MatchArguments&
 int match(Context& context, const MatchArguments& arguments)
 {
     CaseStore& store = context.existingStore();
-    const std::string case_id = store.requireCase(arguments.case_id).id;
+    const bool pairs = !(arguments.confirm + arguments.take_back).empty();
+    const std::string case_id = requireCase(store, arguments.case_id, pairs ? IdPart::whole : IdPart::beginning).id;
     if (!arguments.scan_id.empty())
         store.requireScan(case_id, arguments.scan_id);
-    if (!(arguments.confirm + arguments.take_back).empty()) {
+    if (pairs) {
         context.require(Role::mark);
         setPair(store, case_id, arguments);
     }
@@ -142,7 +144,7 @@ Subcommand matchCommand()
         "match", "Find the same places of a case's scans, and markers that may be one finding",
         [](CommandLine& command) {
             auto a = std::make_shared<MatchArguments>();
-            command.option("CASE", a->case_id, "The case's id").required();
+            command.option("CASE", a->case_id, "The case's id, whole to change something").required();
             command.option("--scan", a->scan_id, "From this scan to every other (default: each pair once)")
                 .typeName("SCAN");
             const auto at =

@@ -2,6 +2,7 @@
 
 #include "../command.h"
 #include "../peers.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/core/error.h"
 #include "vicon/ingest/orders.h"
 #include "vicon/ingest/receiver.h"
@@ -36,8 +37,8 @@ int order(Context& context, const std::string& case_id)
     const ingest::Peer peer = requirePeer(context.config(), options.peer, PeerUse::query);
     const std::string title = context.config().get<ingest::ReceiverOptions>().ae_title;
     CaseStore& store = context.existingStore();
-    const std::vector<CaseRecord> cases =
-        case_id.empty() ? ingest::casesToAskFor(store, options) : std::vector{store.requireCase(case_id)};
+    const std::vector<CaseRecord> cases = case_id.empty() ? ingest::casesToAskFor(store, options)
+                                                          : std::vector{requireCase(store, case_id, IdPart::whole)};
     nlohmann::json list = nlohmann::json::array();
     UntilStopped progress;
     for (const CaseRecord& c : cases) {

@@ -5,6 +5,7 @@
 #include "../command.h"
 #include "../text_table.h"
 #include "vicon/cases/outbox.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/core/error.h"
 
 namespace vicon::app {
@@ -14,6 +15,8 @@ struct OutboxArguments {
     std::string case_id;
     std::vector<std::string> retry, drop;
     bool retry_refused = false;
+
+    bool changes() const { return retry_refused || !retry.empty() || !drop.empty(); }
 };
 
 int idFrom(const std::string& text)
@@ -41,7 +44,8 @@ void print(const std::vector<OutboxItem>& items)
 int outbox(Context& context, const OutboxArguments& a)
 {
     CaseStore& store = context.existingStore();
-    const std::string case_id = a.case_id.empty() ? "" : store.requireCase(a.case_id).id;
+    const IdPart enough = a.changes() ? IdPart::whole : IdPart::beginning;
+    const std::string case_id = a.case_id.empty() ? "" : requireCase(store, a.case_id, enough).id;
     Outbox box(store.database(), context.config().get<OutboxOptions>());
     std::vector<int> retry, drop;  // all are looked at before any is touched
     for (const auto& [texts, ids] : {std::pair(&a.retry, &retry), std::pair(&a.drop, &drop)})

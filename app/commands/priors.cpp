@@ -5,6 +5,7 @@
 #include "../text_table.h"
 #include "vicon/cases/printed.h"
 #include "vicon/cases/prior_match.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/core/error.h"
 
 namespace vicon::app {
@@ -157,8 +158,9 @@ void say(CaseStore& store, const std::string& case_id, const PriorArguments& a)
 int priors(Context& context, const PriorArguments& a)
 {
     CaseStore& store = context.existingStore();
-    const std::string case_id = store.requireCase(a.case_id).id;
-    if (!(a.confirm + a.reject + a.take_back).empty())
+    const bool says = !(a.confirm + a.reject + a.take_back).empty();
+    const std::string case_id = requireCase(store, a.case_id, says ? IdPart::whole : IdPart::beginning).id;
+    if (says)
         say(store, case_id, a);
     const Listing listing = listingOf(context, case_id);
     if (context.json)
@@ -175,7 +177,7 @@ Subcommand priorsCommand()
     return {
         "priors", "List earlier reports of the patient, and compare findings with theirs", [](CommandLine& command) {
             auto a = std::make_shared<PriorArguments>();
-            command.option("CASE", a->case_id, "The case's id").required();
+            command.option("CASE", a->case_id, "The case's id, whole to change something").required();
             const auto confirm =
                 command.option("--confirm", a->confirm, "These two are one thing; growth follows").typeName("F=N.M");
             const auto reject = command.option("--reject", a->reject, "These two are not").typeName("F=N.M");

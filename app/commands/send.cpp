@@ -11,6 +11,7 @@
 #include "../peers.h"
 #include "../progress_line.h"
 #include "vicon/cases/report_versions.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/core/error.h"
 
 namespace fs = std::filesystem;
@@ -89,7 +90,7 @@ void print(const std::vector<OutboxItem>& items, const std::string& peer)
 int send(Context& context, const SendArguments& a)
 {
     CaseStore& store = context.existingStore();
-    const std::string case_id = store.requireCase(a.case_id).id;
+    const std::string case_id = requireCase(store, a.case_id, IdPart::whole).id;
     requirePeer(context.config(), a.peer, PeerUse::send);
     std::vector<OutboxObject> objects = reportObjects(store, case_id);
     if (a.images)
@@ -126,7 +127,7 @@ Subcommand sendCommand()
             "Send a case's signed report to a PACS, through the outbox: PDF, measurements (SR), lumen, pictures",
             [](CommandLine& command) {
                 auto a = std::make_shared<SendArguments>();
-                command.option("CASE", a->case_id, "The case's id").required();
+                command.option("CASE", a->case_id, "The case's whole id").required();
                 command.option("PEER", a->peer, "Name of a peer in the configuration").required();
                 command.flag("--images", a->images, "Also its images, as they came");
                 const auto later =

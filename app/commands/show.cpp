@@ -7,6 +7,7 @@
 #include "vicon/cases/corrections.h"
 #include "vicon/cases/orders.h"
 #include "vicon/cases/step_results.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/cases/worklist.h"
 #include "vicon/core/error.h"
 
@@ -136,7 +137,7 @@ int show(Context& context, const ShowArguments& arguments)
 {
     CaseStore& store = context.existingStore();
     if (arguments.settle > 0) {
-        settle(store, store.requireCase(arguments.case_id), arguments.settle);
+        settle(store, requireCase(store, arguments.case_id, IdPart::whole), arguments.settle);
         return 0;
     }
     const CaseRecord record = store.requireCase(arguments.case_id);
@@ -176,7 +177,7 @@ Subcommand showCommand()
 {
     return {"show", "Show one case: its scans, steps, measures and faults", [](CommandLine& command) {
                 auto arguments = std::make_shared<ShowArguments>();
-                command.option("CASE", arguments->case_id, "The case's id").required();
+                command.option("CASE", arguments->case_id, "The case's id, whole to change something").required();
                 command.option("--scan", arguments->scan_id, "Only this scan").typeName("SCAN");
                 command.option("--settle", arguments->settle, "Take the Nth line marked by '!' away: it is decided")
                     .typeName("N")

@@ -3,6 +3,7 @@
 #include "../command.h"
 #include "../progress_line.h"
 #include "../report_writing.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/core/error.h"
 
 namespace vicon::app {
@@ -33,7 +34,7 @@ int sign(Context& context, const std::string& case_id, bool preliminary)
 int amend(Context& context, const std::string& given_id, const std::string& reason, bool cancel)
 {
     CaseStore& store = context.existingStore();
-    const std::string case_id = store.requireCase(given_id).id;
+    const std::string case_id = requireCase(store, given_id, IdPart::whole).id;
     const auto options = context.config().get<SigningOptions>();
     if (cancel)
         cancelAmendment(store, options, case_id);
@@ -60,7 +61,7 @@ Subcommand signCommand()
     return {"sign", "Sign a case's report: it never changes afterwards", [](CommandLine& command) {
                 auto case_id = std::make_shared<std::string>();
                 auto preliminary = std::make_shared<bool>(false);
-                command.option("CASE", *case_id, "The case's id").required();
+                command.option("CASE", *case_id, "The case's whole id").required();
                 command.flag("--preliminary", *preliminary, "Give it out without a signature");
                 return [=](Context& context) { return sign(context, *case_id, *preliminary); };
             }};
@@ -72,7 +73,7 @@ Subcommand amendCommand()
         "amend", "Open a signed report for an amendment; 'vicon sign' ends it", [](CommandLine& command) {
             auto case_id = std::make_shared<std::string>(), reason = std::make_shared<std::string>();
             auto cancel = std::make_shared<bool>(false);
-            command.option("CASE", *case_id, "The case's id").required();
+            command.option("CASE", *case_id, "The case's whole id").required();
             const auto why = command.option("--reason", *reason, "Why it is amended").typeName("TEXT");
             command.flag("--cancel", *cancel, "Take a begun amendment back, with all that was changed").excludes(why);
             return [=](Context& context) { return amend(context, *case_id, *reason, *cancel); };

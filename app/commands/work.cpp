@@ -12,6 +12,7 @@
 #include "../worker_processes.h"
 #include "vicon/cases/corrections.h"
 #include "vicon/cases/step_results.h"
+#include "vicon/cases/whole_id.h"
 #include "vicon/core/error.h"
 #include "vicon/pipeline/worker.h"
 
@@ -44,7 +45,8 @@ void correct(Context& context, CaseStore& store, const WorkArguments& arguments)
     if (arguments.case_id.empty())
         throw Error(ErrorCode::wrong_use, "corrections belong to one scan", "--add, --cut, --drop",
                     "name its case with --case");
-    const ScanRecord scan = store.requireScan(store.requireCase(arguments.case_id).id, arguments.scan_id);
+    const ScanRecord scan =
+        store.requireScan(requireCase(store, arguments.case_id, IdPart::whole).id, arguments.scan_id);
     const Corrections more{pointsFrom(arguments.add, "--add"), pointsFrom(arguments.cut, "--cut"),
                            pointsFrom(arguments.drop, "--drop")};
     const auto queue = context.config().get<QueueOptions>();
@@ -59,7 +61,7 @@ void nameOrgan(Context& context, CaseStore& store, const WorkArguments& argument
 {
     setOrgan(store, context.config(), arguments.organ, arguments.case_id, arguments.scan_id);
     if (!arguments.case_id.empty())
-        requeueOutdated(store, context.config(), store.requireCase(arguments.case_id).id);
+        requeueOutdated(store, context.config(), requireCase(store, arguments.case_id, IdPart::whole).id);
 }
 
 /// What the pipeline says of a scan whose organ it is not sure of.
@@ -91,9 +93,11 @@ void requireNamed(CaseStore& store, const WorkArguments& arguments)
 {
     if (arguments.case_id.empty() && !arguments.scan_id.empty())
         throw Error(ErrorCode::wrong_use, "a scan is one of a case", "--scan", "name its case with --case");
+    if (!arguments.first.empty())
+        requireCase(store, arguments.first, IdPart::whole);
     if (arguments.case_id.empty())
         return;
-    const CaseRecord named = store.requireCase(arguments.case_id);
+    const CaseRecord named = requireCase(store, arguments.case_id, IdPart::whole);
     if (!arguments.scan_id.empty())
         store.requireScan(named.id, arguments.scan_id);
 }
@@ -114,9 +118,9 @@ int work(Context& context, const WorkArguments& arguments)
         correct(context, store, arguments);
     if (arguments.redo_outdated)
         requeueOutdated(store, context.config(),
-                        arguments.case_id.empty() ? "" : store.requireCase(arguments.case_id).id);
+                        arguments.case_id.empty() ? "" : requireCase(store, arguments.case_id, IdPart::whole).id);
     if (!arguments.first.empty())
-        JobQueue(store.database(), queue_options).putFirst(store.requireCase(arguments.first).id);
+        JobQueue(store.database(), queue_options).putFirst(requireCase(store, arguments.first, IdPart::whole).id);
     if (arguments.jobs > 1)
         return runWorkers(context, arguments.jobs, arguments.until_idle);
     auto options = context.config().get<pipeline::WorkOptions>();

@@ -64,6 +64,30 @@ TEST_F(Operation, DeletesACaseOnlyWhenToldTwice)
     EXPECT_TRUE(isThere()) << "what was deleted can come again";
 }
 
+/// A slip of the hand must not hit another patient.
+TEST_F(Operation, TakesTheWholeIdOfACaseToChangeIt)
+{
+    const std::string begun = case_id_.substr(0, 4);
+    const auto line = "vicon: '" + begun +
+                      "': the beginning of an id is not enough to change or send a case; type all of it: " + case_id_ +
+                      "\n";
+    for (const char* act :
+         {"delete ? --yes --lose", "sign ?", "sign ? --preliminary", "amend ? --reason why", "mark ? --at 0,0,0",
+          "markers ? --remove m1", "finding ? --add m1", "assess ? --c-rads C1 --why test", "match ? --confirm m1=m2",
+          "priors ? --confirm f1=1.1", "show ? --settle 1", "send ? main --later", "outbox ? --retry-refused",
+          "import --mask ? s none", "work --until-idle --case ? --redo-outdated", "work --until-idle --first ?",
+          "work --until-idle --case ? --organ airway", "work --until-idle --case ? --forget-corrections"}) {
+        std::string with = act;
+        with.replace(with.find('?'), 1, begun);
+        const CommandResult refused = vicon(with, store_);
+        EXPECT_EQ(refused.exit_code, 2) << act;
+        EXPECT_THAT(linesWithoutProgress(refused.output), testing::ElementsAre(line.substr(0, line.size() - 1))) << act;
+    }
+    for (const char* look : {"show ", "finding ", "assess ", "markers ", "outbox ", "audit "})
+        EXPECT_EQ(vicon(look + begun, store_).exit_code, 0) << look;
+    EXPECT_EQ(viconJson(store_, "audit " + case_id_)["trail"].size(), 1u) << "nothing but the import";
+}
+
 TEST_F(Operation, PurgesByRuleAndSaysFirst)
 {
     const CommandResult no_rule = vicon("purge", store_);
