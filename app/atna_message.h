@@ -8,7 +8,7 @@
 namespace vicon::app {
 
 /// A line of the audit trail as an audit message, in XML. Source: DICOM PS3.15 section A.5.
-/// @param a_case what is known of the line's case; of one that is gone only its id
+/// @param a_case what is known of the line's case; of one that was deleted its id, patient ID and study UID
 /// @param machine where the audit trail lies
 std::string atnaMessage(const NumberedAuditLine& line, const CaseRecord& a_case, const std::string& machine);
 

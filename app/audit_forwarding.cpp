@@ -119,8 +119,7 @@ int forwardAudit(CaseStore& store, const AuditOptions& options)
         try {
             for (const NumberedAuditLine& line : lines) {
                 syslog.send(
-                    syslogPacket(atnaMessage(line, store.findCase(line.case_id).value_or(CaseRecord{}), machine),
-                                 line.line.at, machine));
+                    syslogPacket(atnaMessage(line, subjectOf(store, line.case_id), machine), line.line.at, machine));
                 last_sent = line.number;
                 ++sent;
             }

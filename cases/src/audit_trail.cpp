@@ -3,6 +3,7 @@
 #include <soci/soci.h>
 
 #include "case_rows.h"
+#include "deleted_case.h"
 
 using nlohmann::json;
 
@@ -47,6 +48,19 @@ std::vector<AuditLine> auditTrail(CaseStore& store, const std::string& case_id)
             (sql.prepare << "SELECT * FROM audit WHERE case_id = :c ORDER BY rowid", soci::use(case_id));
         return collect(rows, lineFrom);
     });
+}
+
+CaseRecord subjectOf(CaseStore& store, const std::string& case_id)
+{
+    if (auto known = store.findCase(case_id))
+        return *known;
+    CaseRecord gone{.id = case_id};
+    for (const AuditLine& line : auditTrail(store, case_id))
+        if (line.event == nameOf(AuditEvent::case_deleted) && line.before.is_object()) {
+            gone.patient.id = line.before.value(kPatientIdKey, "");
+            gone.study.uid = line.before.value(kStudyUidKey, "");
+        }
+    return gone;
 }
 
 std::vector<NumberedAuditLine> auditAfter(CaseStore& store, long long number, int most)

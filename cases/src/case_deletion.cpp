@@ -4,6 +4,7 @@
 
 #include "case_rows.h"
 #include "case_tables.h"
+#include "deleted_case.h"
 #include "job_owner.h"
 #include "vicon/cases/findings.h"
 #include "vicon/cases/job_queue.h"
@@ -93,6 +94,12 @@ std::string inBrief(CaseStore& store, const std::string& case_id)
     return std::to_string(countIn(store, "scans", case_id)) + " scans, " +
            std::to_string(countIn(store, "instances", case_id)) + " objects, report " +
            textOf(reportStatus(store, case_id));
+}
+
+std::string whoseItWas(CaseStore& store, const std::string& case_id)
+{
+    const CaseRecord record = store.requireCase(case_id);
+    return nlohmann::json{{kPatientIdKey, record.patient.id}, {kStudyUidKey, record.study.uid}}.dump();
 }
 
 std::string joined(const std::vector<std::string>& lines)
@@ -259,7 +266,8 @@ void deleteCase(CaseStore& store, const std::string& case_id, bool accept_losses
     try {
         store.database().write([&](soci::session& sql) {
             requireNoDoubts(store, case_id, accept_losses);
-            putAudit(sql, AuditEvent::case_deleted, case_id, "", why + ": " + inBrief(store, case_id));
+            putAudit(sql, {AuditEvent::case_deleted, case_id, "", why + ": " + inBrief(store, case_id),
+                           whoseItWas(store, case_id), ""});
             const auto reports = deleteKeptReports(store, sql, case_id);
             deleteRows(sql, deletion);
             moveAside(store, deletion, reports);  // last: what is left to fail is the commit

@@ -13,6 +13,7 @@
 
 #include "atna_message.h"
 #include "operation_audit.h"
+#include "vicon/cases/case_deletion.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/support/support.h"
@@ -63,6 +64,7 @@ protected:
     {
         CaseRecord a_case{.id = "c1"};
         a_case.patient.id = "4711 <&\">";
+        a_case.patient.name = "Doe^Jane";
         a_case.study.uid = "1.2.3";
         ScanRecord scan{.id = "s1", .case_id = "c1"};
         makePrivateFolder(store_.scanFolder("c1", "s1"));
@@ -102,6 +104,24 @@ TEST_F(AuditForwarding, SendsEachLineOnce)
     ASSERT_EQ(later.size(), 2u);
     EXPECT_THAT(checked(later[0]), HasSubstr(R"(csd-code="110105")"));
     EXPECT_THAT(checked(later[1]), HasSubstr(R"(csd-code="110103")"));
+}
+
+TEST_F(AuditForwarding, NamesOfADeletedCaseThePatientAndTheStudyThatItWas)
+{
+    store_.audit(AuditEvent::case_opened, "c1", "", "");
+    NoProgress quiet;
+    deleteCase(store_, "c1", true, "deleted by hand", quiet);
+    const Listening syslog(options_.syslog);
+    EXPECT_EQ(forwardAudit(store_, options_), 3);
+    const auto packets = syslog.packets();
+    ASSERT_EQ(packets.size(), 3u);
+    for (const std::string& packet : packets) {  // also those that were not sent before
+        const std::string message = checked(packet);
+        EXPECT_THAT(message, HasSubstr(R"(ParticipantObjectID="1.2.3")"));
+        EXPECT_THAT(message, HasSubstr(R"(ParticipantObjectID="4711 &lt;&amp;&quot;)"));
+        EXPECT_THAT(message, testing::Not(HasSubstr("Doe")));
+    }
+    EXPECT_THAT(packets[2], HasSubstr(R"(csd-code="110105")"));
 }
 
 /// Events of no case, by the codes of PS3.16 CID 400 and 401.
