@@ -44,9 +44,9 @@ std::vector<Subcommand> subcommands()
 /// What a subcommand takes; nothing: anybody may. What is not listed takes who operates VICON.
 std::optional<Role> roleFor(std::string_view subcommand)
 {
-    constexpr std::string_view kReading[] = {"cases", "show",   "markers", "match",  "fly",   "snapshot",
-                                             "read",  "report", "audit",   "export", "query", "priors"};
-    constexpr std::string_view kMarking[] = {"mark", "finding", "assess", "sign", "amend"};
+    constexpr std::string_view kReading[] = {"cases",  "show",  "markers", "match", "fly",    "snapshot", "read",
+                                             "report", "audit", "export",  "query", "priors", "finding",  "assess"};
+    constexpr std::string_view kMarking[] = {"mark", "sign", "amend"};
     constexpr std::string_view kAnybody[] = {"config", "doctor", "phantom"};
     const auto has = [&](const auto& names) {
         return std::find(std::begin(names), std::end(names), subcommand) != std::end(names);

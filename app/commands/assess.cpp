@@ -126,6 +126,7 @@ int assess(Context& context, const AssessArguments& a)
     choose(read.assessment.extracolonic_category, read.extracolonic_proposal, a.accept, a.extracolonic_category,
            a.extracolonic_why, extracolonicCategoryFrom);
     if (toJson(read.assessment) != toJson(before)) {
+        context.require(Role::mark);
         requireCase(store, a.case_id, IdPart::whole);
         requireReasons(read);
         saveAssessment(store, case_id, before, read.assessment);

@@ -85,6 +85,8 @@ FindingEdit editFor(CaseStore& store, const std::string& case_id, const FindingA
 int finding(Context& context, const FindingArguments& a)
 {
     const bool edits = !a.add.empty() || !a.change.empty() || !a.remove.empty();
+    if (edits)
+        context.require(Role::mark);
     CaseStore& store = context.existingStore();
     const std::string case_id = requireCase(store, a.case_id, edits ? IdPart::whole : IdPart::beginning).id;
     if (!edits && a.says())

@@ -226,7 +226,8 @@ TEST_F(Operation, IsNotForThoseWhomTheRolesDoNotName)
         {"show " + case_id_, "may not look at cases"},
         {"report " + case_id_, "may not look at cases"},
         {"mark " + case_id_ + " --at 0,0,0", "may not mark or assess"},
-        {"assess " + case_id_ + " --accept", "may not mark or assess"},
+        {"assess " + case_id_ + " --c-rads C1 --why test", "may not look at cases"},
+        {"finding " + case_id_, "may not look at cases"},
         {"work --until-idle", "may not do this"},
         {"import " + smallStudy().string(), "may not do this"},
         {"delete " + case_id_ + " --yes", "may not do this"},
@@ -243,6 +244,18 @@ TEST_F(Operation, IsNotForThoseWhomTheRolesDoNotName)
     EXPECT_THAT(unsigned_.output, HasSubstr("may not sign reports"));
     EXPECT_FALSE(fs::exists(out));
     EXPECT_EQ(vicon("config" + nobody, store_).exit_code, 0) << "anybody may ask what the rules are";
+}
+
+TEST_F(Operation, ListsFindingsForThoseWhoMayLookAndChangesThemForThoseWhoMayMark)
+{
+    const std::string reader = " --set roles.mark=nobody_else";
+    for (const char* list : {"finding ", "assess "})
+        EXPECT_EQ(vicon(list + case_id_ + reader, store_).exit_code, 0) << list;
+    for (const auto& [act, more] : {std::pair("finding ", " --add m1"), {"assess ", " --c-rads C1 --why test"}}) {
+        const CommandResult refused = vicon(act + case_id_ + more + reader, store_);
+        EXPECT_EQ(refused.exit_code, 1) << act;
+        EXPECT_THAT(refused.output, HasSubstr("may not mark or assess")) << act;
+    }
 }
 
 /// What is done beside cases, and what is refused.
