@@ -9,6 +9,7 @@
 #include "running_listener.h"
 #include "study.h"
 #include "vicon/cases/audit_trail.h"
+#include "vicon/cases/roles.h"
 #include "vicon/core/file.h"
 
 namespace vicon::support {
@@ -256,6 +257,21 @@ TEST_F(Operation, ListsFindingsForThoseWhoMayLookAndChangesThemForThoseWhoMayMar
         EXPECT_EQ(refused.exit_code, 1) << act;
         EXPECT_THAT(refused.output, HasSubstr("may not mark or assess")) << act;
     }
+}
+
+TEST_F(Operation, LetsTheAccountOfTheShippedUnitsWorkWhateverTheRoles)
+{
+    int units = 0;
+    for (const auto& unit : fs::directory_iterator(VICON_DEPLOY "/systemd")) {
+        if (unit.path().extension() != ".service")
+            continue;
+        const std::string text = readFile(unit.path()), key = "\nUser=";
+        const auto from = text.find(key) + key.size();
+        const std::string account = text.substr(from, text.find('\n', from) - from);
+        EXPECT_TRUE(hasRole(account, Role::operate, {.operate = {"nobody_else"}})) << unit.path();
+        ++units;
+    }
+    EXPECT_EQ(units, 2);
 }
 
 /// What is done beside cases, and what is refused.

@@ -47,6 +47,16 @@ TEST_F(Roles, AreEverybodysUntilSomebodyIsNamed)
     }
 }
 
+TEST_F(Roles, LetTheServicesAccountOperateAndNoMore)
+{
+    const RoleOptions options{.read = {"anna"}, .mark = {"anna"}, .operate = {"anna"}};
+    EXPECT_TRUE(hasRole("vicon", Role::operate, options));
+    EXPECT_FALSE(hasRole("vicon", Role::read, options));
+    EXPECT_FALSE(hasRole("vicon", Role::mark, options));
+    EXPECT_FALSE(hasRole("ben", Role::operate, options));
+    EXPECT_TRUE(hasRole("anna", Role::operate, options));
+}
+
 TEST_F(Roles, HoldWhereSomethingIsSaidOfACase)
 {
     test::MarkedCase marked;

@@ -23,12 +23,18 @@ struct RoleOptions {
     {
         v("roles.read", read, "", "Local accounts, or @GROUP, that may look at cases; none: all.");
         v("roles.mark", mark, "", "Those that may mark, correct and assess; none: all.");
-        v("roles.operate", operate, "", "Those that may receive, fetch, send, work, delete and back up; none: all.");
+        v("roles.operate", operate, "",
+          "Those that may receive, fetch, send, work, delete and back up, beside the services' account vicon; none: "
+          "all.");
     }
 };
 
 /// Whether the account is listed, by its own name or through one of its groups ("@GROUP").
 bool isAmong(const std::string& account, const std::vector<std::string>& entries);
+
+/// Whether an account has a role by these rules. The services' own account may always operate: without it nothing would
+/// be received, worked on or purged.
+bool hasRole(const std::string& account, Role role, const RoleOptions& options);
 
 /// The rules that requireRole() follows from now on. Until then everybody may do everything.
 /// @param on_refusal told what an account may not, before requireRole() throws
