@@ -13,6 +13,7 @@
 
 #include "atna_message.h"
 #include "command.h"
+#include "vicon/cases/store_presence.h"
 #include "vicon/core/error.h"
 
 namespace vicon::app {
@@ -138,8 +139,9 @@ void forwardAuditInBackground(const StorePlace& place, const AuditOptions& optio
     std::string said;
     while (!options.syslog.empty() && !stopRequested()) {
         try {
-            CaseStore store(place);
+            CaseStore store = openAgain(place);
             while (!stopRequested()) {
+                requireThere(place);
                 forwardAudit(store, options);
                 said.clear();
                 std::this_thread::sleep_for(kLook);

@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "peers.h"
+#include "vicon/cases/store_presence.h"
 #include "vicon/ingest/receiver.h"
 
 namespace vicon::app {
@@ -26,10 +27,11 @@ void deliverInBackground(const StorePlace& place, const Config& config)
     std::string said;
     while (!stopRequested()) {
         try {
-            CaseStore store(place);
+            CaseStore store = openAgain(place);
             Outbox outbox(store.database(), delivery.options);
             UntilStopped quiet;
             while (!stopRequested()) {
+                requireThere(place);
                 const auto next = outbox.nextDue();
                 if (const int due = next && *next <= outbox.now() ? ingest::deliverDue(store, delivery, {}, quiet) : 0;
                     due > 0)

@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "peers.h"
+#include "vicon/cases/store_presence.h"
 #include "vicon/core/error.h"
 #include "vicon/ingest/orders.h"
 #include "vicon/ingest/receiver.h"
@@ -21,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 class Asking {
 public:
     Asking(const StorePlace& place, const Config& config)
-        : store_(place),
+        : store_(openAgain(place)),
           options_(config.get<ingest::OrderOptions>()),
           peer_(requirePeer(config, options_.peer, PeerUse::query)),
           title_(config.get<ingest::ReceiverOptions>().ae_title)
@@ -30,6 +31,7 @@ public:
 
     void look()
     {
+        requireThere(store_.place());
         for (const CaseRecord& c : ingest::casesToAskFor(store_, options_)) {
             if (stopRequested() || Clock::now() < next_[c.id])
                 continue;

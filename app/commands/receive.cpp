@@ -14,6 +14,7 @@
 #include "../progress_line.h"
 #include "../scan_work.h"
 #include "spdlog/spdlog.h"
+#include "vicon/cases/store_presence.h"
 #include "vicon/core/error.h"
 #include "vicon/ingest/completeness.h"
 #include "vicon/ingest/import.h"
@@ -29,9 +30,11 @@ namespace {
 void workInBackground(const StorePlace& place, const Config& config)
 {
     constexpr auto kPause = std::chrono::seconds(10), kLook = std::chrono::seconds(1);
+    std::string said;
     while (!stopRequested()) {
         try {
-            CaseStore store(place);
+            CaseStore store = openAgain(place);
+            said.clear();
             pipeline::WorkerEvents events;
             events.ended = [](const Job& job, JobState state, const std::string& reason) {
                 spdlog::log(state == JobState::failed ? spdlog::level::warn : spdlog::level::info, "{}/{}: {}{}",
@@ -41,15 +44,19 @@ void workInBackground(const StorePlace& place, const Config& config)
             pipeline::runWorker(store, config.get<QueueOptions>(), config.get<pipeline::WorkOptions>(),
                                 scanWork(store, config), events, stopRequested());
         } catch (const std::exception& e) {
-            spdlog::error("the worker stopped and starts again: {}", e.what());
+            if (e.what() != said)
+                spdlog::error("the worker stopped and starts again: {}", said = e.what());
             for (auto waited = kPause * 0; waited < kPause && !stopRequested(); waited += kLook)
                 std::this_thread::sleep_for(kLook);
         }
     }
 }
 
-ingest::Receiver::Files importReceived(CaseStore& store, const Config& config, const ingest::Receiver::Files& files)
+/// Over a store connection of its own: what is received goes into the store that is there now.
+ingest::Receiver::Files importReceived(const StorePlace& place, const Config& config,
+                                       const ingest::Receiver::Files& files)
 {
+    CaseStore store = openAgain(place);
     UntilStopped quiet;
     const auto report = ingest::importPaths(store, files, config.get<ingest::ImportOptions>(), quiet);
     using Kind = ingest::ImportLine::Kind;
@@ -64,7 +71,7 @@ ingest::Receiver::Files importReceived(CaseStore& store, const Config& config, c
 /// Over a store connection of its own: reports come on the threads of associations.
 void takeCommitment(const StorePlace& place, const OutboxOptions& options, const ingest::CommitmentReport& report)
 {
-    CaseStore store(place);
+    CaseStore store = openAgain(place);
     Outbox outbox(store.database(), options);
     const int concerned = ingest::noteCommitment(outbox, report);
     spdlog::info("a peer committed to {} objects and not to {}; {} wait in the outbox", report.committed.size(),
@@ -74,7 +81,7 @@ void takeCommitment(const StorePlace& place, const OutboxOptions& options, const
 /// As above: peers ask on the threads of associations.
 ingest::CommitmentReport giveCommitment(const StorePlace& place, const ingest::CommitmentDemand& demand)
 {
-    CaseStore store(place);
+    CaseStore store = openAgain(place);
     const UntilStopped wanted;
     ingest::CommitmentReport report = ingest::commitTo(store, demand, wanted);
     spdlog::info("committed to {} objects, not to {}", report.committed.size(), report.failed.size());
@@ -87,7 +94,7 @@ int receive(Context& context, bool no_work)
     const ingest::ReceiverOptions options = config.get<ingest::ReceiverOptions>();
     requireDeliverable(config);
     MetricsServer metrics(context.storePlace(), config);
-    CaseStore store(context.storePlace());  // one of its own: the receiver imports on its own thread
+    const CaseStore store(context.storePlace());  // made where there is none; threads open it again
     std::optional<ingest::Completeness> completeness;
     if (!options.count_at.empty())
         completeness.emplace(store.place(), requirePeer(config, options.count_at, PeerUse::query), options.ae_title);
@@ -99,7 +106,8 @@ int receive(Context& context, bool no_work)
     RefusedCallers refused(store.place());
     ingest::Receiver receiver(
         options, store.folder() / "incoming",
-        {.on_received = [&](const ingest::Receiver::Files& files) { return importReceived(store, config, files); },
+        {.on_received =
+             [&](const ingest::Receiver::Files& files) { return importReceived(store.place(), config, files); },
          .on_trouble = [](const std::string& trouble) { spdlog::warn("{}", trouble); },
          .on_note = [](const std::string& note) { spdlog::info("{}", note); },
          .on_commitment =

@@ -6,6 +6,7 @@
 
 #include "loose_files.h"
 #include "study_key.h"
+#include "vicon/cases/store_presence.h"
 #include "vicon/core/error.h"
 #include "vicon/ingest/query.h"
 
@@ -62,7 +63,7 @@ int Completeness::missing(const std::vector<fs::path>& files)
 {
     if (files.empty() || std::chrono::steady_clock::now() < ask_again_)
         return 0;
-    CaseStore store(place_);
+    CaseStore store = openAgain(place_);
     NoProgress quiet;
     const std::string study_uid = uidsOf(files.front()).study;
     const Objects arriving = objectsAmong(study_uid, files);

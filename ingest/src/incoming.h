@@ -19,6 +19,13 @@ namespace vicon::ingest {
 
 /// In the incoming folder for as long as the store is there; locked while a receiver works for it.
 inline constexpr const char* kReceiverLock = "receiver.lock";
+inline constexpr const char* kStoreIsGone = "the store is gone";
+
+inline bool isStoreOf(const std::filesystem::path& incoming)
+{
+    std::error_code none;
+    return std::filesystem::exists(incoming / kReceiverLock, none);
+}
 
 /// What has been received and waits to be taken: one folder below `incoming` for each association. A thread hands over
 /// the objects of one study at a time, once no association sends it any more and a quiet time has passed. What cannot
@@ -74,6 +81,7 @@ private:
     bool waitsForMore(const std::string& study, Batch& batch);
     void putBack(const std::string& study, const Batch& taken);
     bool handOverOne(std::unique_lock<std::mutex>& lock);
+    bool isGone();
     void waitForStore();
     /// False when it is to be tried again later.
     bool take(const Files& files, int deaths);
@@ -94,6 +102,7 @@ private:
     std::map<std::string, int> waiting_;                    ///< objects, by caller
     bool finishing_ = false;
     bool told_to_stop_ = false;
+    bool said_gone_ = false;
     int count_ = 0;
     std::thread thread_;
 };

@@ -88,7 +88,7 @@ void Incoming::putBack(const std::string& study, const Batch& taken)
     Batch& again = batches_[study];
     const bool grown = !again.files.empty();
     again.files.insert(again.files.begin(), taken.files.begin(), taken.files.end());
-    std::erase_if(again.files, [](const fs::path& file) { return !fs::exists(file); });
+    std::erase_if(again.files, [this](const fs::path& file) { return !fs::exists(file) && isStoreOf(folder_); });
     again.failures = taken.failures;
     again.not_before = taken.not_before;
     if (grown)
@@ -101,11 +101,21 @@ void Incoming::putBack(const std::string& study, const Batch& taken)
     again.incomplete_since = taken.incomplete_since;
 }
 
+/// Whether the store is gone; said once. What was received waits for it, and nothing is made in its place.
+bool Incoming::isGone()
+{
+    const bool gone = !isStoreOf(folder_);
+    if (gone && !std::exchange(said_gone_, true))
+        trouble(std::string("received objects wait: ") + kStoreIsGone);
+    said_gone_ = gone;
+    return gone;
+}
+
 bool Incoming::handOverOne(std::unique_lock<std::mutex>& lock)
 {
     const auto ready =
         std::find_if(batches_.begin(), batches_.end(), [&](const auto& entry) { return isReady(entry.second); });
-    if (ready == batches_.end())
+    if (ready == batches_.end() || isGone())
         return false;
     const std::string study = ready->first;
     Batch taken = std::move(ready->second);
@@ -125,7 +135,7 @@ bool Incoming::handOverOne(std::unique_lock<std::mutex>& lock)
     }
     Files gone = taken.files;
     if (!done)
-        std::erase_if(gone, [](const fs::path& file) { return fs::exists(file); });
+        std::erase_if(gone, [this](const fs::path& file) { return fs::exists(file) || !isStoreOf(folder_); });
     forget(gone);
     lock.lock();
     if (done)
@@ -190,7 +200,7 @@ bool Incoming::take(const Files& files, int deaths)
                 folder_.filename().string() + ": " + e.what());
         return false;
     } catch (const std::exception& e) {
-        return takeInHalves(files, e.what());
+        return isStoreOf(folder_) && takeInHalves(files, e.what());
     }
 }
 

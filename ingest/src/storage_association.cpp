@@ -211,8 +211,8 @@ OFCondition StorageAssociation::handleIncomingCommand(T_DIMSE_Message* message,
 std::string StorageAssociation::whyNoPlace() const
 {
     const fs::path incoming = folder_.parent_path();
-    if (!fs::exists(incoming / kReceiverLock))
-        return "the store is gone";
+    if (!isStoreOf(incoming))
+        return kStoreIsGone;
     if (isFull(incoming))
         return "the store's disk is full";
     return service_.incoming.waitingOf(sender()) >= service_.options.max_waiting

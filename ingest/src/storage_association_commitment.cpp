@@ -101,6 +101,8 @@ Uint16 StorageAssociation::takeIn(const T_DIMSE_N_ActionRQ& request, DcmDataset*
         if (!dataset)
             return STATUS_N_InvalidArgumentValue;
         demand = commitmentDemandFrom(*dataset);
+        if (!isStoreOf(folder_.parent_path()))
+            throw Error(ErrorCode::store, kStoreIsGone);
         number = service_.desk.take(calling_, from_.host, demand);
         return STATUS_N_Success;
     } catch (const Error& e) {

@@ -12,6 +12,7 @@
 #include "vicon/cases/given_lumen.h"
 #include "vicon/cases/organs.h"
 #include "vicon/cases/step_results.h"
+#include "vicon/cases/store_presence.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/pipeline/corrections.h"
@@ -142,6 +143,7 @@ public:
         if (const double voxels = isotropicVoxels(scan_.ingest, inputs_.config); voxels > 0)
             context_.reserveMemory(expectedMemory_mb(voxels),
                                    machineMemory_mb(inputs_.config.get<WorkOptions>().machine_memory_mb));
+        requireThere(store_.place());  // no folder is made where it is gone
         makePrivateFolder(folder_ / "projections");
         removeTemporaries(folder_ / "projections");
         StepRunner(stepTable(),

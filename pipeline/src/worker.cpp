@@ -13,6 +13,7 @@
 #include <system_error>
 #include <thread>
 
+#include "vicon/cases/store_presence.h"
 #include "vicon/core/error.h"
 #include "vicon/core/printable.h"
 
@@ -65,7 +66,7 @@ private:
             lock.unlock();
             try {
                 if (!database)
-                    database = std::make_unique<Database>(where);
+                    database = std::make_unique<Database>(where, false);
                 JobQueue(*database, options).renew(job, step, progress);
             } catch (const Error& e) {
                 if (e.code() == ErrorCode::lease_lost)
@@ -286,6 +287,7 @@ WorkSummary runWorker(CaseStore& store, const QueueOptions& queue_options, const
     WorkSummary summary;
     double waited_s = 0, trouble_wait_s = kFirstTroubleWait_s;
     while (!stop) {
+        requireThere(store.place());
         try {
             if (!failed_before)
                 failed_before = failedJobs(queue);

@@ -11,6 +11,7 @@
 #include "vicon/cases/audit_trail.h"
 #include "vicon/cases/roles.h"
 #include "vicon/core/file.h"
+#include "vicon/ingest/sender.h"
 
 namespace vicon::support {
 namespace {
@@ -272,6 +273,29 @@ TEST_F(Operation, LetsTheAccountOfTheShippedUnitsWorkWhateverTheRoles)
         ++units;
     }
     EXPECT_EQ(units, 2);
+}
+
+/// As where its disk is not mounted: its folder is there, and empty.
+TEST_F(Operation, MakesNoStoreWhereItsOwnIsGoneAndGoesOnWhenItIsBack)
+{
+    const int figures = test::freePort();
+    RunningListener listener(store_, "--set receive.quiet_s=0 --set metrics.port=" + std::to_string(figures));
+    test::SeriesSpec spec;
+    spec.study_uid += ".7";
+    spec.series_uid += ".7";
+    const auto files = test::writeSeries(folder_ / "late", spec);
+    NoProgress quiet;
+    fs::rename(store_, folder_ / "elsewhere");
+    fs::create_directory(store_);
+    EXPECT_TRUE(waitUntil([&] { return listener.log().find("the outbox waits: ") != std::string::npos; }));
+    const auto refused = ingest::storeFiles(listener.peer(), files, "SCANNER", quiet);
+    EXPECT_FALSE(refused.complete());
+    EXPECT_THAT(listener.log(), HasSubstr("was refused: the store is gone"));
+    EXPECT_TRUE(fs::is_empty(store_)) << "nothing is made in its place";
+    fs::remove(store_);
+    fs::rename(folder_ / "elsewhere", store_);
+    EXPECT_TRUE(ingest::storeFiles(listener.peer(), files, "SCANNER", quiet).complete());
+    EXPECT_TRUE(waitUntil([&] { return viconJson(store_, "cases")["cases"].size() == 2; })) << listener.log();
 }
 
 /// What is done beside cases, and what is refused.

@@ -63,7 +63,8 @@ struct WorkSummary {
 
 /// Claims jobs and does them, one at a time, until the queue is idle or `stop` is set. A second connection to the
 /// database renews the lease while the work runs. A job that fails because the disk is full waits for space. Where the
-/// database refuses, it goes on when it can again, or throws when it is to stop at an idle queue.
+/// database refuses, it goes on when it can again, or throws when it is to stop at an idle queue. Throws Error{store}
+/// where the store is gone.
 WorkSummary runWorker(CaseStore& store, const QueueOptions& queue_options, const WorkOptions& options,
                       const JobWork& work, const WorkerEvents& events, const std::atomic<bool>& stop);
 
