@@ -32,17 +32,14 @@ void setOrgan(CaseStore& store, const Config& config, const std::string& organ, 
         writeOrgan(store.scanFolder(scan.case_id, scan.id), Organ(organ));
         store.audit(AuditEvent::organ_named, scan.case_id, scan.id, organ);
     };
-    if (!scan_id.empty() && case_id.empty())
-        throw Error(ErrorCode::wrong_use, "a scan is named without its case", "--scan", "name it with --case");
+    const CaseRecord record = requireCase(store, case_id, IdPart::whole);
     if (!scan_id.empty()) {
-        say(store.requireScan(requireCase(store, case_id, IdPart::whole).id, scan_id));
+        say(store.requireScan(record.id, scan_id));
         return;
     }
-    for (const CaseRecord& record :
-         case_id.empty() ? store.cases() : std::vector{requireCase(store, case_id, IdPart::whole)})
-        for (const ScanRecord& scan : store.scans(record.id))
-            if (scan.role == ScanRole::scan && (!case_id.empty() || store.steps(record.id, scan.id).empty()))
-                say(scan);
+    for (const ScanRecord& scan : store.scans(record.id))
+        if (scan.role == ScanRole::scan)
+            say(scan);
 }
 
 std::string branchTable(const fs::path& scan_folder)

@@ -8,8 +8,8 @@
 
 namespace vicon::app {
 
-/// Says of scans that they show an organ: of one scan of a case, of all its scans, or, without a case, of every scan
-/// that no step has been done on. Throws Error{wrong_use} for an organ that there is no preset for.
+/// Says of one scan of a case, or of all its scans, that they show an organ. Throws Error{wrong_use} for an organ that
+/// there is no preset for.
 void setOrgan(CaseStore& store, const Config& config, const std::string& organ, const std::string& case_id,
               const std::string& scan_id);
 

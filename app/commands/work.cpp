@@ -93,6 +93,8 @@ void requireNamed(CaseStore& store, const WorkArguments& arguments)
 {
     if (arguments.case_id.empty() && !arguments.scan_id.empty())
         throw Error(ErrorCode::wrong_use, "a scan is one of a case", "--scan", "name its case with --case");
+    if (arguments.case_id.empty() && !arguments.organ.empty())  // what waits may show any organ
+        throw Error(ErrorCode::wrong_use, "an organ is said of one case", "--organ", "name the case with --case");
     if (!arguments.first.empty())
         requireCase(store, arguments.first, IdPart::whole);
     if (arguments.case_id.empty())
@@ -183,8 +185,8 @@ Subcommand workCommand()
                              "into the queue first; with --case those of one case");
                 command
                     .option("--organ", arguments->organ,
-                            "What the scans of --case show, without it all that no step was done on: colon, airway, "
-                            "aorta or stomach")
+                            "What the scans of --case show, or the one that --scan names: colon, airway, aorta or "
+                            "stomach")
                     .typeName("NAME");
                 command
                     .option("--case", arguments->case_id,

@@ -18,7 +18,8 @@ void prepare(const TemporaryFolder& folder, const std::string& organ, const std:
     ASSERT_EQ(made.exit_code, 0) << made.output;
     EXPECT_EQ(schemaFaults("organ_truth", {folder / "study" / ("truth-" + organ + ".json")}), "");
     viconOn(folder / "store", "import " + (folder / "study").string());
-    EXPECT_THAT(viconOn(folder / "store", "work --until-idle --organ " + organ),
+    const std::string named = " --case " + listedScans(folder / "store").at(0).case_id;
+    EXPECT_THAT(viconOn(folder / "store", "work --until-idle --organ " + organ + named),
                 HasSubstr("1 done, 0 failed, 0 waiting"));
     EXPECT_EQ(schemaFaults("organ", {listedScans(folder / "store").at(0).folder / "organ.json"}), "");
 }
@@ -120,14 +121,27 @@ TEST(OrganOfTheCommand, AStomachGoesThroughTheStepsWithoutAPathAndWhatNeedsOneSa
         EXPECT_FALSE(std::filesystem::exists(scan.folder / file)) << file;
 }
 
+/// What waits may show anything: a colon called an airway would get no report.
+TEST(OrganOfTheCommand, AnOrganIsSaidOfOneCaseOnly)
+{
+    const TemporaryFolder folder;
+    const auto store = folder / "store";
+    viconOn(store, "import " + smallStudy().string());
+    const auto refused = runVicon("work --until-idle --organ airway --store " + store.string());
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.output, "vicon: --organ: an organ is said of one case; name the case with --case\n");
+    EXPECT_FALSE(std::filesystem::exists(listedScans(store).at(0).folder / "organ.json"));
+}
+
 TEST(OrganOfTheCommand, ARealChestOfCoarseVoxelsEndsInAVerdict)
 {
     VICON_NEEDS_DATA("dicom/ct64");
     const TemporaryFolder folder;
     const auto store = folder / "store";
     viconOn(store, "import " + sharedData("dicom/ct64").string());
-    viconOn(store, "work --until-idle --organ airway");
-    EXPECT_THAT(viconOn(store, "show " + listedScans(store).at(0).case_id), HasSubstr("airway tree"));
+    const std::string case_id = listedScans(store).at(0).case_id;
+    viconOn(store, "work --until-idle --organ airway --case " + case_id);
+    EXPECT_THAT(viconOn(store, "show " + case_id), HasSubstr("airway tree"));
 }
 
 }  // namespace
