@@ -3,6 +3,7 @@
 #include "anonymous_object.h"
 #include "load_data.h"
 #include "stored_files.h"
+#include "text.h"
 #include "vicon/core/error.h"
 #include "vicon/core/file.h"
 #include "vicon/core/uid.h"
@@ -20,6 +21,16 @@ std::string keyOf(const CaseStore& store)
     if (!fs::exists(file))
         replaceFile(file, sha256(randomUid() + randomUid()));
     return readFile(file);
+}
+
+/// What tells a patient from others, also from those to whom another hospital, or a slip, gave the same ID. Without an
+/// ID each study is a patient's of its own.
+std::string whoIs(const CaseRecord& record)
+{
+    const Patient& patient = record.patient;
+    if (patient.id.empty())
+        return record.study.uid;
+    return patient.id + "\n" + foldedForComparison(patient.name) + "\n" + patient.birth_date;
 }
 
 /// Returns why it was not written; empty where it was.
@@ -48,8 +59,7 @@ std::string writeOne(const fs::path& from, const fs::path& folder, const Pseudon
 
 Anonymised writeCase(CaseStore& store, const CaseRecord& record, const fs::path& out, Progress& progress)
 {
-    const Patient& patient = record.patient;
-    const Pseudonyms pseudonyms(keyOf(store), patient.id.empty() ? record.study.uid : patient.id);
+    const Pseudonyms pseudonyms(keyOf(store), whoIs(record));
     Anonymised made;
     int folders = 0;
     for (const ScanRecord& scan : store.scans(record.id)) {

@@ -107,6 +107,28 @@ TEST_F(Anonymous, TheSameCaseBecomesTheSameAgain)
         << "nobody can make it without the key";
 }
 
+TEST_F(Anonymous, TwoPatientsOfOneIdAreTwoAndOneWrittenOtherwiseIsOne)
+{
+    const auto pseudonymOf = [this](const std::string& name, const std::string& birth_date, const std::string& uid) {
+        test::SeriesSpec spec;
+        spec.patient_name = name;
+        spec.birth_date = birth_date;
+        spec.study_uid = uid;
+        spec.series_uid = uid + ".1";
+        test::writeSeries(folder / uid, spec);
+        import({folder / uid});
+        const fs::path out = folder / ("out of " + uid);
+        anonymise(store, store.findCaseByStudy(uid)->id, out, quiet);
+        CaseStore other(folder / ("store of " + uid));
+        importPaths(other, {out}, options, quiet);
+        return other.cases().at(0).patient.id;
+    };
+    const std::string first = pseudonymOf("Doe^Jane", "19600101", "1.2.1");
+    EXPECT_NE(pseudonymOf("Roe^Mary", "19600101", "1.2.2"), first);
+    EXPECT_NE(pseudonymOf("Doe^Jane", "19700101", "1.2.3"), first);
+    EXPECT_EQ(pseudonymOf("DOE^JANE", "19600101", "1.2.4"), first);
+}
+
 TEST_F(Anonymous, WhatMayHoldTextInItsPixelsIsLeftOut)
 {
     test::writeSeries(originals_, {});
