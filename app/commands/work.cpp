@@ -60,8 +60,7 @@ void correct(Context& context, CaseStore& store, const WorkArguments& arguments)
 void nameOrgan(Context& context, CaseStore& store, const WorkArguments& arguments)
 {
     setOrgan(store, context.config(), arguments.organ, arguments.case_id, arguments.scan_id);
-    if (!arguments.case_id.empty())
-        requeueOutdated(store, context.config(), requireCase(store, arguments.case_id, IdPart::whole).id);
+    requeueOutdated(store, context.config(), arguments.case_id);
 }
 
 /// What the pipeline says of a scan whose organ it is not sure of.
